@@ -1,0 +1,44 @@
+/// A robot: its URDF, and the robot file that says what a URDF cannot.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/diagnostic.hpp"
+#include "zwang/solver/constraint.hpp"
+#include "zwang/solver/model.hpp"
+
+namespace zwang::lang {
+
+/// A range on one planar axis of the base (x, y or rz), with its place in the robot file.
+struct BaseLimit {
+  solver::Axis axis = solver::Axis::x;
+  solver::Quantity quantity = solver::Quantity::acceleration;
+  solver::Range range;  ///< SI
+  Span span;
+};
+
+struct Stop {
+  double deceleration = 1.0;  ///< [m/s^2]
+  double force = 100.0;       ///< [N]
+};
+
+struct Robot {
+  std::string name;
+  solver::Model model;
+  std::string base_frame;  ///< the link that floats
+  std::vector<BaseLimit> limits;
+  Stop stop;
+  std::vector<solver::Vector3>
+      footprint;                   ///< polygon corners in the base frame [m], z = 0, counter-clockwise
+  double bumper_height = 0.15;     ///< [m] above the ground where the footprint touches the world
+  double bumper_stiffness = 20e3;  ///< [N/m]
+  std::vector<Span> joint_spans;   ///< where each joint's limits come from
+};
+
+/// Reads and checks a robot file and the URDF it names. The only URDF reader.
+std::optional<Robot> load_robot(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

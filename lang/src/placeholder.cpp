@@ -1,0 +1,1 @@
+#include "zwang/lang/program.hpp"

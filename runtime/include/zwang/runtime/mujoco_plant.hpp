@@ -1,0 +1,57 @@
+/// A simulated robot in a simulated scene, on MuJoCo. The simulation is written from our own model, never
+/// from a URDF.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/scene.hpp"
+#include "zwang/runtime/plant.hpp"
+
+namespace zwang::runtime {
+
+/// What the simulator measured, not what the controller believes.
+struct ObjectTruth {
+  std::string name;
+  double force = 0.0;  ///< [N] normal force that the robot presses on the object with, now, all contacts
+  std::optional<double> touched;  ///< [s] time of the first contact
+  double peak_force = 0.0;        ///< [N] largest `force` so far
+};
+
+struct Truth {
+  double time = 0.0;         ///< [s]
+  double x = 0.0, y = 0.0;   ///< [m] base frame in the world
+  double yaw = 0.0;          ///< [rad]
+  Eigen::Vector3d velocity;  ///< planar twist of the base in base axes: vx, vy [m/s], wz [rad/s]
+  Eigen::Vector3d
+      acceleration;  ///< the same rates' derivative along the base axes, last step [m/s^2, m/s^2, rad/s^2]
+  std::vector<ObjectTruth> objects;  ///< parallel to the scene's
+};
+
+struct MujocoPlantOptions {
+  double period = 1e-3;                           ///< [s] control period and simulation step
+  std::optional<std::array<double, 2>> start_at;  ///< overrides the scene's
+  std::optional<double> start_yaw;
+};
+
+class MujocoPlant : public Plant {
+ public:
+  /// Throws std::invalid_argument when the robot or the scene cannot be simulated, with the reason.
+  MujocoPlant(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options = {});
+  ~MujocoPlant() override;
+
+  PlantStatus sense(Sensed& sensed) noexcept override;
+  PlantStatus apply(const Eigen::VectorXd& tau) noexcept override;
+  const Truth& truth() const noexcept;
+  /// The MJCF that was compiled, for inspection.
+  const std::string& mjcf() const noexcept;
+
+ private:
+  struct Simulation;
+  std::unique_ptr<Simulation> simulation_;
+};
+
+}  // namespace zwang::runtime

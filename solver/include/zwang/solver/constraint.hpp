@@ -1,0 +1,141 @@
+/// Task constraints as motion and force, and the rows that they become.
+///
+/// A row is `a . Xdd = b + s` on spatial accelerations, with the multiplier nu in [lo, hi]: the row's
+/// constraint force.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "zwang/solver/model.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::solver {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+enum class Axis { x, y, z, rx, ry, rz };
+
+/// Which of an axis's four quantities a statement speaks of.
+enum class Quantity { position, velocity, acceleration, force };
+
+struct Range {
+  double low = -infinity;
+  double high = infinity;
+};
+
+/// A frame fixed to a body, or to the world (body = -1).
+struct AttachedFrame {
+  int body = -1;
+  Pose pose;  ///< in the body's frame, or in the world
+};
+
+/// The value that drives an axis. [SI: m, rad, m/s, ..., N, N m]
+struct Driver {
+  Quantity quantity = Quantity::velocity;
+  double target = 0.0;               ///< c, v, p or f
+  double target_rate = 0.0;          ///< dp, or dv for a velocity driver
+  double target_acceleration = 0.0;  ///< ddp
+  double time_constant = 0.5;        ///< tau [s]
+  Range force;                       ///< bounds of the row's multiplier [N] or [N m]
+};
+
+/// What a task says about one axis of a frame: at most one driver, and any ranges.
+struct AxisConstraint {
+  AttachedFrame move;  ///< F
+  AttachedFrame in;    ///< T; its axes carry the statement. On the same body as `move` they only orient.
+  Axis axis = Axis::x;
+  std::optional<Driver> driver;
+  std::optional<Range> position;      ///< [m] or [rad]
+  std::optional<Range> velocity;      ///< [m/s] or [rad/s]
+  std::optional<Range> acceleration;  ///< [m/s^2] or [rad/s^2]
+  double braking = 1.0;               ///< a_brk of a position range [m/s^2] or [rad/s^2]
+  int level = 1;
+
+  /// Fading: 1 in force, 0 gone. Soft drivers get R = L_jj (1 - alpha)/alpha and bounds times alpha.
+  double alpha = 1.0;
+  bool leaving = false;  ///< one-sided rows enter at once and leave with R(alpha)
+  double blend = 0.0;    ///< [s] entering one-sided rows act with the horizon max(h, (1 - alpha) blend)
+  /// A driver that persists over a switch: b (or f) goes from `before`'s to `driver`'s as `progress` goes
+  /// from 0 to 1.
+  std::optional<Driver> before;
+  double progress = 1.0;
+};
+
+/// The present motion along an axis. [m, m/s] or [rad, rad/s]
+struct Coordinate {
+  double position = 0.0;           ///< s; for axes carried by the moved body 0
+  double velocity = 0.0;           ///< ds
+  double acceleration_bias = 0.0;  ///< gamma: dds = a . (A_k - A_c) + gamma
+};
+
+enum class RowKind {
+  driver,  ///< equality with a bounded multiplier
+  upper,   ///< a . Xdd <= b, nu <= 0
+  lower,   ///< a . Xdd >= b, nu >= 0
+  force,   ///< a wrench a phi f, phi in [0, 1]
+};
+
+struct Row {
+  RowKind kind = RowKind::driver;
+  Quantity quantity = Quantity::velocity;  ///< of the statement that made the row
+  int constraint = -1;                     ///< index of that constraint
+  int body = 0;
+  ForceVector
+      a;  ///< unit constraint force on `body`, in its coordinates and about its origin: a column of A_N
+  int reference_body = -1;  ///< the row measures motion relative to this body; -1 for the world
+  ForceVector a_reference;  ///< the same constraint force in the reference body's coordinates
+  double b = 0.0;           ///< [m/s^2] or [rad/s^2], an entry of b_N; velocity products already taken off
+  double force = 0.0;       ///< f of a force row [N] or [N m]
+  double lo = -infinity;  ///< bounds of nu [N] or [N m]; an infinite bound stands for what the motors can do
+  double hi = infinity;
+  double fade = 1.0;  ///< alpha: softness R = L_jj (1 - alpha)/alpha
+  int level = 1;
+};
+
+/// The constraints in force at one instant, and the coordinates and rows that `fill` computes from a state.
+/// Sized once: `fill` does not allocate, lock, throw or print.
+class ConstraintSet {
+ public:
+  explicit ConstraintSet(int constraint_capacity = 64, int row_capacity = 64);
+
+  void clear() noexcept;
+  bool add(const AxisConstraint& constraint) noexcept;  ///< false when full
+  const std::vector<AxisConstraint>& constraints() const noexcept { return constraints_; }
+  AxisConstraint& operator[](int i) noexcept { return constraints_[static_cast<std::size_t>(i)]; }
+
+  /// Computes every coordinate and row. False when the rows exceed the capacity.
+  bool fill(const Model& model, const State& state) noexcept;
+  const std::vector<Coordinate>& coordinates() const noexcept { return coordinates_; }
+  const std::vector<Row>& rows() const noexcept { return rows_; }
+
+  static constexpr double horizon = 0.010;  ///< h [s], within which limits act
+
+ private:
+  std::vector<AxisConstraint> constraints_;
+  std::vector<Coordinate> coordinates_;
+  std::vector<Row> rows_;
+  std::vector<Pose> body_poses_;
+  std::vector<MotionVector> body_twists_;
+};
+
+/// The motion of `move` along `axis` of `in` at the state. Does not allocate, lock, throw or print.
+Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis, const Model& model,
+                         const State& state) noexcept;
+
+/// World pose and twist (in world axes, linear part of the frame's origin) of an attached frame.
+struct FrameMotion {
+  Pose pose;                          ///< X_WF
+  Vector3 angular = Vector3::Zero();  ///< [rad/s]
+  Vector3 linear = Vector3::Zero();   ///< [m/s]
+};
+FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept;
+
+/// The braking curve of position limits and boundaries: the fastest approach speed at distance d that stops
+/// at 0 without decelerating harder than `braking`: v = d/T for d < d0, else sqrt(2 a (d - d0/2)); odd in d.
+/// a = 0.8 braking, T = 4 h, d0 = a T^2. [m, m/s^2 -> m/s]
+double braking_speed(double distance, double braking, double horizon) noexcept;
+
+}  // namespace zwang::solver

@@ -1,0 +1,121 @@
+/// The robot as the solver sees it: a tree of rigid bodies, and the wheels that tie it to the ground.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zwang/solver/spatial.hpp"
+
+namespace zwang::solver {
+
+enum class JointType { fixed, revolute, continuous, prismatic };
+
+/// A joint of one freedom between a body and its parent.
+struct Joint {
+  std::string name;
+  JointType type = JointType::fixed;
+  Vector3 axis = Vector3::UnitX();  ///< unit vector, in the body's frame
+  double rotor_inertia = 0.0;  ///< d [kg m^2] or [kg], reflected to the joint: gear^2 times the rotor's own
+  bool actuated = false;
+  double max_effort = std::numeric_limits<double>::infinity();    ///< [N m] or [N], limit of |tau|
+  double max_velocity = std::numeric_limits<double>::infinity();  ///< [rad/s] or [m/s]
+  double lower = -std::numeric_limits<double>::infinity();        ///< [rad] or [m]
+  double upper = std::numeric_limits<double>::infinity();         ///< [rad] or [m]
+};
+
+/// A moving body. Body 0 is the base; body i > 0 hangs on its parent by the joint number i - 1.
+struct Body {
+  std::string name;
+  int parent = -1;      ///< index of the parent body, smaller than the own one; -1 for the base
+  Pose pose_in_parent;  ///< X_PJ at q = 0
+  Joint joint;
+  RigidInertia inertia;  ///< about the body frame's origin; links on fixed joints are merged in
+};
+
+/// A named frame fixed to a body: every link of the robot's description (merged ones too), and declared ones.
+struct Frame {
+  std::string name;
+  int body = 0;
+  Pose pose_in_body;  ///< X_BF
+};
+
+/// A wheel on flat ground (normal +z of the world). It adds one sliding constraint for each direction that it
+/// holds.
+struct Wheel {
+  int body = 0;         ///< the body that rolls
+  double radius = 0.0;  ///< [m]
+  bool holds_rolling = true;
+  bool holds_sideways = true;
+  /// Mecanum and omni wheels hold one direction only, that of the axis of the roller at the ground: the angle
+  /// about the vertical from the wheel's axis to it. [rad]
+  std::optional<double> roller_angle;
+
+  int held_directions() const {
+    return roller_angle ? 1 : static_cast<int>(holds_rolling) + static_cast<int>(holds_sideways);
+  }
+};
+
+/// What a base stands on, and so which of its freedoms are left.
+enum class BaseType {
+  fixed,     ///< bolted to the world
+  floating,  ///< six freedoms
+  ground,    ///< floating, with z, rx and ry held by the ground: the partially constrained floating base of a
+             ///< mobile robot
+};
+
+/// A tree of rigid bodies. Build it with `ModelBuilder`; const afterwards.
+class Model {
+ public:
+  BaseType base_type() const { return base_type_; }
+  bool has_fixed_base() const { return base_type_ == BaseType::fixed; }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  const std::vector<Frame>& frames() const { return frames_; }
+  const std::vector<Wheel>& wheels() const { return wheels_; }
+  const Vector3& gravity() const { return gravity_; }  ///< [m/s^2] in the world
+
+  /// Number of joints: entries of q, qd, qdd, tau. Joint j moves body j + 1.
+  int joint_count() const { return static_cast<int>(bodies_.size()) - 1; }
+  int body_count() const { return static_cast<int>(bodies_.size()); }
+  const Joint& joint(int j) const { return bodies_[static_cast<std::size_t>(j) + 1].joint; }
+  double total_mass() const;  ///< [kg], moving bodies
+
+  std::optional<int> find_frame(std::string_view name) const;
+  std::optional<int> find_joint(std::string_view name) const;
+
+ private:
+  friend class ModelBuilder;
+  BaseType base_type_ = BaseType::ground;
+  Vector3 gravity_{0.0, 0.0, -9.81};
+  std::vector<Body> bodies_;
+  std::vector<Frame> frames_;
+  std::vector<Wheel> wheels_;
+};
+
+/// Builds a model link by link, parents first. Throws std::invalid_argument on a model that dynamics cannot
+/// use: unknown parents, doubled names, a zero axis, non-finite numbers, a moving body with mass <= 0 or an
+/// inertia that is not positive definite or breaks the triangle rule.
+class ModelBuilder {
+ public:
+  ModelBuilder(BaseType base_type, std::string base_name, const RigidInertia& base_inertia);
+
+  /// Adds a link that hangs on the link (or frame) `parent`. A fixed joint merges it into the body it is
+  /// fixed to; its name stays as a frame.
+  ModelBuilder& add_link(const std::string& name, const std::string& parent, const Pose& pose_in_parent,
+                         const Joint& joint, const RigidInertia& inertia);
+  /// Names a frame fixed to the link (or frame) `parent`.
+  ModelBuilder& add_frame(const std::string& name, const std::string& parent, const Pose& pose_in_parent);
+  /// Declares the body moved by the joint `joint` a wheel; `wheel.body` is filled in.
+  ModelBuilder& add_wheel(const std::string& joint, Wheel wheel);
+  ModelBuilder& set_gravity(const Vector3& gravity);
+
+  Model build() const;
+
+ private:
+  const Frame& frame(const std::string& name) const;
+  Model model_;
+};
+
+}  // namespace zwang::solver

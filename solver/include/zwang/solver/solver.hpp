@@ -1,0 +1,77 @@
+/// The one problem: rows, torque limits and the ground in, torques and accelerations out.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "zwang/solver/constraint.hpp"
+#include "zwang/solver/model.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::solver {
+
+enum class Status {
+  ok,
+  invalid_input,      ///< a non-finite number in the state or a row; outputs untouched
+  wrong_size,         ///< a vector or a row that does not fit the model; outputs untouched
+  capacity_exceeded,  ///< more rows than the workspace holds; outputs untouched
+  iteration_limit,    ///< the active set met its cap; outputs finite and inside every bound
+  degenerate_model,   ///< an inertia that the sweeps cannot invert; outputs untouched
+};
+const char* to_string(Status status) noexcept;
+
+enum class RowStatus {
+  held,            ///< the acceleration meets b (or a one-sided row is met)
+  force_limited,   ///< nu at its bound, as intended; a force row: phi < 1
+  torque_limited,  ///< a motor at its limit is what keeps the row from b
+  unreachable,     ///< nothing the robot can do moves this axis
+  blocked,         ///< higher rows leave this axis no freedom
+  conflict,        ///< rows of the same level contradict it
+};
+const char* to_string(RowStatus status) noexcept;
+
+struct RowSolution {
+  double nu = 0.0;   ///< the row's constraint force on the robot [N] or [N m]; phi f of a force row
+  double phi = 0.0;  ///< of a force row, in [0, 1]
+  double residual =
+      0.0;  ///< s = a . Xdd - b [m/s^2] or [rad/s^2]; of a one-sided row only where b is violated
+  bool saturated = false;  ///< nu at a bound of its own; a force row: phi < 1
+  RowStatus status = RowStatus::held;
+};
+
+struct Solution {
+  explicit Solution(const Model& model, int row_capacity = 64);
+
+  Eigen::VectorXd tau;  ///< torque to command [N m] or [N], feed-forward included; 0 where there is no motor
+  Eigen::VectorXd qdd;  ///< [rad/s^2] or [m/s^2]
+  std::vector<MotionVector> acceleration;  ///< spatial acceleration of each body, in body coordinates
+  std::vector<RowSolution> rows;           ///< parallel to the rows of the problem
+  int mobility = 0;                        ///< freedoms that the ground leaves
+  int iterations = 0;                      ///< of the active set, all stages
+};
+
+struct Settings {
+  int row_capacity = 64;
+  int max_iterations = 400;      ///< hard cap of the active set, of each stage
+  bool project_velocity = true;  ///< project the measured velocity onto the no-slip constraints first
+};
+
+/// Solves the bounded problem for one model. Throws std::invalid_argument from its constructor only.
+class Solver {
+ public:
+  explicit Solver(const Model& model, const Settings& settings = {});
+  ~Solver();
+  Solver(Solver&&) noexcept;
+  Solver& operator=(Solver&&) noexcept;
+
+  /// Does not allocate, lock, throw or print. On any status but `ok` and `iteration_limit` the solution is
+  /// untouched.
+  [[nodiscard]] Status solve(const State& state, const std::vector<Row>& rows, Solution& solution) noexcept;
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace zwang::solver

@@ -1,0 +1,26 @@
+/// What the solver is told about the robot at one instant.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "zwang/solver/model.hpp"
+#include "zwang/solver/spatial.hpp"
+
+namespace zwang::solver {
+
+/// Sized once for a model; every vector keeps its size.
+struct State {
+  explicit State(const Model& model);
+
+  Eigen::VectorXd q;   ///< [rad] or [m], one entry a joint
+  Eigen::VectorXd qd;  ///< [rad/s] or [m/s]
+  Pose base_pose;      ///< X_WB; `world` is its frame
+  MotionVector
+      base_twist;  ///< of the base, in base coordinates and at the base's origin; ignored on a fixed base
+  std::vector<ForceVector>
+      f_ext;               ///< external wrench on each body, in body coordinates and about the body's origin
+  Eigen::VectorXd tau_ff;  ///< [N m] or [N] feed-forward torque of each joint
+};
+
+}  // namespace zwang::solver
