@@ -184,21 +184,25 @@ class Levels {
     qp.H.topLeftCorner(at.tau(), at.tau()) += toC.transpose() * toC;
     const QuadraticSolution s = solve_stage(qp);
     c_ = toC * s.x.head(at.tau()) + push_;
-    shorten(motions, qp, at, s.x);
+    shorten(motions, qp, at, s);
   }
 
-  /// The shortest of the multipliers that make the same motion at the same cost.
+  /// The shortest of the multipliers that make the same motion: those that stay where a bound carries force.
   void shorten(const std::vector<Index>& motions, const QuadraticProgram& qp, const Layout& at,
-               const Vector& x) {
+               const QuadraticSolution& found) {
     if (motions.empty()) return;
     const Index n = at.tau();
-    QuadraticProgram shortest(n, n + 1);
+    const Vector x = found.x.head(n);
+    QuadraticProgram shortest(n, n);
     shortest.H.diagonal().head(at.own).setOnes();
-    shortest.E.topRows(n) = qp.H.topLeftCorner(n, n);
-    shortest.E.row(n) = qp.g.head(n).transpose();
-    shortest.e = shortest.E * x.head(n);
-    shortest.lo = qp.lo.head(n);
-    shortest.hi = qp.hi.head(n);
+    shortest.E = qp.H.topLeftCorner(n, n);
+    shortest.e = shortest.E * x;
+    const Real carries = 1e-13L * (1 + found.bound_force.cwiseAbs().maxCoeff());
+    for (Index i = 0; i < n; ++i) {
+      const bool fixed = std::abs(found.bound_force[i]) > carries;
+      shortest.lo[i] = fixed ? x[i] : qp.lo[i];
+      shortest.hi[i] = fixed ? x[i] : qp.hi[i];
+    }
     const QuadraticSolution s = solve_stage(shortest);
     const Real size = 1 + x.head(at.own).cwiseAbs().maxCoeff();
     for (Index k = 0; k < at.own; ++k) {

@@ -12,6 +12,8 @@ namespace {
 
 using Eigen::Index;
 
+constexpr Real exact = 1e-16L;
+
 Real largest(const Vector& v) {
   return v.size() ? v.cwiseAbs().maxCoeff() : Real(0);
 }
@@ -280,6 +282,38 @@ std::vector<Side> guess(const QuadraticProgram& p, const Iterate& v, Real gap) {
   return side;
 }
 
+/// A bound holds a variable that its force presses harder than the gap is wide.
+std::vector<Side> guess_by_force(const QuadraticProgram& p, const Iterate& v, Real weight) {
+  std::vector<Side> side(static_cast<std::size_t>(v.x.size()), Side::inside);
+  for (Index i = 0; i < v.x.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (has_low(p, i) && v.x[i] - p.lo[i] < weight * v.zl[i]) side[k] = Side::low;
+    if (has_high(p, i) && p.hi[i] - v.x[i] < weight * v.zu[i]) side[k] = Side::high;
+  }
+  return side;
+}
+
+/// Puts on its bound what went beyond it and lets go what a bound pulls; false where there is nothing of
+/// either.
+bool correct(const QuadraticProgram& p, const Vector& x, const Vector& y, std::vector<Side>& side) {
+  const Vector gradient = p.H * x - p.g + p.E.transpose() * y;
+  const Real force = exact * (1 + largest(p.H * x) + largest(p.g));
+  const Real size = exact * (1 + largest(x));
+  bool changed = false;
+  for (Index i = 0; i < x.size(); ++i) {
+    Side& s = side[static_cast<std::size_t>(i)];
+    const Side before = s;
+    if (s == Side::inside) {
+      if (x[i] < p.lo[i] - size) s = Side::low;
+      if (x[i] > p.hi[i] + size) s = Side::high;
+    } else if ((s == Side::low && gradient[i] < -force) || (s == Side::high && gradient[i] > force)) {
+      s = Side::inside;
+    }
+    changed = changed || s != before;
+  }
+  return changed;
+}
+
 }  // namespace
 
 Real optimality_error(const QuadraticProgram& p, const Vector& x, const Vector& y) {
@@ -300,6 +334,32 @@ Real optimality_error(const QuadraticProgram& p, const Vector& x, const Vector& 
   return worst;
 }
 
+namespace {
+
+struct Best {
+  Vector x, y;
+  Real error;
+};
+
+/// Tries the active sets that an interior point suggests, and those that their failures suggest.
+void polish(const QuadraticProgram& p, const Iterate& v, Best& best) {
+  const Real size = 1 + largest(v.x);
+  const auto attempt = [&](std::vector<Side> side) {
+    for (int flips = 0; flips < 20 && best.error > exact; ++flips) {
+      Vector x = v.x;
+      Vector y = v.y;
+      solve_on_face(p, side, x, y);
+      const Real error = optimality_error(p, x, y);
+      if (error < best.error) best = {x, y, error};
+      if (!correct(p, x, y, side)) break;
+    }
+  };
+  for (Real weight = 1e-2L; weight < 1e4L; weight *= 10) attempt(guess_by_force(p, v, weight));
+  for (Real gap = 1e-4L; gap > 1e-17L; gap /= 10) attempt(guess(p, v, gap * size));
+}
+
+}  // namespace
+
 QuadraticSolution solve(const QuadraticProgram& problem) {
   const Reduced reduced = reduce(problem);
   const QuadraticProgram& p = reduced.problem;
@@ -307,21 +367,31 @@ QuadraticSolution solve(const QuadraticProgram& problem) {
   QuadraticSolution best;
   best.iterations = interior.run();
   const Iterate& v = interior.iterate();
-  best.error = optimality_error(p, v.x, v.y);
-  Vector best_x = v.x;
-  best.multipliers = v.y;
-  const Real size = 1 + largest(v.x);
-  for (Real gap = 1e-4L; gap > 1e-17L && best.error > 1e-17L; gap /= 10) {
-    Vector x = v.x;
-    Vector y = v.y;
-    solve_on_face(p, guess(p, v, gap * size), x, y);
-    const Real error = optimality_error(p, x, y);
-    if (!(error < best.error)) continue;
-    best.error = error;
-    best_x = x;
-    best.multipliers = y;
+  Best found{v.x, v.y, optimality_error(p, v.x, v.y)};
+  polish(p, v, found);
+  // A feasible set without interior leaves the multipliers without bound and stalls the interior point. Boxes
+  // a little wider, each by its own amount, have an interior; the exact solve on the face is always of the
+  // true one.
+  for (Real relax = 1e-4L; relax > 1e-10L && found.error > 1e-15L; relax /= 10) {
+    QuadraticProgram wider = p;
+    for (Index i = 0; i < p.g.size(); ++i) {
+      const Real own = relax * (1 + static_cast<Real>((7 * i) % 11) / 11);
+      wider.lo[i] -= own;
+      wider.hi[i] += own;
+    }
+    InteriorPoint second(wider);
+    best.iterations += second.run();
+    polish(p, second.iterate(), found);
   }
+  best.error = found.error;
+  const Vector& best_x = found.x;
+  const Vector& best_y = found.y;
   best.x = reduced.restore(best_x);
+  best.bound_force = Vector::Zero(problem.g.size());
+  const Vector gradient = p.H * best_x - p.g + p.E.transpose() * best_y;
+  for (std::size_t i = 0; i < reduced.kept.size(); ++i) {
+    best.bound_force[reduced.kept[i]] = gradient[static_cast<Index>(i)];
+  }
   return best;
 }
 

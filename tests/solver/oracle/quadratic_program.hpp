@@ -30,8 +30,10 @@ struct QuadraticProgram {
 
 struct QuadraticSolution {
   Vector x;
-  Vector multipliers;  ///< of the equations: H x - g + E' y = z_lo - z_hi
-  Real error = 0;      ///< largest violation of the optimality conditions, relative to the problem's size
+  /// The gradient of the Lagrangian, in units that make every variable's own curvature or equation 1:
+  /// positive where a lower bound carries force, negative at an upper one, 0 between.
+  Vector bound_force;
+  Real error = 0;  ///< largest violation of the optimality conditions, relative to the problem's size
   int iterations = 0;
 };
 
