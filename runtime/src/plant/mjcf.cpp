@@ -19,7 +19,7 @@ using solver::Pose;
 using solver::RigidInertia;
 using solver::Vector3;
 
-constexpr double corner_radius = 0.002;      ///< [m]
+constexpr double corner_radius = 1e-6;       ///< [m]
 constexpr double contact_half_height = 1.0;  ///< [m] of the upright faces that meet in the bumper's plane
 constexpr double max_wheel_lift = 0.002;     ///< [m]
 

@@ -6,7 +6,7 @@
 /// robot).
 ///
 /// Robot and objects meet in one plane, at the height of the bumper: corners of the one against faces of the
-/// other, each pair one contact point. A corner is a sphere of 2 mm tangent to both of its sides.
+/// other, each pair one contact point. A corner is a sphere of 1 um tangent to both of its sides.
 #pragma once
 
 #include <array>
@@ -35,6 +35,6 @@ std::string write_mjcf(const lang::Robot& robot, const SimulatedRobot& simulated
                        double period);
 
 /// How an object's springs are described in the text; the plant puts in the stiffness afterwards.
-inline constexpr double spring_impedance = 0.02;
+inline constexpr double spring_impedance = 0.001;
 
 }  // namespace zwang::runtime

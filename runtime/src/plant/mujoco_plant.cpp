@@ -2,6 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,9 +42,38 @@ void on_error(const char* message) {
 
 void on_warning(const char* /*message*/) {}  // counted in mjData, where every step looks
 
+mjfCollision collide_sphere_box = nullptr;  ///< MuJoCo's own
+
+/// MuJoCo's collision of a sphere with a box stops at a depth of the sphere's radius, and so would a spring's
+/// force. Where the centre is inside the box, the depth is measured to the nearest face instead. Only in
+/// simulations of this file: others in the process keep what they have.
+int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphere, int box, mjtNum margin) {
+  const int count = collide_sphere_box(m, d, contact, sphere, box, margin);
+  if (error_exit == nullptr || count != 1) return count;
+  const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> axes(d->geom_xmat + 9 * box);
+  const Eigen::Map<const Vector3> half(m->geom_size + 3 * box), box_at(d->geom_xpos + 3 * box),
+      centre(d->geom_xpos + 3 * sphere);
+  const Vector3 local = axes.transpose() * (centre - box_at);
+  const Vector3 depth = half - local.cwiseAbs();
+  int face = 0;
+  if (!(depth.minCoeff(&face) > 0.0)) return count;
+  const Vector3 out = (local[face] > 0.0 ? 1.0 : -1.0) * axes.col(face);
+  contact->dist = -(depth[face] + m->geom_size[3 * sphere]);
+  Eigen::Map<Vector3>(contact->frame) = -out;  // from the sphere to the box
+  std::fill(contact->frame + 3, contact->frame + 9, 0.0);
+  Eigen::Map<Vector3>(contact->pos) = centre - (m->geom_size[3 * sphere] + 0.5 * contact->dist) * out;
+  return count;
+}
+
 void install_handlers() {
   mju_user_error = on_error;
   mju_user_warning = on_warning;
+  static const bool installed = [] {
+    collide_sphere_box = mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX];
+    mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX] = collide_deep;
+    return true;
+  }();
+  static_cast<void>(installed);
 }
 
 using Call = void (*)(const mjModel*, mjData*);
