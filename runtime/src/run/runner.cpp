@@ -17,18 +17,6 @@ constexpr double longest_stop = 10.0;                // [s]
 
 }  // namespace
 
-const char* to_string(PlantStatus status) noexcept {
-  switch (status) {
-    case PlantStatus::ok:
-      return "ok";
-    case PlantStatus::diverged:
-      return "diverged";
-    case PlantStatus::unreachable:
-      return "unreachable";
-  }
-  return "?";
-}
-
 const char* to_string(RunState state) noexcept {
   switch (state) {
     case RunState::running:

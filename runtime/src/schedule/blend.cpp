@@ -244,8 +244,9 @@ AxisConstraint Blend::present(const Part& part, const AxisConstraint* wanted,
     const double scale = c.axis >= solver::Axis::rx ? torque_scale_ : force_scale_;
     c.driver->force = loosened(part.old.driver->force, c.driver->force, progress, scale);
     c.before = part.old.driver;
-    c.progress = progress;
+    c.before->force = {};  // the driver's bounds already are on their way from the old ones
   }
+  c.progress = progress;
   return c;
 }
 

@@ -182,6 +182,9 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
     for (const lang::Group& group : t.groups) {
       require_index(group.move, declarations.size(), "a moved frame");
       require_index(group.in, declarations.size(), "an axes frame");
+      if (frames.attached(group.move).body < 0) {
+        throw std::invalid_argument("scheduler: `" + group.name + "` moves a frame of the world");
+      }
     }
     for (const lang::Exit& exit : t.exits) {
       most_nodes = std::max(most_nodes, exit.when.nodes.size());
