@@ -57,7 +57,8 @@ inline lang::Robot mecanum_robot() {
     joint.rotor_inertia = rotor_inertia;
     joint.actuated = true;
     joint.max_effort = effort;
-    builder.add_link(std::string(wheel_names[i]), "base_link", {Matrix3::Identity(), wheel_position(i)}, joint,
+    builder.add_link(std::string(wheel_names[i]), "base_link", {Matrix3::Identity(), wheel_position(i)},
+                     joint,
                      RigidInertia::from_com(wheel_mass, Vector3::Zero(),
                                             Vector3(wheel_turn, wheel_spin, wheel_turn).asDiagonal()));
     solver::Wheel wheel;
