@@ -128,7 +128,7 @@ void LimitTable::update(const StatementTable& statements, const solver::Constrai
   for (Eigen::Index j = 0; j < tau.size(); ++j) {
     const std::size_t index = first_torque_ + static_cast<std::size_t>(j);
     const double limit = limits_[index].report.limit;
-    if (limit > 0.0) compare(static_cast<int>(index), tau(j), -limit, limit);
+    if (limit > 0.0) compare(static_cast<int>(index), std::abs(tau(j)), -limit, limit);
   }
 }
 

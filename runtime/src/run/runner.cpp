@@ -38,6 +38,7 @@ struct Runner::Parts {
         scheduler(program, settings.period),
         solver(model, {.row_capacity = scheduler.row_capacity()}),
         solution(model, scheduler.row_capacity()),
+        sample(model),
         guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
         statements(scheduler, program),
         limits(statements, program.robot),
@@ -55,6 +56,7 @@ struct Runner::Parts {
   Scheduler scheduler;
   solver::Solver solver;
   solver::Solution solution;
+  Sensed sample;  ///< of this tick, its velocities as the ground allows them
   SafetyGuard guard;
   StatementTable statements;
   LimitTable limits;
@@ -70,13 +72,16 @@ struct Runner::Parts {
 };
 
 bool Runner::Parts::control(const Sensed& sensed) noexcept {
-  scheduler.tick(sensed);
+  sample = sensed;
+  solver_status = solver.project_velocity(sample.state);
+  if (solver_status != solver::Status::ok) return false;
+  scheduler.tick(sample);
   if (scheduler.transition()) {
     ++transition_count;
     if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
   }
-  solver_status = scheduler.constraints().fill(model, sensed.state)
-                      ? solver.solve(sensed.state, scheduler.constraints().rows(), solution)
+  solver_status = scheduler.constraints().fill(model, sample.state)
+                      ? solver.solve(sample.state, scheduler.constraints().rows(), solution)
                       : solver::Status::capacity_exceeded;
   if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
   scheduler.observe(solution);
