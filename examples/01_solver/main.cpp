@@ -85,8 +85,9 @@ int main() {
   const double dt = 0.001;
   std::printf("  time    speed    force   wheel torques\n");
   for (int tick = 0; tick <= 3000; ++tick) {
+    Status status = solver.project_velocity(state);  // takes out what a real robot's sensors put in
     if (!constraints.fill(model, state)) return 1;
-    const Status status = solver.solve(state, constraints.rows(), solution);
+    if (status == Status::ok) status = solver.solve(state, constraints.rows(), solution);
     if (status != Status::ok) {
       std::fprintf(stderr, "solver: %s\n", to_string(status));
       return 1;

@@ -12,14 +12,16 @@ offend() {
   offences=$((offences + 1))
 }
 
-includes() {  # FOLDER...: file:line:header of every #include
-  local folder
-  for folder; do
+# file:line:header of every #include, read once.
+all_includes=$(
+  for folder in solver lang runtime examples; do
     if [[ -d $folder ]]; then
-      grep -rnE --include='*.hpp' --include='*.cpp' --include='*.h' --include='*.cc' '^[[:space:]]*#[[:space:]]*include' "$folder" |
-        sed -E 's/^([^:]+:[0-9]+):[^<"]*[<"]([^>"]+).*/\1:\2/' || true
+      grep -rnE --include='*.[hc]pp' --include='*.h' --include='*.cc' '^[[:space:]]*#[[:space:]]*include' "$folder" || true
     fi
-  done
+  done | sed -E 's/^([^:]+:[0-9]+):[^<"]*[<"]([^>"]+).*/\1:\2/'
+)
+includes() {  # FOLDER: those below it
+  grep "^$1/" <<<"$all_includes" || true
 }
 
 # ROOM 'ROOMS IT MAY NOT SEE': neither by the public headers nor by a path into the other room's folder.
@@ -57,7 +59,7 @@ keep_library() {
     if [[ ! $header =~ ^($headers) ]]; then continue; fi
     users[$file]=1
     if [[ ! $file =~ ^($where)$ ]]; then offend "$file:$line: <$header> belongs to $where"; fi
-  done < <(includes solver lang runtime examples)
+  done <<<"$all_includes"
   if ((${#users[@]} > most)); then
     offend "$headers: known to ${#users[@]} files instead of $most: ${!users[*]}"
   fi
@@ -76,6 +78,6 @@ while IFS=: read -r file line header; do
   if [[ $header == */* && $header != zwang/* && $header != Eigen/* ]]; then
     offend "$file:$line: a public header shows <$header>"
   fi
-done < <(includes solver/include lang/include runtime/include)
+done < <(includes '[a-z]*/include')
 
 exit $((offences > 0))
