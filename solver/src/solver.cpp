@@ -69,10 +69,8 @@ int base_freedoms(const Model& model) {
 }
 
 /// A unit force along a freedom of the base: on the ground rz, x, y, else all six.
-ForceVector base_freedom(const Model& model, int index) {
-  Vector6 unit = Vector6::Zero();
-  unit(model.base_type() == BaseType::ground ? index + 2 : index) = 1.0;
-  return {unit.head<3>(), unit.tail<3>()};
+Vector6 base_freedom(const Model& model, int index) {
+  return Vector6::Unit(model.base_type() == BaseType::ground ? index + 2 : index);
 }
 
 bool is_finite(const MotionVector& v) {
@@ -117,13 +115,14 @@ struct Solver::Workspace {
         ground_bias(Eigen::VectorXd::Zero(capacity)),
         forces(Eigen::VectorXd::Zero(capacity)),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
-        qdd(Eigen::VectorXd::Zero(robot.joint_count())),
-        acceleration(static_cast<std::size_t>(robot.body_count())) {
+        qdd(Eigen::VectorXd::Zero(robot.joint_count())) {
     for (int j = 0; j < robot.joint_count(); ++j) {
       if (robot.joint(j).actuated) motors.push_back(j);
     }
   }
 
+  const BodySweep& body_sweep(int i) const { return sweeps.bodies[static_cast<std::size_t>(i)]; }
+  Vector3 gravity(const State& state) const { return state.base_pose.rotation.transpose() * model.gravity(); }
   int first_joint_row() const { return ground + base; }
   int first_task_row() const { return ground + base + model.joint_count(); }
 
@@ -140,8 +139,10 @@ struct Solver::Workspace {
     for (int i = 0; i < base; ++i) sweeps.add_row(0, base_freedom(model, i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.add_joint_row(j);
     for (const Row& row : rows) {
-      const int id = sweeps.add_row(row.body, row.a);
-      if (row.reference_body >= 0) sweeps.extend_row(id, row.reference_body, -row.a_reference);
+      sweeps.add_row(row.body, body_sweep(row.body).to_base(row.a));
+      if (row.reference_body >= 0) {
+        sweeps.extend_last_row(row.reference_body, body_sweep(row.reference_body).to_base(-row.a_reference));
+      }
     }
   }
 
@@ -193,7 +194,6 @@ struct Solver::Workspace {
   BoundedProblem problem;
   std::vector<int> motors;
   Eigen::VectorXd ground_bias, forces, tau_ff, qdd;
-  std::vector<MotionVector> acceleration;
 };
 
 Solver::Solver(const Model& model, const Settings& settings) {
@@ -226,18 +226,21 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   }
 
   w.clamp_feed_forward(state);
-  outward_kinematics(w.model, state, true, w.sweeps);
+  const Vector6 at_rest = Vector6::Zero();
+  outward_kinematics(w.model, state, true, w.gravity(state), w.sweeps);
   w.add_rows(rows);
-  if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
+  if (!inward_inertia(w.model, w.tau_ff, at_rest, w.sweeps)) return Status::degenerate_model;
   w.factorise();
   w.pose_problem(rows);
   const bool exact = w.problem.solve(w.settings.max_iterations);
   w.collect_forces();
-  outward_accelerations(w.model, w.sweeps, w.forces, w.acceleration, w.qdd);
+  outward_accelerations(w.model, w.forces, at_rest, w.sweeps, w.qdd);
   if (!w.qdd.allFinite() || !w.forces.head(w.sweeps.rows).allFinite()) return Status::degenerate_model;
 
   solution.qdd = w.qdd;
-  std::copy(w.acceleration.begin(), w.acceleration.end(), solution.acceleration.begin());
+  for (std::size_t i = 0; i < w.sweeps.bodies.size(); ++i) {
+    solution.acceleration[i] = w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a);
+  }
   solution.tau.setZero();
   for (const int j : w.motors) solution.tau(j) = w.tau_ff(j) + w.forces(w.first_joint_row() + j);
   solution.rows.clear();
@@ -254,23 +257,24 @@ Status Solver::project_velocity(State& state) noexcept {
   if (w.ground == 0) return Status::ok;
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
-  outward_kinematics(w.model, state, true, w.sweeps);
+  const Vector6 at_rest = Vector6::Zero();
+  outward_kinematics(w.model, state, true, w.gravity(state), w.sweeps);
   w.sweeps.clear_rows();
   w.add_ground_rows();
   for (int i = 0; i < w.ground; ++i) {
     const GroundRow row = ground_row(i, w.model, w.sweeps);
-    w.forces(i) = -dot(row.a, w.sweeps.bodies[static_cast<std::size_t>(row.body)].v);
+    w.forces(i) = -row.a.dot(w.body_sweep(row.body).v);
   }
-  outward_kinematics(w.model, state, false, w.sweeps);
+  outward_kinematics(w.model, state, false, Vector3::Zero(), w.sweeps);
   w.tau_ff.setZero();
-  if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
+  if (!inward_inertia(w.model, w.tau_ff, at_rest, w.sweeps)) return Status::degenerate_model;
   w.whitened.factorise(w.sweeps.L, w.ground, 0, w.sweeps.rows);
   w.whitened.hold_ground(w.forces);
   w.whitened.ground_multipliers(w.forces, w.ground, w.ground, w.forces);
-  outward_accelerations(w.model, w.sweeps, w.forces, w.acceleration, w.qdd);
+  outward_accelerations(w.model, w.forces, at_rest, w.sweeps, w.qdd);
   if (!w.qdd.allFinite()) return Status::degenerate_model;
   state.qd += w.qdd;
-  if (!w.model.has_fixed_base()) state.base_twist += w.acceleration.front();
+  if (!w.model.has_fixed_base()) state.base_twist += w.body_sweep(0).from_base(w.body_sweep(0).a);
   return Status::ok;
 }
 
