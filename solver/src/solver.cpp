@@ -7,6 +7,7 @@
 #include "base/bounded_problem.hpp"
 #include "base/whitened_rows.hpp"
 #include "constraint/ground.hpp"
+#include "input_check.hpp"
 #include "sweep/sweeps.hpp"
 
 namespace zwang::solver {
@@ -73,30 +74,9 @@ Vector6 base_freedom(const Model& model, int index) {
   return Vector6::Unit(model.base_type() == BaseType::ground ? index + 2 : index);
 }
 
-bool is_finite(const MotionVector& v) {
-  return v.angular.allFinite() && v.linear.allFinite();
-}
-bool is_finite(const ForceVector& f) {
-  return f.angular.allFinite() && f.linear.allFinite();
-}
-
-bool is_finite(const State& state) {
-  return state.q.allFinite() && state.qd.allFinite() && state.tau_ff.allFinite() &&
-         state.base_pose.rotation.allFinite() && state.base_pose.position.allFinite() &&
-         is_finite(state.base_twist) &&
-         std::all_of(state.f_ext.begin(), state.f_ext.end(),
-                     [](const ForceVector& f) { return is_finite(f); });
-}
-
 bool is_valid(const Row& row) {
   return is_finite(row.a) && is_finite(row.a_reference) && std::isfinite(row.b) && std::isfinite(row.force) &&
          std::isfinite(row.fade) && row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
-}
-
-bool fits(const State& state, const Model& model) {
-  return state.q.size() == model.joint_count() && state.qd.size() == model.joint_count() &&
-         state.tau_ff.size() == model.joint_count() &&
-         state.f_ext.size() == static_cast<std::size_t>(model.body_count());
 }
 
 }  // namespace
@@ -220,7 +200,7 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   if (!is_finite(state)) return Status::invalid_input;
   for (const Row& row : rows) {
     if (!is_valid(row)) return Status::invalid_input;
-    if (row.body < 0 || row.body >= w.model.body_count() || row.reference_body >= w.model.body_count()) {
+    if (!is_body(row.body, w.model) || (row.reference_body != -1 && !is_body(row.reference_body, w.model))) {
       return Status::wrong_size;
     }
   }

@@ -80,7 +80,7 @@ bool invert_factor(const Matrix6& inertia, Matrix6& inverse) {
 
 Sweeps::Sweeps(const Model& model, int row_capacity)
     : bodies(static_cast<std::size_t>(model.body_count())),
-      L(Eigen::MatrixXd::Zero(2 * row_capacity, 2 * row_capacity)),
+      L(RowMajorMatrix::Zero(2 * row_capacity, 2 * row_capacity)),
       g(Eigen::VectorXd::Zero(2 * row_capacity)),
       origins(static_cast<std::size_t>(2 * row_capacity)),
       A(Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 2 * row_capacity)) {

@@ -44,6 +44,8 @@
 
 namespace zwang::solver {
 
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 struct BodySweep {
   Matrix6 IA;  ///< articulated inertia
   Vector6 pA;  ///< articulated bias force
@@ -80,7 +82,7 @@ struct Sweeps {
 
   std::vector<BodySweep> bodies;
   int rows = 0;
-  Eigen::MatrixXd L;  ///< lower triangle, rows x rows
+  RowMajorMatrix L;  ///< lower triangle, rows x rows
   Eigen::VectorXd g;
 
   void clear_rows() noexcept;
