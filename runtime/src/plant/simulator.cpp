@@ -65,9 +65,9 @@ struct VirtualFiles {
 }  // namespace
 
 void install_handlers() {
-  mju_user_error = on_error;
-  mju_user_warning = on_warning;
   static const bool installed = [] {
+    mju_user_error = on_error;
+    mju_user_warning = on_warning;
     collide_sphere_box = mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX];
     mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX] = collide_deep;
     return true;
