@@ -7,6 +7,7 @@
 #include "base/bounded_problem.hpp"
 #include "base/whitened_rows.hpp"
 #include "constraint/ground.hpp"
+#include "input_check.hpp"
 #include "sweep/sweeps.hpp"
 
 namespace zwang::solver {
@@ -69,36 +70,13 @@ int base_freedoms(const Model& model) {
 }
 
 /// A unit force along a freedom of the base: on the ground rz, x, y, else all six.
-ForceVector base_freedom(const Model& model, int index) {
-  Vector6 unit = Vector6::Zero();
-  unit(model.base_type() == BaseType::ground ? index + 2 : index) = 1.0;
-  return {unit.head<3>(), unit.tail<3>()};
-}
-
-bool is_finite(const MotionVector& v) {
-  return v.angular.allFinite() && v.linear.allFinite();
-}
-bool is_finite(const ForceVector& f) {
-  return f.angular.allFinite() && f.linear.allFinite();
-}
-
-bool is_finite(const State& state) {
-  return state.q.allFinite() && state.qd.allFinite() && state.tau_ff.allFinite() &&
-         state.base_pose.rotation.allFinite() && state.base_pose.position.allFinite() &&
-         is_finite(state.base_twist) &&
-         std::all_of(state.f_ext.begin(), state.f_ext.end(),
-                     [](const ForceVector& f) { return is_finite(f); });
+Vector6 base_freedom(const Model& model, int index) {
+  return Vector6::Unit(model.base_type() == BaseType::ground ? index + 2 : index);
 }
 
 bool is_valid(const Row& row) {
   return is_finite(row.a) && is_finite(row.a_reference) && std::isfinite(row.b) && std::isfinite(row.force) &&
          std::isfinite(row.fade) && row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
-}
-
-bool fits(const State& state, const Model& model) {
-  return state.q.size() == model.joint_count() && state.qd.size() == model.joint_count() &&
-         state.tau_ff.size() == model.joint_count() &&
-         state.f_ext.size() == static_cast<std::size_t>(model.body_count());
 }
 
 }  // namespace
@@ -117,13 +95,14 @@ struct Solver::Workspace {
         ground_bias(Eigen::VectorXd::Zero(capacity)),
         forces(Eigen::VectorXd::Zero(capacity)),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
-        qdd(Eigen::VectorXd::Zero(robot.joint_count())),
-        acceleration(static_cast<std::size_t>(robot.body_count())) {
+        qdd(Eigen::VectorXd::Zero(robot.joint_count())) {
     for (int j = 0; j < robot.joint_count(); ++j) {
       if (robot.joint(j).actuated) motors.push_back(j);
     }
   }
 
+  const BodySweep& body_sweep(int i) const { return sweeps.bodies[static_cast<std::size_t>(i)]; }
+  Vector3 gravity(const State& state) const { return state.base_pose.rotation.transpose() * model.gravity(); }
   int first_joint_row() const { return ground + base; }
   int first_task_row() const { return ground + base + model.joint_count(); }
 
@@ -140,8 +119,10 @@ struct Solver::Workspace {
     for (int i = 0; i < base; ++i) sweeps.add_row(0, base_freedom(model, i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.add_joint_row(j);
     for (const Row& row : rows) {
-      const int id = sweeps.add_row(row.body, row.a);
-      if (row.reference_body >= 0) sweeps.extend_row(id, row.reference_body, -row.a_reference);
+      sweeps.add_row(row.body, body_sweep(row.body).to_base(row.a));
+      if (row.reference_body >= 0) {
+        sweeps.extend_last_row(row.reference_body, body_sweep(row.reference_body).to_base(-row.a_reference));
+      }
     }
   }
 
@@ -193,7 +174,6 @@ struct Solver::Workspace {
   BoundedProblem problem;
   std::vector<int> motors;
   Eigen::VectorXd ground_bias, forces, tau_ff, qdd;
-  std::vector<MotionVector> acceleration;
 };
 
 Solver::Solver(const Model& model, const Settings& settings) {
@@ -220,24 +200,27 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   if (!is_finite(state)) return Status::invalid_input;
   for (const Row& row : rows) {
     if (!is_valid(row)) return Status::invalid_input;
-    if (row.body < 0 || row.body >= w.model.body_count() || row.reference_body >= w.model.body_count()) {
+    if (!is_body(row.body, w.model) || (row.reference_body != -1 && !is_body(row.reference_body, w.model))) {
       return Status::wrong_size;
     }
   }
 
   w.clamp_feed_forward(state);
-  outward_kinematics(w.model, state, true, w.sweeps);
+  const Vector6 at_rest = Vector6::Zero();
+  outward_kinematics(w.model, state, true, w.gravity(state), w.sweeps);
   w.add_rows(rows);
-  if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
+  if (!inward_inertia(w.model, w.tau_ff, at_rest, w.sweeps)) return Status::degenerate_model;
   w.factorise();
   w.pose_problem(rows);
   const bool exact = w.problem.solve(w.settings.max_iterations);
   w.collect_forces();
-  outward_accelerations(w.model, w.sweeps, w.forces, w.acceleration, w.qdd);
+  outward_accelerations(w.model, w.forces, at_rest, w.sweeps, w.qdd);
   if (!w.qdd.allFinite() || !w.forces.head(w.sweeps.rows).allFinite()) return Status::degenerate_model;
 
   solution.qdd = w.qdd;
-  std::copy(w.acceleration.begin(), w.acceleration.end(), solution.acceleration.begin());
+  for (std::size_t i = 0; i < w.sweeps.bodies.size(); ++i) {
+    solution.acceleration[i] = w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a);
+  }
   solution.tau.setZero();
   for (const int j : w.motors) solution.tau(j) = w.tau_ff(j) + w.forces(w.first_joint_row() + j);
   solution.rows.clear();
@@ -254,23 +237,24 @@ Status Solver::project_velocity(State& state) noexcept {
   if (w.ground == 0) return Status::ok;
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
-  outward_kinematics(w.model, state, true, w.sweeps);
+  const Vector6 at_rest = Vector6::Zero();
+  outward_kinematics(w.model, state, true, w.gravity(state), w.sweeps);
   w.sweeps.clear_rows();
   w.add_ground_rows();
   for (int i = 0; i < w.ground; ++i) {
     const GroundRow row = ground_row(i, w.model, w.sweeps);
-    w.forces(i) = -dot(row.a, w.sweeps.bodies[static_cast<std::size_t>(row.body)].v);
+    w.forces(i) = -row.a.dot(w.body_sweep(row.body).v);
   }
-  outward_kinematics(w.model, state, false, w.sweeps);
+  outward_kinematics(w.model, state, false, Vector3::Zero(), w.sweeps);
   w.tau_ff.setZero();
-  if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
+  if (!inward_inertia(w.model, w.tau_ff, at_rest, w.sweeps)) return Status::degenerate_model;
   w.whitened.factorise(w.sweeps.L, w.ground, 0, w.sweeps.rows);
   w.whitened.hold_ground(w.forces);
   w.whitened.ground_multipliers(w.forces, w.ground, w.ground, w.forces);
-  outward_accelerations(w.model, w.sweeps, w.forces, w.acceleration, w.qdd);
+  outward_accelerations(w.model, w.forces, at_rest, w.sweeps, w.qdd);
   if (!w.qdd.allFinite()) return Status::degenerate_model;
   state.qd += w.qdd;
-  if (!w.model.has_fixed_base()) state.base_twist += w.acceleration.front();
+  if (!w.model.has_fixed_base()) state.base_twist += w.body_sweep(0).from_base(w.body_sweep(0).a);
   return Status::ok;
 }
 

@@ -12,14 +12,15 @@ constexpr double motion_tolerance = 1e-8;  // the share below which a row counts
 }  // namespace
 
 WhitenedRows::WhitenedRows(int row_capacity)
-    : W_(Eigen::MatrixXd::Zero(row_capacity, row_capacity)),
+    : W_(RowMajorMatrix::Zero(row_capacity, row_capacity)),
+      gram_(RowMajorMatrix::Zero(row_capacity, row_capacity)),
       left_(Eigen::VectorXd::Zero(row_capacity)),
       held_(Eigen::VectorXd::Zero(row_capacity)),
       substitution_(Eigen::VectorXd::Zero(row_capacity)),
       pivots_(static_cast<std::size_t>(row_capacity)),
       picked_(static_cast<std::size_t>(row_capacity)) {}
 
-void WhitenedRows::factorise(const Eigen::MatrixXd& L, int ground, int joints, int rows) noexcept {
+void WhitenedRows::factorise(const RowMajorMatrix& L, int ground, int joints, int rows) noexcept {
   left_.head(rows) = L.diagonal().head(rows);
   std::fill_n(picked_.begin(), rows, char{0});
   rank_ = 0;
@@ -28,7 +29,7 @@ void WhitenedRows::factorise(const Eigen::MatrixXd& L, int ground, int joints, i
   eliminate(L, ground, ground + joints, rows, motion_tolerance);
 }
 
-void WhitenedRows::eliminate(const Eigen::MatrixXd& L, int first, int last, int rows,
+void WhitenedRows::eliminate(const RowMajorMatrix& L, int first, int last, int rows,
                              double tolerance) noexcept {
   for (;;) {
     int pivot = -1;
@@ -59,8 +60,31 @@ void WhitenedRows::eliminate(const Eigen::MatrixXd& L, int first, int last, int 
   }
 }
 
-double WhitenedRows::free_share(int row, const Eigen::MatrixXd& L) const noexcept {
+double WhitenedRows::free_share(int row, const RowMajorMatrix& L) const noexcept {
   return L(row, row) > 0.0 ? motion(row).squaredNorm() / L(row, row) : 0.0;
+}
+
+/// L = W W' with W of full column rank r: L^+ = W (W'W)^-2 W'.
+void WhitenedRows::least_squares(const Eigen::VectorXd& rhs, int rows, Eigen::VectorXd& nu) noexcept {
+  const int r = rank_;
+  auto factor = gram_.topLeftCorner(r, r);
+  for (int k = 0; k < r; ++k) {  // Cholesky of W'W, lower
+    for (int i = k; i < r; ++i) {
+      const double left =
+          W_.col(i).head(rows).dot(W_.col(k).head(rows)) - factor.row(i).head(k).dot(factor.row(k).head(k));
+      factor(i, k) = i == k ? std::sqrt(left) : left / factor(k, k);
+    }
+  }
+  auto y = substitution_.head(r);
+  for (int k = 0; k < r; ++k) y(k) = W_.col(k).head(rows).dot(rhs.head(rows));
+  for (int pass = 0; pass < 2; ++pass) {
+    for (int k = 0; k < r; ++k) y(k) = (y(k) - factor.row(k).head(k).dot(y.head(k))) / factor(k, k);
+    for (int k = r - 1; k >= 0; --k) {
+      for (int i = k + 1; i < r; ++i) y(k) -= factor(i, k) * y(i);
+      y(k) /= factor(k, k);
+    }
+  }
+  for (int i = 0; i < rows; ++i) nu(i) = W_.row(i).head(r).dot(y);
 }
 
 void WhitenedRows::hold_ground(const Eigen::VectorXd& bias) noexcept {

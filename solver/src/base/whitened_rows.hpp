@@ -14,6 +14,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "sweep/sweeps.hpp"
+
 namespace zwang::solver {
 
 class WhitenedRows {
@@ -22,13 +24,18 @@ class WhitenedRows {
 
   /// `L`: lower triangle. Rows [0, ground) are the ground's, [ground, ground + joints) span all motions, the
   /// rest follow.
-  void factorise(const Eigen::MatrixXd& L, int ground, int joints, int rows) noexcept;
+  void factorise(const RowMajorMatrix& L, int ground, int joints, int rows) noexcept;
 
   int mobility() const noexcept { return rank_ - ground_rank_; }
   /// B_i, of a row beyond the ground.
   auto motion(int row) const noexcept { return W_.row(row).segment(ground_rank_, mobility()); }
   /// A_i Mc A_i' over A_i M^-1 A_i': how much of a row the ground leaves.
-  double free_share(int row, const Eigen::MatrixXd& L) const noexcept;
+  double free_share(int row, const RowMajorMatrix& L) const noexcept;
+
+  /// nu of least norm among those that bring L nu nearest to `rhs`, with every row taken as one block (ground
+  /// = rows).
+  void least_squares(const Eigen::VectorXd& rhs, int rows, Eigen::VectorXd& nu) noexcept;
+  int rank() const noexcept { return rank_; }
 
   /// What holding the ground rows at `bias` (desired minus free acceleration, by row) adds to the
   /// acceleration of rows.
@@ -41,9 +48,10 @@ class WhitenedRows {
   void ground_multipliers(const Eigen::VectorXd& forces, int ground, int rows, Eigen::VectorXd& nu) noexcept;
 
  private:
-  void eliminate(const Eigen::MatrixXd& L, int first, int last, int rows, double tolerance) noexcept;
+  void eliminate(const RowMajorMatrix& L, int first, int last, int rows, double tolerance) noexcept;
 
-  Eigen::MatrixXd W_;
+  RowMajorMatrix W_;
+  RowMajorMatrix gram_;
   Eigen::VectorXd left_;  ///< diagonal of L minus what W explains so far
   Eigen::VectorXd held_;
   Eigen::VectorXd substitution_;

@@ -10,19 +10,7 @@ constexpr int base_rows = 3;
 
 /// The base's own z axis is the ground's normal. In its axes rx, ry and z have no velocity products.
 GroundRow base_row(int index) {
-  GroundRow row;
-  if (index < 2) {
-    row.a.angular = Vector3::Unit(index);
-  } else {
-    row.a.linear = Vector3::UnitZ();
-  }
-  return row;
-}
-
-Vector3 ground_normal(int body, const Model& model, const Sweeps& sweeps) {
-  if (body == 0) return Vector3::UnitZ();
-  const int parent = model.bodies()[static_cast<std::size_t>(body)].parent;
-  return sweeps.bodies[static_cast<std::size_t>(body)].X.E * ground_normal(parent, model, sweeps);
+  return {0, Vector6::Unit(index < 2 ? index : 5), 0.0};
 }
 
 /// Held direction number `index` of a wheel, a unit vector in the ground's plane.
@@ -36,22 +24,26 @@ Vector3 held_direction(const Wheel& wheel, int index, const Vector3& axis, const
   return wheel.holds_rolling && index == 0 ? rolling : sideways;
 }
 
-/// No slip along u at the contact point, P = -R n from the wheel's centre:  u . (v + w x P) = 0, u fixed to
-/// the carrier (twist w_c), n to the world. In the wheel's coordinates, at its centre, a = (P x u, u), and
-/// its rate of change gives
-///   gamma = (v x u) . w + (w_c x u) . (v + w x P)
+/// No slip along u at the contact point P = C - R n under the wheel's centre C:
+///   u . (v + w x P) = 0,   (w, v) the wheel's twist,   u fixed to the carrier (twist (w_c, v_c)), C moving
+///   with the wheel.
+/// As a wrench a = (P x u, u). Its rate of change gives, with the velocity v_C of the centre,
+///   gamma = (v_C x u) . w + (w_c x u) . (v + w x P)
 GroundRow wheel_row(const Wheel& wheel, int index, const Model& model, const Sweeps& sweeps) {
   const auto body = static_cast<std::size_t>(wheel.body);
   const BodySweep& sweep = sweeps.bodies[body];
-  const Vector3 normal = ground_normal(wheel.body, model, sweeps);
-  const Vector3 u = held_direction(wheel, index, model.bodies()[body].joint.axis, normal);
-  const Vector3 P = -wheel.radius * normal;
+  const Vector3 normal = Vector3::UnitZ();
+  const Vector3 u = held_direction(wheel, index, sweep.S.head<3>(), normal);
+  const Vector3 P = sweep.p - wheel.radius * normal;
   const auto carrier = static_cast<std::size_t>(model.bodies()[body].parent);
-  const Vector3 w_c = sweep.X.E * sweeps.bodies[carrier].v.angular;
-  const Vector3& w = sweep.v.angular;
-  const Vector3& v = sweep.v.linear;
-  const double gamma = v.cross(u).dot(w) + w_c.cross(u).dot(v + w.cross(P));
-  return {wheel.body, {P.cross(u), u}, -gamma};
+  const Vector3 w_c = sweeps.bodies[carrier].v.head<3>();
+  const Vector3 w = sweep.v.head<3>();
+  const Vector3 v = sweep.v.tail<3>();
+  const Vector3 v_C = v + w.cross(sweep.p);
+  const double gamma = v_C.cross(u).dot(w) + w_c.cross(u).dot(v + w.cross(P));
+  GroundRow row{wheel.body, Vector6::Zero(), -gamma};
+  row.a << P.cross(u), u;
+  return row;
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 
 namespace zwang::solver {
 
-/// a . A = bias on the spatial acceleration A of `body`, in its coordinates.
+/// a . A = bias on the spatial acceleration A of `body`, in the base's axes and at its origin.
 struct GroundRow {
   int body = 0;
-  ForceVector a;
+  Vector6 a;
   double bias = 0.0;  ///< minus the velocity products
 };
 

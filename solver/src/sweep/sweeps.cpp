@@ -3,132 +3,161 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraint/kinematics.hpp"
-
 namespace zwang::solver {
 
 namespace {
 
-MotionVector motion_from(const Vector6& v) {
-  return {v.head<3>(), v.tail<3>()};
-}
-
-MotionVector joint_axis(const Joint& joint) {
-  if (joint.type == JointType::prismatic) return {Vector3::Zero(), joint.axis};
-  return {joint.axis, Vector3::Zero()};
-}
-
-ForceVector times(const Matrix6& inertia, const MotionVector& v) {
-  const Vector6 f = inertia * v.vector();
-  return {f.head<3>(), f.tail<3>()};
-}
-
-/// X' I X for an articulated inertia I in body coordinates: rotate the 3 x 3 blocks, then shift them by r.
-///   I = [J H; H' M]:  M_p = E'ME,  H_p = E'HE + r x M_p,  J_p = E'JE - (E'HE) rx + ... with everything about
-///   the parent.
-Matrix6 to_parent(const PluckerTransform& X, const Matrix6& I) {
-  const Matrix3 Et = X.E.transpose();
-  const Matrix3 M = Et * I.bottomRightCorner<3, 3>() * X.E;
-  const Matrix3 H = Et * I.topRightCorner<3, 3>() * X.E;
-  const Matrix3 J = Et * I.topLeftCorner<3, 3>() * X.E;
-  const Matrix3 rx = skew(X.r);
-  const Matrix3 shifted_H = H + rx * M;
-  Matrix6 result;
-  result.bottomRightCorner<3, 3>() = M;
-  result.topRightCorner<3, 3>() = shifted_H;
-  result.bottomLeftCorner<3, 3>() = shifted_H.transpose();
-  result.topLeftCorner<3, 3>() = J + rx * H.transpose() - shifted_H * rx;
+/// v x m (RBDA 2.31).
+Vector6 cross_motion(const Vector6& v, const Vector6& m) {
+  const Vector3 w = v.head<3>();
+  Vector6 result;
+  result << w.cross(m.head<3>()), w.cross(m.tail<3>()) + v.tail<3>().cross(m.head<3>());
   return result;
 }
 
-/// Adds a child's column to its parent's.
-void gather(const Column& child, const PluckerTransform& X, const ForceVector& A,
-            std::vector<Column>& parent) {
-  const ForceVector A_p = X.transpose_apply(A);
-  if (child.shared) {
-    for (Column& column : parent) {
-      if (column.id == child.id) {
-        column.A += A_p;
-        return;
-      }
+/// v x* f (RBDA 2.32).
+Vector6 cross_force(const Vector6& v, const Vector6& f) {
+  const Vector3 w = v.head<3>();
+  Vector6 result;
+  result << w.cross(f.head<3>()) + v.tail<3>().cross(f.tail<3>()), w.cross(f.tail<3>());
+  return result;
+}
+
+/// Pose and joint motion of body i from its parent's.
+void place(const Body& body, double q, const BodySweep& parent, BodySweep& sweep) {
+  const Matrix3 R = parent.R * body.pose_in_parent.rotation;
+  const Vector3 axis = R * body.joint.axis;
+  sweep.p = parent.p + parent.R * body.pose_in_parent.position;
+  if (body.joint.type == JointType::prismatic) {
+    sweep.R = R;
+    sweep.p += q * axis;
+    sweep.S << Vector3::Zero(), axis;
+    return;
+  }
+  // Rodrigues: turn the columns of R about the axis.
+  const double sine = std::sin(q);
+  const double versine = 1.0 - std::cos(q);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 column = R.col(k);
+    const Vector3 normal = axis.cross(column);
+    sweep.R.col(k) = column + sine * normal + versine * axis.cross(normal);
+  }
+  sweep.S << axis, sweep.p.cross(axis);
+}
+
+/// The body's own inertia, in the base's axes and about its origin.
+void write_inertia(const RigidInertia& inertia, BodySweep& sweep) {
+  const RigidInertia turned = inertia.expressed_in({sweep.R, sweep.p});
+  const Vector3& h = turned.first_moment;
+  sweep.IA.topLeftCorner<3, 3>() = turned.rotational;
+  sweep.IA.topRightCorner<3, 3>() = skew(h);
+  sweep.IA.bottomLeftCorner<3, 3>() = -skew(h);
+  sweep.IA.bottomRightCorner<3, 3>() = turned.mass * Matrix3::Identity();
+}
+
+/// Inverse of the lower Cholesky factor of a symmetric positive definite 6 x 6; false when it is not.
+bool invert_factor(const Matrix6& inertia, Matrix6& inverse) {
+  Matrix6 factor = inertia;
+  for (int k = 0; k < 6; ++k) {
+    const double pivot = inertia(k, k) - factor.row(k).head(k).squaredNorm();
+    if (!(pivot > 1e-14 * inertia(k, k))) return false;
+    factor(k, k) = std::sqrt(pivot);
+    for (int i = k + 1; i < 6; ++i) {
+      factor(i, k) = (inertia(i, k) - factor.row(i).head(k).dot(factor.row(k).head(k))) / factor(k, k);
     }
   }
-  parent.push_back({child.id, child.shared, false, A_p, 0.0});
+  inverse.setZero();
+  for (int c = 0; c < 6; ++c) {
+    inverse(c, c) = 1.0 / factor(c, c);
+    for (int i = c + 1; i < 6; ++i) {
+      inverse(i, c) = -factor.row(i).segment(c, i - c).dot(inverse.col(c).segment(c, i - c)) / factor(i, i);
+    }
+  }
+  return true;
 }
 
 }  // namespace
 
 Sweeps::Sweeps(const Model& model, int row_capacity)
     : bodies(static_cast<std::size_t>(model.body_count())),
-      L(Eigen::MatrixXd::Zero(row_capacity, row_capacity)),
-      g(Eigen::VectorXd::Zero(row_capacity)) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    bodies[i].columns.reserve(static_cast<std::size_t>(row_capacity));
-    if (i > 0) bodies[i].S = joint_axis(model.bodies()[i].joint);
+      L(RowMajorMatrix::Zero(2 * row_capacity, 2 * row_capacity)),
+      g(Eigen::VectorXd::Zero(2 * row_capacity)),
+      origins(static_cast<std::size_t>(2 * row_capacity)),
+      A(Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 2 * row_capacity)) {
+  for (BodySweep& body : bodies) {
+    body.columns.reserve(static_cast<std::size_t>(2 * row_capacity));
+    body.SA.resize(static_cast<std::size_t>(2 * row_capacity));
   }
+  for (const Body& body : model.bodies()) parents_.push_back(body.parent);
 }
 
 void Sweeps::clear_rows() noexcept {
   rows = 0;
+  columns = 0;
   for (BodySweep& body : bodies) body.columns.clear();
 }
 
-int Sweeps::add_row(int body, const ForceVector& a) noexcept {
-  bodies[static_cast<std::size_t>(body)].columns.push_back({rows, false, false, a, 0.0});
+int Sweeps::add_column(int body, const Vector6& a, ColumnOrigin origin) noexcept {
+  A.col(columns) = a;
+  origins[static_cast<std::size_t>(columns)] = origin;
+  for (int i = body; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
+    bodies[static_cast<std::size_t>(i)].columns.push_back(columns);
+  }
+  return columns++;
+}
+
+int Sweeps::add_row(int body, const Vector6& a) noexcept {
+  add_column(body, a, {rows, -1});
   return rows++;
 }
 
-void Sweeps::extend_row(int id, int body, const ForceVector& a) noexcept {
-  for (BodySweep& other : bodies) {
-    for (Column& column : other.columns) {
-      if (column.id == id) column.shared = true;
-    }
-  }
-  bodies[static_cast<std::size_t>(body)].columns.push_back({id, true, false, a, 0.0});
+void Sweeps::extend_last_row(int body, const Vector6& a) noexcept {
+  add_column(body, a, {rows - 1, -1});
 }
 
 int Sweeps::add_joint_row(int joint) noexcept {
-  bodies[static_cast<std::size_t>(joint) + 1].columns.push_back({rows, false, true, ForceVector{}, 1.0});
+  add_column(joint + 1, Vector6::Zero(), {rows, joint + 1});
   return rows++;
 }
 
-void outward_kinematics(const Model& model, const State& state, bool moving, Sweeps& sweeps) noexcept {
-  const Vector3 gravity =
-      moving ? Vector3(state.base_pose.rotation.transpose() * model.gravity()) : Vector3(Vector3::Zero());
-  // Gravity in each body's axes rides outward with the twist.
+void outward_kinematics(const Model& model, const State& state, bool moving, const Vector3& gravity,
+                        Sweeps& sweeps) noexcept {
+  Vector6 fall;
+  fall << Vector3::Zero(), gravity;
   for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
     const Body& body = model.bodies()[i];
     BodySweep& sweep = sweeps.bodies[i];
     if (i == 0) {
-      sweep.v = moving && !model.has_fixed_base() ? state.base_twist : MotionVector{};
-      sweep.c = MotionVector{};
-      sweep.pA.linear = gravity;
+      sweep.R.setIdentity();
+      sweep.p.setZero();
+      sweep.c.setZero();
+      sweep.v.setZero();
+      if (moving && !model.has_fixed_base()) sweep.v = state.base_twist.vector();
     } else {
       const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
       const auto j = static_cast<Eigen::Index>(i) - 1;
-      sweep.X = PluckerTransform(pose_in_parent(body, state.q(j)));
-      const MotionVector joint_twist = moving ? sweep.S * state.qd(j) : MotionVector{};
-      sweep.v = sweep.X * parent.v + joint_twist;
-      sweep.c = cross(sweep.v, joint_twist);
-      sweep.pA.linear = sweep.X.E * parent.pA.linear;
+      place(body, state.q(j), parent, sweep);
+      sweep.v = parent.v;
+      sweep.c.setZero();
+      if (moving) {
+        const Vector6 joint_twist = sweep.S * state.qd(j);
+        sweep.c = cross_motion(parent.v, joint_twist);
+        sweep.v += joint_twist;
+      }
     }
-  }
-  // pA = v x* I v - f_ext - I g, with the gravity g that was carried outward in pA.
-  for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
-    BodySweep& sweep = sweeps.bodies[i];
-    const RigidInertia& inertia = model.bodies()[i].inertia;
-    sweep.IA = inertia.matrix();
-    if (!moving) {
-      sweep.pA = ForceVector{};
-      continue;
+    write_inertia(body.inertia, sweep);
+    sweep.pA.setZero();
+    if (moving) {
+      const Vector6 momentum = sweep.IA * sweep.v;
+      sweep.pA = cross_force(sweep.v, momentum) - sweep.to_base(state.f_ext[i]);
+      sweep.pA.noalias() -= sweep.IA.rightCols<3>() * gravity;
     }
-    const MotionVector fall{Vector3::Zero(), sweep.pA.linear};
-    sweep.pA = cross(sweep.v, inertia * sweep.v) - state.f_ext[i] - inertia * fall;
   }
 }
 
-bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept {
-  const int m = sweeps.rows;
+bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, const Vector6& base_acceleration,
+                    Sweeps& sweeps) noexcept {
+  const int m = sweeps.columns;
   sweeps.L.topLeftCorner(m, m).setZero();
   sweeps.g.head(m).setZero();
 
@@ -137,69 +166,93 @@ bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& swee
     BodySweep& sweep = sweeps.bodies[i];
     BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
 
-    sweep.U = times(sweep.IA, sweep.S);
-    sweep.D = body.joint.rotor_inertia + dot(sweep.S, sweep.U);
+    sweep.U.noalias() = sweep.IA * sweep.S;
+    sweep.D = body.joint.rotor_inertia + sweep.S.dot(sweep.U);
     if (!(sweep.D > 0.0)) return false;
-    sweep.u = tau(static_cast<Eigen::Index>(i) - 1) - dot(sweep.S, sweep.pA);
+    sweep.u = tau(static_cast<Eigen::Index>(i) - 1) - sweep.S.dot(sweep.pA);
     const double D_inverse = 1.0 / sweep.D;
+    const Vector6 UD = sweep.U * D_inverse;
 
-    const Vector6 U = sweep.U.vector();
-    const Matrix6 Ia = sweep.IA - U * (D_inverse * U.transpose());
-    const ForceVector pa = sweep.pA + times(Ia, sweep.c) + sweep.U * (D_inverse * sweep.u);
-    parent.IA += to_parent(sweep.X, Ia);
-    parent.pA += sweep.X.transpose_apply(pa);
+    sweep.IA.noalias() -= UD * sweep.U.transpose();
+    parent.IA += sweep.IA;
+    parent.pA += sweep.pA + UD * sweep.u;
+    parent.pA.noalias() += sweep.IA * sweep.c;
 
-    const double free_qdd = D_inverse * (sweep.u - dot(sweep.U, sweep.c));
+    const double free_qdd = D_inverse * (sweep.u - sweep.U.dot(sweep.c));
     for (std::size_t k = 0; k < sweep.columns.size(); ++k) {
-      Column& column = sweep.columns[k];
-      if (!column.on_joint) column.SA = dot(sweep.S, column.A);
-      sweeps.g(column.id) += dot(column.A, sweep.c) + column.SA * free_qdd;
-      const double SA_D = column.SA * D_inverse;
-      for (std::size_t l = 0; l <= k; ++l) {
-        const Column& other = sweep.columns[l];
-        sweeps.L(std::max(column.id, other.id), std::min(column.id, other.id)) += SA_D * other.SA;
-      }
-      gather(column, sweep.X, column.A - sweep.U * SA_D, parent.columns);
+      const int column = sweep.columns[k];
+      const bool own_joint =
+          sweeps.origins[static_cast<std::size_t>(column)].joint_body == static_cast<int>(i);
+      const double SA = own_joint ? 1.0 : sweep.S.dot(sweeps.A.col(column));
+      sweep.SA[k] = SA;
+      sweeps.g(column) += sweeps.A.col(column).dot(sweep.c) + SA * free_qdd;
+      sweeps.A.col(column) -= UD * SA;
+      const double SA_D = SA * D_inverse;
+      for (std::size_t l = 0; l <= k; ++l) sweeps.L(column, sweep.columns[l]) += SA_D * sweep.SA[l];
     }
   }
 
   BodySweep& base = sweeps.bodies.front();
-  if (model.has_fixed_base()) return true;
-  sweeps.base_inertia.compute(base.IA);
-  if (sweeps.base_inertia.info() != Eigen::Success) return false;
-  const Vector6 free_acceleration = -sweeps.base_inertia.solve(base.pA.vector());
-  for (std::size_t k = 0; k < base.columns.size(); ++k) {
-    const Column& column = base.columns[k];
-    const Vector6 A = column.A.vector();
-    const Vector6 response = sweeps.base_inertia.solve(A);
-    sweeps.g(column.id) += A.dot(free_acceleration);
-    for (std::size_t l = 0; l <= k; ++l) {
-      const Column& other = base.columns[l];
-      sweeps.L(std::max(column.id, other.id), std::min(column.id, other.id)) +=
-          response.dot(other.A.vector());
+  if (model.has_fixed_base()) {
+    sweeps.g.head(m).noalias() += sweeps.A.leftCols(m).transpose() * base_acceleration;
+  } else {
+    // With IA_0^-1 = F'F, F the inverse of the Cholesky factor: L += (F A)'(F A), g -= (F A)'(F pA).
+    if (!invert_factor(base.IA, sweeps.base_inverse_factor)) return false;
+    const Matrix6& F = sweeps.base_inverse_factor;
+    const Vector6 Fp = F * base.pA;
+    for (int k = 0; k < m; ++k) {
+      const Vector6 FA = F * sweeps.A.col(k);
+      sweeps.A.col(k) = FA;
+      sweeps.g(k) -= FA.dot(Fp);
+      for (int l = 0; l <= k; ++l) sweeps.L(k, l) += FA.dot(sweeps.A.col(l));
     }
   }
+  sweeps.fold_columns();
   return true;
 }
 
-void outward_accelerations(const Model& model, const Sweeps& sweeps, const Eigen::VectorXd& nu,
-                           std::vector<MotionVector>& acceleration, Eigen::VectorXd& qdd) noexcept {
-  const BodySweep& base = sweeps.bodies.front();
-  acceleration.front() = MotionVector{};
+/// Adds the rows and columns of L, and the entries of g, that belong to the same row. Columns of a row are
+/// neighbours.
+void Sweeps::fold_columns() noexcept {
+  if (columns == rows) return;
+  for (int k = 0; k < columns; ++k) {
+    const int row = origins[static_cast<std::size_t>(k)].row;
+    const bool first = k == 0 || origins[static_cast<std::size_t>(k) - 1].row != row;
+    g(row) = first ? g(k) : g(row) + g(k);
+    for (int l = 0; l <= k; ++l) {
+      const int other = origins[static_cast<std::size_t>(l)].row;
+      const bool first_other = l == 0 || origins[static_cast<std::size_t>(l) - 1].row != other;
+      // The off-diagonal pair of one row counts twice on its diagonal.
+      const double value = (row == other && k != l ? 2.0 : 1.0) * L(k, l);
+      L(row, other) = first && first_other ? value : L(row, other) + value;
+    }
+  }
+}
+
+void outward_accelerations(const Model& model, const Eigen::VectorXd& nu, const Vector6& base_acceleration,
+                           Sweeps& sweeps, Eigen::VectorXd& qdd) noexcept {
+  BodySweep& base = sweeps.bodies.front();
+  base.a = base_acceleration;
   if (!model.has_fixed_base()) {
-    Vector6 force = -base.pA.vector();
-    for (const Column& column : base.columns) force += column.A.vector() * nu(column.id);
-    acceleration.front() = motion_from(sweeps.base_inertia.solve(force));
+    // A holds F A by now: a_0 = F' (F A nu - F pA).
+    const Matrix6& F = sweeps.base_inverse_factor;
+    Vector6 force = -(F * base.pA);
+    for (int k = 0; k < sweeps.columns; ++k) {
+      force += sweeps.A.col(k) * nu(sweeps.origins[static_cast<std::size_t>(k)].row);
+    }
+    base.a = F.transpose() * force;
   }
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
-    const BodySweep& sweep = sweeps.bodies[i];
+    BodySweep& sweep = sweeps.bodies[i];
     const auto parent = static_cast<std::size_t>(model.bodies()[i].parent);
-    const MotionVector carried = sweep.X * acceleration[parent] + sweep.c;
-    double force = sweep.u - dot(sweep.U, carried);
-    for (const Column& column : sweep.columns) force += column.SA * nu(column.id);
+    sweep.a = sweeps.bodies[parent].a + sweep.c;
+    double force = sweep.u - sweep.U.dot(sweep.a);
+    for (std::size_t k = 0; k < sweep.columns.size(); ++k) {
+      force += sweep.SA[k] * nu(sweeps.origins[static_cast<std::size_t>(sweep.columns[k])].row);
+    }
     const double joint_acceleration = force / sweep.D;
     qdd(static_cast<Eigen::Index>(i) - 1) = joint_acceleration;
-    acceleration[i] = carried + sweep.S * joint_acceleration;
+    sweep.a += sweep.S * joint_acceleration;
   }
 }
 
