@@ -41,6 +41,11 @@ class Levels {
     const LinearRows linear = p_.dynamics.rows(rows);
     Y_ = linear.jacobian * p_.B;
     d_ = linear.rhs - linear.jacobian * p_.free;
+    size_ = Vector::Zero(d_.size());
+    for (Index i = 0; i < size_.size(); ++i) {
+      size_[i] =
+          static_cast<Real>(row(i).a.vector().squaredNorm() + row(i).a_reference.vector().squaredNorm());
+    }
     without_ground_ = (linear.jacobian * p_.apparent * linear.jacobian.transpose()).diagonal();
     c_ = Vector::Zero(p_.B.cols());
     push_ = Vector::Zero(p_.B.cols());
@@ -86,7 +91,7 @@ class Levels {
   /// Whether nothing that the row could do moves its axis: the ground holds it, or the accelerations that the
   /// levels above have frozen do.
   bool idle(Index i) const {
-    if (Y_.row(i).squaredNorm() < 1e-8L * without_ground_[i]) return true;
+    if (Y_.row(i).squaredNorm() < std::max(1e-8L * without_ground_[i], 1e-20L * size_[i])) return true;
     Matrix frozen(c_.size(), 0);
     for (const Held& held : held_) {
       if (one_sided(held.kind) || held.softness > 0) continue;
@@ -164,7 +169,7 @@ class Levels {
       qp.H(k, k) = 2;
       qp.g[k] = 2;
       qp.lo[k] = 0;
-      qp.hi[k] = 1;
+      qp.hi[k] = idle(forces[static_cast<std::size_t>(k)]) ? 0 : 1;
     }
     const QuadraticSolution s = solve_stage(qp);
     for (Index k = 0; k < at.own; ++k) {
@@ -206,7 +211,8 @@ class Levels {
     shorten(motions, qp, at, s);
   }
 
-  /// The shortest of the multipliers that make the same motion: those that stay where a bound carries force.
+  /// The shortest of the multipliers (one-sided rows from above among them) that make the same motion: those
+  /// that stay where a bound carries force.
   void shorten(const std::vector<Index>& motions, const QuadraticProgram& qp, const Layout& at,
                const QuadraticSolution& found) {
     if (motions.empty()) return;
@@ -214,6 +220,9 @@ class Levels {
     const Vector x = found.x.head(n);
     QuadraticProgram shortest(n, n);
     shortest.H.diagonal().head(at.own).setOnes();
+    for (Index k = 0; k < at.held; ++k) {
+      if (one_sided(held_[static_cast<std::size_t>(k)].kind)) shortest.H(at.mu() + k, at.mu() + k) = 1;
+    }
     shortest.E = qp.H.topLeftCorner(n, n);
     shortest.e = shortest.E * x;
     const Real carries = 1e-13L * (1 + found.bound_force.cwiseAbs().maxCoeff());
@@ -277,6 +286,7 @@ class Levels {
   const ReducedProblem& p_;
   const std::vector<solver::Row>& rows_;
   Matrix Y_;
+  Vector size_;            ///< a' a
   Vector without_ground_;  ///< A M^-1 A', the diagonal
   Vector d_;               ///< b - bias - A free
   Vector c_;               ///< the motion so far
