@@ -56,9 +56,10 @@ struct Arm {
       const KDL::Vector origin(0.0, 0.0, length(j));
       const KDL::Joint joint("joint" + std::to_string(j), origin, {a.x(), a.y(), a.z()}, KDL::Joint::RotAxis);
       const Matrix3 I = inertia();
-      chain.addSegment(KDL::Segment("link" + std::to_string(j), joint, KDL::Frame(origin),
-                                    KDL::RigidBodyInertia(mass(j), {com().x(), com().y(), com().z()},
-                                                          KDL::RotationalInertia(I(0, 0), I(1, 1), I(2, 2)))));
+      chain.addSegment(
+          KDL::Segment("link" + std::to_string(j), joint, KDL::Frame(origin),
+                       KDL::RigidBodyInertia(mass(j), {com().x(), com().y(), com().z()},
+                                             KDL::RotationalInertia(I(0, 0), I(1, 1), I(2, 2)))));
     }
     return chain;
   }

@@ -34,6 +34,7 @@ struct WheelPlace {
   const char* name;
   double x, y;
   std::optional<double> roller_angle;
+  double yaw = 0.0;  ///< of the wheel's axis, from +y
 };
 
 struct BaseDesign {
@@ -55,7 +56,8 @@ inline lang::Robot build_base(const BaseDesign& design, const std::vector<WheelP
     joint.axis = Vector3::UnitY();
     joint.rotor_inertia = design.rotor_inertia;
     joint.actuated = true;
-    builder.add_link(place.name, "base_link", {Matrix3::Identity(), {place.x, place.y, 0.0}}, joint,
+    builder.add_link(place.name, "base_link",
+                     {solver::rotation_from_rpy(0.0, 0.0, place.yaw), {place.x, place.y, 0.0}}, joint,
                      wheel_inertia(design.wheel_mass, design.wheel_radius, design.wheel_width));
     solver::Wheel wheel;
     wheel.radius = design.wheel_radius;
@@ -77,6 +79,27 @@ inline lang::Robot mecanum_base(const BaseDesign& design = {}) {
                              {"front_right", 0.23, -0.20, -angle},
                              {"rear_left", -0.23, 0.20, -angle},
                              {"rear_right", -0.23, -0.20, angle}});
+}
+
+/// Mecanum wheels mounted the wrong way round: the rollers at the ground lie as they should on top.
+inline lang::Robot mirrored_mecanum_base() {
+  const double angle = std::numbers::pi / 4.0;
+  return build_base({}, {{"front_left", 0.26, 0.16, -angle},
+                         {"front_right", 0.26, -0.16, angle},
+                         {"rear_left", -0.26, 0.16, angle},
+                         {"rear_right", -0.26, -0.16, -angle}});
+}
+
+/// Three omni wheels whose axes are radial; each holds its rolling direction.
+inline lang::Robot omni_base() {
+  std::vector<WheelPlace> places;
+  const char* const names[] = {"a", "b", "c"};
+  for (int i = 0; i < 3; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / 3.0 + 0.3;
+    places.push_back({names[i], 0.25 * std::cos(angle), 0.25 * std::sin(angle), 0.5 * std::numbers::pi,
+                      angle - 0.5 * std::numbers::pi});
+  }
+  return build_base({}, places);
 }
 
 inline lang::Robot differential_base(BaseDesign design = {}) {

@@ -177,8 +177,7 @@ class MjcfWriter {
     text_ += "<default><geom contype=\"0\" conaffinity=\"0\" condim=\"3\" " + stiff() + "/></default>\n";
     write_assets();
     text_ += "<worldbody>\n";
-    text_ +=
-        "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\" conaffinity=\"1\"" + floor_friction() + "/>\n";
+    text_ += "<geom name=\"floor\" type=\"plane\" size=\"0 0 1\"/>\n";
     write_body(0);
     for (std::size_t k = 0; k < scene_.objects.size(); ++k) write_object(k);
     text_ += "</worldbody>\n";
@@ -191,13 +190,8 @@ class MjcfWriter {
  private:
   static std::string stiff() { return "solref=\"0.004 1\" solimp=\"0.95 0.99 0.001\""; }
 
-  std::string floor_friction() const {
-    return attribute("friction", list_of(scene_.floor_friction, 0.0, 0.0));
-  }
-
-  bool meets_robot(const SceneObject& object) const {
-    return !simulated_.outline.empty() && geometry_of(object).half.z() * 2.0 >= robot_.bumper_height;
-  }
+  /// Objects that do not reach the bumper's height are not met.
+  bool is_met(const SceneObject& object) const { return object.size[2] >= robot_.bumper_height; }
 
   void write_assets() {
     if (simulated_.outline.empty() || is_rectangle(simulated_.outline)) return;
@@ -302,13 +296,12 @@ class MjcfWriter {
              attribute("euler", list_of(0.0, 0.0, object.yaw)) + ">\n";
     if (object.mass) {
       if (!(*object.mass > 0.0)) refuse("the mass of `" + object.name + "` is not positive");
-      text_ += "<freejoint" + attribute("name", name) + "/>\n" + inertial(inertia_of(*object.mass, g));
+      text_ += "<joint" + attribute("name", name + "_x") + " type=\"slide\" axis=\"1 0 0\"/>\n";
+      text_ += "<joint" + attribute("name", name + "_y") + " type=\"slide\" axis=\"0 1 0\"/>\n";
+      text_ += "<joint" + attribute("name", name + "_turn") + " type=\"hinge\" axis=\"0 0 1\"/>\n";
+      text_ += inertial(inertia_of(*object.mass, g));
     }
-    text_ += "<geom" + attribute("name", name + "_shape") + attribute("type", g.round ? "cylinder" : "box") +
-             attribute("size", g.round ? list_of(g.half.x(), g.half.z()) : list_of(g.half)) +
-             attribute("contype", object.mass ? "3" : "0") + attribute("conaffinity", "2") +
-             floor_friction() + "/>\n";
-    if (meets_robot(object)) write_faces(g, name);
+    if (is_met(object)) write_faces(g, name);
     text_ += "</body>\n";
   }
 
@@ -353,21 +346,47 @@ class MjcfWriter {
                " condim=\"1\" " + stiff() + "/>\n";
     }
     for (std::size_t k = 0; k < scene_.objects.size(); ++k) {
-      const SceneObject& object = scene_.objects[k];
-      if (!meets_robot(object)) continue;
-      const std::string name = numbered("object", k);
-      if (object.shape == ShapeKind::cylinder) {
-        write_spring(name + "_face", "bumper_prism", object.friction);
-        continue;
-      }
-      for (std::size_t c = 0; c < simulated_.outline.size(); ++c) {
-        write_spring(name + "_face", numbered("bumper", c), object.friction);
-      }
-      for (std::size_t c = 0; c < 4; ++c) {
-        write_spring(numbered((name + "_edge").c_str(), c), "bumper_prism", object.friction);
+      if (!is_met(scene_.objects[k])) continue;
+      if (!simulated_.outline.empty()) write_meeting_of_robot(k);
+      for (std::size_t other = 0; other < k; ++other) {
+        const bool moves = scene_.objects[k].mass || scene_.objects[other].mass;
+        if (moves && is_met(scene_.objects[other])) write_meeting(k, other);
       }
     }
     text_ += "</contact>\n";
+  }
+
+  void write_meeting_of_robot(std::size_t k) {
+    const SceneObject& object = scene_.objects[k];
+    const std::string face = numbered("object", k) + "_face";
+    if (object.shape == ShapeKind::cylinder) {
+      write_spring(face, "bumper_prism", object.friction);
+      return;
+    }
+    for (std::size_t c = 0; c < simulated_.outline.size(); ++c) {
+      write_spring(face, numbered("bumper", c), object.friction);
+    }
+    for (std::size_t c = 0; c < 4; ++c) write_spring(edge_of(k, c), "bumper_prism", object.friction);
+  }
+
+  void write_meeting(std::size_t k, std::size_t other) {
+    const double friction = std::max(scene_.objects[k].friction, scene_.objects[other].friction);
+    const bool k_round = scene_.objects[k].shape == ShapeKind::cylinder;
+    const bool other_round = scene_.objects[other].shape == ShapeKind::cylinder;
+    const std::string face = numbered("object", k) + "_face";
+    const std::string other_face = numbered("object", other) + "_face";
+    if (k_round || other_round) {
+      write_spring(face, other_face, friction);
+      return;
+    }
+    for (std::size_t c = 0; c < 4; ++c) {
+      write_spring(edge_of(k, c), other_face, friction);
+      write_spring(edge_of(other, c), face, friction);
+    }
+  }
+
+  static std::string edge_of(std::size_t k, std::size_t c) {
+    return numbered((numbered("object", k) + "_edge").c_str(), c);
   }
 
   void write_spring(const std::string& one, const std::string& other, double friction) {

@@ -2,11 +2,12 @@
 ///
 /// Names: `body_<i>`, `joint_<j>`, `motor_<j>` after the model's numbers, `wheel_<w>`, `floor`; of the
 /// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`; of the scene `object_<k>` (body) with
-/// geoms `object_<k>_shape` (meets floor and objects), `object_<k>_face` and `object_<k>_edge_<c>` (meet the
-/// robot).
+/// geoms `object_<k>_face` and `object_<k>_edge_<c>`.
 ///
 /// Robot and objects meet in one plane, at the height of the bumper: corners of the one against faces of the
-/// other, each pair one contact point. A corner is a sphere of 1 um tangent to both of its sides.
+/// other, each pair one contact point. A corner is a sphere of 1 um tangent to both of its sides. Objects
+/// that move slide in the plane, on joints `object_<k>_x`, `_y`, `_turn`: their friction is in
+/// floor_friction.hpp.
 #pragma once
 
 #include <array>

@@ -2,17 +2,17 @@
 
 #include <mujoco/mujoco.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csetjmp>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <numbers>
 #include <stdexcept>
 
+#include "floor_friction.hpp"
 #include "mjcf.hpp"
+#include "simulator.hpp"
 
 namespace zwang::runtime {
 
@@ -28,98 +28,6 @@ constexpr double start_overlap = 1e-5;  ///< [m] allowed between robot and objec
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("plant: " + what);
-}
-
-// MuJoCo reports errors through handlers of the whole process. Its own wait for a key and write a file.
-// Only C frames of MuJoCo lie between the handler and the place that it jumps to.
-thread_local std::jmp_buf* error_exit = nullptr;
-
-void on_error(const char* message) {
-  if (error_exit != nullptr) std::longjmp(*error_exit, 1);
-  std::fprintf(stderr, "zwang: MuJoCo: %s\n", message);
-  std::abort();
-}
-
-void on_warning(const char* /*message*/) {}  // counted in mjData, where every step looks
-
-mjfCollision collide_sphere_box = nullptr;  ///< MuJoCo's own
-
-/// MuJoCo's collision of a sphere with a box stops at a depth of the sphere's radius, and so would a spring's
-/// force. Where the centre is inside the box, the depth is measured to the nearest face instead. Only in
-/// simulations of this file: others in the process keep what they have.
-int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphere, int box, mjtNum margin) {
-  const int count = collide_sphere_box(m, d, contact, sphere, box, margin);
-  if (error_exit == nullptr || count != 1) return count;
-  const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> axes(d->geom_xmat + 9 * box);
-  const Eigen::Map<const Vector3> half(m->geom_size + 3 * box), box_at(d->geom_xpos + 3 * box),
-      centre(d->geom_xpos + 3 * sphere);
-  const Vector3 local = axes.transpose() * (centre - box_at);
-  const Vector3 depth = half - local.cwiseAbs();
-  int face = 0;
-  if (!(depth.minCoeff(&face) > 0.0)) return count;
-  const Vector3 out = (local[face] > 0.0 ? 1.0 : -1.0) * axes.col(face);
-  contact->dist = -(depth[face] + m->geom_size[3 * sphere]);
-  Eigen::Map<Vector3>(contact->frame) = -out;  // from the sphere to the box
-  std::fill(contact->frame + 3, contact->frame + 9, 0.0);
-  Eigen::Map<Vector3>(contact->pos) = centre - (m->geom_size[3 * sphere] + 0.5 * contact->dist) * out;
-  return count;
-}
-
-void install_handlers() {
-  mju_user_error = on_error;
-  mju_user_warning = on_warning;
-  static const bool installed = [] {
-    collide_sphere_box = mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX];
-    mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX] = collide_deep;
-    return true;
-  }();
-  static_cast<void>(installed);
-}
-
-using Call = void (*)(const mjModel*, mjData*);
-
-/// False when MuJoCo raised an error.
-bool guarded(Call call, const mjModel* model, mjData* data) noexcept {
-  std::jmp_buf exit;
-  error_exit = &exit;
-  if (setjmp(exit) != 0) {
-    error_exit = nullptr;
-    return false;
-  }
-  call(model, data);
-  error_exit = nullptr;
-  return true;
-}
-
-struct ModelDeleter {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DataDeleter {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-using ModelPointer = std::unique_ptr<mjModel, ModelDeleter>;
-using DataPointer = std::unique_ptr<mjData, DataDeleter>;
-
-struct VirtualFiles {
-  VirtualFiles() { mj_defaultVFS(&vfs); }
-  ~VirtualFiles() { mj_deleteVFS(&vfs); }
-  VirtualFiles(const VirtualFiles&) = delete;
-  VirtualFiles& operator=(const VirtualFiles&) = delete;
-  mjVFS vfs;
-};
-
-ModelPointer compile(const std::string& mjcf) {
-  const char* const file = "plant.xml";
-  const auto files = std::make_unique<VirtualFiles>();  // two megabytes: not for the stack
-  if (mj_makeEmptyFileVFS(&files->vfs, file, static_cast<int>(mjcf.size())) != 0) {
-    refuse("the simulation's text does not fit MuJoCo's virtual files");
-  }
-  std::memcpy(files->vfs.filedata[mj_findFileVFS(&files->vfs, file)], mjcf.data(), mjcf.size());
-  std::array<char, 1000> error{};
-  ModelPointer model(mj_loadXML(file, &files->vfs, error.data(), static_cast<int>(error.size())));
-  if (!model || error[0] != '\0') refuse(std::string("MuJoCo refuses the simulation: ") + error.data());
-  return model;
 }
 
 Matrix3 matrix_of(const mjtNum* quaternion) {
@@ -163,6 +71,11 @@ struct MujocoPlant::Simulation {
     int motor = -1;                         ///< in ctrl; -1 without a motor
     const RollingSphere* sphere = nullptr;  ///< set: a ball joint; q is integrated
   };
+  /// An object that slides on the floor: three freedoms from `velocity` in qvel.
+  struct Slider {
+    int velocity = 0;
+    FloorFriction friction;
+  };
   /// Which object and whether the robot's outline a geom belongs to.
   struct GeomOwner {
     int object = -1;
@@ -181,6 +94,7 @@ struct MujocoPlant::Simulation {
     compare_inertia();
     find_owners(scene);
     set_springs(scene);
+    find_sliders(scene);
     const std::array<double, 2> at = options.start_at.value_or(scene.start_at);
     start(at, options.start_yaw.value_or(scene.start_yaw));
   }
@@ -208,7 +122,7 @@ struct MujocoPlant::Simulation {
     }
     for (int j = 0; j < model->njnt; ++j) {
       const char* name = mj_id2name(model.get(), mjOBJ_JOINT, j);
-      if (std::strncmp(name, "object_", 7) == 0) freedoms += 6;
+      if (std::strncmp(name, "object_", 7) == 0) freedoms += 1;
     }
     if (model->nv != freedoms) refuse("MuJoCo changed the number of freedoms");
     q.setZero(robot_model.joint_count());
@@ -240,27 +154,64 @@ struct MujocoPlant::Simulation {
       truth.objects.push_back({object.name, 0.0, {}, 0.0});
   }
 
-  /// Contacts as springs of stiffness K and damping c = 2 zeta sqrt(K m), m the reduced mass of robot and
-  /// object. MuJoCo's contact force f and relative acceleration a obey a + r f = -k x - b v with penetration
-  /// x < 0 and r = A (1 - d)/d; A is its estimate of the inverse mass at the contact and d the impedance, so
-  /// that f = K x + c v for k = K A (1 - d)/d, b = c A (1 - d)/d, apart from a/r, a mass of d/((1 - d) A)
-  /// beside the robot's. solref holds (-k d, -b d): MuJoCo divides it by d and d^2, and multiplies k by d.
+  /// Contacts as springs of stiffness K and damping c = 2 zeta sqrt(K m), m the reduced mass of the two;
+  /// between two objects those of the softer one. MuJoCo's contact force f and relative acceleration a obey a
+  /// + r f = -k x - b v with penetration x < 0 and r = A (1 - d)/d; A is its estimate of the inverse mass at
+  /// the contact and d the impedance, so that f = K x + c v for k = K A (1 - d)/d, b = c A (1 - d)/d, apart
+  /// from a/r, a mass of d/((1 - d) A) beside the robot's. solref holds (-k d, -b d): MuJoCo divides it by d
+  /// and d^2, and multiplies k by d.
   void set_springs(const lang::Scene& scene) {
-    const double robot_mass = robot_model.total_mass();
     for (int p = 0; p < model->npair; ++p) {
       const int one = model->pair_geom1[p];
       const int other = model->pair_geom2[p];
-      const int k = std::max(owner_of(one).object, owner_of(other).object);
-      if (k < 0) continue;  // wheels and skids on the floor
-      const lang::SceneObject& object = scene.objects[static_cast<std::size_t>(k)];
+      if (owner_of(one).object < 0 && owner_of(other).object < 0) continue;  // wheels and skids on the floor
+      const lang::SceneObject& object = softer_object(scene, owner_of(one).object, owner_of(other).object);
       require_spring(object);
-      const double mass = object.mass ? robot_mass * *object.mass / (robot_mass + *object.mass) : robot_mass;
+      const double mass =
+          1.0 / (inverse_mass_of(scene, owner_of(one)) + inverse_mass_of(scene, owner_of(other)));
       const double inverse_mass = model->body_invweight0[2 * model->geom_bodyid[one]] +
                                   model->body_invweight0[2 * model->geom_bodyid[other]];
       const double scale = (1.0 - spring_impedance) * inverse_mass;
       model->pair_solref[2 * p] = -object.stiffness * scale;
       model->pair_solref[2 * p + 1] = -2.0 * object.damping * std::sqrt(object.stiffness * mass) * scale;
     }
+  }
+
+  static const lang::SceneObject& softer_object(const lang::Scene& scene, int one, int other) {
+    if (one < 0 || other < 0) return scene.objects[static_cast<std::size_t>(std::max(one, other))];
+    const auto& a = scene.objects[static_cast<std::size_t>(one)];
+    const auto& b = scene.objects[static_cast<std::size_t>(other)];
+    return a.stiffness < b.stiffness ? a : b;
+  }
+
+  double inverse_mass_of(const lang::Scene& scene, const GeomOwner& owner) const {
+    if (owner.object < 0) return 1.0 / robot_model.total_mass();
+    const auto& mass = scene.objects[static_cast<std::size_t>(owner.object)].mass;
+    return mass ? 1.0 / *mass : 0.0;
+  }
+
+  void find_sliders(const lang::Scene& scene) {
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) {
+      const lang::SceneObject& object = scene.objects[k];
+      if (!object.mass) continue;
+      const std::string name = numbered("object", static_cast<int>(k));
+      const int body = id_of(mjOBJ_BODY, name);
+      const double yaw_inertia = model->body_inertia[3 * body + upright_axis(body)];
+      const double area = object.shape == lang::ShapeKind::cylinder
+                              ? std::numbers::pi * object.size[0] * object.size[0]
+                              : object.size[0] * object.size[1];
+      const double reach = 2.0 / 3.0 * std::sqrt(area / std::numbers::pi);  // of a disk as large
+      const double load = scene.floor_friction * *object.mass * robot_model.gravity().norm();
+      sliders.push_back({model->jnt_dofadr[id_of(mjOBJ_JOINT, name + "_x")],
+                         FloorFriction(*object.mass, yaw_inertia, load, reach)});
+    }
+  }
+
+  /// The principal axis of an object that is its vertical one.
+  int upright_axis(int body) const {
+    int axis = 0;
+    matrix_of(model->body_iquat + 4 * body).row(2).cwiseAbs().maxCoeff(&axis);
+    return axis;
   }
 
   static void require_spring(const lang::SceneObject& object) {
@@ -345,6 +296,11 @@ struct MujocoPlant::Simulation {
   bool step() noexcept {
     const double before = data->time;
     cancel_sphere_products();
+    for (Slider& slider : sliders) {
+      const Vector3 moving = vector_of(data->qvel + slider.velocity);
+      Eigen::Map<Vector3>(data->qfrc_applied + slider.velocity) =
+          slider.friction.step(moving, model->opt.timestep);
+    }
     if (!guarded(mj_step, model.get(), data.get())) return false;
     const double elapsed = data->time - before;
     if (!(std::abs(elapsed - model->opt.timestep) < 1e-6 * model->opt.timestep)) return false;
@@ -469,6 +425,7 @@ struct MujocoPlant::Simulation {
   int base_body = 0;
   std::vector<JointAddress> joints;
   std::vector<GeomOwner> owners;  ///< by geom
+  std::vector<Slider> sliders;
   Eigen::VectorXd q, qd;
   Vector3 velocity = Vector3::Zero();
   Truth truth;
