@@ -151,7 +151,7 @@ void control(runtime::MujocoPlant& plant, runtime::Runner& runner, runtime::Reco
     recorder.wait_for_room();
     const Eigen::VectorXd& tau = runner.step(sensed, truth);
     const bool in_task = runner.state() == runtime::RunState::running;
-    if (in_task) report.asked = asked_forces(runner.scheduler());
+    if (in_task && runner.scheduler().transition()) report.asked = asked_forces(runner.scheduler());
     live.show(runner, sensed.time);
     status = plant.apply(tau);
     if (status != PlantStatus::ok) break;
