@@ -4,6 +4,8 @@ target_compile_options(zwang_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
   -Woverloaded-virtual -Wnull-dereference -Wdouble-promotion -Wformat=2
   $<$<BOOL:${ZWANG_WARNINGS_AS_ERRORS}>:-Werror>)
+# Designated initializers leave fields at their defaults on purpose.
+target_compile_options(zwang_flags INTERFACE -Wno-missing-field-initializers)
 # Eigen trips GCC's flow analysis in optimised builds; the diagnostics point into Eigen, not into this code.
 target_compile_options(zwang_flags INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-null-dereference -Wno-maybe-uninitialized -Wno-array-bounds>)

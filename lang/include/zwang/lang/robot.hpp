@@ -25,6 +25,13 @@ struct Stop {
   double force = 100.0;       ///< [N]
 };
 
+/// Dry and viscous friction of a joint, and how much of it the controller makes up for.
+struct JointFriction {
+  double coulomb = 0.0;     ///< [N m] or [N]
+  double viscous = 0.0;     ///< [N m s/rad] or [N s/m]
+  double compensate = 0.0;  ///< fraction in [0, 1)
+};
+
 struct Robot {
   std::string name;
   solver::Model model;
@@ -32,10 +39,12 @@ struct Robot {
   std::vector<BaseLimit> limits;
   Stop stop;
   std::vector<solver::Vector3>
-      footprint;                   ///< polygon corners in the base frame [m], z = 0, counter-clockwise
-  double bumper_height = 0.15;     ///< [m] above the ground where the footprint touches the world
-  double bumper_stiffness = 20e3;  ///< [N/m]
-  std::vector<Span> joint_spans;   ///< where each joint's limits come from
+      footprint;                        ///< polygon corners in the base frame [m], z = 0, counter-clockwise
+  std::vector<JointFriction> friction;  ///< of each joint
+  std::vector<std::string> supports;    ///< passive links that hold nothing in the plane
+  double bumper_height = 0.15;          ///< [m] above the ground where the footprint touches the world
+  double bumper_stiffness = 20e3;       ///< [N/m]
+  std::vector<Span> joint_spans;        ///< where each joint's limits come from
 };
 
 /// Reads and checks a robot file and the URDF it names. The only URDF reader.

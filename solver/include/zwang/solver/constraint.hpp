@@ -91,7 +91,7 @@ struct Row {
   double force = 0.0;       ///< f of a force row [N] or [N m]
   double lo = -infinity;  ///< bounds of nu [N] or [N m]; an infinite bound stands for what the motors can do
   double hi = infinity;
-  double fade = 1.0;  ///< alpha: softness R = L_jj (1 - alpha)/alpha
+  double fade = 1.0;  ///< alpha: bounds and force times alpha, softness R = L_jj (1 - alpha)/alpha
   int level = 1;
 };
 
@@ -114,11 +114,12 @@ class ConstraintSet {
   static constexpr double horizon = 0.010;  ///< h [s], within which limits act
 
  private:
+  bool fill_one(int index, const Model& model, const State& state) noexcept;
+  bool push(const Row& row) noexcept;
+
   std::vector<AxisConstraint> constraints_;
   std::vector<Coordinate> coordinates_;
   std::vector<Row> rows_;
-  std::vector<Pose> body_poses_;
-  std::vector<MotionVector> body_twists_;
 };
 
 /// The motion of `move` along `axis` of `in` at the state. Does not allocate, lock, throw or print.

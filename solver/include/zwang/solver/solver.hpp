@@ -23,8 +23,8 @@ const char* to_string(Status status) noexcept;
 
 enum class RowStatus {
   held,            ///< the acceleration meets b (or a one-sided row is met)
-  force_limited,   ///< nu at its bound, as intended; a force row: phi < 1
-  torque_limited,  ///< a motor at its limit is what keeps the row from b
+  force_limited,   ///< nu at its bound, as intended
+  torque_limited,  ///< a motor at its limit is what keeps the row from b, or phi from 1
   unreachable,     ///< nothing the robot can do moves this axis
   blocked,         ///< higher rows leave this axis no freedom
   conflict,        ///< rows of the same level contradict it
@@ -53,8 +53,7 @@ struct Solution {
 
 struct Settings {
   int row_capacity = 64;
-  int max_iterations = 400;      ///< hard cap of the active set, of each stage
-  bool project_velocity = true;  ///< project the measured velocity onto the no-slip constraints first
+  int max_iterations = 400;  ///< hard cap of the active set, of each stage
 };
 
 /// Solves the bounded problem for one model. Throws std::invalid_argument from its constructor only.
@@ -68,6 +67,11 @@ class Solver {
   /// Does not allocate, lock, throw or print. On any status but `ok` and `iteration_limit` the solution is
   /// untouched.
   [[nodiscard]] Status solve(const State& state, const std::vector<Row>& rows, Solution& solution) noexcept;
+
+  /// Takes out of the measured velocities what the ground does not allow (in the metric of kinetic energy).
+  /// Do this first in every period: what is left is the robot's odometry, and slip noise never reaches the
+  /// rows.
+  [[nodiscard]] Status project_velocity(State& state) noexcept;
 
  private:
   struct Workspace;

@@ -1,0 +1,170 @@
+#include "check/check.hpp"
+
+#include "check/context.hpp"
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+bool measures(const Condition& condition) {
+  for (const ExpressionNode& node : condition.nodes) {
+    if (node.op == Op::coordinate || node.op == Op::speed || node.op == Op::moved) return true;
+  }
+  return false;
+}
+
+void check_target(CheckContext& context, const Word& target) {
+  if (!target.exists() || target.text == "done" || target.text == "failed") return;
+  if (target.text == "back") {
+    context.diagnostics.add(wording::back_without_interruption(target.span));
+    return;
+  }
+  if (context.symbols.find_task(target.text)) return;
+  std::vector<std::string> known = context.symbols.tasks;
+  known.insert(known.end(), {"done", "failed"});
+  context.diagnostics.add(
+      wording::unknown_name(target.span, "task", target.text, nearest(target.text, known)));
+}
+
+Condition check_exit(CheckContext& context, const ExitText& exit, const TaskText& task) {
+  std::optional<Condition> condition;
+  if (!exit.when.is_bad) condition = check_condition(context, exit.when, task.groups);
+  if (exit.dwell) check_time(context, *exit.dwell, "`for`", true);
+  if (condition && !exit.dwell && measures(*condition)) {
+    context.diagnostics.add(wording::measured_without_for(exit.when.span));
+  }
+  check_target(context, exit.target);
+  check_sets(context, exit.set);
+  return condition.value_or(Condition{});
+}
+
+std::vector<Condition> check_task(CheckContext& context, const TaskText& task) {
+  check_groups(context, task);
+  if (task.blend) check_time(context, *task.blend, "enter.blend", true);
+  check_sets(context, task.set_on_entry);
+  std::vector<Condition> conditions;
+  for (const ExitText& exit : task.exits) conditions.push_back(check_exit(context, exit, task));
+  if (task.timeout && !task.timeout->is_never) {
+    check_time(context, task.timeout->after, "timeout.after", false);
+    check_target(context, task.timeout->target);
+  }
+  return conditions;
+}
+
+}  // namespace
+
+bool check_value(CheckContext& context, const ValueText& value, const Dimension& expected,
+                 const std::string& what) {
+  if (value.kind == ValueKind::quantity || value.kind == ValueKind::bad) {
+    return require_quantity(value, expected, what, context.diagnostics);
+  }
+  if (value.kind == ValueKind::here) {
+    context.diagnostics.add(wording::misplaced_here(value.span, what));
+    return false;
+  }
+  if (value.kind == ValueKind::name) {
+    context.diagnostics.add(wording::not_a_value(value.span, value.name));
+    return false;
+  }
+  ParameterSymbol* symbol = context.symbols.find_parameter(value.name);
+  if (symbol == nullptr) {
+    context.diagnostics.add(wording::unknown_name(value.span, "parameter", value.name,
+                                                  nearest(value.name, context.symbols.parameter_names())));
+    return false;
+  }
+  symbol->is_used = true;
+  if (symbol->is_bad) return false;
+  if (symbol->dimension != expected) {
+    context.diagnostics.add(wording::wrong_parameter_dimension(value.span, what, expected, value.name,
+                                                               symbol->dimension, symbol->parameter.span));
+    return false;
+  }
+  return true;
+}
+
+double present_value(const CheckContext& context, const ValueText& value) {
+  if (value.kind != ValueKind::parameter) return value.quantity.value;
+  const ParameterSymbol* symbol = context.symbols.find_parameter(value.name);
+  return symbol == nullptr ? 0.0 : value.sign * symbol->parameter.value;
+}
+
+void check_time(CheckContext& context, const ValueText& value, const std::string& what, bool zero_allowed) {
+  if (!check_value(context, value, dimension::time, what)) return;
+  const double seconds = present_value(context, value);
+  if (seconds < 0.0 || (seconds == 0.0 && !zero_allowed)) {
+    context.diagnostics.add(wording::not_positive(value.span, what, zero_allowed));
+  }
+}
+
+std::optional<int> check_frame(CheckContext& context, const Word& name) {
+  if (!name.exists()) return std::nullopt;
+  const std::optional<int> index = context.symbols.find_frame(name.text);
+  if (!index) {
+    if (context.symbols.has_robot) {
+      context.diagnostics.add(wording::unknown_name(name.span, "frame", name.text,
+                                                    nearest(name.text, context.symbols.frame_names())));
+    }
+    return std::nullopt;
+  }
+  FrameSymbol& symbol = context.symbols.frames[static_cast<std::size_t>(*index)];
+  symbol.is_used = true;
+  if (symbol.is_bad) return std::nullopt;
+  return index;
+}
+
+void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
+  for (const SetText& set : sets) {
+    if (set.kind == SetKind::parameter) {
+      ParameterSymbol* symbol = context.symbols.find_parameter(set.name.text);
+      if (symbol == nullptr) {
+        context.diagnostics.add(
+            wording::unknown_name(set.name.span, "parameter", set.name.text,
+                                  nearest(set.name.text, context.symbols.parameter_names())));
+        continue;
+      }
+      const std::string what = "params." + set.name.text;
+      if (symbol->is_bad || !check_value(context, set.value, symbol->dimension, what)) continue;
+      const double value = present_value(context, set.value);
+      const auto& range = symbol->parameter.range;
+      if (range && (value < range->low || value > range->high)) {
+        context.diagnostics.add(wording::outside_range(set.value.span, symbol->parameter, value));
+      }
+      continue;
+    }
+    const std::optional<int> index = context.symbols.find_frame(set.name.text);
+    const bool is_declared = index && context.symbols.frames[static_cast<std::size_t>(*index)].is_declared;
+    if (!is_declared && (index || context.symbols.has_robot)) {
+      std::vector<std::string> declared;
+      for (const FrameText& frame : context.file.frames) declared.push_back(frame.name.text);
+      context.diagnostics.add(index ? wording::not_settable(set.name.span, set.name.text)
+                                    : wording::unknown_name(set.name.span, "frame", set.name.text,
+                                                            nearest(set.name.text, declared)));
+    }
+    check_frame(context, set.source);
+  }
+}
+
+std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
+                                 const LoadOptions& options, Diagnostics& diagnostics) {
+  CheckedFile checked;
+  checked.symbols.has_robot = robot.has_value();
+  for (const TaskText& task : file.tasks) checked.symbols.tasks.push_back(task.name.text);
+  CheckContext context{file, robot, options, checked.symbols, diagnostics};
+  check_parameters(context);
+  check_frames(context);
+  if (file.start.exists() && !checked.symbols.find_task(file.start.text)) {
+    diagnostics.add(wording::unknown_name(file.start.span, "task", file.start.text,
+                                          nearest(file.start.text, checked.symbols.tasks)));
+  }
+  for (const TaskText& task : file.tasks) checked.conditions.push_back(check_task(context, task));
+  check_flow(context, checked.conditions);
+  if (diagnostics.has_errors() || !robot) return std::nullopt;
+  checked.robot = std::move(*robot);
+  checked.scene = std::move(scene);
+  checked.file = std::move(file);
+  return checked;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,27 @@
+/// Meaning: names, dimensions, clashes, physics. What passes here can be lowered without another question.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "check/symbols.hpp"
+#include "spec/task_file.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang {
+
+/// A task file whose every name is known and every quantity fits its place.
+struct CheckedFile {
+  TaskFile file;
+  Robot robot;
+  std::optional<Scene> scene;
+  Symbols symbols;
+  /// The condition of each exit of each task, names resolved.
+  std::vector<std::vector<Condition>> conditions;
+};
+
+/// `robot` none: it could not be read, and was complained of; what does not need it is checked all the same.
+std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
+                                 const LoadOptions& options, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

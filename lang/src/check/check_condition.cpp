@@ -1,0 +1,266 @@
+#include <array>
+
+#include "check/context.hpp"
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// What an expression yields: true or false, or a quantity. Bad: already complained of.
+struct Type {
+  bool is_bad = false;
+  bool is_boolean = false;
+  Dimension dimension;
+};
+
+constexpr Type bad_type{true, false, {}};
+constexpr Type boolean_type{false, true, {}};
+
+Type quantity_type(const Dimension& dimension) {
+  return {false, false, dimension};
+}
+
+struct CoordinateWord {
+  std::string_view word;
+  CoordinateQuantity quantity;
+};
+constexpr std::array coordinate_words{
+    CoordinateWord{"position", CoordinateQuantity::position},
+    CoordinateWord{"velocity", CoordinateQuantity::velocity},
+    CoordinateWord{"force", CoordinateQuantity::force},
+    CoordinateWord{"residual", CoordinateQuantity::residual},
+    CoordinateWord{"saturated", CoordinateQuantity::saturated},
+};
+
+Type type_of(CoordinateQuantity what, solver::Axis axis) {
+  switch (what) {
+    case CoordinateQuantity::position:
+      return quantity_type(dimension_of(axis, solver::Quantity::position));
+    case CoordinateQuantity::velocity:
+      return quantity_type(dimension_of(axis, solver::Quantity::velocity));
+    case CoordinateQuantity::force:
+      return quantity_type(dimension_of(axis, solver::Quantity::force));
+    case CoordinateQuantity::residual:
+      return quantity_type(dimension_of(axis, solver::Quantity::acceleration));
+    case CoordinateQuantity::saturated:
+      break;
+  }
+  return boolean_type;
+}
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', begin)) {
+    parts.push_back(path.substr(begin, dot - begin));
+    begin = dot + 1;
+  }
+  parts.push_back(path.substr(begin));
+  return parts;
+}
+
+class ConditionCheck {
+ public:
+  ConditionCheck(CheckContext& context, const ConditionText& text, const std::vector<GroupText>& groups)
+      : context_(context), text_(text), groups_(groups) {}
+
+  std::optional<Condition> check() {
+    Condition condition;
+    condition.text = text_.text;
+    condition.span = text_.span;
+    for (const ExpressionText& node : text_.nodes) {
+      ExpressionNode lowered;
+      lowered.left = node.left;
+      lowered.right = node.right;
+      types_.push_back(check_node(node, lowered));
+      condition.nodes.push_back(lowered);
+    }
+    const Type& root = types_.back();
+    if (root.is_bad) return std::nullopt;
+    if (!root.is_boolean) {
+      context_.diagnostics.add(wording::not_a_condition(text_.nodes.back().span, root.dimension));
+      return std::nullopt;
+    }
+    return condition;
+  }
+
+ private:
+  const Type& type(int i) const { return types_[static_cast<std::size_t>(i)]; }
+  const ExpressionText& node_at(int i) const { return text_.nodes[static_cast<std::size_t>(i)]; }
+
+  Type complain(Diagnostic diagnostic) {
+    context_.diagnostics.add(std::move(diagnostic));
+    return bad_type;
+  }
+
+  Type check_node(const ExpressionText& node, ExpressionNode& lowered) {
+    switch (node.kind) {
+      case ExpressionKind::quantity:
+        lowered.op = Op::constant;
+        lowered.number = node.quantity.value;
+        return quantity_type(node.quantity.dimension);
+      case ExpressionKind::parameter:
+        return check_parameter(node, lowered);
+      case ExpressionKind::name:
+        return check_name(node, lowered);
+      case ExpressionKind::call:
+        return check_call(node, lowered);
+      case ExpressionKind::negate:
+        lowered.op = Op::negate;
+        return require_number(node.left);
+      case ExpressionKind::logical_not:
+        lowered.op = Op::logical_not;
+        return require_boolean(node.left);
+      case ExpressionKind::binary:
+        break;
+    }
+    return check_binary(node, lowered);
+  }
+
+  Type check_parameter(const ExpressionText& node, ExpressionNode& lowered) {
+    ParameterSymbol* symbol = context_.symbols.find_parameter(node.word);
+    if (symbol == nullptr) {
+      return complain(wording::unknown_name(node.span, "parameter", node.word,
+                                            nearest(node.word, context_.symbols.parameter_names())));
+    }
+    symbol->is_used = true;
+    lowered.op = Op::parameter;
+    lowered.index = static_cast<int>(symbol - context_.symbols.parameters.data());
+    return symbol->is_bad ? bad_type : quantity_type(symbol->dimension);
+  }
+
+  Type check_name(const ExpressionText& node, ExpressionNode& lowered) {
+    if (node.word == "elapsed") {
+      lowered.op = Op::elapsed;
+      return quantity_type(dimension::time);
+    }
+    const std::vector<std::string> parts = split(node.word);
+    if (parts.size() == 3) return check_coordinate(node, parts, lowered);
+    std::vector<std::string> known{"elapsed"};
+    for (const GroupText& group : groups_) {
+      for (const AxisText& axis : group.axes) {
+        for (const CoordinateWord& word : coordinate_words) {
+          known.push_back(group.name.text + "." + axis.name.text + "." + std::string(word.word));
+        }
+      }
+    }
+    return complain(wording::unknown_quantity(node.span, node.word, nearest(node.word, known)));
+  }
+
+  Type check_coordinate(const ExpressionText& node, const std::vector<std::string>& parts,
+                        ExpressionNode& lowered) {
+    std::vector<std::string> known;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      known.push_back(groups_[g].name.text);
+      if (groups_[g].name.text == parts[0]) lowered.index = static_cast<int>(g);
+    }
+    if (lowered.index < 0) {
+      return complain(wording::unknown_name(node.span, "group", parts[0], nearest(parts[0], known)));
+    }
+    const GroupText& group = groups_[static_cast<std::size_t>(lowered.index)];
+    known.clear();
+    for (std::size_t a = 0; a < group.axes.size(); ++a) {
+      known.push_back(group.axes[a].name.text);
+      if (group.axes[a].name.text == parts[1]) lowered.axis = static_cast<int>(a);
+    }
+    if (lowered.axis < 0) {
+      return complain(
+          wording::unknown_axis(node.span, parts[0], parts[1], axis_named(parts[1]).has_value(), known));
+    }
+    lowered.op = Op::coordinate;
+    known.clear();
+    for (const CoordinateWord& word : coordinate_words) {
+      known.emplace_back(word.word);
+      if (word.word != parts[2]) continue;
+      lowered.what = word.quantity;
+      return type_of(word.quantity, *axis_named(parts[1]));
+    }
+    return complain(wording::unknown_name(node.span, "quantity", parts[2], nearest(parts[2], known)));
+  }
+
+  Type check_call(const ExpressionText& node, ExpressionNode& lowered) {
+    if (node.word == "abs") {
+      lowered.op = Op::abs;
+      return require_number(node.left);
+    }
+    if (node.word == "valid") {
+      return complain(wording::unknown_name(node.span, "signal", node.argument, ""));
+    }
+    const std::optional<int> frame = check_frame(context_, {node.argument, node.span});
+    if (!frame) return bad_type;
+    lowered.op = node.word == "speed" ? Op::speed : Op::moved;
+    lowered.index = *frame;
+    return quantity_type(node.word == "speed" ? dimension::velocity : dimension::length);
+  }
+
+  Type require_number(int operand) {
+    if (type(operand).is_bad) return bad_type;
+    if (type(operand).is_boolean) return complain(wording::expected_number(node_at(operand).span));
+    return type(operand);
+  }
+
+  Type require_boolean(int operand) {
+    if (type(operand).is_bad) return bad_type;
+    if (!type(operand).is_boolean) {
+      return complain(wording::not_a_condition(node_at(operand).span, type(operand).dimension));
+    }
+    return boolean_type;
+  }
+
+  Type check_binary(const ExpressionText& node, ExpressionNode& lowered) {
+    struct Operator {
+      std::string_view word;
+      Op op;
+    };
+    static constexpr std::array operators{
+        Operator{"and", Op::logical_and}, Operator{"or", Op::logical_or}, Operator{"<", Op::less},
+        Operator{"<=", Op::less_equal},   Operator{">", Op::greater},     Operator{">=", Op::greater_equal},
+        Operator{"+", Op::add},           Operator{"-", Op::subtract},    Operator{"*", Op::multiply},
+        Operator{"/", Op::divide},
+    };
+    for (const Operator& candidate : operators) {
+      if (candidate.word == node.word) lowered.op = candidate.op;
+    }
+    if (lowered.op == Op::logical_and || lowered.op == Op::logical_or) {
+      const Type left = require_boolean(node.left);
+      const Type right = require_boolean(node.right);
+      return left.is_bad || right.is_bad ? bad_type : boolean_type;
+    }
+    const Type left = require_number(node.left);
+    const Type right = require_number(node.right);
+    if (left.is_bad || right.is_bad) return bad_type;
+    if (lowered.op == Op::multiply) return quantity_type(left.dimension * right.dimension);
+    if (lowered.op == Op::divide) return quantity_type(left.dimension / right.dimension);
+    if (left.dimension != right.dimension) return complain_of_mismatch(node, left, right);
+    const bool compares = lowered.op != Op::add && lowered.op != Op::subtract;
+    return compares ? boolean_type : left;
+  }
+
+  /// A bare number beside a quantity lacks its unit; two quantities do not go together.
+  Type complain_of_mismatch(const ExpressionText& node, const Type& left, const Type& right) {
+    for (const int side : {node.left, node.right}) {
+      const ExpressionText& operand = node_at(side);
+      const bool is_bare = operand.kind == ExpressionKind::quantity && !operand.quantity.has_unit;
+      if (!is_bare) continue;
+      const Dimension& other = side == node.left ? right.dimension : left.dimension;
+      return complain(wording::needs_unit(operand.span, "this number", operand.quantity.number, other));
+    }
+    return complain(wording::unlike_operands(node.span, node.word, left.dimension, right.dimension));
+  }
+
+  CheckContext& context_;
+  const ConditionText& text_;
+  const std::vector<GroupText>& groups_;
+  std::vector<Type> types_;
+};
+
+}  // namespace
+
+std::optional<Condition> check_condition(CheckContext& context, const ConditionText& text,
+                                         const std::vector<GroupText>& groups) {
+  return ConditionCheck(context, text, groups).check();
+}
+
+}  // namespace zwang::lang

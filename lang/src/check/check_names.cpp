@@ -1,0 +1,211 @@
+#include <algorithm>
+
+#include "check/context.hpp"
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// A parameter's range, SI; nullopt when there is none or it is bad.
+std::optional<solver::Range> check_range(CheckContext& context, const ParameterText& text,
+                                         const Dimension& dimension) {
+  if (!text.range) return std::nullopt;
+  const std::string what = "the range of parameter `" + text.name.text + "`";
+  for (const ValueText* end : {&text.range->low, &text.range->high}) {
+    if (!require_quantity(*end, dimension, what, context.diagnostics)) return std::nullopt;
+  }
+  const Quantity& low = text.range->low.quantity;
+  const Quantity& high = text.range->high.quantity;
+  if (low.value > high.value) {
+    context.diagnostics.add(
+        wording::empty_range(text.range->span, low.number + " " + low.unit, high.number + " " + high.unit));
+    return std::nullopt;
+  }
+  return solver::Range{low.value, high.value};
+}
+
+ParameterSymbol check_parameter(CheckContext& context, const ParameterText& text) {
+  ParameterSymbol symbol;
+  symbol.parameter.name = text.name.text;
+  symbol.parameter.help = text.help;
+  symbol.parameter.span = text.name.span;
+  symbol.is_bad = text.value.kind != ValueKind::quantity;
+  if (symbol.is_bad) {
+    if (text.value.kind != ValueKind::bad) {
+      context.diagnostics.add(wording::parameter_needs_quantity(text.value.span, text.name.text));
+    }
+    return symbol;
+  }
+  const Quantity& quantity = text.value.quantity;
+  symbol.dimension = quantity.dimension;
+  symbol.parameter.value = quantity.value;
+  symbol.parameter.unit = quantity.unit;
+  symbol.parameter.unit_scale = quantity.scale;
+  symbol.parameter.range = check_range(context, text, quantity.dimension);
+  const auto& range = symbol.parameter.range;
+  const bool is_overridden = context.options.parameters.contains(text.name.text);
+  if (range && !is_overridden && (quantity.value < range->low || quantity.value > range->high)) {
+    context.diagnostics.add(wording::outside_range(text.value.span, symbol.parameter, quantity.value));
+  }
+  return symbol;
+}
+
+/// `-p name=value` in the place of the file's own value.
+void apply_override(CheckContext& context, const std::string& name, const std::string& text) {
+  const std::string written = name + "=" + text;
+  const int source = context.diagnostics.add_source({"-p", written});
+  const auto column = [&](std::size_t offset) {
+    return static_cast<int>(count_code_points(written.substr(0, offset))) + 1;
+  };
+  const Span name_span{source, {1, 1}, {1, column(name.size())}};
+  const Span value_span{source, {1, column(name.size() + 1)}, {1, column(written.size())}};
+  ParameterSymbol* symbol = context.symbols.find_parameter(name);
+  if (symbol == nullptr) {
+    context.diagnostics.add(wording::unknown_name(name_span, "parameter", name,
+                                                  nearest(name, context.symbols.parameter_names())));
+    return;
+  }
+  if (symbol->is_bad) return;
+  Node node;
+  node.kind = NodeKind::scalar;
+  node.span = value_span;
+  node.text = text;
+  const std::string what = "parameter `" + name + "`";
+  const ValueText value = parse_value(node, what, context.diagnostics);
+  if (!require_quantity(value, symbol->dimension, what, context.diagnostics)) return;
+  const double number = value.quantity.value;
+  const auto& range = symbol->parameter.range;
+  if (range && (number < range->low || number > range->high)) {
+    context.diagnostics.add(wording::outside_range(value_span, symbol->parameter, number));
+    return;
+  }
+  symbol->parameter.value = number;
+}
+
+solver::Pose pose_of(const FrameText& frame) {
+  solver::Pose pose;
+  if (frame.rpy.size() == 3) {
+    pose.rotation = solver::rotation_from_rpy(frame.rpy[0], frame.rpy[1], frame.rpy[2]);
+  }
+  for (std::size_t i = 0; i < frame.at.size(); ++i) {
+    pose.position[static_cast<Eigen::Index>(i)] = frame.at[i];
+  }
+  return pose;
+}
+
+void add_robot_frames(CheckContext& context) {
+  FrameSymbol world;
+  world.declaration.name = "world";
+  context.symbols.frames.push_back(world);
+  if (!context.robot) return;
+  for (const solver::Frame& frame : context.robot->model.frames()) {
+    FrameSymbol symbol;
+    symbol.declaration.name = frame.name;
+    symbol.declaration.parent = FrameParent::body;
+    symbol.declaration.parent_index = frame.body;
+    symbol.declaration.pose = frame.pose_in_body;
+    symbol.body = frame.body;
+    context.symbols.frames.push_back(std::move(symbol));
+  }
+}
+
+/// Frames in an order in which parents stand before children; what is left over hangs in a loop.
+class FrameOrder {
+ public:
+  explicit FrameOrder(CheckContext& context) : context_(context) {
+    for (const FrameText& frame : context.file.frames) {
+      if (frame.name.exists() && !context.symbols.find_frame(frame.name.text)) waiting_.push_back(&frame);
+    }
+  }
+
+  void place_all() {
+    for (bool is_growing = true; is_growing;) {
+      is_growing = false;
+      for (const FrameText*& frame : waiting_) {
+        if (frame == nullptr || waits_for_another(*frame)) continue;
+        place(*frame);
+        frame = nullptr;
+        is_growing = true;
+      }
+    }
+    std::erase(waiting_, nullptr);
+    report_loops();
+  }
+
+ private:
+  bool waits_for_another(const FrameText& frame) const { return find_waiting(frame.parent.text) != nullptr; }
+
+  const FrameText* find_waiting(const std::string& name) const {
+    for (const FrameText* frame : waiting_) {
+      if (frame != nullptr && frame->name.text == name) return frame;
+    }
+    return nullptr;
+  }
+
+  void place(const FrameText& frame) {
+    FrameSymbol symbol;
+    symbol.is_declared = true;
+    symbol.declaration.name = frame.name.text;
+    symbol.declaration.span = frame.span;
+    symbol.declaration.pose = pose_of(frame);
+    const std::optional<int> parent = check_frame(context_, frame.parent);
+    symbol.is_bad = !parent;
+    if (parent) {
+      symbol.body = context_.symbols.frames[static_cast<std::size_t>(*parent)].body;
+      symbol.declaration.parent = *parent == 0 ? FrameParent::world : FrameParent::frame;
+      symbol.declaration.parent_index = *parent == 0 ? -1 : *parent;
+    }
+    context_.symbols.frames.push_back(std::move(symbol));
+  }
+
+  void report_loops() {
+    for (const FrameText* frame : waiting_) {
+      // Each loop once, from its first frame; what only hangs on a loop is not complained of.
+      std::vector<const FrameText*> loop{frame};
+      while (std::count(loop.begin(), loop.end(), loop.back()) == 1) {
+        loop.push_back(find_waiting(loop.back()->parent.text));
+      }
+      const bool is_in_loop = loop.back() == frame;
+      const bool is_first = is_in_loop && std::all_of(loop.begin(), loop.end(), [&](const FrameText* other) {
+                              return other->span.begin.line >= frame->span.begin.line;
+                            });
+      if (is_first) {
+        std::vector<std::string> names;
+        for (const FrameText* part : loop) names.push_back(part->name.text);
+        context_.diagnostics.add(wording::frame_loop(frame->span, names));
+      }
+      FrameSymbol bad;
+      bad.is_declared = bad.is_bad = bad.is_used = true;
+      bad.declaration.name = frame->name.text;
+      context_.symbols.frames.push_back(std::move(bad));
+    }
+  }
+
+  CheckContext& context_;
+  std::vector<const FrameText*> waiting_;
+};
+
+}  // namespace
+
+void check_parameters(CheckContext& context) {
+  for (const ParameterText& text : context.file.parameters) {
+    if (text.name.exists()) context.symbols.parameters.push_back(check_parameter(context, text));
+  }
+  for (const auto& [name, text] : context.options.parameters) apply_override(context, name, text);
+}
+
+void check_frames(CheckContext& context) {
+  add_robot_frames(context);
+  for (const FrameText& frame : context.file.frames) {
+    const std::optional<int> taken = context.symbols.find_frame(frame.name.text);
+    if (!taken) continue;
+    const std::string owner = *taken == 0 ? "the frame that everything stands in" : "a frame of the robot";
+    context.diagnostics.add(wording::name_taken(frame.span, frame.name.text, owner));
+  }
+  FrameOrder(context).place_all();
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,41 @@
+/// Every name of a task file and what it stands for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spec/task_file.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang {
+
+struct ParameterSymbol {
+  Parameter parameter;
+  Dimension dimension;
+  bool is_bad = false;  ///< declared, but not readable
+  bool is_used = false;
+};
+
+struct FrameSymbol {
+  FrameDeclaration declaration;
+  int body = -1;             ///< that carries it; -1: it stands in the world
+  bool is_declared = false;  ///< by the task file, rather than by the robot
+  bool is_bad = false;
+  bool is_used = false;
+};
+
+struct Symbols {
+  std::vector<ParameterSymbol> parameters;
+  std::vector<FrameSymbol> frames;  ///< in the order of Program::frames
+  std::vector<std::string> tasks;
+  bool has_robot = true;  ///< false: its frames are unknown, so no name can be called unknown
+
+  ParameterSymbol* find_parameter(const std::string& name);
+  std::optional<int> find_frame(const std::string& name) const;
+  std::optional<int> find_task(const std::string& name) const;
+  std::vector<std::string> parameter_names() const;
+  std::vector<std::string> frame_names() const;
+};
+
+}  // namespace zwang::lang

@@ -1,0 +1,49 @@
+#include <algorithm>
+#include <tuple>
+
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+auto order_of(const Diagnostic& d) {
+  // Messages without a place come last: what can be pointed at is read first.
+  return std::make_tuple(d.span.exists() ? 0 : 1, d.span.source, d.span.begin.line, d.span.begin.column);
+}
+
+bool is_same(const Diagnostic& a, const Diagnostic& b) {
+  return a.code == b.code && order_of(a) == order_of(b) && a.message == b.message;
+}
+
+}  // namespace
+
+int Diagnostics::add_source(Source source) {
+  sources_.push_back(std::move(source));
+  return static_cast<int>(sources_.size()) - 1;
+}
+
+void Diagnostics::add(Diagnostic diagnostic) {
+  // A template's body is read once per use; what is wrong with it is said once.
+  const bool known = std::any_of(diagnostics_.begin(), diagnostics_.end(),
+                                 [&](const Diagnostic& other) { return is_same(other, diagnostic); });
+  if (!known) diagnostics_.push_back(std::move(diagnostic));
+}
+
+bool Diagnostics::has_errors() const {
+  return error_count() > 0;
+}
+
+int Diagnostics::error_count() const {
+  return static_cast<int>(std::count_if(diagnostics_.begin(), diagnostics_.end(),
+                                        [](const Diagnostic& d) { return d.severity == Severity::error; }));
+}
+
+std::vector<Diagnostic> Diagnostics::sorted() const {
+  std::vector<Diagnostic> result = diagnostics_;
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Diagnostic& a, const Diagnostic& b) { return order_of(a) < order_of(b); });
+  return result;
+}
+
+}  // namespace zwang::lang

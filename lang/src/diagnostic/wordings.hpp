@@ -1,0 +1,176 @@
+/// Every wording of the front end, one function each: what is wrong, and what to write instead.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "spec/dimension.hpp"
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang {
+struct Parameter;
+}
+
+namespace zwang::lang::wording {
+
+// --- Text and shape: E100 to E117 (text.cpp) ---
+Diagnostic unreadable_file(const Span& span, const std::string& path, const std::string& reason);
+Diagnostic not_a_path(const Span& span, const std::string& written);
+Diagnostic path_outside_root(const Span& span, const std::string& written, const std::string& root);
+Diagnostic file_too_large(const Span& span, const std::string& code, std::size_t limit);
+Diagnostic not_utf8(const Span& span, const std::string& code);
+Diagnostic forbidden_character(const Span& span, const std::string& code, char32_t character);
+Diagnostic line_too_long(const Span& span, std::size_t limit);
+Diagnostic open_quote(const Span& span);
+Diagnostic tab(const Span& span, bool indents);
+Diagnostic unreadable_yaml(const Span& span, const std::string& reason);
+Diagnostic empty_file(const Span& span);
+Diagnostic second_document(const Span& span);
+Diagnostic block_scalar(const Span& span);
+Diagnostic complex_key(const Span& span);
+Diagnostic alias(const Span& span);
+Diagnostic anchor(const Span& span);
+Diagnostic tag(const Span& span);
+Diagnostic merge_key(const Span& span);
+Diagnostic duplicate_key(const Span& span, const std::string& key, const Span& first);
+Diagnostic too_deep(const Span& span, int limit);
+Diagnostic too_many_nodes(const Span& span, int limit);
+Diagnostic key_too_long(const Span& span, std::size_t limit);
+Diagnostic scalar_too_long(const Span& span, std::size_t limit);
+Diagnostic too_many_tasks(const Span& span, std::size_t limit);
+Diagnostic too_many_groups(const Span& span, std::size_t limit);
+Diagnostic other_version(const Span& span, const std::string& key, const std::string& version);
+Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,
+                       const std::string& meant, const std::vector<std::string>& known);
+Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key);
+Diagnostic expected_mapping(const Span& span, const std::string& what);
+Diagnostic expected_list(const Span& span, const std::string& what);
+Diagnostic expected_word(const Span& span, const std::string& what);
+Diagnostic expected_value(const Span& span, const std::string& what, bool is_empty);
+Diagnostic expected_integer(const Span& span, const std::string& what, int low, int high);
+Diagnostic expected_boolean(const Span& span, const std::string& what);
+Diagnostic expected_condition(const Span& span);
+Diagnostic not_a_name(const Span& span, const std::string& text);
+Diagnostic reserved_name(const Span& span, const std::string& name);
+Diagnostic wrong_count(const Span& span, const std::string& what, std::size_t fewest, std::size_t most,
+                       std::size_t found);
+Diagnostic range_ends(const Span& span, std::size_t found);
+Diagnostic range_where_value(const Span& span, const std::string& what);
+Diagnostic value_where_range(const Span& span, const std::string& what);
+Diagnostic bare_axis(const Span& span, const std::string& axis, const std::string& text);
+Diagnostic bare_timeout(const Span& span, const std::string& text);
+Diagnostic bad_set(const Span& span, const std::string& key);
+Diagnostic yaw_and_rpy(const Span& span, const std::string& what, const Span& yaw);
+Diagnostic no_tasks(const Span& span);
+Diagnostic not_a_value(const Span& span, const std::string& text);
+Diagnostic only_a_quantity(const Span& span, const std::string& what, const Dimension& expected);
+Diagnostic number_out_of_range(const Span& span, const std::string& text);
+Diagnostic split_condition(const Span& span);
+
+// --- Conditions: E105 (text.cpp) ---
+Diagnostic condition_ends(const Span& span);
+Diagnostic condition_too_deep(const Span& span, int limit);
+Diagnostic missing_parenthesis(const Span& opened);
+Diagnostic unopened_parenthesis(const Span& span);
+Diagnostic symbol_for_word(const Span& span, const std::string& symbol, const std::string& word);
+Diagnostic equality(const Span& span);
+Diagnostic chained_comparison(const Span& span);
+Diagnostic unexpected_in_condition(const Span& span, const std::string& text);
+Diagnostic missing_argument(const Span& span, const std::string& function);
+
+// --- Quantities: E201 to E205 (meaning.cpp) ---
+Diagnostic needs_unit(const Span& span, const std::string& what, const std::string& number,
+                      const Dimension& expected);
+Diagnostic wrong_dimension(const Span& span, const std::string& what, const Dimension& expected,
+                           const Dimension& found);
+Diagnostic wrong_parameter_dimension(const Span& span, const std::string& what, const Dimension& expected,
+                                     const std::string& parameter, const Dimension& found,
+                                     const Span& declared);
+Diagnostic unlike_operands(const Span& span, const std::string& op, const Dimension& left,
+                           const Dimension& right);
+Diagnostic unknown_unit(const Span& span, const std::string& text, const std::string& unknown,
+                        const std::string& meant);
+Diagnostic outside_range(const Span& span, const Parameter& parameter, double value);
+Diagnostic parameter_needs_quantity(const Span& span, const std::string& name);
+Diagnostic not_a_condition(const Span& span, const Dimension& found);
+Diagnostic expected_number(const Span& span);
+Diagnostic misplaced_here(const Span& span, const std::string& what);
+
+// --- Names: E301 to E305 (meaning.cpp) ---
+Diagnostic unknown_name(const Span& span, const std::string& kind, const std::string& name,
+                        const std::string& meant);
+Diagnostic unknown_function(const Span& span, const std::string& name, const std::string& meant);
+Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& meant);
+Diagnostic unknown_axis(const Span& span, const std::string& group, const std::string& axis, bool is_axis,
+                        const std::vector<std::string>& known);
+Diagnostic unused(const Span& span, const std::string& kind, const std::string& name);
+Diagnostic frame_loop(const Span& span, const std::vector<std::string>& names);
+Diagnostic name_taken(const Span& span, const std::string& name, const std::string& owner);
+Diagnostic not_settable(const Span& span, const std::string& name);
+
+// --- Constraints: E401 to E409 (meaning.cpp) ---
+Diagnostic driven_twice(const Span& span, const std::string& axis, const std::string& first,
+                        const std::string& second, const Span& first_span);
+Diagnostic empty_range(const Span& span, const std::string& low, const std::string& high);
+Diagnostic held_axis(const Span& span, const std::string& axis);
+Diagnostic position_in_own_axes(const Span& span, const std::string& axis, const std::string& in,
+                                const std::string& move);
+Diagnostic force_range_without_zero(const Span& span, const std::string& axis);
+Diagnostic immovable(const Span& span, const std::string& frame);
+Diagnostic group_without_axes(const Span& span, const std::string& group);
+
+// --- Order: W501 to E508 (meaning.cpp) ---
+Diagnostic measured_without_for(const Span& span);
+Diagnostic unreachable_task(const Span& span, const std::string& task);
+Diagnostic endless_task(const Span& span, const std::string& task);
+Diagnostic back_without_interruption(const Span& span);
+
+// --- Robot files and URDFs: E801 to E860; scenes: E901 (robot.cpp) ---
+Diagnostic not_positive(const Span& span, const std::string& what, bool zero_allowed);
+Diagnostic fixed_joint(const Span& span, const std::string& joint, const Span& declared);
+Diagnostic sliding_wheel(const Span& span, const std::string& joint, const Span& declared);
+Diagnostic doubled_wheel(const Span& span, const std::string& joint);
+Diagnostic no_wheels(const Span& span);
+Diagnostic roller_angle(const Span& span, const std::string& what);
+Diagnostic holds_and_roller(const Span& span, const std::string& what);
+Diagnostic unknown_direction(const Span& span, const std::string& text);
+Diagnostic base_below_joint(const Span& span, const std::string& base, const std::string& joint);
+Diagnostic no_effort(const Span& span, const std::string& joint, const Span& declared);
+Diagnostic compensation_too_large(const Span& span, const std::string& what);
+Diagnostic limit_without_rest(const Span& span, const std::string& what);
+Diagnostic too_few_corners(const Span& span, const std::string& what);
+Diagnostic flat_polygon(const Span& span, const std::string& what);
+Diagnostic impossible_model(const Span& span, const std::string& reason);
+
+Diagnostic xml_too_deep(const Span& span, int limit);
+Diagnostic too_many_attributes(const Span& span, std::size_t limit);
+Diagnostic too_many_links(const Span& span, std::size_t limit);
+Diagnostic not_xml(const Span& span, const std::string& reason);
+Diagnostic not_urdf(const Span& span, const std::string& root);
+Diagnostic unexpanded_macro(const Span& span, const std::string& text);
+Diagnostic bad_urdf_number(const Span& span, const std::string& attribute, const std::string& text,
+                           std::size_t count);
+Diagnostic unnamed_element(const Span& span, const std::string& element);
+Diagnostic doubled_in_urdf(const Span& span, const std::string& kind, const std::string& name);
+Diagnostic no_links(const Span& span);
+Diagnostic joint_without_link(const Span& span, const std::string& joint, const std::string& role);
+Diagnostic missing_link(const Span& span, const std::string& joint, const std::string& link);
+Diagnostic two_parents(const Span& span, const std::string& link);
+Diagnostic no_root(const Span& span);
+Diagnostic two_roots(const Span& span, const std::string& first, const std::string& second);
+Diagnostic unreached_link(const Span& span, const std::string& link, const std::string& root);
+Diagnostic incomplete_inertial(const Span& span, const std::string& link, const std::string& missing);
+Diagnostic impossible_mass(const Span& span, const std::string& link, double mass);
+Diagnostic impossible_inertia(const Span& span, const std::string& link, const std::string& reason);
+Diagnostic joint_type(const Span& span, const std::string& joint, const std::string& type);
+Diagnostic zero_axis(const Span& span, const std::string& joint);
+Diagnostic joint_without_limit(const Span& span, const std::string& joint, const std::string& type);
+Diagnostic unordered_limits(const Span& span, const std::string& joint);
+Diagnostic negative_limit(const Span& span, const std::string& joint);
+Diagnostic urdf_refused(const Span& span, const std::string& message);
+
+Diagnostic one_shape(const Span& span, const std::string& what);
+Diagnostic fixed_with_mass(const Span& span, const std::string& what, const Span& mass);
+
+}  // namespace zwang::lang::wording

@@ -1,0 +1,198 @@
+#include "diagnostic/make.hpp"
+#include "diagnostic/wordings.hpp"
+#include "spec/units.hpp"
+#include "tree/text.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang::wording {
+
+namespace {
+
+/// `20 N`, in the unit that the parameter was declared with.
+std::string in_unit_of(const Parameter& parameter, double value) {
+  return format_number(value / parameter.unit_scale) + (parameter.unit.empty() ? "" : " " + parameter.unit);
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "`" : ", `") + name + "`";
+  return text;
+}
+
+}  // namespace
+
+Diagnostic needs_unit(const Span& span, const std::string& what, const std::string& number,
+                      const Dimension& expected) {
+  const std::string written = number + " " + usual_unit(expected);
+  return with_replacement(error("E201", span, what + " needs a unit", "write `" + written + "`"), written);
+}
+
+Diagnostic wrong_dimension(const Span& span, const std::string& what, const Dimension& expected,
+                           const Dimension& found) {
+  return error("E202", span, what + " is " + describe(expected) + ", but this is " + describe(found));
+}
+
+Diagnostic wrong_parameter_dimension(const Span& span, const std::string& what, const Dimension& expected,
+                                     const std::string& parameter, const Dimension& found,
+                                     const Span& declared) {
+  return with_related(
+      error("E202", span,
+            what + " is " + describe(expected) + ", but `" + parameter + "` is " + describe(found)),
+      declared, "`" + parameter + "` is declared here");
+}
+
+Diagnostic unlike_operands(const Span& span, const std::string& op, const Dimension& left,
+                           const Dimension& right) {
+  const bool compares = op[0] == '<' || op[0] == '>';
+  const std::string verb = compares ? "compared with " : op == "+" ? "added to " : "set off against ";
+  return error("E202", span, describe(left) + " cannot be " + verb + describe(right));
+}
+
+Diagnostic unknown_unit(const Span& span, const std::string& text, const std::string& unknown,
+                        const std::string& meant) {
+  Diagnostic diagnostic = error("E203", span, in_ticks(unknown) + " is not a unit zwang knows");
+  if (meant.empty()) return diagnostic;
+  diagnostic.help = "did you mean `" + meant + "`?";
+  const std::size_t at = text.rfind(unknown);
+  if (at != std::string::npos) {
+    std::string replaced = text;
+    const bool is_glued = at > 0 && text[at - 1] >= '0' && text[at - 1] <= '9';
+    diagnostic.replacement = replaced.replace(at, unknown.size(), (is_glued ? " " : "") + meant);
+  }
+  return diagnostic;
+}
+
+Diagnostic outside_range(const Span& span, const Parameter& parameter, double value) {
+  const std::string range =
+      in_unit_of(parameter, parameter.range->low) + " to " + in_unit_of(parameter, parameter.range->high);
+  return with_related(error("E204", span,
+                            "the value of `" + parameter.name + "` lies outside its own range: " +
+                                in_unit_of(parameter, value) + " is not within " + range),
+                      parameter.span,
+                      "`" + parameter.name + "` is declared on line " +
+                          std::to_string(parameter.span.begin.line) + " with the range " + range);
+}
+
+Diagnostic parameter_needs_quantity(const Span& span, const std::string& name) {
+  return error("E105", span, "parameter `" + name + "` must be a number with its unit");
+}
+
+Diagnostic not_a_condition(const Span& span, const Dimension& found) {
+  const std::string unit = usual_unit(found);
+  return error("E205", span, "this is " + describe(found) + ", not a condition",
+               "compare it with something, for example `.. > 1" + (unit.empty() ? "" : " " + unit) + "`");
+}
+
+Diagnostic expected_number(const Span& span) {
+  return error("E205", span, "this is true or false, where a number is due");
+}
+
+Diagnostic misplaced_here(const Span& span, const std::string& what) {
+  return error("E105", span, what + " cannot be `here`",
+               "only `position: here` holds what there is on entry");
+}
+
+Diagnostic unknown_name(const Span& span, const std::string& kind, const std::string& name,
+                        const std::string& meant) {
+  // The span may hold more than the name (`speed(name)`): a replacement would not fit it.
+  Diagnostic diagnostic = error("E301", span, "no " + kind + " named " + in_ticks(name));
+  if (!meant.empty()) diagnostic.help = "did you mean `" + meant + "`?";
+  return diagnostic;
+}
+
+Diagnostic unknown_function(const Span& span, const std::string& name, const std::string& meant) {
+  return with_suggestion(error("E301", span, "no function named " + in_ticks(name),
+                               "there are abs(value), speed(frame), moved(frame) and valid(signal)"),
+                         meant);
+}
+
+Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& meant) {
+  return with_suggestion(error("E301", span, "nothing named " + in_ticks(name) + " can be measured here",
+                               "write group.axis.velocity, a function, $parameter or elapsed"),
+                         meant);
+}
+
+Diagnostic unknown_axis(const Span& span, const std::string& group, const std::string& axis, bool is_axis,
+                        const std::vector<std::string>& known) {
+  return error("E301", span, "group `" + group + "` says nothing about an axis " + in_ticks(axis),
+               is_axis ? "add `" + axis + ": free` to the group to measure it" : "it has " + listed(known));
+}
+
+Diagnostic unused(const Span& span, const std::string& kind, const std::string& name) {
+  return warning("W302", span, kind + " `" + name + "` is never used");
+}
+
+Diagnostic frame_loop(const Span& span, const std::vector<std::string>& names) {
+  std::string text = names[0] + " hangs on " + names[1];
+  for (std::size_t i = 2; i < names.size(); ++i) text += ", which hangs on " + names[i];
+  return error("E304", span, text, "one of them must have a parent outside the loop, for example `world`");
+}
+
+Diagnostic name_taken(const Span& span, const std::string& name, const std::string& owner) {
+  return error("E305", span, "`" + name + "` is already the name of " + owner, "choose another name");
+}
+
+Diagnostic not_settable(const Span& span, const std::string& name) {
+  return error("E301", span, "frame `" + name + "` belongs to the robot: it cannot be set",
+               "declare a frame of your own under `frames:`");
+}
+
+Diagnostic driven_twice(const Span& span, const std::string& axis, const std::string& first,
+                        const std::string& second, const Span& first_span) {
+  return with_related(
+      error("E401", span, "axis `" + axis + "` is driven twice: by `" + first + "` and by `" + second + "`",
+            "write the other as a range, [low, high] or +-value"),
+      first_span, "`" + first + "` drives it here");
+}
+
+Diagnostic empty_range(const Span& span, const std::string& low, const std::string& high) {
+  return error("E403", span, trimmed(low) + " is above " + trimmed(high), "write the lower end first");
+}
+
+Diagnostic held_axis(const Span& span, const std::string& axis) {
+  return error("E404", span, "this base cannot move along `" + axis + "`: the ground holds it",
+               "leave the axis out, or write it as a range");
+}
+
+Diagnostic position_in_own_axes(const Span& span, const std::string& axis, const std::string& in,
+                                const std::string& move) {
+  const std::string why = in == move ? "`" + move + "` is always at 0 in its own axes"
+                                     : "`" + in + "` rides along with `" + move + "`";
+  return error("E405", span, "axis `" + axis + "` cannot have a position: " + why,
+               "use velocity, `here`, or a frame of the world");
+}
+
+Diagnostic force_range_without_zero(const Span& span, const std::string& axis) {
+  return error("E408", span, "the force range of `" + axis + "` leaves no room for 0",
+               "a single force drives; a range only limits, and must hold 0");
+}
+
+Diagnostic immovable(const Span& span, const std::string& frame) {
+  return error("E409", span, "`" + frame + "` stands in the world: nothing can move it",
+               "move a frame of the robot, `in` this one");
+}
+
+Diagnostic group_without_axes(const Span& span, const std::string& group) {
+  return error("E103", span, "constraint group `" + group + "` says nothing about any axis",
+               "name x, y, z, rx, ry or rz");
+}
+
+Diagnostic measured_without_for(const Span& span) {
+  return warning("W501", span, "a measured quantity decides at a single instant: noise can fire it",
+                 "say how long it must hold, for example `for: 0.1 s`");
+}
+
+Diagnostic unreachable_task(const Span& span, const std::string& task) {
+  return warning("W502", span, "no way leads to task `" + task + "`");
+}
+
+Diagnostic endless_task(const Span& span, const std::string& task) {
+  return warning("W503", span, "task `" + task + "` can run forever: no `timeout` and no exit on `elapsed`",
+                 "add `timeout: {after: .., goto: ..}`, or `timeout: never`");
+}
+
+Diagnostic back_without_interruption(const Span& span) {
+  return error("E508", span, "`back` leads nowhere: no exit under `always` interrupts to this task");
+}
+
+}  // namespace zwang::lang::wording

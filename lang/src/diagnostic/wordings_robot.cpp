@@ -1,0 +1,199 @@
+#include "diagnostic/make.hpp"
+#include "diagnostic/wordings.hpp"
+#include "spec/units.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang::wording {
+
+Diagnostic not_positive(const Span& span, const std::string& what, bool zero_allowed) {
+  return error("E105", span, what + (zero_allowed ? " cannot be below 0" : " must be above 0"));
+}
+
+Diagnostic fixed_joint(const Span& span, const std::string& joint, const Span& declared) {
+  return with_related(error("E801", span, "joint `" + joint + "` is fixed: it cannot move"), declared,
+                      "it is declared here");
+}
+
+Diagnostic sliding_wheel(const Span& span, const std::string& joint, const Span& declared) {
+  return with_related(error("E802", span, "a wheel turns, but joint `" + joint + "` slides"), declared,
+                      "it is declared here");
+}
+
+Diagnostic doubled_wheel(const Span& span, const std::string& joint) {
+  return error("E802", span, "joint `" + joint + "` carries two wheels");
+}
+
+Diagnostic no_wheels(const Span& span) {
+  return error("E802", span, "`wheels` holds no wheel");
+}
+
+Diagnostic roller_angle(const Span& span, const std::string& what) {
+  return error("E802", span, what + "'s rollers lie across its axis: it could drive nothing",
+               "give the angle from the wheel's axis to the roller's at the ground, for example `45 deg`");
+}
+
+Diagnostic holds_and_roller(const Span& span, const std::string& what) {
+  return error("E802", span, what + " gives both `roller` and `holds`",
+               "a wheel with rollers holds the direction of the roller's axis only");
+}
+
+Diagnostic unknown_direction(const Span& span, const std::string& text) {
+  return error("E802", span, "a wheel cannot hold " + in_ticks(text), "it holds `rolling` and `sideways`");
+}
+
+Diagnostic base_below_joint(const Span& span, const std::string& base, const std::string& joint) {
+  return error("E803", span, "base `" + base + "` hangs on the moving joint `" + joint + "`",
+               "name the link that carries the wheels and hangs on nothing that moves");
+}
+
+Diagnostic no_effort(const Span& span, const std::string& joint, const Span& declared) {
+  return with_related(error("E804", span, "nobody says how strong the motor of joint `" + joint + "` is",
+                            "add `effort: .. N m`; the URDF gives no effort above 0"),
+                      declared, "the joint is declared here");
+}
+
+Diagnostic compensation_too_large(const Span& span, const std::string& what) {
+  return error("E805", span, what + " must stay below 100 %: it would push the robot by itself");
+}
+
+Diagnostic limit_without_rest(const Span& span, const std::string& what) {
+  return error("E806", span, what + " does not allow standing still", "the range must hold 0");
+}
+
+Diagnostic too_few_corners(const Span& span, const std::string& what) {
+  return error("E807", span, "the polygon of `" + what + "` needs at least three corners");
+}
+
+Diagnostic flat_polygon(const Span& span, const std::string& what) {
+  return error("E807", span, "the polygon of `" + what + "` encloses no area");
+}
+
+Diagnostic impossible_model(const Span& span, const std::string& reason) {
+  return error("E808", span, "this robot cannot move as described: " + reason);
+}
+
+Diagnostic xml_too_deep(const Span& span, int limit) {
+  return error("E851", span, "elements are nested deeper than " + std::to_string(limit) + " levels");
+}
+
+Diagnostic too_many_attributes(const Span& span, std::size_t limit) {
+  return error("E852", span, "this element has more than " + std::to_string(limit) + " attributes");
+}
+
+Diagnostic too_many_links(const Span& span, std::size_t limit) {
+  return error("E853", span, "the robot has more than " + std::to_string(limit) + " links");
+}
+
+Diagnostic not_xml(const Span& span, const std::string& reason) {
+  return error("E854", span, "this is not readable as XML: " + reason);
+}
+
+Diagnostic not_urdf(const Span& span, const std::string& root) {
+  return error("E854", span, "a URDF's outermost element is <robot>, not <" + escaped(root) + ">");
+}
+
+Diagnostic unexpanded_macro(const Span& span, const std::string& text) {
+  return error("E855", span, in_ticks(text) + " is an xacro expression that nobody expanded",
+               "run xacro on the source and use what it writes");
+}
+
+Diagnostic bad_urdf_number(const Span& span, const std::string& attribute, const std::string& text,
+                           std::size_t count) {
+  return error("E856", span,
+               "`" + attribute + "` must be " +
+                   (count == 1 ? "a finite number" : std::to_string(count) + " finite numbers") + ", not " +
+                   in_ticks(text),
+               "decimal point, no unit, SI");
+}
+
+Diagnostic unnamed_element(const Span& span, const std::string& element) {
+  return error("E857", span, "this <" + element + "> has no name");
+}
+
+Diagnostic doubled_in_urdf(const Span& span, const std::string& kind, const std::string& name) {
+  return error("E857", span, "there are two " + kind + "s named " + in_ticks(name));
+}
+
+Diagnostic no_links(const Span& span) {
+  return error("E857", span, "this robot has no links");
+}
+
+Diagnostic joint_without_link(const Span& span, const std::string& joint, const std::string& role) {
+  return error("E857", span, "joint " + in_ticks(joint) + " does not say its " + role + " link");
+}
+
+Diagnostic missing_link(const Span& span, const std::string& joint, const std::string& link) {
+  return error("E857", span,
+               "joint " + in_ticks(joint) + " joins the link " + in_ticks(link) + ", which is missing");
+}
+
+Diagnostic two_parents(const Span& span, const std::string& link) {
+  return error("E857", span, "link " + in_ticks(link) + " hangs on two joints");
+}
+
+Diagnostic no_root(const Span& span) {
+  return error("E857", span, "every link hangs on another: there is no root");
+}
+
+Diagnostic two_roots(const Span& span, const std::string& first, const std::string& second) {
+  return error("E857", span,
+               "links " + in_ticks(first) + " and " + in_ticks(second) + " both hang on nothing",
+               "join them: a robot has one root");
+}
+
+Diagnostic unreached_link(const Span& span, const std::string& link, const std::string& root) {
+  return error("E857", span, "no joints lead from " + in_ticks(root) + " to link " + in_ticks(link));
+}
+
+Diagnostic incomplete_inertial(const Span& span, const std::string& link, const std::string& missing) {
+  return error("E858", span, "the inertial of link " + in_ticks(link) + " does not give `" + missing + "`");
+}
+
+Diagnostic impossible_mass(const Span& span, const std::string& link, double mass) {
+  return error("E858", span, "link " + in_ticks(link) + " cannot weigh " + format_number(mass) + " kg");
+}
+
+Diagnostic impossible_inertia(const Span& span, const std::string& link, const std::string& reason) {
+  return error("E858", span, "the inertia of link " + in_ticks(link) + " " + reason);
+}
+
+Diagnostic joint_type(const Span& span, const std::string& joint, const std::string& type) {
+  return error("E859", span,
+               type.empty() ? "joint " + in_ticks(joint) + " has no type"
+                            : "joint " + in_ticks(joint) + " has the type " + in_ticks(type) +
+                                  ", which zwang does not move",
+               "known are fixed, revolute, continuous and prismatic");
+}
+
+Diagnostic zero_axis(const Span& span, const std::string& joint) {
+  return error("E859", span, "the axis of joint " + in_ticks(joint) + " has no direction");
+}
+
+Diagnostic joint_without_limit(const Span& span, const std::string& joint, const std::string& type) {
+  return error("E859", span, "the " + type + " joint " + in_ticks(joint) + " has no <limit>");
+}
+
+Diagnostic unordered_limits(const Span& span, const std::string& joint) {
+  return error("E859", span, "the lower limit of joint " + in_ticks(joint) + " is above its upper limit");
+}
+
+Diagnostic negative_limit(const Span& span, const std::string& joint) {
+  return error("E859", span,
+               "effort and velocity limits of joint " + in_ticks(joint) + " cannot be negative");
+}
+
+Diagnostic urdf_refused(const Span& span, const std::string& message) {
+  return error("E860", span,
+               "the URDF library refuses this robot: " + (message.empty() ? "no reason given" : message));
+}
+
+Diagnostic one_shape(const Span& span, const std::string& what) {
+  return error("E901", span, what + " needs exactly one shape", "give it a `box`, a `cylinder` or a `wall`");
+}
+
+Diagnostic fixed_with_mass(const Span& span, const std::string& what, const Span& mass) {
+  return with_related(error("E902", span, what + " is fixed and has a mass", "keep one of them"), mass,
+                      "`mass` is given here");
+}
+
+}  // namespace zwang::lang::wording

@@ -1,0 +1,327 @@
+#include <array>
+#include <cstdio>
+
+#include "diagnostic/make.hpp"
+#include "diagnostic/wordings.hpp"
+#include "spec/units.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang::wording {
+
+namespace {
+
+std::string kibibytes(std::size_t bytes) {
+  return bytes >= 1024 * 1024 ? std::to_string(bytes / (1024 * 1024)) + " MiB"
+                              : std::to_string(bytes / 1024) + " KiB";
+}
+
+/// yaml-cpp's reasons in the words of an author.
+struct Reason {
+  std::string_view theirs;
+  std::string_view message;
+  std::string_view help;
+};
+constexpr std::array reasons{
+    Reason{"illegal map value", "a `: ` is not expected here",
+           "quote text that holds a `: `, and give every key a line of its own"},
+    Reason{"illegal map key", "a key is not expected here", "give every key a line of its own"},
+    Reason{"illegal flow end", "this bracket closes nothing", ""},
+    Reason{"illegal block entry", "a list item `- ` is not expected here",
+           "put lists on the lines below their key"},
+    Reason{"end of map flow not found", "a `{` is not closed before this place", "close it with `}`"},
+    Reason{"end of sequence flow not found", "a `[` is not closed before this place", "close it with `]`"},
+    Reason{"end of map not found", "this line does not fit the lines above it",
+           "lines that belong together start in the same column"},
+    Reason{"end of sequence not found", "this line does not fit the list above it",
+           "items of a list start in the same column"},
+    Reason{"unexpected character in block scalar", "a value that starts with | or > must be quoted", ""},
+    Reason{"illegal EOF in scalar", "the file ends inside a quoted text", "close the quote"},
+    Reason{"unknown token", "this cannot start a value", "quote text that starts with a special character"},
+    Reason{"unknown escape character", "this escape is not known",
+           "use single quotes, or `\\\\` for a backslash"},
+    Reason{"alias not found after *", "a value cannot start with `*`", ""},
+    Reason{"anchor not found after &", "a value cannot start with `&`", ""},
+    Reason{"cannot start any token", "this cannot start a value", "quote it"},
+};
+
+}  // namespace
+
+Diagnostic unreadable_file(const Span& span, const std::string& path, const std::string& reason) {
+  return error("E109", span, "cannot read " + in_ticks(path) + ": " + reason);
+}
+
+Diagnostic not_a_path(const Span& span, const std::string& written) {
+  return error("E109", span, in_ticks(written) + " is not the path of a file",
+               "write a path relative to this file; URLs and package:// are not followed");
+}
+
+Diagnostic path_outside_root(const Span& span, const std::string& written, const std::string& root) {
+  return error(
+      "E109", span, in_ticks(written) + " lies outside the folder that files may be read from",
+      "keep it below " + in_ticks(root) + ", or mark a higher folder with an empty `.zwang-root` file");
+}
+
+Diagnostic file_too_large(const Span& span, const std::string& code, std::size_t limit) {
+  return error(code, span, "this file is larger than " + kibibytes(limit));
+}
+
+Diagnostic not_utf8(const Span& span, const std::string& code) {
+  return error(code, span, "this is not UTF-8 text", "save the file as UTF-8");
+}
+
+Diagnostic forbidden_character(const Span& span, const std::string& code, char32_t character) {
+  std::array<char, 16> name{};
+  std::snprintf(name.data(), name.size(), "U+%04X", static_cast<unsigned>(character));
+  return error(code, span, "the invisible character " + std::string(name.data()) + " may not stand in a file",
+               "delete it");
+}
+
+Diagnostic line_too_long(const Span& span, std::size_t limit) {
+  return error("E111", span, "this line is longer than " + std::to_string(limit) + " bytes");
+}
+
+Diagnostic open_quote(const Span& span) {
+  return error("E100", span, "this quote does not close on its line",
+               "close the quote on the line that opens it");
+}
+
+Diagnostic tab(const Span& span, bool indents) {
+  return with_replacement(
+      error("E100", span, indents ? "a tab indents this line" : "a tab stands in this line",
+            indents ? "indent with spaces" : "write a space"),
+      indents ? "  " : " ");
+}
+
+Diagnostic unreadable_yaml(const Span& span, const std::string& reason) {
+  for (const Reason& known : reasons) {
+    if (reason.starts_with(known.theirs) || reason.ends_with(known.theirs)) {
+      return error("E100", span, std::string(known.message), std::string(known.help));
+    }
+  }
+  return error("E100", span, "this is not readable as YAML: " + reason);
+}
+
+Diagnostic empty_file(const Span& span) {
+  return error("E100", span, "there is nothing in this file");
+}
+
+Diagnostic second_document(const Span& span) {
+  return error("E100", span, "text stands behind the end of the document", "a file holds one document");
+}
+
+Diagnostic block_scalar(const Span& span) {
+  return error("E100", span, "a value that starts with | or > must be quoted",
+               "quote it, or continue it on the next line, indented");
+}
+
+Diagnostic complex_key(const Span& span) {
+  return error("E106", span, "a key is a plain word");
+}
+
+Diagnostic alias(const Span& span) {
+  return error("E106", span, "YAML aliases (`*name`) are not part of zwang",
+               "use `params:` for values and `templates:` for tasks");
+}
+
+Diagnostic anchor(const Span& span) {
+  return error("E106", span, "YAML anchors (`&name`) are not part of zwang",
+               "use `params:` for values and `templates:` for tasks");
+}
+
+Diagnostic tag(const Span& span) {
+  return error("E106", span, "YAML tags (`!name`) are not part of zwang", "quote text that starts with `!`");
+}
+
+Diagnostic merge_key(const Span& span) {
+  return error("E106", span, "YAML merge keys (`<<`) are not part of zwang", "use `templates:` and `use:`");
+}
+
+Diagnostic duplicate_key(const Span& span, const std::string& key, const Span& first) {
+  return error("E102", span, in_ticks(key) + " is given twice",
+               "first given on line " + std::to_string(first.begin.line));
+}
+
+Diagnostic too_deep(const Span& span, int limit) {
+  return error("E112", span,
+               "brackets and indents are nested deeper than " + std::to_string(limit) + " levels");
+}
+
+Diagnostic too_many_nodes(const Span& span, int limit) {
+  return error("E113", span, "the file has more than " + std::to_string(limit) + " keys and values");
+}
+
+Diagnostic key_too_long(const Span& span, std::size_t limit) {
+  return error("E114", span, "this key is longer than " + std::to_string(limit) + " bytes");
+}
+
+Diagnostic scalar_too_long(const Span& span, std::size_t limit) {
+  return error("E115", span, "this value is longer than " + std::to_string(limit) + " bytes");
+}
+
+Diagnostic too_many_tasks(const Span& span, std::size_t limit) {
+  return error("E116", span, "the file has more than " + std::to_string(limit) + " tasks");
+}
+
+Diagnostic too_many_groups(const Span& span, std::size_t limit) {
+  return error("E117", span, "more than " + std::to_string(limit) + " constraint groups in one place");
+}
+
+Diagnostic other_version(const Span& span, const std::string& key, const std::string& version) {
+  return error("E108", span, "this file is " + key + " " + escaped(version) + "; this program reads 1",
+               "write `" + key + ": 1`");
+}
+
+Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,
+                       const std::string& meant, const std::vector<std::string>& known) {
+  std::string help;
+  for (const std::string& name : known) help += (help.empty() ? "known here: " : ", ") + name;
+  return with_suggestion(error("E101", span, "unknown key " + in_ticks(key) + " in " + what, help), meant);
+}
+
+Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key) {
+  return error("E103", span, what + " does not say `" + key + "`");
+}
+
+Diagnostic expected_mapping(const Span& span, const std::string& what) {
+  return error("E104", span, what + " must be a list of `key: value` lines");
+}
+
+Diagnostic expected_list(const Span& span, const std::string& what) {
+  return error("E104", span, what + " must be a list", "start each item with `- `, or write `[a, b]`");
+}
+
+Diagnostic expected_word(const Span& span, const std::string& what) {
+  return error("E104", span, what + " must be a single word");
+}
+
+Diagnostic expected_value(const Span& span, const std::string& what, bool is_empty) {
+  return error("E104", span, is_empty ? what + " has no value" : what + " must be a single value");
+}
+
+Diagnostic expected_integer(const Span& span, const std::string& what, int low, int high) {
+  return error("E105", span,
+               what + " must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+}
+
+Diagnostic expected_boolean(const Span& span, const std::string& what) {
+  return error("E105", span, what + " must be true or false");
+}
+
+Diagnostic expected_condition(const Span& span) {
+  return error("E104", span, "`when` must be a condition", "for example `when: elapsed > 2 s`");
+}
+
+Diagnostic not_a_name(const Span& span, const std::string& text) {
+  return error("E105", span, in_ticks(text) + " cannot be a name",
+               "names are letters, digits and underscores, and start with a letter");
+}
+
+Diagnostic reserved_name(const Span& span, const std::string& name) {
+  return error("E105", span,
+               "no task can be named `" + name + "`: `goto: " + name + "` has a meaning of its own");
+}
+
+Diagnostic wrong_count(const Span& span, const std::string& what, std::size_t fewest, std::size_t most,
+                       std::size_t found) {
+  const std::string count =
+      fewest == most ? std::to_string(fewest) : std::to_string(fewest) + " to " + std::to_string(most);
+  return error("E104", span,
+               what + " takes " + count + " values, but " + std::to_string(found) + " are given");
+}
+
+Diagnostic range_ends(const Span& span, std::size_t found) {
+  return error("E104", span, "a range has exactly two ends, [low, high]; this has " + std::to_string(found));
+}
+
+Diagnostic range_where_value(const Span& span, const std::string& what) {
+  return error("E104", span, what + " takes a single value, not a range");
+}
+
+Diagnostic value_where_range(const Span& span, const std::string& what) {
+  return error("E104", span, what + " must be a range", "write `[low, high]` or `+-value`");
+}
+
+Diagnostic bare_axis(const Span& span, const std::string& axis, const std::string& text) {
+  return error("E104", span, "axis `" + axis + "` does not say which quantity " + in_ticks(text) + " is",
+               "write `free`, or for example `{velocity: " + escaped(text) + "}`");
+}
+
+Diagnostic bare_timeout(const Span& span, const std::string& text) {
+  return error("E104", span, "`timeout` must say where it leads",
+               "write `timeout: {after: " + escaped(text) + ", goto: failed}`, or `timeout: never`");
+}
+
+Diagnostic bad_set(const Span& span, const std::string& key) {
+  return error("E105", span, in_ticks(key) + " cannot be set",
+               "write `frames.NAME: frame` or `params.NAME: value`");
+}
+
+Diagnostic yaw_and_rpy(const Span& span, const std::string& what, const Span& yaw) {
+  return with_related(error("E104", span, what + " gives both `yaw` and `rpy`", "keep one of them"), yaw,
+                      "`yaw` is given here");
+}
+
+Diagnostic no_tasks(const Span& span) {
+  return error("E104", span, "`tasks` holds no task");
+}
+
+Diagnostic not_a_value(const Span& span, const std::string& text) {
+  return error("E105", span, in_ticks(text) + " is not a value",
+               "write a number with its unit, as `0.08 m/s`, or a parameter, as `$push`");
+}
+
+Diagnostic only_a_quantity(const Span& span, const std::string& what, const Dimension& expected) {
+  const std::string unit = usual_unit(expected);
+  return error("E105", span, what + " must be a plain number" + (unit.empty() ? "" : " with its unit"),
+               "for example `1" + (unit.empty() ? "" : " " + unit) + "`");
+}
+
+Diagnostic number_out_of_range(const Span& span, const std::string& text) {
+  return error("E105", span, in_ticks(text) + " is too large or too small a number");
+}
+
+Diagnostic split_condition(const Span& span) {
+  return error("E107", span, "a comma cut the condition in two: inside `{..}` it starts a new key",
+               "quote the condition or put it on its own line");
+}
+
+Diagnostic condition_ends(const Span& span) {
+  return error("E105", span, "the condition ends where a value is due");
+}
+
+Diagnostic condition_too_deep(const Span& span, int limit) {
+  return error("E105", span, "the condition is nested deeper than " + std::to_string(limit) + " levels");
+}
+
+Diagnostic missing_parenthesis(const Span& opened) {
+  return error("E105", opened, "missing `)`", "this `(` is never closed");
+}
+
+Diagnostic unopened_parenthesis(const Span& span) {
+  return error("E105", span, "this `)` closes nothing");
+}
+
+Diagnostic symbol_for_word(const Span& span, const std::string& symbol, const std::string& word) {
+  return with_replacement(
+      error("E105", span, "`" + symbol + "` is not part of conditions", "write `" + word + "`"), word);
+}
+
+Diagnostic equality(const Span& span) {
+  return error("E105", span, "measured numbers are never exactly equal",
+               "compare the distance: `abs(a - b) < 1 mm`");
+}
+
+Diagnostic chained_comparison(const Span& span) {
+  return error("E105", span, "a comparison has two sides", "write `a < b and b < c`");
+}
+
+Diagnostic unexpected_in_condition(const Span& span, const std::string& text) {
+  return error("E105", span, in_ticks(text) + " is not expected here");
+}
+
+Diagnostic missing_argument(const Span& span, const std::string& function) {
+  return error("E105", span, "`" + function + "()` does not say of what",
+               "for example `" + function + "(base_link)`");
+}
+
+}  // namespace zwang::lang::wording

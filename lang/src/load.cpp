@@ -1,0 +1,55 @@
+#include "check/check.hpp"
+#include "diagnostic/wordings.hpp"
+#include "lower/lower.hpp"
+#include "robot/load_robot.hpp"
+#include "scene/load_scene.hpp"
+#include "spec/task_file.hpp"
+#include "tree/file.hpp"
+#include "tree/read.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The robot that the command line names, else the file's.
+std::optional<Robot> load_robot_of(const TaskFile& file, const fs::path& path, const fs::path& root,
+                                   const LoadOptions& options, Diagnostics& diagnostics) {
+  if (options.robot) return load_robot_below(*options.robot, root_of(*options.robot), {}, diagnostics);
+  if (!file.robot.exists()) return std::nullopt;
+  const auto robot = resolve_path(file.robot.text, path, root, file.robot.span, diagnostics);
+  if (!robot) return std::nullopt;
+  return load_robot_below(*robot, root, file.robot.span, diagnostics);
+}
+
+std::optional<Scene> load_scene_of(const TaskFile& file, const fs::path& path, const fs::path& root,
+                                   const LoadOptions& options, Diagnostics& diagnostics) {
+  if (options.scene) return load_scene_from(*options.scene, {}, diagnostics);
+  if (!file.scene.exists()) return std::nullopt;
+  const auto scene = resolve_path(file.scene.text, path, root, file.scene.span, diagnostics);
+  if (!scene) return std::nullopt;
+  return load_scene_from(*scene, file.scene.span, diagnostics);
+}
+
+}  // namespace
+
+std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  const fs::path root = options.root.value_or(root_of(path));
+  const std::optional<int> source = read_file(path, yaml_size_limit, {}, diagnostics);
+  if (!source) return std::nullopt;
+  const std::optional<Document> document = read(*source, diagnostics);
+  if (!document) return std::nullopt;
+  std::optional<TaskFile> file = parse(*document, diagnostics);
+  if (!file) return std::nullopt;
+  std::optional<Robot> robot = load_robot_of(*file, path, root, options, diagnostics);
+  std::optional<Scene> scene = load_scene_of(*file, path, root, options, diagnostics);
+  std::optional<CheckedFile> checked =
+      check(std::move(*file), std::move(robot), std::move(scene), options, diagnostics);
+  if (!checked) return std::nullopt;
+  Program program = lower(std::move(*checked));
+  program.path = path.string();
+  return program;
+}
+
+}  // namespace zwang::lang

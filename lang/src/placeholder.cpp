@@ -1,1 +1,0 @@
-#include "zwang/lang/program.hpp"

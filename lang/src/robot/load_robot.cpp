@@ -1,0 +1,267 @@
+#include "robot/load_robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "robot/robot_file.hpp"
+#include "robot/urdf.hpp"
+#include "tree/file.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// Builds the solver's model from a robot file and its URDF.
+class RobotBuilder {
+ public:
+  RobotBuilder(const RobotFile& file, Urdf urdf, int errors_before, Diagnostics& diagnostics)
+      : file_(file), urdf_(std::move(urdf)), errors_before_(errors_before), diagnostics_(diagnostics) {}
+
+  std::optional<Robot> build() {
+    check_base();
+    apply_actuators();
+    check_wheels();
+    check_supports();
+    check_frames();
+    check_footprint();
+    if (diagnostics_.error_count() > errors_before_) return std::nullopt;
+    try {
+      return assemble();
+    } catch (const std::invalid_argument& error) {
+      diagnostics_.add(wording::impossible_model(span_of_complaint(error.what()), error.what()));
+      return std::nullopt;
+    }
+  }
+
+ private:
+  std::vector<std::string> link_names() const {
+    std::vector<std::string> names;
+    for (const UrdfLink& link : urdf_.links) names.push_back(link.name);
+    return names;
+  }
+
+  /// The URDF's joint, or the complaint that there is none.
+  UrdfJoint* moving_joint(const Word& name) {
+    if (!name.exists()) return nullptr;
+    std::vector<std::string> moving;
+    for (UrdfJoint& joint : urdf_.joints) {
+      if (joint.joint.type != solver::JointType::fixed) moving.push_back(joint.joint.name);
+      if (joint.joint.name != name.text) continue;
+      if (joint.joint.type != solver::JointType::fixed) return &joint;
+      diagnostics_.add(wording::fixed_joint(name.span, name.text, joint.span));
+      return nullptr;
+    }
+    diagnostics_.add(wording::unknown_name(name.span, "joint", name.text, nearest(name.text, moving)));
+    return nullptr;
+  }
+
+  void check_link(const Word& name) {
+    if (!name.exists() || urdf_.find_link(name.text) != nullptr) return;
+    diagnostics_.add(wording::unknown_name(name.span, "link", name.text, nearest(name.text, link_names())));
+  }
+
+  /// The base floats: everything above it, up to the URDF's root, must be fixed to it.
+  void check_base() {
+    check_link(file_.base);
+    for (const UrdfJoint* above = urdf_.joint_above(file_.base.text); above != nullptr;
+         above = urdf_.joint_above(above->parent)) {
+      if (above->joint.type != solver::JointType::fixed) {
+        diagnostics_.add(wording::base_below_joint(file_.base.span, file_.base.text, above->joint.name));
+        return;
+      }
+    }
+  }
+
+  void apply_actuators() {
+    for (const ActuatorText& actuator : file_.actuators) {
+      UrdfJoint* joint = moving_joint(actuator.joint);
+      if (joint == nullptr) continue;
+      const bool slides = joint->joint.type == solver::JointType::prismatic;
+      const std::string what = "actuator `" + actuator.joint.text + "`'s effort";
+      joint->joint.actuated = true;
+      joint->joint.rotor_inertia = actuator.gear * actuator.gear * actuator.rotor_inertia;
+      if (actuator.effort_text) {
+        const Dimension expected = slides ? dimension::force : dimension::torque;
+        if (!require_quantity(*actuator.effort_text, expected, what, diagnostics_)) continue;
+        const double effort = actuator.effort_text->quantity.value;
+        if (effort <= 0.0) diagnostics_.add(wording::not_positive(actuator.effort_text->span, what, false));
+        joint->joint.max_effort = effort;
+      } else if (!std::isfinite(joint->joint.max_effort)) {
+        diagnostics_.add(wording::no_effort(actuator.joint.span, actuator.joint.text, joint->span));
+      }
+    }
+  }
+
+  void check_wheels() {
+    std::set<std::string> seen;
+    for (const WheelText& wheel : file_.wheels) {
+      const UrdfJoint* joint = moving_joint(wheel.joint);
+      if (joint == nullptr) continue;
+      if (joint->joint.type == solver::JointType::prismatic) {
+        diagnostics_.add(wording::sliding_wheel(wheel.joint.span, wheel.joint.text, joint->span));
+      }
+      if (!seen.insert(wheel.joint.text).second) {
+        diagnostics_.add(wording::doubled_wheel(wheel.joint.span, wheel.joint.text));
+      }
+    }
+  }
+
+  void check_supports() {
+    for (const Word& support : file_.supports) check_link(support);
+  }
+
+  void check_frames() {
+    std::vector<std::string> known = link_names();
+    for (const RobotFrameText& frame : file_.frames) {
+      if (frame.parent.exists() && std::find(known.begin(), known.end(), frame.parent.text) == known.end()) {
+        diagnostics_.add(wording::unknown_name(frame.parent.span, "link or earlier frame", frame.parent.text,
+                                               nearest(frame.parent.text, known)));
+      }
+      if (!frame.name.exists()) continue;
+      if (frame.name.text == "world" || urdf_.find_link(frame.name.text) != nullptr) {
+        diagnostics_.add(wording::name_taken(frame.name.span, frame.name.text, "a link of the URDF"));
+      }
+      known.push_back(frame.name.text);
+    }
+  }
+
+  void check_footprint() {
+    const auto& corners = file_.footprint;
+    double area = 0.0;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const auto& next = corners[(i + 1) % corners.size()];
+      area += 0.5 * (corners[i].x() * next.y() - next.x() * corners[i].y());
+    }
+    is_clockwise_ = area < 0.0;
+    if (corners.size() >= 3 && std::abs(area) < 1e-6) {
+      diagnostics_.add(wording::flat_polygon(file_.footprint_span, "footprint"));
+    }
+  }
+
+  /// Links outward from the base, whatever the URDF's root is.
+  solver::ModelBuilder add_links() const {
+    const UrdfLink& base = *urdf_.find_link(file_.base.text);
+    solver::ModelBuilder builder(solver::BaseType::ground, base.name, base.inertia);
+    std::set<std::string> added{base.name};
+    const solver::Joint fixed;
+    for (const UrdfJoint* above = urdf_.joint_above(base.name); above != nullptr;
+         above = urdf_.joint_above(above->parent)) {
+      const UrdfLink& parent = *urdf_.find_link(above->parent);
+      builder.add_link(parent.name, above->child, above->origin.inverse(), fixed, parent.inertia);
+      added.insert(parent.name);
+    }
+    for (bool is_growing = true; is_growing;) {
+      is_growing = false;
+      for (const UrdfJoint& joint : urdf_.joints) {
+        if (!added.contains(joint.parent) || added.contains(joint.child)) continue;
+        builder.add_link(joint.child, joint.parent, joint.origin, joint.joint,
+                         urdf_.find_link(joint.child)->inertia);
+        added.insert(joint.child);
+        is_growing = true;
+      }
+    }
+    return builder;
+  }
+
+  static solver::Pose pose_of(const RobotFrameText& frame) {
+    solver::Pose pose;
+    if (frame.rpy.size() == 3) {
+      pose.rotation = solver::rotation_from_rpy(frame.rpy[0], frame.rpy[1], frame.rpy[2]);
+    }
+    for (std::size_t i = 0; i < frame.at.size(); ++i) {
+      pose.position[static_cast<Eigen::Index>(i)] = frame.at[i];
+    }
+    return pose;
+  }
+
+  Robot assemble() const {
+    solver::ModelBuilder builder = add_links();
+    for (const RobotFrameText& frame : file_.frames) {
+      builder.add_frame(frame.name.text, frame.parent.text, pose_of(frame));
+    }
+    for (const WheelText& wheel : file_.wheels) {
+      builder.add_wheel(wheel.joint.text, {.body = 0,
+                                           .radius = *wheel.radius,
+                                           .holds_rolling = wheel.holds_rolling,
+                                           .holds_sideways = wheel.holds_sideways,
+                                           .roller_angle = wheel.roller});
+    }
+    Robot robot;
+    robot.name = urdf_.name;
+    robot.model = builder.build();
+    robot.base_frame = file_.base.text;
+    robot.limits = file_.limits;
+    robot.stop = file_.stop;
+    robot.footprint = file_.footprint;
+    if (is_clockwise_) std::reverse(robot.footprint.begin(), robot.footprint.end());
+    for (const Word& support : file_.supports) robot.supports.push_back(support.text);
+    if (file_.bumper_height) robot.bumper_height = *file_.bumper_height;
+    if (file_.bumper_stiffness) robot.bumper_stiffness = *file_.bumper_stiffness;
+    add_joint_facts(robot);
+    return robot;
+  }
+
+  void add_joint_facts(Robot& robot) const {
+    for (int j = 0; j < robot.model.joint_count(); ++j) {
+      const std::string& name = robot.model.joint(j).name;
+      Span span = urdf_.find_joint(name)->span;
+      for (const ActuatorText& actuator : file_.actuators) {
+        if (actuator.joint.text == name) span = actuator.joint.span;
+      }
+      robot.joint_spans.push_back(span);
+      JointFriction friction;
+      for (const FrictionText& text : file_.friction) {
+        if (text.joint.text == name) friction = text.friction;
+      }
+      robot.friction.push_back(friction);
+    }
+  }
+
+  /// The link that the model builder names in its complaint, else the robot file's base.
+  Span span_of_complaint(const std::string& complaint) const {
+    const std::size_t open = complaint.find('`');
+    const std::size_t close = complaint.find('`', open + 1);
+    if (open == std::string::npos || close == std::string::npos) return file_.base.span;
+    const std::string name = complaint.substr(open + 1, close - open - 1);
+    if (const UrdfLink* link = urdf_.find_link(name)) return link->span;
+    if (const UrdfJoint* joint = urdf_.find_joint(name)) return joint->span;
+    for (const RobotFrameText& frame : file_.frames) {
+      if (frame.name.text == name) return frame.name.span;
+    }
+    return file_.base.span;
+  }
+
+  const RobotFile& file_;
+  Urdf urdf_;
+  int errors_before_;  ///< of other files
+  Diagnostics& diagnostics_;
+  bool is_clockwise_ = false;
+};
+
+}  // namespace
+
+std::optional<Robot> load_robot_below(const std::filesystem::path& path, const std::filesystem::path& root,
+                                      const Span& cause, Diagnostics& diagnostics) {
+  const int errors_before = diagnostics.error_count();
+  const std::optional<int> source = read_file(path, yaml_size_limit, cause, diagnostics);
+  if (!source) return std::nullopt;
+  const std::optional<Document> document = read(*source, diagnostics);
+  if (!document) return std::nullopt;
+  const std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);
+  if (!file || !file->urdf.exists()) return std::nullopt;
+  const auto urdf_path = resolve_path(file->urdf.text, path, root, file->urdf.span, diagnostics);
+  if (!urdf_path) return std::nullopt;
+  std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics);
+  if (!urdf) return std::nullopt;
+  return RobotBuilder(*file, std::move(*urdf), errors_before, diagnostics).build();
+}
+
+std::optional<Robot> load_robot(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  return load_robot_below(path, root_of(path), {}, diagnostics);
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,15 @@
+/// Robot files below a root folder.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "zwang/lang/robot.hpp"
+
+namespace zwang::lang {
+
+/// As `load_robot`; `cause` is where the task file named the robot.
+std::optional<Robot> load_robot_below(const std::filesystem::path& path, const std::filesystem::path& root,
+                                      const Span& cause, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

@@ -1,0 +1,227 @@
+#include "robot/robot_file.hpp"
+
+#include <cmath>
+
+#include "diagnostic/wordings.hpp"
+#include "spec/parse_task.hpp"
+#include "spec/shape.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// A quantity that must be above zero (or at zero, where `zero_allowed`).
+std::optional<double> parse_positive(const Node& node, const Dimension& expected, const std::string& what,
+                                     bool zero_allowed, Diagnostics& diagnostics) {
+  const std::optional<double> value = parse_plain(node, expected, what, diagnostics);
+  if (value && (*value < 0.0 || (*value == 0.0 && !zero_allowed))) {
+    diagnostics.add(wording::not_positive(node.span, what, zero_allowed));
+    return std::nullopt;
+  }
+  return value;
+}
+
+WheelText parse_wheel(const Node& node, Diagnostics& diagnostics) {
+  WheelText wheel;
+  wheel.span = node.span;
+  MapReader map(node, "a wheel", diagnostics);
+  if (const Node* joint = map.required("joint")) wheel.joint = parse_word(*joint, "`joint`", diagnostics);
+  const std::string what = "wheel `" + wheel.joint.text + "`";
+  if (const Node* radius = map.required("radius")) {
+    wheel.radius = parse_positive(*radius, dimension::length, what + "'s radius", false, diagnostics);
+  }
+  if (const Node* roller = map.optional("roller")) {
+    wheel.roller = parse_plain(*roller, dimension::angle, what + "'s roller", diagnostics);
+    // At 90 deg the wheel would spin freely below the base: it could drive nothing.
+    if (wheel.roller && std::abs(std::cos(*wheel.roller)) < 1e-3) {
+      diagnostics.add(wording::roller_angle(roller->span, what));
+    }
+  }
+  const Node* holds = map.optional("holds");
+  if (holds != nullptr && require_sequence(*holds, what + "'s `holds`", diagnostics)) {
+    wheel.holds_rolling = wheel.holds_sideways = false;
+    for (const Node& item : holds->items) {
+      if (item.text == "rolling") {
+        wheel.holds_rolling = true;
+      } else if (item.text == "sideways") {
+        wheel.holds_sideways = true;
+      } else if (!item.is_bad) {
+        diagnostics.add(wording::unknown_direction(item.span, item.text));
+      }
+    }
+    if (map.optional("roller") != nullptr) diagnostics.add(wording::holds_and_roller(holds->span, what));
+  }
+  map.finish();
+  return wheel;
+}
+
+ActuatorText parse_actuator(const Entry& entry, Diagnostics& diagnostics) {
+  ActuatorText actuator;
+  actuator.joint = {entry.key.text, entry.key.span};
+  const std::string what = "actuator `" + entry.key.text + "`";
+  MapReader map(entry.value, what, diagnostics);
+  // Whether it is a torque or a force is the joint's to say.
+  if (const Node* effort = map.optional("effort")) {
+    actuator.effort_text = parse_value(*effort, what + "'s effort", diagnostics);
+  }
+  if (const Node* gear = map.optional("gear")) {
+    actuator.gear =
+        parse_positive(*gear, dimension::none, what + "'s gear", false, diagnostics).value_or(1.0);
+  }
+  if (const Node* inertia = map.optional("rotor_inertia")) {
+    actuator.rotor_inertia =
+        parse_positive(*inertia, dimension::inertia, what + "'s rotor_inertia", true, diagnostics)
+            .value_or(0.0);
+  }
+  map.finish();
+  return actuator;
+}
+
+FrictionText parse_friction(const Entry& entry, Diagnostics& diagnostics) {
+  FrictionText friction;
+  friction.joint = {entry.key.text, entry.key.span};
+  const std::string what = "friction of `" + entry.key.text + "`";
+  MapReader map(entry.value, what, diagnostics);
+  if (const Node* node = map.optional("coulomb")) {
+    friction.friction.coulomb =
+        parse_positive(*node, dimension::torque, what + ", coulomb", true, diagnostics).value_or(0.0);
+  }
+  if (const Node* node = map.optional("viscous")) {
+    friction.friction.viscous =
+        parse_positive(*node, dimension::angular_damping, what + ", viscous", true, diagnostics)
+            .value_or(0.0);
+  }
+  if (const Node* node = map.optional("compensate")) {
+    const double fraction =
+        parse_positive(*node, dimension::none, what + ", compensate", true, diagnostics).value_or(0.0);
+    if (fraction >= 1.0) diagnostics.add(wording::compensation_too_large(node->span, what));
+    friction.friction.compensate = fraction;
+  }
+  map.finish();
+  return friction;
+}
+
+void parse_limits(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
+  MapReader map(node, "`limits`", diagnostics);
+  for (const solver::Quantity quantity : {solver::Quantity::acceleration, solver::Quantity::velocity}) {
+    const Node* axes = map.optional(word_of(quantity));
+    if (axes == nullptr) continue;
+    const std::string what = std::string("limits.") + word_of(quantity);
+    MapReader axis_map(*axes, "`" + what + "`", diagnostics);
+    for (const char* name : {"x", "y", "rz"}) {
+      const Node* range = axis_map.optional(name);
+      if (range == nullptr) continue;
+      const solver::Axis axis = *axis_named(name);
+      const std::string path = what + "." + name;
+      const StatementText text = parse_range(*range, path, diagnostics);
+      const Dimension expected = dimension_of(axis, quantity);
+      const bool is_good = require_quantity(text.low, expected, path, diagnostics) &&
+                           require_quantity(text.high, expected, path, diagnostics);
+      if (!is_good) continue;
+      const solver::Range values{text.low.quantity.value, text.high.quantity.value};
+      if (values.low > 0.0 || values.high < 0.0 || values.low == values.high) {
+        diagnostics.add(wording::limit_without_rest(range->span, path));
+      }
+      file.limits.push_back({axis, quantity, values, range->span});
+    }
+    axis_map.finish();
+  }
+  map.finish();
+}
+
+void parse_stop(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
+  MapReader map(node, "`stop`", diagnostics);
+  if (const Node* value = map.required("deceleration")) {
+    file.stop.deceleration =
+        parse_positive(*value, dimension::acceleration, "stop.deceleration", false, diagnostics)
+            .value_or(1.0);
+  }
+  if (const Node* value = map.required("force")) {
+    file.stop.force =
+        parse_positive(*value, dimension::force, "stop.force", false, diagnostics).value_or(1.0);
+  }
+  map.finish();
+}
+
+void parse_footprint(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
+  MapReader map(node, "`footprint`", diagnostics);
+  const Node* polygon = map.required("polygon");
+  if (polygon != nullptr && require_sequence(*polygon, "footprint.polygon", diagnostics)) {
+    file.footprint_span = polygon->span;
+    bool is_good = true;
+    for (const Node& corner : polygon->items) {
+      const auto at = parse_vector(corner, dimension::length, 2, 2, "a footprint corner", diagnostics);
+      is_good = is_good && at;
+      if (at) file.footprint.emplace_back((*at)[0], (*at)[1], 0.0);
+    }
+    if (!is_good) file.footprint.clear();
+    if (is_good && polygon->items.size() < 3) {
+      diagnostics.add(wording::too_few_corners(polygon->span, "footprint"));
+    }
+  }
+  map.finish();
+}
+
+void parse_bumper(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
+  MapReader map(node, "`bumper`", diagnostics);
+  if (const Node* value = map.optional("stiffness")) {
+    file.bumper_stiffness =
+        parse_positive(*value, dimension::stiffness, "bumper.stiffness", false, diagnostics);
+  }
+  if (const Node* value = map.optional("height")) {
+    file.bumper_height = parse_positive(*value, dimension::length, "bumper.height", true, diagnostics);
+  }
+  map.finish();
+}
+
+RobotFrameText parse_frame(const Entry& entry, Diagnostics& diagnostics) {
+  RobotFrameText frame;
+  frame.name = parse_name(entry.key, "a frame's name", diagnostics);
+  MapReader map(entry.value, "frame `" + entry.key.text + "`", diagnostics);
+  if (const Node* parent = map.required("parent")) {
+    frame.parent = parse_word(*parent, map.what() + "'s `parent`", diagnostics);
+  }
+  parse_pose(map, frame.at, frame.rpy, diagnostics);
+  map.finish();
+  return frame;
+}
+
+}  // namespace
+
+std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics& diagnostics) {
+  MapReader map(document.root, "a robot file", diagnostics);
+  if (!map.is_mapping() || !check_version(map, "zwang_robot", diagnostics)) return std::nullopt;
+  RobotFile file;
+  const auto each = [&](const Node* node, const char* key, const auto& use) {
+    if (node == nullptr || !require_mapping(*node, "`" + std::string(key) + "`", diagnostics)) return;
+    for (const Entry& entry : node->entries) {
+      if (!entry.key.is_bad) use(entry);
+    }
+  };
+  if (const Node* urdf = map.required("urdf")) file.urdf = parse_word(*urdf, "`urdf`", diagnostics);
+  if (const Node* base = map.required("base")) file.base = parse_word(*base, "`base`", diagnostics);
+  const Node* wheels = map.required("wheels");
+  if (wheels != nullptr && require_sequence(*wheels, "`wheels`", diagnostics)) {
+    for (const Node& item : wheels->items) file.wheels.push_back(parse_wheel(item, diagnostics));
+    if (wheels->items.empty()) diagnostics.add(wording::no_wheels(wheels->span));
+  }
+  const Node* supports = map.optional("supports");
+  if (supports != nullptr && require_sequence(*supports, "`supports`", diagnostics)) {
+    for (const Node& item : supports->items)
+      file.supports.push_back(parse_word(item, "`supports`", diagnostics));
+  }
+  each(map.required("actuated"), "actuated",
+       [&](const Entry& e) { file.actuators.push_back(parse_actuator(e, diagnostics)); });
+  if (const Node* limits = map.optional("limits")) parse_limits(*limits, file, diagnostics);
+  if (const Node* stop = map.required("stop")) parse_stop(*stop, file, diagnostics);
+  each(map.optional("friction"), "friction",
+       [&](const Entry& e) { file.friction.push_back(parse_friction(e, diagnostics)); });
+  if (const Node* footprint = map.required("footprint")) parse_footprint(*footprint, file, diagnostics);
+  if (const Node* bumper = map.optional("bumper")) parse_bumper(*bumper, file, diagnostics);
+  each(map.optional("frames"), "frames",
+       [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
+  map.finish();
+  return file;
+}
+
+}  // namespace zwang::lang

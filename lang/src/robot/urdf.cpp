@@ -1,0 +1,163 @@
+#include "robot/urdf.hpp"
+
+#include <console_bridge/console.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+
+#include "diagnostic/wordings.hpp"
+#include "robot/urdf_check.hpp"
+#include "robot/xml_scan.hpp"
+#include "tree/file.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// Catches what urdfdom would print: it turns a bad part into a default with nothing but a line on stderr.
+class MessageTrap final : public console_bridge::OutputHandler {
+ public:
+  MessageTrap() : level_(console_bridge::getLogLevel()) {
+    console_bridge::setLogLevel(console_bridge::CONSOLE_BRIDGE_LOG_WARN);
+    console_bridge::useOutputHandler(this);
+  }
+  ~MessageTrap() override {
+    console_bridge::restorePreviousOutputHandler();
+    console_bridge::setLogLevel(level_);
+  }
+  MessageTrap(const MessageTrap&) = delete;
+  MessageTrap& operator=(const MessageTrap&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel, const char*, int) override {
+    if (first_.empty()) first_ = text.empty() ? "unknown" : text;
+  }
+  const std::string& first() const { return first_; }
+
+ private:
+  console_bridge::LogLevel level_;
+  std::string first_;
+};
+
+solver::Pose to_pose(const urdf::Pose& pose) {
+  const urdf::Rotation& r = pose.rotation;
+  return {Eigen::Quaterniond(r.w, r.x, r.y, r.z).normalized().toRotationMatrix(),
+          {pose.position.x, pose.position.y, pose.position.z}};
+}
+
+solver::RigidInertia to_inertia(const urdf::Inertial& inertial) {
+  solver::Matrix3 m;
+  m << inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy, inertial.iyz, inertial.ixz,
+      inertial.iyz, inertial.izz;
+  const solver::Pose pose = to_pose(inertial.origin);
+  const solver::Matrix3 turned = pose.rotation * m * pose.rotation.transpose();
+  return solver::RigidInertia::from_com(inertial.mass, pose.position, turned);
+}
+
+solver::JointType to_type(int type) {
+  switch (type) {
+    case urdf::Joint::REVOLUTE:
+      return solver::JointType::revolute;
+    case urdf::Joint::CONTINUOUS:
+      return solver::JointType::continuous;
+    case urdf::Joint::PRISMATIC:
+      return solver::JointType::prismatic;
+    default:
+      return solver::JointType::fixed;
+  }
+}
+
+UrdfJoint to_joint(const urdf::Joint& joint) {
+  UrdfJoint result;
+  result.parent = joint.parent_link_name;
+  result.child = joint.child_link_name;
+  result.origin = to_pose(joint.parent_to_joint_origin_transform);
+  result.joint.name = joint.name;
+  result.joint.type = to_type(joint.type);
+  if (result.joint.type == solver::JointType::fixed) return result;
+  result.joint.axis = solver::Vector3(joint.axis.x, joint.axis.y, joint.axis.z).normalized();
+  if (joint.limits) {
+    // 0 is how URDFs say that they do not know.
+    if (joint.limits->effort > 0.0) result.joint.max_effort = joint.limits->effort;
+    if (joint.limits->velocity > 0.0) result.joint.max_velocity = joint.limits->velocity;
+    if (result.joint.type != solver::JointType::continuous) {
+      result.joint.lower = joint.limits->lower;
+      result.joint.upper = joint.limits->upper;
+    }
+  }
+  return result;
+}
+
+Span span_of(const std::vector<XmlElement>& elements, std::string_view kind, const std::string& name) {
+  for (const XmlElement& element : elements) {
+    const XmlAttribute* attribute = element.find("name");
+    if (element.parent == 0 && element.name == kind && attribute != nullptr && attribute->value == name) {
+      return element.span;
+    }
+  }
+  return elements[0].span;
+}
+
+template <typename Items, typename Match>
+auto find_in(const Items& items, const Match& match) -> decltype(items.data()) {
+  const auto it = std::find_if(items.begin(), items.end(), match);
+  return it == items.end() ? nullptr : &*it;
+}
+
+}  // namespace
+
+const UrdfLink* Urdf::find_link(const std::string& link) const {
+  return find_in(links, [&](const UrdfLink& l) { return l.name == link; });
+}
+
+const UrdfJoint* Urdf::find_joint(const std::string& joint) const {
+  return find_in(joints, [&](const UrdfJoint& j) { return j.joint.name == joint; });
+}
+
+const UrdfJoint* Urdf::joint_above(const std::string& link) const {
+  return find_in(joints, [&](const UrdfJoint& j) { return j.child == link; });
+}
+
+std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause,
+                              Diagnostics& diagnostics) {
+  const std::optional<int> source = read_file(path, urdf_size_limit, cause, diagnostics);
+  if (!source) return std::nullopt;
+  const auto elements = scan_xml(*source, diagnostics);
+  if (!elements || !check_urdf(*elements, diagnostics)) return std::nullopt;
+
+  urdf::ModelInterfaceSharedPtr model;
+  std::string message;
+  {
+    static std::mutex one_trap;  // console_bridge's handler is the process's
+    const std::lock_guard lock(one_trap);
+    const MessageTrap trap;
+    model = urdf::parseURDF(diagnostics.source(*source).text);
+    message = trap.first();
+  }
+  if (!model || !message.empty()) {
+    diagnostics.add(wording::urdf_refused((*elements)[0].span, message));
+    return std::nullopt;
+  }
+
+  Urdf urdf;
+  urdf.name = model->getName();
+  urdf.root = model->getRoot()->name;
+  for (const auto& [name, link] : model->links_) {
+    UrdfLink result{name, {}, span_of(*elements, "link", name)};
+    if (link->inertial) result.inertia = to_inertia(*link->inertial);
+    urdf.links.push_back(std::move(result));
+  }
+  // In the order of the text, which is the author's order of joints.
+  std::set<std::string> done;
+  for (const XmlElement& element : *elements) {
+    if (element.parent != 0 || element.name != "joint") continue;
+    const auto joint = model->joints_.find(element.find("name")->value);
+    if (joint == model->joints_.end() || !done.insert(joint->first).second) continue;
+    urdf.joints.push_back(to_joint(*joint->second));
+    urdf.joints.back().span = element.span;
+  }
+  return urdf;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,44 @@
+/// A URDF as links and joints. The only reader of the format.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/diagnostic.hpp"
+#include "zwang/solver/model.hpp"
+
+namespace zwang::lang {
+
+inline constexpr std::size_t most_links = 256;
+
+struct UrdfLink {
+  std::string name;
+  solver::RigidInertia inertia;  ///< zero where the file gives none
+  Span span;
+};
+
+struct UrdfJoint {
+  std::string parent;
+  std::string child;
+  solver::Pose origin;  ///< X_PC at q = 0
+  solver::Joint joint;  ///< named; not actuated; max_effort infinite where the file gives none
+  Span span;
+};
+
+/// Checked: one root, every link reached from it exactly once, finite numbers, unit axes, ordered limits.
+struct Urdf {
+  std::string name;
+  std::string root;
+  std::vector<UrdfLink> links;
+  std::vector<UrdfJoint> joints;
+
+  const UrdfLink* find_link(const std::string& link) const;
+  const UrdfJoint* find_joint(const std::string& joint) const;
+  const UrdfJoint* joint_above(const std::string& link) const;
+};
+
+std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

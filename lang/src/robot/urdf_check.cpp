@@ -1,0 +1,286 @@
+#include "robot/urdf_check.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "diagnostic/wordings.hpp"
+#include "robot/urdf.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+struct NumberRule {
+  std::string_view element;
+  std::string_view attribute;
+  std::size_t count;
+};
+
+/// The numbers that dynamics and frames come from; what only draws a picture is not zwang's business.
+constexpr std::array number_rules{
+    NumberRule{"mass", "value", 1},   NumberRule{"inertia", "ixx", 1},    NumberRule{"inertia", "ixy", 1},
+    NumberRule{"inertia", "ixz", 1},  NumberRule{"inertia", "iyy", 1},    NumberRule{"inertia", "iyz", 1},
+    NumberRule{"inertia", "izz", 1},  NumberRule{"origin", "xyz", 3},     NumberRule{"origin", "rpy", 3},
+    NumberRule{"axis", "xyz", 3},     NumberRule{"limit", "lower", 1},    NumberRule{"limit", "upper", 1},
+    NumberRule{"limit", "effort", 1}, NumberRule{"limit", "velocity", 1},
+};
+
+/// Exactly `count` finite decimal numbers with white space between them.
+std::optional<std::vector<double>> read_numbers(const std::string& text, std::size_t count) {
+  std::vector<double> numbers;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  while (true) {
+    while (at < end && (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r')) ++at;
+    if (at == end) break;
+    if (*at == '+') ++at;
+    double number = 0.0;
+    const auto [next, error] = std::from_chars(at, end, number);
+    const bool is_separated = next == end || *next == ' ' || *next == '\t' || *next == '\n' || *next == '\r';
+    if (error != std::errc{} || !std::isfinite(number) || !is_separated) return std::nullopt;
+    numbers.push_back(number);
+    at = next;
+  }
+  if (numbers.size() != count) return std::nullopt;
+  return numbers;
+}
+
+class UrdfChecker {
+ public:
+  UrdfChecker(const std::vector<XmlElement>& elements, Diagnostics& diagnostics)
+      : elements_(elements), diagnostics_(diagnostics), children_(elements.size()) {
+    for (std::size_t i = 1; i < elements.size(); ++i) {
+      children_[static_cast<std::size_t>(elements[i].parent)].push_back(i);
+    }
+  }
+
+  bool check() {
+    if (elements_[0].name != "robot") {
+      complain(wording::not_urdf(elements_[0].span, elements_[0].name));
+      return false;
+    }
+    for (const std::size_t i : children_[0]) {
+      const XmlElement& element = elements_[i];
+      if (element.name.starts_with("xacro:")) complain(wording::unexpanded_macro(element.span, element.name));
+      if (element.name == "link") check_link(i);
+      if (element.name == "joint") check_joint(i);
+    }
+    if (links_.size() > most_links) complain(wording::too_many_links(elements_[0].span, most_links));
+    if (links_.empty()) complain(wording::no_links(elements_[0].span));
+    if (is_good_) check_tree();
+    return is_good_;
+  }
+
+ private:
+  void complain(Diagnostic diagnostic) {
+    diagnostics_.add(std::move(diagnostic));
+    is_good_ = false;
+  }
+
+  std::optional<std::size_t> child(std::size_t parent, std::string_view name) const {
+    for (const std::size_t i : children_[parent]) {
+      if (elements_[i].name == name) return i;
+    }
+    return std::nullopt;
+  }
+
+  std::string name_of(std::size_t i) {
+    const XmlElement& element = elements_[i];
+    const XmlAttribute* name = element.find("name");
+    if (name == nullptr || trimmed(name->value).empty()) {
+      complain(wording::unnamed_element(element.span, element.name));
+      return {};
+    }
+    return name->value;
+  }
+
+  /// The numbers of the attributes that an element must or may have; false when one cannot be read.
+  bool check_numbers(std::size_t i) {
+    bool is_good = true;
+    for (const NumberRule& rule : number_rules) {
+      if (elements_[i].name != rule.element) continue;
+      const XmlAttribute* attribute = elements_[i].find(rule.attribute);
+      if (attribute == nullptr || read_numbers(attribute->value, rule.count)) continue;
+      is_good = false;
+      const bool is_macro = attribute->value.find("${") != std::string::npos ||
+                            attribute->value.find("$(") != std::string::npos;
+      if (is_macro) {
+        complain(wording::unexpanded_macro(attribute->span, attribute->value));
+      } else {
+        complain(wording::bad_urdf_number(attribute->span, std::string(rule.attribute), attribute->value,
+                                          rule.count));
+      }
+    }
+    return is_good;
+  }
+
+  double number(std::size_t i, std::string_view attribute, double otherwise) const {
+    const XmlAttribute* a = elements_[i].find(attribute);
+    if (a == nullptr) return otherwise;
+    const auto numbers = read_numbers(a->value, 1);
+    return numbers ? numbers->front() : otherwise;
+  }
+
+  void check_link(std::size_t i) {
+    const std::string name = name_of(i);
+    if (name.empty()) return;
+    if (!links_.emplace(name, i).second) complain(wording::doubled_in_urdf(elements_[i].span, "link", name));
+    const std::optional<std::size_t> inertial = child(i, "inertial");
+    if (inertial) check_inertial(*inertial, name);
+  }
+
+  void check_inertial(std::size_t i, const std::string& link) {
+    const std::optional<std::size_t> mass = child(i, "mass");
+    const std::optional<std::size_t> inertia = child(i, "inertia");
+    if (!mass || elements_[*mass].find("value") == nullptr) {
+      return complain(wording::incomplete_inertial(elements_[i].span, link, "mass"));
+    }
+    if (!inertia) return complain(wording::incomplete_inertial(elements_[i].span, link, "inertia"));
+    for (const std::string_view entry : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) {
+      if (elements_[*inertia].find(entry) == nullptr) {
+        return complain(wording::incomplete_inertial(elements_[*inertia].span, link, std::string(entry)));
+      }
+    }
+    const std::optional<std::size_t> origin = child(i, "origin");
+    const bool is_readable =
+        check_numbers(*mass) & check_numbers(*inertia) & (!origin || check_numbers(*origin));
+    if (!is_readable) return;
+    const double kilograms = number(*mass, "value", 0.0);
+    const Span span = elements_[*mass].find("value")->span;
+    if (kilograms < 0.0 || kilograms > 1e6) return complain(wording::impossible_mass(span, link, kilograms));
+    solver::Matrix3 m;
+    const auto entry = [&](std::string_view key) { return number(*inertia, key, 0.0); };
+    m << entry("ixx"), entry("ixy"), entry("ixz"), entry("ixy"), entry("iyy"), entry("iyz"), entry("ixz"),
+        entry("iyz"), entry("izz");
+    // All zero: a point, or a mass that only counts together with the body that it is fixed to.
+    if (kilograms > 0.0 && !m.isZero(0.0)) check_inertia(m, elements_[*inertia].span, link);
+  }
+
+  void check_inertia(const solver::Matrix3& m, const Span& span, const std::string& link) {
+    const solver::Vector3 moments = Eigen::SelfAdjointEigenSolver<solver::Matrix3>(m).eigenvalues();
+    const double tolerance = 1e-6 * moments.cwiseAbs().maxCoeff();
+    if (moments(0) < -tolerance) {
+      complain(wording::impossible_inertia(span, link, "is not positive definite"));
+    } else if (moments(0) + moments(1) < moments(2) * (1.0 - 1e-2) - tolerance) {
+      // Published files round: within a hundredth they are taken as the thin plates that they describe.
+      complain(wording::impossible_inertia(span, link, "breaks the triangle rule (no body can have it)"));
+    }
+  }
+
+  void check_joint(std::size_t i) {
+    const std::string name = name_of(i);
+    if (name.empty()) return;
+    const XmlElement& element = elements_[i];
+    if (!joints_.emplace(name, i).second) complain(wording::doubled_in_urdf(element.span, "joint", name));
+    const XmlAttribute* type = element.find("type");
+    static const std::set<std::string, std::less<>> known{"fixed", "revolute", "continuous", "prismatic"};
+    if (type == nullptr || known.find(type->value) == known.end()) {
+      return complain(wording::joint_type(type != nullptr ? type->span : element.span, name,
+                                          type != nullptr ? type->value : ""));
+    }
+    const std::string parent = linked(i, name, "parent");
+    const std::string below = linked(i, name, "child");
+    if (parent.empty() || below.empty()) return;
+    edges_.push_back({i, parent, below});
+    const std::optional<std::size_t> origin = child(i, "origin");
+    if (origin) check_numbers(*origin);
+    if (type->value != "fixed") check_motion(i, name, type->value);
+  }
+
+  std::string linked(std::size_t i, const std::string& joint, const std::string& role) {
+    const std::optional<std::size_t> element = child(i, role);
+    const XmlAttribute* link = element ? elements_[*element].find("link") : nullptr;
+    if (link == nullptr || link->value.empty()) {
+      complain(wording::joint_without_link(elements_[i].span, joint, role));
+      return {};
+    }
+    return link->value;
+  }
+
+  void check_motion(std::size_t i, const std::string& name, const std::string& type) {
+    const std::optional<std::size_t> axis = child(i, "axis");
+    if (axis && check_numbers(*axis) && elements_[*axis].find("xyz") != nullptr) {
+      const auto xyz = read_numbers(elements_[*axis].find("xyz")->value, 3);
+      const double length = std::hypot((*xyz)[0], (*xyz)[1], (*xyz)[2]);
+      if (length < 1e-6) complain(wording::zero_axis(elements_[*axis].span, name));
+    }
+    const std::optional<std::size_t> limit = child(i, "limit");
+    if (!limit) {
+      if (type != "continuous") complain(wording::joint_without_limit(elements_[i].span, name, type));
+      return;
+    }
+    if (!check_numbers(*limit)) return;
+    const Span span = elements_[*limit].span;
+    if (number(*limit, "lower", 0.0) > number(*limit, "upper", 0.0) && type != "continuous") {
+      complain(wording::unordered_limits(span, name));
+    }
+    if (number(*limit, "effort", 0.0) < 0.0 || number(*limit, "velocity", 0.0) < 0.0) {
+      complain(wording::negative_limit(span, name));
+    }
+  }
+
+  /// Every link has at most one joint above it, and all hang together below one root. Iterative: depth is
+  /// the file's choice.
+  void check_tree() {
+    std::map<std::string, std::size_t> above;
+    std::map<std::string, std::vector<std::string>> below;
+    for (const Edge& edge : edges_) {
+      const std::string joint = elements_[edge.joint].find("name")->value;
+      for (const std::string& link : {edge.parent, edge.child}) {
+        if (!links_.contains(link)) complain(wording::missing_link(elements_[edge.joint].span, joint, link));
+      }
+      if (!above.emplace(edge.child, edge.joint).second) {
+        complain(wording::two_parents(elements_[edge.joint].span, edge.child));
+      }
+      below[edge.parent].push_back(edge.child);
+    }
+    if (!is_good_) return;
+    std::vector<std::string> roots;
+    for (const auto& [link, i] : links_) {
+      if (!above.contains(link)) roots.push_back(link);
+    }
+    if (roots.empty()) return complain(wording::no_root(elements_[0].span));
+    if (roots.size() > 1) {
+      return complain(wording::two_roots(elements_[links_.at(roots[1])].span, roots[0], roots[1]));
+    }
+    std::vector<std::string> open{roots[0]};
+    std::set<std::string> reached;
+    while (!open.empty()) {
+      const std::string link = open.back();
+      open.pop_back();
+      reached.insert(link);
+      open.insert(open.end(), below[link].begin(), below[link].end());
+    }
+    for (const auto& [link, i] : links_) {
+      if (!reached.contains(link))
+        return complain(wording::unreached_link(elements_[i].span, link, roots[0]));
+    }
+  }
+
+  struct Edge {
+    std::size_t joint;
+    std::string parent;
+    std::string child;
+  };
+
+  const std::vector<XmlElement>& elements_;
+  Diagnostics& diagnostics_;
+  std::vector<std::vector<std::size_t>> children_;
+  std::map<std::string, std::size_t> links_;
+  std::map<std::string, std::size_t> joints_;
+  std::vector<Edge> edges_;
+  bool is_good_ = true;
+};
+
+}  // namespace
+
+bool check_urdf(const std::vector<XmlElement>& elements, Diagnostics& diagnostics) {
+  return UrdfChecker(elements, diagnostics).check();
+}
+
+}  // namespace zwang::lang

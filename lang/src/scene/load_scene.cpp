@@ -1,0 +1,151 @@
+#include "scene/load_scene.hpp"
+
+#include "diagnostic/wordings.hpp"
+#include "spec/shape.hpp"
+#include "tree/file.hpp"
+#include "tree/read.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+double plain(const Node& node, const Dimension& expected, const std::string& what, double otherwise,
+             bool zero_allowed, Diagnostics& diagnostics) {
+  const double value = parse_plain(node, expected, what, diagnostics).value_or(otherwise);
+  if (value < 0.0 || (value == 0.0 && !zero_allowed)) {
+    diagnostics.add(wording::not_positive(node.span, what, zero_allowed));
+  }
+  return value;
+}
+
+void parse_place(const Node& node, const std::string& what, std::array<double, 2>& at,
+                 Diagnostics& diagnostics) {
+  const auto values = parse_vector(node, dimension::length, 2, 2, what, diagnostics);
+  if (values) at = {(*values)[0], (*values)[1]};
+}
+
+/// The sizes of a cylinder or a wall, by name.
+void parse_sizes(const Node& node, const std::string& what, SceneObject& object, Diagnostics& diagnostics) {
+  MapReader map(node, what, diagnostics);
+  const auto size = [&](const char* key, double& target, bool is_required) {
+    const Node* value = is_required ? map.required(key) : map.optional(key);
+    if (value != nullptr) {
+      target = plain(*value, dimension::length, what + "'s " + key, 1.0, false, diagnostics);
+    }
+  };
+  if (object.shape == ShapeKind::cylinder) {
+    size("radius", object.size[0], true);
+    object.size[1] = object.size[0];
+    size("height", object.size[2], true);
+  } else {
+    object.size = {1.0, 0.1, 1.0};
+    size("length", object.size[0], true);
+    size("thickness", object.size[1], false);
+    size("height", object.size[2], false);
+  }
+  map.finish();
+}
+
+void parse_shape(MapReader& map, SceneObject& object, Diagnostics& diagnostics) {
+  const std::string what = "object `" + object.name + "`";
+  const Node* box = map.optional("box");
+  const Node* cylinder = map.optional("cylinder");
+  const Node* wall = map.optional("wall");
+  const int count = (box != nullptr ? 1 : 0) + (cylinder != nullptr ? 1 : 0) + (wall != nullptr ? 1 : 0);
+  if (count != 1) {
+    diagnostics.add(wording::one_shape(object.span, what));
+  } else if (box != nullptr) {
+    object.shape = ShapeKind::box;
+    const auto values = parse_vector(*box, dimension::length, 3, 3, what + "'s box", diagnostics);
+    if (!values) return;
+    object.size = {(*values)[0], (*values)[1], (*values)[2]};
+    for (const double extent : *values) {
+      if (extent <= 0.0) return diagnostics.add(wording::not_positive(box->span, what + "'s box", false));
+    }
+  } else {
+    object.shape = cylinder != nullptr ? ShapeKind::cylinder : ShapeKind::wall;
+    parse_sizes(cylinder != nullptr ? *cylinder : *wall, what, object, diagnostics);
+  }
+}
+
+SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
+  SceneObject object;
+  object.name = parse_name(entry.key, "an object's name", diagnostics).text;
+  object.span = entry.key.span;
+  const std::string what = "object `" + entry.key.text + "`";
+  MapReader map(entry.value, what, diagnostics);
+  if (!map.is_mapping()) return object;
+  parse_shape(map, object, diagnostics);
+  if (const Node* at = map.required("at")) parse_place(*at, what + "'s `at`", object.at, diagnostics);
+  if (const Node* yaw = map.optional("yaw")) {
+    object.yaw = parse_plain(*yaw, dimension::angle, what + "'s `yaw`", diagnostics).value_or(0.0);
+  }
+  const Node* mass = map.optional("mass");
+  const Node* fixed = map.optional("fixed");
+  if (mass != nullptr) {
+    object.mass = plain(*mass, dimension::mass, what + "'s `mass`", 1.0, false, diagnostics);
+  }
+  const bool is_fixed =
+      fixed != nullptr && parse_boolean(*fixed, what + "'s `fixed`", diagnostics).value_or(false);
+  if (is_fixed && mass != nullptr) diagnostics.add(wording::fixed_with_mass(fixed->span, what, mass->span));
+  if (const Node* node = map.optional("stiffness")) {
+    object.stiffness = plain(*node, dimension::stiffness, what + "'s `stiffness`", 1e5, false, diagnostics);
+  }
+  if (const Node* node = map.optional("damping")) {
+    object.damping = plain(*node, dimension::none, what + "'s `damping`", 0.3, true, diagnostics);
+  }
+  if (const Node* node = map.optional("friction")) {
+    object.friction = plain(*node, dimension::none, what + "'s `friction`", 0.0, true, diagnostics);
+  }
+  map.finish();
+  return object;
+}
+
+std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnostics) {
+  MapReader map(document.root, "a scene file", diagnostics);
+  if (!map.is_mapping() || !check_version(map, "zwang_scene", diagnostics)) return std::nullopt;
+  Scene scene;
+  if (const Node* node = map.optional("start")) {
+    MapReader start(*node, "`start`", diagnostics);
+    if (const Node* at = start.optional("at")) parse_place(*at, "start.at", scene.start_at, diagnostics);
+    if (const Node* yaw = start.optional("yaw")) {
+      scene.start_yaw = parse_plain(*yaw, dimension::angle, "start.yaw", diagnostics).value_or(0.0);
+    }
+    start.finish();
+  }
+  if (const Node* node = map.optional("floor")) {
+    MapReader floor(*node, "`floor`", diagnostics);
+    if (const Node* friction = floor.optional("friction")) {
+      scene.floor_friction = plain(*friction, dimension::none, "floor.friction", 0.9, false, diagnostics);
+    }
+    floor.finish();
+  }
+  const Node* objects = map.optional("objects");
+  if (objects != nullptr && require_mapping(*objects, "`objects`", diagnostics)) {
+    for (const Entry& entry : objects->entries) {
+      if (!entry.key.is_bad) scene.objects.push_back(parse_object(entry, diagnostics));
+    }
+  }
+  map.finish();
+  return scene;
+}
+
+}  // namespace
+
+std::optional<Scene> load_scene_from(const std::filesystem::path& path, const Span& cause,
+                                     Diagnostics& diagnostics) {
+  const int errors_before = diagnostics.error_count();
+  const std::optional<int> source = read_file(path, yaml_size_limit, cause, diagnostics);
+  if (!source) return std::nullopt;
+  const std::optional<Document> document = read(*source, diagnostics);
+  if (!document) return std::nullopt;
+  std::optional<Scene> scene = parse_scene(*document, diagnostics);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  return scene;
+}
+
+std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  return load_scene_from(path, {}, diagnostics);
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,15 @@
+/// Scene files below a root folder.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "zwang/lang/scene.hpp"
+
+namespace zwang::lang {
+
+/// As `load_scene`; `cause` is where the task file named the scene.
+std::optional<Scene> load_scene_from(const std::filesystem::path& path, const Span& cause,
+                                     Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

@@ -1,0 +1,137 @@
+#include "diagnostic/wordings.hpp"
+#include "spec/parse_task.hpp"
+#include "spec/shape.hpp"
+#include "spec/task_file.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+ParameterText parse_parameter(const Entry& entry, Diagnostics& diagnostics) {
+  ParameterText parameter;
+  parameter.name = parse_name(entry.key, "a parameter's name", diagnostics);
+  const std::string what = "parameter `" + entry.key.text + "`";
+  if (!entry.value.is_mapping()) {
+    parameter.value = parse_value(entry.value, what, diagnostics);
+    return parameter;
+  }
+  MapReader map(entry.value, what, diagnostics);
+  if (const Node* value = map.required("value")) parameter.value = parse_value(*value, what, diagnostics);
+  if (const Node* range = map.optional("range")) {
+    parameter.range = parse_range(*range, "the range of " + what, diagnostics);
+  }
+  if (const Node* help = map.optional("help")) parameter.help = help->text;
+  map.finish();
+  return parameter;
+}
+
+FrameText parse_frame(const Entry& entry, Diagnostics& diagnostics) {
+  FrameText frame;
+  frame.name = parse_name(entry.key, "a frame's name", diagnostics);
+  frame.span = entry.key.span;
+  MapReader map(entry.value, "frame `" + entry.key.text + "`", diagnostics);
+  if (const Node* parent = map.required("parent")) {
+    frame.parent = parse_word(*parent, map.what() + "'s `parent`", diagnostics);
+  }
+  parse_pose(map, frame.at, frame.rpy, diagnostics);
+  map.finish();
+  return frame;
+}
+
+void parse_tasks(const Node& node, TaskFile& file, Diagnostics& diagnostics) {
+  if (!require_mapping(node, "`tasks`", diagnostics)) return;
+  if (node.entries.empty()) diagnostics.add(wording::no_tasks(node.span));
+  if (node.entries.size() > most_tasks) {
+    diagnostics.add(wording::too_many_tasks(node.entries[most_tasks].key.span, most_tasks));
+    return;
+  }
+  for (const Entry& entry : node.entries) {
+    if (!entry.key.is_bad) file.tasks.push_back(parse_task(entry, diagnostics));
+  }
+}
+
+}  // namespace
+
+const char* word_of(solver::Quantity quantity) {
+  switch (quantity) {
+    case solver::Quantity::position:
+      return "position";
+    case solver::Quantity::velocity:
+      return "velocity";
+    case solver::Quantity::acceleration:
+      return "acceleration";
+    case solver::Quantity::force:
+      break;
+  }
+  return "force";
+}
+
+std::optional<solver::Axis> axis_named(std::string_view name) {
+  static constexpr std::array<std::string_view, 6> names{"x", "y", "z", "rx", "ry", "rz"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) return static_cast<solver::Axis>(i);
+  }
+  return std::nullopt;
+}
+
+bool is_rotation(solver::Axis axis) {
+  return axis >= solver::Axis::rx;
+}
+
+Dimension dimension_of(solver::Axis axis, solver::Quantity quantity) {
+  const bool turns = is_rotation(axis);
+  switch (quantity) {
+    case solver::Quantity::position:
+      return turns ? dimension::angle : dimension::length;
+    case solver::Quantity::velocity:
+      return turns ? dimension::angular_velocity : dimension::velocity;
+    case solver::Quantity::acceleration:
+      return turns ? dimension::angular_acceleration : dimension::acceleration;
+    case solver::Quantity::force:
+      break;
+  }
+  return turns ? dimension::torque : dimension::force;
+}
+
+void parse_pose(MapReader& map, std::vector<double>& at, std::vector<double>& rpy, Diagnostics& diagnostics) {
+  const Node* position = map.optional("at");
+  const Node* yaw = map.optional("yaw");
+  const Node* angles = map.optional("rpy");
+  if (position != nullptr) {
+    at = parse_vector(*position, dimension::length, 2, 3, map.what() + "'s `at`", diagnostics)
+             .value_or(std::vector<double>{});
+  }
+  if (yaw != nullptr && angles != nullptr) {
+    diagnostics.add(wording::yaw_and_rpy(angles->span, map.what(), yaw->span));
+  } else if (yaw != nullptr) {
+    rpy = {0.0, 0.0, parse_plain(*yaw, dimension::angle, map.what() + "'s `yaw`", diagnostics).value_or(0.0)};
+  } else if (angles != nullptr) {
+    rpy = parse_vector(*angles, dimension::angle, 3, 3, map.what() + "'s `rpy`", diagnostics)
+              .value_or(std::vector<double>{});
+  }
+}
+
+std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics) {
+  MapReader map(document.root, "a task file", diagnostics);
+  if (!map.is_mapping()) return std::nullopt;
+  if (!check_version(map, "zwang", diagnostics)) return std::nullopt;
+  TaskFile file;
+  if (const Node* robot = map.required("robot")) file.robot = parse_word(*robot, "`robot`", diagnostics);
+  if (const Node* scene = map.optional("scene")) file.scene = parse_word(*scene, "`scene`", diagnostics);
+  if (const Node* about = map.optional("about")) file.about = about->text;
+  const auto each = [&](std::string_view key, const auto& use) {
+    const Node* node = map.optional(key);
+    if (node == nullptr || !require_mapping(*node, "`" + std::string(key) + "`", diagnostics)) return;
+    for (const Entry& entry : node->entries) {
+      if (!entry.key.is_bad) use(entry);
+    }
+  };
+  each("params", [&](const Entry& e) { file.parameters.push_back(parse_parameter(e, diagnostics)); });
+  each("frames", [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
+  if (const Node* start = map.required("start")) file.start = parse_word(*start, "`start`", diagnostics);
+  if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, file, diagnostics);
+  map.finish();
+  return file;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,148 @@
+#include "spec/shape.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang {
+
+MapReader::MapReader(const Node& node, std::string what, Diagnostics& diagnostics)
+    : node_(node), what_(std::move(what)), diagnostics_(diagnostics) {
+  require_mapping(node, what_, diagnostics);
+}
+
+const Node* MapReader::optional(std::string_view key) {
+  known_.emplace_back(key);
+  if (!is_mapping()) return nullptr;
+  const Entry* entry = node_.find(key);
+  return entry == nullptr || entry->key.is_bad ? nullptr : &entry->value;
+}
+
+const Node* MapReader::required(std::string_view key) {
+  const Node* value = optional(key);
+  if (value == nullptr) missing_.emplace_back(key);
+  return value;
+}
+
+bool MapReader::report_split_condition() {
+  if (!is_mapping() || !node_.is_flow) return false;
+  for (const Entry& entry : node_.entries) {
+    const bool is_known = std::find(known_.begin(), known_.end(), entry.key.text) != known_.end();
+    const bool is_fragment = entry.value.kind == NodeKind::null && !entry.key.is_bad && !is_known;
+    if (is_fragment && !split_reported_) diagnostics_.add(wording::split_condition(entry.key.span));
+    split_reported_ = split_reported_ || is_fragment;
+  }
+  return split_reported_;
+}
+
+void MapReader::finish() {
+  if (!is_mapping()) return;
+  if (!others_allowed_) {
+    for (const Entry& entry : node_.entries) {
+      if (entry.key.is_bad || std::find(known_.begin(), known_.end(), entry.key.text) != known_.end()) {
+        continue;
+      }
+      if (split_reported_ && entry.value.kind == NodeKind::null) continue;
+      std::vector<std::string> absent;
+      for (const std::string& key : known_) {
+        if (node_.find(key) == nullptr) absent.push_back(key);
+      }
+      const std::string meant = nearest(entry.key.text, absent);
+      diagnostics_.add(wording::unknown_key(entry.key.span, entry.key.text, what_, meant, known_));
+      // The misspelt key was the missing one: one cause, one message.
+      std::erase(missing_, meant);
+    }
+  }
+  for (const std::string& key : missing_) diagnostics_.add(wording::missing_key(node_.span, what_, key));
+}
+
+Word parse_word(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  if (node.is_bad) return {};
+  if (!node.is_scalar() || trimmed(node.text).empty()) {
+    diagnostics.add(wording::expected_word(node.span, what));
+    return {};
+  }
+  return {node.text, node.span};
+}
+
+Word parse_name(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  Word word = parse_word(node, what, diagnostics);
+  if (word.exists() && !is_identifier(word.text)) {
+    diagnostics.add(wording::not_a_name(node.span, word.text));
+    return {};
+  }
+  return word;
+}
+
+std::optional<int> parse_integer(const Node& node, const std::string& what, int low, int high,
+                                 Diagnostics& diagnostics) {
+  if (node.is_bad) return std::nullopt;
+  int value = 0;
+  const std::string text = node.is_scalar() ? trimmed(node.text) : std::string();
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_whole = !text.empty() && error == std::errc{} && end == text.data() + text.size();
+  if (!is_whole || value < low || value > high) {
+    diagnostics.add(wording::expected_integer(node.span, what, low, high));
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<bool> parse_boolean(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  if (node.is_bad) return std::nullopt;
+  if (node.is_scalar() && node.text == "true") return true;
+  if (node.is_scalar() && node.text == "false") return false;
+  diagnostics.add(wording::expected_boolean(node.span, what));
+  return std::nullopt;
+}
+
+bool require_sequence(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  if (node.is_bad) return false;
+  if (!node.is_sequence()) diagnostics.add(wording::expected_list(node.span, what));
+  return node.is_sequence();
+}
+
+bool require_mapping(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  if (node.is_bad) return false;
+  if (!node.is_mapping()) diagnostics.add(wording::expected_mapping(node.span, what));
+  return node.is_mapping();
+}
+
+std::optional<double> parse_plain(const Node& node, const Dimension& expected, const std::string& what,
+                                  Diagnostics& diagnostics) {
+  const ValueText value = parse_value(node, what, diagnostics);
+  if (!require_quantity(value, expected, what, diagnostics)) return std::nullopt;
+  return value.quantity.value;
+}
+
+std::optional<std::vector<double>> parse_vector(const Node& node, const Dimension& expected,
+                                                std::size_t fewest, std::size_t most, const std::string& what,
+                                                Diagnostics& diagnostics) {
+  if (!require_sequence(node, what, diagnostics)) return std::nullopt;
+  if (node.items.size() < fewest || node.items.size() > most) {
+    diagnostics.add(wording::wrong_count(node.span, what, fewest, most, node.items.size()));
+    return std::nullopt;
+  }
+  std::vector<double> values;
+  bool is_good = true;
+  for (const Node& item : node.items) {
+    const std::optional<double> value = parse_plain(item, expected, what, diagnostics);
+    is_good = is_good && value;
+    values.push_back(value.value_or(0.0));
+  }
+  if (!is_good) return std::nullopt;
+  return values;
+}
+
+bool check_version(MapReader& map, const std::string& key, Diagnostics& diagnostics) {
+  const Node* version = map.required(key);
+  if (version == nullptr || version->is_bad) return true;
+  if (version->is_scalar() && version->text == "1") return true;
+  diagnostics.add(wording::other_version(version->span, key, version->text));
+  return false;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,63 @@
+/// Reading mappings whose keys are known: what is missing, unknown or of the wrong shape is reported once.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spec/value.hpp"
+#include "tree/node.hpp"
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang {
+
+/// Asks a mapping for its keys by name; `finish` reports what was not asked for and what was missed.
+class MapReader {
+ public:
+  /// `what` names the mapping in messages: "task `press`". Not a mapping: E104.
+  MapReader(const Node& node, std::string what, Diagnostics& diagnostics);
+
+  bool is_mapping() const { return node_.is_mapping() && !node_.is_bad; }
+  const Node* optional(std::string_view key);
+  const Node* required(std::string_view key);
+  const Node& node() const { return node_; }
+  const std::string& what() const { return what_; }
+  /// Marks every key as known: their names are the author's.
+  void allow_others() { others_allowed_ = true; }
+  /// Keys that a comma inside a flow-style value split off: `{when: a, b < 1, ..}`. Reported as E107.
+  bool report_split_condition();
+  void finish();
+
+ private:
+  const Node& node_;
+  std::string what_;
+  Diagnostics& diagnostics_;
+  std::vector<std::string> known_;
+  std::vector<std::string> missing_;
+  bool others_allowed_ = false;
+  bool split_reported_ = false;
+};
+
+/// A name: one word of letters, digits and underscores.
+Word parse_name(const Node& node, const std::string& what, Diagnostics& diagnostics);
+/// Any text on one place: a frame, a joint, a path.
+Word parse_word(const Node& node, const std::string& what, Diagnostics& diagnostics);
+/// A whole number in [low, high].
+std::optional<int> parse_integer(const Node& node, const std::string& what, int low, int high,
+                                 Diagnostics& diagnostics);
+std::optional<bool> parse_boolean(const Node& node, const std::string& what, Diagnostics& diagnostics);
+/// Whether the node is a sequence; E104 otherwise.
+bool require_sequence(const Node& node, const std::string& what, Diagnostics& diagnostics);
+bool require_mapping(const Node& node, const std::string& what, Diagnostics& diagnostics);
+/// Plain quantities of one dimension: `[0.4 m, 0 m]`. nullopt when one is bad.
+std::optional<std::vector<double>> parse_vector(const Node& node, const Dimension& expected,
+                                                std::size_t fewest, std::size_t most, const std::string& what,
+                                                Diagnostics& diagnostics);
+/// One plain quantity of a dimension, SI.
+std::optional<double> parse_plain(const Node& node, const Dimension& expected, const std::string& what,
+                                  Diagnostics& diagnostics);
+/// Checks `zwang: 1` and its kin; false when the file is in a version that is not read here.
+bool check_version(MapReader& map, const std::string& key, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

@@ -1,0 +1,111 @@
+/// A task file as its author wrote it: words and quantities, nothing looked up yet.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spec/expression.hpp"
+#include "spec/value.hpp"
+#include "tree/read.hpp"
+#include "zwang/solver/constraint.hpp"
+
+namespace zwang::lang {
+
+inline constexpr std::size_t most_tasks = 256;
+inline constexpr std::size_t most_groups = 32;  ///< of a task
+
+struct ParameterText {
+  Word name;
+  ValueText value;
+  std::optional<StatementText> range;
+  std::string help;
+};
+
+struct FrameText {
+  Word name;
+  Word parent;
+  std::vector<double> at;   ///< [m]
+  std::vector<double> rpy;  ///< [rad]
+  Span span;
+};
+
+struct AxisText {
+  Word name;  ///< x, y, z, rx, ry, rz
+  bool is_free = false;
+  std::array<std::optional<StatementText>, 4> statements;  ///< by solver::Quantity
+  std::optional<ValueText> time_constant;
+  std::optional<int> level;
+
+  const std::optional<StatementText>& operator[](solver::Quantity q) const {
+    return statements[static_cast<std::size_t>(q)];
+  }
+};
+
+struct GroupText {
+  Word name;
+  Word move;
+  Word in;
+  std::vector<AxisText> axes;
+  std::optional<ValueText> time_constant;
+  std::optional<int> level;
+};
+
+enum class SetKind { frame, parameter };
+
+struct SetText {
+  SetKind kind = SetKind::frame;
+  Word name;
+  Word source;      ///< of a frame
+  ValueText value;  ///< of a parameter
+  Span span;
+};
+
+struct ExitText {
+  ConditionText when;
+  std::optional<ValueText> dwell;  ///< `for`
+  Word target;
+  std::vector<SetText> set;
+  std::string note;
+  Span span;
+};
+
+struct TimeoutText {
+  bool is_never = false;
+  ValueText after;
+  Word target;
+  Span span;
+};
+
+struct TaskText {
+  Word name;
+  std::string about;
+  std::optional<ValueText> blend;
+  std::vector<SetText> set_on_entry;
+  std::vector<GroupText> groups;
+  std::vector<ExitText> exits;
+  std::optional<TimeoutText> timeout;
+};
+
+struct TaskFile {
+  Word robot;
+  Word scene;
+  std::string about;
+  std::vector<ParameterText> parameters;
+  std::vector<FrameText> frames;
+  Word start;
+  std::vector<TaskText> tasks;
+};
+
+const char* word_of(solver::Quantity quantity);
+std::optional<solver::Axis> axis_named(std::string_view name);
+bool is_rotation(solver::Axis axis);
+/// What a statement about `quantity` of the axis measures.
+Dimension dimension_of(solver::Axis axis, solver::Quantity quantity);
+
+/// The shape of a task file: keys, kinds, quantities with units. nullopt when it is not one at all; parts
+/// with errors are left out or marked bad.
+std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

@@ -1,0 +1,151 @@
+#include "spec/value.hpp"
+
+#include "diagnostic/wordings.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+bool starts_a_number(std::string_view text) {
+  const std::size_t sign = (!text.empty() && (text[0] == '+' || text[0] == '-')) ? 1 : 0;
+  return number_length(text.substr(sign)) > 0;
+}
+
+ValueText parse_parameter(std::string_view text, double sign, ValueText value, Diagnostics& diagnostics) {
+  value.name = std::string(text.substr(1));
+  value.sign = sign;
+  if (is_identifier(value.name)) {
+    value.kind = ValueKind::parameter;
+  } else {
+    diagnostics.add(wording::not_a_value(value.span, std::string(text)));
+  }
+  return value;
+}
+
+ValueText parse_value_text(const std::string& text, const Span& span, Diagnostics& diagnostics) {
+  ValueText value;
+  value.span = span;
+  if (text.starts_with("$")) return parse_parameter(text, 1.0, value, diagnostics);
+  if (text.starts_with("-$")) return parse_parameter(text.substr(1), -1.0, value, diagnostics);
+  if (text == "here") {
+    value.kind = ValueKind::here;
+  } else if (is_identifier(text)) {
+    value.kind = ValueKind::name;
+    value.name = text;
+  } else if (!starts_a_number(text)) {
+    diagnostics.add(wording::not_a_value(span, text));
+  } else {
+    QuantityResult result = parse_quantity(text);
+    switch (result.error) {
+      case QuantityError::none:
+        value.kind = ValueKind::quantity;
+        value.quantity = std::move(result.quantity);
+        break;
+      case QuantityError::unknown_unit:
+        diagnostics.add(wording::unknown_unit(span, text, result.unknown, nearest_unit(result.unknown)));
+        break;
+      case QuantityError::too_large:
+        diagnostics.add(wording::number_out_of_range(span, text));
+        break;
+      case QuantityError::not_a_number:
+        diagnostics.add(wording::not_a_value(span, text));
+        break;
+    }
+  }
+  return value;
+}
+
+ValueText negated(ValueText value) {
+  value.sign = -value.sign;
+  value.quantity.value = -value.quantity.value;
+  if (value.kind == ValueKind::quantity) value.quantity.number = "-" + value.quantity.number;
+  return value;
+}
+
+}  // namespace
+
+bool is_identifier(std::string_view text) {
+  if (text.empty() || (text[0] >= '0' && text[0] <= '9')) return false;
+  for (const char c : text) {
+    const bool is_good =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    if (!is_good) return false;
+  }
+  return true;
+}
+
+ValueText parse_value(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  ValueText bad;
+  bad.span = node.span;
+  if (node.is_bad) return bad;
+  if (!node.is_scalar()) {
+    diagnostics.add(wording::expected_value(node.span, what, node.kind == NodeKind::null));
+    return bad;
+  }
+  const std::string text = trimmed(node.text);
+  if (text.starts_with("+-")) {
+    diagnostics.add(wording::range_where_value(node.span, what));
+    return bad;
+  }
+  return parse_value_text(text, node.span, diagnostics);
+}
+
+StatementText parse_statement(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  StatementText statement;
+  statement.span = node.span;
+  if (node.is_sequence() && !node.is_bad) {
+    statement.is_range = true;
+    if (node.items.size() != 2) {
+      diagnostics.add(wording::range_ends(node.span, node.items.size()));
+      return statement;
+    }
+    statement.low = parse_value(node.items[0], what, diagnostics);
+    statement.high = parse_value(node.items[1], what, diagnostics);
+    return statement;
+  }
+  const std::string text = node.is_scalar() && !node.is_bad ? trimmed(node.text) : std::string();
+  if (text.starts_with("+-")) {
+    statement.is_range = true;
+    const std::string magnitude = trimmed(std::string_view(text).substr(2));
+    if (magnitude.starts_with("-") || magnitude.starts_with("+")) {
+      diagnostics.add(wording::not_a_value(node.span, text));
+      return statement;
+    }
+    statement.high = parse_value_text(magnitude, node.span, diagnostics);
+    statement.low = negated(statement.high);
+    return statement;
+  }
+  statement.value = parse_value(node, what, diagnostics);
+  return statement;
+}
+
+StatementText parse_range(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  StatementText statement = parse_statement(node, what, diagnostics);
+  if (!statement.is_range) {
+    if (statement.value.kind != ValueKind::bad) diagnostics.add(wording::value_where_range(node.span, what));
+    statement.is_range = true;
+  }
+  return statement;
+}
+
+bool require_quantity(const ValueText& value, const Dimension& expected, const std::string& what,
+                      Diagnostics& diagnostics) {
+  if (value.kind == ValueKind::bad) return false;
+  if (value.kind != ValueKind::quantity) {
+    diagnostics.add(wording::only_a_quantity(value.span, what, expected));
+    return false;
+  }
+  const Quantity& quantity = value.quantity;
+  if (!quantity.has_unit && expected != dimension::none) {
+    diagnostics.add(wording::needs_unit(value.span, what, quantity.number, expected));
+    return false;
+  }
+  if (quantity.dimension != expected) {
+    diagnostics.add(wording::wrong_dimension(value.span, what, expected, quantity.dimension));
+    return false;
+  }
+  return true;
+}
+
+}  // namespace zwang::lang

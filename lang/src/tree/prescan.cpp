@@ -1,0 +1,138 @@
+#include "tree/prescan.hpp"
+
+#include <optional>
+
+#include "diagnostic/wordings.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+struct CodePoint {
+  char32_t value = 0;
+  std::size_t bytes = 0;
+};
+
+/// Decodes strictly: no overlong forms, no surrogates, nothing above U+10FFFF.
+std::optional<CodePoint> decode(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(at);
+  if (lead < 0x80) return CodePoint{lead, 1};
+  const std::size_t bytes = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : 2;
+  if (lead < 0xC2 || lead > 0xF4 || at + bytes > text.size()) return std::nullopt;
+  char32_t value = lead & (0xFFu >> (bytes + 1));
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if (!is_continuation_byte(text[at + i])) return std::nullopt;
+    value = (value << 6u) | (byte(at + i) & 0x3Fu);
+  }
+  const bool is_overlong = (bytes == 3 && value < 0x800) || (bytes == 4 && value < 0x10000);
+  const bool is_surrogate = value >= 0xD800 && value <= 0xDFFF;
+  if (is_overlong || is_surrogate || value > 0x10FFFF) return std::nullopt;
+  return CodePoint{value, bytes};
+}
+
+bool is_control(char32_t c) {
+  return (c < 0x20 && c != '\n' && c != '\t' && c != '\r') || (c >= 0x7F && c <= 0x9F);
+}
+
+/// Characters that make a text look other than it is: direction marks, invisible spaces, line separators.
+bool is_deceptive(char32_t c) {
+  return (c >= 0x202A && c <= 0x202E) || (c >= 0x2066 && c <= 0x2069) || (c >= 0x200B && c <= 0x200F) ||
+         c == 0x2028 || c == 0x2029 || c == 0x061C || c == 0xFEFF;
+}
+
+Span span_at(int source, const TextIndex& index, std::size_t begin, std::size_t end) {
+  return {source, index.position(begin), index.position(end)};
+}
+
+/// Walks one line of YAML as far as it takes to know where quotes and comments are.
+struct LineScan {
+  std::optional<std::size_t> comment;     ///< offset of its `#`
+  std::optional<std::size_t> open_quote;  ///< offset of a quote that does not close
+};
+
+LineScan scan_line(std::string_view line) {
+  LineScan result;
+  bool token_may_start = true;  // only there does a quote open a quoted scalar
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '#' && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t')) {
+      result.comment = i;
+      return result;
+    }
+    if ((c == '"' || c == '\'') && token_may_start) {
+      std::size_t end = i + 1;
+      while (end < line.size() && line[end] != c) end += (c == '"' && line[end] == '\\') ? 2u : 1u;
+      if (end >= line.size()) {
+        result.open_quote = i;
+        return result;
+      }
+      i = end;
+    }
+    const bool opens = c == ',' || c == '[' || c == '{' || c == ':' || c == '-' || c == '?';
+    if (c != ' ' && c != '\t') token_may_start = opens;
+    // `don't`, `a-'b'`: an indicator opens a token only when a space follows it or it is a bracket.
+    if ((c == ':' || c == '-' || c == '?') && i + 1 < line.size() && line[i + 1] != ' ') {
+      token_may_start = false;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+bool prescan_characters(int source, std::string_view text, const char* code, Diagnostics& diagnostics) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::optional<CodePoint> c = decode(text, at);
+    const bool lone_return = c && c->value == '\r' && (at + 1 == text.size() || text[at + 1] != '\n');
+    if (c && !is_control(c->value) && !is_deceptive(c->value) && !lone_return) {
+      at += c->bytes;
+      continue;
+    }
+    const TextIndex index(text);
+    const Span span = span_at(source, index, at, at + 1);
+    if (!c) {
+      diagnostics.add(wording::not_utf8(span, code));
+    } else {
+      diagnostics.add(wording::forbidden_character(span, code, c->value));
+    }
+    return false;
+  }
+  return true;
+}
+
+bool prescan_yaml(int source, std::string_view text, Diagnostics& diagnostics,
+                  std::vector<Comment>& comments) {
+  if (!prescan_characters(source, text, "E100", diagnostics)) return false;
+  const TextIndex index(text);
+  bool is_good = true;
+  for (int number = 1; number <= index.line_count(); ++number) {
+    const std::string_view line = index.line(number);
+    const std::size_t start = index.offset({number, 1});
+    const auto span = [&](std::size_t begin, std::size_t end) {
+      return span_at(source, index, start + begin, start + end);
+    };
+    if (line.size() > longest_line) {
+      diagnostics.add(wording::line_too_long(span(0, 1), longest_line));
+      return false;
+    }
+    const LineScan scan = scan_line(line);
+    if (scan.comment) {
+      comments.push_back({std::string(line.substr(*scan.comment)), span(*scan.comment, line.size())});
+    }
+    if (scan.open_quote) {
+      diagnostics.add(wording::open_quote(span(*scan.open_quote, *scan.open_quote + 1)));
+      is_good = false;
+    }
+    const std::size_t tab = line.substr(0, scan.comment.value_or(line.size())).find('\t');
+    if (tab != std::string_view::npos) {
+      const bool indents = line.find_first_not_of(" \t") > tab;
+      diagnostics.add(wording::tab(span(tab, tab + 1), indents));
+      is_good = false;
+    }
+  }
+  return is_good;
+}
+
+}  // namespace zwang::lang

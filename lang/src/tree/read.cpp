@@ -1,0 +1,256 @@
+#include "tree/read.hpp"
+
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <istream>
+#include <streambuf>
+
+#include "diagnostic/wordings.hpp"
+#include "tree/scalar_span.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// Thrown through yaml-cpp when the text cannot be read on; its diagnostic is already written.
+struct Abandoned {};
+
+/// Collects yaml-cpp's events into a tree.
+class TreeBuilder final : public YAML::EventHandler {
+ public:
+  TreeBuilder(int source, std::string_view text, Diagnostics& diagnostics)
+      : source_(source), text_(text), index_(text), diagnostics_(diagnostics) {}
+
+  Node take() { return std::move(root_); }
+  bool has_document() const { return has_document_; }
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (has_document_) {
+      diagnostics_.add(wording::second_document(point(mark)));
+      throw Abandoned{};
+    }
+    has_document_ = true;
+  }
+  void OnDocumentEnd() override {}
+
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    Node node = start(NodeKind::null, mark);
+    refuse_anchor(node, anchor);
+    place(std::move(node));
+  }
+
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    Node node = start(NodeKind::null, mark);
+    diagnostics_.add(wording::alias(word_at(mark)));
+    node.is_bad = true;
+    place(std::move(node));
+  }
+
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    Node node = start(NodeKind::scalar, mark);
+    node.text = value;
+    const std::size_t offset = index_.offset(node.span.begin);
+    const ScalarText found = find_scalar(text_, offset, value);
+    node.is_quoted = found.style == ScalarStyle::quoted;
+    node.span.end = index_.position(found.end);
+    if (found.style == ScalarStyle::block) {
+      diagnostics_.add(wording::block_scalar(node.span));
+      node.is_bad = true;
+    }
+    refuse_tag(node, tag);
+    refuse_anchor(node, anchor);
+    if (value.size() > longest_scalar) {
+      diagnostics_.add(wording::scalar_too_long(point(mark), longest_scalar));
+      throw Abandoned{};
+    }
+    place(std::move(node));
+  }
+
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value style) override {
+    open(NodeKind::sequence, mark, tag, anchor, style);
+  }
+  void OnSequenceEnd() override { close(); }
+
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value style) override {
+    open(NodeKind::mapping, mark, tag, anchor, style);
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Level {
+    Node node;
+    std::optional<Node> key;  ///< of a mapping, waiting for its value
+  };
+
+  Position position(const YAML::Mark& mark) const { return {mark.line + 1, mark.column + 1}; }
+
+  Span point(const YAML::Mark& mark) const {
+    return {source_, position(mark), index_.position(index_.offset(position(mark)) + 1)};
+  }
+
+  /// From the mark to the next space or bracket.
+  Span word_at(const YAML::Mark& mark) const {
+    const std::size_t begin = index_.offset(position(mark));
+    std::size_t end = begin;
+    while (end < text_.size() && std::string_view(" \n\r,]}").find(text_[end]) == std::string_view::npos) {
+      ++end;
+    }
+    return {source_, position(mark), index_.position(end)};
+  }
+
+  Node start(NodeKind kind, const YAML::Mark& mark) {
+    if (++nodes_ > most_nodes) {
+      diagnostics_.add(wording::too_many_nodes(point(mark), most_nodes));
+      throw Abandoned{};
+    }
+    Node node;
+    node.kind = kind;
+    node.span = {source_, position(mark), position(mark)};
+    return node;
+  }
+
+  void refuse_tag(Node& node, const std::string& tag) {
+    if (tag.empty() || tag == "?" || tag == "!") return;
+    diagnostics_.add(wording::tag(node.span));
+    node.is_bad = true;
+  }
+
+  void refuse_anchor(Node& node, YAML::anchor_t anchor) {
+    if (anchor == YAML::NullAnchor) return;
+    diagnostics_.add(wording::anchor(node.span));
+    node.is_bad = true;
+  }
+
+  void open(NodeKind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+            YAML::EmitterStyle::value style) {
+    Node node = start(kind, mark);
+    node.is_flow = style == YAML::EmitterStyle::Flow;
+    refuse_tag(node, tag);
+    refuse_anchor(node, anchor);
+    if (static_cast<int>(levels_.size()) >= deepest_nesting) {
+      diagnostics_.add(wording::too_deep(point(mark), deepest_nesting));
+      throw Abandoned{};
+    }
+    levels_.push_back({std::move(node), std::nullopt});
+  }
+
+  void close() {
+    Node node = std::move(levels_.back().node);
+    levels_.pop_back();
+    Position end = node.span.begin;
+    if (!node.items.empty()) end = node.items.back().span.end;
+    if (!node.entries.empty()) end = node.entries.back().value.span.end;
+    node.span.end = end;
+    if (node.is_flow) {
+      const bool is_empty = node.items.empty() && node.entries.empty();
+      const std::size_t from = index_.offset(end) + (is_empty ? 1 : 0);
+      node.span.end = index_.position(end_of_flow(text_, from, node.is_mapping() ? '}' : ']'));
+    }
+    place(std::move(node));
+  }
+
+  /// Puts a finished node where it belongs: key or value of a mapping, item of a list, or the root.
+  void place(Node node) {
+    if (levels_.empty()) {
+      root_ = std::move(node);
+      return;
+    }
+    Level& level = levels_.back();
+    if (level.node.is_sequence()) {
+      level.node.items.push_back(std::move(node));
+    } else if (!level.key) {
+      check_key(node, level.node);
+      level.key = std::move(node);
+    } else {
+      // `key:` with nothing behind it: yaml-cpp marks the next token; the place is the key's end.
+      if (node.kind == NodeKind::null) node.span = {source_, level.key->span.end, level.key->span.end};
+      level.node.entries.push_back({std::move(*level.key), std::move(node)});
+      level.key.reset();
+    }
+  }
+
+  void check_key(Node& key, const Node& mapping) {
+    if (key.is_bad) return;
+    if (!key.is_scalar()) {
+      key.is_bad = true;
+      diagnostics_.add(wording::complex_key(key.span));
+    } else if (key.text == "<<") {
+      key.is_bad = true;
+      diagnostics_.add(wording::merge_key(key.span));
+    } else if (key.text.size() > longest_key) {
+      diagnostics_.add(wording::key_too_long(key.span, longest_key));
+      throw Abandoned{};
+    } else if (const Entry* first = mapping.find(key.text); first != nullptr && !first->key.is_bad) {
+      key.is_bad = true;
+      diagnostics_.add(wording::duplicate_key(key.span, key.text, first->key.span));
+    }
+  }
+
+  int source_;
+  std::string_view text_;
+  TextIndex index_;
+  Diagnostics& diagnostics_;
+  std::vector<Level> levels_;
+  Node root_;
+  int nodes_ = 0;
+  bool has_document_ = false;
+};
+
+/// Lets a stream read a string_view without a copy.
+class ViewBuffer final : public std::streambuf {
+ public:
+  explicit ViewBuffer(std::string_view text) {
+    char* begin = const_cast<char*>(text.data());  // NOLINT: streambuf's get area is char*, never written
+    setg(begin, begin, begin + text.size());
+  }
+};
+
+}  // namespace
+
+std::optional<Document> read(int source, Diagnostics& diagnostics) {
+  // A copy: adding sources while this one is read would move the text.
+  const std::string text = diagnostics.source(source).text;
+  Document document{source, {}, {}};
+  if (!prescan_yaml(source, text, diagnostics, document.comments)) return std::nullopt;
+  TreeBuilder builder(source, text, diagnostics);
+  try {
+    ViewBuffer buffer(text);
+    std::istream stream(&buffer);
+    YAML::Parser parser(stream);
+    parser.HandleNextDocument(builder);
+    // One byte `,` makes HandleNextDocument succeed for ever: it is asked once more, and never a third time.
+    if (builder.has_document()) parser.HandleNextDocument(builder);
+  } catch (const Abandoned&) {
+    return std::nullopt;
+  } catch (const YAML::Exception& error) {
+    const TextIndex index(text);
+    const Position at{error.mark.line + 1, error.mark.column + 1};
+    diagnostics.add(wording::unreadable_yaml({source, at, index.position(index.offset(at) + 1)}, error.msg));
+    return std::nullopt;
+  }
+  if (!builder.has_document()) {
+    diagnostics.add(wording::empty_file({source, {1, 1}, {1, 1}}));
+    return std::nullopt;
+  }
+  document.root = builder.take();
+  return document;
+}
+
+std::vector<Position> positions_of(const Node& scalar, std::string_view text) {
+  const TextIndex index(text);
+  std::vector<Position> result;
+  for (const std::size_t offset :
+       offsets_of_scalar(text, index.offset(scalar.span.begin), scalar.text, scalar.is_quoted)) {
+    result.push_back(index.position(offset));
+  }
+  return result;
+}
+
+}  // namespace zwang::lang

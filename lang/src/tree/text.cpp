@@ -1,0 +1,85 @@
+#include "tree/text.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace zwang::lang {
+
+TextIndex::TextIndex(std::string_view text) : text_(text), starts_{0} {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\n') starts_.push_back(i + 1);
+  }
+}
+
+Position TextIndex::position(std::size_t offset) const {
+  offset = std::min(offset, text_.size());
+  const auto next = std::upper_bound(starts_.begin(), starts_.end(), offset);
+  const std::size_t line = static_cast<std::size_t>(next - starts_.begin()) - 1;
+  const std::size_t column = count_code_points(text_.substr(starts_[line], offset - starts_[line]));
+  return {static_cast<int>(line) + 1, static_cast<int>(column) + 1};
+}
+
+std::size_t TextIndex::offset(Position position) const {
+  if (position.line < 1) return 0;
+  const std::size_t line = static_cast<std::size_t>(position.line) - 1;
+  if (line >= starts_.size()) return text_.size();
+  std::size_t at = starts_[line];
+  for (int column = 1; column < position.column && at < text_.size() && text_[at] != '\n'; ++column) {
+    ++at;
+    while (at < text_.size() && is_continuation_byte(text_[at])) ++at;
+  }
+  return at;
+}
+
+std::string_view TextIndex::line(int number) const {
+  if (number < 1 || number > line_count()) return {};
+  const std::size_t start = starts_[static_cast<std::size_t>(number) - 1];
+  std::string_view line = text_.substr(start, text_.find('\n', start) - start);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+std::size_t count_code_points(std::string_view text) {
+  return text.size() -
+         static_cast<std::size_t>(std::count_if(text.begin(), text.end(), is_continuation_byte));
+}
+
+std::string trimmed(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos) return {};
+  return std::string(text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1));
+}
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+std::string escaped(std::string_view text) {
+  static constexpr std::array<char, 17> digits{"0123456789abcdef"};
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte != 0x7F) {
+      result += c;
+    } else {
+      result += "\\x";
+      result += digits[byte >> 4u];
+      result += digits[byte & 0xFu];
+    }
+  }
+  return result;
+}
+
+std::string in_ticks(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  if (count_code_points(text) <= longest) return "`" + escaped(text) + "`";
+  std::size_t end = longest;
+  while (end > 0 && is_continuation_byte(text[end])) --end;
+  return "`" + escaped(text.substr(0, end)) + "...`";
+}
+
+}  // namespace zwang::lang

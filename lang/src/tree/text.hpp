@@ -1,0 +1,41 @@
+/// Lines, columns and code points of a text.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zwang/lang/source.hpp"
+
+namespace zwang::lang {
+
+inline bool is_continuation_byte(char c) {
+  return (static_cast<unsigned char>(c) & 0xC0u) == 0x80u;
+}
+
+/// Maps byte offsets to positions and back. Holds a view: the text must outlive it.
+class TextIndex {
+ public:
+  explicit TextIndex(std::string_view text);
+
+  Position position(std::size_t offset) const;
+  std::size_t offset(Position position) const;  ///< clamped to the text
+  /// The line without its end, line numbers from 1; empty past the end.
+  std::string_view line(int number) const;
+  int line_count() const { return static_cast<int>(starts_.size()); }
+
+ private:
+  std::string_view text_;
+  std::vector<std::size_t> starts_;
+};
+
+std::size_t count_code_points(std::string_view text);
+std::string trimmed(std::string_view text);
+std::string lower_case(std::string_view text);
+/// Control bytes as \xNN, so that a hostile file cannot write to the terminal.
+std::string escaped(std::string_view text);
+/// Shortened for a message: `a very long wo...`.
+std::string in_ticks(std::string_view text);
+
+}  // namespace zwang::lang

@@ -1,0 +1,77 @@
+/// min 1/2 z'Hz - g'z,  E z = e,  lo <= z <= hi,  with H = V'V + diag(R) positive semidefinite, from a
+/// feasible start.
+///
+/// A primal active-set method in reduced form (Wolfe; the basic / superbasic split of Murtagh and Saunders
+/// 1978). Variables are basic (as many as E has independent rows; they follow the others so that E z stays),
+/// superbasic (free to move) or parked (at a bound, or wherever they started). The objective falls at every
+/// step that moves:
+///
+///   price   at the minimum over the superbasic variables, the parked one with the steepest way down joins
+///   them step    to the new minimum; where the objective has no curvature left, along the line on which it
+///   falls block   a variable that meets a bound on the way parks there; if it was basic, a superbasic one
+///   takes its place
+///
+/// Singular H and dependent rows need no regularisation: a variable joins only while it adds curvature or a
+/// way down, and a way down without curvature ends at a bound. So the superbasic set always has a positive
+/// definite reduced Hessian.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace zwang::solver {
+
+class QuadraticProgram {
+ public:
+  QuadraticProgram(int variable_capacity, int dimension_capacity);
+
+  /// Sizes the problem: `variables` columns; V has `curvature_rows` rows, E `equality_rows`. Everything is
+  /// zeroed, bounds are left to set.
+  void resize(int variables, int curvature_rows, int equality_rows) noexcept;
+
+  auto V(int variable) noexcept { return V_.col(variable).head(curvature_rows_); }
+  auto E(int variable) noexcept { return E_.col(variable).head(equality_rows_); }
+  double& R(int variable) noexcept { return R_(variable); }
+  double& g(int variable) noexcept { return g_(variable); }
+  double& lo(int variable) noexcept { return lo_(variable); }
+  double& hi(int variable) noexcept { return hi_(variable); }
+  double& z(int variable) noexcept { return z_(variable); }
+  double z(int variable) const noexcept { return z_(variable); }
+  /// At a solution: the rate at which the objective changes with a parked variable; 0 for the others.
+  double reduced_gradient(int variable) const noexcept { return reduced_(variable); }
+  bool is_free(int variable) const noexcept { return place_[index(variable)] != Place::parked; }
+  double gradient_tolerance() const noexcept { return tolerance_; }
+
+  /// False when `max_iterations` did not suffice: z is feasible all the same. Adds to `iterations`.
+  bool solve(int max_iterations, int& iterations) noexcept;
+
+ private:
+  enum class Place : char { parked, basic, superbasic };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  void choose_basis() noexcept;
+  bool factorise_basis() noexcept;
+  void compute_reduced_gradient() noexcept;
+  int price(bool first_that_helps) const noexcept;
+  bool reduced_direction() noexcept;  ///< false: a way down without curvature
+  bool goes_down() noexcept;
+  int longest_step(double& length) const noexcept;
+  void replace_basic(int leaving) noexcept;
+  void park(int variable) noexcept;
+
+  int variables_ = 0, curvature_rows_ = 0, equality_rows_ = 0, rank_ = 0;
+  Eigen::MatrixXd V_, E_;
+  Eigen::VectorXd R_, g_, lo_, hi_, z_;
+  Eigen::VectorXd gradient_, reduced_, direction_, multipliers_, work_;
+  Eigen::MatrixXd eliminated_;     ///< scratch of choose_basis
+  Eigen::MatrixXd inverse_basis_;  ///< rank x rank
+  Eigen::MatrixXd follow_;         ///< rank x superbasics: how the basic variables follow
+  Eigen::MatrixXd reduced_V_;      ///< curvature rows x superbasics
+  Eigen::MatrixXd cholesky_;       ///< of the reduced Hessian
+  std::vector<Place> place_;
+  std::vector<char> stuck_;
+  std::vector<int> basics_, superbasics_, rows_;
+  double tolerance_ = 0.0;
+};
+
+}  // namespace zwang::solver

@@ -1,0 +1,64 @@
+/// One factorisation of the Delassus matrix L for rows in the order ground, joints, task: L = W W'.
+///
+/// Cholesky with pivoting inside each block. The first columns of W span what the ground holds, the next ones
+/// the motions that it leaves: their number is the mobility. So for any two rows i, k beyond the ground
+///
+///   A_i Mc A_k' = B_i . B_k,   Mc = M^-1 - M^-1 Jp' (Jp M^-1 Jp')^+ Jp M^-1,   B_i = the last columns of row
+///   i of W
+///
+/// and a generalised force f along them becomes p = sum B_i f_i: forces and accelerations of the constrained
+/// robot live in one small space with the identity as its inertia. Redundant ground rows (two wheels on one
+/// axle) are passed over.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sweep/sweeps.hpp"
+
+namespace zwang::solver {
+
+class WhitenedRows {
+ public:
+  explicit WhitenedRows(int row_capacity);
+
+  /// `L`: lower triangle. Rows [0, ground) are the ground's, [ground, ground + joints) span all motions, the
+  /// rest follow.
+  void factorise(const RowMajorMatrix& L, int ground, int joints, int rows) noexcept;
+
+  int mobility() const noexcept { return rank_ - ground_rank_; }
+  /// B_i, of a row beyond the ground.
+  auto motion(int row) const noexcept { return W_.row(row).segment(ground_rank_, mobility()); }
+  /// A_i Mc A_i' over A_i M^-1 A_i': how much of a row the ground leaves.
+  double free_share(int row, const RowMajorMatrix& L) const noexcept;
+
+  /// nu of least norm among those that bring L nu nearest to `rhs`, with every row taken as one block (ground
+  /// = rows).
+  void least_squares(const Eigen::VectorXd& rhs, int rows, Eigen::VectorXd& nu) noexcept;
+  int rank() const noexcept { return rank_; }
+
+  /// What holding the ground rows at `bias` (desired minus free acceleration, by row) adds to the
+  /// acceleration of rows.
+  void hold_ground(const Eigen::VectorXd& bias) noexcept;
+  double held_acceleration(int row) const noexcept {
+    return W_.row(row).head(ground_rank_).dot(held_.head(ground_rank_));
+  }
+  /// Ground multipliers for the forces `f` on the rows beyond (the ones of hold_ground included). Zero on
+  /// redundant rows.
+  void ground_multipliers(const Eigen::VectorXd& forces, int ground, int rows, Eigen::VectorXd& nu) noexcept;
+
+ private:
+  void eliminate(const RowMajorMatrix& L, int first, int last, int rows, double tolerance) noexcept;
+
+  RowMajorMatrix W_;
+  RowMajorMatrix gram_;
+  Eigen::VectorXd left_;  ///< diagonal of L minus what W explains so far
+  Eigen::VectorXd held_;
+  Eigen::VectorXd substitution_;
+  std::vector<int> pivots_;
+  std::vector<char> picked_;
+  int ground_rank_ = 0;
+  int rank_ = 0;
+};
+
+}  // namespace zwang::solver

@@ -1,0 +1,176 @@
+#include "zwang/solver/popov_vereshchagin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/whitened_rows.hpp"
+#include "constraint/ground.hpp"
+#include "input_check.hpp"
+#include "sweep/sweeps.hpp"
+
+namespace zwang::solver {
+
+ConstrainedMotion::ConstrainedMotion(const Model& model, int row_capacity)
+    : qdd(Eigen::VectorXd::Zero(model.joint_count())),
+      acceleration(static_cast<std::size_t>(model.body_count())),
+      nu(Eigen::VectorXd::Zero(row_capacity)),
+      residual(Eigen::VectorXd::Zero(row_capacity)),
+      tau_control(Eigen::VectorXd::Zero(model.joint_count())),
+      constraint_torque(Eigen::VectorXd::Zero(model.joint_count())) {}
+
+/// Rows have ids in the order ground, given.
+struct PopovVereshchagin::Workspace {
+  Workspace(const Model& robot, const Settings& options)
+      : model(robot),
+        settings(options),
+        ground(ground_row_count(robot)),
+        sweeps(robot, ground + options.row_capacity),
+        whitened(ground + options.row_capacity),
+        wanted(Eigen::VectorXd::Zero(ground + options.row_capacity)),
+        nu(Eigen::VectorXd::Zero(ground + options.row_capacity)),
+        qdd(Eigen::VectorXd::Zero(robot.joint_count())),
+        wrenches(static_cast<std::size_t>(robot.body_count()), Vector6::Zero()) {}
+
+  const BodySweep& body_sweep(int i) const { return sweeps.bodies[static_cast<std::size_t>(i)]; }
+
+  /// `wanted`: b by row id.
+  void add_rows(const std::vector<AccelerationRow>& rows) noexcept {
+    sweeps.clear_rows();
+    for (int i = 0; i < ground; ++i) {
+      const GroundRow row = ground_row(i, model, sweeps);
+      wanted(sweeps.add_row(row.body, row.a)) = row.bias;
+    }
+    for (const AccelerationRow& row : rows) {
+      wanted(sweeps.add_row(row.body, body_sweep(row.body).to_base(row.a))) = row.b;
+      if (row.reference_body >= 0) {
+        sweeps.extend_last_row(row.reference_body, body_sweep(row.reference_body).to_base(-row.a_reference));
+      }
+    }
+  }
+
+  /// nu = L^-1 (b - g), line 21.
+  void solve_base() noexcept {
+    const int m = sweeps.rows;
+    wanted.head(m) -= sweeps.g.head(m);
+    if (settings.damping > 0.0) {
+      sweeps.L.diagonal().head(m).array() += settings.damping * settings.damping;
+    }
+    whitened.factorise(sweeps.L, m, 0, m);
+    if (whitened.rank() == m) {
+      whitened.hold_ground(wanted);
+      whitened.ground_multipliers(nu, m, m, nu);
+    } else {
+      whitened.least_squares(wanted, m, nu);
+    }
+  }
+
+  /// J'A nu: every row's wrench carried rigidly inward to each joint. In the base's coordinates that is a
+  /// sum.
+  void carry_wrenches(const std::vector<AccelerationRow>& rows, ConstrainedMotion& result) noexcept {
+    for (Vector6& wrench : wrenches) wrench.setZero();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const AccelerationRow& row = rows[i];
+      const double force = nu(ground + static_cast<Eigen::Index>(i));
+      wrenches[static_cast<std::size_t>(row.body)] += body_sweep(row.body).to_base(row.a) * force;
+      if (row.reference_body >= 0) {
+        wrenches[static_cast<std::size_t>(row.reference_body)] -=
+            body_sweep(row.reference_body).to_base(row.a_reference) * force;
+      }
+    }
+    for (std::size_t i = wrenches.size() - 1; i > 0; --i) {
+      result.tau_control(static_cast<Eigen::Index>(i) - 1) += sweeps.bodies[i].S.dot(wrenches[i]);
+      wrenches[static_cast<std::size_t>(model.bodies()[i].parent)] += wrenches[i];
+    }
+    result.base_wrench = {wrenches.front().head<3>(), wrenches.front().tail<3>()};
+  }
+
+  Status solve(const State& state, const std::vector<AccelerationRow>& rows, const Vector6& base_acceleration,
+               const Vector3& gravity, ConstrainedMotion& result) noexcept;
+
+  Model model;
+  Settings settings;
+  int ground;
+  Sweeps sweeps;
+  WhitenedRows whitened;
+  Eigen::VectorXd wanted, nu, qdd;
+  std::vector<Vector6, Eigen::aligned_allocator<Vector6>> wrenches;
+};
+
+Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector<AccelerationRow>& rows,
+                                           const Vector6& base_acceleration, const Vector3& gravity,
+                                           ConstrainedMotion& result) noexcept {
+  if (!fits(state, model) || result.qdd.size() != model.joint_count() ||
+      result.acceleration.size() != static_cast<std::size_t>(model.body_count())) {
+    return Status::wrong_size;
+  }
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  if (count > settings.row_capacity || count > result.nu.size()) return Status::capacity_exceeded;
+  if (!is_finite(state) || !base_acceleration.allFinite()) return Status::invalid_input;
+  for (const AccelerationRow& row : rows) {
+    if (!is_body(row.body, model) || (row.reference_body != -1 && !is_body(row.reference_body, model))) {
+      return Status::wrong_size;
+    }
+    if (!is_finite(row.a) || !is_finite(row.a_reference) || !std::isfinite(row.b))
+      return Status::invalid_input;
+  }
+
+  outward_kinematics(model, state, true, gravity, sweeps);
+  add_rows(rows);
+  if (!inward_inertia(model, state.tau_ff, base_acceleration, sweeps)) return Status::degenerate_model;
+  solve_base();
+  outward_accelerations(model, nu, base_acceleration, sweeps, qdd);
+  if (!qdd.allFinite() || !nu.head(sweeps.rows).allFinite()) return Status::degenerate_model;
+
+  result.qdd = qdd;
+  result.rank = whitened.rank();
+  result.nu.head(count) = nu.segment(ground, count);
+  for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
+    result.acceleration[i] = sweeps.bodies[i].from_base(sweeps.bodies[i].a);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const AccelerationRow& row = rows[i];
+    double acceleration = dot(row.a, result.acceleration[static_cast<std::size_t>(row.body)]);
+    if (row.reference_body >= 0) {
+      acceleration -= dot(row.a_reference, result.acceleration[static_cast<std::size_t>(row.reference_body)]);
+    }
+    result.residual(static_cast<Eigen::Index>(i)) = acceleration - row.b;
+  }
+  for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+    const BodySweep& sweep = sweeps.bodies[i];
+    double torque = 0.0;
+    for (std::size_t k = 0; k < sweep.columns.size(); ++k) {
+      torque += sweep.SA[k] * nu(sweeps.origins[static_cast<std::size_t>(sweep.columns[k])].row);
+    }
+    result.constraint_torque(static_cast<Eigen::Index>(i) - 1) = torque;
+  }
+  result.tau_control = state.tau_ff;
+  carry_wrenches(rows, result);
+  return Status::ok;
+}
+
+PopovVereshchagin::PopovVereshchagin(const Model& model, const Settings& settings) {
+  if (settings.row_capacity < 1) throw std::invalid_argument("solver: row_capacity must be at least 1");
+  if (!(settings.damping >= 0.0) || !std::isfinite(settings.damping)) {
+    throw std::invalid_argument("solver: damping must be a number of at least 0");
+  }
+  workspace_ = std::make_unique<Workspace>(model, settings);
+}
+
+PopovVereshchagin::~PopovVereshchagin() = default;
+PopovVereshchagin::PopovVereshchagin(PopovVereshchagin&&) noexcept = default;
+PopovVereshchagin& PopovVereshchagin::operator=(PopovVereshchagin&&) noexcept = default;
+
+Status PopovVereshchagin::solve(const State& state, const std::vector<AccelerationRow>& rows,
+                                ConstrainedMotion& result) noexcept {
+  const Vector3 gravity = state.base_pose.rotation.transpose() * workspace_->model.gravity();
+  return workspace_->solve(state, rows, Vector6::Zero(), gravity, result);
+}
+
+Status PopovVereshchagin::solve(const State& state, const std::vector<AccelerationRow>& rows,
+                                const MotionVector& base_acceleration, ConstrainedMotion& result) noexcept {
+  if (!workspace_->model.has_fixed_base()) return Status::invalid_input;
+  return workspace_->solve(state, rows, base_acceleration.vector(), Vector3::Zero(), result);
+}
+
+}  // namespace zwang::solver

@@ -1,0 +1,261 @@
+#include "zwang/solver/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/bounded_problem.hpp"
+#include "base/whitened_rows.hpp"
+#include "constraint/ground.hpp"
+#include "input_check.hpp"
+#include "sweep/sweeps.hpp"
+
+namespace zwang::solver {
+
+const char* to_string(Status status) noexcept {
+  switch (status) {
+    case Status::ok:
+      return "ok";
+    case Status::invalid_input:
+      return "invalid input";
+    case Status::wrong_size:
+      return "wrong size";
+    case Status::capacity_exceeded:
+      return "capacity exceeded";
+    case Status::iteration_limit:
+      return "iteration limit";
+    case Status::degenerate_model:
+      return "degenerate model";
+  }
+  return "unknown";
+}
+
+const char* to_string(RowStatus status) noexcept {
+  switch (status) {
+    case RowStatus::held:
+      return "held";
+    case RowStatus::force_limited:
+      return "force limited";
+    case RowStatus::torque_limited:
+      return "torque limited";
+    case RowStatus::unreachable:
+      return "unreachable";
+    case RowStatus::blocked:
+      return "blocked";
+    case RowStatus::conflict:
+      return "conflict";
+  }
+  return "unknown";
+}
+
+Solution::Solution(const Model& model, int row_capacity)
+    : tau(Eigen::VectorXd::Zero(model.joint_count())),
+      qdd(Eigen::VectorXd::Zero(model.joint_count())),
+      acceleration(static_cast<std::size_t>(model.body_count())) {
+  rows.reserve(static_cast<std::size_t>(row_capacity));
+}
+
+namespace {
+
+int base_freedoms(const Model& model) {
+  switch (model.base_type()) {
+    case BaseType::fixed:
+      return 0;
+    case BaseType::floating:
+      return 6;
+    case BaseType::ground:
+      return 3;
+  }
+  return 0;
+}
+
+/// A unit force along a freedom of the base: on the ground rz, x, y, else all six.
+Vector6 base_freedom(const Model& model, int index) {
+  return Vector6::Unit(model.base_type() == BaseType::ground ? index + 2 : index);
+}
+
+bool is_valid(const Row& row) {
+  return is_finite(row.a) && is_finite(row.a_reference) && std::isfinite(row.b) && std::isfinite(row.force) &&
+         std::isfinite(row.fade) && row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
+}
+
+}  // namespace
+
+/// Rows have ids in the order ground, base freedoms, joints, task.
+struct Solver::Workspace {
+  Workspace(const Model& robot, const Settings& options)
+      : model(robot),
+        settings(options),
+        ground(ground_row_count(robot)),
+        base(base_freedoms(robot)),
+        capacity(ground + base + robot.joint_count() + options.row_capacity),
+        sweeps(robot, capacity),
+        whitened(capacity),
+        problem(options.row_capacity, robot.joint_count(), base + robot.joint_count()),
+        ground_bias(Eigen::VectorXd::Zero(capacity)),
+        forces(Eigen::VectorXd::Zero(capacity)),
+        tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
+        qdd(Eigen::VectorXd::Zero(robot.joint_count())) {
+    for (int j = 0; j < robot.joint_count(); ++j) {
+      if (robot.joint(j).actuated) motors.push_back(j);
+    }
+  }
+
+  const BodySweep& body_sweep(int i) const { return sweeps.bodies[static_cast<std::size_t>(i)]; }
+  Vector3 gravity(const State& state) const { return state.base_pose.rotation.transpose() * model.gravity(); }
+  int first_joint_row() const { return ground + base; }
+  int first_task_row() const { return ground + base + model.joint_count(); }
+
+  void add_ground_rows() noexcept {
+    for (int i = 0; i < ground; ++i) {
+      const GroundRow row = ground_row(i, model, sweeps);
+      ground_bias(sweeps.add_row(row.body, row.a)) = row.bias;
+    }
+  }
+
+  void add_rows(const std::vector<Row>& rows) noexcept {
+    sweeps.clear_rows();
+    add_ground_rows();
+    for (int i = 0; i < base; ++i) sweeps.add_row(0, base_freedom(model, i));
+    for (int j = 0; j < model.joint_count(); ++j) sweeps.add_joint_row(j);
+    for (const Row& row : rows) {
+      sweeps.add_row(row.body, body_sweep(row.body).to_base(row.a));
+      if (row.reference_body >= 0) {
+        sweeps.extend_last_row(row.reference_body, body_sweep(row.reference_body).to_base(-row.a_reference));
+      }
+    }
+  }
+
+  /// Feed-forward torque acts as far as the motor can make it.
+  void clamp_feed_forward(const State& state) noexcept {
+    tau_ff = state.tau_ff;
+    for (const int j : motors) {
+      tau_ff(j) = std::clamp(tau_ff(j), -model.joint(j).max_effort, model.joint(j).max_effort);
+    }
+  }
+
+  void factorise() noexcept {
+    whitened.factorise(sweeps.L, ground, first_task_row() - ground, sweeps.rows);
+    for (int i = 0; i < ground; ++i) forces(i) = ground_bias(i) - sweeps.g(i);
+    whitened.hold_ground(forces);
+  }
+
+  void pose_problem(const std::vector<Row>& rows) noexcept {
+    const int count = static_cast<int>(rows.size());
+    problem.resize(count, static_cast<int>(motors.size()), whitened.mobility());
+    for (int i = 0; i < count; ++i) {
+      const int id = first_task_row() + i;
+      const Row& row = rows[static_cast<std::size_t>(i)];
+      problem.B(i) = whitened.motion(id);
+      problem.d(i) = row.b - sweeps.g(id) - whitened.held_acceleration(id);
+      problem.set_row(i, row, whitened.free_share(id, sweeps.L));
+    }
+    int motor = 0;
+    for (const int j : motors) {
+      problem.T(motor) = whitened.motion(first_joint_row() + j);
+      const double limit = model.joint(j).max_effort;
+      problem.set_motor(motor++, -limit - tau_ff(j), limit - tau_ff(j));
+    }
+  }
+
+  /// Torques by joint into `forces`, and the ground's answer to them.
+  void collect_forces() noexcept {
+    forces.head(sweeps.rows).setZero();
+    int motor = 0;
+    for (const int j : motors) forces(first_joint_row() + j) = problem.tau(motor++);
+    whitened.ground_multipliers(forces, ground, first_task_row(), forces);
+  }
+
+  Model model;
+  Settings settings;
+  int ground, base, capacity;
+  Sweeps sweeps;
+  WhitenedRows whitened;
+  BoundedProblem problem;
+  std::vector<int> motors;
+  Eigen::VectorXd ground_bias, forces, tau_ff, qdd;
+};
+
+Solver::Solver(const Model& model, const Settings& settings) {
+  if (settings.row_capacity < 1) throw std::invalid_argument("solver: row_capacity must be at least 1");
+  if (settings.max_iterations < 1) throw std::invalid_argument("solver: max_iterations must be at least 1");
+  workspace_ = std::make_unique<Workspace>(model, settings);
+}
+
+Solver::~Solver() = default;
+Solver::Solver(Solver&&) noexcept = default;
+Solver& Solver::operator=(Solver&&) noexcept = default;
+
+Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution& solution) noexcept {
+  Workspace& w = *workspace_;
+  if (!fits(state, w.model)) return Status::wrong_size;
+  if (solution.tau.size() != w.model.joint_count() || solution.qdd.size() != w.model.joint_count() ||
+      solution.acceleration.size() != static_cast<std::size_t>(w.model.body_count())) {
+    return Status::wrong_size;
+  }
+  if (rows.size() > static_cast<std::size_t>(w.settings.row_capacity) ||
+      rows.size() > solution.rows.capacity()) {
+    return Status::capacity_exceeded;
+  }
+  if (!is_finite(state)) return Status::invalid_input;
+  for (const Row& row : rows) {
+    if (!is_valid(row)) return Status::invalid_input;
+    if (!is_body(row.body, w.model) || (row.reference_body != -1 && !is_body(row.reference_body, w.model))) {
+      return Status::wrong_size;
+    }
+  }
+
+  w.clamp_feed_forward(state);
+  const Vector6 at_rest = Vector6::Zero();
+  outward_kinematics(w.model, state, true, w.gravity(state), w.sweeps);
+  w.add_rows(rows);
+  if (!inward_inertia(w.model, w.tau_ff, at_rest, w.sweeps)) return Status::degenerate_model;
+  w.factorise();
+  w.pose_problem(rows);
+  const bool exact = w.problem.solve(w.settings.max_iterations);
+  w.collect_forces();
+  outward_accelerations(w.model, w.forces, at_rest, w.sweeps, w.qdd);
+  if (!w.qdd.allFinite() || !w.forces.head(w.sweeps.rows).allFinite()) return Status::degenerate_model;
+
+  solution.qdd = w.qdd;
+  for (std::size_t i = 0; i < w.sweeps.bodies.size(); ++i) {
+    solution.acceleration[i] = w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a);
+  }
+  solution.tau.setZero();
+  for (const int j : w.motors) solution.tau(j) = w.tau_ff(j) + w.forces(w.first_joint_row() + j);
+  solution.rows.clear();
+  for (std::size_t i = 0; i < rows.size(); ++i) solution.rows.push_back(w.problem.row(static_cast<int>(i)));
+  solution.mobility = w.whitened.mobility();
+  solution.iterations = w.problem.iterations();
+  return exact ? Status::ok : Status::iteration_limit;
+}
+
+Status Solver::project_velocity(State& state) noexcept {
+  Workspace& w = *workspace_;
+  if (!fits(state, w.model)) return Status::wrong_size;
+  if (!is_finite(state)) return Status::invalid_input;
+  if (w.ground == 0) return Status::ok;
+  // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
+  // away.
+  const Vector6 at_rest = Vector6::Zero();
+  outward_kinematics(w.model, state, true, w.gravity(state), w.sweeps);
+  w.sweeps.clear_rows();
+  w.add_ground_rows();
+  for (int i = 0; i < w.ground; ++i) {
+    const GroundRow row = ground_row(i, w.model, w.sweeps);
+    w.forces(i) = -row.a.dot(w.body_sweep(row.body).v);
+  }
+  outward_kinematics(w.model, state, false, Vector3::Zero(), w.sweeps);
+  w.tau_ff.setZero();
+  if (!inward_inertia(w.model, w.tau_ff, at_rest, w.sweeps)) return Status::degenerate_model;
+  w.whitened.factorise(w.sweeps.L, w.ground, 0, w.sweeps.rows);
+  w.whitened.hold_ground(w.forces);
+  w.whitened.ground_multipliers(w.forces, w.ground, w.ground, w.forces);
+  outward_accelerations(w.model, w.forces, at_rest, w.sweeps, w.qdd);
+  if (!w.qdd.allFinite()) return Status::degenerate_model;
+  state.qd += w.qdd;
+  if (!w.model.has_fixed_base()) state.base_twist += w.body_sweep(0).from_base(w.body_sweep(0).a);
+  return Status::ok;
+}
+
+}  // namespace zwang::solver

@@ -1,0 +1,50 @@
+/// The bounded problem of the solver, level by level, on dense matrices in extended precision.
+///
+/// With M the mass matrix, h the bias and Jp the ground, every motion that the ground allows is
+/// vdot = free + B c, B B' = Mc, and 1/2 c'c is Gauss's function. Rows are y_i = A_i B in these coordinates.
+#pragma once
+
+#include <vector>
+
+#include "oracle/dense_dynamics.hpp"
+#include "zwang/solver/solver.hpp"
+
+namespace zwang::oracle {
+
+struct OracleRow {
+  Real nu = 0;
+  Real phi = 0;
+  Real acceleration = 0;  ///< a . Xdd after the last level
+  Real residual = 0;      ///< a . Xdd - b
+  bool unique = true;     ///< nu is the only optimal one
+  bool idle = false;      ///< unreachable, or the levels above leave it no freedom: nu is 0
+};
+
+struct OracleSolution {
+  Vector tau;   ///< joints, feed-forward included
+  Vector vdot;  ///< base (none on a fixed base), then joints
+  std::vector<OracleRow> rows;
+  int mobility = 0;
+  Real error = 0;                            ///< worst violation of optimality among all stages
+  std::vector<Vector> spatial_acceleration;  ///< of each body, body coordinates, angular first
+};
+
+/// The parts of the problem that the levels have in common.
+struct ReducedProblem {
+  ReducedProblem(const solver::Model& model, const solver::State& state, bool project_velocity);
+
+  solver::Model model;
+  DenseDynamics dynamics;  ///< at the velocity that the rows see
+  Matrix B;                ///< n x mobility, B B' = Mc
+  Vector free;             ///< free motion: feed-forward, bias, ground
+  Matrix apparent;         ///< M^-1, without the ground
+  Matrix G;                ///< B' S', mobility x joints; columns of joints without motor are 0
+};
+
+/// B of the constrained inverse inertia: columns span the motions that `rows` leave, B' M B = 1.
+Matrix constrained_basis(const Matrix& M, const Matrix& rows);
+
+OracleSolution solve(const solver::Model& model, const solver::State& state,
+                     const std::vector<solver::Row>& rows, bool project_velocity = true);
+
+}  // namespace zwang::oracle

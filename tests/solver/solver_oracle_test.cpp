@@ -1,0 +1,152 @@
+// The solver's sweeps and active set against the dense oracle on seeded random problems.
+// ZWANG_ORACLE_PROBLEMS sets how many a test draws, ZWANG_ORACLE_SEED where they start.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+#include "oracle/random_problem.hpp"
+#include "oracle_comparison.hpp"
+
+namespace zwang::oracle {
+namespace {
+
+int setting(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::atoi(text) : otherwise;
+}
+
+struct Family {
+  RowOptions rows;
+  double least_effort = 1.0;  ///< of the motors [N m]
+  double most_effort = 40.0;
+};
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+Family family(const std::string& name) {
+  Family f{{}, no_limit, no_limit};
+  RowOptions& o = f.rows;
+  // Everything off; each family switches on what its name says.
+  o.one_sided = o.force = o.fading = o.duplicate = o.relative = 0.0;
+  o.bound = 1e4;
+  o.count = 3;
+  if (name == "equalities") return f;
+  if (name == "relative") o.relative = 0.6;
+  if (name == "one_sided") o.one_sided = 0.6;
+  if (name == "bounds") o.bound = 30.0;
+  if (name == "duplicates") o.duplicate = 0.6, o.bound = 30.0, o.count = 5;
+  if (name == "fading") o.fading = 0.7, o.bound = 60.0, o.one_sided = 0.3;
+  if (name == "torque") f.least_effort = 1.0, f.most_effort = 20.0, o.bound = 200.0;
+  if (name == "force") o.force = 0.6, f.least_effort = 1.0, f.most_effort = 20.0, o.bound = 60.0;
+  if (name == "levels") o.levels = 2, o.count = 6, o.bound = 60.0, o.one_sided = 0.3;
+  if (name == "levels_force") o.levels = 2, o.count = 6, o.bound = 60.0, o.force = 0.3, o.one_sided = 0.3;
+  if (name == "levels_fading") o.levels = 2, o.count = 6, o.bound = 60.0, o.fading = 0.4, o.one_sided = 0.3;
+  if (name == "levels_torque") {
+    o.levels = 2, o.count = 6, o.bound = 60.0, f.least_effort = 1.0, f.most_effort = 20.0;
+  }
+  if (name == "everything") {
+    f.rows = RowOptions{};
+    o.levels = 3;
+    o.count = 8;
+    f.least_effort = 1.0;
+    f.most_effort = 40.0;
+  }
+  return f;
+}
+
+struct Case {
+  std::string family;
+  Robot robot;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.family << " " << to_string(c.robot);
+}
+
+class SolverOracle : public testing::TestWithParam<Case> {};
+
+std::string describe(const std::vector<solver::Row>& rows, const solver::Solution& got,
+                     const OracleSolution& want) {
+  static const char* const kinds[] = {"driver", "upper", "lower", "force"};
+  static const char* const statuses[] = {"held",        "force_limited", "torque_limited",
+                                         "unreachable", "blocked",       "conflict"};
+  std::string out;
+  char line[400];
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const solver::Row& r = rows[i];
+    std::snprintf(
+        line, sizeof line,
+        "    %zu %-6s level %d body %d/%d b %.4f f %.3f [%.3f, %.3f] fade %.3f: nu %.9g want %.9g%s, phi "
+        "%.6g want %.6Lg, s %.3g want %.3Lg, %s\n",
+        i, kinds[static_cast<int>(r.kind)], r.level, r.body, r.reference_body, r.b, r.force, r.lo, r.hi,
+        r.fade, got.rows[i].nu, static_cast<double>(want.rows[i].nu),
+        want.rows[i].idle     ? " (idle)"
+        : want.rows[i].unique ? ""
+                              : " (not unique)",
+        got.rows[i].phi, want.rows[i].phi, got.rows[i].residual, want.rows[i].residual,
+        statuses[static_cast<int>(got.rows[i].status)]);
+    out += line;
+  }
+  return out;
+}
+
+TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
+  const Family f = family(GetParam().family);
+  const int problems = setting("ZWANG_ORACLE_PROBLEMS", 12);
+  const int first = setting("ZWANG_ORACLE_SEED", 1);
+  double worst = 0.0;
+  int failures = 0;
+  for (int seed = first; seed < first + problems; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed) * 7919u + static_cast<std::uint64_t>(GetParam().robot));
+    const double effort =
+        std::isfinite(f.most_effort) ? random.uniform(f.least_effort, f.most_effort) : f.most_effort;
+    const solver::Model model = random_model(GetParam().robot, random, effort);
+    const solver::State state = random_state(model, random);
+    RowOptions options = f.rows;
+    options.count = random.pick(1, f.rows.count);
+    const std::vector<solver::Row> rows = random_rows(model, options, random);
+
+    const OracleSolution want = solve(model, state, rows);
+    ASSERT_LT(want.error, 1e-12L) << "the oracle itself, seed " << seed;
+    solver::Solver solver(model);
+    solver::Solution got(model);
+    solver::State measured = state;
+    ASSERT_EQ(solver.project_velocity(measured), solver::Status::ok);
+    const solver::Status status = solver.solve(measured, rows, got);
+    const Difference d = difference(model, rows, got, want);
+    const double off = d.worst();
+    worst = std::max(worst, off);
+    if (status == solver::Status::ok && off < 1e-9 && d.same_mobility) continue;
+    ++failures;
+    if (failures > 3) continue;  // enough to look into
+    ADD_FAILURE() << "seed " << seed << ", " << to_string(status) << ", effort " << effort << ", "
+                  << got.iterations << " iterations, mobility " << got.mobility << " want " << want.mobility
+                  << "\n  tau " << d.tau << " qdd " << d.qdd << " bodies " << d.bodies << " phi " << d.phi
+                  << " nu " << d.nu << " shortest nu " << d.shortest << " residual " << d.residual
+                  << "\n  tau  " << got.tau.transpose() << "\n  want " << want.tau.transpose() << "\n"
+                  << describe(rows, got, want);
+  }
+  EXPECT_EQ(failures, 0) << "of " << problems;
+  RecordProperty("worst", std::to_string(worst));
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> out;
+  for (const char* name :
+       {"equalities", "relative", "one_sided", "bounds", "duplicates", "fading", "torque", "force", "levels",
+        "levels_force", "levels_fading", "levels_torque", "everything"}) {
+    for (const Robot robot : all_robots) out.push_back({name, robot});
+  }
+  return out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Problems, SolverOracle, testing::ValuesIn(cases()), [](const auto& drawn) {
+  return drawn.param.family + "_" + to_string(drawn.param.robot);
+});
+
+}  // namespace
+}  // namespace zwang::oracle
