@@ -153,8 +153,8 @@ void BoundedProblem::bound_rows() noexcept {
     }
     if (!std::isfinite(force)) force = 1e7 * scale / e.length;
     if (is_one_sided(i)) force *= authority(e.quantity);
-    e.lo = e.fade * std::max(e.lo, -force);
-    e.hi = e.fade * std::min(e.hi, force);
+    e.lo = e.fade * (std::isfinite(e.lo) ? e.lo : -force);
+    e.hi = e.fade * (std::isfinite(e.hi) ? e.hi : force);
   }
 }
 
