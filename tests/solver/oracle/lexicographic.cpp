@@ -231,15 +231,31 @@ class Levels {
       shortest.lo[i] = fixed ? x[i] : qp.lo[i];
       shortest.hi[i] = fixed ? x[i] : qp.hi[i];
     }
-    const QuadraticSolution s = solve_stage(shortest);
+    const bool single = only_one(shortest);
+    const QuadraticSolution s = single ? found : solve_stage(shortest);
     const Real size = 1 + x.head(at.own).cwiseAbs().maxCoeff();
     for (Index k = 0; k < at.own; ++k) {
       OracleRow& r = result(motions[static_cast<std::size_t>(k)]);
       r.nu = s.x[k];
       r.idle = idle(motions[static_cast<std::size_t>(k)]);
       // The interior point ends in the middle of the optimal multipliers; a single one is the shortest too.
-      r.unique = std::abs(s.x[k] - x[k]) < 1e-11L * size;
+      r.unique = single || std::abs(s.x[k] - x[k]) < 1e-11L * size;
     }
+  }
+
+  /// Whether the equations leave the variables that may still move no freedom.
+  static bool only_one(const QuadraticProgram& qp) {
+    Matrix moving(qp.E.rows(), 0);
+    for (Index i = 0; i < qp.g.size(); ++i) {
+      if (qp.lo[i] == qp.hi[i]) continue;
+      if (!(qp.E(i, i) > 0)) return false;
+      moving.conservativeResize(Eigen::NoChange, moving.cols() + 1);
+      moving.col(moving.cols() - 1) = qp.E.col(i) / qp.E.col(i).norm();
+    }
+    if (moving.cols() == 0) return true;
+    Eigen::ColPivHouseholderQR<Matrix> qr(moving);
+    qr.setThreshold(1e-11L);
+    return qr.rank() == moving.cols();
   }
 
   /// Keeps the level's accelerations for those below. A fading row keeps its softness.
