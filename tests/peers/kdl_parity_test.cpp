@@ -83,7 +83,6 @@ std::vector<solver::Row> rows_on_the_tip(const solver::Model& model, int count, 
 struct KdlAnswer {
   Eigen::VectorXd qdd;
   Eigen::VectorXd nu;
-  std::vector<KDL::Twist> links;
 };
 
 KdlAnswer ask_kdl(const solver::Model& model, const solver::State& state, const DenseDynamics& poses,
@@ -109,10 +108,12 @@ KdlAnswer ask_kdl(const solver::Model& model, const solver::State& state, const 
     const solver::ForceVector& f = state.f_ext[i + 1];
     wrenches[i] = KDL::Wrench(to_kdl(solver::Vector3(R * f.linear)), to_kdl(solver::Vector3(R * f.angular)));
   }
-  KDL::ChainHdSolver_Vereshchagin solver(to_kdl(model), KDL::Twist(to_kdl(lift), KDL::Vector::Zero()), m);
+  const KDL::Chain chain = to_kdl(model);  // the solver keeps a reference
+  KDL::ChainHdSolver_Vereshchagin solver(chain, KDL::Twist(to_kdl(lift), KDL::Vector::Zero()), m);
   EXPECT_EQ(solver.CartToJnt(q, qd, qdd, alpha, beta, wrenches, feed, constraint), 0);
   KdlAnswer answer;
   answer.qdd = qdd.data;
+  answer.nu = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(m));
   solver.getContraintForceMagnitude(answer.nu);
   return answer;
 }

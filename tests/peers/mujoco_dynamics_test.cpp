@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cstdio>
 #include <fstream>
 #include <limits>
@@ -32,21 +33,25 @@ std::string numbers(const solver::Vector3& v) {
   return numbers({v.x(), v.y(), v.z()});
 }
 
-void write_body(std::ostream& out, const solver::Model& model, std::size_t index) {
+void write_body(std::ostream& out, const solver::Model& model, const solver::State& state,
+                std::size_t index) {
   const solver::Body& body = model.bodies()[index];
-  const Eigen::Quaterniond quat(body.pose_in_parent.rotation);
-  out << "<body name='" << body.name << "'";
-  if (index > 0) {
-    out << " pos='" << numbers(body.pose_in_parent.position) << "' quat='"
-        << numbers({quat.w(), quat.x(), quat.y(), quat.z()}) << "'";
-  }
-  out << ">";
+  const solver::Pose& pose = index == 0 ? state.base_pose : body.pose_in_parent;
+  const Eigen::Quaterniond quat(pose.rotation);
+  out << "<body name='" << body.name << "' pos='" << numbers(pose.position) << "' quat='"
+      << numbers({quat.w(), quat.x(), quat.y(), quat.z()}) << "'>";
   const solver::RigidInertia& I = body.inertia;
   const solver::Vector3 c = I.first_moment / I.mass;
   const solver::Matrix3 T =
       I.rotational - I.mass * (c.squaredNorm() * solver::Matrix3::Identity() - c * c.transpose());
-  out << "<inertial mass='" << numbers({I.mass}) << "' pos='" << numbers(c) << "' fullinertia='"
-      << numbers({T(0, 0), T(1, 1), T(2, 2), T(0, 1), T(0, 2), T(1, 2)}) << "'/>";
+  // Principal axes by ourselves: MuJoCo's own search for them stops at 1e-8 or so.
+  Eigen::SelfAdjointEigenSolver<solver::Matrix3> principal(T);
+  solver::Matrix3 axes = principal.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) = -axes.col(0);
+  const Eigen::Quaterniond turned(axes);
+  out << "<inertial mass='" << numbers({I.mass}) << "' pos='" << numbers(c) << "' quat='"
+      << numbers({turned.w(), turned.x(), turned.y(), turned.z()}) << "' diaginertia='"
+      << numbers(solver::Vector3(principal.eigenvalues())) << "'/>";
   if (index > 0) {
     out << "<joint name='" << body.joint.name << "' type='"
         << (body.joint.type == solver::JointType::prismatic ? "slide" : "hinge") << "' axis='"
@@ -55,7 +60,7 @@ void write_body(std::ostream& out, const solver::Model& model, std::size_t index
     out << "<freejoint/>";
   }
   for (std::size_t child = index + 1; child < model.bodies().size(); ++child) {
-    if (model.bodies()[child].parent == static_cast<int>(index)) write_body(out, model, child);
+    if (model.bodies()[child].parent == static_cast<int>(index)) write_body(out, model, state, child);
   }
   out << "</body>";
 }
@@ -74,7 +79,7 @@ class Judge {
     text << "<mujoco><compiler angle='radian' inertiafromgeom='false'/><option gravity='"
          << numbers(model.gravity())
          << "'><flag constraint='disable' contact='disable'/></option><worldbody>";
-    write_body(text, model, 0);
+    write_body(text, model, state, 0);
     text << "</worldbody></mujoco>";
     const std::string path = testing::TempDir() + "zwang_judge_" + std::to_string(::getpid()) + ".xml";
     std::ofstream(path) << text.str();

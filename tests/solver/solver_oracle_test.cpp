@@ -63,11 +63,17 @@ struct Case {
   Robot robot;
 };
 
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.family << " " << to_string(c.robot);
+}
+
 class SolverOracle : public testing::TestWithParam<Case> {};
 
 std::string describe(const std::vector<solver::Row>& rows, const solver::Solution& got,
                      const OracleSolution& want) {
   static const char* const kinds[] = {"driver", "upper", "lower", "force"};
+  static const char* const statuses[] = {"held",        "force_limited", "torque_limited",
+                                         "unreachable", "blocked",       "conflict"};
   std::string out;
   char line[400];
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -78,8 +84,11 @@ std::string describe(const std::vector<solver::Row>& rows, const solver::Solutio
         "%.6g want %.6Lg, s %.3g want %.3Lg, %s\n",
         i, kinds[static_cast<int>(r.kind)], r.level, r.body, r.reference_body, r.b, r.force, r.lo, r.hi,
         r.fade, got.rows[i].nu, static_cast<double>(want.rows[i].nu),
-        want.rows[i].unique ? "" : " (not unique)", got.rows[i].phi, want.rows[i].phi, got.rows[i].residual,
-        want.rows[i].residual, got.rows[i].status == solver::RowStatus::held ? "held" : "not held");
+        want.rows[i].idle     ? " (idle)"
+        : want.rows[i].unique ? ""
+                              : " (not unique)",
+        got.rows[i].phi, want.rows[i].phi, got.rows[i].residual, want.rows[i].residual,
+        statuses[static_cast<int>(got.rows[i].status)]);
     out += line;
   }
   return out;
@@ -105,7 +114,9 @@ TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
     ASSERT_LT(want.error, 1e-12L) << "the oracle itself, seed " << seed;
     solver::Solver solver(model);
     solver::Solution got(model);
-    const solver::Status status = solver.solve(state, rows, got);
+    solver::State measured = state;
+    ASSERT_EQ(solver.project_velocity(measured), solver::Status::ok);
+    const solver::Status status = solver.solve(measured, rows, got);
     const Difference d = difference(model, rows, got, want);
     const double off = d.worst();
     worst = std::max(worst, off);

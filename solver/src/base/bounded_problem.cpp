@@ -10,6 +10,7 @@ namespace {
 constexpr double unreachable_share = 1e-8;  // A Mc A' over A M^-1 A'
 constexpr double blocked_share = 1e-6;      // length of a row that the levels above left free, relative
 constexpr double bound_tolerance = 1e-9;    // relative: when nu counts as being at its bound
+constexpr double motor_rank_tolerance = 1e-12;  // of a pivot of T'T, relative to its trace
 constexpr double torque_tolerance =
     1e-12;  // relative: rounding that least-squares torques may show at a limit
 
@@ -93,6 +94,7 @@ bool BoundedProblem::solve(int max_iterations) noexcept {
   bound_rows();
   for (int level = next_level(-1); level >= 0; level = next_level(level)) {
     project_rows();
+    note_achieved();
     exact = solve_forces(level, max_iterations) && exact;
     exact = solve_motion(level, max_iterations) && exact;
     freeze(level);
@@ -117,9 +119,10 @@ void BoundedProblem::factorise_motors() noexcept {
   auto gram = gram_.topLeftCorner(dimension_, dimension_);
   gram.noalias() = T_.topLeftCorner(motors_, dimension_).transpose() * T_.topLeftCorner(motors_, dimension_);
   motors_reach_all_ = true;
+  const double least_pivot = motor_rank_tolerance * gram.trace();
   for (int k = 0; k < dimension_; ++k) {  // Cholesky in place, lower
     const double pivot = gram(k, k) - gram.row(k).head(k).squaredNorm();
-    if (!(pivot > 1e-10 * gram(k, k))) {
+    if (!(pivot > least_pivot)) {
       motors_reach_all_ = false;
       return;
     }
@@ -150,8 +153,8 @@ void BoundedProblem::bound_rows() noexcept {
     }
     if (!std::isfinite(force)) force = 1e7 * scale / e.length;
     if (is_one_sided(i)) force *= authority(e.quantity);
-    e.lo = e.fade * std::max(e.lo, -force);
-    e.hi = e.fade * std::min(e.hi, force);
+    e.lo = e.fade * (std::isfinite(e.lo) ? e.lo : -force);
+    e.hi = e.fade * (std::isfinite(e.hi) ? e.hi : force);
   }
 }
 
@@ -176,6 +179,11 @@ void BoundedProblem::project_rows() noexcept {
   }
 }
 
+/// Where the soft rows above stand before the level begins.
+void BoundedProblem::note_achieved() noexcept {
+  for (int i = 0; i < rows_; ++i) entry(i).achieved = B(i).dot(p_.head(dimension_));
+}
+
 bool BoundedProblem::is_one_sided(int i) const noexcept {
   const RowKind kind = entries_[static_cast<std::size_t>(i)].kind;
   return kind == RowKind::upper || kind == RowKind::lower;
@@ -184,6 +192,13 @@ bool BoundedProblem::is_one_sided(int i) const noexcept {
 /// A row takes part in a stage while something of it is left free.
 bool BoundedProblem::takes_part(int i) const noexcept {
   return !entries_[static_cast<std::size_t>(i)].out && BN_.row(i).head(dimension_).squaredNorm() > 0.0;
+}
+
+/// Below its own level a row holds what it reached with whatever that takes.
+Range BoundedProblem::bounds_at(int i, int level) const noexcept {
+  const Entry& e = entries_[static_cast<std::size_t>(i)];
+  if (e.level == level) return {e.lo, e.hi};
+  return {e.kind == RowKind::lower ? 0.0 : -infinity, e.kind == RowKind::upper ? 0.0 : infinity};
 }
 
 /// R = L_jj (1 - alpha)/alpha.
@@ -283,11 +298,12 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   }
   take_multipliers(level);
   p_.head(dimension_) = work_.head(dimension_);
-  exact = least_multipliers(max_iterations) && exact;
+  exact = least_multipliers(level, max_iterations) && exact;
   for (const int i : posed_) {
     if (!is_one_sided(i)) continue;
     Entry& e = entry(i);
-    const double s = B(i).dot(p_.head(dimension_)) - d_(i);
+    // A soft row rests where a . Xdd + R nu = b; what is beyond that it could not hold.
+    const double s = B(i).dot(p_.head(dimension_)) + softness(i) * e.nu - d_(i);
     e.offset = e.kind == RowKind::upper ? std::max(e.offset, s) : std::min(e.offset, s);
   }
   return exact;
@@ -301,13 +317,13 @@ void BoundedProblem::pose_motion(int level, bool with_motors) noexcept {
     const Entry& e = entry(i);
     const double length = BN_.row(i).head(dimension_).norm();
     const bool resists = e.level < level && !is_one_sided(i);
-    const double target = resists ? B(i).dot(p_.head(dimension_)) : d_(i) + e.offset;
-    const double reach = resists ? infinity : 0.0;
+    const double target = resists ? e.achieved : d_(i) + e.offset;
+    const Range bounds = bounds_at(i, level);
     program_.V(k) = BN_.row(i).head(dimension_).transpose() / length;
     program_.g(k) = (target - B(i).dot(fixed_.head(dimension_))) / length;
     program_.R(k) = softness(i) / (length * length);
-    program_.lo(k) = std::min(e.lo * length, -reach);
-    program_.hi(k) = std::max(e.hi * length, reach);
+    program_.lo(k) = bounds.low * length;
+    program_.hi(k) = bounds.high * length;
     program_.z(k) = is_one_sided(i) ? e.nu * length : 0.0;
     if (with_motors) program_.E(k) = -program_.V(k);
   }
@@ -334,7 +350,7 @@ void BoundedProblem::take_multipliers(int level) noexcept {
     const bool resists = e.level < level && !is_one_sided(i);
     if (resists) continue;
     e.nu = program_.z(variable) / BN_.row(i).head(dimension_).norm();
-    e.nu = std::clamp(e.nu, e.lo, e.hi);
+    if (e.level == level) e.nu = std::clamp(e.nu, e.lo, e.hi);
     if (e.fade < 1.0) continue;
     const bool free = program_.is_free(variable);
     if (!free && std::abs(program_.reduced_gradient(variable)) > 100.0 * program_.gradient_tolerance())
@@ -346,7 +362,7 @@ void BoundedProblem::take_multipliers(int level) noexcept {
 }
 
 /// min 1/2 |nu|^2 over the tied rows, their sum kept.
-bool BoundedProblem::least_multipliers(int max_iterations) noexcept {
+bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
   if (tied_.size() < 2) return true;
   const int n = static_cast<int>(tied_.size());
   program_.resize(n, 0, dimension_);
@@ -355,8 +371,8 @@ bool BoundedProblem::least_multipliers(int max_iterations) noexcept {
     const double length = BN_.row(i).head(dimension_).norm();
     program_.E(k) = BN_.row(i).head(dimension_).transpose() / length;
     program_.R(k) = 1.0 / (length * length);
-    program_.lo(k) = entry(i).lo * length;
-    program_.hi(k) = entry(i).hi * length;
+    program_.lo(k) = bounds_at(i, level).low * length;
+    program_.hi(k) = bounds_at(i, level).high * length;
     program_.z(k) = entry(i).nu * length;
   }
   const bool exact = program_.solve(max_iterations, iterations_);
@@ -442,7 +458,11 @@ void BoundedProblem::report() noexcept {
       row.phi = e.phi;
       row.nu = e.phi * e.force;
       row.saturated = e.phi < 1.0 - bound_tolerance;
-      row.status = e.out ? e.status : row.saturated ? RowStatus::torque_limited : RowStatus::held;
+      const bool blocked = BN_.row(i).head(dimension_).squaredNorm() == 0.0 && e.phi == 0.0;
+      row.status = e.out           ? e.status
+                   : blocked       ? RowStatus::blocked
+                   : row.saturated ? RowStatus::torque_limited
+                                   : RowStatus::held;
       continue;
     }
     const double s = B(i).dot(p_.head(dimension_)) - d_(i);

@@ -50,6 +50,7 @@ class BoundedProblem {
     double fade = 1.0;
     double length = 0.0;  ///< |B_i|
     double offset = 0.0;  ///< what a violated one-sided row achieved beyond b when it was last solved
+    double achieved = 0.0;      ///< B_i.p before the present level
     bool out = false;     ///< unreachable or blocked: takes no part
     RowStatus status = RowStatus::held;
     double nu = 0.0, phi = 0.0;
@@ -58,6 +59,7 @@ class BoundedProblem {
   bool is_one_sided(int i) const noexcept;
   bool is_soft(int i) noexcept { return entry(i).fade < 1.0; }
   bool takes_part(int i) const noexcept;
+  Range bounds_at(int i, int level) const noexcept;
   double softness(int i) const noexcept;
   double largest_force(int row) const noexcept;
   int next_level(int after) const noexcept;
@@ -65,9 +67,10 @@ class BoundedProblem {
   void factorise_motors() noexcept;
   void bound_rows() noexcept;
   void project_rows() noexcept;
+  void note_achieved() noexcept;
   bool solve_forces(int level, int max_iterations) noexcept;
   bool solve_motion(int level, int max_iterations) noexcept;
-  bool least_multipliers(int max_iterations) noexcept;
+  bool least_multipliers(int level, int max_iterations) noexcept;
   void freeze(int level) noexcept;
   bool least_torques(int max_iterations) noexcept;
   void report() noexcept;

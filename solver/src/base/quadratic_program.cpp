@@ -10,6 +10,8 @@ namespace {
 constexpr double relative_gradient_tolerance = 1e-12;
 constexpr double curvature_tolerance = 1e-12;  // of a reduced Hessian's pivot, relative to its diagonal
 constexpr double rank_tolerance = 1e-9;        // of E's columns, which are of length 1
+constexpr double slope_tolerance = 1e3;        // times the gradient tolerance
+constexpr int max_refinements = 4;
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
@@ -53,11 +55,18 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
   choose_basis();
   superbasics_.clear();
   bool at_minimum = true;
+  int refinements = 0;
   int idle = 0;  // steps of length zero in a row: then take the first way down, so that no cycle can form
   for (int i = 0; i < max_iterations; ++i) {
     if (!factorise_basis()) return false;
     compute_reduced_gradient();
+    // Rounding, or a curvature near nothing, can leave a slope: step again before pricing.
+    if (at_minimum && slope_of_superbasics() > slope_tolerance * tolerance_ && refinements < max_refinements) {
+      at_minimum = false;
+      ++refinements;
+    }
     if (at_minimum) {
+      refinements = 0;
       const int entering = price(idle > variables_);
       if (entering < 0) return true;
       place_[index(entering)] = Place::superbasic;
@@ -184,6 +193,12 @@ void QuadraticProgram::compute_reduced_gradient() noexcept {
     for (int i = 0; i < rank_; ++i) value -= E_(rows_[index(i)], k) * multipliers_(i);
     reduced_(k) = place_[index(k)] == Place::basic ? 0.0 : value;
   }
+}
+
+double QuadraticProgram::slope_of_superbasics() const noexcept {
+  double slope = 0.0;
+  for (const int k : superbasics_) slope = std::max(slope, std::abs(reduced_(k)));
+  return slope;
 }
 
 int QuadraticProgram::price(bool first_that_helps) const noexcept {

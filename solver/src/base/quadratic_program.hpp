@@ -52,6 +52,7 @@ class QuadraticProgram {
   void choose_basis() noexcept;
   bool factorise_basis() noexcept;
   void compute_reduced_gradient() noexcept;
+  double slope_of_superbasics() const noexcept;
   int price(bool first_that_helps) const noexcept;
   bool reduced_direction() noexcept;  ///< false: a way down without curvature
   bool goes_down() noexcept;

@@ -1,6 +1,7 @@
 #include "oracle/lexicographic.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -40,6 +41,12 @@ class Levels {
     const LinearRows linear = p_.dynamics.rows(rows);
     Y_ = linear.jacobian * p_.B;
     d_ = linear.rhs - linear.jacobian * p_.free;
+    size_ = Vector::Zero(d_.size());
+    for (Index i = 0; i < size_.size(); ++i) {
+      size_[i] =
+          static_cast<Real>(row(i).a.vector().squaredNorm() + row(i).a_reference.vector().squaredNorm());
+    }
+    without_ground_ = (linear.jacobian * p_.apparent * linear.jacobian.transpose()).diagonal();
     c_ = Vector::Zero(p_.B.cols());
     push_ = Vector::Zero(p_.B.cols());
     out_.rows.resize(rows.size());
@@ -81,10 +88,26 @@ class Levels {
   const solver::Row& row(Index i) const { return rows_[static_cast<std::size_t>(i)]; }
   OracleRow& result(Index i) { return out_.rows[static_cast<std::size_t>(i)]; }
   Vector y(Index i) const { return Y_.row(i).transpose(); }
-  Real softness(Index i) const {
-    const Real alpha = row(i).fade;
-    return Y_.row(i).squaredNorm() * (1 - alpha) / alpha;
+  /// Whether nothing that the row could do moves its axis: the ground holds it, or the accelerations that the
+  /// levels above have frozen do.
+  bool idle(Index i) const {
+    if (Y_.row(i).squaredNorm() < std::max(1e-8L * without_ground_[i], 1e-20L * size_[i])) return true;
+    Matrix frozen(c_.size(), 0);
+    for (const Held& held : held_) {
+      if (one_sided(held.kind) || held.softness > 0) continue;
+      frozen.conservativeResize(Eigen::NoChange, frozen.cols() + 1);
+      frozen.col(frozen.cols() - 1) = held.y;
+    }
+    if (frozen.cols() == 0) return false;
+    Eigen::CompleteOrthogonalDecomposition<Matrix> cod;
+    cod.setThreshold(1e-12L);
+    cod.compute(frozen);
+    const Vector left = y(i) - frozen * cod.solve(y(i));
+    return left.squaredNorm() < 1e-8L * y(i).squaredNorm();
   }
+  Real alpha(Index i) const { return row(i).fade; }
+  Real softness(Index i) const { return Y_.row(i).squaredNorm() * (1 - alpha(i)) / alpha(i); }
+  Real wrench(Index i) const { return alpha(i) * static_cast<Real>(row(i).force); }
 
   /// Variables [own rows; held multipliers; torques; slacks of held one-sided rows]. Equations: the torques
   /// make the motion c = own forces + held forces + push_; the held rows keep what they achieved.
@@ -138,7 +161,7 @@ class Levels {
     Matrix own(static_cast<Index>(forces.size()), c_.size());
     for (Index k = 0; k < own.rows(); ++k) {
       const Index i = forces[static_cast<std::size_t>(k)];
-      own.row(k) = static_cast<Real>(row(i).force) * Y_.row(i);
+      own.row(k) = wrench(i) * Y_.row(i);
     }
     Layout at{};
     QuadraticProgram qp = pose(own, at);
@@ -146,13 +169,13 @@ class Levels {
       qp.H(k, k) = 2;
       qp.g[k] = 2;
       qp.lo[k] = 0;
-      qp.hi[k] = 1;
+      qp.hi[k] = idle(forces[static_cast<std::size_t>(k)]) ? 0 : 1;
     }
     const QuadraticSolution s = solve_stage(qp);
     for (Index k = 0; k < at.own; ++k) {
       const Index i = forces[static_cast<std::size_t>(k)];
       result(i).phi = std::clamp(s.x[k], Real(0), Real(1));
-      result(i).nu = result(i).phi * static_cast<Real>(row(i).force);
+      result(i).nu = result(i).phi * wrench(i);
       push_ += result(i).nu * y(i);
     }
   }
@@ -170,8 +193,9 @@ class Levels {
       const Index i = motions[static_cast<std::size_t>(k)];
       qp.H(k, k) = softness(i);
       qp.g[k] = d_[i] - y(i).dot(push_);
-      qp.lo[k] = static_cast<Real>(row(i).lo);
-      qp.hi[k] = static_cast<Real>(row(i).hi);
+      qp.lo[k] = alpha(i) * static_cast<Real>(row(i).lo);
+      qp.hi[k] = alpha(i) * static_cast<Real>(row(i).hi);
+      if (idle(i)) qp.lo[k] = qp.hi[k] = 0;
       if (row(i).kind == RowKind::upper) qp.hi[k] = std::min(qp.hi[k], Real(0));
       if (row(i).kind == RowKind::lower) qp.lo[k] = std::max(qp.lo[k], Real(0));
     }
@@ -187,7 +211,8 @@ class Levels {
     shorten(motions, qp, at, s);
   }
 
-  /// The shortest of the multipliers that make the same motion: those that stay where a bound carries force.
+  /// The shortest of the multipliers (one-sided rows from above among them) that make the same motion: those
+  /// that stay where a bound carries force.
   void shorten(const std::vector<Index>& motions, const QuadraticProgram& qp, const Layout& at,
                const QuadraticSolution& found) {
     if (motions.empty()) return;
@@ -195,6 +220,9 @@ class Levels {
     const Vector x = found.x.head(n);
     QuadraticProgram shortest(n, n);
     shortest.H.diagonal().head(at.own).setOnes();
+    for (Index k = 0; k < at.held; ++k) {
+      if (one_sided(held_[static_cast<std::size_t>(k)].kind)) shortest.H(at.mu() + k, at.mu() + k) = 1;
+    }
     shortest.E = qp.H.topLeftCorner(n, n);
     shortest.e = shortest.E * x;
     const Real carries = 1e-13L * (1 + found.bound_force.cwiseAbs().maxCoeff());
@@ -203,14 +231,31 @@ class Levels {
       shortest.lo[i] = fixed ? x[i] : qp.lo[i];
       shortest.hi[i] = fixed ? x[i] : qp.hi[i];
     }
-    const QuadraticSolution s = solve_stage(shortest);
+    const bool single = only_one(shortest);
+    const QuadraticSolution s = single ? found : solve_stage(shortest);
     const Real size = 1 + x.head(at.own).cwiseAbs().maxCoeff();
     for (Index k = 0; k < at.own; ++k) {
       OracleRow& r = result(motions[static_cast<std::size_t>(k)]);
       r.nu = s.x[k];
+      r.idle = idle(motions[static_cast<std::size_t>(k)]);
       // The interior point ends in the middle of the optimal multipliers; a single one is the shortest too.
-      r.unique = std::abs(s.x[k] - x[k]) < 1e-11L * size;
+      r.unique = single || std::abs(s.x[k] - x[k]) < 1e-11L * size;
     }
+  }
+
+  /// Whether the equations leave the variables that may still move no freedom.
+  static bool only_one(const QuadraticProgram& qp) {
+    Matrix moving(qp.E.rows(), 0);
+    for (Index i = 0; i < qp.g.size(); ++i) {
+      if (qp.lo[i] == qp.hi[i]) continue;
+      if (!(qp.E(i, i) > 0)) return false;
+      moving.conservativeResize(Eigen::NoChange, moving.cols() + 1);
+      moving.col(moving.cols() - 1) = qp.E.col(i) / qp.E.col(i).norm();
+    }
+    if (moving.cols() == 0) return true;
+    Eigen::ColPivHouseholderQR<Matrix> qr(moving);
+    qr.setThreshold(1e-11L);
+    return qr.rank() == moving.cols();
   }
 
   /// Keeps the level's accelerations for those below. A fading row keeps its softness.
@@ -257,9 +302,11 @@ class Levels {
   const ReducedProblem& p_;
   const std::vector<solver::Row>& rows_;
   Matrix Y_;
-  Vector d_;     ///< b - bias - A free
-  Vector c_;     ///< the motion so far
-  Vector push_;  ///< B' of the force rows' wrenches so far
+  Vector size_;            ///< a' a
+  Vector without_ground_;  ///< A M^-1 A', the diagonal
+  Vector d_;               ///< b - bias - A free
+  Vector c_;               ///< the motion so far
+  Vector push_;            ///< B' of the force rows' wrenches so far
   std::vector<Held> held_;
   Vector tau_lo_, tau_hi_, feed_forward_;
   OracleSolution out_;
@@ -296,6 +343,7 @@ ReducedProblem::ReducedProblem(const solver::Model& m, const solver::State& stat
     particular = cod.solve(ground.rhs);
   }
   free = particular + B * (B.transpose() * (generalised - dynamics.M * particular));
+  apparent = dynamics.M.inverse();
   G = B.transpose().rightCols(joints);
   for (Index j = 0; j < joints; ++j) {
     if (!model.joint(static_cast<int>(j)).actuated) G.col(j).setZero();

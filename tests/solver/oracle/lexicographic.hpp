@@ -17,6 +17,7 @@ struct OracleRow {
   Real acceleration = 0;  ///< a . Xdd after the last level
   Real residual = 0;      ///< a . Xdd - b
   bool unique = true;     ///< nu is the only optimal one
+  bool idle = false;      ///< unreachable, or the levels above leave it no freedom: nu is 0
 };
 
 struct OracleSolution {
@@ -36,6 +37,7 @@ struct ReducedProblem {
   DenseDynamics dynamics;  ///< at the velocity that the rows see
   Matrix B;                ///< n x mobility, B B' = Mc
   Vector free;             ///< free motion: feed-forward, bias, ground
+  Matrix apparent;         ///< M^-1, without the ground
   Matrix G;                ///< B' S', mobility x joints; columns of joints without motor are 0
 };
 

@@ -33,7 +33,7 @@ struct ConstrainedMotion {
   Eigen::VectorXd residual;     ///< a . Xdd - b by row
   Eigen::VectorXd tau_control;  ///< feed-forward plus J'A nu [N m] or [N]: with it (and `base_wrench` on a
                                 ///< floating base) plain forward dynamics gives the same qdd
-  ForceVector base_wrench;            ///< the part of J'A nu on a floating base, in base coordinates
+  ForceVector base_wrench;      ///< the part of J'A nu on a floating base, in base coordinates
   Eigen::VectorXd constraint_torque;  ///< line 23's S'A nu, A projected through the joints beyond: not a
                                       ///< torque to command
   int rank = 0;                       ///< of L, over all rows, the ground's included

@@ -160,13 +160,18 @@ struct RigidInertia {
   RigidInertia operator+(const RigidInertia& o) const {
     return {mass + o.mass, first_moment + o.first_moment, rotational + o.rotational};
   }
-  /// The same inertia in the coordinates of a frame A in which the body frame B has the pose X_AB.
+  /// The same inertia in the coordinates of a frame A in which the body frame B has the pose X_AB. With h the
+  /// first moment in A's axes, about B, the parallel axis theorem reads J_A = R J R' - (h p' + p h') - m p p'
+  /// + (2 p.h + m p.p) 1.
   RigidInertia expressed_in(const Pose& pose) const {
-    const Vector3 h = pose.rotation * first_moment;
-    const Matrix3 R = pose.rotation;
-    const Matrix3 p = skew(pose.position);
-    const Matrix3 hx = skew(h);
-    return {mass, h + mass * pose.position, R * rotational * R.transpose() - p * hx - hx * p - mass * p * p};
+    const Matrix3& R = pose.rotation;
+    const Vector3& p = pose.position;
+    const Vector3 h = R * first_moment;
+    const Vector3 half = h + 0.5 * mass * p;
+    const Matrix3 mixed = half * p.transpose();
+    Matrix3 J = R * rotational * R.transpose() - mixed - mixed.transpose();
+    J.diagonal().array() += 2.0 * p.dot(half);
+    return {mass, h + mass * p, J};
   }
   Matrix6 matrix() const {
     Matrix6 I;

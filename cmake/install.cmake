@@ -1,0 +1,25 @@
+# What `cmake --install` leaves, and what find_package(zwang) then finds. Each room has an export set of its own, so that
+# who asks for the solver need not have what the language and the runtime need.
+include(CMakePackageConfigHelpers)
+
+set(zwang_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/zwang)
+
+foreach(room IN ITEMS solver lang runtime)
+  if(TARGET zwang_${room})
+    set_target_properties(zwang_${room} PROPERTIES EXPORT_NAME ${room})
+    install(TARGETS zwang_${room} EXPORT zwang_${room} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT zwang_${room} NAMESPACE zwang:: DESTINATION ${zwang_package_folder})
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endif()
+endforeach()
+
+if(TARGET zwang)
+  install(TARGETS zwang RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/specs DESTINATION ${CMAKE_INSTALL_DATADIR}/zwang)
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/zwangConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/zwangConfig.cmake INSTALL_DESTINATION ${zwang_package_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/zwangConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/zwangConfig.cmake ${PROJECT_BINARY_DIR}/zwangConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/cmake/zwang_mujoco.cmake DESTINATION ${zwang_package_folder})

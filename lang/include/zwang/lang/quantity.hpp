@@ -1,0 +1,14 @@
+/// Quantities outside of files: what a command line gives.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace zwang::lang {
+
+/// `0.5 m`, `30 cm`: [m]. nullopt when the text is anything but one length.
+std::optional<double> read_length(std::string_view text);
+/// `20 deg`, `0.3 rad`: [rad]. nullopt when the text is anything but one angle.
+std::optional<double> read_angle(std::string_view text);
+
+}  // namespace zwang::lang

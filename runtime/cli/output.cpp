@@ -1,0 +1,83 @@
+#include "output.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <numbers>
+
+namespace zwang::cli {
+
+void print(std::string_view text) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (!written || std::fflush(stdout) != 0) {
+    throw Impossible(std::string("cannot write to the standard output: ") + std::strerror(errno));
+  }
+}
+
+void print_error(std::string_view text) noexcept {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fflush(stderr);
+}
+
+bool stdout_is_terminal() noexcept {
+  return isatty(STDOUT_FILENO) == 1;
+}
+
+void secure_standard_streams() {
+  const bool has_stdout = fcntl(STDOUT_FILENO, F_GETFD) != -1;
+  // The lowest free descriptor is taken first: open until the three are in use.
+  int descriptor = 0;
+  while ((descriptor = open("/dev/null", O_RDWR)) >= 0 && descriptor <= STDERR_FILENO) {
+  }
+  if (descriptor > STDERR_FILENO) close(descriptor);
+  if (!has_stdout) throw Impossible("cannot write to the standard output: it is closed");
+}
+
+std::string with_unit(double value, std::string_view si_unit, int digits) {
+  std::string unit(si_unit);
+  if (unit.rfind("rad", 0) == 0) {
+    value *= 180.0 / std::numbers::pi;
+    unit.replace(0, 3, "deg");
+  }
+  // As many decimals as a number around 1 needs for `digits`; small values are shown as small, not as 1e-17.
+  const double size = std::abs(value);
+  int decimals = digits - 1;
+  for (double bound = 10.0; size >= bound && decimals > 0; bound *= 10.0) --decimals;
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  std::string number = text;
+  if (number.find_first_not_of("-0.") == std::string::npos && number[0] == '-') number.erase(0, 1);
+  return number + " " + unit;
+}
+
+std::string padded(std::string_view text, std::size_t width) {
+  std::string out(text);
+  if (out.size() < width) out.append(width - out.size(), ' ');
+  return out;
+}
+
+std::string padded_left(std::string_view text, std::size_t width) {
+  return text.size() < width ? std::string(width - text.size(), ' ').append(text) : std::string(text);
+}
+
+std::string place(const lang::Diagnostics& diagnostics, const lang::Span& span) {
+  if (!span.exists()) return "";
+  const std::filesystem::path path = diagnostics.source(span.source).path;
+  return path.filename().string() + ":" + std::to_string(span.begin.line);
+}
+
+void require_file(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw Impossible(path + ": no such file");
+  if (std::filesystem::is_directory(status)) throw Impossible(path + ": is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) throw Impossible(path + ": is not a regular file");
+  if (access(path.c_str(), R_OK) != 0) throw Impossible(path + ": " + std::strerror(errno));
+}
+
+}  // namespace zwang::cli

@@ -1,0 +1,38 @@
+/// Text for the terminal: checked writing, and numbers with units for people.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::cli {
+
+/// The question could not be answered; what() goes to stderr and the exit code is 2.
+class Impossible : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes to stdout at once. Throws Impossible when stdout is closed or full.
+void print(std::string_view text);
+void print_error(std::string_view text) noexcept;
+bool stdout_is_terminal() noexcept;
+
+/// Keeps the three standard descriptors from being reused by a file that is opened later. Throws Impossible
+/// when stdout is closed.
+void secure_standard_streams();
+
+/// `0.0800 m/s`; angles in degrees. `digits` are significant ones.
+std::string with_unit(double value, std::string_view si_unit, int digits = 4);
+std::string padded(std::string_view text, std::size_t width);       ///< to the left
+std::string padded_left(std::string_view text, std::size_t width);  ///< to the right
+
+/// `wall_align.yaml:27`; empty when the span does not exist.
+std::string place(const lang::Diagnostics& diagnostics, const lang::Span& span);
+
+/// Throws Impossible unless the path is a regular file.
+void require_file(const std::string& path);
+
+}  // namespace zwang::cli

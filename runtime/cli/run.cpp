@@ -1,0 +1,236 @@
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "output.hpp"
+#include "run_report.hpp"
+#include "verbs.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/mujoco_plant.hpp"
+#include "zwang/runtime/runner.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using runtime::PlantStatus;
+
+constexpr double period = 1e-3;  // [s]
+constexpr auto terminal_refresh = std::chrono::milliseconds(50);
+constexpr double line_every = 1.0;  // [s] of the run, where there is no terminal
+constexpr auto longest_signal_stop = std::chrono::milliseconds(300);
+
+volatile std::sig_atomic_t interrupted = 0;
+
+extern "C" void on_signal(int) {
+  interrupted = 1;
+}
+
+void catch_signals() {
+  interrupted = 0;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+std::optional<lang::Program> load(const RunArguments& arguments, lang::Diagnostics& diagnostics) {
+  require_file(arguments.file);
+  lang::LoadOptions options;
+  if (arguments.robot) {
+    require_file(*arguments.robot);
+    options.robot = *arguments.robot;
+  }
+  if (arguments.scene) {
+    require_file(*arguments.scene);
+    options.scene = *arguments.scene;
+  }
+  options.parameters = arguments.parameters;
+  return lang::load(arguments.file, options, diagnostics);
+}
+
+void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Format format) {
+  if (refused && format == Format::json) {
+    const nlohmann::ordered_json whole = {
+        {"outcome", "refused"},
+        {"diagnostics", nlohmann::ordered_json::parse(lang::render_json(diagnostics))}};
+    print(whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    return;
+  }
+  std::ostringstream text;
+  lang::render_human(diagnostics, text);
+  print_error(text.str());
+}
+
+/// A folder of its own for the run: the given one, else the first free `runs/<task>-NNN`.
+fs::path make_folder(const RunArguments& arguments) {
+  std::error_code error;
+  if (arguments.log) {
+    fs::create_directories(*arguments.log, error);
+    if (!fs::is_directory(*arguments.log))
+      throw Impossible(*arguments.log + ": cannot make this folder: " + error.message());
+    return *arguments.log;
+  }
+  fs::create_directories("runs", error);
+  const std::string name = fs::path(arguments.file).stem().string();
+  for (int i = 1; i < 1'000'000 && !error; ++i) {
+    char number[16];
+    std::snprintf(number, sizeof number, "-%03d", i);
+    const fs::path folder = fs::path("runs") / (name + number);
+    // True for the one that made it: two runs at once do not share a folder.
+    if (fs::create_directory(folder, error)) return folder;
+  }
+  throw Impossible("runs: cannot make a folder for the log: " + error.message());
+}
+
+std::vector<runtime::Column> truth_columns(const lang::Scene& scene) {
+  std::vector<runtime::Column> columns = {
+      {"truth.base.x", "m", {}}, {"truth.base.y", "m", {}}, {"truth.base.yaw", "rad", {}}};
+  for (const lang::SceneObject& o : scene.objects) columns.push_back({"truth." + o.name + ".force", "N", {}});
+  return columns;
+}
+
+void put_truth(const runtime::Truth& truth, std::vector<double>& values) {
+  values[0] = truth.x;
+  values[1] = truth.y;
+  values[2] = truth.yaw;
+  for (std::size_t i = 0; i < truth.objects.size(); ++i) values[3 + i] = truth.objects[i].force;
+}
+
+/// One line that is written over itself on a terminal, and now and then a line elsewhere.
+class Live {
+ public:
+  explicit Live(bool shown) : shown_(shown), terminal_(stdout_is_terminal()) {}
+  void show(const runtime::Runner& runner, double time) {
+    if (!shown_) return;
+    if (terminal_) {
+      // The clock is read on few ticks only.
+      if (++calls_ % 16 != 0) return;
+      const auto now = Clock::now();
+      if (now - last_ < terminal_refresh) return;
+      last_ = now;
+      print("\r" + live_line(runner, time) + "\033[K");
+    } else if (time >= next_line_) {
+      next_line_ += line_every;
+      print(live_line(runner, time) + "\n");
+    }
+  }
+  void end() {
+    if (shown_) print(terminal_ ? "\r\033[K" : "\n");
+  }
+
+ private:
+  bool shown_;
+  bool terminal_;
+  unsigned calls_ = 0;
+  double next_line_ = 0.0;
+  Clock::time_point last_;
+};
+
+/// The run itself; what it leaves is in the arguments and in the report.
+void control(runtime::MujocoPlant& plant, runtime::Runner& runner, runtime::Recorder& recorder,
+             const lang::Program& program, Live& live, RunReport& report) {
+  runtime::Sensed sensed(program.robot.model);
+  std::vector<double> truth(3 + program.scene->objects.size());
+  TruthWatch watch(plant.truth(), period);
+  PlantStatus status = PlantStatus::ok;
+  std::optional<Clock::time_point> give_up;
+  while (!runner.finished()) {
+    if (interrupted != 0 && !give_up) {
+      give_up = Clock::now() + longest_signal_stop;
+      runner.guard().stop(runtime::StopReason::requested);
+    }
+    if (give_up && Clock::now() > *give_up) break;
+    status = plant.sense(sensed);
+    if (status != PlantStatus::ok) break;
+    put_truth(plant.truth(), truth);
+    recorder.wait_for_room();
+    const Eigen::VectorXd& tau = runner.step(sensed, truth);
+    const bool in_task = runner.state() == runtime::RunState::running;
+    if (in_task && runner.scheduler().transition()) report.asked = asked_forces(runner.scheduler());
+    live.show(runner, sensed.time);
+    status = plant.apply(tau);
+    if (status != PlantStatus::ok) break;
+    watch.look(plant.truth(), in_task);
+  }
+  report.outcome = to_string(runner.state());
+  if (runner.state() == runtime::RunState::stopped) report.because = to_string(runner.guard().reason());
+  if (status != PlantStatus::ok) {
+    report.outcome = to_string(status);
+    report.because = "the plant " + report.outcome;
+  }
+  report.elapsed = sensed.time;
+  report.objects = watch.objects(plant.truth());
+  report.x = plant.truth().x;
+  report.y = plant.truth().y;
+  report.yaw = plant.truth().yaw;
+}
+
+std::string headline(const RunArguments& arguments, const lang::Program& program) {
+  std::string line = fs::path(arguments.file).filename().string() + ": robot `" + program.robot.name + "`";
+  for (const lang::Parameter& p : program.parameters) {
+    std::ostringstream value;
+    value << p.value / p.unit_scale;
+    line += ", " + p.name + " " + value.str() + (p.unit.empty() ? "" : " " + p.unit);
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  lang::Diagnostics diagnostics;
+  const std::optional<lang::Program> program = load(arguments, diagnostics);
+  const bool refused = !program || diagnostics.has_errors();
+  report_diagnostics(diagnostics, refused, arguments.format);
+  if (refused) return exit_bad;
+  if (!program->scene)
+    throw Impossible(arguments.file + ": names no scene to run in; give one with --scene FILE");
+
+  runtime::MujocoPlantOptions options;
+  options.period = period;
+  options.start_at = arguments.start_at;
+  options.start_yaw = arguments.start_yaw;
+  runtime::MujocoPlant plant(program->robot, *program->scene, options);
+  runtime::RunnerSettings settings;
+  settings.period = period;
+  settings.extra_columns = truth_columns(*program->scene);
+  runtime::Runner runner(*program, settings);
+
+  const fs::path folder = make_folder(arguments);
+  runtime::Recorder recorder(folder / "log.csv", runner.columns());
+  if (!recorder.status().error.empty()) throw Impossible(recorder.status().error);
+  runner.record_to(&recorder);
+
+  const bool talks = !arguments.quiet && arguments.format == Format::human;
+  if (talks) print(headline(arguments, *program));
+  Live live(talks);
+  RunReport report;
+  report.seed = arguments.seed;
+  report.log = (folder / "log.csv").string();
+  catch_signals();
+  const auto begin = Clock::now();
+  control(plant, runner, recorder, *program, live, report);
+  report.wall_time = std::chrono::duration<double>(Clock::now() - begin).count();
+  recorder.close();
+  live.end();
+
+  const runtime::RecorderStatus log = recorder.status();
+  report.records = log.written;
+  report.log_error = log.error;
+  if (log.error.empty() && !log.complete())
+    report.log_error = std::to_string(log.dropped) + " records were dropped";
+  print(arguments.format == Format::json ? json_report(report, runner, diagnostics)
+                                         : human_report(report, runner, diagnostics));
+  if (!report.log_error.empty()) {
+    print_error("zwang: the log is incomplete: " + report.log_error + "\n");
+    return exit_impossible;
+  }
+  return report.outcome == "done" ? exit_good : exit_bad;
+}
+
+}  // namespace zwang::cli

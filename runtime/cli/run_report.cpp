@@ -1,0 +1,231 @@
+#include "run_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "output.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+using runtime::LimitReport;
+using runtime::Transition;
+
+constexpr double steady_window = 0.5;  // [s]
+
+std::string seconds(double time) {
+  return with_unit(time, "s", 4);
+}
+
+std::string task_name(const runtime::Scheduler& scheduler, int task) {
+  return task < 0 ? "-" : scheduler.tasks()[static_cast<std::size_t>(task)].name;
+}
+
+/// Columns as wide as their widest cell; those of numbers stand to the right.
+class Table {
+ public:
+  explicit Table(std::vector<bool> to_right) : to_right_(std::move(to_right)), widths_(to_right_.size(), 0) {}
+  void add(std::vector<std::string> row) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths_[i] = std::max(widths_[i], row[i].size());
+    rows_.push_back(std::move(row));
+  }
+  std::string text() const {
+    std::string out;
+    for (const auto& row : rows_) {
+      std::string line = " ";
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        line += ' ';
+        line += to_right_[i] ? padded_left(row[i], widths_[i]) : padded(row[i], widths_[i]);
+        line += ' ';
+      }
+      out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+    }
+    return out;
+  }
+
+ private:
+  std::vector<bool> to_right_;
+  std::vector<std::size_t> widths_;
+  std::vector<std::vector<std::string>> rows_;
+};
+
+std::string transitions_table(const runtime::Runner& runner, const lang::Diagnostics& diagnostics) {
+  const runtime::Scheduler& scheduler = runner.scheduler();
+  Table table({true, false, false, false});
+  for (const Transition& t : runner.transitions()) {
+    std::string why = scheduler.why(t);
+    const std::string where = place(diagnostics, scheduler.where(t));
+    if (!where.empty()) why += "  (" + where + ")";
+    for (std::size_t i = 0; i < 64; ++i) {
+      if ((t.also_true >> i & 1U) != 0U) why += ", also true: exit " + std::to_string(i + 1);
+    }
+    table.add({seconds(t.time), task_name(scheduler, t.from), "-> " + task_name(scheduler, t.to), why});
+  }
+  std::string text = "transitions\n" + table.text();
+  const std::uint64_t more = runner.transition_count() - runner.transitions().size();
+  if (more > 0) text += "  and " + std::to_string(more) + " more\n";
+  return text;
+}
+
+std::string limits_table(const runtime::Runner& runner, const lang::Diagnostics& diagnostics) {
+  Table table({false, true, true, true, false});
+  table.add({"", "worst", "limit", "margin", ""});
+  for (const LimitReport& l : runner.limits()) {
+    table.add({l.row, with_unit(l.worst, l.unit), with_unit(l.limit, l.unit), with_unit(l.margin, l.unit),
+               place(diagnostics, l.span)});
+  }
+  return "limits\n" + table.text();
+}
+
+std::string truth_table(const RunReport& report) {
+  std::string text = "truth, as the plant measured it\n";
+  Table table({false, false});
+  for (const ObjectReport& o : report.objects) {
+    if (!o.touched) {
+      table.add({o.name, "not touched"});
+      continue;
+    }
+    table.add({o.name, "touched at " + seconds(*o.touched) + ", pressed with " +
+                           with_unit(o.steady_force, "N", 5) + " at the end, with " +
+                           with_unit(o.peak_force, "N", 4) + " at most"});
+  }
+  for (const AskedForce& a : report.asked) {
+    table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
+  }
+  table.add({"base", "x " + with_unit(report.x, "m") + ", y " + with_unit(report.y, "m") + ", yaw " +
+                         with_unit(report.yaw, "rad")});
+  return text + table.text();
+}
+
+ordered_json number_or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json json_transitions(const runtime::Runner& runner, const lang::Diagnostics& diagnostics) {
+  const runtime::Scheduler& scheduler = runner.scheduler();
+  ordered_json all = ordered_json::array();
+  for (const Transition& t : runner.transitions()) {
+    std::string why = scheduler.why(t);
+    const std::string where = place(diagnostics, scheduler.where(t));
+    if (!where.empty()) why += " (" + where + ")";
+    ordered_json one = {
+        {"time", t.time}, {"from", nullptr}, {"to", task_name(scheduler, t.to)}, {"why", why}};
+    if (t.from >= 0) one["from"] = task_name(scheduler, t.from);
+    all.push_back(one);
+  }
+  return all;
+}
+
+}  // namespace
+
+TruthWatch::TruthWatch(const runtime::Truth& truth, double period)
+    : watched_(truth.objects.size()),
+      window_(static_cast<std::size_t>(std::max(1.0, std::round(steady_window / period)))) {
+  for (Watched& w : watched_) w.last_forces.reserve(window_);
+}
+
+void TruthWatch::look(const runtime::Truth& truth, bool in_task) {
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    Watched& w = watched_[i];
+    if (truth.objects[i].touched && !w.yaw_at_touch) w.yaw_at_touch = truth.yaw;
+    if (!in_task) continue;
+    if (w.last_forces.size() < window_) {
+      w.last_forces.push_back(truth.objects[i].force);
+    } else {
+      w.last_forces[looks_ % window_] = truth.objects[i].force;
+    }
+  }
+  if (in_task) ++looks_;
+}
+
+std::vector<ObjectReport> TruthWatch::objects(const runtime::Truth& truth) const {
+  std::vector<ObjectReport> reports;
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const runtime::ObjectTruth& o = truth.objects[i];
+    const std::vector<double>& forces = watched_[i].last_forces;
+    const double sum = std::accumulate(forces.begin(), forces.end(), 0.0);
+    reports.push_back({o.name, o.touched, watched_[i].yaw_at_touch,
+                       forces.empty() ? 0.0 : sum / static_cast<double>(forces.size()), o.peak_force});
+  }
+  return reports;
+}
+
+std::string live_line(const runtime::Runner& runner, double time) {
+  std::string line = padded_left(seconds(time), 9) + "  " +
+                     padded(task_name(runner.scheduler(), runner.scheduler().task()), 12);
+  if (const auto limit = runner.limit_now()) {
+    line += "  " + limit->row + " at " + with_unit(limit->worst, limit->unit) + " of " +
+            with_unit(limit->limit, limit->unit);
+  }
+  return line;
+}
+
+std::vector<AskedForce> asked_forces(const runtime::Scheduler& scheduler) {
+  std::vector<AskedForce> asked;
+  if (scheduler.task() < 0) return asked;
+  const lang::Task& task = scheduler.tasks()[static_cast<std::size_t>(scheduler.task())];
+  for (const lang::Group& group : task.groups) {
+    for (const lang::AxisStatements& axis : group.axes) {
+      if (axis.driver != solver::Quantity::force) continue;
+      asked.push_back({task.name + "." + axis.name, axis.target.evaluate(scheduler.parameters()),
+                       axis.axis >= solver::Axis::rx ? "N m" : "N"});
+    }
+  }
+  return asked;
+}
+
+std::string human_report(const RunReport& report, const runtime::Runner& runner,
+                         const lang::Diagnostics& diagnostics) {
+  std::string text = report.outcome + " after " + seconds(report.elapsed);
+  if (!report.because.empty()) text += ": " + report.because;
+  text += "\n\n" + transitions_table(runner, diagnostics) + "\n" + limits_table(runner, diagnostics) + "\n" +
+          truth_table(report) + "\n";
+  text += "log    " + report.log + ", " + std::to_string(report.records) + " records";
+  if (!report.log_error.empty()) text += ", INCOMPLETE: " + report.log_error;
+  text += "\nspeed  " + with_unit(report.elapsed / std::max(report.wall_time, 1e-9), "x real time", 3) + "\n";
+  return text;
+}
+
+std::string json_report(const RunReport& report, const runtime::Runner& runner,
+                        const lang::Diagnostics& diagnostics) {
+  ordered_json limits = ordered_json::array();
+  for (const LimitReport& l : runner.limits()) {
+    limits.push_back({{"row", l.row},
+                      {"line", l.span.exists() ? ordered_json(l.span.begin.line) : ordered_json(nullptr)},
+                      {"limit", l.limit},
+                      {"worst", l.worst},
+                      {"margin", l.margin},
+                      {"unit", l.unit},
+                      {"where", place(diagnostics, l.span)}});
+  }
+  ordered_json truth = ordered_json::object();
+  for (const ObjectReport& o : report.objects) {
+    truth[o.name] = {{"touched", number_or_null(o.touched)},
+                     {"steady_force", o.steady_force},
+                     {"peak_force", o.peak_force},
+                     {"yaw_at_touch", number_or_null(o.yaw_at_touch)}};
+  }
+  truth["base"] = {{"x", report.x}, {"y", report.y}, {"yaw", report.yaw}};
+  ordered_json asked = ordered_json::array();
+  for (const AskedForce& a : report.asked) {
+    asked.push_back({{"row", a.row}, {"force", a.force}, {"unit", a.unit}});
+  }
+  ordered_json whole = {{"outcome", report.outcome},
+                        {"elapsed", report.elapsed},
+                        {"transitions", json_transitions(runner, diagnostics)},
+                        {"limits", limits},
+                        {"asked", asked},
+                        {"truth", truth},
+                        {"seed", report.seed},
+                        {"log", report.log},
+                        {"log_complete", report.log_error.empty()},
+                        {"wall_time", report.wall_time}};
+  if (!report.because.empty()) whole["because"] = report.because;
+  return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace zwang::cli

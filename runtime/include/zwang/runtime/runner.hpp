@@ -1,0 +1,85 @@
+/// One control tick from sample to torques: admit, schedule, fill, solve, guard, record.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/plant.hpp"
+#include "zwang/runtime/recorder.hpp"
+#include "zwang/runtime/safety_guard.hpp"
+#include "zwang/runtime/scheduler.hpp"
+#include "zwang/solver/solver.hpp"
+
+namespace zwang::runtime {
+
+enum class RunState {
+  running,
+  done,
+  failed,
+  stopped,  ///< the protective stop; SafetyGuard::reason says why
+};
+const char* to_string(RunState state) noexcept;
+
+/// A limit of the task, the robot or a motor that was in force, and how near the run came to it.
+/// Forces and accelerations are those commanded; positions and velocities those sensed; torques those sent.
+struct LimitReport {
+  std::string row;  ///< "press.contact.x.velocity", "limits.rz.acceleration", "front_left_wheel.torque"
+  lang::Span span;  ///< where it is written
+  double limit = 0.0;
+  double worst = 0.0;   ///< the value nearest to, or farthest beyond, the limit
+  double margin = 0.0;  ///< what was left; negative when it was broken
+  std::string unit;     ///< SI
+};
+
+struct RunnerSettings {
+  double period = 1e-3;                                       ///< [s]
+  double max_slew = std::numeric_limits<double>::infinity();  ///< [N m/s] or [N/s] of a joint
+  std::vector<Column> extra_columns;  ///< logged behind the runner's own; `step` is given their values
+};
+
+class Runner {
+ public:
+  /// The program is copied. Throws std::invalid_argument, as Scheduler, Solver and SafetyGuard do.
+  explicit Runner(const lang::Program& program, const RunnerSettings& settings = {});
+  ~Runner();
+  Runner(Runner&&) noexcept;
+  Runner& operator=(Runner&&) noexcept;
+
+  /// The torques to send for this sample [N m] or [N]; always finite and within the joints' limits. Goes on
+  /// braking and holding after the run is over. Does not allocate, lock, throw or print.
+  const Eigen::VectorXd& step(const Sensed& sensed, std::span<const double> extra = {}) noexcept;
+
+  RunState state() const noexcept;
+  /// The outcome is known and the base stands (or has had the time to).
+  bool finished() const noexcept;
+
+  /// The columns of a log of this run. A recorder made with them may be attached before the first step; it
+  /// must outlive the runner.
+  std::vector<Column> columns() const;
+  void record_to(Recorder* recorder) noexcept;
+
+  const Scheduler& scheduler() const noexcept;
+  const SafetyGuard& guard() const noexcept;
+  SafetyGuard& guard() noexcept;
+  const solver::Solution& solution() const noexcept;
+  GuardStatus guard_status() const noexcept;      ///< of the last step
+  solver::Status solver_status() const noexcept;  ///< of the last step that got to the solver
+
+  const std::vector<Transition>& transitions() const noexcept;  ///< the first 1024
+  std::uint64_t transition_count() const noexcept;
+  /// Every limit that was in force, in the order of the files. Allocates.
+  std::vector<LimitReport> limits() const;
+  /// The limit that the last step was at, if any. Allocates.
+  std::optional<LimitReport> limit_now() const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace zwang::runtime

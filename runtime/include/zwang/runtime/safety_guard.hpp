@@ -1,0 +1,90 @@
+/// The last stage before the robot. It trusts nobody: not the sensors, not the clock, not the solver.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+#include "zwang/runtime/plant.hpp"
+
+namespace zwang::runtime {
+
+enum class SampleStatus {
+  good,
+  not_finite,  ///< a number in it is not finite, or beyond anything a robot can have
+  bad_clock,   ///< time stood still, went backwards or jumped
+};
+const char* to_string(SampleStatus status) noexcept;
+
+enum class StopReason { none, bad_sample, lost_ticks, bad_torque, solver, plant, requested };
+const char* to_string(StopReason reason) noexcept;
+
+enum class GuardStatus {
+  passed,   ///< the torques went through as they came
+  limited,  ///< a torque was cut to its limit
+  slewed,   ///< a torque's rate was cut
+  held,     ///< the sample was refused: the last torques stay
+  stopped,  ///< the protective stop is latched: the wheels brake
+};
+const char* to_string(GuardStatus status) noexcept;
+
+struct GuardSettings {
+  double period = 1e-3;     ///< [s] control period
+  double max_step = 0.1;    ///< [s] a longer step of time is refused
+  int max_lost_ticks = 20;  ///< as many without a good sample stop the robot
+  double max_slew = std::numeric_limits<double>::infinity();  ///< [N m/s] or [N/s] of a joint
+};
+
+struct GuardCounters {
+  std::uint64_t samples = 0;
+  std::uint64_t refused_values = 0;
+  std::uint64_t refused_clock = 0;
+  std::uint64_t bad_torques = 0;
+  std::uint64_t limited = 0;
+  std::uint64_t slewed = 0;
+};
+
+/// Does not allocate, lock, throw or print after construction.
+class SafetyGuard {
+ public:
+  /// Throws std::invalid_argument on settings that are not positive.
+  explicit SafetyGuard(const lang::Robot& robot, const GuardSettings& settings = {});
+
+  /// Every sample comes through here first. Numbers that are not finite latch the stop at once, and so do
+  /// `max_lost_ticks` without a good sample.
+  SampleStatus admit(const Sensed& sensed) noexcept;
+
+  /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew;
+  /// the brake's when the stop is latched. `tau` keeps its size. Call it when `admit` said good.
+  GuardStatus output(const Sensed& sensed, const Eigen::VectorXd& wanted, Eigen::VectorXd& tau) noexcept;
+  /// The torques to send when `admit` refused the sample: the last ones, or none when the stop is latched.
+  GuardStatus output_blind(Eigen::VectorXd& tau) noexcept;
+
+  /// Latches the protective stop. The first reason is kept.
+  void stop(StopReason reason) noexcept;
+  bool stopped() const noexcept { return reason_ != StopReason::none; }
+  StopReason reason() const noexcept { return reason_; }
+  /// Releases the stop; the clock starts anew.
+  void reset() noexcept;
+
+  const GuardCounters& counters() const noexcept { return counters_; }
+
+ private:
+  void brake(const Sensed& sensed) noexcept;
+  GuardStatus send(Eigen::VectorXd& tau, GuardStatus status) noexcept;
+
+  GuardSettings settings_;
+  Eigen::VectorXd limit_;       ///< [N m] of each joint, 0 where there is no motor
+  Eigen::VectorXd stop_limit_;  ///< [N m] what the protective stop may use
+  Eigen::VectorXd last_;        ///< sent last
+  Eigen::VectorXd next_;
+  double last_time_ = 0.0;
+  bool has_time_ = false;
+  int lost_ticks_ = 0;
+  StopReason reason_ = StopReason::none;
+  GuardCounters counters_;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,112 @@
+/// Which task is active, which constraints are in force, and how they fade: steps 2 to 7 of the control tick.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/plant.hpp"
+#include "zwang/solver/constraint.hpp"
+#include "zwang/solver/solver.hpp"
+
+namespace zwang::runtime {
+
+enum class Phase {
+  running,
+  stopping,  ///< `done` or `failed` was reached; the base brakes
+  finished,  ///< the base stands; the brake's rows stay in force and hold it
+};
+
+enum class Outcome { none, done, failed };
+const char* to_string(Outcome outcome) noexcept;
+
+enum class Cause {
+  start,        ///< the program's start task
+  exit,         ///< one of the task's exits
+  timeout,      ///< the task's timeout
+  never_stood,  ///< the brake did not bring the base to rest in time
+};
+
+/// A switch of tasks. Tasks are indices into Scheduler::tasks().
+struct Transition {
+  double time = 0.0;  ///< [s]
+  int from = -1;      ///< -1 at the start
+  int to = 0;
+  Cause cause = Cause::start;
+  int exit = -1;                ///< index of the exit taken
+  std::uint64_t also_true = 0;  ///< bit i: exit i would have been taken too
+};
+
+/// The axis statement that a constraint comes from.
+struct Origin {
+  int task = -1;
+  int group = -1;
+  int axis = -1;
+};
+
+/// One constraint of the present set.
+struct InForce {
+  Origin origin;
+  bool active = false;  ///< belongs to the active task; false while it fades out
+  bool drives = false;  ///< carries its statement's driver
+};
+
+/// What the last solution said of an axis's driver.
+struct AxisReading {
+  double force = 0.0;     ///< nu, or phi f of a force driver [N] or [N m]
+  double residual = 0.0;  ///< s [m/s^2] or [rad/s^2]
+  bool saturated = false;
+};
+
+/// Runs the tasks of one program. Everything is sized by the constructor; afterwards nothing allocates,
+/// locks, throws or prints, except where a member says so.
+class Scheduler {
+ public:
+  /// The program is copied. Throws std::invalid_argument on a program without tasks or with an index out of
+  /// range, or a period that is not positive.
+  Scheduler(const lang::Program& program, double period);
+  ~Scheduler();
+  Scheduler(Scheduler&&) noexcept;
+  Scheduler& operator=(Scheduler&&) noexcept;
+
+  /// Frames, guards, at most one transition, `set`, `here`, and the constraints in force now. The sample must
+  /// be finite and later than the last one.
+  void tick(const Sensed& sensed) noexcept;
+  /// What the solver made of the rows of `constraints()`: the guards of the next tick read it.
+  void observe(const solver::Solution& solution) noexcept;
+
+  solver::ConstraintSet& constraints() noexcept;
+  /// Parallel to constraints().constraints().
+  const std::vector<InForce>& in_force() const noexcept;
+  const std::optional<Transition>& transition() const noexcept;  ///< of this tick
+
+  Phase phase() const noexcept;
+  Outcome outcome() const noexcept;  ///< none until `done` or `failed` is reached
+  int task() const noexcept;
+  double elapsed() const noexcept;  ///< [s] since the task was entered
+  AxisReading reading(const Origin& origin) const noexcept;
+  /// How long the exit's condition has been true without a break. [s]
+  double dwell(int exit) const noexcept;
+  const std::vector<double>& parameters() const noexcept;
+
+  /// The program's tasks, each with the robot's limits as the group `limits` where it gives none of its own,
+  /// then the two that brake: `done` and `failed`.
+  const std::vector<lang::Task>& tasks() const noexcept;
+  int program_task_count() const noexcept;
+  int row_capacity() const noexcept;  ///< no tick has more rows
+  double period() const noexcept;     ///< [s]
+
+  /// Why a transition was taken, in the words of the task file. Allocates.
+  std::string why(const Transition& transition) const;
+  /// Where those words stand. Allocates nothing; the span may not exist.
+  lang::Span where(const Transition& transition) const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,49 @@
+#include "floor_friction.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr double frequency = 200.0;  ///< w [1/s]
+constexpr double damping = 0.7;      ///< ratio, while the bristles hold
+
+/// Shortens `v` to the length `limit`.
+template <typename Vector>
+void cut(Vector&& v, double limit) {
+  const double length = v.norm();
+  if (length > limit) v *= limit / length;
+}
+
+}  // namespace
+
+FloorFriction::FloorFriction(double mass, double yaw_inertia, double load, double reach)
+    : inertia_(mass, yaw_inertia), limit_(load, load * reach) {}
+
+Eigen::Vector3d FloorFriction::step(const Eigen::Vector3d& velocity, double period) noexcept {
+  stretch_ += period * velocity;
+  const Eigen::Vector2d stiffness = frequency * frequency * inertia_;
+  cut(stretch_.head<2>(), limit_[0] / stiffness[0]);
+  cut(stretch_.tail<1>(), limit_[1] / stiffness[1]);
+  const Eigen::Vector3d pull = stretch_ + 2.0 * damping / frequency * velocity;
+  Eigen::Vector3d force;
+  force << -stiffness[0] * pull.head<2>(), -stiffness[1] * pull.tail<1>();
+  cut(force.head<2>(), limit_[0]);
+  cut(force.tail<1>(), limit_[1]);
+  return force;
+}
+
+FloorFriction floor_friction_of(const lang::SceneObject& object, double coefficient, double gravity) {
+  const double mass = object.mass.value_or(0.0);
+  const double a = object.size[0];
+  const double b = object.size[1];
+  const bool round = object.shape == lang::ShapeKind::cylinder;
+  const double yaw_inertia = round ? 0.5 * mass * a * a : mass / 12.0 * (a * a + b * b);
+  const double area = round ? std::numbers::pi * a * a : a * b;
+  const double reach = 2.0 / 3.0 * std::sqrt(area / std::numbers::pi);  // of a disk as large
+  return {mass, yaw_inertia, coefficient * mass * gravity, reach};
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,41 @@
+/// The simulation as text: MuJoCo's XML, written from our own model. Nothing here knows the simulator.
+///
+/// Names: `body_<i>`, `joint_<j>`, `motor_<j>` after the model's numbers, `wheel_<w>`, `floor`; of the
+/// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`; of the scene `object_<k>` (body) with
+/// geoms `object_<k>_face` and `object_<k>_edge_<c>`.
+///
+/// Robot and objects meet in one plane, at the height of the bumper: corners of the one against faces of the
+/// other, each pair one contact point. A corner is a sphere of 1 um tangent to both of its sides. Objects
+/// that move slide in the plane, on joints `object_<k>_x`, `_y`, `_turn`: their friction is in
+/// floor_friction.hpp.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "rolling_spheres.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/scene.hpp"
+
+namespace zwang::runtime {
+
+/// What the text is written from, worked out once.
+struct SimulatedRobot {
+  SphereBase spheres;
+  double ground = 0.0;                   ///< [m] height of the ground in the base frame
+  std::vector<double> wheel_lift;        ///< [m] each wheel's move upwards that makes the base stand level
+  std::vector<solver::Vector3> outline;  ///< convex hull of the footprint, counter-clockwise
+  std::vector<solver::Vector3> skids;    ///< points under the base; empty when the wheels carry it
+};
+
+/// Throws std::invalid_argument when the robot cannot be simulated.
+SimulatedRobot prepare_robot(const lang::Robot& robot);
+
+std::string write_mjcf(const lang::Robot& robot, const SimulatedRobot& simulated, const lang::Scene& scene,
+                       double period);
+
+/// How an object's springs are described in the text; the plant puts in the stiffness afterwards.
+inline constexpr double spring_impedance = 0.001;
+
+}  // namespace zwang::runtime

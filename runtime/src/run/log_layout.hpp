@@ -1,0 +1,51 @@
+/// Which column of the log holds what. The columns are the union over all tasks, so that they stay the same
+/// from the first record to the last; what is not in force is blank.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "run/statement_table.hpp"
+#include "zwang/runtime/recorder.hpp"
+#include "zwang/runtime/runner.hpp"
+
+namespace zwang::runtime {
+
+/// Everything that one record tells of.
+struct Tick {
+  const Sensed& sensed;
+  const Scheduler& scheduler;
+  const solver::ConstraintSet* set;  ///< null when the tick did not get to the solver
+  const solver::Solution& solution;
+  solver::Status solver_status;
+  GuardStatus guard_status;
+  const Eigen::VectorXd& tau;
+  std::span<const double> extra;
+};
+
+class LogLayout {
+ public:
+  LogLayout(const StatementTable& statements, const Scheduler& scheduler, const solver::Model& model,
+            const std::vector<Column>& extra);
+
+  const std::vector<Column>& columns() const noexcept { return columns_; }
+  /// The record of a tick, one value a column; valid until the next call. Does not allocate.
+  std::span<const double> fill(const StatementTable& statements, const Tick& tick) noexcept;
+
+ private:
+  struct StatementColumns {
+    int position = -1, velocity = -1, b = -1, nu = -1, residual = -1, alpha = -1, limit_nu = -1;
+  };
+  int add(std::string name, std::string unit, std::vector<std::string> words = {});
+  void put(int column, double value) noexcept;
+  void put_statements(const StatementTable& statements, const Tick& tick) noexcept;
+
+  std::vector<Column> columns_;
+  std::vector<double> values_;
+  std::vector<StatementColumns> of_statement_;
+  std::vector<std::vector<int>> guards_;  // by task, exit
+  int first_joint_ = 0;
+  int first_extra_ = 0;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,187 @@
+#include "zwang/runtime/runner.hpp"
+
+#include <algorithm>
+
+#include "run/limit_table.hpp"
+#include "run/log_layout.hpp"
+#include "run/statement_table.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr std::size_t kept_transitions = 1024;
+constexpr double at_rest_speed = 0.01;               // [m/s]
+constexpr double at_rest_turn = 0.0174532925199433;  // [rad/s], 1 deg/s
+constexpr double longest_stop = 10.0;                // [s]
+
+}  // namespace
+
+const char* to_string(RunState state) noexcept {
+  switch (state) {
+    case RunState::running:
+      return "running";
+    case RunState::done:
+      return "done";
+    case RunState::failed:
+      return "failed";
+    case RunState::stopped:
+      return "stopped";
+  }
+  return "?";
+}
+
+struct Runner::Parts {
+  Parts(const lang::Program& program, const RunnerSettings& settings)
+      : model(program.robot.model),
+        period(settings.period),
+        scheduler(program, settings.period),
+        solver(model, {.row_capacity = scheduler.row_capacity()}),
+        solution(model, scheduler.row_capacity()),
+        sample(model),
+        guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
+        statements(scheduler, program),
+        limits(statements, program.robot),
+        layout(statements, scheduler, model, settings.extra_columns),
+        tau(Eigen::VectorXd::Zero(model.joint_count())) {
+    transitions.reserve(kept_transitions);
+  }
+
+  /// Everything between a good sample and the guard. False when there are no torques to send.
+  bool control(const Sensed& sensed) noexcept;
+  void brake_protectively(bool good_sample, const Sensed& sensed) noexcept;
+
+  const solver::Model model;
+  double period;
+  Scheduler scheduler;
+  solver::Solver solver;
+  solver::Solution solution;
+  Sensed sample;  ///< of this tick, its velocities as the ground allows them
+  SafetyGuard guard;
+  StatementTable statements;
+  LimitTable limits;
+  LogLayout layout;
+  Recorder* recorder = nullptr;
+  Eigen::VectorXd tau;
+  solver::Status solver_status = solver::Status::ok;
+  GuardStatus guard_status = GuardStatus::passed;
+  std::vector<Transition> transitions;
+  std::uint64_t transition_count = 0;
+  std::uint64_t stopped_ticks = 0;
+  bool stands = false;  ///< after a protective stop
+};
+
+bool Runner::Parts::control(const Sensed& sensed) noexcept {
+  sample = sensed;
+  solver_status = solver.project_velocity(sample.state);
+  if (solver_status != solver::Status::ok) return false;
+  scheduler.tick(sample);
+  if (scheduler.transition()) {
+    ++transition_count;
+    if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
+  }
+  solver_status = scheduler.constraints().fill(model, sample.state)
+                      ? solver.solve(sample.state, scheduler.constraints().rows(), solution)
+                      : solver::Status::capacity_exceeded;
+  if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
+  scheduler.observe(solution);
+  return true;
+}
+
+void Runner::Parts::brake_protectively(bool good_sample, const Sensed& sensed) noexcept {
+  ++stopped_ticks;
+  const solver::MotionVector& twist = sensed.state.base_twist;
+  const bool at_rest =
+      good_sample && twist.linear.norm() < at_rest_speed && twist.angular.norm() < at_rest_turn;
+  stands = stands || at_rest || static_cast<double>(stopped_ticks) * period > longest_stop;
+}
+
+Runner::Runner(const lang::Program& program, const RunnerSettings& settings)
+    : parts_(std::make_unique<Parts>(program, settings)) {}
+Runner::~Runner() = default;
+Runner::Runner(Runner&&) noexcept = default;
+Runner& Runner::operator=(Runner&&) noexcept = default;
+
+const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double> extra) noexcept {
+  Parts& p = *parts_;
+  const bool good = p.guard.admit(sensed) == SampleStatus::good;
+  bool solved = false;
+  if (good && !p.guard.stopped()) {
+    solved = p.control(sensed);
+    if (!solved) p.guard.stop(StopReason::solver);
+  }
+  p.guard_status = good ? p.guard.output(sensed, p.solution.tau, p.tau) : p.guard.output_blind(p.tau);
+  if (p.guard.stopped()) p.brake_protectively(good, sensed);
+  if (solved) {
+    p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau);
+  }
+  if (p.recorder != nullptr) {
+    const Tick tick{sensed,
+                    p.scheduler,
+                    solved ? &p.scheduler.constraints() : nullptr,
+                    p.solution,
+                    p.solver_status,
+                    p.guard_status,
+                    p.tau,
+                    extra};
+    p.recorder->record(p.layout.fill(p.statements, tick));
+  }
+  return p.tau;
+}
+
+RunState Runner::state() const noexcept {
+  if (parts_->guard.stopped()) return RunState::stopped;
+  switch (parts_->scheduler.outcome()) {
+    case Outcome::done:
+      return RunState::done;
+    case Outcome::failed:
+      return RunState::failed;
+    case Outcome::none:
+      break;
+  }
+  return RunState::running;
+}
+
+bool Runner::finished() const noexcept {
+  if (parts_->guard.stopped()) return parts_->stands;
+  return parts_->scheduler.phase() == Phase::finished;
+}
+
+std::vector<Column> Runner::columns() const {
+  return parts_->layout.columns();
+}
+void Runner::record_to(Recorder* recorder) noexcept {
+  parts_->recorder = recorder;
+}
+const Scheduler& Runner::scheduler() const noexcept {
+  return parts_->scheduler;
+}
+const SafetyGuard& Runner::guard() const noexcept {
+  return parts_->guard;
+}
+SafetyGuard& Runner::guard() noexcept {
+  return parts_->guard;
+}
+const solver::Solution& Runner::solution() const noexcept {
+  return parts_->solution;
+}
+GuardStatus Runner::guard_status() const noexcept {
+  return parts_->guard_status;
+}
+solver::Status Runner::solver_status() const noexcept {
+  return parts_->solver_status;
+}
+const std::vector<Transition>& Runner::transitions() const noexcept {
+  return parts_->transitions;
+}
+std::uint64_t Runner::transition_count() const noexcept {
+  return parts_->transition_count;
+}
+std::vector<LimitReport> Runner::limits() const {
+  return parts_->limits.reports();
+}
+std::optional<LimitReport> Runner::limit_now() const {
+  return parts_->limits.now();
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,267 @@
+#include "schedule/blend.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zwang::runtime {
+
+namespace {
+
+using solver::AxisConstraint;
+using solver::Driver;
+using solver::Quantity;
+using solver::Range;
+
+constexpr unsigned position_bit = 1U;
+constexpr unsigned velocity_bit = 2U;
+constexpr unsigned acceleration_bit = 4U;
+
+unsigned ranges_of(const AxisConstraint& c) {
+  return (c.position ? position_bit : 0U) | (c.velocity ? velocity_bit : 0U) |
+         (c.acceleration ? acceleration_bit : 0U);
+}
+
+void keep_only(AxisConstraint& c, bool driver, unsigned ranges) {
+  if (!driver) {
+    c.driver.reset();
+    c.before.reset();
+  }
+  if ((ranges & position_bit) == 0U) c.position.reset();
+  if ((ranges & velocity_bit) == 0U) c.velocity.reset();
+  if ((ranges & acceleration_bit) == 0U) c.acceleration.reset();
+}
+
+bool same(const solver::AttachedFrame& a, const solver::AttachedFrame& b) {
+  return a.body == b.body && a.pose.rotation == b.pose.rotation && a.pose.position == b.pose.position;
+}
+
+bool same_axis(const AxisConstraint& a, const AxisConstraint& b) {
+  return a.axis == b.axis && a.level == b.level && same(a.move, b.move) && same(a.in, b.in);
+}
+
+bool is_force(const Driver& driver) {
+  return driver.quantity == Quantity::force;
+}
+
+double lerp(double from, double to, double progress) {
+  return from + (to - from) * progress;
+}
+
+/// Whether the driver of `c`, which may itself be on its way, is a driver that one can start from.
+bool is_one_driver(const AxisConstraint& c) {
+  if (!c.before || c.progress >= 1.0) return true;
+  if (c.before->quantity != c.driver->quantity) return false;
+  const bool has_time_constant =
+      c.driver->quantity == Quantity::position || c.driver->quantity == Quantity::velocity;
+  return !has_time_constant || c.before->time_constant == c.driver->time_constant;
+}
+
+/// The driver that asks for what `c` asks for now.
+Driver driver_now(const AxisConstraint& c) {
+  Driver now = *c.driver;
+  if (!c.before || c.progress >= 1.0) return now;
+  now.target = lerp(c.before->target, now.target, c.progress);
+  now.target_rate = lerp(c.before->target_rate, now.target_rate, c.progress);
+  now.target_acceleration = lerp(c.before->target_acceleration, now.target_acceleration, c.progress);
+  return now;
+}
+
+double finite(double bound, double scale) {
+  return std::isfinite(bound) ? bound : std::copysign(scale, bound);
+}
+
+}  // namespace
+
+int row_bound(const AxisConstraint& c) noexcept {
+  return (c.driver ? 1 : 0) +
+         2 * (static_cast<int>(c.position.has_value()) + static_cast<int>(c.velocity.has_value()) +
+              static_cast<int>(c.acceleration.has_value()));
+}
+
+Blend::Blend(std::size_t most_wanted, int leaving_row_capacity, double force_scale, double torque_scale)
+    : leaving_row_capacity_(leaving_row_capacity), force_scale_(force_scale), torque_scale_(torque_scale) {
+  // A wanted constraint and its match split into at most three parts; the rest is for what still leaves.
+  const std::size_t capacity = 8 * std::max<std::size_t>(most_wanted, 4);
+  parts_.reserve(capacity);
+  before_.reserve(capacity);
+  taken_.reserve(capacity);
+}
+
+void Blend::start(const std::vector<Wanted>& wanted, double duration) noexcept {
+  duration_ = duration;
+  if (!(duration > 0.0)) {
+    settle(wanted);
+    return;
+  }
+  settled_ = false;
+  before_.swap(parts_);
+  parts_.clear();
+  taken_.assign(before_.size(), 0);
+  for (int i = 0; i < static_cast<int>(wanted.size()); ++i) {
+    const AxisConstraint& c = wanted[static_cast<std::size_t>(i)].constraint;
+    const int old = match(c);
+    if (old < 0) {
+      add_entering(wanted, i, c.driver.has_value(), ranges_of(c));
+    } else {
+      taken_[static_cast<std::size_t>(old)] = 1;
+      join(wanted, i, before_[static_cast<std::size_t>(old)]);
+    }
+  }
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    const AxisConstraint& c = before_[i].present;
+    if (taken_[i] == 0) add_leaving(before_[i], c.driver.has_value(), ranges_of(c));
+  }
+  make_room();
+}
+
+void Blend::settle(const std::vector<Wanted>& wanted) noexcept {
+  settled_ = true;
+  parts_.clear();
+  for (int i = 0; i < static_cast<int>(wanted.size()); ++i) {
+    const AxisConstraint& c = wanted[static_cast<std::size_t>(i)].constraint;
+    add_entering(wanted, i, c.driver.has_value(), ranges_of(c));
+    parts_.back().alpha_from = 1.0;
+    parts_.back().entering = false;
+  }
+}
+
+int Blend::match(const AxisConstraint& constraint) const noexcept {
+  int best = -1;
+  for (std::size_t i = 0; i < before_.size(); ++i) {
+    if (taken_[i] != 0 || !same_axis(before_[i].present, constraint)) continue;
+    const double alpha = before_[i].present.alpha;
+    if (best < 0 || alpha > before_[static_cast<std::size_t>(best)].present.alpha) best = static_cast<int>(i);
+  }
+  return best;
+}
+
+/// The wanted constraint `index` speaks of the axis of `from`.
+void Blend::join(const std::vector<Wanted>& wanted, int index, const Part& from) noexcept {
+  const AxisConstraint& to = wanted[static_cast<std::size_t>(index)].constraint;
+  const Ranges in_old = ranges_of(from.present);
+  const Ranges in_new = ranges_of(to);
+  const Ranges in_both = in_old & in_new;
+  const bool drove = from.present.driver.has_value();
+  const bool drives = to.driver.has_value();
+  const bool driver_persists = drove && drives && is_force(*from.present.driver) == is_force(*to.driver) &&
+                               is_one_driver(from.present);
+  if (driver_persists || (!drove && !drives)) {
+    if (drives || in_both != 0U) add_persisting(wanted, index, from, drives, in_both);
+    if ((in_new & ~in_both) != 0U) add_entering(wanted, index, false, in_new & ~in_both);
+    if ((in_old & ~in_both) != 0U) add_leaving(from, false, in_old & ~in_both);
+    return;
+  }
+  // Another kind of driver, or none: the drivers change over, the ranges that both have stay in force
+  // throughout.
+  if (drives || (in_new & ~in_both) != 0U) add_entering(wanted, index, drives, in_new & ~in_both);
+  if (in_both != 0U) add_persisting(wanted, index, from, false, in_both);
+  if (drove || (in_old & ~in_both) != 0U) add_leaving(from, drove, in_old & ~in_both);
+}
+
+void Blend::add(const Part& part) noexcept {
+  if (parts_.size() < parts_.capacity()) parts_.push_back(part);
+}
+
+void Blend::add_entering(const std::vector<Wanted>& wanted, int index, bool drives, Ranges ranges) noexcept {
+  Part part;
+  part.origin = wanted[static_cast<std::size_t>(index)].origin;
+  part.wanted = index;
+  part.drives = drives;
+  part.ranges = ranges;
+  part.entering = true;
+  add(part);
+}
+
+void Blend::add_persisting(const std::vector<Wanted>& wanted, int index, const Part& from, bool drives,
+                           Ranges ranges) noexcept {
+  Part part;
+  part.old = from.present;
+  if (drives) part.old.driver = driver_now(from.present);
+  part.origin = wanted[static_cast<std::size_t>(index)].origin;
+  part.wanted = index;
+  part.drives = drives;
+  part.persists = true;
+  part.ranges = ranges;
+  part.alpha_from = from.present.alpha;
+  add(part);
+}
+
+void Blend::add_leaving(const Part& from, bool drives, Ranges ranges) noexcept {
+  Part part;
+  part.old = from.present;
+  keep_only(part.old, drives, ranges);
+  part.origin = from.origin;
+  part.drives = drives;
+  part.alpha_from = from.present.alpha;
+  part.present = part.old;
+  add(part);
+}
+
+/// Drops the faintest of what leaves until the rest fits.
+void Blend::make_room() noexcept {
+  for (;;) {
+    int rows = 0;
+    std::size_t faintest = parts_.size();
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (parts_[i].wanted < 0) {
+        rows += row_bound(parts_[i].old);
+        if (faintest == parts_.size() || parts_[i].alpha_from < parts_[faintest].alpha_from) faintest = i;
+      }
+    }
+    if (rows <= leaving_row_capacity_ || faintest == parts_.size()) return;
+    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(faintest));
+  }
+}
+
+Range Blend::loosened(const Range& from, const Range& to, double progress, double scale) const noexcept {
+  if (from.low > to.high || to.low > from.high) return to;
+  Range now = to;
+  if (to.high > from.high && progress < 1.0) now.high = lerp(from.high, finite(to.high, scale), progress);
+  if (to.low < from.low && progress < 1.0) now.low = lerp(from.low, finite(to.low, scale), progress);
+  return now;
+}
+
+AxisConstraint Blend::present(const Part& part, const AxisConstraint* wanted,
+                              double progress) const noexcept {
+  if (wanted == nullptr) {
+    AxisConstraint c = part.old;
+    c.leaving = true;
+    c.alpha = lerp(part.alpha_from, 0.0, progress);
+    return c;
+  }
+  AxisConstraint c = *wanted;
+  keep_only(c, part.drives, part.ranges);
+  c.alpha = lerp(part.alpha_from, 1.0, progress);
+  c.blend = part.entering ? duration_ : 0.0;
+  if (!part.persists) return c;
+  const auto loosen = [&](std::optional<Range>& to, const std::optional<Range>& from) {
+    if (to && from) to = loosened(*from, *to, progress, force_scale_);
+  };
+  loosen(c.position, part.old.position);
+  loosen(c.velocity, part.old.velocity);
+  loosen(c.acceleration, part.old.acceleration);
+  if (c.driver && part.old.driver) {
+    const double scale = c.axis >= solver::Axis::rx ? torque_scale_ : force_scale_;
+    c.driver->force = loosened(part.old.driver->force, c.driver->force, progress, scale);
+    c.before = part.old.driver;
+    c.before->force = {};  // the driver's bounds already are on their way from the old ones
+  }
+  c.progress = progress;
+  return c;
+}
+
+void Blend::put(const std::vector<Wanted>& wanted, double progress, solver::ConstraintSet& set,
+                std::vector<InForce>& in_force) noexcept {
+  if (progress >= 1.0 && !settled_) settle(wanted);
+  set.clear();
+  in_force.clear();
+  for (Part& part : parts_) {
+    const AxisConstraint* target =
+        part.wanted < 0 ? nullptr : &wanted[static_cast<std::size_t>(part.wanted)].constraint;
+    part.present = present(part, target, progress);
+    if (!(part.present.alpha > 0.0) || in_force.size() == in_force.capacity()) continue;
+    if (set.add(part.present)) in_force.push_back({part.origin, part.wanted >= 0, part.drives});
+  }
+}
+
+}  // namespace zwang::runtime

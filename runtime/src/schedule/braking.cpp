@@ -1,0 +1,135 @@
+#include "schedule/braking.hpp"
+
+#include <algorithm>
+
+namespace zwang::runtime {
+
+namespace {
+
+using lang::AxisStatements;
+using solver::Axis;
+using solver::Quantity;
+
+// Short against the time any stop takes, so that the deceleration, not the time constant, shapes it.
+constexpr double brake_time_constant = 0.05;      // [s]
+constexpr double brake_blend = 0.1;               // [s]
+constexpr double radius_without_footprint = 0.3;  // [m]
+
+const char* word(Axis axis) {
+  constexpr const char* words[] = {"x", "y", "z", "rx", "ry", "rz"};
+  return words[static_cast<std::size_t>(axis)];
+}
+
+bool is_rotation(Axis axis) {
+  return axis >= Axis::rx;
+}
+
+lang::ValueRange plus_minus(double bound) {
+  return {{.constant = -bound}, {.constant = bound}};
+}
+
+std::optional<lang::ValueRange>& range_of(AxisStatements& axis, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::position:
+      return axis.position;
+    case Quantity::velocity:
+      return axis.velocity;
+    case Quantity::acceleration:
+      return axis.acceleration;
+    case Quantity::force:
+      break;
+  }
+  return axis.force;
+}
+
+bool is_base(const std::vector<lang::FrameDeclaration>& frames, int index) {
+  const lang::FrameDeclaration& f = frames[static_cast<std::size_t>(index)];
+  return f.parent == lang::FrameParent::body && f.parent_index == 0 && f.pose.position.isZero() &&
+         f.pose.rotation.isIdentity();
+}
+
+bool gives(lang::Task& task, const lang::BaseLimit& limit,
+           const std::vector<lang::FrameDeclaration>& frames) {
+  for (lang::Group& group : task.groups) {
+    if (!is_base(frames, group.move) || !is_base(frames, group.in)) continue;
+    for (AxisStatements& axis : group.axes) {
+      if (axis.axis == limit.axis && range_of(axis, limit.quantity)) return true;
+    }
+  }
+  return false;
+}
+
+AxisStatements& axis_of(lang::Group& group, Axis axis, const lang::Span& span) {
+  for (AxisStatements& a : group.axes) {
+    if (a.axis == axis) return a;
+  }
+  AxisStatements added;
+  added.name = group.name + "." + word(axis);
+  added.axis = axis;
+  added.level = 0;
+  added.span = span;
+  group.axes.push_back(added);
+  return group.axes.back();
+}
+
+}  // namespace
+
+double footprint_radius(const lang::Robot& robot) {
+  double radius = 0.0;
+  for (const solver::Vector3& corner : robot.footprint) radius = std::max(radius, corner.head<2>().norm());
+  return radius > 0.0 ? radius : radius_without_footprint;
+}
+
+int base_frame(std::vector<lang::FrameDeclaration>& frames, const lang::Robot& robot) {
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (is_base(frames, static_cast<int>(i))) return static_cast<int>(i);
+  }
+  lang::FrameDeclaration base;
+  base.name = robot.base_frame;
+  base.parent = lang::FrameParent::body;
+  base.parent_index = 0;
+  frames.push_back(base);
+  return static_cast<int>(frames.size()) - 1;
+}
+
+lang::Task brake_task(const char* name, const lang::Robot& robot, int base) {
+  lang::Task task;
+  task.name = name;
+  task.blend.constant = brake_blend;
+  if (robot.model.has_fixed_base()) return task;
+  lang::Group group;
+  group.name = "stop";
+  group.move = group.in = base;
+  const double radius = footprint_radius(robot);
+  for (const Axis axis : {Axis::x, Axis::y, Axis::rz}) {
+    const bool turns = is_rotation(axis);
+    AxisStatements a;
+    a.name = group.name + "." + word(axis);
+    a.axis = axis;
+    a.driver = Quantity::velocity;
+    a.time_constant.constant = brake_time_constant;
+    a.force = plus_minus(turns ? robot.stop.force * radius : robot.stop.force);
+    a.acceleration = plus_minus(turns ? robot.stop.deceleration / radius : robot.stop.deceleration);
+    group.axes.push_back(a);
+  }
+  task.groups.push_back(group);
+  return task;
+}
+
+void add_limits(lang::Task& task, const lang::Robot& robot, int base,
+                const std::vector<lang::FrameDeclaration>& frames) {
+  if (robot.model.has_fixed_base()) return;
+  lang::Group group;
+  group.name = "limits";
+  group.move = group.in = base;
+  for (const lang::BaseLimit& limit : robot.limits) {
+    if (gives(task, limit, frames)) continue;
+    AxisStatements& axis = axis_of(group, limit.axis, limit.span);
+    range_of(axis, limit.quantity) =
+        lang::ValueRange{{.constant = limit.range.low}, {.constant = limit.range.high}};
+    axis.statement_spans[static_cast<std::size_t>(limit.quantity)] = limit.span;
+  }
+  if (!group.axes.empty()) task.groups.push_back(group);
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,25 @@
+/// The tasks that every program has beside its own: the brakes of `done` and `failed`, and the robot's
+/// limits.
+#pragma once
+
+#include <vector>
+
+#include "zwang/lang/program.hpp"
+
+namespace zwang::runtime {
+
+/// Distance of the footprint's farthest corner from the base's origin, which turns a force at the rim into a
+/// torque. [m]
+double footprint_radius(const lang::Robot& robot);
+
+/// The index of the frame that is the base itself; it is appended when the program does not have it.
+int base_frame(std::vector<lang::FrameDeclaration>& frames, const lang::Robot& robot);
+
+/// Brings the base to rest as the robot file's `stop` allows.
+lang::Task brake_task(const char* name, const lang::Robot& robot, int base);
+
+/// Adds the robot file's limits to a task, as level-0 ranges on the base, where the task gives none.
+void add_limits(lang::Task& task, const lang::Robot& robot, int base,
+                const std::vector<lang::FrameDeclaration>& frames);
+
+}  // namespace zwang::runtime

@@ -1,0 +1,132 @@
+#!/usr/bin/env bash
+# `dev` among stand-ins for dpkg, apt, sudo, cmake and ninja: when it installs, what it asks for, what it prints, and how it
+# ends. The stand-ins write down how they were called.
+set -euo pipefail
+script=${1:?usage: dev_test.sh DEV}
+place=$(mktemp -d)
+trap 'rm -rf "$place"' EXIT
+chmod 755 "$place"
+cp "$script" "$place/dev"
+mkdir "$place/bin" "$place/few"
+calls=$place/calls
+
+stand_in() {  # NAME <<< BODY
+  { printf '#!/bin/bash\n'; cat; } >"$place/bin/$1"
+  chmod 755 "$place/bin/$1"
+}
+# Packages named in $ABSENT are not installed.
+stand_in dpkg-query <<'BODY'
+for package; do
+  if [[ $package != -* && " $ABSENT " != *" $package "* ]]; then echo "installed $package"; fi
+done
+BODY
+stand_in apt-get <<BODY
+echo "apt-get as \$(id -u) \${DEBIAN_FRONTEND-interactive} \$*" >>"$calls"
+echo "apt's own chatter"
+[[ \$* != *" install "* || -z \$APT_FAILS ]]
+BODY
+stand_in sudo <<BODY
+echo "sudo \$1" >>"$calls"
+[[ -z \$SUDO_FAILS ]] && "\$@"
+BODY
+stand_in ninja <<'BODY'
+if [[ -z $STALE ]]; then echo 'ninja: no work to do.'; else echo '[1/1] would compile'; fi
+BODY
+stand_in cmake <<BODY
+echo "cmake \$1" >>"$calls"
+echo "compiler's own chatter"
+[[ -z \$BUILD_FAILS ]]
+BODY
+export ABSENT='' APT_FAILS='' SUDO_FAILS='' STALE='' BUILD_FAILS=''
+
+failed=0
+complain() {
+  printf 'FAIL: %s: %s\n--- stdout\n%s\n--- stderr\n%s\n--- calls\n%s\n' "$name" "$1" "$out" "$err" "$called"
+  failed=1
+}
+# try NAME STATUS COMMAND...: leaves out, err, called
+try() {
+  name=$1
+  local status=0 wanted=$2
+  shift 2
+  : >"$calls"
+  chmod 666 "$calls"
+  PATH=${path:-$place/bin:/usr/bin:/bin} "$@" >"$place/out" 2>"$place/err" </dev/null || status=$?
+  out=$(<"$place/out") err=$(<"$place/err") called=$(<"$calls")
+  if ((status != wanted)); then complain "ended with $status instead of $wanted"; fi
+}
+is() { if [[ $1 != "$2" ]]; then complain "\`$1\` is not \`$2\`"; fi; }
+has() { if [[ $1 != *"$2"* ]]; then complain "\`$2\` does not occur"; fi; }
+lacks() { if [[ $1 == *"$2"* ]]; then complain "\`$2\` occurs"; fi; }
+
+try 'help' 0 "$place/dev" help
+has "$out" './dev COMMAND'
+try 'unknown command' 2 "$place/dev" frobnicate
+has "$err" 'frobnicate'
+
+try 'nothing is missing' 0 "$place/dev" setup
+is "$called" ''
+ABSENT='libeigen3-dev g++' ZWANG_SKIP_SETUP=1 try 'set-up is switched off' 0 "$place/dev" setup
+is "$called" ''
+
+if ((EUID == 0)); then
+  ABSENT='libeigen3-dev g++' try 'two are missing, as root' 0 "$place/dev" setup
+  has "$called" 'apt-get as 0 noninteractive'
+  has "$called" ' update'
+  has "$called" 'install -y --no-install-recommends g++ libeigen3-dev'
+  lacks "$called" 'sudo'
+  lacks "$called" 'cmake '
+  is "$out" ''
+  lacks "$err" 'chatter'
+  ABSENT='g++' APT_FAILS=1 try 'apt fails' 2 "$place/dev" setup
+  has "$err" 'apt-get install g++'
+  has "$err" "apt's own chatter"
+  other_user=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+else
+  other_user=()
+fi
+
+ABSENT='g++' try 'a user with sudo' 0 "${other_user[@]}" "$place/dev" setup
+has "$called" 'sudo env'
+has "$called" 'noninteractive'
+has "$called" 'install -y --no-install-recommends g++'
+ABSENT='g++' SUDO_FAILS=1 try 'a user whom sudo refuses' 2 "${other_user[@]}" "$place/dev" setup
+has "$err" 'as root, run'
+
+for tool in bash cat dirname env mkdir mktemp readlink rm setpriv; do
+  ln -s "$(command -v "$tool")" "$place/few/$tool"
+done
+path=$place/few try 'no dpkg' 2 "$place/dev" setup
+has "$err" 'not Debian'
+ln -s "$place/bin/dpkg-query" "$place/bin/apt-get" "$place/few/"
+ABSENT='g++' path=$place/few try 'a user without sudo' 2 "${other_user[@]}" "$place/dev" setup
+if ((${#other_user[@]} || EUID)); then has "$err" 'neither root nor sudo'; fi
+is "$called" ''
+
+# A build that is in place, and a program that shows its arguments.
+mkdir -p "$place/build/release"
+touch "$place/CMakePresets.json" "$place/build/release/build.ninja"
+printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\n' "$place" >"$place/build/release/CMakeCache.txt"
+touch -d '+1 minute' "$place/build/release/.configured"
+printf '#!/bin/bash\nprintf "<%%s>" "$@"\nexit 1\n' >"$place/build/release/zwang"
+chmod 755 "$place/build/release/zwang"
+
+try 'run with a fresh build' 1 "$place/dev" run a.yaml -p 'push=30 N'
+is "$out" '<run><a.yaml><-p><push=30 N>'
+is "$err" ''
+is "$called" ''
+STALE=1 try 'run with a stale build' 1 "$place/dev" run a.yaml
+is "$out" '<run><a.yaml>'
+has "$called" 'cmake --build'
+lacks "$err" 'chatter'
+STALE=1 BUILD_FAILS=1 try 'run when the build fails' 2 "$place/dev" run a.yaml
+is "$out" ''
+has "$err" "compiler's own chatter"
+touch -d '+2 minutes' "$place/CMakePresets.json"
+try 'run after the presets changed' 1 "$place/dev" run a.yaml
+has "$called" 'cmake -S'
+printf 'CMAKE_HOME_DIRECTORY:INTERNAL=/elsewhere\n' >"$place/build/release/CMakeCache.txt"
+try 'run in a checkout that was moved' 1 "$place/dev" run a.yaml
+has "$called" 'cmake --fresh'
+
+exit "$failed"

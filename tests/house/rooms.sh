@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# The direction of the rooms, read from the #include lines: runtime -> lang -> solver, and each outside library
+# known to the one room (and there to the one .cpp) that owns it.
+#
+#   rooms.sh ROOT     prints every offence as file:line: what; ends with 1 when there is any
+set -euo pipefail
+cd -- "${1:?usage: rooms.sh ROOT}"
+
+offences=0
+offend() {
+  printf '%s\n' "$1"
+  offences=$((offences + 1))
+}
+
+# file:line:header of every #include, read once.
+all_includes=$(
+  for folder in solver lang runtime examples; do
+    if [[ -d $folder ]]; then
+      grep -rnE --include='*.[hc]pp' --include='*.h' --include='*.cc' '^[[:space:]]*#[[:space:]]*include' "$folder" || true
+    fi
+  done | sed -E 's/^([^:]+:[0-9]+):[^<"]*[<"]([^>"]+).*/\1:\2/'
+)
+includes() {  # FOLDER: those below it
+  grep "^$1/" <<<"$all_includes" || true
+}
+
+# ROOM 'ROOMS IT MAY NOT SEE': neither by the public headers nor by a path into the other room's folder.
+keep_direction() {
+  local room=$1 forbidden=$2 file line header other
+  while IFS=: read -r file line header; do
+    for other in $forbidden; do
+      if [[ $header == zwang/$other/* || $header == *../$other/* || $header == $other/src/* ]]; then
+        offend "$file:$line: $room may not know $other (<$header>)"
+      fi
+    done
+  done < <(includes "$room")
+}
+
+keep_direction solver 'lang runtime'
+keep_direction lang 'runtime'
+
+# A room's insides (src/) are its own: others see include/zwang/ROOM only.
+for room in solver lang runtime; do
+  while IFS=: read -r file line header; do
+    for other in solver lang runtime; do
+      if [[ $other != "$room" && $header == *"$other/src/"* ]]; then
+        offend "$file:$line: $room reaches into $other/src (<$header>)"
+      fi
+    done
+  done < <(includes "$room")
+done
+
+# 'HEADERS (regular expression)' 'WHERE (regular expression of paths)' MOST: a library's headers may be included
+# from matching files only, and from MOST files at the most. Tests may include what they test against.
+keep_library() {
+  local headers=$1 where=$2 most=$3 file line header
+  local -A users=()
+  while IFS=: read -r file line header; do
+    if [[ ! $header =~ ^($headers) ]]; then continue; fi
+    users[$file]=1
+    if [[ ! $file =~ ^($where)$ ]]; then offend "$file:$line: <$header> belongs to $where"; fi
+  done <<<"$all_includes"
+  if ((${#users[@]} > most)); then
+    offend "$headers: known to ${#users[@]} files instead of $most: ${!users[*]}"
+  fi
+}
+
+keep_library 'yaml-cpp/' 'lang/src/.*\.cpp' 1
+keep_library 'urdf_|urdf/|console_bridge/|tinyxml' 'lang/src/robot/.*\.cpp' 1
+keep_library 'CLI/' 'runtime/cli/.*\.cpp' 1
+keep_library 'mujoco/' 'runtime/src/plant/.*' 2  # the plant, and the wrapper that tames the library for it
+keep_library 'nlohmann/' '(lang|runtime)/.*\.cpp' 3
+keep_library 'kdl/' 'tests/.*' 0
+keep_library '(gtest|gmock|benchmark)/' 'tests/.*' 0
+
+# A public header shows no outside library but Eigen: whoever includes it needs nothing else.
+while IFS=: read -r file line header; do
+  if [[ $header == */* && $header != zwang/* && $header != Eigen/* ]]; then
+    offend "$file:$line: a public header shows <$header>"
+  fi
+done < <(includes '[a-z]*/include')
+
+exit $((offences > 0))

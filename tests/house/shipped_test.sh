@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# What the project ships hangs together: the files that files name exist, links of the documentation lead
+# somewhere, every room has its page, and nothing names a place outside the checkout.
+set -euo pipefail
+cd -- "${1:?usage: shipped_test.sh ROOT}"
+
+failed=0
+complain() {
+  printf '%s\n' "$1"
+  failed=1
+}
+
+for page in README.md CHANGELOG.md LICENSE {solver,lang,runtime,specs,tests}/README.md; do
+  if [[ ! -s $page ]]; then complain "$page is missing or empty"; fi
+done
+
+# `robot:`, `scene:`, `urdf:`, `task:` lead to files, seen from the file that says so.
+referring=0
+while IFS= read -r file; do
+  while read -r _ target; do
+    referring=$((referring + 1))
+    if [[ ! -f $(dirname "$file")/$target ]]; then complain "$file names $target, which does not exist"; fi
+  done < <(sed -nE 's/^[[:space:]]*(robot|scene|urdf|task):[[:space:]]+"?([^"#[:space:]]+\.(yaml|urdf)).*/\1 \2/p' "$file")
+done < <(find specs examples -name '*.yaml' 2>/dev/null)
+if ((referring == 0)); then complain 'no shipped file names another: the search above is broken'; fi
+
+# Relative links of the documentation.
+links=0
+while IFS= read -r page; do
+  while IFS= read -r target; do
+    links=$((links + 1))
+    if [[ ! -e $(dirname "$page")/$target ]]; then complain "$page links to $target, which does not exist"; fi
+  done < <(grep -oE '\]\([^)#: ]+(#[^)]*)?\)' "$page" | sed -E 's/^\]\(([^)#]+).*/\1/')
+done < <(find ./*.md docs examples lang runtime solver specs tests -name '*.md' 2>/dev/null)
+if ((links == 0)); then complain 'no page links to another: the search above is broken'; fi
+
+# No path of one machine. Tests may look for optional data beside the checkout.
+parts=(.ci cmake docs examples lang runtime solver specs tests dev ./*.md ./CMake*)
+search() { grep -rnE "$@" "${parts[@]}" 2>/dev/null || true; }
+odd=$(search --exclude-dir=house '(^|[^A-Za-z0-9_./-])/(home|root|work|Users)/[A-Za-z0-9]')
+if [[ $odd ]]; then complain "paths of one machine:"$'\n'"$odd"; fi
+odd=$(search --exclude-dir=tests '\.\./shared')
+if [[ $odd ]]; then complain "data from outside the checkout, and not in a test:"$'\n'"$odd"; fi
+
+exit "$failed"

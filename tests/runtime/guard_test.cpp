@@ -1,0 +1,203 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "robots.hpp"
+#include "zwang/runtime/safety_guard.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+using namespace test;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+struct Bench {
+  explicit Bench(const GuardSettings& settings = {}) : guard(robot, settings), sensed(robot.model) {
+    tau = wanted = Eigen::VectorXd::Zero(4);
+  }
+  SampleStatus admit_after(double dt) {
+    sensed.time += dt;
+    return guard.admit(sensed);
+  }
+  lang::Robot robot = mecanum_robot();
+  SafetyGuard guard;
+  Sensed sensed;
+  Eigen::VectorXd tau, wanted;
+};
+
+TEST(Guard, RefusesEveryNumberThatIsNotFiniteAndStopsInTheSameTick) {
+  std::vector<std::function<double&(Sensed&)>> entries;
+  entries.push_back([](Sensed& s) -> double& { return s.time; });
+  for (int j = 0; j < 4; ++j) {
+    entries.push_back([j](Sensed& s) -> double& { return s.state.q(j); });
+    entries.push_back([j](Sensed& s) -> double& { return s.state.qd(j); });
+    entries.push_back([j](Sensed& s) -> double& { return s.state.tau_ff(j); });
+  }
+  for (int i = 0; i < 3; ++i) {
+    entries.push_back([i](Sensed& s) -> double& { return s.state.base_pose.position(i); });
+    entries.push_back([i](Sensed& s) -> double& { return s.state.base_twist.angular(i); });
+    entries.push_back([i](Sensed& s) -> double& { return s.state.base_twist.linear(i); });
+    for (int k = 0; k < 3; ++k) {
+      entries.push_back([i, k](Sensed& s) -> double& { return s.state.base_pose.rotation(i, k); });
+    }
+    for (std::size_t body = 0; body < 5; ++body) {
+      entries.push_back([i, body](Sensed& s) -> double& { return s.state.f_ext[body].angular(i); });
+      entries.push_back([i, body](Sensed& s) -> double& { return s.state.f_ext[body].linear(i); });
+    }
+  }
+  for (const double bad : {nan, inf, -inf, 1e300, -1e300}) {
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+      Bench bench;
+      ASSERT_EQ(bench.guard.admit(bench.sensed), SampleStatus::good);
+      bench.wanted.setConstant(5.0);
+      bench.guard.output(bench.sensed, bench.wanted, bench.tau);
+      ASSERT_EQ(bench.tau(0), 5.0);
+      bench.sensed.time += period;
+      entries[e](bench.sensed) = bad;
+      EXPECT_EQ(bench.guard.admit(bench.sensed), SampleStatus::not_finite) << e;
+      EXPECT_TRUE(bench.guard.stopped());
+      EXPECT_EQ(bench.guard.reason(), StopReason::bad_sample);
+      EXPECT_EQ(bench.guard.counters().refused_values, 1u);
+      EXPECT_EQ(bench.guard.output_blind(bench.tau), GuardStatus::stopped);
+      EXPECT_TRUE(bench.tau.isZero(0.0)) << e;
+    }
+  }
+}
+
+TEST(Guard, ATorqueThatIsNotFiniteStopsAndIsNeverClampedIntoFullTorque) {
+  for (const double bad : {nan, inf, -inf}) {
+    for (int j = 0; j < 4; ++j) {
+      Bench bench;
+      ASSERT_EQ(bench.guard.admit(bench.sensed), SampleStatus::good);
+      bench.wanted(j) = bad;
+      EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::stopped);
+      EXPECT_TRUE(bench.tau.isZero(0.0)) << "the wheels stand, so the brake has nothing to do";
+      EXPECT_EQ(bench.guard.reason(), StopReason::bad_torque);
+    }
+  }
+}
+
+TEST(Guard, RefusesAStateOfTheWrongSize) {
+  Bench bench;
+  bench.sensed.state.qd.resize(3);
+  EXPECT_EQ(bench.guard.admit(bench.sensed), SampleStatus::not_finite);
+}
+
+TEST(Guard, CutsTorquesToTheJointsLimits) {
+  Bench bench;
+  ASSERT_EQ(bench.guard.admit(bench.sensed), SampleStatus::good);
+  bench.wanted << effort, -effort, 1.01 * effort, -1e6;
+  EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::limited);
+  EXPECT_EQ(bench.tau, Eigen::Vector4d(effort, -effort, effort, -effort));
+  EXPECT_EQ(bench.guard.counters().limited, 1u);
+  bench.wanted << effort, -effort, 0, 0;
+  EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::passed);
+}
+
+TEST(Guard, BoundsTheSlewOfEveryTorqueIncludingTheStops) {
+  Bench bench({.max_slew = 1000.0});  // 1 N m a tick
+  ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);
+  bench.wanted << 3, -3, 0.5, 0;
+  EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::slewed);
+  EXPECT_EQ(bench.tau, Eigen::Vector4d(1, -1, 0.5, 0));
+  bench.guard.output(bench.sensed, bench.wanted, bench.tau);
+  bench.guard.output(bench.sensed, bench.wanted, bench.tau);
+  EXPECT_EQ(bench.tau, Eigen::Vector4d(3, -3, 0.5, 0));
+  bench.wanted(0) = nan;
+  bench.guard.output(bench.sensed, bench.wanted, bench.tau);
+  EXPECT_EQ(bench.tau, Eigen::Vector4d(2, -2, 0, 0));
+}
+
+TEST(Guard, AClockThatStandsGoesBackOrJumpsIsRefusedAndCounted) {
+  Bench bench;
+  ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);
+  ASSERT_EQ(bench.admit_after(period), SampleStatus::good);
+  EXPECT_EQ(bench.admit_after(0.0), SampleStatus::bad_clock);
+  EXPECT_EQ(bench.admit_after(-0.5), SampleStatus::bad_clock);
+  EXPECT_EQ(bench.guard.counters().refused_clock, 2u);
+  EXPECT_FALSE(bench.guard.stopped());
+  bench.wanted.setConstant(2.0);
+  EXPECT_EQ(bench.guard.output_blind(bench.tau), GuardStatus::held);
+  EXPECT_EQ(bench.admit_after(0.5 + period), SampleStatus::good) << "the clock caught up";
+  EXPECT_EQ(bench.admit_after(0.11), SampleStatus::bad_clock);
+  EXPECT_EQ(bench.guard.counters().refused_clock, 3u);
+}
+
+TEST(Guard, ARefusedSampleHoldsTheLastTorques) {
+  Bench bench;
+  ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);
+  bench.wanted << 1, 2, 3, 4;
+  bench.guard.output(bench.sensed, bench.wanted, bench.tau);
+  ASSERT_EQ(bench.admit_after(0.0), SampleStatus::bad_clock);
+  bench.tau.setZero();
+  EXPECT_EQ(bench.guard.output_blind(bench.tau), GuardStatus::held);
+  EXPECT_EQ(bench.tau, bench.wanted);
+}
+
+TEST(Guard, AFewLostTicksGoOnTwentyStop) {
+  Bench few;
+  ASSERT_EQ(few.admit_after(0.0), SampleStatus::good);
+  EXPECT_EQ(few.admit_after(5 * period), SampleStatus::good);
+  EXPECT_EQ(few.admit_after(20 * period), SampleStatus::good);
+  EXPECT_FALSE(few.guard.stopped());
+  EXPECT_EQ(few.admit_after(21 * period), SampleStatus::good);
+  EXPECT_EQ(few.guard.reason(), StopReason::lost_ticks);
+
+  Bench frozen;
+  ASSERT_EQ(frozen.admit_after(0.0), SampleStatus::good);
+  for (int i = 1; i <= 20; ++i) {
+    EXPECT_FALSE(frozen.guard.stopped()) << i;
+    EXPECT_EQ(frozen.admit_after(0.0), SampleStatus::bad_clock);
+  }
+  EXPECT_EQ(frozen.guard.reason(), StopReason::lost_ticks);
+}
+
+TEST(Guard, TheStopIsLatchedUntilAnExplicitReset) {
+  Bench bench;
+  ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);
+  bench.guard.stop(StopReason::requested);
+  bench.guard.stop(StopReason::plant);
+  EXPECT_EQ(bench.guard.reason(), StopReason::requested);
+  bench.wanted.setConstant(5.0);
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_EQ(bench.admit_after(period), SampleStatus::good);
+    EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::stopped);
+    EXPECT_TRUE(bench.tau.isZero(0.0));
+  }
+  bench.guard.reset();
+  ASSERT_EQ(bench.admit_after(period), SampleStatus::good);
+  EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::passed);
+}
+
+TEST(Guard, TheStopBrakesAMovingBaseWithinItsForceToRest) {
+  Bench bench;
+  PlanarBase base;
+  base.V = {0.5, 0.2, 0.0};
+  bench.guard.stop(StopReason::requested);
+  double last_speed = base.V.norm();
+  while (base.time < 2.0) {
+    base.sense(bench.sensed);
+    ASSERT_EQ(bench.guard.admit(bench.sensed), SampleStatus::good);
+    bench.guard.output(bench.sensed, bench.wanted, bench.tau);
+    // Each wheel presses the ground with at most its share of the stop's 80 N.
+    EXPECT_LE(bench.tau.cwiseAbs().maxCoeff(), 80.0 * wheel_radius / 4 + 1e-12);
+    base.step(bench.tau);
+    EXPECT_LE(base.V.norm(), last_speed + 1e-12) << "at " << base.time;
+    last_speed = base.V.norm();
+  }
+  EXPECT_LT(last_speed, 0.01);
+}
+
+TEST(Guard, RefusesSettingsThatCannotGuard) {
+  const lang::Robot robot = mecanum_robot();
+  EXPECT_THROW(SafetyGuard(robot, {.period = 0.0}), std::invalid_argument);
+  EXPECT_THROW(SafetyGuard(robot, {.period = nan}), std::invalid_argument);
+  EXPECT_THROW(SafetyGuard(robot, {.max_step = 0.0}), std::invalid_argument);
+  EXPECT_THROW(SafetyGuard(robot, {.max_lost_ticks = 0}), std::invalid_argument);
+  EXPECT_THROW(SafetyGuard(robot, {.max_slew = 0.0}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace zwang::runtime

@@ -1,0 +1,144 @@
+// What must never happen silently: a simulation that reset itself, a run that differs from its repetition, a
+// robot that is not the one that was asked for.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "plant_robots.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+using namespace testing;
+
+lang::Scene scene_with_wall(double x) {
+  lang::SceneObject wall;
+  wall.name = "wall";
+  wall.size = {4.0, 0.2, 1.0};
+  wall.at = {x, 0.0};
+  lang::Scene scene;
+  scene.objects = {wall};
+  return scene;
+}
+
+TEST(PlantFaults, DivergenceIsReportedAndStays) {
+  const lang::Robot robot = mecanum_base();
+  for (const double torque : {1e8, 1e13, 1e300}) {
+    MujocoPlant plant(robot, scene_with_wall(1.0));
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(4);
+    for (int i = 0; i < 10; ++i) ASSERT_EQ(plant.apply(zero), PlantStatus::ok);
+    PlantStatus status = PlantStatus::ok;
+    double last = plant.truth().time;
+    for (int i = 0; i < 2000 && status == PlantStatus::ok; ++i) {
+      status = plant.apply(Eigen::VectorXd::Constant(4, torque));
+      if (status == PlantStatus::ok) {
+        ASSERT_NEAR(plant.truth().time, last + 1e-3, 1e-9);
+      }
+      last = plant.truth().time;
+    }
+    EXPECT_EQ(status, PlantStatus::diverged) << torque;
+    EXPECT_EQ(plant.apply(zero), PlantStatus::diverged);
+    Sensed sensed(robot.model);
+    sensed.time = 42.0;
+    EXPECT_EQ(plant.sense(sensed), PlantStatus::diverged);
+    EXPECT_EQ(sensed.time, 42.0);  // untouched
+    EXPECT_TRUE(std::isfinite(plant.truth().x) && plant.truth().acceleration.allFinite());
+    EXPECT_GT(plant.truth().time, 0.005);  // the last good instant, not a reset clock
+  }
+}
+
+TEST(PlantFaults, CommandsThatAreNotTorquesDoNotArrive) {
+  const lang::Robot robot = mecanum_base();
+  MujocoPlant plant(robot, {});
+  Eigen::VectorXd tau = Eigen::VectorXd::Zero(4);
+  tau[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(plant.apply(tau), PlantStatus::unreachable);
+  tau[2] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(plant.apply(tau), PlantStatus::unreachable);
+  EXPECT_EQ(plant.apply(Eigen::VectorXd::Zero(3)), PlantStatus::unreachable);
+  EXPECT_EQ(plant.truth().time, 0.0);
+  EXPECT_EQ(plant.apply(Eigen::VectorXd::Zero(4)), PlantStatus::ok);
+}
+
+/// Every bit of the base's path, wheels and wall force, through an impact with friction.
+std::vector<double> record(const lang::Robot& robot) {
+  lang::Scene scene = scene_with_wall(0.45);
+  scene.objects[0].friction = 0.1;
+  MujocoPlantOptions options;
+  options.start_yaw = 0.1;
+  options.start_at = {-0.1, 0.0};
+  MujocoPlant plant(robot, scene, options);
+  const PlanarReference reference(robot.model);
+  const Eigen::VectorXd tau = reference.torque_of_wrench({20.0, 1.0, 0.0});
+  Sensed sensed(robot.model);
+  std::vector<double> all;
+  for (int i = 0; i < 3000; ++i) {
+    EXPECT_EQ(plant.apply(tau), PlantStatus::ok);
+    EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
+    const Truth& truth = plant.truth();
+    all.insert(all.end(), {truth.x, truth.y, truth.yaw, truth.objects[0].force});
+    all.insert(all.end(), truth.acceleration.data(), truth.acceleration.data() + 3);
+    all.insert(all.end(), sensed.state.q.data(), sensed.state.q.data() + 4);
+  }
+  EXPECT_GT(plant.truth().objects[0].peak_force, 20.0);
+  return all;
+}
+
+TEST(PlantFaults, TwoRunsAreTheSameBits) {
+  const lang::Robot robot = mecanum_base();
+  const std::vector<double> one = record(robot);
+  const std::vector<double> other = record(robot);
+  ASSERT_EQ(one.size(), other.size());
+  EXPECT_EQ(std::memcmp(one.data(), other.data(), one.size() * sizeof(double)), 0);
+}
+
+std::string refusal(const lang::Robot& robot, const lang::Scene& scene = {},
+                    const MujocoPlantOptions& options = {}) {
+  try {
+    MujocoPlant plant(robot, scene, options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(PlantFaults, RefusesWhatItCannotSimulateAndSaysWhy) {
+  EXPECT_EQ(refusal(mecanum_base()), "");
+  EXPECT_NE(refusal(mecanum_base(), scene_with_wall(0.3)).find("inside `wall`"), std::string::npos);
+
+  lang::Scene flat = scene_with_wall(1.0);
+  flat.objects[0].size[1] = 0.0;
+  EXPECT_NE(refusal(mecanum_base(), flat).find("no size"), std::string::npos);
+
+  lang::Scene rough = scene_with_wall(1.0);
+  rough.objects[0].friction = 0.3;
+  rough.objects[0].damping = 0.0;
+  EXPECT_NE(refusal(mecanum_base(), rough).find("damping"), std::string::npos);
+
+  lang::Scene broken = scene_with_wall(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_NE(refusal(mecanum_base(), broken).find("finite"), std::string::npos);
+
+  // 30 degree rollers: the wheels' inertia counts three times as much sideways as forwards.
+  const double angle = std::numbers::pi / 6.0;
+  const lang::Robot steep = build_base({}, {{"fl", 0.23, 0.20, angle},
+                                            {"fr", 0.23, -0.20, -angle},
+                                            {"rl", -0.23, 0.20, -angle},
+                                            {"rr", -0.23, -0.20, angle}});
+  EXPECT_NE(refusal(steep).find("inertia differs"), std::string::npos);
+
+  // Turning these wheels moves nothing: the ground only holds along their axes.
+  const lang::Robot idle =
+      build_base({}, {{"a", 0.2, 0.2, 0.0}, {"b", 0.2, -0.2, 0.0}, {"c", -0.2, 0.0, 0.0}});
+  EXPECT_NE(refusal(idle).find("moves nothing"), std::string::npos);
+
+  lang::Robot bare = differential_base();
+  bare.footprint.clear();
+  EXPECT_NE(refusal(bare).find("footprint"), std::string::npos);
+
+  EXPECT_NE(refusal(build_base({}, {})).find("wheels"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zwang::runtime

@@ -1,0 +1,133 @@
+#include "zwang/runtime/recorder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <thread>
+
+namespace zwang::runtime {
+namespace {
+
+constexpr double blank = std::numeric_limits<double>::quiet_NaN();
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+struct Folder {
+  Folder() {
+    path = std::filesystem::temp_directory_path() /
+           ("zwang_recorder_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::filesystem::path path;
+};
+
+const std::vector<Column> columns = {
+    {"time", "s", {}}, {"task", "", {"press", "hold"}}, {"go.x.nu", "N", {}}};
+
+TEST(Recorder, WritesNamesUnitsNumbersWordsAndBlanks) {
+  Folder folder;
+  Recorder recorder(folder.path / "log.csv", columns);
+  EXPECT_TRUE(recorder.record(std::vector{0.001, 0.0, blank}));
+  EXPECT_TRUE(recorder.record(std::vector{1.0 / 3.0, 1.0, -20.0}));
+  EXPECT_TRUE(
+      recorder.record(std::vector{-0.0, 7.0, 1.23456789012e-7}));  // a word that is not there is blank
+  recorder.close();
+  EXPECT_EQ(read(folder.path / "log.csv"),
+            "time [s],task,go.x.nu [N]\n0.001,press,\n0.333333333,hold,-20\n0,,1.23456789e-07\n");
+  EXPECT_TRUE(recorder.status().complete());
+  EXPECT_EQ(recorder.status().written, 3u);
+}
+
+TEST(Recorder, KeepsEveryRecordWhenTheProducerWaits) {
+  Folder folder;
+  Recorder recorder(folder.path / "log.csv", columns, 16);
+  const int count = 500;
+  for (int i = 0; i < count; ++i) {
+    recorder.wait_for_room();
+    EXPECT_TRUE(recorder.record(std::vector{static_cast<double>(i), 0.0, blank}));
+  }
+  recorder.close();
+  EXPECT_TRUE(recorder.status().complete());
+  std::istringstream lines(read(folder.path / "log.csv"));
+  std::string line;
+  std::getline(lines, line);
+  for (int i = 0; i < count; ++i) {
+    ASSERT_TRUE(std::getline(lines, line));
+    ASSERT_EQ(line, std::to_string(i) + ",press,");
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(Recorder, AnOverflowDropsAndCountsAndNeverWaits) {
+  Folder folder;
+  Recorder recorder(folder.path / "log.csv", columns, 4);
+  int accepted = 0;
+  const int count = 100'000;
+  for (int i = 0; i < count; ++i) {
+    accepted += recorder.record(std::vector{static_cast<double>(i), 0.0, 0.0}) ? 1 : 0;
+  }
+  recorder.close();
+  const RecorderStatus status = recorder.status();
+  EXPECT_LT(accepted, count) << "four slots cannot hold what comes in five milliseconds";
+  EXPECT_EQ(status.recorded, static_cast<std::uint64_t>(accepted));
+  EXPECT_EQ(status.dropped, static_cast<std::uint64_t>(count - accepted));
+  EXPECT_EQ(status.written, status.recorded);
+  EXPECT_FALSE(status.complete());
+  EXPECT_TRUE(status.error.empty());
+}
+
+TEST(Recorder, AFolderThatIsNotThereIsReportedAndStopsNothing) {
+  Recorder recorder("/nonexistent/folder/log.csv", columns, 4);
+  for (int i = 0; i < 100; ++i) {
+    recorder.wait_for_room();
+    EXPECT_TRUE(recorder.record(std::vector{0.0, 0.0, 0.0}));
+  }
+  recorder.close();
+  EXPECT_NE(recorder.status().error.find("/nonexistent/folder/log.csv"), std::string::npos);
+  EXPECT_EQ(recorder.status().written, 0u);
+  EXPECT_FALSE(recorder.status().complete());
+}
+
+TEST(Recorder, AFullDiskIsReportedAndStopsNothing) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  Recorder recorder("/dev/full", columns, 4);
+  for (int i = 0; i < 100; ++i) {
+    recorder.wait_for_room();
+    EXPECT_TRUE(recorder.record(std::vector{0.0, 0.0, 0.0}));
+  }
+  recorder.close();
+  EXPECT_FALSE(recorder.status().error.empty());
+  EXPECT_FALSE(recorder.status().complete());
+}
+
+TEST(Recorder, RefusesRecordsThatDoNotFitTheColumns) {
+  Folder folder;
+  Recorder recorder(folder.path / "log.csv", columns);
+  EXPECT_FALSE(recorder.record(std::vector{1.0, 2.0}));
+  EXPECT_EQ(recorder.status().dropped, 1u);
+  EXPECT_THROW(Recorder(folder.path / "other.csv", {}), std::invalid_argument);
+}
+
+TEST(Recorder, RecordsAreOnDiskSoonSoThatAKilledRunKeepsThem) {
+  Folder folder;
+  Recorder recorder(folder.path / "log.csv", columns);
+  recorder.record(std::vector{1.0, 0.0, 0.0});
+  for (int i = 0; i < 200 && read(folder.path / "log.csv").find("1,press,0") == std::string::npos; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  EXPECT_NE(read(folder.path / "log.csv").find("1,press,0\n"), std::string::npos) << "before close";
+}
+
+}  // namespace
+}  // namespace zwang::runtime

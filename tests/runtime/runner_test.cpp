@@ -1,0 +1,217 @@
+#include "zwang/runtime/runner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "../solver/malloc_counter.hpp"
+#include "robots.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+using namespace test;
+
+/// Accelerates to a limit, then pushes, then is done.
+lang::Program errand() {
+  lang::Task go = task(
+      "go", {drive("go.x", Axis::x, Quantity::velocity, 0.5), drive("go.y", Axis::y, Quantity::velocity, 0.0),
+             drive("go.rz", Axis::rz, Quantity::velocity, 0.0)});
+  go.groups[0].axes[0].velocity = between(-0.1, 0.2);
+  go.groups[0].axes[0].acceleration = between(-0.5, 0.5);
+  go.groups[0].axes[0].time_constant.constant = 0.05;
+  go.blend.constant = 0.1;
+  go.exits = {
+      exit(when(apply(Op::greater, name(Op::moved, base_link), number(0.2)), "moved(base_link) > 20 cm"),
+           to_task(1), 0.01)};
+  lang::Task push = task("push", {drive("go.x", Axis::x, Quantity::force, 10.0),
+                                  drive("go.y", Axis::y, Quantity::velocity, 0.0)});
+  push.groups[0].axes[0].velocity = between(-0.3, 0.3);
+  push.exits = {exit(after(0.5), to_done)};
+  push.blend.constant = 0.1;
+  lang::Program p = program({go, push});
+  p.robot.limits = {{Axis::rz, Quantity::velocity, {-1, 1}, {}}};
+  return p;
+}
+
+struct Loop {
+  explicit Loop(const lang::Program& p, const RunnerSettings& settings = {})
+      : runner(p, settings), sensed(p.robot.model) {}
+  void tick() {
+    base.sense(sensed);
+    base.step(runner.step(sensed));
+  }
+  void run(double longest = 20.0) {
+    while (!runner.finished() && base.time < longest) tick();
+  }
+  const LimitReport& limit(const std::string& row) {
+    limits = runner.limits();
+    for (const LimitReport& l : limits) {
+      if (l.row == row) return l;
+    }
+    ADD_FAILURE() << "no limit " << row;
+    return limits.at(0);
+  }
+  Runner runner;
+  Sensed sensed;
+  PlanarBase base;
+  std::vector<LimitReport> limits;
+};
+
+TEST(Runner, RunsAProgramToItsEnd) {
+  Loop loop(errand());
+  loop.run();
+  EXPECT_EQ(loop.runner.state(), RunState::done);
+  EXPECT_TRUE(loop.runner.finished());
+  ASSERT_EQ(loop.runner.transitions().size(), 3u);
+  EXPECT_EQ(loop.runner.scheduler().why(loop.runner.transitions()[1]), "moved(base_link) > 20 cm");
+  EXPECT_LT(loop.base.V.norm(), 0.02);
+}
+
+TEST(Runner, ReportsEachLimitsWorstValueAndMargin) {
+  Loop loop(errand());
+  loop.run();
+  const LimitReport speed = loop.limit("go.go.x.velocity");
+  EXPECT_EQ(speed.limit, 0.2);
+  EXPECT_EQ(speed.unit, "m/s");
+  EXPECT_NEAR(speed.worst, 0.2, 0.2 * 0.001);
+  EXPECT_NEAR(speed.margin, speed.limit - speed.worst, 1e-12);
+  const LimitReport acceleration = loop.limit("go.go.x.acceleration");
+  EXPECT_NEAR(acceleration.worst, 0.5, 1e-6) << "0.5 m/s with a time constant of 50 ms asks for 10 m/s^2";
+  const LimitReport push = loop.limit("push.go.x.force");
+  EXPECT_EQ(push.unit, "N");
+  EXPECT_NEAR(push.worst, 10.0, 1e-9);
+  EXPECT_EQ(push.limit, 10.0);
+  EXPECT_NEAR(loop.limit("limits.rz.velocity").margin, 1.0, 1e-6);
+  const LimitReport torque = loop.limit("front_left_wheel.torque");
+  EXPECT_EQ(torque.limit, effort);
+  // The largest demand is the brake's, which has the stop's 1 m/s^2: m a = sum over the wheels of tau / r.
+  const double expected = PlanarBase().inertia()(0, 0) * 1.0 * wheel_radius / 4;
+  EXPECT_NEAR(torque.worst, expected, 1e-3 * expected);
+}
+
+TEST(Runner, MakesNoHeapCallInAStep) {
+  if (!zwang::test::can_count_heap_calls()) GTEST_SKIP() << "a sanitizer owns malloc";
+  const auto path = std::filesystem::temp_directory_path() / "zwang_heap_test.csv";
+  long calls = 0;
+  {
+    Loop loop(errand());
+    Recorder recorder(path, loop.runner.columns());
+    loop.runner.record_to(&recorder);
+    int ticks = 0;
+    while (!loop.runner.finished() && ticks < 10'000) {
+      loop.base.sense(loop.sensed);
+      zwang::test::start_counting_heap_calls();
+      const Eigen::VectorXd& tau = loop.runner.step(loop.sensed);
+      calls += zwang::test::stop_counting_heap_calls();
+      loop.base.step(tau);
+      ++ticks;
+    }
+    EXPECT_EQ(loop.runner.state(), RunState::done) << "all switches must have been among the steps";
+    // A bad sample and the protective stop, too.
+    loop.base.sense(loop.sensed);
+    loop.sensed.state.q(0) = std::nan("");
+    zwang::test::start_counting_heap_calls();
+    loop.runner.step(loop.sensed);
+    calls += zwang::test::stop_counting_heap_calls();
+  }
+  EXPECT_EQ(calls, 0);
+  std::filesystem::remove(path);
+}
+
+TEST(Runner, ABadSampleStopsTheRunAndTheRestBrakes) {
+  Loop loop(errand());
+  for (int i = 0; i < 500; ++i) loop.tick();
+  ASSERT_GT(loop.base.V.x(), 0.1);
+  loop.base.sense(loop.sensed);
+  loop.sensed.state.base_twist.linear.x() = std::nan("");
+  loop.base.step(loop.runner.step(loop.sensed));
+  EXPECT_EQ(loop.runner.state(), RunState::stopped);
+  EXPECT_FALSE(loop.runner.finished());
+  loop.run();
+  EXPECT_TRUE(loop.runner.finished());
+  EXPECT_LT(loop.base.V.norm(), 0.02);
+  EXPECT_EQ(loop.runner.guard().reason(), StopReason::bad_sample);
+}
+
+std::string log_of_a_run(const std::filesystem::path& path) {
+  RunnerSettings settings;
+  settings.extra_columns = {{"truth.x", "m", {}}};
+  Loop loop(errand(), settings);
+  {
+    Recorder recorder(path, loop.runner.columns());
+    loop.runner.record_to(&recorder);
+    while (!loop.runner.finished() && loop.base.time < 20) {
+      recorder.wait_for_room();
+      loop.base.sense(loop.sensed);
+      const double truth[] = {loop.base.pose.x()};
+      loop.base.step(loop.runner.step(loop.sensed, truth));
+    }
+    recorder.close();
+    EXPECT_TRUE(recorder.status().complete());
+  }
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  std::filesystem::remove(path);
+  return text.str();
+}
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> out;
+  std::stringstream in(line + ",");
+  for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
+  return out;
+}
+
+TEST(Runner, TwoRunsHaveTheSameLogToTheByte) {
+  const auto folder = std::filesystem::temp_directory_path();
+  const std::string first = log_of_a_run(folder / "zwang_run_a.csv");
+  EXPECT_GT(first.size(), 100'000u);
+  EXPECT_EQ(first, log_of_a_run(folder / "zwang_run_b.csv"));
+}
+
+TEST(Runner, TheLogHasOneRecordATickAndBlanksWhatIsNotInForce) {
+  std::istringstream log(log_of_a_run(std::filesystem::temp_directory_path() / "zwang_run_c.csv"));
+  std::string line;
+  std::getline(log, line);
+  const std::vector<std::string> names = cells(line);
+  const auto column = [&names](const std::string& name) {
+    const auto it = std::find(names.begin(), names.end(), name);
+    EXPECT_NE(it, names.end()) << name;
+    return static_cast<std::size_t>(it - names.begin());
+  };
+  const std::size_t time = column("time [s]"), task_name = column("task"), x = column("base.x [m]"),
+                    go = column("go.go.x.nu [N]"), push = column("push.go.x.nu [N]"),
+                    timer = column("go.exit1.true_for [s]"), truth = column("truth.x [m]");
+  column("front_left_wheel.tau [N m]");
+  column("go.go.x.b [m/s^2]");
+  column("push.go.x.f [N]");
+  column("stop.rz.alpha");
+  int records = 0, switched = -1;
+  double largest_timer = 0.0;
+  while (std::getline(log, line)) {
+    const std::vector<std::string> record = cells(line);
+    ASSERT_EQ(record.size(), names.size());
+    EXPECT_NEAR(std::stod(record[time]), records * period, 1e-8);
+    EXPECT_EQ(record[x], record[truth]);
+    if (record[task_name] == "go") {
+      EXPECT_TRUE(record[push].empty());
+      EXPECT_FALSE(record[go].empty());
+      largest_timer = std::max(largest_timer, std::stod(record[timer]));
+    } else if (switched < 0) {
+      switched = records;
+    } else if (record[task_name] == "push" && records > switched + 100) {
+      EXPECT_TRUE(record[go].empty()) << "it has faded";
+      EXPECT_NEAR(std::stod(record[push]), 10.0, 1e-6);
+    }
+    ++records;
+  }
+  EXPECT_NEAR(largest_timer, 0.009, 1e-9) << "ten ticks, the tenth of which switches";
+  EXPECT_GT(records, 1000);
+}
+
+}  // namespace
+}  // namespace zwang::runtime

@@ -1,0 +1,116 @@
+// The solver's levels, softness and torque limits where a formula answers: a carriage of 10 kg on a rail, and
+// a skid-steered base that cannot push sideways.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "oracle/random_problem.hpp"
+#include "zwang/solver/solver.hpp"
+
+namespace zwang::oracle {
+namespace {
+
+using solver::Row;
+using solver::RowKind;
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+solver::Model carriage(double max_effort) {
+  solver::ModelBuilder builder(
+      solver::BaseType::fixed, "rail",
+      solver::RigidInertia::from_com(1.0, solver::Vector3::Zero(), solver::Matrix3::Identity()));
+  solver::Joint joint;
+  joint.name = "slide";
+  joint.type = solver::JointType::prismatic;
+  joint.actuated = true;
+  joint.max_effort = max_effort;
+  builder.add_link(
+      "carriage", "rail", {}, joint,
+      solver::RigidInertia::from_com(10.0, solver::Vector3::Zero(), solver::Matrix3::Identity()));
+  return builder.build();
+}
+
+Row along_x(RowKind kind, double b_or_force, double bound, int level, double fade = 1.0) {
+  Row row;
+  row.kind = kind;
+  row.body = 1;
+  row.a.linear = solver::Vector3::UnitX();
+  (kind == RowKind::force ? row.force : row.b) = b_or_force;
+  row.lo = kind == RowKind::lower ? 0.0 : -bound;
+  row.hi = kind == RowKind::upper ? 0.0 : bound;
+  row.level = level;
+  row.fade = fade;
+  return row;
+}
+
+solver::Solution solve_carriage(const std::vector<Row>& rows, double max_effort = unlimited) {
+  const solver::Model model = carriage(max_effort);
+  solver::Solver solver(model);
+  solver::Solution solution(model);
+  EXPECT_EQ(solver.solve(solver::State(model), rows, solution), solver::Status::ok);
+  return solution;
+}
+
+TEST(Levels, ASaturatedForceIsNotAddedToFromBelow) {
+  const auto s =
+      solve_carriage({along_x(RowKind::driver, 5.0, 15.0, 0), along_x(RowKind::driver, 9.0, 50.0, 1)});
+  EXPECT_NEAR(s.tau[0], 15.0, 1e-12);
+}
+
+TEST(Levels, ALimitAboveHoldsAgainstMoreForceThanItsOwn) {
+  // The limit's own force is 5 N at most; a push of 40 N from below would be 4 m/s^2.
+  const auto s =
+      solve_carriage({along_x(RowKind::upper, 1.0, 5.0, 0), along_x(RowKind::force, 40.0, 40.0, 1)});
+  EXPECT_NEAR(s.qdd[0], 1.0, 1e-12);
+}
+
+TEST(Levels, AFadingDriverAboveStillResistsAForceBelow) {
+  // L = R = 0.1: L (mu + 4) + R mu = 2, so mu = 8 and 12 N in all.
+  const auto s =
+      solve_carriage({along_x(RowKind::driver, 2.0, 50.0, 0, 0.5), along_x(RowKind::force, 4.0, 4.0, 1)});
+  EXPECT_NEAR(s.tau[0], 12.0, 1e-12);
+}
+
+TEST(Levels, AFadingForceAboveResistsAForceBelow) {
+  // 0.5 * 6 N above; L (mu + 4) + R mu = 0 below, so mu = -2 and 5 N in all.
+  const auto s =
+      solve_carriage({along_x(RowKind::force, 6.0, 6.0, 0, 0.5), along_x(RowKind::force, 4.0, 4.0, 1)});
+  EXPECT_NEAR(s.tau[0], 5.0, 1e-12);
+}
+
+TEST(Levels, ALevelThatAsksNothingChangesNothing) {
+  const Row nothing = along_x(RowKind::force, 0.0, 0.0, 1);
+  for (const double fade : {1.0, 0.5, 0.1}) {
+    for (const double bound : {500.0, 4.0}) {
+      for (const RowKind kind : {RowKind::driver, RowKind::lower}) {
+        const Row row = along_x(kind, 2.0, bound, 0, fade);
+        const auto alone = solve_carriage({row});
+        const auto both = solve_carriage({row, nothing});
+        EXPECT_NEAR(both.tau[0], alone.tau[0], 1e-12) << "fade " << fade << ", bound " << bound << ", "
+                                                      << (kind == RowKind::lower ? "lower" : "driver");
+      }
+    }
+  }
+}
+
+TEST(TorqueLimits, ASkidBaseCannotPushSideways) {
+  Random random(31);
+  const solver::Model model = random_model(Robot::skid, random, unlimited);
+  Row row;
+  row.body = 0;
+  row.a.linear = solver::Vector3::UnitY();
+  row.b = 1.0;
+  row.lo = -100.0;
+  row.hi = 100.0;
+  solver::Solver solver(model);
+  solver::Solution solution(model);
+  ASSERT_EQ(solver.solve(solver::State(model), {row}, solution), solver::Status::ok);
+  // The centre of mass lies beside the middle of the wheels, so a little yaw could be made; nothing like
+  // this.
+  EXPECT_LT(solution.tau.cwiseAbs().maxCoeff(), 100.0);
+  EXPECT_TRUE(solution.qdd.allFinite());
+  EXPECT_LT(solution.qdd.cwiseAbs().maxCoeff(), 100.0);
+}
+
+}  // namespace
+}  // namespace zwang::oracle
