@@ -7,9 +7,9 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double unreachable_share = 1e-8;  // A Mc A' over A M^-1 A'
-constexpr double blocked_share = 1e-6;      // length of a row that the levels above left free, relative
-constexpr double bound_tolerance = 1e-9;    // relative: when nu counts as being at its bound
+constexpr double unreachable_share = 1e-8;      // A Mc A' over A M^-1 A'
+constexpr double blocked_share = 1e-6;          // length of a row that the levels above left free, relative
+constexpr double bound_tolerance = 1e-9;        // relative: when nu counts as being at its bound
 constexpr double motor_rank_tolerance = 1e-12;  // of a pivot of T'T, relative to its trace
 constexpr double torque_tolerance =
     1e-12;  // relative: rounding that least-squares torques may show at a limit
@@ -36,7 +36,8 @@ double nonzero(double length) {
 BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
     : B_(Eigen::MatrixXd::Zero(rows, dimension)),
       T_(Eigen::MatrixXd::Zero(motors, dimension)),
-      BN_(Eigen::MatrixXd::Zero(rows, dimension)),
+      V_(Eigen::MatrixXd::Zero(rows, dimension)),
+      P_(Eigen::MatrixXd::Zero(rows, dimension)),
       d_(Eigen::VectorXd::Zero(rows)),
       tau_(Eigen::VectorXd::Zero(motors)),
       tau_lo_(Eigen::VectorXd::Zero(motors)),
@@ -46,12 +47,14 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       fixed_(Eigen::VectorXd::Zero(dimension)),
       work_(Eigen::VectorXd::Zero(dimension)),
       solved_(Eigen::VectorXd::Zero(dimension)),
+      F_(Eigen::MatrixXd::Zero(dimension, dimension)),
       frozen_(Eigen::MatrixXd::Zero(dimension, dimension)),
       gram_(Eigen::MatrixXd::Zero(dimension, dimension)),
       entries_(static_cast<std::size_t>(rows)),
       solutions_(static_cast<std::size_t>(rows)),
-      program_(rows + motors, dimension) {
+      program_(2 * rows + motors, dimension, dimension + rows) {
   posed_.reserve(static_cast<std::size_t>(rows));
+  units_.reserve(static_cast<std::size_t>(rows));
   tied_.reserve(static_cast<std::size_t>(rows));
 }
 
@@ -87,14 +90,14 @@ void BoundedProblem::set_motor(int j, double lowest, double highest) noexcept {
 bool BoundedProblem::solve(int max_iterations) noexcept {
   iterations_ = 0;
   frozen_count_ = 0;
+  F_.topLeftCorner(dimension_, dimension_).setIdentity();
   p_.head(dimension_).setZero();
   tau_.head(motors_).setZero();
   bool exact = true;
   factorise_motors();
   bound_rows();
   for (int level = next_level(-1); level >= 0; level = next_level(level)) {
-    project_rows();
-    note_achieved();
+    project_rows(level);
     exact = solve_forces(level, max_iterations) && exact;
     exact = solve_motion(level, max_iterations) && exact;
     freeze(level);
@@ -169,19 +172,16 @@ double BoundedProblem::largest_force(int i) const noexcept {
   return length > 0.0 ? sum / length : 0.0;
 }
 
-void BoundedProblem::project_rows() noexcept {
-  const auto Q = frozen_.topLeftCorner(dimension_, frozen_count_);
+/// V_i = F'B_i and P_i = F V_i = K B_i: the row as the levels above let it act.
+void BoundedProblem::project_rows(int level) noexcept {
+  const auto F = F_.topLeftCorner(dimension_, dimension_);
   for (int i = 0; i < rows_; ++i) {
-    auto row = BN_.row(i).head(dimension_);
-    row = B(i);
-    for (int c = 0; c < frozen_count_; ++c) row -= row.dot(Q.col(c)) * Q.col(c).transpose();
-    if (row.norm() <= blocked_share * entry(i).length) row.setZero();
+    V(i).noalias() = B(i) * F;
+    const bool blocked = V(i).norm() <= blocked_share * entry(i).length;
+    if (entry(i).level == level) entry(i).blocked = blocked;
+    if (blocked) V(i).setZero();
+    P(i).noalias() = V(i) * F.transpose();
   }
-}
-
-/// Where the soft rows above stand before the level begins.
-void BoundedProblem::note_achieved() noexcept {
-  for (int i = 0; i < rows_; ++i) entry(i).achieved = B(i).dot(p_.head(dimension_));
 }
 
 bool BoundedProblem::is_one_sided(int i) const noexcept {
@@ -191,7 +191,7 @@ bool BoundedProblem::is_one_sided(int i) const noexcept {
 
 /// A row takes part in a stage while something of it is left free.
 bool BoundedProblem::takes_part(int i) const noexcept {
-  return !entries_[static_cast<std::size_t>(i)].out && BN_.row(i).head(dimension_).squaredNorm() > 0.0;
+  return !entries_[static_cast<std::size_t>(i)].out && V_.row(i).head(dimension_).squaredNorm() > 0.0;
 }
 
 /// Below its own level a row holds what it reached with whatever that takes.
@@ -207,53 +207,174 @@ double BoundedProblem::softness(int i) const noexcept {
   return e.fade < 1.0 ? e.length * e.length * (1.0 - e.fade) / e.fade : 0.0;
 }
 
-/// min sum (1 - phi)^2 with torques that make p + sum BN f phi; mostly phi = 1 is possible, which is tried
-/// first.
+/// The limits of the levels above that are posed again; with `level` the stage's rows come with them.
+void BoundedProblem::pose_limits_above(int level) noexcept {
+  for (int i = 0; i < rows_; ++i) {
+    if (is_one_sided(i) && entry(i).level < level && takes_part(i)) posed_.push_back(i);
+  }
+}
+
+/// min sum (1 - phi)^2 with torques that make the motion, the limits above braking as they must. Mostly
+/// phi = 1 is possible: tried first with the limits as they are, then with what they need.
 bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
   posed_.clear();
-  auto wished = work_.head(dimension_);
-  wished = p_.head(dimension_);
+  fixed_.head(dimension_) = p_.head(dimension_);
   for (int i = 0; i < rows_; ++i) {
     if (entry(i).kind != RowKind::force || entry(i).level != level || !takes_part(i)) continue;
     posed_.push_back(i);
-    wished += BN_.row(i).head(dimension_).transpose() * entry(i).force;
+    fixed_.head(dimension_) += P(i).transpose() * entry(i).force;
   }
   if (posed_.empty()) return true;
-  if (torques_for(work_)) {
-    for (const int i : posed_) entry(i).phi = 1.0;
-    p_.head(dimension_) = wished;
+  const int forces = static_cast<int>(posed_.size());
+  pose_limits_above(level);
+  bool exact = true;
+  work_.head(dimension_) = fixed_.head(dimension_);
+  bool full = limits_above_hold(forces) && torques_for(work_);
+  if (!full && static_cast<int>(posed_.size()) > forces && motors_reach_all_) {
+    exact = brake(forces, level, max_iterations);
+    full = torques_for(work_);
+    if (full) take_limits(forces);
+  }
+  if (full) {
+    for (int k = 0; k < forces; ++k) entry(posed_[static_cast<std::size_t>(k)]).phi = 1.0;
     tau_.head(motors_) = candidate_.head(motors_);
-    return true;
+  } else {
+    exact = share_torque(forces, level, max_iterations) && exact;
   }
-  const int n = static_cast<int>(posed_.size());
-  program_.resize(n + motors_, 0, dimension_);
-  for (int k = 0; k < n; ++k) {
-    const int i = posed_[static_cast<std::size_t>(k)];
-    const double length = nonzero(BN_.row(i).head(dimension_).norm() * std::abs(entry(i).force));
-    program_.R(k) = 2.0 / (length * length);
-    program_.g(k) = 2.0 / length;
-    program_.lo(k) = 0.0;
-    program_.hi(k) = length;
-    program_.E(k) = -BN_.row(i).head(dimension_).transpose() * (entry(i).force / length);
-  }
-  pose_motors(n);
-  const bool exact = program_.solve(max_iterations, iterations_);
-  for (int k = 0; k < n; ++k) {
-    const int i = posed_[static_cast<std::size_t>(k)];
-    entry(i).phi = program_.z(k) / program_.hi(k);
-    p_.head(dimension_) += BN_.row(i).head(dimension_).transpose() * (entry(i).force * entry(i).phi);
-  }
-  take_motors(n);
+  p_.head(dimension_) = work_.head(dimension_);
   return exact;
 }
 
-void BoundedProblem::pose_motors(int first) noexcept {
+/// Whether the posed limits hold at work_ with the multipliers that they have.
+bool BoundedProblem::limits_above_hold(int first) noexcept {
+  for (std::size_t k = static_cast<std::size_t>(first); k < posed_.size(); ++k) {
+    if (room_of(posed_[k], work_) < 0.0) return false;
+  }
+  return true;
+}
+
+/// How far a limit is from what it must keep, with its present multiplier; negative where it does not.
+double BoundedProblem::room_of(int i, const Eigen::VectorXd& p) noexcept {
+  const Entry& e = entry(i);
+  const double s = B(i).dot(p.head(dimension_)) + softness(i) * e.nu - d_(i) - e.offset;
+  return e.kind == RowKind::upper ? -s : s;
+}
+
+/// All forces in full and the limits above braking them, motors aside; work_ is the motion.
+bool BoundedProblem::brake(int forces, int level, int max_iterations) noexcept {
+  const std::vector<int>::iterator begin = posed_.begin();
+  std::rotate(begin, begin + forces, posed_.end());
+  const int limits = static_cast<int>(posed_.size()) - forces;
+  for (int k = 0; k < limits; ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    fixed_.head(dimension_) -= P(i).transpose() * entry(i).nu;
+  }
+  pose_motion(limits, level, false);
+  const bool exact = program_.solve(max_iterations, iterations_);
+  take_p(limits);
+  std::rotate(begin, begin + limits, posed_.end());
+  return exact;
+}
+
+void BoundedProblem::take_limits(int first) noexcept {
+  for (int k = first; k < static_cast<int>(posed_.size()); ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    entry(i).nu = program_.z(k - first) / V(i).norm();
+  }
+}
+
+/// Torque does not suffice for all forces.
+bool BoundedProblem::share_torque(int forces, int level, int max_iterations) noexcept {
+  fixed_.head(dimension_) = p_.head(dimension_);
+  const int n = static_cast<int>(posed_.size());
+  for (int k = forces; k < n; ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    fixed_.head(dimension_) -= P(i).transpose() * entry(i).nu;
+  }
+  resize_program(n, level, 0, true);
+  for (int k = 0; k < n; ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    const Entry& e = entry(i);
+    if (k < forces) {
+      const double length = nonzero(V(i).norm() * std::abs(e.force));
+      units_.push_back(e.force / length);
+      program_.R(k) = 2.0 / (length * length);
+      program_.g(k) = 2.0 / length;
+      program_.lo(k) = 0.0;
+      program_.hi(k) = length;
+    } else {
+      pose_multiplier(k, level);
+    }
+  }
+  pose_motors(n, level);
+  const bool exact = program_.solve(max_iterations, iterations_);
+  take_p(n);
+  take_motors(n);
+  for (int k = 0; k < n; ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    if (k < forces) {
+      entry(i).phi = program_.z(k) / program_.hi(k);
+    } else {
+      entry(i).nu = program_.z(k) / V(i).norm();
+    }
+  }
+  return exact;
+}
+
+/// Variables: `n` of rows, then the motors, then the room that each limit above keeps.
+void BoundedProblem::resize_program(int n, int level, int curvature_rows, bool with_motors) noexcept {
+  units_.clear();
+  int limits = 0;
+  for (int k = 0; k < n && with_motors; ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    if (is_one_sided(i) && entry(i).level < level) ++limits;
+  }
+  program_.resize(n + (with_motors ? motors_ + limits : 0), curvature_rows,
+                  with_motors ? dimension_ + limits : 0);
+}
+
+/// The variable nu |V_i| of a motion row: its bounds, and where it stands.
+void BoundedProblem::pose_multiplier(int k, int level) noexcept {
+  const int i = posed_[static_cast<std::size_t>(k)];
+  const double length = V(i).norm();
+  const Range bounds = bounds_at(i, level);
+  units_.push_back(1.0 / length);
+  program_.lo(k) = bounds.low * length;
+  program_.hi(k) = bounds.high * length;
+  program_.z(k) = is_one_sided(i) ? entry(i).nu * length : 0.0;
+}
+
+/// The equations of the `n` row variables: torques make the motion, and the limits above stay kept,
+/// B_i.p + R nu + room = b. Without them a level whose torque runs out would trade a limit above for itself.
+void BoundedProblem::pose_motors(int n, int level) noexcept {
+  for (int k = 0; k < n; ++k) {
+    program_.E(k).head(dimension_) =
+        -P(posed_[static_cast<std::size_t>(k)]).transpose() * units_[static_cast<std::size_t>(k)];
+  }
   for (int j = 0; j < motors_; ++j) {
     const double length = nonzero(T(j).norm());
-    program_.E(first + j) = T(j).transpose() / length;
-    program_.lo(first + j) = tau_lo_(j) * length;
-    program_.hi(first + j) = tau_hi_(j) * length;
-    program_.z(first + j) = tau_(j) * length;
+    program_.E(n + j).head(dimension_) = T(j).transpose() / length;
+    program_.lo(n + j) = tau_lo_(j) * length;
+    program_.hi(n + j) = tau_hi_(j) * length;
+    program_.z(n + j) = tau_(j) * length;
+  }
+  int limit = 0;
+  for (int k = 0; k < n; ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    if (!is_one_sided(i) || entry(i).level >= level) continue;
+    const double sign = entry(i).kind == RowKind::upper ? 1.0 : -1.0;
+    const double length = V(i).norm();
+    const int equation = dimension_ + limit;
+    for (int other = 0; other < n; ++other) {
+      const double along = V(i).dot(V(posed_[static_cast<std::size_t>(other)]));
+      program_.E(other)(equation) = sign * along * units_[static_cast<std::size_t>(other)] / length;
+    }
+    program_.E(k)(equation) += sign * softness(i) / (length * length);
+    const int room = n + motors_ + limit++;
+    program_.E(room)(equation) = 1.0;
+    program_.lo(room) = 0.0;
+    program_.hi(room) = infinity;
+    program_.z(room) = std::max(0.0, room_of(i, p_) / length);
   }
 }
 
@@ -263,17 +384,14 @@ void BoundedProblem::take_motors(int first) noexcept {
   }
 }
 
-/// The rows of the stage: the level's own drivers, the one-sided rows down to it, and the soft rows above it,
-/// which resist.
+/// The level's own motion rows, and the limits of the levels above.
 void BoundedProblem::pose_rows(int level) noexcept {
   posed_.clear();
   for (int i = 0; i < rows_; ++i) {
     const Entry& e = entry(i);
-    const bool own = e.kind == RowKind::driver && e.level == level;
-    const bool limit = is_one_sided(i) && e.level <= level;
-    const bool resists = !is_one_sided(i) && e.level < level && e.fade < 1.0;
-    if ((own || limit || resists) && takes_part(i)) posed_.push_back(i);
+    if (e.level == level && e.kind != RowKind::force && takes_part(i)) posed_.push_back(i);
   }
+  pose_limits_above(level);
 }
 
 /// Most of the time no motor is at its limit: the problem is solved without the motors first, and stands when
@@ -281,61 +399,57 @@ void BoundedProblem::pose_rows(int level) noexcept {
 bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   pose_rows(level);
   if (posed_.empty()) return true;
+  const int n = static_cast<int>(posed_.size());
   fixed_.head(dimension_) = p_.head(dimension_);
   for (const int i : posed_) {
-    if (is_one_sided(i)) fixed_.head(dimension_) -= BN_.row(i).head(dimension_).transpose() * entry(i).nu;
+    if (is_one_sided(i)) fixed_.head(dimension_) -= P(i).transpose() * entry(i).nu;
   }
-  pose_motion(level, false);
-  bool exact = program_.solve(max_iterations, iterations_);
-  take_p();
-  if (!torques_for(work_)) {
-    pose_motion(level, true);
+  bool exact = true;
+  bool possible = false;
+  if (motors_reach_all_) {
+    pose_motion(n, level, false);
     exact = program_.solve(max_iterations, iterations_);
-    take_p();
-    take_motors(static_cast<int>(posed_.size()));
-  } else {
+    take_p(n);
+    possible = torques_for(work_);
+  }
+  if (possible) {
     tau_.head(motors_) = candidate_.head(motors_);
+  } else {
+    pose_motion(n, level, true);
+    exact = program_.solve(max_iterations, iterations_);
+    take_p(n);
+    take_motors(n);
   }
   take_multipliers(level);
   p_.head(dimension_) = work_.head(dimension_);
   exact = least_multipliers(level, max_iterations) && exact;
   for (const int i : posed_) {
-    if (!is_one_sided(i)) continue;
-    Entry& e = entry(i);
     // A soft row rests where a . Xdd + R nu = b; what is beyond that it could not hold.
-    const double s = B(i).dot(p_.head(dimension_)) + softness(i) * e.nu - d_(i);
-    e.offset = e.kind == RowKind::upper ? std::max(e.offset, s) : std::min(e.offset, s);
+    if (is_one_sided(i) && entry(i).level == level) entry(i).offset = std::max(0.0, -room_of(i, p_));
+    if (entry(i).kind == RowKind::lower && entry(i).level == level) entry(i).offset *= -1.0;
   }
   return exact;
 }
 
-void BoundedProblem::pose_motion(int level, bool with_motors) noexcept {
-  const int n = static_cast<int>(posed_.size());
-  program_.resize(n + (with_motors ? motors_ : 0), dimension_, with_motors ? dimension_ : 0);
+void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
+  resize_program(n, level, dimension_, with_motors);
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    const Entry& e = entry(i);
-    const double length = BN_.row(i).head(dimension_).norm();
-    const bool resists = e.level < level && !is_one_sided(i);
-    const double target = resists ? e.achieved : d_(i) + e.offset;
-    const Range bounds = bounds_at(i, level);
-    program_.V(k) = BN_.row(i).head(dimension_).transpose() / length;
-    program_.g(k) = (target - B(i).dot(fixed_.head(dimension_))) / length;
+    const double length = V(i).norm();
+    program_.V(k) = V(i).transpose() / length;
+    program_.g(k) = (d_(i) + entry(i).offset - B(i).dot(fixed_.head(dimension_))) / length;
     program_.R(k) = softness(i) / (length * length);
-    program_.lo(k) = bounds.low * length;
-    program_.hi(k) = bounds.high * length;
-    program_.z(k) = is_one_sided(i) ? e.nu * length : 0.0;
-    if (with_motors) program_.E(k) = -program_.V(k);
+    pose_multiplier(k, level);
   }
-  if (with_motors) pose_motors(n);
+  if (with_motors) pose_motors(n, level);
 }
 
 /// p of the stage's solution, in work_.
-void BoundedProblem::take_p() noexcept {
+void BoundedProblem::take_p(int n) noexcept {
   work_.head(dimension_) = fixed_.head(dimension_);
-  for (std::size_t k = 0; k < posed_.size(); ++k) {
-    const auto row = BN_.row(posed_[k]).head(dimension_);
-    work_.head(dimension_) += row.transpose() * (program_.z(static_cast<int>(k)) / row.norm());
+  for (int k = 0; k < n; ++k) {
+    const double z = program_.z(k) * units_[static_cast<std::size_t>(k)];
+    work_.head(dimension_) += P(posed_[static_cast<std::size_t>(k)]).transpose() * z;
   }
 }
 
@@ -347,9 +461,7 @@ void BoundedProblem::take_multipliers(int level) noexcept {
     const int variable = static_cast<int>(k);
     const int i = posed_[k];
     Entry& e = entry(i);
-    const bool resists = e.level < level && !is_one_sided(i);
-    if (resists) continue;
-    e.nu = program_.z(variable) / BN_.row(i).head(dimension_).norm();
+    e.nu = program_.z(variable) / V(i).norm();
     if (e.level == level) e.nu = std::clamp(e.nu, e.lo, e.hi);
     if (e.fade < 1.0) continue;
     const bool free = program_.is_free(variable);
@@ -368,8 +480,8 @@ bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
   program_.resize(n, 0, dimension_);
   for (int k = 0; k < n; ++k) {
     const int i = tied_[static_cast<std::size_t>(k)];
-    const double length = BN_.row(i).head(dimension_).norm();
-    program_.E(k) = BN_.row(i).head(dimension_).transpose() / length;
+    const double length = V(i).norm();
+    program_.E(k) = V(i).transpose() / length;
     program_.R(k) = 1.0 / (length * length);
     program_.lo(k) = bounds_at(i, level).low * length;
     program_.hi(k) = bounds_at(i, level).high * length;
@@ -378,7 +490,7 @@ bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
   const bool exact = program_.solve(max_iterations, iterations_);
   for (int k = 0; k < n; ++k) {
     const int i = tied_[static_cast<std::size_t>(k)];
-    entry(i).nu = program_.z(k) / BN_.row(i).head(dimension_).norm();
+    entry(i).nu = program_.z(k) / V(i).norm();
   }
   return exact;
 }
@@ -411,7 +523,8 @@ bool BoundedProblem::least_torques(int max_iterations) noexcept {
     return true;
   }
   program_.resize(motors_, 0, dimension_);
-  pose_motors(0);
+  posed_.clear();
+  pose_motors(0, 0);
   for (int j = 0; j < motors_; ++j) {
     const double length = nonzero(T(j).norm());
     program_.R(j) = 1.0 / (length * length);
@@ -421,25 +534,31 @@ bool BoundedProblem::least_torques(int max_iterations) noexcept {
   return exact;
 }
 
-/// What the level's hard rows achieved, saturated ones too, stays: their directions are closed to the levels
-/// below.
+/// What the level's equality and force rows achieved, saturated or not, stays for the levels below:
+/// B_i.dp + R dmu = 0 with mu free. From then on a force w moves the robot by K w, and one more row takes
+///
+///   K := K - K B B'K / (R + B'K B) = F (1 - v v' / (R + v.v)) F',   v = F'B
+///
+/// A hard row (R = 0) closes its direction, a soft one makes the robot heavier along it.
 void BoundedProblem::freeze(int level) noexcept {
+  auto F = F_.topLeftCorner(dimension_, dimension_);
   for (int i = 0; i < rows_; ++i) {
     const Entry& e = entry(i);
-    if (e.level != level || is_one_sided(i) || e.fade < 1.0 || !takes_part(i)) continue;
+    if (e.level != level || is_one_sided(i) || !takes_part(i)) continue;
     if (frozen_count_ == dimension_) return;
-    auto q = frozen_.col(frozen_count_).head(dimension_);
-    q = B(i).transpose();
-    for (int pass = 0; pass < 2; ++pass) {
-      for (int c = 0; c < frozen_count_; ++c) {
-        const auto other = frozen_.col(c).head(dimension_);
-        q -= other.dot(q) * other;
-      }
+    auto v = solved_.head(dimension_);
+    v.noalias() = F.transpose() * B(i).transpose();
+    for (int c = 0; c < frozen_count_; ++c) {
+      const auto other = frozen_.col(c).head(dimension_);
+      v -= other.dot(v) * other;
     }
-    const double left = q.norm();
-    if (left <= blocked_share * e.length) continue;
-    q /= left;
-    ++frozen_count_;
+    const double left = v.squaredNorm();
+    if (left <= blocked_share * blocked_share * e.length * e.length) continue;
+    const double R = softness(i);
+    if (R == 0.0) frozen_.col(frozen_count_++).head(dimension_) = v / std::sqrt(left);
+    work_.head(dimension_).noalias() = F * v;
+    work_.head(dimension_) *= (1.0 - std::sqrt(R / (R + left))) / left;
+    F.noalias() -= work_.head(dimension_) * v.transpose();
   }
 }
 
@@ -458,9 +577,8 @@ void BoundedProblem::report() noexcept {
       row.phi = e.phi;
       row.nu = e.phi * e.force;
       row.saturated = e.phi < 1.0 - bound_tolerance;
-      const bool blocked = BN_.row(i).head(dimension_).squaredNorm() == 0.0 && e.phi == 0.0;
       row.status = e.out           ? e.status
-                   : blocked       ? RowStatus::blocked
+                   : e.blocked     ? RowStatus::blocked
                    : row.saturated ? RowStatus::torque_limited
                                    : RowStatus::held;
       continue;
@@ -481,7 +599,7 @@ void BoundedProblem::report() noexcept {
       row.status = e.status;
     } else if (row.saturated) {
       row.status = is_one_sided(i) ? RowStatus::conflict : RowStatus::force_limited;
-    } else if (BN_.row(i).head(dimension_).squaredNorm() == 0.0) {
+    } else if (e.blocked) {
       row.status = RowStatus::blocked;
     } else {
       row.status = motor_at_limit ? RowStatus::torque_limited : RowStatus::conflict;

@@ -15,9 +15,9 @@ constexpr int max_refinements = 4;
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
-QuadraticProgram::QuadraticProgram(int n, int d)
+QuadraticProgram::QuadraticProgram(int n, int d, int m)
     : V_(Eigen::MatrixXd::Zero(d, n)),
-      E_(Eigen::MatrixXd::Zero(d, n)),
+      E_(Eigen::MatrixXd::Zero(m, n)),
       R_(Eigen::VectorXd::Zero(n)),
       g_(Eigen::VectorXd::Zero(n)),
       lo_(Eigen::VectorXd::Zero(n)),
@@ -26,18 +26,18 @@ QuadraticProgram::QuadraticProgram(int n, int d)
       gradient_(Eigen::VectorXd::Zero(n)),
       reduced_(Eigen::VectorXd::Zero(n)),
       direction_(Eigen::VectorXd::Zero(n)),
-      multipliers_(Eigen::VectorXd::Zero(d)),
+      multipliers_(Eigen::VectorXd::Zero(m)),
       work_(Eigen::VectorXd::Zero(std::max(n, d))),
-      eliminated_(Eigen::MatrixXd::Zero(d, std::max(n, 2 * d))),
-      inverse_basis_(Eigen::MatrixXd::Zero(d, d)),
-      follow_(Eigen::MatrixXd::Zero(d, n)),
+      eliminated_(Eigen::MatrixXd::Zero(m, std::max(n, 2 * m))),
+      inverse_basis_(Eigen::MatrixXd::Zero(m, m)),
+      follow_(Eigen::MatrixXd::Zero(m, n)),
       reduced_V_(Eigen::MatrixXd::Zero(d, n)),
       cholesky_(Eigen::MatrixXd::Zero(n, n)),
       place_(index(n)),
       stuck_(index(n)) {
-  basics_.reserve(index(n));
-  superbasics_.reserve(index(n));
-  rows_.reserve(index(d));
+  basics_.reserve(index(std::max(n, m)));
+  superbasics_.reserve(index(std::max(n, m)));
+  rows_.reserve(index(m));
 }
 
 void QuadraticProgram::resize(int variables, int curvature_rows, int equality_rows) noexcept {
@@ -61,7 +61,8 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
     if (!factorise_basis()) return false;
     compute_reduced_gradient();
     // Rounding, or a curvature near nothing, can leave a slope: step again before pricing.
-    if (at_minimum && slope_of_superbasics() > slope_tolerance * tolerance_ && refinements < max_refinements) {
+    if (at_minimum && slope_of_superbasics() > slope_tolerance * tolerance_ &&
+        refinements < max_refinements) {
       at_minimum = false;
       ++refinements;
     }
