@@ -123,6 +123,7 @@ TEST(Guard, AClockThatStandsGoesBackOrJumpsIsRefusedAndCounted) {
   EXPECT_EQ(bench.admit_after(0.5 + period), SampleStatus::good) << "the clock caught up";
   EXPECT_EQ(bench.admit_after(0.11), SampleStatus::bad_clock);
   EXPECT_EQ(bench.guard.counters().refused_clock, 3u);
+  EXPECT_EQ(bench.admit_after(period), SampleStatus::good) << "the clock goes on from where it jumped to";
 }
 
 TEST(Guard, ARefusedSampleHoldsTheLastTorques) {
