@@ -8,7 +8,9 @@ namespace zwang::solver {
 namespace {
 
 constexpr double unreachable_share = 1e-8;      // A Mc A' over A M^-1 A'
-constexpr double blocked_share = 1e-6;          // length of a row that the levels above left free, relative
+constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
+constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
+constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
 constexpr double bound_tolerance = 1e-9;        // relative: when nu counts as being at its bound
 constexpr double motor_rank_tolerance = 1e-12;  // of a pivot of T'T, relative to its trace
 constexpr double torque_tolerance =
@@ -147,13 +149,13 @@ void BoundedProblem::bound_rows() noexcept {
   if (scale == 0.0) scale = 1.0;
   for (int i = 0; i < rows_; ++i) {
     Entry& e = entry(i);
-    if (e.out || e.kind == RowKind::force) continue;
+    if (e.out) continue;
     double force = largest_force(i);
-    if (force * e.length * e.length < unreachable_share * std::abs(d_(i))) {
+    if (force == 0.0) {
       e.out = true;
       e.status = RowStatus::unreachable;
-      continue;
     }
+    if (e.out || e.kind == RowKind::force) continue;
     if (!std::isfinite(force)) force = 1e7 * scale / e.length;
     if (is_one_sided(i)) force *= authority(e.quantity);
     e.lo = e.fade * (std::isfinite(e.lo) ? e.lo : -force);
@@ -162,11 +164,12 @@ void BoundedProblem::bound_rows() noexcept {
 }
 
 /// Upper bound of |nu| with B_i nu = T'tau: both sides times B_i.
-double BoundedProblem::largest_force(int i) const noexcept {
+double BoundedProblem::largest_force(int i) noexcept {
   double sum = 0.0;
   for (int j = 0; j < motors_; ++j) {
     const double along = std::abs(B_.row(i).head(dimension_).dot(T_.row(j).head(dimension_)));
-    if (along > 0.0) sum += along * std::max(-tau_lo_(j), tau_hi_(j));
+    if (along > driven_share * T(j).norm() * entry(i).length)
+      sum += along * std::max(-tau_lo_(j), tau_hi_(j));
   }
   const double length = B_.row(i).head(dimension_).squaredNorm();
   return length > 0.0 ? sum / length : 0.0;
@@ -177,7 +180,7 @@ void BoundedProblem::project_rows(int level) noexcept {
   const auto F = F_.topLeftCorner(dimension_, dimension_);
   for (int i = 0; i < rows_; ++i) {
     V(i).noalias() = B(i) * F;
-    const bool blocked = V(i).norm() <= blocked_share * entry(i).length;
+    const bool blocked = V(i).squaredNorm() <= blocked_share * entry(i).length * entry(i).length;
     if (entry(i).level == level) entry(i).blocked = blocked;
     if (blocked) V(i).setZero();
     P(i).noalias() = V(i) * F.transpose();
@@ -553,7 +556,7 @@ void BoundedProblem::freeze(int level) noexcept {
       v -= other.dot(v) * other;
     }
     const double left = v.squaredNorm();
-    if (left <= blocked_share * blocked_share * e.length * e.length) continue;
+    if (left <= dependent_share * e.length * e.length) continue;
     const double R = softness(i);
     if (R == 0.0) frozen_.col(frozen_count_++).head(dimension_) = v / std::sqrt(left);
     work_.head(dimension_).noalias() = F * v;
