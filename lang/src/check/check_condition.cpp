@@ -165,6 +165,7 @@ class ConditionCheck {
       known.push_back(group.axes[a].name.text);
       if (group.axes[a].name.text == parts[1]) lowered.axis = static_cast<int>(a);
     }
+    if (lowered.axis < 0 && group.is_incomplete) return bad_type;
     if (lowered.axis < 0) {
       return complain(
           wording::unknown_axis(node.span, parts[0], parts[1], axis_named(parts[1]).has_value(), known));

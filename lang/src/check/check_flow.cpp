@@ -40,8 +40,9 @@ bool waits_for_time(const std::vector<Condition>& conditions) {
 void check_ends(CheckContext& context, const std::vector<std::vector<Condition>>& conditions) {
   for (std::size_t i = 0; i < context.file.tasks.size(); ++i) {
     const TaskText& task = context.file.tasks[i];
-    const bool has_bad_exit = std::any_of(task.exits.begin(), task.exits.end(),
-                                          [](const ExitText& exit) { return exit.when.is_bad; });
+    // A condition that could not be read has no nodes: what it waits for is not known.
+    const bool has_bad_exit = std::any_of(conditions[i].begin(), conditions[i].end(),
+                                          [](const Condition& condition) { return condition.nodes.empty(); });
     if (task.timeout || has_bad_exit || waits_for_time(conditions[i])) continue;
     context.diagnostics.add(wording::endless_task(task.name.span, task.name.text));
   }

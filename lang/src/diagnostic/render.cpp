@@ -49,7 +49,7 @@ void render_line(const Diagnostics& diagnostics, const Span& span, std::ostream&
   const std::size_t caret = std::min(static_cast<std::size_t>(std::max(span.begin.column, 1)) - 1, length);
   const std::size_t begin = caret < widest - 20 ? 0 : caret - (widest - 20);
   const std::size_t end = std::min(length, begin + widest);
-  const bool one_line = span.end.line == span.begin.line && span.end.column > span.begin.column;
+  const bool one_line = span.end.line == span.begin.line && span.end.column >= span.begin.column;
   const std::size_t last = one_line ? static_cast<std::size_t>(span.end.column) - 1 : length;
   const std::size_t marks = std::max<std::size_t>(1, std::min(last, end) - std::min({caret, last, end}));
   const std::string number = std::to_string(span.begin.line);

@@ -17,7 +17,7 @@ namespace zwang::lang::wording {
 // --- Text and shape: E100 to E117 (text.cpp) ---
 Diagnostic unreadable_file(const Span& span, const std::string& path, const std::string& reason);
 Diagnostic not_a_path(const Span& span, const std::string& written);
-Diagnostic path_outside_root(const Span& span, const std::string& written, const std::string& root);
+Diagnostic path_outside_root(const Span& span, const std::string& written);
 Diagnostic file_too_large(const Span& span, const std::string& code, std::size_t limit);
 Diagnostic not_utf8(const Span& span, const std::string& code);
 Diagnostic forbidden_character(const Span& span, const std::string& code, char32_t character);
@@ -41,6 +41,7 @@ Diagnostic scalar_too_long(const Span& span, std::size_t limit);
 Diagnostic too_many_tasks(const Span& span, std::size_t limit);
 Diagnostic too_many_groups(const Span& span, std::size_t limit);
 Diagnostic other_version(const Span& span, const std::string& key, const std::string& version);
+Diagnostic missing_version(const Span& span, const std::string& what, const std::string& key);
 Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,
                        const std::string& meant, const std::vector<std::string>& known);
 Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key);
@@ -162,7 +163,7 @@ Diagnostic two_roots(const Span& span, const std::string& first, const std::stri
 Diagnostic unreached_link(const Span& span, const std::string& link, const std::string& root);
 Diagnostic incomplete_inertial(const Span& span, const std::string& link, const std::string& missing);
 Diagnostic impossible_mass(const Span& span, const std::string& link, double mass);
-Diagnostic impossible_inertia(const Span& span, const std::string& link, const std::string& reason);
+Diagnostic impossible_inertia(const Span& span, const std::string& link);
 Diagnostic joint_type(const Span& span, const std::string& joint, const std::string& type);
 Diagnostic zero_axis(const Span& span, const std::string& joint);
 Diagnostic joint_without_limit(const Span& span, const std::string& joint, const std::string& type);

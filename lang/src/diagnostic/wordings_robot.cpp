@@ -153,8 +153,8 @@ Diagnostic impossible_mass(const Span& span, const std::string& link, double mas
   return error("E858", span, "link " + in_ticks(link) + " cannot weigh " + format_number(mass) + " kg");
 }
 
-Diagnostic impossible_inertia(const Span& span, const std::string& link, const std::string& reason) {
-  return error("E858", span, "the inertia of link " + in_ticks(link) + " " + reason);
+Diagnostic impossible_inertia(const Span& span, const std::string& link) {
+  return error("E858", span, "the inertia of link " + in_ticks(link) + " is negative about some axis");
 }
 
 Diagnostic joint_type(const Span& span, const std::string& joint, const std::string& type) {

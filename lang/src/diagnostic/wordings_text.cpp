@@ -55,10 +55,10 @@ Diagnostic not_a_path(const Span& span, const std::string& written) {
                "write a path relative to this file; URLs and package:// are not followed");
 }
 
-Diagnostic path_outside_root(const Span& span, const std::string& written, const std::string& root) {
+Diagnostic path_outside_root(const Span& span, const std::string& written) {
   return error(
       "E109", span, in_ticks(written) + " lies outside the folder that files may be read from",
-      "keep it below " + in_ticks(root) + ", or mark a higher folder with an empty `.zwang-root` file");
+      "keep it below the folder of the task file, or mark a higher folder with an empty `.zwang-root` file");
 }
 
 Diagnostic file_too_large(const Span& span, const std::string& code, std::size_t limit) {
@@ -169,6 +169,11 @@ Diagnostic too_many_groups(const Span& span, std::size_t limit) {
 Diagnostic other_version(const Span& span, const std::string& key, const std::string& version) {
   return error("E108", span, "this file is " + key + " " + escaped(version) + "; this program reads 1",
                "write `" + key + ": 1`");
+}
+
+Diagnostic missing_version(const Span& span, const std::string& what, const std::string& key) {
+  return error("E103", span, "this is not " + what + ": it does not say `" + key + "`",
+               "start with `" + key + ": 1`");
 }
 
 Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,

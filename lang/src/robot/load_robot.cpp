@@ -46,18 +46,22 @@ class RobotBuilder {
 
   /// The URDF's joint, or the complaint that there is none.
   UrdfJoint* moving_joint(const Word& name) {
-    if (!name.exists()) return nullptr;
+    if (!name.exists() || !good_name(name.text)) return nullptr;
     std::vector<std::string> moving;
     for (UrdfJoint& joint : urdf_.joints) {
       if (joint.joint.type != solver::JointType::fixed) moving.push_back(joint.joint.name);
       if (joint.joint.name != name.text) continue;
       if (joint.joint.type != solver::JointType::fixed) return &joint;
+      bad_names_.insert(name.text);
       diagnostics_.add(wording::fixed_joint(name.span, name.text, joint.span));
       return nullptr;
     }
     diagnostics_.add(wording::unknown_name(name.span, "joint", name.text, nearest(name.text, moving)));
     return nullptr;
   }
+
+  /// False once the name was complained of: a joint is named as a wheel and as an actuator.
+  bool good_name(const std::string& name) const { return !bad_names_.contains(name); }
 
   void check_link(const Word& name) {
     if (!name.exists() || urdf_.find_link(name.text) != nullptr) return;
@@ -240,6 +244,7 @@ class RobotBuilder {
   int errors_before_;  ///< of other files
   Diagnostics& diagnostics_;
   bool is_clockwise_ = false;
+  std::set<std::string> bad_names_;
 };
 
 }  // namespace

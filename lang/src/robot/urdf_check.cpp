@@ -161,15 +161,11 @@ class UrdfChecker {
     if (kilograms > 0.0 && !m.isZero(0.0)) check_inertia(m, elements_[*inertia].span, link);
   }
 
+  /// Whether a body can have it (the triangle rule) is asked of whole moving bodies, where dynamics need it.
   void check_inertia(const solver::Matrix3& m, const Span& span, const std::string& link) {
     const solver::Vector3 moments = Eigen::SelfAdjointEigenSolver<solver::Matrix3>(m).eigenvalues();
     const double tolerance = 1e-6 * moments.cwiseAbs().maxCoeff();
-    if (moments(0) < -tolerance) {
-      complain(wording::impossible_inertia(span, link, "is not positive definite"));
-    } else if (moments(0) + moments(1) < moments(2) * (1.0 - 1e-2) - tolerance) {
-      // Published files round: within a hundredth they are taken as the thin plates that they describe.
-      complain(wording::impossible_inertia(span, link, "breaks the triangle rule (no body can have it)"));
-    }
+    if (moments(0) < -tolerance) complain(wording::impossible_inertia(span, link));
   }
 
   void check_joint(std::size_t i) {

@@ -53,6 +53,7 @@ void parse_shape(MapReader& map, SceneObject& object, Diagnostics& diagnostics) 
   const Node* wall = map.optional("wall");
   const int count = (box != nullptr ? 1 : 0) + (cylinder != nullptr ? 1 : 0) + (wall != nullptr ? 1 : 0);
   if (count != 1) {
+    if (count == 0 && map.has_misspelt({"box", "cylinder", "wall"})) return;
     diagnostics.add(wording::one_shape(object.span, what));
   } else if (box != nullptr) {
     object.shape = ShapeKind::box;

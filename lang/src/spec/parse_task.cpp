@@ -54,6 +54,7 @@ GroupText parse_group(const Entry& entry, Diagnostics& diagnostics) {
     if (map.optional(name) == nullptr) continue;
     group.axes.push_back(parse_axis(*entry.value.find(name), entry.key.text, diagnostics));
   }
+  group.is_incomplete = map.has_unread_keys();
   map.finish();
   return group;
 }

@@ -38,6 +38,20 @@ bool MapReader::report_split_condition() {
   return split_reported_;
 }
 
+bool MapReader::has_misspelt(const std::vector<std::string>& keys) const {
+  for (const Entry& entry : node_.entries) {
+    const bool is_known = std::find(known_.begin(), known_.end(), entry.key.text) != known_.end();
+    if (!is_known && !nearest(entry.key.text, keys).empty()) return true;
+  }
+  return false;
+}
+
+bool MapReader::has_unread_keys() const {
+  return std::any_of(node_.entries.begin(), node_.entries.end(), [this](const Entry& entry) {
+    return entry.key.is_bad || std::find(known_.begin(), known_.end(), entry.key.text) == known_.end();
+  });
+}
+
 void MapReader::finish() {
   if (!is_mapping()) return;
   if (!others_allowed_) {
@@ -138,8 +152,12 @@ std::optional<std::vector<double>> parse_vector(const Node& node, const Dimensio
 }
 
 bool check_version(MapReader& map, const std::string& key, Diagnostics& diagnostics) {
-  const Node* version = map.required(key);
-  if (version == nullptr || version->is_bad) return true;
+  const Node* version = map.optional(key);
+  if (version == nullptr) {
+    diagnostics.add(wording::missing_version(map.node().span, map.what(), key));
+    return false;
+  }
+  if (version->is_bad) return true;
   if (version->is_scalar() && version->text == "1") return true;
   diagnostics.add(wording::other_version(version->span, key, version->text));
   return false;

@@ -27,6 +27,10 @@ class MapReader {
   void allow_others() { others_allowed_ = true; }
   /// Keys that a comma inside a flow-style value split off: `{when: a, b < 1, ..}`. Reported as E107.
   bool report_split_condition();
+  /// Whether an unknown key looks like one of these: then their absence has its cause already.
+  bool has_misspelt(const std::vector<std::string>& keys) const;
+  /// Keys that are unknown or were complained of.
+  bool has_unread_keys() const;
   void finish();
 
  private:

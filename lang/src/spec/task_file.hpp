@@ -50,6 +50,7 @@ struct GroupText {
   std::vector<AxisText> axes;
   std::optional<ValueText> time_constant;
   std::optional<int> level;
+  bool is_incomplete = false;  ///< a key could not be read: what the group lacks may have been there
 };
 
 enum class SetKind { frame, parameter };

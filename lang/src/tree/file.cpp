@@ -109,7 +109,7 @@ std::optional<std::filesystem::path> resolve_path(const std::string& written,
       std::mismatch(real_root.begin(), real_root.end(), real.begin(), real.end());
   (void)rest;
   if (error || end_of_root != real_root.end()) {
-    diagnostics.add(wording::path_outside_root(cause, written, real_root.string()));
+    diagnostics.add(wording::path_outside_root(cause, written));
     return std::nullopt;
   }
   return path;

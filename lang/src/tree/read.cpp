@@ -16,6 +16,11 @@ namespace zwang::lang {
 
 namespace {
 
+/// yaml-cpp counts lines and columns in bytes of its own stream; `pos` is the offset that they come from.
+Position position_of(const YAML::Mark& mark, const TextIndex& index) {
+  return index.position(mark.pos < 0 ? 0 : static_cast<std::size_t>(mark.pos));
+}
+
 /// Thrown through yaml-cpp when the text cannot be read on; its diagnostic is already written.
 struct Abandoned {};
 
@@ -39,7 +44,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node node = start(NodeKind::null, mark);
-    refuse_anchor(node, anchor);
+    refuse_anchor(node, anchor, mark);
     place(std::move(node));
   }
 
@@ -62,8 +67,8 @@ class TreeBuilder final : public YAML::EventHandler {
       diagnostics_.add(wording::block_scalar(node.span));
       node.is_bad = true;
     }
-    refuse_tag(node, tag);
-    refuse_anchor(node, anchor);
+    refuse_tag(node, tag, mark);
+    refuse_anchor(node, anchor, mark);
     if (value.size() > longest_scalar) {
       diagnostics_.add(wording::scalar_too_long(point(mark), longest_scalar));
       throw Abandoned{};
@@ -89,7 +94,7 @@ class TreeBuilder final : public YAML::EventHandler {
     std::optional<Node> key;  ///< of a mapping, waiting for its value
   };
 
-  Position position(const YAML::Mark& mark) const { return {mark.line + 1, mark.column + 1}; }
+  Position position(const YAML::Mark& mark) const { return position_of(mark, index_); }
 
   Span point(const YAML::Mark& mark) const {
     return {source_, position(mark), index_.position(index_.offset(position(mark)) + 1)};
@@ -116,15 +121,15 @@ class TreeBuilder final : public YAML::EventHandler {
     return node;
   }
 
-  void refuse_tag(Node& node, const std::string& tag) {
+  void refuse_tag(Node& node, const std::string& tag, const YAML::Mark& mark) {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    diagnostics_.add(wording::tag(node.span));
+    diagnostics_.add(wording::tag(word_at(mark)));
     node.is_bad = true;
   }
 
-  void refuse_anchor(Node& node, YAML::anchor_t anchor) {
+  void refuse_anchor(Node& node, YAML::anchor_t anchor, const YAML::Mark& mark) {
     if (anchor == YAML::NullAnchor) return;
-    diagnostics_.add(wording::anchor(node.span));
+    diagnostics_.add(wording::anchor(word_at(mark)));
     node.is_bad = true;
   }
 
@@ -132,8 +137,8 @@ class TreeBuilder final : public YAML::EventHandler {
             YAML::EmitterStyle::value style) {
     Node node = start(kind, mark);
     node.is_flow = style == YAML::EmitterStyle::Flow;
-    refuse_tag(node, tag);
-    refuse_anchor(node, anchor);
+    refuse_tag(node, tag, mark);
+    refuse_anchor(node, anchor, mark);
     if (static_cast<int>(levels_.size()) >= deepest_nesting) {
       diagnostics_.add(wording::too_deep(point(mark), deepest_nesting));
       throw Abandoned{};
@@ -231,7 +236,11 @@ std::optional<Document> read(int source, Diagnostics& diagnostics) {
     return std::nullopt;
   } catch (const YAML::Exception& error) {
     const TextIndex index(text);
-    const Position at{error.mark.line + 1, error.mark.column + 1};
+    const Position at = position_of(error.mark, index);
+    if (error.msg.starts_with("the referenced anchor")) {
+      diagnostics.add(wording::alias({source, at, index.position(index.offset(at) + 1)}));
+      return std::nullopt;
+    }
     diagnostics.add(wording::unreadable_yaml({source, at, index.position(index.offset(at) + 1)}, error.msg));
     return std::nullopt;
   }

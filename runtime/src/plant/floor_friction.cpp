@@ -1,5 +1,8 @@
 #include "floor_friction.hpp"
 
+#include <cmath>
+#include <numbers>
+
 namespace zwang::runtime {
 
 namespace {
@@ -30,6 +33,17 @@ Eigen::Vector3d FloorFriction::step(const Eigen::Vector3d& velocity, double peri
   cut(force.head<2>(), limit_[0]);
   cut(force.tail<1>(), limit_[1]);
   return force;
+}
+
+FloorFriction floor_friction_of(const lang::SceneObject& object, double coefficient, double gravity) {
+  const double mass = object.mass.value_or(0.0);
+  const double a = object.size[0];
+  const double b = object.size[1];
+  const bool round = object.shape == lang::ShapeKind::cylinder;
+  const double yaw_inertia = round ? 0.5 * mass * a * a : mass / 12.0 * (a * a + b * b);
+  const double area = round ? std::numbers::pi * a * a : a * b;
+  const double reach = 2.0 / 3.0 * std::sqrt(area / std::numbers::pi);  // of a disk as large
+  return {mass, yaw_inertia, coefficient * mass * gravity, reach};
 }
 
 }  // namespace zwang::runtime

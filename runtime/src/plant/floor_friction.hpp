@@ -11,6 +11,8 @@
 
 #include <Eigen/Core>
 
+#include "zwang/lang/scene.hpp"
+
 namespace zwang::runtime {
 
 class FloorFriction {
@@ -28,5 +30,8 @@ class FloorFriction {
   Eigen::Vector2d limit_ = Eigen::Vector2d::Zero();    ///< force [N], moment [N m]
   Eigen::Vector3d stretch_ = Eigen::Vector3d::Zero();  ///< [m, m, rad]
 };
+
+/// Of an object with a mass, on a floor of the friction `coefficient`. `gravity` [m/s^2]
+FloorFriction floor_friction_of(const lang::SceneObject& object, double coefficient, double gravity);
 
 }  // namespace zwang::runtime

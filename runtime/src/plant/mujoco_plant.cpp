@@ -2,17 +2,21 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <csetjmp>
+#include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <numbers>
 #include <stdexcept>
 
+#include "contact_spring.hpp"
 #include "floor_friction.hpp"
 #include "mjcf.hpp"
-#include "simulator.hpp"
 
 namespace zwang::runtime {
 
@@ -30,6 +34,97 @@ constexpr double start_overlap = 1e-5;  ///< [m] allowed between robot and objec
   throw std::invalid_argument("plant: " + what);
 }
 
+// MuJoCo reports errors through handlers of the whole process. Its own wait for a key and write a file.
+// No frame between the handler and the place that it jumps to holds anything that would need destroying.
+thread_local std::jmp_buf* error_exit = nullptr;
+
+void on_error(const char* message) {
+  if (error_exit != nullptr) std::longjmp(*error_exit, 1);
+  std::fprintf(stderr, "zwang: MuJoCo: %s\n", message);
+  std::abort();
+}
+
+void on_warning(const char* /*message*/) {}  // counted in mjData, where every step looks
+
+mjfCollision collide_sphere_box = nullptr;  ///< MuJoCo's own
+
+/// MuJoCo's collision of a sphere with a box stops at a depth of the sphere's radius, and so would a spring's
+/// force. Where the centre is inside the box, the depth is measured to the nearest face instead. Only in
+/// simulations of this file: others in the process keep what they have.
+int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphere, int box, mjtNum margin) {
+  const int count = collide_sphere_box(m, d, contact, sphere, box, margin);
+  if (error_exit == nullptr || count != 1) return count;
+  const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> axes(d->geom_xmat + 9 * box);
+  const Eigen::Map<const Vector3> half(m->geom_size + 3 * box), box_at(d->geom_xpos + 3 * box),
+      centre(d->geom_xpos + 3 * sphere);
+  const Vector3 local = axes.transpose() * (centre - box_at);
+  const Vector3 depth = half - local.cwiseAbs();
+  int face = 0;
+  if (!(depth.minCoeff(&face) > 0.0)) return count;
+  const Vector3 out = (local[face] > 0.0 ? 1.0 : -1.0) * axes.col(face);
+  contact->dist = -(depth[face] + m->geom_size[3 * sphere]);
+  Eigen::Map<Vector3>(contact->frame) = -out;  // from the sphere to the box
+  std::fill(contact->frame + 3, contact->frame + 9, 0.0);
+  Eigen::Map<Vector3>(contact->pos) = centre - (m->geom_size[3 * sphere] + 0.5 * contact->dist) * out;
+  return count;
+}
+
+/// Once, before all else.
+void install_handlers() {
+  static const bool installed = [] {
+    mju_user_error = on_error;
+    mju_user_warning = on_warning;
+    collide_sphere_box = mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX];
+    mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX] = collide_deep;
+    return true;
+  }();
+  static_cast<void>(installed);
+}
+
+/// False when MuJoCo raised an error: the data is void.
+bool guarded(void (*call)(const mjModel*, mjData*), const mjModel* model, mjData* data) noexcept {
+  std::jmp_buf exit;
+  error_exit = &exit;
+  if (setjmp(exit) != 0) {
+    error_exit = nullptr;
+    return false;
+  }
+  call(model, data);
+  error_exit = nullptr;
+  return true;
+}
+
+struct ModelDeleter {
+  void operator()(mjModel* model) const { mj_deleteModel(model); }
+};
+struct DataDeleter {
+  void operator()(mjData* data) const { mj_deleteData(data); }
+};
+
+using ModelPointer = std::unique_ptr<mjModel, ModelDeleter>;
+using DataPointer = std::unique_ptr<mjData, DataDeleter>;
+
+struct VirtualFiles {
+  VirtualFiles() { mj_defaultVFS(&vfs); }
+  ~VirtualFiles() { mj_deleteVFS(&vfs); }
+  VirtualFiles(const VirtualFiles&) = delete;
+  VirtualFiles& operator=(const VirtualFiles&) = delete;
+  mjVFS vfs;
+};
+
+ModelPointer compile(const std::string& mjcf) {
+  const char* const file = "plant.xml";
+  const auto files = std::make_unique<VirtualFiles>();  // two megabytes: not for the stack
+  if (mj_makeEmptyFileVFS(&files->vfs, file, static_cast<int>(mjcf.size())) != 0) {
+    refuse("the simulation's text does not fit MuJoCo's virtual files");
+  }
+  std::memcpy(files->vfs.filedata[mj_findFileVFS(&files->vfs, file)], mjcf.data(), mjcf.size());
+  std::array<char, 1000> error{};
+  ModelPointer model(mj_loadXML(file, &files->vfs, error.data(), static_cast<int>(error.size())));
+  if (!model || error[0] != '\0') refuse(std::string("MuJoCo refuses the simulation: ") + error.data());
+  return model;
+}
+
 Matrix3 matrix_of(const mjtNum* quaternion) {
   return Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3]).toRotationMatrix();
 }
@@ -40,6 +135,14 @@ Vector3 vector_of(const mjtNum* numbers) {
 
 std::string numbered(const char* name, int number) {
   return std::string(name) + '_' + std::to_string(number);
+}
+
+/// The outline's corners are the footprint's, in another order and without those in hollows.
+int nearest_corner(const std::vector<Vector3>& footprint, const Vector3& corner) {
+  const auto nearer = [&corner](const Vector3& a, const Vector3& b) {
+    return (a - corner).head<2>().norm() < (b - corner).head<2>().norm();
+  };
+  return static_cast<int>(std::min_element(footprint.begin(), footprint.end(), nearer) - footprint.begin());
 }
 
 bool is_finite(const mjtNum* numbers, int count) {
@@ -80,6 +183,7 @@ struct MujocoPlant::Simulation {
   struct GeomOwner {
     int object = -1;
     bool robot = false;
+    int corner = -1;  ///< of the robot's footprint
   };
 
   Simulation(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options)
@@ -92,7 +196,7 @@ struct MujocoPlant::Simulation {
     if (!data) refuse("MuJoCo has no memory for the simulation");
     find_addresses();
     compare_inertia();
-    find_owners(scene);
+    find_owners(scene, robot.footprint);
     set_springs(scene);
     find_sliders(scene);
     const std::array<double, 2> at = options.start_at.value_or(scene.start_at);
@@ -142,126 +246,81 @@ struct MujocoPlant::Simulation {
     if (std::abs(mass - robot_model.total_mass()) > 1e-9 * mass) refuse("MuJoCo changed the robot's mass");
   }
 
-  void find_owners(const lang::Scene& scene) {
+  void find_owners(const lang::Scene& scene, const std::vector<Vector3>& footprint) {
     owners.resize(static_cast<std::size_t>(model->ngeom));
     for (int g = 0; g < model->ngeom; ++g) {
       const char* name = mj_id2name(model.get(), mjOBJ_GEOM, g);
       GeomOwner& owner = owners[static_cast<std::size_t>(g)];
       if (std::strncmp(name, "object_", 7) == 0) owner.object = std::atoi(name + 7);
       owner.robot = std::strncmp(name, "bumper_", 7) == 0;
+      if (owner.robot && std::isdigit(static_cast<unsigned char>(name[7])) != 0) {
+        owner.corner =
+            nearest_corner(footprint, simulated.outline[static_cast<std::size_t>(std::atoi(name + 7))]);
+      }
     }
+    truth.corner_forces.assign(footprint.size(), 0.0);
     for (const lang::SceneObject& object : scene.objects)
       truth.objects.push_back({object.name, 0.0, {}, 0.0});
   }
 
-  /// Contacts as springs of stiffness K and damping c = 2 zeta sqrt(K m), m the reduced mass of the two;
-  /// between two objects those of the softer one. MuJoCo's contact force f and relative acceleration a obey a
-  /// + r f = -k x - b v with penetration x < 0 and r = A (1 - d)/d; A is its estimate of the inverse mass at
-  /// the contact and d the impedance, so that f = K x + c v for k = K A (1 - d)/d, b = c A (1 - d)/d, apart
-  /// from a/r, a mass of d/((1 - d) A) beside the robot's. solref holds (-k d, -b d): MuJoCo divides it by d
-  /// and d^2, and multiplies k by d.
+  /// MuJoCo's contact force f and relative acceleration a obey a + r f = -k x - b v with penetration x < 0
+  /// and r = A (1 - d)/d; A is its estimate of the inverse mass at the contact and d the impedance. So f = K
+  /// x + c v for k = K A (1 - d)/d, b = c A (1 - d)/d, apart from a/r, a mass of d/((1 - d) A) beside the
+  /// robot's. solref holds (-k d, -b d): MuJoCo divides it by d and d^2, and multiplies k by d.
   void set_springs(const lang::Scene& scene) {
     for (int p = 0; p < model->npair; ++p) {
       const int one = model->pair_geom1[p];
       const int other = model->pair_geom2[p];
       if (owner_of(one).object < 0 && owner_of(other).object < 0) continue;  // wheels and skids on the floor
-      const lang::SceneObject& object = softer_object(scene, owner_of(one).object, owner_of(other).object);
-      require_spring(object);
-      const double mass =
-          1.0 / (inverse_mass_of(scene, owner_of(one)) + inverse_mass_of(scene, owner_of(other)));
+      const ContactSpring spring =
+          contact_spring(scene, robot_model.total_mass(), owner_of(one).object, owner_of(other).object);
       const double inverse_mass = model->body_invweight0[2 * model->geom_bodyid[one]] +
                                   model->body_invweight0[2 * model->geom_bodyid[other]];
-      const double scale = (1.0 - spring_impedance) * inverse_mass;
-      model->pair_solref[2 * p] = -object.stiffness * scale;
-      model->pair_solref[2 * p + 1] = -2.0 * object.damping * std::sqrt(object.stiffness * mass) * scale;
+      model->pair_solref[2 * p] = -spring.stiffness * (1.0 - spring_impedance) * inverse_mass;
+      model->pair_solref[2 * p + 1] = -spring.damping * (1.0 - spring_impedance) * inverse_mass;
     }
-  }
-
-  static const lang::SceneObject& softer_object(const lang::Scene& scene, int one, int other) {
-    if (one < 0 || other < 0) return scene.objects[static_cast<std::size_t>(std::max(one, other))];
-    const auto& a = scene.objects[static_cast<std::size_t>(one)];
-    const auto& b = scene.objects[static_cast<std::size_t>(other)];
-    return a.stiffness < b.stiffness ? a : b;
-  }
-
-  double inverse_mass_of(const lang::Scene& scene, const GeomOwner& owner) const {
-    if (owner.object < 0) return 1.0 / robot_model.total_mass();
-    const auto& mass = scene.objects[static_cast<std::size_t>(owner.object)].mass;
-    return mass ? 1.0 / *mass : 0.0;
   }
 
   void find_sliders(const lang::Scene& scene) {
     for (std::size_t k = 0; k < scene.objects.size(); ++k) {
-      const lang::SceneObject& object = scene.objects[k];
-      if (!object.mass) continue;
-      const std::string name = numbered("object", static_cast<int>(k));
-      const int body = id_of(mjOBJ_BODY, name);
-      const double yaw_inertia = model->body_inertia[3 * body + upright_axis(body)];
-      const double area = object.shape == lang::ShapeKind::cylinder
-                              ? std::numbers::pi * object.size[0] * object.size[0]
-                              : object.size[0] * object.size[1];
-      const double reach = 2.0 / 3.0 * std::sqrt(area / std::numbers::pi);  // of a disk as large
-      const double load = scene.floor_friction * *object.mass * robot_model.gravity().norm();
-      sliders.push_back({model->jnt_dofadr[id_of(mjOBJ_JOINT, name + "_x")],
-                         FloorFriction(*object.mass, yaw_inertia, load, reach)});
-    }
-  }
-
-  /// The principal axis of an object that is its vertical one.
-  int upright_axis(int body) const {
-    int axis = 0;
-    matrix_of(model->body_iquat + 4 * body).row(2).cwiseAbs().maxCoeff(&axis);
-    return axis;
-  }
-
-  static void require_spring(const lang::SceneObject& object) {
-    if (!(object.stiffness > 0.0) || !(object.damping >= 0.0) || !(object.friction >= 0.0)) {
-      refuse("stiffness, damping or friction of `" + object.name + "` is out of range");
-    }
-    // The contact's damping is also what resists sliding until the friction limit is reached.
-    if (object.friction > 0.0 && object.damping < 0.01) {
-      refuse("friction of `" + object.name + "` needs a damping ratio of at least 0.01");
+      if (!scene.objects[k].mass) continue;
+      const int joint = id_of(mjOBJ_JOINT, numbered("object", static_cast<int>(k)) + "_x");
+      const double gravity = robot_model.gravity().norm();
+      sliders.push_back(
+          {model->jnt_dofadr[joint], floor_friction_of(scene.objects[k], scene.floor_friction, gravity)});
     }
   }
 
   const GeomOwner& owner_of(int geom) const { return owners[static_cast<std::size_t>(geom)]; }
 
-  /// Lets the robot sink into its wheels' contacts, then puts it exactly where it starts, at rest, at t = 0.
+  /// Lets the robot sink into its wheels' contacts, then puts it exactly where it starts, at rest, at t = 0:
+  /// of the settled pose, height and tilt of the base are kept.
   void start(const std::array<double, 2>& at, double yaw) {
     place(at, yaw);
     if (!guarded(mj_forward, model.get(), data.get())) refuse("MuJoCo fails at the start pose");
     refuse_overlap();
+    if (robot_model.base_type() == solver::BaseType::ground) settle(yaw);
+    read_base();
+    truth.velocity.setZero();
+    truth.acceleration.setZero();
+  }
+
+  void settle(double yaw) {
     const std::vector<mjtNum> standing(data->qpos, data->qpos + model->nq);
     const int steps = static_cast<int>(settling_time / model->opt.timestep);
     for (int i = 0; i < steps; ++i) {
       if (!step()) refuse("the simulation diverges while the robot settles on the floor");
     }
-    // Kept from settling: heights and tilts of what moves freely.
-    std::vector<mjtNum> settled(data->qpos, data->qpos + model->nq);
-    for (int j = 0; j < model->njnt; ++j) {
-      const int a = model->jnt_qposadr[j];
-      const auto address = static_cast<std::size_t>(a);
-      if (model->jnt_type[j] == mjJNT_FREE) {
-        const Matrix3 now = matrix_of(data->qpos + a + 3);
-        const double turned = yaw_of(matrix_of(&standing[address + 3])) - yaw_of(now);
-        const Eigen::Quaterniond upright(Eigen::AngleAxisd(turned, Vector3::UnitZ()) * now);
-        settled[address] = standing[address];
-        settled[address + 1] = standing[address + 1];
-        const std::array<double, 4> quaternion = {upright.w(), upright.x(), upright.y(), upright.z()};
-        std::copy(quaternion.begin(), quaternion.end(), &settled[address + 3]);
-      } else {
-        const int count = model->jnt_type[j] == mjJNT_BALL ? 4 : 1;
-        std::copy_n(&standing[address], count, &settled[address]);
-      }
-    }
-    std::copy(settled.begin(), settled.end(), data->qpos);
+    const double height = data->qpos[2];
+    const Matrix3 tilted = base_rotation();
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(yaw - yaw_of(tilted), Vector3::UnitZ()) * tilted);
+    const std::array<double, 4> orientation = {turned.w(), turned.x(), turned.y(), turned.z()};
+    std::copy(standing.begin(), standing.end(), data->qpos);
+    data->qpos[2] = height;
+    std::copy(orientation.begin(), orientation.end(), data->qpos + 3);
     std::fill(data->qvel, data->qvel + model->nv, 0.0);
     data->time = 0.0;
     if (!guarded(mj_forward, model.get(), data.get())) refuse("MuJoCo fails at the start pose");
-    velocity.setZero();
-    read_base();
-    truth.velocity.setZero();
-    truth.acceleration.setZero();
   }
 
   void place(const std::array<double, 2>& at, double yaw) {
@@ -295,7 +354,12 @@ struct MujocoPlant::Simulation {
   /// One step; false when the simulation is void.
   bool step() noexcept {
     const double before = data->time;
-    cancel_sphere_products();
+    if (!simulated.spheres.spheres.empty()) {
+      // A free joint takes its force in world axes and its torque in the body's.
+      const solver::ForceVector wrench = sphere_products(simulated.spheres, base_twist());
+      Eigen::Map<Vector3>(data->qfrc_applied) = base_rotation() * wrench.linear;
+      Eigen::Map<Vector3>(data->qfrc_applied + 3) = wrench.angular;
+    }
     for (Slider& slider : sliders) {
       const Vector3 moving = vector_of(data->qvel + slider.velocity);
       Eigen::Map<Vector3>(data->qfrc_applied + slider.velocity) =
@@ -311,37 +375,28 @@ struct MujocoPlant::Simulation {
            is_finite(data->qacc, model->nv);
   }
 
-  /// See rolling_spheres.hpp: the wheel has no counterpart for I/R^2 wz z x v of its sphere.
-  void cancel_sphere_products() noexcept {
-    if (!floats() || simulated.spheres.spheres.empty()) return;
-    const Matrix3 to_world = matrix_of(data->qpos + 3);
-    const Vector3 linear = to_world.transpose() * vector_of(data->qvel);
-    const Vector3 spin(0.0, 0.0, data->qvel[5]);
-    Vector3 force = Vector3::Zero();
-    Vector3 moment = Vector3::Zero();
-    for (const RollingSphere& sphere : simulated.spheres.spheres) {
-      const double weight = sphere.inertia / (sphere.radius * sphere.radius);
-      const Vector3 part = weight * spin.cross(linear + spin.cross(sphere.centre));
-      force += part;
-      moment += sphere.centre.cross(part);
-    }
-    Eigen::Map<Vector3>(data->qfrc_applied) = to_world * force;
-    Eigen::Map<Vector3>(data->qfrc_applied + 3) = moment;
+  /// In base axes and at the base's origin.
+  solver::MotionVector base_twist() const {
+    if (!floats()) return {};
+    return {vector_of(data->qvel + 3), base_rotation().transpose() * vector_of(data->qvel)};
   }
 
   Vector3 base_velocity() const {
-    if (!floats()) return Vector3::Zero();
-    const Vector3 linear = matrix_of(data->qpos + 3).transpose() * vector_of(data->qvel);
-    return {linear.x(), linear.y(), data->qvel[5]};
+    const solver::MotionVector twist = base_twist();
+    return {twist.linear.x(), twist.linear.y(), twist.angular.z()};
   }
 
   void read_base() noexcept {
-    truth.time = data->time;
-    const mjtNum* position = floats() ? data->qpos : model->body_pos + 3 * base_body;
-    truth.x = position[0];
-    truth.y = position[1];
+    truth.time = time();
+    truth.x = base_position().x();
+    truth.y = base_position().y();
     truth.yaw = yaw_of(base_rotation());
   }
+
+  /// Counted: MuJoCo's own clock adds up its steps and with them their rounding.
+  double time() const { return static_cast<double>(steps_since_start) * model->opt.timestep; }
+
+  Vector3 base_position() const { return vector_of(floats() ? data->qpos : model->body_pos + 3 * base_body); }
 
   Matrix3 base_rotation() const {
     return matrix_of(floats() ? data->qpos + 3 : model->body_quat + 4 * base_body);
@@ -367,6 +422,7 @@ struct MujocoPlant::Simulation {
   /// The contacts of the step that was just made are those at its beginning, `before`.
   void read_contacts(double before) noexcept {
     for (ObjectTruth& object : truth.objects) object.force = 0.0;
+    std::fill(truth.corner_forces.begin(), truth.corner_forces.end(), 0.0);
     for (int c = 0; c < data->ncon; ++c) {
       const int k = touched_object(data->contact[c]);
       if (k < 0) continue;
@@ -374,6 +430,9 @@ struct MujocoPlant::Simulation {
       mj_contactForce(model.get(), data.get(), c, wrench.data());
       ObjectTruth& object = truth.objects[static_cast<std::size_t>(k)];
       object.force += wrench[0];
+      const int corner =
+          std::max(owner_of(data->contact[c].geom1).corner, owner_of(data->contact[c].geom2).corner);
+      if (corner >= 0) truth.corner_forces[static_cast<std::size_t>(corner)] += wrench[0];
       if (!object.touched) object.touched = before;
     }
     for (ObjectTruth& object : truth.objects) object.peak_force = std::max(object.peak_force, object.force);
@@ -385,11 +444,12 @@ struct MujocoPlant::Simulation {
     for (std::size_t j = 0; j < joints.size(); ++j) {
       if (joints[j].motor >= 0) data->ctrl[joints[j].motor] = tau[static_cast<Eigen::Index>(j)];
     }
-    const double before = data->time;
+    const double before = time();
     if (!step()) {
       diverged = true;
       return PlantStatus::diverged;
     }
+    ++steps_since_start;
     const Vector3 now = base_velocity();
     truth.acceleration = (now - velocity) / model->opt.timestep;
     truth.velocity = velocity = now;
@@ -402,18 +462,12 @@ struct MujocoPlant::Simulation {
   PlantStatus sense(Sensed& sensed) const noexcept {
     if (diverged) return PlantStatus::diverged;
     if (sensed.state.q.size() != q.size()) return PlantStatus::unreachable;
-    sensed.time = data->time;
+    sensed.time = time();
     sensed.state.q = q;
     sensed.state.qd = qd;
     sensed.state.base_pose.rotation = base_rotation();
-    if (floats()) {
-      sensed.state.base_pose.position = vector_of(data->qpos);
-      sensed.state.base_twist.angular = vector_of(data->qvel + 3);
-      sensed.state.base_twist.linear = sensed.state.base_pose.rotation.transpose() * vector_of(data->qvel);
-    } else {
-      sensed.state.base_pose.position = vector_of(model->body_pos + 3 * base_body);
-      sensed.state.base_twist = {};
-    }
+    sensed.state.base_pose.position = base_position();
+    sensed.state.base_twist = base_twist();
     return PlantStatus::ok;
   }
 
@@ -429,6 +483,7 @@ struct MujocoPlant::Simulation {
   Eigen::VectorXd q, qd;
   Vector3 velocity = Vector3::Zero();
   Truth truth;
+  std::int64_t steps_since_start = 0;
   bool diverged = false;
 };
 

@@ -136,4 +136,15 @@ SphereBase replace_wheels_by_spheres(const Model& model) {
   return result;
 }
 
+solver::ForceVector sphere_products(const SphereBase& base, const solver::MotionVector& twist) noexcept {
+  const Vector3 spin(0.0, 0.0, twist.angular.z());
+  solver::ForceVector wrench;
+  for (const RollingSphere& sphere : base.spheres) {
+    const double weight = sphere.inertia / (sphere.radius * sphere.radius);
+    const Vector3 force = weight * spin.cross(twist.linear + spin.cross(sphere.centre));
+    wrench += {sphere.centre.cross(force), force};
+  }
+  return wrench;
+}
+
 }  // namespace zwang::runtime

@@ -53,4 +53,8 @@ bool is_rolling_sphere(const solver::Wheel& wheel);
 /// Throws std::invalid_argument, with the reason, when the wheels cannot be simulated exactly as spheres.
 SphereBase replace_wheels_by_spheres(const solver::Model& model);
 
+/// The wrench that stands in for what the spheres have too much: I/R^2 wz z x v at each centre, in base axes
+/// and about the base's origin, at the base's twist in the same. Does not allocate.
+solver::ForceVector sphere_products(const SphereBase& base, const solver::MotionVector& twist) noexcept;
+
 }  // namespace zwang::runtime

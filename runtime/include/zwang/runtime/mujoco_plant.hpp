@@ -27,8 +27,9 @@ struct Truth {
   double yaw = 0.0;          ///< [rad]
   Eigen::Vector3d velocity;  ///< planar twist of the base in base axes: vx, vy [m/s], wz [rad/s]
   Eigen::Vector3d
-      acceleration;  ///< the same rates' derivative along the base axes, last step [m/s^2, m/s^2, rad/s^2]
-  std::vector<ObjectTruth> objects;  ///< parallel to the scene's
+      acceleration;  ///< rates of the components of `velocity` over the last step [m/s^2, m/s^2, rad/s^2]
+  std::vector<double> corner_forces;  ///< [N] normal force on each corner of the footprint, now
+  std::vector<ObjectTruth> objects;   ///< parallel to the scene's
 };
 
 struct MujocoPlantOptions {
@@ -37,13 +38,20 @@ struct MujocoPlantOptions {
   std::optional<double> start_yaw;
 };
 
+/// Wheels that hold one direction are spheres that act exactly as the model's wheels do; other wheels are
+/// spheres on hinges. The robot meets objects with the corners and sides of its footprint's convex hull, at
+/// the bumper's height; each contact point is a spring of the object's stiffness. Objects with a mass slide
+/// on the floor. Contact forces are those of the last step, so they belong to the instant at its beginning.
+/// MuJoCo's error and warning handlers are replaced for the whole process.
 class MujocoPlant : public Plant {
  public:
   /// Throws std::invalid_argument when the robot or the scene cannot be simulated, with the reason.
   MujocoPlant(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options = {});
   ~MujocoPlant() override;
 
+  /// Once diverged, always diverged, and `sensed` stays as it is.
   PlantStatus sense(Sensed& sensed) noexcept override;
+  /// `unreachable`, and no step, for torques that are not finite or too few. Torques are not clamped here.
   PlantStatus apply(const Eigen::VectorXd& tau) noexcept override;
   const Truth& truth() const noexcept;
   /// The MJCF that was compiled, for inspection.

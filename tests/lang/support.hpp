@@ -1,0 +1,66 @@
+/// What the tests of the front end share: texts as files, messages as text.
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang::test {
+
+inline std::string slurp(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+inline std::string rendered(const Diagnostics& diagnostics) {
+  std::ostringstream out;
+  render_human(diagnostics, out);
+  return out.str();
+}
+
+inline int count(const Diagnostics& diagnostics, const std::string& code) {
+  int found = 0;
+  for (const Diagnostic& d : diagnostics.all()) found += d.code == code ? 1 : 0;
+  return found;
+}
+
+/// A folder of its own that is gone afterwards.
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "zwang_test_XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~Folder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  if (at == std::string::npos) throw std::logic_error("nothing to replace: " + from);
+  return text.replace(at, from.size(), to);
+}
+
+inline const std::filesystem::path source_dir = ZWANG_SOURCE_DIR;
+
+}  // namespace zwang::lang::test
