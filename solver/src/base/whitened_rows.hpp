@@ -30,6 +30,7 @@ class WhitenedRows {
   static constexpr double ground_tolerance = 1e-10;  ///< rounding leaves about 1e-15 on a dependent row
 
   int mobility() const noexcept { return rank_ - ground_rank_; }
+  int ground_rank() const noexcept { return ground_rank_; }
   /// B_i, of a row beyond the ground.
   auto motion(int row) const noexcept { return W_.row(row).segment(ground_rank_, mobility()); }
   /// A_i Mc A_i' over A_i M^-1 A_i': how much of a row the ground leaves.
