@@ -49,22 +49,21 @@ struct PopovVereshchagin::Workspace {
     }
   }
 
-  /// nu = L^-1 (b - g), line 21. The rank is that of L, damped or not.
+  /// nu = L^-1 (b - g), line 21: the ground's rows are held, the given ones then met as well as that leaves.
+  /// The rank is that of L, damped or not.
   void solve_base() noexcept {
     const int m = sweeps.rows;
     wanted.head(m) -= sweeps.g.head(m);
-    whitened.factorise(sweeps.L, m, 0, m);
+    whitened.factorise(sweeps.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
     rank = whitened.rank();
     if (settings.damping > 0.0) {
-      sweeps.L.diagonal().head(m).array() += settings.damping * settings.damping;
-      whitened.factorise(sweeps.L, m, 0, m);
+      sweeps.L.diagonal().segment(ground, m - ground).array() += settings.damping * settings.damping;
+      whitened.factorise(sweeps.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
     }
-    if (whitened.rank() == m) {
-      whitened.hold_ground(wanted);
-      whitened.ground_multipliers(nu, m, m, nu);
-    } else {
-      whitened.least_squares(wanted, m, nu);
-    }
+    whitened.hold_ground(wanted);
+    for (int i = ground; i < m; ++i) wanted(i) -= whitened.held_acceleration(i);
+    whitened.motion_multipliers(wanted, ground, m, nu);
+    whitened.ground_multipliers(nu, ground, m, nu);
   }
 
   /// J'A nu: every row's wrench carried rigidly inward to each joint. In the base's coordinates that is a

@@ -17,7 +17,7 @@ double nonzero(double length) {
 
 }  // namespace
 
-/// The limits of the levels above that are posed again; with `level` the stage's rows come with them.
+/// Adds the limits of the levels above `level`: they are posed again.
 void BoundedProblem::pose_limits_above(int level) noexcept {
   for (int i = 0; i < rows_; ++i) {
     if (is_one_sided(i) && entry(i).level < level && takes_part(i)) posed_.push_back(i);
