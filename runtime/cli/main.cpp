@@ -1,5 +1,6 @@
 // The program `zwang`. The only file that knows CLI11.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <csignal>
 #include <exception>
 
@@ -25,6 +26,16 @@ std::array<double, 2> point(const std::string& text) {
   const auto y = comma == std::string::npos ? std::nullopt : zwang::lang::read_length(text.substr(comma + 1));
   if (!x || !y) throw Impossible("--start-at: `" + text + "` is not a point; write it as `0 m, 0.5 m`");
   return {*x, *y};
+}
+
+std::uint64_t seed(const std::string& text) {
+  // CLI11 would wrap a negative number around.
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) {
+    throw Impossible("--seed: `" + text + "` is not a whole number from 0 to 2^64 - 1");
+  }
+  return value;
 }
 
 std::map<std::string, std::string> parameters(const std::vector<std::string>& texts) {
@@ -54,7 +65,7 @@ int parse_and_do(int argc, char** argv) {
 
   RunArguments to_run;
   std::vector<std::string> parameter_texts;
-  std::optional<std::string> yaw_text, at_text;
+  std::optional<std::string> yaw_text, at_text, seed_text;
   CLI::App* run_verb = app.add_subcommand("run", "Run a task on the simulated robot");
   run_verb->add_option("file", to_run.file, "the task file")->required();
   run_verb->add_option("--robot", to_run.robot, "robot file, in the place of the task's own");
@@ -63,7 +74,7 @@ int parse_and_do(int argc, char** argv) {
       ->add_option("-p,--param", parameter_texts, "set a parameter: name=value, as push=30N; may be repeated")
       ->allow_extra_args(false);
   run_verb->add_option("--log", to_run.log, "folder for the log (default runs/<task>-NNN)");
-  run_verb->add_option("--seed", to_run.seed, "seed of everything random in the run (default 0)");
+  run_verb->add_option("--seed", seed_text, "seed of everything random in the run (default 0)");
   run_verb->add_option("--start-yaw", yaw_text,
                        "heading at the start, in the place of the scene's: `20 deg`");
   run_verb->add_option("--start-at", at_text,
@@ -85,6 +96,7 @@ int parse_and_do(int argc, char** argv) {
   }
   if (validate_verb->parsed()) return validate(to_validate);
   to_run.parameters = parameters(parameter_texts);
+  if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);
   if (at_text) to_run.start_at = point(*at_text);
   return run(to_run);

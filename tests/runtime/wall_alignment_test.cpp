@@ -55,7 +55,8 @@ Eigen::Vector3d apparent_inertia(const solver::Model& model) {
   return result;
 }
 
-/// One strike of a corner: how fast it came, and the largest force until the next one.
+/// One strike of a corner: what it may peak at, and the largest force on that corner until it leaves the
+/// wall.
 struct Hit {
   double time = 0.0;
   double bound = 0.0;  // F + sqrt(F^2 + K m v^2)
@@ -79,15 +80,15 @@ class HitWatch {
         stiffness_(program.scene->objects.at(0).stiffness),
         face_(program.scene->objects.at(0).at[0]),
         inertia_(apparent_inertia(program.robot.model)) {
-    for (const solver::Vector3& corner : program.robot.footprint) {
-      if (corner.x() > 0.0) corners_.push_back({corner.x(), corner.y(), false, 0.0});
-    }
+    for (const solver::Vector3& corner : program.robot.footprint)
+      corners_.push_back({corner.x(), corner.y()});
   }
 
   void look(const Truth& truth, std::vector<Hit>& hits) {
     const double c = std::cos(truth.yaw);
     const double s = std::sin(truth.yaw);
-    for (Corner& corner : corners_) {
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+      Corner& corner = corners_[i];
       const bool inside = truth.x + c * corner.x - s * corner.y > face_;
       const double vx = truth.velocity.x() - truth.velocity.z() * corner.y;
       const double vy = truth.velocity.y() + truth.velocity.z() * corner.x;
@@ -98,19 +99,21 @@ class HitWatch {
         const double mass =
             1.0 / (c * c / inertia_.x() + s * s / inertia_.y() + lever * lever / inertia_.z());
         const double v = std::max(corner.speed_before, speed);
+        corner.hit = hits.size();
         hits.push_back({truth.time, push_ + std::sqrt(push_ * push_ + stiffness_ * mass * v * v), 0.0});
       }
+      if (inside) hits[corner.hit].peak = std::max(hits[corner.hit].peak, truth.corner_forces.at(i));
       corner.inside = inside;
       corner.speed_before = speed;
     }
-    if (!hits.empty()) hits.back().peak = std::max(hits.back().peak, truth.objects.at(0).force);
   }
 
  private:
   struct Corner {
     double x, y;
-    bool inside;
-    double speed_before;
+    bool inside = false;
+    double speed_before = 0.0;
+    std::size_t hit = 0;
   };
   double push_, stiffness_, face_;
   Eigen::Vector3d inertia_;
@@ -180,6 +183,7 @@ TEST_P(WallAlignment, EndsSquareAndGentle) {
   double share = 0.0;
   for (const Hit& hit : outcome.hits) {
     share = std::max(share, hit.peak / hit.bound);
+    EXPECT_GT(hit.peak, 0.0) << "hit at " << hit.time << " s";
     EXPECT_LE(hit.peak, 1.1 * hit.bound) << "hit at " << hit.time << " s";
   }
   std::printf("  %zu hits, the hardest %.1f N, at most %.2f of F + sqrt(F^2 + K m v^2)\n",

@@ -136,7 +136,7 @@ class Lowering {
         set.index = static_cast<int>(symbol - checked_.symbols.parameters.data());
         set.value = value(text.value);
       }
-      sets.push_back(std::move(set));
+      sets.push_back(set);
     }
     return sets;
   }

@@ -5,8 +5,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <csetjmp>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -22,7 +24,6 @@ namespace {
 
 using solver::Matrix3;
 using solver::Model;
-using solver::Pose;
 using solver::Vector3;
 
 constexpr double settling_time = 0.5;   ///< [s] before t = 0, without torque
@@ -135,6 +136,14 @@ std::string numbered(const char* name, int number) {
   return std::string(name) + '_' + std::to_string(number);
 }
 
+/// The outline's corners are the footprint's, in another order and without those in hollows.
+int nearest_corner(const std::vector<Vector3>& footprint, const Vector3& corner) {
+  const auto nearer = [&corner](const Vector3& a, const Vector3& b) {
+    return (a - corner).head<2>().norm() < (b - corner).head<2>().norm();
+  };
+  return static_cast<int>(std::min_element(footprint.begin(), footprint.end(), nearer) - footprint.begin());
+}
+
 bool is_finite(const mjtNum* numbers, int count) {
   return std::all_of(numbers, numbers + count, [](mjtNum x) { return std::isfinite(x); });
 }
@@ -173,6 +182,7 @@ struct MujocoPlant::Simulation {
   struct GeomOwner {
     int object = -1;
     bool robot = false;
+    int corner = -1;  ///< of the robot's footprint
   };
 
   Simulation(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options)
@@ -185,7 +195,7 @@ struct MujocoPlant::Simulation {
     if (!data) refuse("MuJoCo has no memory for the simulation");
     find_addresses();
     compare_inertia();
-    find_owners(scene);
+    find_owners(scene, robot.footprint);
     set_springs(scene);
     find_sliders(scene);
     const std::array<double, 2> at = options.start_at.value_or(scene.start_at);
@@ -235,14 +245,19 @@ struct MujocoPlant::Simulation {
     if (std::abs(mass - robot_model.total_mass()) > 1e-9 * mass) refuse("MuJoCo changed the robot's mass");
   }
 
-  void find_owners(const lang::Scene& scene) {
+  void find_owners(const lang::Scene& scene, const std::vector<Vector3>& footprint) {
     owners.resize(static_cast<std::size_t>(model->ngeom));
     for (int g = 0; g < model->ngeom; ++g) {
       const char* name = mj_id2name(model.get(), mjOBJ_GEOM, g);
       GeomOwner& owner = owners[static_cast<std::size_t>(g)];
       if (std::strncmp(name, "object_", 7) == 0) owner.object = std::atoi(name + 7);
       owner.robot = std::strncmp(name, "bumper_", 7) == 0;
+      if (owner.robot && std::isdigit(static_cast<unsigned char>(name[7])) != 0) {
+        owner.corner =
+            nearest_corner(footprint, simulated.outline[static_cast<std::size_t>(std::atoi(name + 7))]);
+      }
     }
+    truth.corner_forces.assign(footprint.size(), 0.0);
     for (const lang::SceneObject& object : scene.objects)
       truth.objects.push_back({object.name, 0.0, {}, 0.0});
   }
@@ -371,11 +386,14 @@ struct MujocoPlant::Simulation {
   }
 
   void read_base() noexcept {
-    truth.time = data->time;
+    truth.time = time();
     truth.x = base_position().x();
     truth.y = base_position().y();
     truth.yaw = yaw_of(base_rotation());
   }
+
+  /// Counted: MuJoCo's own clock adds up its steps and with them their rounding.
+  double time() const { return static_cast<double>(steps_since_start) * model->opt.timestep; }
 
   Vector3 base_position() const { return vector_of(floats() ? data->qpos : model->body_pos + 3 * base_body); }
 
@@ -403,6 +421,7 @@ struct MujocoPlant::Simulation {
   /// The contacts of the step that was just made are those at its beginning, `before`.
   void read_contacts(double before) noexcept {
     for (ObjectTruth& object : truth.objects) object.force = 0.0;
+    std::fill(truth.corner_forces.begin(), truth.corner_forces.end(), 0.0);
     for (int c = 0; c < data->ncon; ++c) {
       const int k = touched_object(data->contact[c]);
       if (k < 0) continue;
@@ -410,6 +429,9 @@ struct MujocoPlant::Simulation {
       mj_contactForce(model.get(), data.get(), c, wrench.data());
       ObjectTruth& object = truth.objects[static_cast<std::size_t>(k)];
       object.force += wrench[0];
+      const int corner =
+          std::max(owner_of(data->contact[c].geom1).corner, owner_of(data->contact[c].geom2).corner);
+      if (corner >= 0) truth.corner_forces[static_cast<std::size_t>(corner)] += wrench[0];
       if (!object.touched) object.touched = before;
     }
     for (ObjectTruth& object : truth.objects) object.peak_force = std::max(object.peak_force, object.force);
@@ -421,11 +443,12 @@ struct MujocoPlant::Simulation {
     for (std::size_t j = 0; j < joints.size(); ++j) {
       if (joints[j].motor >= 0) data->ctrl[joints[j].motor] = tau[static_cast<Eigen::Index>(j)];
     }
-    const double before = data->time;
+    const double before = time();
     if (!step()) {
       diverged = true;
       return PlantStatus::diverged;
     }
+    ++steps_since_start;
     const Vector3 now = base_velocity();
     truth.acceleration = (now - velocity) / model->opt.timestep;
     truth.velocity = velocity = now;
@@ -438,7 +461,7 @@ struct MujocoPlant::Simulation {
   PlantStatus sense(Sensed& sensed) const noexcept {
     if (diverged) return PlantStatus::diverged;
     if (sensed.state.q.size() != q.size()) return PlantStatus::unreachable;
-    sensed.time = data->time;
+    sensed.time = time();
     sensed.state.q = q;
     sensed.state.qd = qd;
     sensed.state.base_pose.rotation = base_rotation();
@@ -459,6 +482,7 @@ struct MujocoPlant::Simulation {
   Eigen::VectorXd q, qd;
   Vector3 velocity = Vector3::Zero();
   Truth truth;
+  std::int64_t steps_since_start = 0;
   bool diverged = false;
 };
 

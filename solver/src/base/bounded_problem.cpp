@@ -7,12 +7,12 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double unreachable_share = 1e-8;  // A Mc A' over A M^-1 A'
-constexpr double blocked_share = 1e-6;      // length of a row that the levels above left free, relative
-constexpr double bound_tolerance = 1e-9;    // relative: when nu counts as being at its bound
+constexpr double unreachable_share = 1e-8;      // A Mc A' over A M^-1 A'
+constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
+constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
+constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
+constexpr double bound_tolerance = 1e-9;        // relative: when nu counts as being at its bound
 constexpr double motor_rank_tolerance = 1e-12;  // of a pivot of T'T, relative to its trace
-constexpr double torque_tolerance =
-    1e-12;  // relative: rounding that least-squares torques may show at a limit
 
 /// One-sided rows push harder than any driver can, and harder the higher they rank: so where ranges
 /// contradict, acceleration wins over velocity over position.
@@ -36,7 +36,8 @@ double nonzero(double length) {
 BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
     : B_(Eigen::MatrixXd::Zero(rows, dimension)),
       T_(Eigen::MatrixXd::Zero(motors, dimension)),
-      BN_(Eigen::MatrixXd::Zero(rows, dimension)),
+      V_(Eigen::MatrixXd::Zero(rows, dimension)),
+      P_(Eigen::MatrixXd::Zero(rows, dimension)),
       d_(Eigen::VectorXd::Zero(rows)),
       tau_(Eigen::VectorXd::Zero(motors)),
       tau_lo_(Eigen::VectorXd::Zero(motors)),
@@ -46,12 +47,14 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       fixed_(Eigen::VectorXd::Zero(dimension)),
       work_(Eigen::VectorXd::Zero(dimension)),
       solved_(Eigen::VectorXd::Zero(dimension)),
+      F_(Eigen::MatrixXd::Zero(dimension, dimension)),
       frozen_(Eigen::MatrixXd::Zero(dimension, dimension)),
       gram_(Eigen::MatrixXd::Zero(dimension, dimension)),
       entries_(static_cast<std::size_t>(rows)),
       solutions_(static_cast<std::size_t>(rows)),
-      program_(rows + motors, dimension) {
+      program_(2 * rows + motors, dimension, dimension + rows) {
   posed_.reserve(static_cast<std::size_t>(rows));
+  units_.reserve(static_cast<std::size_t>(rows));
   tied_.reserve(static_cast<std::size_t>(rows));
 }
 
@@ -87,14 +90,14 @@ void BoundedProblem::set_motor(int j, double lowest, double highest) noexcept {
 bool BoundedProblem::solve(int max_iterations) noexcept {
   iterations_ = 0;
   frozen_count_ = 0;
+  F_.topLeftCorner(dimension_, dimension_).setIdentity();
   p_.head(dimension_).setZero();
   tau_.head(motors_).setZero();
   bool exact = true;
   factorise_motors();
   bound_rows();
   for (int level = next_level(-1); level >= 0; level = next_level(level)) {
-    project_rows();
-    note_achieved();
+    project_rows(level);
     exact = solve_forces(level, max_iterations) && exact;
     exact = solve_motion(level, max_iterations) && exact;
     freeze(level);
@@ -144,13 +147,13 @@ void BoundedProblem::bound_rows() noexcept {
   if (scale == 0.0) scale = 1.0;
   for (int i = 0; i < rows_; ++i) {
     Entry& e = entry(i);
-    if (e.out || e.kind == RowKind::force) continue;
+    if (e.out) continue;
     double force = largest_force(i);
-    if (force * e.length * e.length < unreachable_share * std::abs(d_(i))) {
+    if (force == 0.0) {
       e.out = true;
       e.status = RowStatus::unreachable;
-      continue;
     }
+    if (e.out || e.kind == RowKind::force) continue;
     if (!std::isfinite(force)) force = 1e7 * scale / e.length;
     if (is_one_sided(i)) force *= authority(e.quantity);
     e.lo = e.fade * (std::isfinite(e.lo) ? e.lo : -force);
@@ -159,29 +162,27 @@ void BoundedProblem::bound_rows() noexcept {
 }
 
 /// Upper bound of |nu| with B_i nu = T'tau: both sides times B_i.
-double BoundedProblem::largest_force(int i) const noexcept {
+double BoundedProblem::largest_force(int i) noexcept {
   double sum = 0.0;
   for (int j = 0; j < motors_; ++j) {
     const double along = std::abs(B_.row(i).head(dimension_).dot(T_.row(j).head(dimension_)));
-    if (along > 0.0) sum += along * std::max(-tau_lo_(j), tau_hi_(j));
+    if (along > driven_share * T(j).norm() * entry(i).length)
+      sum += along * std::max(-tau_lo_(j), tau_hi_(j));
   }
   const double length = B_.row(i).head(dimension_).squaredNorm();
   return length > 0.0 ? sum / length : 0.0;
 }
 
-void BoundedProblem::project_rows() noexcept {
-  const auto Q = frozen_.topLeftCorner(dimension_, frozen_count_);
+/// V_i = F'B_i and P_i = F V_i = K B_i: the row as the levels above let it act.
+void BoundedProblem::project_rows(int level) noexcept {
+  const auto F = F_.topLeftCorner(dimension_, dimension_);
   for (int i = 0; i < rows_; ++i) {
-    auto row = BN_.row(i).head(dimension_);
-    row = B(i);
-    for (int c = 0; c < frozen_count_; ++c) row -= row.dot(Q.col(c)) * Q.col(c).transpose();
-    if (row.norm() <= blocked_share * entry(i).length) row.setZero();
+    V(i).noalias() = B(i) * F;
+    const bool blocked = V(i).squaredNorm() <= blocked_share * entry(i).length * entry(i).length;
+    if (entry(i).level == level) entry(i).blocked = blocked;
+    if (blocked) V(i).setZero();
+    P(i).noalias() = V(i) * F.transpose();
   }
-}
-
-/// Where the soft rows above stand before the level begins.
-void BoundedProblem::note_achieved() noexcept {
-  for (int i = 0; i < rows_; ++i) entry(i).achieved = B(i).dot(p_.head(dimension_));
 }
 
 bool BoundedProblem::is_one_sided(int i) const noexcept {
@@ -191,7 +192,7 @@ bool BoundedProblem::is_one_sided(int i) const noexcept {
 
 /// A row takes part in a stage while something of it is left free.
 bool BoundedProblem::takes_part(int i) const noexcept {
-  return !entries_[static_cast<std::size_t>(i)].out && BN_.row(i).head(dimension_).squaredNorm() > 0.0;
+  return !entries_[static_cast<std::size_t>(i)].out && V_.row(i).head(dimension_).squaredNorm() > 0.0;
 }
 
 /// Below its own level a row holds what it reached with whatever that takes.
@@ -207,239 +208,31 @@ double BoundedProblem::softness(int i) const noexcept {
   return e.fade < 1.0 ? e.length * e.length * (1.0 - e.fade) / e.fade : 0.0;
 }
 
-/// min sum (1 - phi)^2 with torques that make p + sum BN f phi; mostly phi = 1 is possible, which is tried
-/// first.
-bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
-  posed_.clear();
-  auto wished = work_.head(dimension_);
-  wished = p_.head(dimension_);
-  for (int i = 0; i < rows_; ++i) {
-    if (entry(i).kind != RowKind::force || entry(i).level != level || !takes_part(i)) continue;
-    posed_.push_back(i);
-    wished += BN_.row(i).head(dimension_).transpose() * entry(i).force;
-  }
-  if (posed_.empty()) return true;
-  if (torques_for(work_)) {
-    for (const int i : posed_) entry(i).phi = 1.0;
-    p_.head(dimension_) = wished;
-    tau_.head(motors_) = candidate_.head(motors_);
-    return true;
-  }
-  const int n = static_cast<int>(posed_.size());
-  program_.resize(n + motors_, 0, dimension_);
-  for (int k = 0; k < n; ++k) {
-    const int i = posed_[static_cast<std::size_t>(k)];
-    const double length = nonzero(BN_.row(i).head(dimension_).norm() * std::abs(entry(i).force));
-    program_.R(k) = 2.0 / (length * length);
-    program_.g(k) = 2.0 / length;
-    program_.lo(k) = 0.0;
-    program_.hi(k) = length;
-    program_.E(k) = -BN_.row(i).head(dimension_).transpose() * (entry(i).force / length);
-  }
-  pose_motors(n);
-  const bool exact = program_.solve(max_iterations, iterations_);
-  for (int k = 0; k < n; ++k) {
-    const int i = posed_[static_cast<std::size_t>(k)];
-    entry(i).phi = program_.z(k) / program_.hi(k);
-    p_.head(dimension_) += BN_.row(i).head(dimension_).transpose() * (entry(i).force * entry(i).phi);
-  }
-  take_motors(n);
-  return exact;
-}
-
-void BoundedProblem::pose_motors(int first) noexcept {
-  for (int j = 0; j < motors_; ++j) {
-    const double length = nonzero(T(j).norm());
-    program_.E(first + j) = T(j).transpose() / length;
-    program_.lo(first + j) = tau_lo_(j) * length;
-    program_.hi(first + j) = tau_hi_(j) * length;
-    program_.z(first + j) = tau_(j) * length;
-  }
-}
-
-void BoundedProblem::take_motors(int first) noexcept {
-  for (int j = 0; j < motors_; ++j) {
-    tau_(j) = std::clamp(program_.z(first + j) / nonzero(T(j).norm()), tau_lo_(j), tau_hi_(j));
-  }
-}
-
-/// The rows of the stage: the level's own drivers, the one-sided rows down to it, and the soft rows above it,
-/// which resist.
-void BoundedProblem::pose_rows(int level) noexcept {
-  posed_.clear();
-  for (int i = 0; i < rows_; ++i) {
-    const Entry& e = entry(i);
-    const bool own = e.kind == RowKind::driver && e.level == level;
-    const bool limit = is_one_sided(i) && e.level <= level;
-    const bool resists = !is_one_sided(i) && e.level < level && e.fade < 1.0;
-    if ((own || limit || resists) && takes_part(i)) posed_.push_back(i);
-  }
-}
-
-/// Most of the time no motor is at its limit: the problem is solved without the motors first, and stands when
-/// they can.
-bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
-  pose_rows(level);
-  if (posed_.empty()) return true;
-  fixed_.head(dimension_) = p_.head(dimension_);
-  for (const int i : posed_) {
-    if (is_one_sided(i)) fixed_.head(dimension_) -= BN_.row(i).head(dimension_).transpose() * entry(i).nu;
-  }
-  pose_motion(level, false);
-  bool exact = program_.solve(max_iterations, iterations_);
-  take_p();
-  if (!torques_for(work_)) {
-    pose_motion(level, true);
-    exact = program_.solve(max_iterations, iterations_);
-    take_p();
-    take_motors(static_cast<int>(posed_.size()));
-  } else {
-    tau_.head(motors_) = candidate_.head(motors_);
-  }
-  take_multipliers(level);
-  p_.head(dimension_) = work_.head(dimension_);
-  exact = least_multipliers(level, max_iterations) && exact;
-  for (const int i : posed_) {
-    if (!is_one_sided(i)) continue;
-    Entry& e = entry(i);
-    // A soft row rests where a . Xdd + R nu = b; what is beyond that it could not hold.
-    const double s = B(i).dot(p_.head(dimension_)) + softness(i) * e.nu - d_(i);
-    e.offset = e.kind == RowKind::upper ? std::max(e.offset, s) : std::min(e.offset, s);
-  }
-  return exact;
-}
-
-void BoundedProblem::pose_motion(int level, bool with_motors) noexcept {
-  const int n = static_cast<int>(posed_.size());
-  program_.resize(n + (with_motors ? motors_ : 0), dimension_, with_motors ? dimension_ : 0);
-  for (int k = 0; k < n; ++k) {
-    const int i = posed_[static_cast<std::size_t>(k)];
-    const Entry& e = entry(i);
-    const double length = BN_.row(i).head(dimension_).norm();
-    const bool resists = e.level < level && !is_one_sided(i);
-    const double target = resists ? e.achieved : d_(i) + e.offset;
-    const Range bounds = bounds_at(i, level);
-    program_.V(k) = BN_.row(i).head(dimension_).transpose() / length;
-    program_.g(k) = (target - B(i).dot(fixed_.head(dimension_))) / length;
-    program_.R(k) = softness(i) / (length * length);
-    program_.lo(k) = bounds.low * length;
-    program_.hi(k) = bounds.high * length;
-    program_.z(k) = is_one_sided(i) ? e.nu * length : 0.0;
-    if (with_motors) program_.E(k) = -program_.V(k);
-  }
-  if (with_motors) pose_motors(n);
-}
-
-/// p of the stage's solution, in work_.
-void BoundedProblem::take_p() noexcept {
-  work_.head(dimension_) = fixed_.head(dimension_);
-  for (std::size_t k = 0; k < posed_.size(); ++k) {
-    const auto row = BN_.row(posed_[k]).head(dimension_);
-    work_.head(dimension_) += row.transpose() * (program_.z(static_cast<int>(k)) / row.norm());
-  }
-}
-
-/// Multipliers of the stage's solution; `tied_` are the rows whose share of the force is not unique.
-void BoundedProblem::take_multipliers(int level) noexcept {
-  tied_.clear();
-  bool ambiguous = false;
-  for (std::size_t k = 0; k < posed_.size(); ++k) {
-    const int variable = static_cast<int>(k);
-    const int i = posed_[k];
-    Entry& e = entry(i);
-    const bool resists = e.level < level && !is_one_sided(i);
-    if (resists) continue;
-    e.nu = program_.z(variable) / BN_.row(i).head(dimension_).norm();
-    if (e.level == level) e.nu = std::clamp(e.nu, e.lo, e.hi);
-    if (e.fade < 1.0) continue;
-    const bool free = program_.is_free(variable);
-    if (!free && std::abs(program_.reduced_gradient(variable)) > 100.0 * program_.gradient_tolerance())
-      continue;
-    tied_.push_back(i);
-    ambiguous = ambiguous || !free;
-  }
-  if (!ambiguous) tied_.clear();
-}
-
-/// min 1/2 |nu|^2 over the tied rows, their sum kept.
-bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
-  if (tied_.size() < 2) return true;
-  const int n = static_cast<int>(tied_.size());
-  program_.resize(n, 0, dimension_);
-  for (int k = 0; k < n; ++k) {
-    const int i = tied_[static_cast<std::size_t>(k)];
-    const double length = BN_.row(i).head(dimension_).norm();
-    program_.E(k) = BN_.row(i).head(dimension_).transpose() / length;
-    program_.R(k) = 1.0 / (length * length);
-    program_.lo(k) = bounds_at(i, level).low * length;
-    program_.hi(k) = bounds_at(i, level).high * length;
-    program_.z(k) = entry(i).nu * length;
-  }
-  const bool exact = program_.solve(max_iterations, iterations_);
-  for (int k = 0; k < n; ++k) {
-    const int i = tied_[static_cast<std::size_t>(k)];
-    entry(i).nu = program_.z(k) / BN_.row(i).head(dimension_).norm();
-  }
-  return exact;
-}
-
-/// Least-norm torques for p into candidate_; false when the motors do not reach p or a limit is in the way.
-bool BoundedProblem::torques_for(const Eigen::VectorXd& p) noexcept {
-  if (!motors_reach_all_) return false;
-  const auto factor = gram_.topLeftCorner(dimension_, dimension_);
-  auto y = solved_.head(dimension_);
-  y = p.head(dimension_);
-  for (int k = 0; k < dimension_; ++k) y(k) = (y(k) - factor.row(k).head(k).dot(y.head(k))) / factor(k, k);
-  for (int k = dimension_ - 1; k >= 0; --k) {
-    for (int i = k + 1; i < dimension_; ++i) y(k) -= factor(i, k) * y(i);
-    y(k) /= factor(k, k);
-  }
-  candidate_.head(motors_).noalias() = T_.topLeftCorner(motors_, dimension_) * y;
-  for (int j = 0; j < motors_; ++j) {
-    const double slack = torque_tolerance * (std::abs(tau_lo_(j)) + std::abs(tau_hi_(j)));
-    const double room = std::isfinite(slack) ? slack : 0.0;
-    if (candidate_(j) < tau_lo_(j) - room || candidate_(j) > tau_hi_(j) + room) return false;
-    candidate_(j) = std::clamp(candidate_(j), tau_lo_(j), tau_hi_(j));
-  }
-  return true;
-}
-
-/// The last stage: of all torques that make p, the smallest.
-bool BoundedProblem::least_torques(int max_iterations) noexcept {
-  if (torques_for(p_)) {
-    tau_.head(motors_) = candidate_.head(motors_);
-    return true;
-  }
-  program_.resize(motors_, 0, dimension_);
-  pose_motors(0);
-  for (int j = 0; j < motors_; ++j) {
-    const double length = nonzero(T(j).norm());
-    program_.R(j) = 1.0 / (length * length);
-  }
-  const bool exact = program_.solve(max_iterations, iterations_);
-  take_motors(0);
-  return exact;
-}
-
-/// What the level's hard rows achieved, saturated ones too, stays: their directions are closed to the levels
-/// below.
+/// What the level's equality and force rows achieved, saturated or not, stays for the levels below:
+/// B_i.dp + R dmu = 0 with mu free. From then on a force w moves the robot by K w, and one more row takes
+///
+///   K := K - K B B'K / (R + B'K B) = F (1 - v v' / (R + v.v)) F',   v = F'B
+///
+/// A hard row (R = 0) closes its direction, a soft one makes the robot heavier along it.
 void BoundedProblem::freeze(int level) noexcept {
+  auto F = F_.topLeftCorner(dimension_, dimension_);
   for (int i = 0; i < rows_; ++i) {
     const Entry& e = entry(i);
-    if (e.level != level || is_one_sided(i) || e.fade < 1.0 || !takes_part(i)) continue;
+    if (e.level != level || is_one_sided(i) || !takes_part(i)) continue;
     if (frozen_count_ == dimension_) return;
-    auto q = frozen_.col(frozen_count_).head(dimension_);
-    q = B(i).transpose();
-    for (int pass = 0; pass < 2; ++pass) {
-      for (int c = 0; c < frozen_count_; ++c) {
-        const auto other = frozen_.col(c).head(dimension_);
-        q -= other.dot(q) * other;
-      }
+    auto v = solved_.head(dimension_);
+    v.noalias() = F.transpose() * B(i).transpose();
+    for (int c = 0; c < frozen_count_; ++c) {
+      const auto other = frozen_.col(c).head(dimension_);
+      v -= other.dot(v) * other;
     }
-    const double left = q.norm();
-    if (left <= blocked_share * e.length) continue;
-    q /= left;
-    ++frozen_count_;
+    const double left = v.squaredNorm();
+    if (left <= dependent_share * e.length * e.length) continue;
+    const double R = softness(i);
+    if (R == 0.0) frozen_.col(frozen_count_++).head(dimension_) = v / std::sqrt(left);
+    work_.head(dimension_).noalias() = F * v;
+    work_.head(dimension_) *= (1.0 - std::sqrt(R / (R + left))) / left;
+    F.noalias() -= work_.head(dimension_) * v.transpose();
   }
 }
 
@@ -458,9 +251,8 @@ void BoundedProblem::report() noexcept {
       row.phi = e.phi;
       row.nu = e.phi * e.force;
       row.saturated = e.phi < 1.0 - bound_tolerance;
-      const bool blocked = BN_.row(i).head(dimension_).squaredNorm() == 0.0 && e.phi == 0.0;
       row.status = e.out           ? e.status
-                   : blocked       ? RowStatus::blocked
+                   : e.blocked     ? RowStatus::blocked
                    : row.saturated ? RowStatus::torque_limited
                                    : RowStatus::held;
       continue;
@@ -481,7 +273,7 @@ void BoundedProblem::report() noexcept {
       row.status = e.status;
     } else if (row.saturated) {
       row.status = is_one_sided(i) ? RowStatus::conflict : RowStatus::force_limited;
-    } else if (BN_.row(i).head(dimension_).squaredNorm() == 0.0) {
+    } else if (e.blocked) {
       row.status = RowStatus::blocked;
     } else {
       row.status = motor_at_limit ? RowStatus::torque_limited : RowStatus::conflict;

@@ -8,9 +8,9 @@
 ///   limit
 ///
 /// with d = b - g. Levels are lexicographic: before level k what the hard equality and force rows above
-/// achieved is frozen (the lower rows act in the rest of the space), higher one-sided rows are posed again,
-/// and higher soft rows resist with the same R. Within a level the force rows come first: phi is as near to 1
-/// as the motors allow, then fixed.
+/// achieved is frozen (B_i.p + R mu_i stays, mu_i free: hard rows close their direction, soft ones yield with
+/// the same R), and higher one-sided rows are posed again and stay as well kept as they were. Within a level
+/// the force rows come first: phi is as near to 1 as the motors allow, then fixed.
 #pragma once
 
 #include <Eigen/Core>
@@ -48,26 +48,27 @@ class BoundedProblem {
     double lo = 0.0, hi = 0.0;  ///< of nu, in its own unit, fading included; finite
     double force = 0.0;         ///< f, fading included
     double fade = 1.0;
-    double length = 0.0;  ///< |B_i|
-    double offset = 0.0;  ///< what a violated one-sided row achieved beyond b when it was last solved
-    double achieved = 0.0;      ///< B_i.p before the present level
-    bool out = false;     ///< unreachable or blocked: takes no part
+    double length = 0.0;   ///< |B_i|
+    double offset = 0.0;   ///< how far beyond b its own level left a violated one-sided row
+    bool blocked = false;  ///< the levels above leave it no freedom
+    bool out = false;      ///< unreachable: takes no part
     RowStatus status = RowStatus::held;
     double nu = 0.0, phi = 0.0;
   };
+  auto V(int row) noexcept { return V_.row(row).head(dimension_); }
+  auto P(int row) noexcept { return P_.row(row).head(dimension_); }
   Entry& entry(int i) noexcept { return entries_[static_cast<std::size_t>(i)]; }
   bool is_one_sided(int i) const noexcept;
   bool is_soft(int i) noexcept { return entry(i).fade < 1.0; }
   bool takes_part(int i) const noexcept;
   Range bounds_at(int i, int level) const noexcept;
   double softness(int i) const noexcept;
-  double largest_force(int row) const noexcept;
+  double largest_force(int row) noexcept;
   int next_level(int after) const noexcept;
 
   void factorise_motors() noexcept;
   void bound_rows() noexcept;
-  void project_rows() noexcept;
-  void note_achieved() noexcept;
+  void project_rows(int level) noexcept;
   bool solve_forces(int level, int max_iterations) noexcept;
   bool solve_motion(int level, int max_iterations) noexcept;
   bool least_multipliers(int level, int max_iterations) noexcept;
@@ -75,29 +76,41 @@ class BoundedProblem {
   bool least_torques(int max_iterations) noexcept;
   void report() noexcept;
 
+  bool limits_above_hold(int first) noexcept;
+  double room_of(int i, const Eigen::VectorXd& p) noexcept;
+  bool brake(int forces, int level, int max_iterations) noexcept;
+  bool share_torque(int forces, int level, int max_iterations) noexcept;
+
   void pose_rows(int level) noexcept;
-  void pose_motion(int level, bool with_motors) noexcept;
-  void pose_motors(int first) noexcept;
-  void take_p() noexcept;
+  void pose_limits_above(int level) noexcept;
+  void resize_program(int n, int level, int curvature_rows, bool with_motors) noexcept;
+  void pose_multiplier(int k, int level) noexcept;
+  void pose_motion(int n, int level, bool with_motors) noexcept;
+  void pose_motors(int n, int level) noexcept;
+  void take_p(int n) noexcept;
+  void take_limits(int first) noexcept;
   void take_multipliers(int level) noexcept;
   void take_motors(int first) noexcept;
   bool torques_for(const Eigen::VectorXd& p) noexcept;
 
   int rows_ = 0, motors_ = 0, dimension_ = 0, iterations_ = 0;
   Eigen::MatrixXd B_, T_;
-  Eigen::MatrixXd BN_;  ///< B projected on what the levels above left free
+  Eigen::MatrixXd V_;  ///< B F: rows in the metric that the levels above leave
+  Eigen::MatrixXd P_;  ///< B K: the motion that a unit force along a row makes
   Eigen::VectorXd d_, tau_, tau_lo_, tau_hi_, candidate_;
   Eigen::VectorXd p_;      ///< sum of the constraint forces so far
   Eigen::VectorXd fixed_;  ///< its part that the present stage cannot change
   Eigen::VectorXd work_, solved_;
-  Eigen::MatrixXd frozen_;  ///< orthonormal columns
+  Eigen::MatrixXd F_;       ///< K = F F': motion by force, under what the levels above have frozen
+  Eigen::MatrixXd frozen_;  ///< orthonormal columns: F times them is 0
   int frozen_count_ = 0;
   Eigen::MatrixXd gram_;  ///< Cholesky factor of T'T
   bool motors_reach_all_ = false;
   std::vector<Entry> entries_;
   std::vector<RowSolution> solutions_;
-  std::vector<int> posed_;  ///< row of each variable of the present stage
-  std::vector<int> tied_;   ///< rows of the present stage whose multipliers are not unique
+  std::vector<int> posed_;     ///< row of each variable of the present stage
+  std::vector<double> units_;  ///< force of a unit of each variable
+  std::vector<int> tied_;      ///< rows of the present stage whose multipliers are not unique
   QuadraticProgram program_;
 };
 

@@ -11,13 +11,14 @@ constexpr double relative_gradient_tolerance = 1e-12;
 constexpr double curvature_tolerance = 1e-12;  // of a reduced Hessian's pivot, relative to its diagonal
 constexpr double rank_tolerance = 1e-9;        // of E's columns, which are of length 1
 constexpr double slope_tolerance = 1e3;        // times the gradient tolerance
+constexpr double least_pivot = 1e-11;          // of a basic variable's rate, relative to the largest
 constexpr int max_refinements = 4;
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
-QuadraticProgram::QuadraticProgram(int n, int d)
+QuadraticProgram::QuadraticProgram(int n, int d, int m)
     : V_(Eigen::MatrixXd::Zero(d, n)),
-      E_(Eigen::MatrixXd::Zero(d, n)),
+      E_(Eigen::MatrixXd::Zero(m, n)),
       R_(Eigen::VectorXd::Zero(n)),
       g_(Eigen::VectorXd::Zero(n)),
       lo_(Eigen::VectorXd::Zero(n)),
@@ -26,18 +27,18 @@ QuadraticProgram::QuadraticProgram(int n, int d)
       gradient_(Eigen::VectorXd::Zero(n)),
       reduced_(Eigen::VectorXd::Zero(n)),
       direction_(Eigen::VectorXd::Zero(n)),
-      multipliers_(Eigen::VectorXd::Zero(d)),
+      multipliers_(Eigen::VectorXd::Zero(m)),
       work_(Eigen::VectorXd::Zero(std::max(n, d))),
-      eliminated_(Eigen::MatrixXd::Zero(d, std::max(n, 2 * d))),
-      inverse_basis_(Eigen::MatrixXd::Zero(d, d)),
-      follow_(Eigen::MatrixXd::Zero(d, n)),
+      eliminated_(Eigen::MatrixXd::Zero(m, std::max(n, 2 * m))),
+      inverse_basis_(Eigen::MatrixXd::Zero(m, m)),
+      follow_(Eigen::MatrixXd::Zero(m, n)),
       reduced_V_(Eigen::MatrixXd::Zero(d, n)),
       cholesky_(Eigen::MatrixXd::Zero(n, n)),
       place_(index(n)),
       stuck_(index(n)) {
-  basics_.reserve(index(n));
-  superbasics_.reserve(index(n));
-  rows_.reserve(index(d));
+  basics_.reserve(index(std::max(n, m)));
+  superbasics_.reserve(index(std::max(n, m)));
+  rows_.reserve(index(m));
 }
 
 void QuadraticProgram::resize(int variables, int curvature_rows, int equality_rows) noexcept {
@@ -61,7 +62,8 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
     if (!factorise_basis()) return false;
     compute_reduced_gradient();
     // Rounding, or a curvature near nothing, can leave a slope: step again before pricing.
-    if (at_minimum && slope_of_superbasics() > slope_tolerance * tolerance_ && refinements < max_refinements) {
+    if (at_minimum && slope_of_superbasics() > slope_tolerance * tolerance_ &&
+        refinements < max_refinements) {
       at_minimum = false;
       ++refinements;
     }
@@ -292,9 +294,10 @@ int QuadraticProgram::longest_step(double& length) const noexcept {
   for (const int k : basics_) largest = std::max(largest, std::abs(direction_(k)));
   for (const int k : superbasics_) largest = std::max(largest, std::abs(direction_(k)));
   int blocking = -1;
-  const auto consider = [&](int k) {
+  // A basic variable that hardly follows would leave a basis without rank if it made way.
+  const auto consider = [&](int k, double least_rate) {
     const double rate = direction_(k);
-    if (std::abs(rate) <= 1e-14 * largest) return;
+    if (std::abs(rate) <= least_rate * largest) return;
     const double room = std::max(0.0, rate > 0.0 ? hi_(k) - z_(k) : z_(k) - lo_(k));
     const double reach = room / std::abs(rate);
     const bool earlier = reach < length;
@@ -304,8 +307,8 @@ int QuadraticProgram::longest_step(double& length) const noexcept {
       blocking = k;
     }
   };
-  for (const int k : basics_) consider(k);
-  for (const int k : superbasics_) consider(k);
+  for (const int k : basics_) consider(k, least_pivot);
+  for (const int k : superbasics_) consider(k, 1e-14);
   return blocking;
 }
 

@@ -23,7 +23,7 @@ namespace zwang::solver {
 
 class QuadraticProgram {
  public:
-  QuadraticProgram(int variable_capacity, int dimension_capacity);
+  QuadraticProgram(int variable_capacity, int curvature_capacity, int equality_capacity);
 
   /// Sizes the problem: `variables` columns; V has `curvature_rows` rows, E `equality_rows`. Everything is
   /// zeroed, bounds are left to set.

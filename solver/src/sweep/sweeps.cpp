@@ -85,8 +85,8 @@ Sweeps::Sweeps(const Model& model, int row_capacity)
       origins(static_cast<std::size_t>(2 * row_capacity)),
       A(Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 2 * row_capacity)) {
   for (BodySweep& body : bodies) {
-    body.columns.reserve(static_cast<std::size_t>(2 * row_capacity));
-    body.SA.resize(static_cast<std::size_t>(2 * row_capacity));
+    body.columns.reserve(origins.size());
+    body.SA.resize(origins.size());
   }
   for (const Body& body : model.bodies()) parents_.push_back(body.parent);
 }

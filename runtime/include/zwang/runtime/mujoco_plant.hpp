@@ -28,7 +28,8 @@ struct Truth {
   Eigen::Vector3d velocity;  ///< planar twist of the base in base axes: vx, vy [m/s], wz [rad/s]
   Eigen::Vector3d
       acceleration;  ///< rates of the components of `velocity` over the last step [m/s^2, m/s^2, rad/s^2]
-  std::vector<ObjectTruth> objects;  ///< parallel to the scene's
+  std::vector<double> corner_forces;  ///< [N] normal force on each corner of the footprint, now
+  std::vector<ObjectTruth> objects;   ///< parallel to the scene's
 };
 
 struct MujocoPlantOptions {

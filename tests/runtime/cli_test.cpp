@@ -1,0 +1,324 @@
+// The program as its users meet it: a process with arguments, two streams and an exit code.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+#include <thread>
+
+namespace zwang {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string specs = std::string(ZWANG_SOURCE_DIR) + "/specs/";
+const std::string wall_align = specs + "wall_align.yaml";
+
+std::string read(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The number of the first line of the shipped task that contains the text.
+int line_of(const std::string& text) {
+  const std::string file = read(wall_align);
+  const std::size_t at = file.find(text);
+  EXPECT_NE(at, std::string::npos) << text;
+  return static_cast<int>(std::count(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
+}
+
+struct Result {
+  int code = -1;  ///< minus the signal when one ended it
+  std::string out, err;
+};
+
+/// Runs in a folder of its own, which is gone afterwards.
+class Cli : public ::testing::Test {
+ protected:
+  Cli() {
+    folder_ = fs::temp_directory_path() / ("zwang_cli_" + std::to_string(getpid()) + "_" +
+                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder_);
+  }
+  ~Cli() override { fs::remove_all(folder_); }
+
+  pid_t start(const std::vector<std::string>& arguments, const std::string& out = "out",
+              bool close_out = false) {
+    std::vector<char*> argv;
+    std::string program = ZWANG_PROGRAM;
+    argv.push_back(program.data());
+    std::vector<std::string> copies = arguments;
+    for (std::string& a : copies) argv.push_back(a.data());
+    argv.push_back(nullptr);
+    const pid_t child = fork();
+    if (child != 0) return child;
+    if (chdir(folder_.c_str()) != 0) _exit(99);
+    const int out_file = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int err_file = open("err", O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(out_file, STDOUT_FILENO);
+    dup2(err_file, STDERR_FILENO);
+    if (close_out) close(STDOUT_FILENO);
+    execv(argv[0], argv.data());
+    _exit(98);
+  }
+  Result finish(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read(folder_ / "out"),
+            read(folder_ / "err")};
+  }
+  Result zwang(const std::vector<std::string>& arguments) { return finish(start(arguments)); }
+
+  fs::path write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  /// A task file beside the shipped robot and scene.
+  Result run_task(const std::string& tasks, std::vector<std::string> more = {"--format", "json"}) {
+    const fs::path file = write("task.yaml", "zwang: 1\nrobot: none.yaml\n" + tasks);
+    std::vector<std::string> arguments = {"run",     file.string(),
+                                          "--robot", specs + "robots/mecanum_base.yaml",
+                                          "--scene", specs + "scenes/wall.yaml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return zwang(arguments);
+  }
+
+  fs::path folder_;
+};
+
+const char* const stand = R"(
+start: stand
+tasks:
+  stand:
+    constraints: {still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
+)";
+
+TEST_F(Cli, RunsTheShippedTaskAndTellsTheStoryInJson) {
+  const Result r = zwang({"run", wall_align, "--format", "json"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["outcome"], "done");
+  ASSERT_EQ(j["transitions"].size(), 3u);
+  EXPECT_EQ(j["transitions"][1]["from"], "press");
+  EXPECT_EQ(j["transitions"][1]["to"], "hold");
+  EXPECT_NE(j["transitions"][1]["why"].get<std::string>().find("moved(base_link) > 2 cm (wall_align.yaml:"),
+            std::string::npos);
+  EXPECT_GE(j["elapsed"], j["transitions"][2]["time"]);
+
+  const json& wall = j["truth"]["wall"];
+  EXPECT_GT(wall["touched"], 1.0);
+  EXPECT_NEAR(wall["steady_force"], 20.0, 0.2);
+  EXPECT_GE(wall["peak_force"], wall["steady_force"]);
+  EXPECT_NEAR(j["truth"]["base"]["yaw"].get<double>(), 0.0, 0.1 * std::numbers::pi / 180.0);
+
+  bool speed = false, torque = false;
+  for (const json& l : j["limits"]) {
+    ASSERT_TRUE(l.contains("row") && l.contains("line") && l.contains("limit") && l.contains("worst") &&
+                l.contains("margin") && l.contains("unit"));
+    if (l["row"] == "press.contact.x.velocity") {
+      speed = true;
+      EXPECT_EQ(l["unit"], "m/s");
+      EXPECT_EQ(l["line"], line_of("x:  {force: $push"));
+    }
+    if (l["unit"] == "N m") {
+      torque = true;
+      EXPECT_GE(l["margin"].get<double>(), 0.0) << l["row"];
+    }
+  }
+  EXPECT_TRUE(speed && torque);
+
+  const std::string log = read(folder_ / "runs/wall_align-001/log.csv");
+  EXPECT_EQ(log.substr(0, 14), "time [s],task,");
+  EXPECT_EQ(log.back(), '\n');
+  EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), std::lround(j["elapsed"].get<double>() / 1e-3) + 2)
+      << "a header, and a record for each tick from 0 on";
+}
+
+TEST_F(Cli, TellsThePersonAtTheTerminalTheSame) {
+  const Result r = zwang({"run", wall_align});
+  EXPECT_EQ(r.code, 0) << r.err;
+  for (const char* words : {"press.contact.x.velocity at ", "done after ", "transitions", "press  -> hold",
+                            "limits", "worst", "margin", "truth, as the plant measured it", "pressed with ",
+                            "hold.contact.x for 20.000 N", "runs/wall_align-001/log.csv"}) {
+    EXPECT_NE(r.out.find(words), std::string::npos) << words;
+  }
+  EXPECT_NE(r.out.find("(wall_align.yaml:" + std::to_string(line_of("abs(contact.x.velocity)")) + ")"),
+            std::string::npos);
+  const Result quiet = zwang({"run", wall_align, "--quiet"});
+  EXPECT_EQ(quiet.out.find("done after "), 0u) << "no line before the report";
+  EXPECT_TRUE(fs::exists(folder_ / "runs/wall_align-002/log.csv"));
+}
+
+TEST_F(Cli, TwoRunsWithOneSeedWriteTheSameBytes) {
+  for (const char* name : {"a", "b"}) {
+    EXPECT_EQ(zwang({"run", wall_align, "--seed", "7", "--log", name, "--format", "json"}).code, 0);
+  }
+  const std::string log = read(folder_ / "a/log.csv");
+  EXPECT_GT(log.size(), 1'000'000u);
+  EXPECT_TRUE(log == read(folder_ / "b/log.csv"));
+}
+
+TEST_F(Cli, TakesTheStartPoseFromTheCommandLine) {
+  const Result r = run_task(std::string(stand) + "    exits: [{when: elapsed > 0.1 s, goto: done}]\n",
+                            {"--format", "json", "--start-yaw", "-35 deg", "--start-at", "-1 m, 25 cm"});
+  ASSERT_EQ(r.code, 0) << r.err << r.out;
+  const json base = json::parse(r.out)["truth"]["base"];
+  EXPECT_NEAR(base["x"], -1.0, 1e-3);
+  EXPECT_NEAR(base["y"], 0.25, 1e-3);
+  EXPECT_NEAR(base["yaw"].get<double>(), -35.0 * std::numbers::pi / 180.0, 1e-3);
+  EXPECT_TRUE(json::parse(r.out)["truth"]["wall"]["touched"].is_null());
+}
+
+TEST_F(Cli, AParameterFromTheCommandLineIsThePush) {
+  const Result r = zwang({"run", wall_align, "-p", "push=30 N", "--format", "json"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_NEAR(json::parse(r.out)["truth"]["wall"]["steady_force"], 30.0, 0.3);
+  EXPECT_EQ(json::parse(r.out)["asked"][0]["force"], 30.0);
+}
+
+TEST_F(Cli, AParameterOutsideItsRangeIsRefusedWithTheLineOfTheRange) {
+  for (const std::vector<std::string>& format : {std::vector<std::string>{}, {"--format", "json"}}) {
+    std::vector<std::string> arguments = {"run", wall_align, "-p", "push=200N"};
+    arguments.insert(arguments.end(), format.begin(), format.end());
+    const Result r = zwang(arguments);
+    EXPECT_EQ(r.code, 1);
+    EXPECT_NE((r.out + r.err).find("E204"), std::string::npos);
+    if (format.empty()) {
+      EXPECT_NE(r.err.find("wall_align.yaml:" + std::to_string(line_of("push:")) + ":"), std::string::npos)
+          << r.err;
+    } else {
+      EXPECT_EQ(json::parse(r.out)["outcome"], "refused");
+    }
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "runs"));
+}
+
+TEST_F(Cli, ATaskThatFailsEndsWithOne) {
+  const Result r = run_task(std::string(stand) + "    timeout: {after: 0.2 s, goto: failed}\n");
+  EXPECT_EQ(r.code, 1) << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["outcome"], "failed");
+  EXPECT_EQ(j["transitions"][1]["to"], "failed");
+  EXPECT_EQ(j["transitions"][1]["why"], "timeout after 0.2 s (task.yaml:8)");
+}
+
+TEST_F(Cli, ASignalStopsTheRunAndClosesTheLog) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    write("task.yaml", "zwang: 1\nrobot: none.yaml\n" + std::string(stand) +
+                           "    timeout: {after: 100000 s, goto: failed}\n");
+    const pid_t child =
+        start({"run", (folder_ / "task.yaml").string(), "--robot", specs + "robots/mecanum_base.yaml",
+               "--scene", specs + "scenes/wall.yaml", "--log", "log", "--format", "json"});
+    for (int i = 0; i < 2000 && read(folder_ / "log/log.csv").size() < 100'000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    kill(child, signal);
+    const Result r = finish(child);
+    EXPECT_EQ(r.code, 1);
+    const json j = json::parse(r.out);
+    EXPECT_EQ(j["outcome"], "stopped");
+    EXPECT_EQ(j["because"], "requested");
+    EXPECT_TRUE(j["log_complete"]);
+    EXPECT_EQ(read(folder_ / "log/log.csv").back(), '\n');
+    fs::remove_all(folder_ / "log");
+  }
+}
+
+TEST_F(Cli, ValidateTellsGoodFilesFromBadOnes) {
+  const std::vector<std::string> good = {wall_align, specs + "robots/mecanum_base.yaml",
+                                         specs + "scenes/wall.yaml"};
+  Result r = zwang({"validate", good[0], good[1], good[2]});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  r = zwang({"validate", good[0], good[1], good[2], "--format", "json"});
+  EXPECT_EQ(r.code, 0);
+  json j = json::parse(r.out);
+  EXPECT_EQ(j["ok"], true);
+  EXPECT_EQ(j["files"][0]["kind"], "task");
+  EXPECT_EQ(j["files"][1]["kind"], "robot");
+  EXPECT_EQ(j["files"][2]["kind"], "scene");
+
+  const std::string bad = write("bad.yaml", "zwang_scene: 1\nstart: {at: [0 m, 0 m], yaw: 20}\n").string();
+  r = zwang({"validate", good[0], bad});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_NE(r.out.find("bad.yaml:2:"), std::string::npos) << r.out;
+  r = zwang({"validate", good[0], bad, "--format", "json"});
+  EXPECT_EQ(r.code, 1);
+  j = json::parse(r.out);
+  EXPECT_EQ(j["ok"], false);
+  EXPECT_EQ(j["files"][0]["ok"], true);
+  EXPECT_EQ(j["files"][1]["ok"], false);
+  EXPECT_GE(j["diagnostics"].size(), 1u);
+}
+
+TEST_F(Cli, WhatCannotBeDoneEndsWithTwoAndSaysWhyOnStderr) {
+  write("a_file", "");
+  mkfifo((folder_ / "fifo").c_str(), 0600);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+      {{}, "subcommand"},
+      {{"dance"}, ""},
+      {{"run"}, "file"},
+      {{"validate"}, "files"},
+      {{"run", wall_align, "--fast"}, "--fast"},
+      {{"run", wall_align, "--format", "xml"}, "--format"},
+      {{"run", wall_align, "--seed", "-1"}, "--seed"},
+      {{"run", wall_align, "--seed", "1.5"}, "--seed"},
+      {{"run", "no_such.yaml"}, "no_such.yaml: no such file"},
+      {{"validate", wall_align, "no_such.yaml"}, "no_such.yaml: no such file"},
+      {{"validate", "."}, "is a folder"},
+      {{"validate", "fifo"}, "not a regular file"},
+      {{"run", wall_align, "--robot", "no_robot.yaml"}, "no_robot.yaml: no such file"},
+      {{"run", wall_align, "--scene", "no_scene.yaml"}, "no_scene.yaml: no such file"},
+      {{"run", wall_align, "--start-yaw", "20"}, "20 deg"},
+      {{"run", wall_align, "--start-yaw", "20 m"}, "not an angle"},
+      {{"run", wall_align, "--start-at", "1 m"}, "not a point"},
+      {{"run", wall_align, "-p", "push"}, "name=20 N"},
+      {{"run", wall_align, "--log", "a_file/below"}, "a_file/below"},
+  };
+  for (const auto& [arguments, words] : cases) {
+    const Result r = zwang(arguments);
+    const std::string said = ::testing::PrintToString(arguments) + " said " + r.err;
+    EXPECT_EQ(r.code, 2) << said;
+    EXPECT_NE(r.err.find(words), std::string::npos) << said;
+    EXPECT_EQ(r.err.find("zwang: "), 0u) << said;
+    EXPECT_TRUE(r.out.empty()) << said;
+  }
+}
+
+TEST_F(Cli, AStdoutThatIsClosedOrFullIsAnError) {
+  const std::vector<std::vector<std::string>> all = {{"validate", wall_align},
+                                                     {"--version"},
+                                                     {"--help"},
+                                                     {"run", wall_align, "--log", "log", "--format", "json"}};
+  for (const auto& arguments : all) {
+    EXPECT_EQ(finish(start(arguments, "out", true)).code, 2) << arguments[0] << " closed";
+    if (fs::exists("/dev/full")) {
+      EXPECT_EQ(finish(start(arguments, "/dev/full")).code, 2) << arguments[0] << " full";
+    }
+  }
+}
+
+TEST_F(Cli, AnswersQuestionsAboutItself) {
+  Result r = zwang({"--version"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.out.find("zwang "), 0u);
+  r = zwang({"run", "--help"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.out.find("--start-yaw"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zwang
