@@ -27,8 +27,12 @@ const char* word(Kind kind) {
 /// By the first key of the file. What is none of the three is read as a task file, whose reader says what is
 /// wrong.
 Kind kind_of(const std::string& path) {
-  std::ifstream in(path);
-  for (std::string line; std::getline(in, line) && line.size() < 4096;) {
+  std::string start(16 * 1024, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  std::istringstream in(start);
+  for (std::string line; std::getline(in, line);) {
     const std::size_t begin = line.find_first_not_of(" \t\r");
     if (begin == std::string::npos || line[begin] == '#' || line.compare(begin, 3, "---") == 0) continue;
     if (line.compare(begin, 11, "zwang_robot") == 0) return Kind::robot;

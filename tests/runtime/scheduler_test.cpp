@@ -88,6 +88,16 @@ TEST(Tick, ForCountsConsecutiveTrueTicks) {
   }
 }
 
+TEST(Tick, ASwitchRestartsForInTheTaskThatIsEntered) {
+  lang::Task a = task("a", forward), b = task("b", forward);
+  a.exits = {exit(always_true(), to_task(1), 0.005)};
+  b.exits = {exit(always_true(), to_done, 0.005)};
+  Bench bench(program({a, b}));
+  bench.tick();
+  EXPECT_EQ(bench.ticks_to_switch(10), 5);
+  EXPECT_EQ(bench.ticks_to_switch(10), 5);
+}
+
 TEST(Tick, FalseRestartsForAndSoDoesUnknown) {
   for (const bool to_unknown : {false, true}) {
     // True while x > 0; 0/0 is unknown.

@@ -415,8 +415,9 @@ void Scheduler::Parts::want() noexcept {
 void Scheduler::Parts::put_constraints() noexcept {
   want();
   // The tick of the switch already goes one tick's way, so that no alpha is ever 0.
-  const double progress = blend_time > 0.0 ? (elapsed() + period * (1.0 + clock_rounding)) / blend_time : 1.0;
-  blend->put(wanted, std::min(1.0, progress), *set, in_force);
+  double progress = blend_time > 0.0 ? (elapsed() + period) / blend_time : 1.0;
+  if ((1.0 - progress) * blend_time < clock_rounding * period) progress = 1.0;
+  blend->put(wanted, progress, *set, in_force);
 }
 
 Scheduler::Scheduler(const lang::Program& program, double period)

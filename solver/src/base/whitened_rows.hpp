@@ -27,6 +27,7 @@ class WhitenedRows {
   void factorise(const RowMajorMatrix& L, int ground, int joints, int rows) noexcept;
 
   int mobility() const noexcept { return rank_ - ground_rank_; }
+  int ground_rank() const noexcept { return ground_rank_; }
   /// B_i, of a row beyond the ground.
   auto motion(int row) const noexcept { return W_.row(row).segment(ground_rank_, mobility()); }
   /// A_i Mc A_i' over A_i M^-1 A_i': how much of a row the ground leaves.
