@@ -80,7 +80,7 @@ fs::path make_folder(const RunArguments& arguments) {
   for (int i = 1; i < 1'000'000 && !error; ++i) {
     char number[16];
     std::snprintf(number, sizeof number, "-%03d", i);
-    const fs::path folder = fs::path("runs") / (name + number);
+    fs::path folder = fs::path("runs") / (name + number);
     // True for the one that made it: two runs at once do not share a folder.
     if (fs::create_directory(folder, error)) return folder;
   }

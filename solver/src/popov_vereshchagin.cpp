@@ -49,20 +49,21 @@ struct PopovVereshchagin::Workspace {
     }
   }
 
-  /// nu = L^-1 (b - g), line 21.
+  /// nu = L^-1 (b - g), line 21: the ground's rows are held, the given ones then met as well as that leaves.
+  /// The rank is that of L, damped or not.
   void solve_base() noexcept {
     const int m = sweeps.rows;
     wanted.head(m) -= sweeps.g.head(m);
+    whitened.factorise(sweeps.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
+    rank = whitened.rank();
     if (settings.damping > 0.0) {
-      sweeps.L.diagonal().head(m).array() += settings.damping * settings.damping;
+      sweeps.L.diagonal().segment(ground, m - ground).array() += settings.damping * settings.damping;
+      whitened.factorise(sweeps.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
     }
-    whitened.factorise(sweeps.L, m, 0, m);
-    if (whitened.rank() == m) {
-      whitened.hold_ground(wanted);
-      whitened.ground_multipliers(nu, m, m, nu);
-    } else {
-      whitened.least_squares(wanted, m, nu);
-    }
+    whitened.hold_ground(wanted);
+    for (int i = ground; i < m; ++i) wanted(i) -= whitened.held_acceleration(i);
+    whitened.motion_multipliers(wanted, ground, m, nu);
+    whitened.ground_multipliers(nu, ground, m, nu);
   }
 
   /// J'A nu: every row's wrench carried rigidly inward to each joint. In the base's coordinates that is a
@@ -91,6 +92,7 @@ struct PopovVereshchagin::Workspace {
   Model model;
   Settings settings;
   int ground;
+  int rank = 0;
   Sweeps sweeps;
   WhitenedRows whitened;
   Eigen::VectorXd wanted, nu, qdd;
@@ -123,7 +125,7 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
   if (!qdd.allFinite() || !nu.head(sweeps.rows).allFinite()) return Status::degenerate_model;
 
   result.qdd = qdd;
-  result.rank = whitened.rank();
+  result.rank = rank;
   result.nu.head(count) = nu.segment(ground, count);
   for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
     result.acceleration[i] = sweeps.bodies[i].from_base(sweeps.bodies[i].a);

@@ -13,6 +13,7 @@
 #include "oracle/dense_dynamics.hpp"
 #include "oracle/lexicographic.hpp"
 #include "oracle/random_problem.hpp"
+#include "zwang/solver/popov_vereshchagin.hpp"
 #include "zwang/solver/solver.hpp"
 
 namespace zwang::oracle {
@@ -83,6 +84,7 @@ std::vector<solver::Row> rows_on_the_tip(const solver::Model& model, int count, 
 struct KdlAnswer {
   Eigen::VectorXd qdd;
   Eigen::VectorXd nu;
+  Eigen::VectorXd constraint_torque;
 };
 
 KdlAnswer ask_kdl(const solver::Model& model, const solver::State& state, const DenseDynamics& poses,
@@ -113,6 +115,7 @@ KdlAnswer ask_kdl(const solver::Model& model, const solver::State& state, const 
   EXPECT_EQ(solver.CartToJnt(q, qd, qdd, alpha, beta, wrenches, feed, constraint), 0);
   KdlAnswer answer;
   answer.qdd = qdd.data;
+  answer.constraint_torque = constraint.data;
   answer.nu = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(m));
   solver.getContraintForceMagnitude(answer.nu);
   return answer;
@@ -138,6 +141,15 @@ class KdlParity : public testing::TestWithParam<int> {
     Eigen::VectorXd nu(static_cast<Eigen::Index>(rows.size()));
     for (std::size_t i = 0; i < rows.size(); ++i) nu[static_cast<Eigen::Index>(i)] = got.rows[i].nu;
     EXPECT_LT(relative(nu, -kdl.nu), 1e-9) << "seed " << seed;
+
+    // KDL's constraint_torques are line 23's S'A nu, what adds to the feed-forward torque at the joint: our
+    // sign.
+    solver::PopovVereshchagin sweeps(arm.model);
+    solver::ConstrainedMotion motion(arm.model);
+    std::vector<solver::AccelerationRow> columns;
+    for (const solver::Row& row : rows) columns.push_back({.body = row.body, .a = row.a, .b = row.b});
+    ASSERT_EQ(sweeps.solve(arm.state, columns, motion), solver::Status::ok);
+    EXPECT_LT(relative(motion.constraint_torque, kdl.constraint_torque), 1e-9) << "seed " << seed;
   }
 
   static constexpr std::uint64_t arms = 40;

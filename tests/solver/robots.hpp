@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "zwang/solver/model.hpp"
 
@@ -51,6 +52,52 @@ inline Model mecanum(const MecanumFigures& f) {
     wheel.radius = f.radius;
     wheel.roller_angle = w.angle * M_PI / 180.0;
     builder.add_wheel(joint.name, wheel);
+  }
+  return builder.build();
+}
+
+/// A wheel on the base, or on a swivel of its own.
+struct WheelPlace {
+  double x = 0.0, y = 0.0;  ///< [m] of the wheel; of the swivel where there is one
+  Wheel wheel{.radius = 0.1};
+  bool swivels = false;
+  bool steered = false;                  ///< the swivel has a motor
+  double swivel_angle = 0.0;             ///< [rad] at q = 0
+  std::vector<Vector3> hubs{{0, 0, 0}};  ///< [m] wheel centres on the swivel (or on the base)
+  bool driven = true;
+};
+
+/// A 40 kg base on any wheels.
+inline Model base_on(const std::vector<WheelPlace>& places) {
+  const Matrix3 base_inertia = Vector3(1.5, 1.6, 1.8).asDiagonal();
+  ModelBuilder builder(BaseType::ground, "base_link",
+                       RigidInertia::from_com(40.0, {0.0, 0.0, 0.1}, base_inertia));
+  const Matrix3 wheel_inertia = Vector3(0.004, 0.0075, 0.004).asDiagonal();
+  const Matrix3 fork_inertia = Vector3(0.004, 0.004, 0.003).asDiagonal();
+  int number = 0;
+  for (const WheelPlace& place : places) {
+    const std::string id = std::to_string(number++);
+    std::string carrier = "base_link";
+    Vector3 origin(place.x, place.y, 0.0);
+    if (place.swivels) {
+      Joint swivel{.name = "swivel" + id, .type = JointType::continuous, .axis = Vector3::UnitZ()};
+      swivel.actuated = place.steered;
+      swivel.max_effort = 5.0;
+      builder.add_link("fork" + id, "base_link", {rotation_from_rpy(0.0, 0.0, place.swivel_angle), origin},
+                       swivel, RigidInertia::from_com(1.0, Vector3::Zero(), fork_inertia));
+      carrier = "fork" + id;
+      origin.setZero();
+    }
+    for (std::size_t k = 0; k < place.hubs.size(); ++k) {
+      const std::string name = "wheel" + id + "_" + std::to_string(k);
+      Joint joint{.name = name, .type = JointType::continuous, .axis = Vector3::UnitY()};
+      joint.rotor_inertia = 0.001;
+      joint.actuated = place.driven;
+      joint.max_effort = 8.0;
+      builder.add_link(name + "_link", carrier, {Matrix3::Identity(), origin + place.hubs[k]}, joint,
+                       RigidInertia::from_com(1.5, Vector3::Zero(), wheel_inertia));
+      builder.add_wheel(name, place.wheel);
+    }
   }
   return builder.build();
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <string>
 
 #include "oracle/random_problem.hpp"
@@ -67,7 +68,28 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << c.family << " " << to_string(c.robot);
 }
 
-class SolverOracle : public testing::TestWithParam<Case> {};
+class SolverOracle : public testing::TestWithParam<Case> {
+ protected:
+  static void TearDownTestSuite() {
+    long problems = 0;
+    for (const auto& [steps, count] : iterations()) problems += count;
+    long passed = 0;
+    std::printf("active-set iterations a problem, of %ld:", problems);
+    for (const auto& [steps, count] : iterations()) {
+      for (const double share : {0.5, 0.9, 0.99, 0.999, 1.0}) {
+        const auto rank = static_cast<long>(std::ceil(share * static_cast<double>(problems)));
+        if (passed < rank && passed + count >= rank) std::printf("  %g %% <= %d", 100.0 * share, steps);
+      }
+      passed += count;
+    }
+    std::printf("\n");
+  }
+  /// How many problems took how many iterations, all stages together.
+  static std::map<int, long>& iterations() {
+    static std::map<int, long> counts;
+    return counts;
+  }
+};
 
 std::string describe(const std::vector<solver::Row>& rows, const solver::Solution& got,
                      const OracleSolution& want) {
@@ -118,6 +140,7 @@ TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
     ASSERT_EQ(solver.project_velocity(measured), solver::Status::ok);
     const solver::Status status = solver.solve(measured, rows, got);
     const Difference d = difference(model, rows, got, want);
+    ++iterations()[got.iterations];
     const double off = d.worst();
     worst = std::max(worst, off);
     if (status == solver::Status::ok && off < 1e-9 && d.same_mobility) continue;

@@ -1,5 +1,7 @@
 #include "check/check.hpp"
 
+#include <algorithm>
+
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
@@ -8,17 +10,28 @@ namespace zwang::lang {
 
 namespace {
 
-bool measures(const Condition& condition) {
+/// Bool signals and `elapsed` do not flicker; everything that is measured as a number does.
+bool measures(const CheckContext& context, const Condition& condition) {
   for (const ExpressionNode& node : condition.nodes) {
-    if (node.op == Op::coordinate || node.op == Op::speed || node.op == Op::moved) return true;
+    if (node.op == Op::coordinate || node.op == Op::speed || node.op == Op::moved || node.op == Op::feature) {
+      return true;
+    }
+    const bool is_number =
+        node.op == Op::signal &&
+        context.symbols.signals[static_cast<std::size_t>(node.index)].signal.type == SignalType::number;
+    if (is_number) return true;
   }
   return false;
 }
 
-void check_target(CheckContext& context, const Word& target) {
+/// `task` is the one that the target stands in; nullptr under `always`.
+void check_target(CheckContext& context, const Word& target, const TaskText* task) {
   if (!target.exists() || target.text == "done" || target.text == "failed") return;
   if (target.text == "back") {
-    context.diagnostics.add(wording::back_without_interruption(target.span));
+    const std::vector<std::string> interrupting = interrupting_tasks(context);
+    const bool can_go_back = task != nullptr && std::find(interrupting.begin(), interrupting.end(),
+                                                          task->name.text) != interrupting.end();
+    if (!can_go_back) context.diagnostics.add(wording::back_without_interruption(target.span));
     return;
   }
   if (context.symbols.find_task(target.text)) return;
@@ -28,32 +41,63 @@ void check_target(CheckContext& context, const Word& target) {
       wording::unknown_name(target.span, "task", target.text, nearest(target.text, known)));
 }
 
-Condition check_exit(CheckContext& context, const ExitText& exit, const TaskText& task) {
+Condition check_exit(CheckContext& context, const ExitText& exit, const TaskText* task) {
+  static const std::vector<GroupText> none;
   std::optional<Condition> condition;
-  if (!exit.when.is_bad) condition = check_condition(context, exit.when, task.groups);
+  Dimension compared;
+  if (!exit.when.is_bad) {
+    condition = check_condition(context, exit.when, task != nullptr ? task->groups : none, &compared);
+  }
   if (exit.dwell) check_time(context, *exit.dwell, "`for`", true);
-  if (condition && !exit.dwell && measures(*condition)) {
+  if (condition && !exit.dwell && measures(context, *condition)) {
     context.diagnostics.add(wording::measured_without_for(exit.when.span));
   }
-  check_target(context, exit.target);
+  if (condition) check_is_open(context, *condition);
+  if (condition && exit.release) check_release(context, exit, *condition, compared);
+  check_target(context, exit.target, task);
   check_sets(context, exit.set);
   return condition.value_or(Condition{});
 }
 
 std::vector<Condition> check_task(CheckContext& context, const TaskText& task) {
-  check_groups(context, task);
+  check_groups(context, task.groups);
+  check_against_always(context, task);
   if (task.blend) check_time(context, *task.blend, "enter.blend", true);
   check_sets(context, task.set_on_entry);
   std::vector<Condition> conditions;
-  for (const ExitText& exit : task.exits) conditions.push_back(check_exit(context, exit, task));
+  for (const ExitText& exit : task.exits) conditions.push_back(check_exit(context, exit, &task));
   if (task.timeout && !task.timeout->is_never) {
     check_time(context, task.timeout->after, "timeout.after", false);
-    check_target(context, task.timeout->target);
+    check_target(context, task.timeout->target, &task);
   }
+  if (task.attempts) check_target(context, task.attempts->target, &task);
   return conditions;
 }
 
 }  // namespace
+
+bool check_driver_value(CheckContext& context, const ValueText& value, const Dimension& expected,
+                        const std::string& what) {
+  const std::optional<int> index =
+      value.kind == ValueKind::name ? context.symbols.find_signal(value.name) : std::nullopt;
+  if (value.kind != ValueKind::name) return check_value(context, value, expected, what);
+  if (!index) {
+    context.diagnostics.add(wording::unknown_name(value.span, "number signal", value.name,
+                                                  nearest(value.name, context.symbols.signal_names())));
+    return false;
+  }
+  SignalSymbol& symbol = context.symbols.signals[static_cast<std::size_t>(*index)];
+  symbol.is_used = true;
+  if (symbol.is_bad) return false;
+  if (symbol.signal.type == SignalType::number && symbol.dimension == expected) return true;
+  if (symbol.signal.type != SignalType::number) {
+    context.diagnostics.add(wording::not_a_number_signal(value.span, value.name, symbol.signal.span));
+  } else {
+    context.diagnostics.add(wording::wrong_parameter_dimension(value.span, what, expected, value.name,
+                                                               symbol.dimension, symbol.signal.span));
+  }
+  return false;
+}
 
 bool check_value(CheckContext& context, const ValueText& value, const Dimension& expected,
                  const std::string& what) {
@@ -153,12 +197,23 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   for (const TaskText& task : file.tasks) checked.symbols.tasks.push_back(task.name.text);
   CheckContext context{file, robot, options, checked.symbols, diagnostics};
   check_parameters(context);
+  declare_signals(context);
   check_frames(context);
+  check_world(context);
+  check_groups(context, file.always_groups);
+  for (const ExitText& exit : file.always_exits) {
+    checked.always_conditions.push_back(check_exit(context, exit, nullptr));
+  }
   if (file.start.exists() && !checked.symbols.find_task(file.start.text)) {
     diagnostics.add(wording::unknown_name(file.start.span, "task", file.start.text,
                                           nearest(file.start.text, checked.symbols.tasks)));
   }
-  for (const TaskText& task : file.tasks) checked.conditions.push_back(check_task(context, task));
+  for (const TaskText& task : file.tasks) {
+    checked.conditions.push_back(check_task(context, task));
+    std::optional<Condition> require;
+    if (task.require && !task.require->is_bad) require = check_condition(context, *task.require, task.groups);
+    checked.requirements.push_back(std::move(require));
+  }
   check_flow(context, checked.conditions);
   if (diagnostics.has_errors() || !robot) return std::nullopt;
   checked.robot = std::move(*robot);

@@ -18,6 +18,8 @@ struct CheckedFile {
   Symbols symbols;
   /// The condition of each exit of each task, names resolved.
   std::vector<std::vector<Condition>> conditions;
+  std::vector<Condition> always_conditions;            ///< of each exit under `always`
+  std::vector<std::optional<Condition>> requirements;  ///< `enter.require` of each task
 };
 
 /// `robot` none: it could not be read, and was complained of; what does not need it is checked all the same.

@@ -66,7 +66,7 @@ class ConditionCheck {
   ConditionCheck(CheckContext& context, const ConditionText& text, const std::vector<GroupText>& groups)
       : context_(context), text_(text), groups_(groups) {}
 
-  std::optional<Condition> check() {
+  std::optional<Condition> check(Dimension* compared) {
     Condition condition;
     condition.text = text_.text;
     condition.span = text_.span;
@@ -83,6 +83,8 @@ class ConditionCheck {
       context_.diagnostics.add(wording::not_a_condition(text_.nodes.back().span, root.dimension));
       return std::nullopt;
     }
+    const int left = text_.nodes.back().left;
+    if (compared != nullptr && left >= 0) *compared = type(left).dimension;
     return condition;
   }
 
@@ -136,9 +138,22 @@ class ConditionCheck {
       lowered.op = Op::elapsed;
       return quantity_type(dimension::time);
     }
+    if (const std::optional<int> signal = context_.symbols.find_signal(node.word)) {
+      return check_signal(node, *signal, lowered);
+    }
+    if (const std::optional<int> feature = context_.symbols.find_feature(node.word)) {
+      FeatureSymbol& symbol = context_.symbols.features[static_cast<std::size_t>(*feature)];
+      symbol.is_used = true;
+      lowered.op = Op::feature;
+      lowered.index = *feature;
+      if (symbol.is_bad) return bad_type;
+      return quantity_type(symbol.feature.turns ? dimension::angle : dimension::length);
+    }
     const std::vector<std::string> parts = split(node.word);
     if (parts.size() == 3) return check_coordinate(node, parts, lowered);
     std::vector<std::string> known{"elapsed"};
+    for (const std::string& name : context_.symbols.signal_names()) known.push_back(name);
+    for (const std::string& name : context_.symbols.feature_names()) known.push_back(name);
     for (const GroupText& group : groups_) {
       for (const AxisText& axis : group.axes) {
         for (const CoordinateWord& word : coordinate_words) {
@@ -149,18 +164,39 @@ class ConditionCheck {
     return complain(wording::unknown_quantity(node.span, node.word, nearest(node.word, known)));
   }
 
+  Type check_signal(const ExpressionText& node, int index, ExpressionNode& lowered) {
+    SignalSymbol& symbol = context_.symbols.signals[static_cast<std::size_t>(index)];
+    symbol.is_used = true;
+    lowered.op = Op::signal;
+    lowered.index = index;
+    if (symbol.is_bad) return bad_type;
+    if (symbol.signal.type == SignalType::boolean) return boolean_type;
+    if (symbol.signal.type == SignalType::number) return quantity_type(symbol.dimension);
+    return complain(wording::incomparable_signal(node.span, node.word));
+  }
+
+  /// The group of the task, or else of `always`, that a path starts with.
+  const GroupText* find_group(const std::string& name, ExpressionNode& lowered) const {
+    for (const auto* groups : {&groups_, &context_.file.always_groups}) {
+      for (std::size_t g = 0; g < groups->size(); ++g) {
+        if ((*groups)[g].name.text != name) continue;
+        lowered.index = static_cast<int>(g);
+        lowered.in_always = groups != &groups_;
+        return &(*groups)[g];
+      }
+    }
+    return nullptr;
+  }
+
   Type check_coordinate(const ExpressionText& node, const std::vector<std::string>& parts,
                         ExpressionNode& lowered) {
     std::vector<std::string> known;
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-      known.push_back(groups_[g].name.text);
-      if (groups_[g].name.text == parts[0]) lowered.index = static_cast<int>(g);
-    }
-    if (lowered.index < 0) {
+    const GroupText* found = find_group(parts[0], lowered);
+    if (found == nullptr) {
+      for (const GroupText& group : groups_) known.push_back(group.name.text);
       return complain(wording::unknown_name(node.span, "group", parts[0], nearest(parts[0], known)));
     }
-    const GroupText& group = groups_[static_cast<std::size_t>(lowered.index)];
-    known.clear();
+    const GroupText& group = *found;
     for (std::size_t a = 0; a < group.axes.size(); ++a) {
       known.push_back(group.axes[a].name.text);
       if (group.axes[a].name.text == parts[1]) lowered.axis = static_cast<int>(a);
@@ -176,7 +212,7 @@ class ConditionCheck {
       known.emplace_back(word.word);
       if (word.word != parts[2]) continue;
       lowered.what = word.quantity;
-      return type_of(word.quantity, *axis_named(parts[1]));
+      return type_of(word.quantity, axis_named(parts[1]).value_or(solver::Axis::x));
     }
     return complain(wording::unknown_name(node.span, "quantity", parts[2], nearest(parts[2], known)));
   }
@@ -187,7 +223,15 @@ class ConditionCheck {
       return require_number(node.left);
     }
     if (node.word == "valid") {
-      return complain(wording::unknown_name(node.span, "signal", node.argument, ""));
+      const std::optional<int> signal = context_.symbols.find_signal(node.argument);
+      if (!signal) {
+        return complain(wording::unknown_name(node.span, "signal", node.argument,
+                                              nearest(node.argument, context_.symbols.signal_names())));
+      }
+      context_.symbols.signals[static_cast<std::size_t>(*signal)].is_used = true;
+      lowered.op = Op::valid;
+      lowered.index = *signal;
+      return boolean_type;
     }
     const std::optional<int> frame = check_frame(context_, {node.argument, node.span});
     if (!frame) return bad_type;
@@ -260,8 +304,8 @@ class ConditionCheck {
 }  // namespace
 
 std::optional<Condition> check_condition(CheckContext& context, const ConditionText& text,
-                                         const std::vector<GroupText>& groups) {
-  return ConditionCheck(context, text, groups).check();
+                                         const std::vector<GroupText>& groups, Dimension* compared) {
+  return ConditionCheck(context, text, groups).check(compared);
 }
 
 }  // namespace zwang::lang

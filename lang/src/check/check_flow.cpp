@@ -12,13 +12,19 @@ std::vector<std::string> targets_of(const TaskText& task) {
   std::vector<std::string> targets;
   for (const ExitText& exit : task.exits) targets.push_back(exit.target.text);
   if (task.timeout && !task.timeout->is_never) targets.push_back(task.timeout->target.text);
+  if (task.attempts) targets.push_back(task.attempts->target.text);
   return targets;
 }
 
-/// Tasks that a run can come to, from the start on.
-std::set<std::string> reachable_tasks(const CheckContext& context) {
+std::vector<std::string> targets_of_always(const CheckContext& context) {
+  std::vector<std::string> targets;
+  for (const ExitText& exit : context.file.always_exits) targets.push_back(exit.target.text);
+  return targets;
+}
+
+/// Tasks that a run can come to from some of them on, these included.
+std::set<std::string> reachable_tasks(const CheckContext& context, std::vector<std::string> open) {
   std::set<std::string> reached;
-  std::vector<std::string> open{context.file.start.text};
   while (!open.empty()) {
     const std::string name = open.back();
     open.pop_back();
@@ -43,8 +49,22 @@ void check_ends(CheckContext& context, const std::vector<std::vector<Condition>>
     // A condition that could not be read has no nodes: what it waits for is not known.
     const bool has_bad_exit = std::any_of(conditions[i].begin(), conditions[i].end(),
                                           [](const Condition& condition) { return condition.nodes.empty(); });
-    if (task.timeout || has_bad_exit || waits_for_time(conditions[i])) continue;
+    if (task.is_bad || task.timeout || has_bad_exit || waits_for_time(conditions[i])) continue;
     context.diagnostics.add(wording::endless_task(task.name.span, task.name.text));
+  }
+}
+
+/// The same condition again, with no shorter `for`, can never be the first to fire.
+void check_hidden(CheckContext& context, const std::vector<ExitText>& exits) {
+  for (std::size_t i = 0; i < exits.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto dwell = [&](const ExitText& exit) {
+        return exit.dwell ? present_value(context, *exit.dwell) : 0.0;
+      };
+      if (exits[i].when.text != exits[j].when.text || dwell(exits[i]) < dwell(exits[j])) continue;
+      context.diagnostics.add(wording::hidden_exit(exits[i].when.span, exits[j].when.span));
+      break;
+    }
   }
 }
 
@@ -52,6 +72,11 @@ void check_uses(CheckContext& context) {
   for (const ParameterSymbol& symbol : context.symbols.parameters) {
     if (!symbol.is_used) {
       context.diagnostics.add(wording::unused(symbol.parameter.span, "parameter", symbol.parameter.name));
+    }
+  }
+  for (const SignalSymbol& symbol : context.symbols.signals) {
+    if (!symbol.is_used) {
+      context.diagnostics.add(wording::unused(symbol.signal.span, "signal", symbol.signal.name));
     }
   }
   for (const FrameSymbol& symbol : context.symbols.frames) {
@@ -63,16 +88,25 @@ void check_uses(CheckContext& context) {
 
 }  // namespace
 
+std::vector<std::string> interrupting_tasks(const CheckContext& context) {
+  const std::set<std::string> reached = reachable_tasks(context, targets_of_always(context));
+  return {reached.begin(), reached.end()};
+}
+
 void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>& conditions) {
   check_ends(context, conditions);
   // What an unreadable part may have used or led to is not known: no guesses on top of errors.
   if (context.diagnostics.has_errors()) return;
-  const std::set<std::string> reached = reachable_tasks(context);
+  std::vector<std::string> entries = targets_of_always(context);
+  entries.push_back(context.file.start.text);
+  const std::set<std::string> reached = reachable_tasks(context, entries);
   for (const TaskText& task : context.file.tasks) {
     if (!reached.contains(task.name.text)) {
       context.diagnostics.add(wording::unreachable_task(task.name.span, task.name.text));
     }
   }
+  for (const TaskText& task : context.file.tasks) check_hidden(context, task.exits);
+  check_hidden(context, context.file.always_exits);
   check_uses(context);
 }
 

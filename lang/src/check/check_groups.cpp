@@ -2,6 +2,7 @@
 #include <array>
 
 #include "check/context.hpp"
+#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 
 namespace zwang::lang {
@@ -26,8 +27,9 @@ class AxisCheck {
             std::optional<int> in)
       : context_(context),
         text_(text),
-        path_(group.name.text + "." + text.name.text),
-        axis_(*axis_named(text.name.text)),
+        path_(group.kind == GroupKind::feature ? group.name.text : group.name.text + "." + text.name.text),
+        axis_(axis_of(context, group, text)),
+        is_feature_(group.kind == GroupKind::feature),
         move_(move),
         in_(in) {}
 
@@ -36,9 +38,48 @@ class AxisCheck {
     check_single_driver();
     check_force_range();
     if (text_.time_constant) check_time(context_, *text_.time_constant, path_ + ".time_constant", false);
+    check_compliance();
+    if (text_.weight) check_positive(*text_.weight, turns() ? dimension::inertia : dimension::mass, "weight");
   }
 
  private:
+  /// The axis whose dimensions the statements have: of a feature any that measures alike.
+  static Axis axis_of(const CheckContext& context, const GroupText& group, const AxisText& text) {
+    if (group.kind != GroupKind::feature) return axis_named(text.name.text).value_or(Axis::x);
+    const std::optional<int> index = context.symbols.find_feature(group.feature.text);
+    return index && context.symbols.features[static_cast<std::size_t>(*index)].feature.turns ? Axis::rz
+                                                                                             : Axis::x;
+  }
+
+  bool turns() const { return is_rotation(axis_); }
+
+  void check_positive(const ValueText& value, const Dimension& expected, const char* word) {
+    const std::string what = path_ + "." + word;
+    if (!check_value(context_, value, expected, what)) return;
+    if (present_value(context_, value) <= 0.0) {
+      context_.diagnostics.add(wording::not_positive(value.span, what, false));
+    }
+  }
+
+  /// `stiffness` and `damping` make a spring of a position driver, in the place of the time constant.
+  void check_compliance() {
+    if (!text_.stiffness && !text_.damping) return;
+    const std::optional<StatementText>& position = text_[Quantity::position];
+    if (text_.stiffness) {
+      check_positive(*text_.stiffness, turns() ? dimension::angular_stiffness : dimension::stiffness,
+                     "stiffness");
+    }
+    if (text_.damping) {
+      check_positive(*text_.damping, turns() ? dimension::angular_damping : dimension::damping, "damping");
+    }
+    const Span span = (text_.stiffness ? *text_.stiffness : *text_.damping).span;
+    const bool is_spring = text_.stiffness && text_.damping && position && !position->is_range;
+    if (!is_spring) context_.diagnostics.add(wording::incomplete_spring(span, path_));
+    if (is_spring && text_.time_constant) {
+      context_.diagnostics.add(wording::spring_with_time_constant(text_.time_constant->span, path_));
+    }
+  }
+
   void check_statement(Quantity quantity) {
     const std::optional<StatementText>& statement = text_[quantity];
     if (!statement) return;
@@ -57,7 +98,8 @@ class AxisCheck {
     const bool is_here = statement->value.kind == ValueKind::here && quantity == Quantity::position;
     if (is_here) return;
     if (quantity == Quantity::position) check_position_is_measurable(*statement);
-    if (check_value(context_, statement->value, expected, what)) check_is_reachable(quantity, *statement);
+    if (check_driver_value(context_, statement->value, expected, what))
+      check_is_reachable(quantity, *statement);
   }
 
   const FrameSymbol* symbol(const std::optional<int>& frame) const {
@@ -77,7 +119,7 @@ class AxisCheck {
   void check_is_reachable(Quantity quantity, const StatementText& statement) {
     const bool is_held = axis_ == Axis::z || axis_ == Axis::rx || axis_ == Axis::ry;
     const FrameSymbol* move = symbol(move_);
-    if (!is_held || move == nullptr || move->body != 0 || !context_.robot) return;
+    if (!is_held || is_feature_ || move == nullptr || move->body != 0 || !context_.robot) return;
     if (context_.robot->model.base_type() != solver::BaseType::ground) return;
     const bool is_rest = quantity != Quantity::position && statement.value.kind == ValueKind::quantity &&
                          statement.value.quantity.value == 0.0;
@@ -121,10 +163,49 @@ class AxisCheck {
   const AxisText& text_;
   std::string path_;
   Axis axis_;
+  bool is_feature_;
   std::optional<int> move_, in_;
 };
 
+void check_inside(CheckContext& context, const GroupText& group) {
+  const std::optional<int> region = context.symbols.find_region(group.region.text);
+  if (region) {
+    context.symbols.regions[static_cast<std::size_t>(*region)].is_used = true;
+  } else if (group.region.exists()) {
+    context.diagnostics.add(
+        wording::unknown_name(group.region.span, "region", group.region.text,
+                              nearest(group.region.text, context.symbols.region_names())));
+  }
+  if (group.move.text != "footprint") {
+    const std::optional<int> move = check_frame(context, group.move);
+    if (move && context.symbols.frames[static_cast<std::size_t>(*move)].body < 0) {
+      context.diagnostics.add(wording::immovable(group.move.span, group.move.text));
+    }
+  }
+  const std::string what = group.name.text + ".margin";
+  if (group.margin && check_value(context, *group.margin, dimension::length, what) &&
+      present_value(context, *group.margin) < 0.0) {
+    context.diagnostics.add(wording::not_positive(group.margin->span, what, true));
+  }
+}
+
+void check_feature_group(CheckContext& context, const GroupText& group) {
+  const std::optional<int> feature = context.symbols.find_feature(group.feature.text);
+  if (!feature) {
+    if (group.feature.exists()) {
+      context.diagnostics.add(
+          wording::unknown_name(group.feature.span, "feature", group.feature.text,
+                                nearest(group.feature.text, context.symbols.feature_names())));
+    }
+    return;
+  }
+  context.symbols.features[static_cast<std::size_t>(*feature)].is_used = true;
+  for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, std::nullopt, std::nullopt).check();
+}
+
 void check_group(CheckContext& context, const GroupText& group) {
+  if (group.kind == GroupKind::inside) return check_inside(context, group);
+  if (group.kind == GroupKind::feature) return check_feature_group(context, group);
   std::optional<int> move = check_frame(context, group.move);
   const std::optional<int> in = check_frame(context, group.in);
   if (move && context.symbols.frames[static_cast<std::size_t>(*move)].body < 0) {
@@ -134,15 +215,65 @@ void check_group(CheckContext& context, const GroupText& group) {
   if (group.time_constant) {
     check_time(context, *group.time_constant, group.name.text + ".time_constant", false);
   }
-  if (group.axes.empty())
+  if (group.axes.empty() && !group.is_incomplete)
     context.diagnostics.add(wording::group_without_axes(group.name.span, group.name.text));
   for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, move, in).check();
 }
 
 }  // namespace
 
-void check_groups(CheckContext& context, const TaskText& task) {
-  for (const GroupText& group : task.groups) check_group(context, group);
+void check_groups(CheckContext& context, const std::vector<GroupText>& groups) {
+  for (const GroupText& group : groups) check_group(context, group);
+}
+
+namespace {
+
+/// The magnitude that a driver asks for, where it is known before the run.
+std::optional<double> asked(const CheckContext& context, const StatementText& statement) {
+  if (statement.is_range) return std::nullopt;
+  const bool is_known =
+      statement.value.kind == ValueKind::quantity || statement.value.kind == ValueKind::parameter;
+  if (!is_known) return std::nullopt;
+  return present_value(context, statement.value);
+}
+
+void compare_with_limit(CheckContext& context, const std::string& group, const AxisText& axis,
+                        Quantity quantity, const GroupText& limiting, const AxisText& limit) {
+  const std::optional<StatementText>& driver = axis[quantity];
+  const std::optional<StatementText>& range = limit[quantity];
+  if (!driver || !range || !range->is_range) return;
+  const std::optional<double> value = asked(context, *driver);
+  const double low = present_value(context, range->low);
+  const double high = present_value(context, range->high);
+  if (!value || (low <= *value && *value <= high) || low > high) return;
+  context.diagnostics.add(
+      wording::beyond_always(driver->span, group + "." + axis.name.text, written(driver->value),
+                             "always." + limiting.name.text + "." + limit.name.text,
+                             *value > high ? written(range->high) : written(range->low), range->span));
+}
+
+}  // namespace
+
+void check_against_always(CheckContext& context, const TaskText& task) {
+  if (context.diagnostics.has_errors()) return;
+  for (const GroupText& group : task.groups) {
+    for (const GroupText& limiting : context.file.always_groups) {
+      const bool is_same = group.kind == GroupKind::axes && limiting.kind == GroupKind::axes &&
+                           group.move.text == limiting.move.text && group.in.text == limiting.in.text;
+      if (!is_same) continue;
+      for (const AxisText& axis : group.axes) {
+        for (const AxisText& limit : limiting.axes) {
+          const bool is_limited = axis.name.text == limit.name.text ||
+                                  (limit.is_speed() && (axis.name.text == "x" || axis.name.text == "y"));
+          if (!is_limited) continue;
+          for (const solver::Quantity quantity :
+               {solver::Quantity::velocity, solver::Quantity::acceleration, solver::Quantity::force}) {
+            compare_with_limit(context, group.name.text, axis, quantity, limiting, limit);
+          }
+        }
+      }
+    }
+  }
 }
 
 }  // namespace zwang::lang

@@ -151,6 +151,10 @@ class FrameOrder {
     symbol.declaration.name = frame.name.text;
     symbol.declaration.span = frame.span;
     symbol.declaration.pose = pose_of(frame);
+    if (hangs_on_signal(frame, symbol)) {
+      context_.symbols.frames.push_back(std::move(symbol));
+      return;
+    }
     const std::optional<int> parent = check_frame(context_, frame.parent);
     symbol.is_bad = !parent;
     if (parent) {
@@ -159,6 +163,24 @@ class FrameOrder {
       symbol.declaration.parent_index = *parent == 0 ? -1 : *parent;
     }
     context_.symbols.frames.push_back(std::move(symbol));
+  }
+
+  /// A pose signal is a place in the world that moves when a new sample comes.
+  bool hangs_on_signal(const FrameText& frame, FrameSymbol& symbol) {
+    if (context_.symbols.find_frame(frame.parent.text)) return false;
+    const std::optional<int> index = context_.symbols.find_signal(frame.parent.text);
+    if (!index) return false;
+    SignalSymbol& signal = context_.symbols.signals[static_cast<std::size_t>(*index)];
+    signal.is_used = true;
+    symbol.is_bad = signal.is_bad;
+    if (!signal.is_bad && signal.signal.type != SignalType::pose) {
+      context_.diagnostics.add(
+          wording::not_a_pose_signal(frame.parent.span, frame.parent.text, signal.signal.span));
+      symbol.is_bad = true;
+    }
+    symbol.declaration.parent = FrameParent::signal;
+    symbol.declaration.parent_index = *index;
+    return true;
   }
 
   void report_loops() {

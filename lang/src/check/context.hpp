@@ -26,13 +26,29 @@ void check_time(CheckContext& context, const ValueText& value, const std::string
 std::optional<int> check_frame(CheckContext& context, const Word& name);
 
 void check_parameters(CheckContext& context);
+/// Names of signals; what they are seen from is asked in `check_world`, once the frames are known.
+void declare_signals(CheckContext& context);
 void check_frames(CheckContext& context);
-void check_groups(CheckContext& context, const TaskText& task);
+/// Signals, regions and features: what they refer to.
+void check_world(CheckContext& context);
+void check_groups(CheckContext& context, const std::vector<GroupText>& groups);
+/// W402: what a task's drivers ask for and `always` does not allow.
+void check_against_always(CheckContext& context, const TaskText& task);
+/// E506: `release` must lie on the far side of a single comparison's threshold.
+void check_release(CheckContext& context, const ExitText& exit, const Condition& condition,
+                   const Dimension& compared);
+/// E505: a condition that the signs of its parts alone decide.
+void check_is_open(CheckContext& context, const Condition& condition);
 void check_sets(CheckContext& context, const std::vector<SetText>& sets);
-/// nullopt on an error.
+/// nullopt on an error. `compared` takes what the two sides of a single comparison measure.
 std::optional<Condition> check_condition(CheckContext& context, const ConditionText& text,
-                                         const std::vector<GroupText>& groups);
+                                         const std::vector<GroupText>& groups, Dimension* compared = nullptr);
+/// As `check_value`, where a number signal may drive as well.
+bool check_driver_value(CheckContext& context, const ValueText& value, const Dimension& expected,
+                        const std::string& what);
 /// Unreachable tasks, tasks without an end, names without a use.
 void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>& conditions);
+/// Tasks that `always` interrupts to, and those that these lead to: where `back` means something.
+std::vector<std::string> interrupting_tasks(const CheckContext& context);
 
 }  // namespace zwang::lang

@@ -4,6 +4,53 @@
 
 namespace zwang::lang {
 
+namespace {
+
+template <typename Items, typename Name>
+std::optional<int> index_of(const Items& items, const std::string& name, const Name& name_of) {
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (name_of(items[i]) == name) return static_cast<int>(i);
+  }
+  return std::nullopt;
+}
+
+template <typename Items, typename Name>
+std::vector<std::string> names_of(const Items& items, const Name& name_of) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(name_of(item));
+  return names;
+}
+
+const auto signal_name = [](const SignalSymbol& s) { return s.signal.name; };
+const auto feature_name = [](const FeatureSymbol& s) { return s.feature.name; };
+const auto region_name = [](const RegionSymbol& s) { return s.region.name; };
+
+}  // namespace
+
+std::optional<int> Symbols::find_signal(const std::string& name) const {
+  return index_of(signals, name, signal_name);
+}
+
+std::optional<int> Symbols::find_feature(const std::string& name) const {
+  return index_of(features, name, feature_name);
+}
+
+std::optional<int> Symbols::find_region(const std::string& name) const {
+  return index_of(regions, name, region_name);
+}
+
+std::vector<std::string> Symbols::signal_names() const {
+  return names_of(signals, signal_name);
+}
+
+std::vector<std::string> Symbols::feature_names() const {
+  return names_of(features, feature_name);
+}
+
+std::vector<std::string> Symbols::region_names() const {
+  return names_of(regions, region_name);
+}
+
 ParameterSymbol* Symbols::find_parameter(const std::string& name) {
   for (ParameterSymbol& symbol : parameters) {
     if (symbol.parameter.name == name) return &symbol;

@@ -25,15 +25,43 @@ struct FrameSymbol {
   bool is_used = false;
 };
 
+struct SignalSymbol {
+  Signal signal;
+  Dimension dimension;  ///< of a number
+  bool is_bad = false;
+  bool is_used = false;
+};
+
+struct FeatureSymbol {
+  Feature feature;
+  bool is_bad = false;
+  bool is_used = false;
+};
+
+struct RegionSymbol {
+  Region region;
+  bool is_bad = false;
+  bool is_used = false;
+};
+
 struct Symbols {
   std::vector<ParameterSymbol> parameters;
   std::vector<FrameSymbol> frames;  ///< in the order of Program::frames
+  std::vector<SignalSymbol> signals;
+  std::vector<FeatureSymbol> features;
+  std::vector<RegionSymbol> regions;
   std::vector<std::string> tasks;
   bool has_robot = true;  ///< false: its frames are unknown, so no name can be called unknown
 
   ParameterSymbol* find_parameter(const std::string& name);
   std::optional<int> find_frame(const std::string& name) const;
   std::optional<int> find_task(const std::string& name) const;
+  std::optional<int> find_signal(const std::string& name) const;
+  std::optional<int> find_feature(const std::string& name) const;
+  std::optional<int> find_region(const std::string& name) const;
+  std::vector<std::string> signal_names() const;
+  std::vector<std::string> feature_names() const;
+  std::vector<std::string> region_names() const;
   std::vector<std::string> parameter_names() const;
   std::vector<std::string> frame_names() const;
 };

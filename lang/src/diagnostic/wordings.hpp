@@ -110,6 +110,24 @@ Diagnostic frame_loop(const Span& span, const std::vector<std::string>& names);
 Diagnostic name_taken(const Span& span, const std::string& name, const std::string& owner);
 Diagnostic not_settable(const Span& span, const std::string& name);
 
+Diagnostic template_recursion(const Span& span, const std::string& name);
+Diagnostic extra_argument(const Span& span, const std::string& name, const std::string& argument,
+                          const std::string& meant);
+Diagnostic missing_template_argument(const Span& span, const std::string& name, const std::string& argument);
+Diagnostic wrong_argument(const Span& span, const std::string& argument, const std::string& expected);
+Diagnostic not_a_number_signal(const Span& span, const std::string& name, const Span& declared);
+Diagnostic not_a_pose_signal(const Span& span, const std::string& name, const Span& declared);
+Diagnostic incomparable_signal(const Span& span, const std::string& name);
+Diagnostic unit_without_number(const Span& span, const std::string& name);
+
+// --- Regions and features: E104, E410 to E412 (meaning.cpp) ---
+Diagnostic one_region_shape(const Span& span, const std::string& what);
+Diagnostic flat_region(const Span& span, const std::string& what);
+Diagnostic one_feature_kind(const Span& span, const std::string& what);
+Diagnostic not_an_axis_of_a_frame(const Span& span, const std::string& text);
+Diagnostic feature_without_direction(const Span& span, const std::string& what);
+Diagnostic rigid_feature(const Span& span, const std::string& name);
+
 // --- Constraints: E401 to E409 (meaning.cpp) ---
 Diagnostic driven_twice(const Span& span, const std::string& axis, const std::string& first,
                         const std::string& second, const Span& first_span);
@@ -118,6 +136,10 @@ Diagnostic held_axis(const Span& span, const std::string& axis);
 Diagnostic position_in_own_axes(const Span& span, const std::string& axis, const std::string& in,
                                 const std::string& move);
 Diagnostic force_range_without_zero(const Span& span, const std::string& axis);
+Diagnostic beyond_always(const Span& span, const std::string& axis, const std::string& asked,
+                         const std::string& limiting, const std::string& allowed, const Span& limit);
+Diagnostic incomplete_spring(const Span& span, const std::string& axis);
+Diagnostic spring_with_time_constant(const Span& span, const std::string& axis);
 Diagnostic immovable(const Span& span, const std::string& frame);
 Diagnostic group_without_axes(const Span& span, const std::string& group);
 
@@ -125,6 +147,11 @@ Diagnostic group_without_axes(const Span& span, const std::string& group);
 Diagnostic measured_without_for(const Span& span);
 Diagnostic unreachable_task(const Span& span, const std::string& task);
 Diagnostic endless_task(const Span& span, const std::string& task);
+Diagnostic signal_without_age(const Span& span, const std::string& name);
+Diagnostic decided_condition(const Span& span, bool is_always);
+Diagnostic release_without_threshold(const Span& span);
+Diagnostic release_on_wrong_side(const Span& span, bool is_below);
+Diagnostic hidden_exit(const Span& span, const Span& first);
 Diagnostic back_without_interruption(const Span& span);
 
 // --- Robot files and URDFs: E801 to E860; scenes: E901 (robot.cpp) ---

@@ -137,6 +137,87 @@ Diagnostic not_settable(const Span& span, const std::string& name) {
                "declare a frame of your own under `frames:`");
 }
 
+Diagnostic template_recursion(const Span& span, const std::string& name) {
+  return error("E303", span, "template `" + name + "` uses itself");
+}
+
+Diagnostic extra_argument(const Span& span, const std::string& name, const std::string& argument,
+                          const std::string& meant) {
+  return with_suggestion(
+      error("E303", span, "template `" + name + "` takes no argument " + in_ticks(argument)), meant);
+}
+
+Diagnostic missing_template_argument(const Span& span, const std::string& name, const std::string& argument) {
+  return error("E303", span, "template `" + name + "` needs the argument `" + argument + "`",
+               "add it under `with:`");
+}
+
+Diagnostic wrong_argument(const Span& span, const std::string& argument, const std::string& expected) {
+  return error("E303", span, "argument `" + argument + "` must be " + expected);
+}
+
+Diagnostic not_a_number_signal(const Span& span, const std::string& name, const Span& declared) {
+  return with_related(error("E202", span, "signal `" + name + "` is not a number: it cannot drive"), declared,
+                      "`" + name + "` is declared here");
+}
+
+Diagnostic not_a_pose_signal(const Span& span, const std::string& name, const Span& declared) {
+  return with_related(error("E202", span, "signal `" + name + "` is not a pose: no frame can hang on it"),
+                      declared, "`" + name + "` is declared here");
+}
+
+Diagnostic incomparable_signal(const Span& span, const std::string& name) {
+  return error("E205", span, "signal `" + name + "` is a pose or a wrench: it has no single value",
+               "hang a frame on a pose, and measure that");
+}
+
+Diagnostic unit_without_number(const Span& span, const std::string& name) {
+  return error("E104", span, "signal `" + name + "` has a unit, but is no number");
+}
+
+Diagnostic one_region_shape(const Span& span, const std::string& what) {
+  return error("E104", span, what + " needs a `polygon` or a `circle`");
+}
+
+Diagnostic flat_region(const Span& span, const std::string& what) {
+  return error("E410", span, "the polygon of " + what + " encloses no area",
+               "give three corners or more, in order");
+}
+
+Diagnostic one_feature_kind(const Span& span, const std::string& what) {
+  return error("E104", span, what + " needs exactly one of `distance`, `angle`, `direction`");
+}
+
+Diagnostic not_an_axis_of_a_frame(const Span& span, const std::string& text) {
+  return error("E105", span, in_ticks(text) + " is not an axis of a frame", "for example `base_link.x`");
+}
+
+Diagnostic feature_without_direction(const Span& span, const std::string& what) {
+  return error("E411", span, what + " points nowhere",
+               "give at least one of x, y, z, rx, ry, rz a coefficient");
+}
+
+Diagnostic rigid_feature(const Span& span, const std::string& name) {
+  return error("E412", span, "feature `" + name + "` never changes: one link carries both of its frames");
+}
+
+Diagnostic beyond_always(const Span& span, const std::string& axis, const std::string& asked,
+                         const std::string& limiting, const std::string& allowed, const Span& limit) {
+  return with_related(
+      warning("W402", span,
+              axis + " asks for " + trimmed(asked) + ", " + limiting + " allows " + trimmed(allowed)),
+      limit, "the limit stands here");
+}
+
+Diagnostic incomplete_spring(const Span& span, const std::string& axis) {
+  return error("E104", span, "a spring on `" + axis + "` needs `position`, `stiffness` and `damping`");
+}
+
+Diagnostic spring_with_time_constant(const Span& span, const std::string& axis) {
+  return error("E104", span, "`" + axis + "` gives a time constant beside stiffness and damping",
+               "keep one of the two ways");
+}
+
 Diagnostic driven_twice(const Span& span, const std::string& axis, const std::string& first,
                         const std::string& second, const Span& first_span) {
   return with_related(
@@ -189,6 +270,33 @@ Diagnostic unreachable_task(const Span& span, const std::string& task) {
 Diagnostic endless_task(const Span& span, const std::string& task) {
   return warning("W503", span, "task `" + task + "` can run forever: no `timeout` and no exit on `elapsed`",
                  "add `timeout: {after: .., goto: ..}`, or `timeout: never`");
+}
+
+Diagnostic signal_without_age(const Span& span, const std::string& name) {
+  return error("E504", span,
+               "signal `" + name + "` does not say `stale_after`: a dead sensor would look like a quiet one",
+               "for example `stale_after: 200 ms`");
+}
+
+Diagnostic decided_condition(const Span& span, bool is_always) {
+  return error("E505", span,
+               is_always ? "this condition is always true" : "this condition can never be true");
+}
+
+Diagnostic release_without_threshold(const Span& span) {
+  return error("E506", span, "`release` needs a single comparison with a fixed value",
+               "for example `when: nearest < 0.8 m`, `release: 1.2 m`");
+}
+
+Diagnostic release_on_wrong_side(const Span& span, bool is_below) {
+  return error("E506", span,
+               std::string("`release` must lie ") + (is_below ? "above" : "below") +
+                   " the threshold: the condition could never stay true");
+}
+
+Diagnostic hidden_exit(const Span& span, const Span& first) {
+  return with_related(warning("W507", span, "an earlier exit always fires first"), first,
+                      "it has the same condition");
 }
 
 Diagnostic back_without_interruption(const Span& span) {

@@ -18,8 +18,23 @@ class Lowering {
       program.parameters.push_back(symbol.parameter);
     }
     for (const FrameSymbol& symbol : checked_.symbols.frames) program.frames.push_back(symbol.declaration);
+    for (const SignalSymbol& symbol : checked_.symbols.signals) program.signals.push_back(symbol.signal);
+    for (std::size_t i = 0; i < checked_.file.signals.size(); ++i) {
+      const std::optional<ValueText>& age = checked_.file.signals[i].stale_after;
+      if (age) program.signals[i].stale_after = value(*age);
+    }
+    for (const RegionSymbol& symbol : checked_.symbols.regions) program.regions.push_back(symbol.region);
+    for (const FeatureSymbol& symbol : checked_.symbols.features) program.features.push_back(symbol.feature);
+    for (const GroupText& group : checked_.file.always_groups) {
+      program.always.groups.push_back(lower_group(group, 0));
+    }
+    for (std::size_t i = 0; i < checked_.file.always_exits.size(); ++i) {
+      program.always.exits.push_back(
+          lower_exit(checked_.file.always_exits[i], checked_.always_conditions[i]));
+    }
     for (std::size_t i = 0; i < checked_.file.tasks.size(); ++i) {
       program.tasks.push_back(lower_task(checked_.file.tasks[i], checked_.conditions[i]));
+      program.tasks.back().require = checked_.requirements[i];
     }
     program.start = *checked_.symbols.find_task(checked_.file.start.text);
     program.robot = std::move(checked_.robot);
@@ -29,6 +44,11 @@ class Lowering {
 
  private:
   Value value(const ValueText& text) {
+    if (text.kind == ValueKind::name) {
+      Value result;
+      result.signal = *checked_.symbols.find_signal(text.name);
+      return result;
+    }
     if (text.kind != ValueKind::parameter) return {.constant = text.quantity.value};
     const ParameterSymbol* symbol = checked_.symbols.find_parameter(text.name);
     const auto index = symbol - checked_.symbols.parameters.data();
@@ -42,10 +62,12 @@ class Lowering {
     return {TargetKind::task, *checked_.symbols.find_task(word.text)};
   }
 
-  AxisStatements lower_axis(const AxisText& text, const GroupText& group) {
+  AxisStatements lower_axis(const AxisText& text, const GroupText& group, int level) {
     AxisStatements axis;
-    axis.name = group.name.text + "." + text.name.text;
-    axis.axis = *axis_named(text.name.text);
+    const bool is_feature = group.kind == GroupKind::feature;
+    axis.name = is_feature ? group.name.text : group.name.text + "." + text.name.text;
+    axis.axis = axis_named(text.name.text).value_or(solver::Axis::x);
+    axis.is_planar_speed = !is_feature && text.is_speed();
     axis.span = text.name.span;
     const std::array ranges{&axis.position, &axis.velocity, &axis.acceleration, &axis.force};
     for (const Quantity quantity :
@@ -65,17 +87,38 @@ class Lowering {
     const std::optional<ValueText>& time_constant =
         text.time_constant ? text.time_constant : group.time_constant;
     if (time_constant) axis.time_constant = value(*time_constant);
-    axis.level = text.level.value_or(group.level.value_or(1));
+    if (text.stiffness) axis.stiffness = value(*text.stiffness);
+    if (text.damping) axis.damping = value(*text.damping);
+    const std::optional<ValueText>& weight = text.weight ? text.weight : group.weight;
+    if (weight) axis.weight = value(*weight);
+    axis.level = text.level.value_or(group.level.value_or(level));
     return axis;
   }
 
-  Group lower_group(const GroupText& text) {
+  /// `level` is where rows stand that say nothing of it.
+  Group lower_group(const GroupText& text, int level) {
     Group group;
     group.name = text.name.text;
-    group.move = *checked_.symbols.find_frame(text.move.text);
-    group.in = *checked_.symbols.find_frame(text.in.text);
     group.span = text.name.span;
-    for (const AxisText& axis : text.axes) group.axes.push_back(lower_axis(axis, text));
+    group.kind = text.kind;
+    group.level = text.level.value_or(level);
+    switch (text.kind) {
+      case GroupKind::axes:
+        group.move = *checked_.symbols.find_frame(text.move.text);
+        group.in = *checked_.symbols.find_frame(text.in.text);
+        break;
+      case GroupKind::inside:
+        group.region = *checked_.symbols.find_region(text.region.text);
+        group.moves_footprint = text.move.text == "footprint";
+        group.move =
+            *checked_.symbols.find_frame(group.moves_footprint ? checked_.robot.base_frame : text.move.text);
+        if (text.margin) group.margin = value(*text.margin);
+        break;
+      case GroupKind::feature:
+        group.feature = *checked_.symbols.find_feature(text.feature.text);
+        break;
+    }
+    for (const AxisText& axis : text.axes) group.axes.push_back(lower_axis(axis, text, level));
     return group;
   }
 
@@ -93,7 +136,7 @@ class Lowering {
         set.index = static_cast<int>(symbol - checked_.symbols.parameters.data());
         set.value = value(text.value);
       }
-      sets.push_back(std::move(set));
+      sets.push_back(set);
     }
     return sets;
   }
@@ -102,6 +145,7 @@ class Lowering {
     Exit exit;
     exit.when = condition;
     if (text.dwell) exit.dwell = value(*text.dwell);
+    if (text.release) exit.release = value(*text.release);
     exit.target = target(text.target);
     exit.set = lower_sets(text.set);
     exit.note = text.note;
@@ -116,9 +160,12 @@ class Lowering {
     task.span = text.name.span;
     if (text.blend) task.blend = value(*text.blend);
     task.set_on_entry = lower_sets(text.set_on_entry);
-    for (const GroupText& group : text.groups) task.groups.push_back(lower_group(group));
+    for (const GroupText& group : text.groups) task.groups.push_back(lower_group(group, 1));
     for (std::size_t i = 0; i < text.exits.size(); ++i) {
       task.exits.push_back(lower_exit(text.exits[i], conditions[i]));
+    }
+    if (text.attempts) {
+      task.attempts = Attempts{text.attempts->most, target(text.attempts->target), text.attempts->span};
     }
     if (text.timeout && !text.timeout->is_never) {
       task.timeout = Timeout{value(text.timeout->after), target(text.timeout->target), text.timeout->span};

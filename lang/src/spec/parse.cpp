@@ -2,6 +2,7 @@
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
 #include "spec/task_file.hpp"
+#include "spec/templates.hpp"
 
 namespace zwang::lang {
 
@@ -38,7 +39,7 @@ FrameText parse_frame(const Entry& entry, Diagnostics& diagnostics) {
   return frame;
 }
 
-void parse_tasks(const Node& node, TaskFile& file, Diagnostics& diagnostics) {
+void parse_tasks(const Node& node, Templates& templates, TaskFile& file, Diagnostics& diagnostics) {
   if (!require_mapping(node, "`tasks`", diagnostics)) return;
   if (node.entries.empty()) diagnostics.add(wording::no_tasks(node.span));
   if (node.entries.size() > most_tasks) {
@@ -46,8 +47,20 @@ void parse_tasks(const Node& node, TaskFile& file, Diagnostics& diagnostics) {
     return;
   }
   for (const Entry& entry : node.entries) {
-    if (!entry.key.is_bad) file.tasks.push_back(parse_task(entry, diagnostics));
+    if (entry.key.is_bad) continue;
+    Node unreadable;
+    unreadable.is_bad = true;
+    file.tasks.push_back(parse_task(entry, templates.expand(entry.value).value_or(unreadable), diagnostics));
   }
+}
+
+void parse_always(const Node& node, TaskFile& file, Diagnostics& diagnostics) {
+  MapReader map(node, "`always`", diagnostics);
+  if (const Node* groups = map.optional("constraints")) {
+    file.always_groups = parse_groups(*groups, 0, diagnostics);
+  }
+  if (const Node* exits = map.optional("exits")) file.always_exits = parse_exits(*exits, diagnostics);
+  map.finish();
 }
 
 }  // namespace
@@ -128,8 +141,15 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   };
   each("params", [&](const Entry& e) { file.parameters.push_back(parse_parameter(e, diagnostics)); });
   each("frames", [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
+  if (const Node* node = map.optional("regions")) file.regions = parse_regions(*node, diagnostics);
+  if (const Node* node = map.optional("signals")) file.signals = parse_signals(*node, diagnostics);
+  if (const Node* node = map.optional("features")) file.features = parse_features(*node, diagnostics);
+  Templates templates(diagnostics);
+  if (const Node* node = map.optional("templates")) templates.declare(*node);
+  if (const Node* node = map.optional("always")) parse_always(*node, file, diagnostics);
   if (const Node* start = map.required("start")) file.start = parse_word(*start, "`start`", diagnostics);
-  if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, file, diagnostics);
+  if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, templates, file, diagnostics);
+  if (!diagnostics.has_errors()) templates.report_unused();
   map.finish();
   return file;
 }

@@ -9,7 +9,41 @@ namespace {
 
 using solver::Quantity;
 
-AxisText parse_axis(const Entry& entry, const std::string& group, Diagnostics& diagnostics) {
+/// What a group or an axis may say besides its statements.
+void parse_manner(MapReader& map, const std::string& path, std::optional<ValueText>& time_constant,
+                  std::optional<ValueText>& weight, std::optional<int>& level, int lowest_level,
+                  Diagnostics& diagnostics) {
+  if (const Node* node = map.optional("time_constant")) {
+    time_constant = parse_value(*node, path + ".time_constant", diagnostics);
+  }
+  if (const Node* node = map.optional("weight")) weight = parse_value(*node, path + ".weight", diagnostics);
+  if (const Node* node = map.optional("level")) {
+    level = parse_integer(*node, path + ".level", lowest_level, 9, diagnostics);
+  }
+}
+
+void parse_statements(MapReader& map, const std::string& path, AxisText& axis, int lowest_level,
+                      Diagnostics& diagnostics) {
+  for (const Quantity quantity :
+       {Quantity::position, Quantity::velocity, Quantity::acceleration, Quantity::force}) {
+    const std::string word = word_of(quantity);
+    const Node* node = map.optional(word);
+    if (node == nullptr) continue;
+    StatementText statement = parse_statement(*node, path + "." + word, diagnostics);
+    statement.key_span = map.node().find(word)->key.span;
+    axis.statements[static_cast<std::size_t>(quantity)] = std::move(statement);
+  }
+  parse_manner(map, path, axis.time_constant, axis.weight, axis.level, lowest_level, diagnostics);
+  if (const Node* node = map.optional("stiffness")) {
+    axis.stiffness = parse_value(*node, path + ".stiffness", diagnostics);
+  }
+  if (const Node* node = map.optional("damping")) {
+    axis.damping = parse_value(*node, path + ".damping", diagnostics);
+  }
+}
+
+AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_level,
+                    Diagnostics& diagnostics) {
   AxisText axis;
   axis.name = {entry.key.text, entry.key.span};
   const std::string path = group + "." + entry.key.text;
@@ -19,40 +53,50 @@ AxisText parse_axis(const Entry& entry, const std::string& group, Diagnostics& d
     return axis;
   }
   MapReader map(entry.value, "axis `" + path + "`", diagnostics);
-  for (const Quantity quantity :
-       {Quantity::position, Quantity::velocity, Quantity::acceleration, Quantity::force}) {
-    const std::string word = word_of(quantity);
-    const Node* node = map.optional(word);
-    if (node == nullptr) continue;
-    StatementText statement = parse_statement(*node, path + "." + word, diagnostics);
-    statement.key_span = entry.value.find(word)->key.span;
-    axis.statements[static_cast<std::size_t>(quantity)] = std::move(statement);
-  }
-  if (const Node* node = map.optional("time_constant")) {
-    axis.time_constant = parse_value(*node, path + ".time_constant", diagnostics);
-  }
-  if (const Node* node = map.optional("level")) {
-    axis.level = parse_integer(*node, path + ".level", 0, 9, diagnostics);
+  if (axis.is_speed()) {
+    if (const Node* node = map.required("velocity")) {
+      StatementText range = parse_range(*node, path + ".velocity", diagnostics);
+      range.key_span = entry.value.find("velocity")->key.span;
+      axis.statements[static_cast<std::size_t>(Quantity::velocity)] = std::move(range);
+    }
+    parse_manner(map, path, axis.time_constant, axis.weight, axis.level, lowest_level, diagnostics);
+  } else {
+    parse_statements(map, path, axis, lowest_level, diagnostics);
   }
   map.finish();
   return axis;
 }
 
-GroupText parse_group(const Entry& entry, Diagnostics& diagnostics) {
+GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnostics) {
   GroupText group;
   group.name = parse_name(entry.key, "a group's name", diagnostics);
-  MapReader map(entry.value, "constraint group `" + entry.key.text + "`", diagnostics);
-  if (const Node* node = map.required("move")) group.move = parse_word(*node, "`move`", diagnostics);
-  if (const Node* node = map.required("in")) group.in = parse_word(*node, "`in`", diagnostics);
-  if (const Node* node = map.optional("time_constant")) {
-    group.time_constant = parse_value(*node, entry.key.text + ".time_constant", diagnostics);
-  }
-  if (const Node* node = map.optional("level")) {
-    group.level = parse_integer(*node, entry.key.text + ".level", 0, 9, diagnostics);
-  }
-  for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) {
-    if (map.optional(name) == nullptr) continue;
-    group.axes.push_back(parse_axis(*entry.value.find(name), entry.key.text, diagnostics));
+  const std::string& path = entry.key.text;
+  MapReader map(entry.value, "constraint group `" + path + "`", diagnostics);
+  if (entry.value.find("feature") != nullptr) {
+    group.kind = GroupKind::feature;
+    group.feature = parse_word(*map.required("feature"), "`feature`", diagnostics);
+    AxisText axis;
+    axis.name = {path, entry.key.span};
+    parse_statements(map, path, axis, lowest_level, diagnostics);
+    group.axes.push_back(std::move(axis));
+  } else if (entry.value.find("inside") != nullptr) {
+    group.kind = GroupKind::inside;
+    group.region = parse_word(*map.required("inside"), "`inside`", diagnostics);
+    if (const Node* node = map.required("move")) group.move = parse_word(*node, "`move`", diagnostics);
+    if (const Node* node = map.optional("margin")) {
+      group.margin = parse_value(*node, path + ".margin", diagnostics);
+    }
+    if (const Node* node = map.optional("level")) {
+      group.level = parse_integer(*node, path + ".level", lowest_level, 9, diagnostics);
+    }
+  } else {
+    if (const Node* node = map.required("move")) group.move = parse_word(*node, "`move`", diagnostics);
+    if (const Node* node = map.required("in")) group.in = parse_word(*node, "`in`", diagnostics);
+    parse_manner(map, path, group.time_constant, group.weight, group.level, lowest_level, diagnostics);
+    for (const char* name : {"x", "y", "z", "rx", "ry", "rz", "speed"}) {
+      if (map.optional(name) == nullptr) continue;
+      group.axes.push_back(parse_axis(*entry.value.find(name), path, lowest_level, diagnostics));
+    }
   }
   group.is_incomplete = map.has_unread_keys();
   map.finish();
@@ -92,12 +136,14 @@ ExitText parse_exit(const Node& node, Diagnostics& diagnostics) {
   MapReader map(node, "an exit", diagnostics);
   const Node* when = map.required("when");
   const Node* dwell = map.optional("for");
+  const Node* release = map.optional("release");
   const Node* target = map.required("goto");
   const Node* set = map.optional("set");
   const Node* note = map.optional("note");
   const bool is_split = map.report_split_condition();
   if (when != nullptr && !is_split) exit.when = parse_condition(*when, diagnostics);
   if (dwell != nullptr) exit.dwell = parse_value(*dwell, "`for`", diagnostics);
+  if (release != nullptr) exit.release = parse_value(*release, "`release`", diagnostics);
   if (target != nullptr) exit.target = parse_word(*target, "`goto`", diagnostics);
   if (set != nullptr) exit.set = parse_sets(*set, diagnostics);
   if (note != nullptr) exit.note = note->text;
@@ -127,6 +173,7 @@ TimeoutText parse_timeout(const Node& node, Diagnostics& diagnostics) {
 
 void parse_enter(const Node& node, TaskText& task, Diagnostics& diagnostics) {
   MapReader map(node, "`enter`", diagnostics);
+  if (const Node* require = map.optional("require")) task.require = parse_condition(*require, diagnostics);
   if (const Node* blend = map.optional("blend")) {
     task.blend = parse_value(*blend, "enter.blend", diagnostics);
   }
@@ -136,7 +183,7 @@ void parse_enter(const Node& node, TaskText& task, Diagnostics& diagnostics) {
 
 }  // namespace
 
-std::vector<GroupText> parse_groups(const Node& node, Diagnostics& diagnostics) {
+std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnostics& diagnostics) {
   std::vector<GroupText> groups;
   if (!require_mapping(node, "`constraints`", diagnostics)) return groups;
   if (node.entries.size() > most_groups) {
@@ -144,7 +191,7 @@ std::vector<GroupText> parse_groups(const Node& node, Diagnostics& diagnostics) 
     return groups;
   }
   for (const Entry& entry : node.entries) {
-    if (!entry.key.is_bad) groups.push_back(parse_group(entry, diagnostics));
+    if (!entry.key.is_bad) groups.push_back(parse_group(entry, lowest_level, diagnostics));
   }
   return groups;
 }
@@ -156,19 +203,33 @@ std::vector<ExitText> parse_exits(const Node& node, Diagnostics& diagnostics) {
   return exits;
 }
 
-TaskText parse_task(const Entry& entry, Diagnostics& diagnostics) {
+TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnostics) {
   TaskText task;
   task.name = parse_name(entry.key, "a task's name", diagnostics);
   const std::string& name = task.name.text;
   if (name == "done" || name == "failed" || name == "back") {
     diagnostics.add(wording::reserved_name(entry.key.span, name));
   }
-  MapReader map(entry.value, "task `" + entry.key.text + "`", diagnostics);
+  MapReader map(body, "task `" + entry.key.text + "`", diagnostics);
+  task.is_bad = !map.is_mapping();
   if (const Node* node = map.optional("about")) task.about = node->text;
   if (const Node* node = map.optional("enter")) parse_enter(*node, task, diagnostics);
-  if (const Node* node = map.optional("constraints")) task.groups = parse_groups(*node, diagnostics);
+  if (const Node* node = map.optional("constraints")) task.groups = parse_groups(*node, 1, diagnostics);
   if (const Node* node = map.optional("exits")) task.exits = parse_exits(*node, diagnostics);
   if (const Node* node = map.optional("timeout")) task.timeout = parse_timeout(*node, diagnostics);
+  if (const Node* node = map.optional("attempts")) {
+    MapReader attempts(*node, "`attempts`", diagnostics);
+    AttemptsText text;
+    text.span = node->span;
+    if (const Node* most = attempts.required("max")) {
+      text.most = parse_integer(*most, "attempts.max", 1, 1000000, diagnostics).value_or(1);
+    }
+    if (const Node* target = attempts.required("goto")) {
+      text.target = parse_word(*target, "`goto`", diagnostics);
+    }
+    attempts.finish();
+    task.attempts = std::move(text);
+  }
   map.finish();
   return task;
 }

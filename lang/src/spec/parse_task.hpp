@@ -6,11 +6,15 @@
 
 namespace zwang::lang {
 
-TaskText parse_task(const Entry& entry, Diagnostics& diagnostics);
+/// `body` is what the task says: the entry's own value, or a template's body put in its place.
+TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnostics);
 /// `{name: group, ..}`
-std::vector<GroupText> parse_groups(const Node& node, Diagnostics& diagnostics);
+std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnostics& diagnostics);
 /// `[exit, ..]`
 std::vector<ExitText> parse_exits(const Node& node, Diagnostics& diagnostics);
+std::vector<SignalText> parse_signals(const Node& node, Diagnostics& diagnostics);
+std::vector<RegionText> parse_regions(const Node& node, Diagnostics& diagnostics);
+std::vector<FeatureText> parse_features(const Node& node, Diagnostics& diagnostics);
 /// `at`, and `yaw` or `rpy`; empty where not given. [m, rad]
 void parse_pose(MapReader& map, std::vector<double>& at, std::vector<double>& rpy, Diagnostics& diagnostics);
 

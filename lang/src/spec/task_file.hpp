@@ -9,6 +9,7 @@
 #include "spec/expression.hpp"
 #include "spec/value.hpp"
 #include "tree/read.hpp"
+#include "zwang/lang/program.hpp"
 #include "zwang/solver/constraint.hpp"
 
 namespace zwang::lang {
@@ -31,13 +32,41 @@ struct FrameText {
   Span span;
 };
 
+struct SignalText {
+  Word name;
+  Word type;
+  std::optional<Unit> unit;  ///< of a number
+  Word in;
+  std::optional<ValueText> stale_after;
+  bool is_bad = false;
+};
+
+struct RegionText {
+  Word name;
+  Word parent;                                 ///< empty: the world
+  std::vector<std::array<double, 2>> polygon;  ///< [m]
+  std::array<double, 2> centre{};              ///< [m]
+  double radius = 0.0;                         ///< [m]
+};
+
+/// A frame, or one of its axes: `hook`, `hook.x`.
+struct FeatureText {
+  Word name;
+  FeatureKind kind = FeatureKind::distance;
+  Word first, second;
+  std::optional<solver::Axis> first_axis, second_axis;
+  std::array<double, 6> direction{};
+  bool is_bad = false;
+};
+
 struct AxisText {
-  Word name;  ///< x, y, z, rx, ry, rz
+  Word name;  ///< x, y, z, rx, ry, rz, speed; of a feature the group's name
   bool is_free = false;
   std::array<std::optional<StatementText>, 4> statements;  ///< by solver::Quantity
-  std::optional<ValueText> time_constant;
+  std::optional<ValueText> time_constant, stiffness, damping, weight;
   std::optional<int> level;
 
+  bool is_speed() const { return name.text == "speed"; }
   const std::optional<StatementText>& operator[](solver::Quantity q) const {
     return statements[static_cast<std::size_t>(q)];
   }
@@ -45,10 +74,13 @@ struct AxisText {
 
 struct GroupText {
   Word name;
+  GroupKind kind = GroupKind::axes;
   Word move;
   Word in;
+  Word region;   ///< of `inside`
+  Word feature;  ///< of a feature group
   std::vector<AxisText> axes;
-  std::optional<ValueText> time_constant;
+  std::optional<ValueText> time_constant, weight, margin;
   std::optional<int> level;
   bool is_incomplete = false;  ///< a key could not be read: what the group lacks may have been there
 };
@@ -66,6 +98,7 @@ struct SetText {
 struct ExitText {
   ConditionText when;
   std::optional<ValueText> dwell;  ///< `for`
+  std::optional<ValueText> release;
   Word target;
   std::vector<SetText> set;
   std::string note;
@@ -79,14 +112,23 @@ struct TimeoutText {
   Span span;
 };
 
+struct AttemptsText {
+  int most = 1;
+  Word target;
+  Span span;
+};
+
 struct TaskText {
   Word name;
   std::string about;
+  std::optional<ConditionText> require;
+  std::optional<AttemptsText> attempts;
   std::optional<ValueText> blend;
   std::vector<SetText> set_on_entry;
   std::vector<GroupText> groups;
   std::vector<ExitText> exits;
   std::optional<TimeoutText> timeout;
+  bool is_bad = false;  ///< what the task says could not be read at all
 };
 
 struct TaskFile {
@@ -95,6 +137,11 @@ struct TaskFile {
   std::string about;
   std::vector<ParameterText> parameters;
   std::vector<FrameText> frames;
+  std::vector<SignalText> signals;
+  std::vector<RegionText> regions;
+  std::vector<FeatureText> features;
+  std::vector<GroupText> always_groups;
+  std::vector<ExitText> always_exits;
   Word start;
   std::vector<TaskText> tasks;
 };

@@ -52,7 +52,7 @@ std::optional<std::string> read_bytes(int descriptor, std::size_t most) {
 std::filesystem::path root_of(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::weakly_canonical(file, error);
-  const std::filesystem::path folder = (error ? file : absolute).parent_path();
+  std::filesystem::path folder = (error ? file : absolute).parent_path();
   for (std::filesystem::path parent = folder; !parent.empty(); parent = parent.parent_path()) {
     if (std::filesystem::is_regular_file(parent / ".zwang-root", error)) return parent;
     if (parent == parent.root_path()) break;

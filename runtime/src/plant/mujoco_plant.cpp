@@ -24,7 +24,6 @@ namespace {
 
 using solver::Matrix3;
 using solver::Model;
-using solver::Pose;
 using solver::Vector3;
 
 constexpr double settling_time = 0.5;   ///< [s] before t = 0, without torque

@@ -12,7 +12,6 @@ namespace {
 using solver::Body;
 using solver::Matrix3;
 using solver::Model;
-using solver::Pose;
 using solver::RigidInertia;
 using solver::Vector3;
 using solver::Wheel;

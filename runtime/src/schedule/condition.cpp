@@ -72,6 +72,10 @@ double value_of(const lang::ExpressionNode& node, const Facts& facts, const std:
       return either(a, b);
     case lang::Op::logical_not:
       return truth(!std::isnan(a), a == 0.0);
+    case lang::Op::signal:
+    case lang::Op::valid:
+    case lang::Op::feature:
+      return unknown;  // not measured by the runtime yet
   }
   return unknown;
 }

@@ -19,6 +19,7 @@ FrameTable::FrameTable(const std::vector<lang::FrameDeclaration>& declarations, 
 
 void FrameTable::attach(Entry& entry) const noexcept {
   switch (entry.parent) {
+    case lang::FrameParent::signal:  // refused by the constructor until the runtime reads signals
     case lang::FrameParent::world:
       entry.attached = {-1, entry.pose_in_parent};
       break;

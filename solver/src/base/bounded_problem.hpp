@@ -63,7 +63,7 @@ class BoundedProblem {
   bool takes_part(int i) const noexcept;
   Range bounds_at(int i, int level) const noexcept;
   double softness(int i) const noexcept;
-  double largest_force(int row) const noexcept;
+  double largest_force(int row) noexcept;
   int next_level(int after) const noexcept;
 
   void factorise_motors() noexcept;

@@ -11,6 +11,7 @@ constexpr double relative_gradient_tolerance = 1e-12;
 constexpr double curvature_tolerance = 1e-12;  // of a reduced Hessian's pivot, relative to its diagonal
 constexpr double rank_tolerance = 1e-9;        // of E's columns, which are of length 1
 constexpr double slope_tolerance = 1e3;        // times the gradient tolerance
+constexpr double least_pivot = 1e-11;          // of a basic variable's rate, relative to the largest
 constexpr int max_refinements = 4;
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
@@ -293,9 +294,10 @@ int QuadraticProgram::longest_step(double& length) const noexcept {
   for (const int k : basics_) largest = std::max(largest, std::abs(direction_(k)));
   for (const int k : superbasics_) largest = std::max(largest, std::abs(direction_(k)));
   int blocking = -1;
-  const auto consider = [&](int k) {
+  // A basic variable that hardly follows would leave a basis without rank if it made way.
+  const auto consider = [&](int k, double least_rate) {
     const double rate = direction_(k);
-    if (std::abs(rate) <= 1e-14 * largest) return;
+    if (std::abs(rate) <= least_rate * largest) return;
     const double room = std::max(0.0, rate > 0.0 ? hi_(k) - z_(k) : z_(k) - lo_(k));
     const double reach = room / std::abs(rate);
     const bool earlier = reach < length;
@@ -305,8 +307,8 @@ int QuadraticProgram::longest_step(double& length) const noexcept {
       blocking = k;
     }
   };
-  for (const int k : basics_) consider(k);
-  for (const int k : superbasics_) consider(k);
+  for (const int k : basics_) consider(k, least_pivot);
+  for (const int k : superbasics_) consider(k, 1e-14);
   return blocking;
 }
 

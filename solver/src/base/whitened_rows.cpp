@@ -5,12 +5,6 @@
 
 namespace zwang::solver {
 
-namespace {
-// Relative to a row's own L_ii: rounding leaves about 1e-15 of it on a dependent row.
-constexpr double ground_tolerance = 1e-10;
-constexpr double motion_tolerance = 1e-8;  // the share below which a row counts as unreachable
-}  // namespace
-
 WhitenedRows::WhitenedRows(int row_capacity)
     : W_(RowMajorMatrix::Zero(row_capacity, row_capacity)),
       gram_(RowMajorMatrix::Zero(row_capacity, row_capacity)),
@@ -20,13 +14,14 @@ WhitenedRows::WhitenedRows(int row_capacity)
       pivots_(static_cast<std::size_t>(row_capacity)),
       picked_(static_cast<std::size_t>(row_capacity)) {}
 
-void WhitenedRows::factorise(const RowMajorMatrix& L, int ground, int joints, int rows) noexcept {
+void WhitenedRows::factorise(const RowMajorMatrix& L, int ground, int joints, int rows,
+                             double tolerance) noexcept {
   left_.head(rows) = L.diagonal().head(rows);
   std::fill_n(picked_.begin(), rows, char{0});
   rank_ = 0;
   eliminate(L, 0, ground, rows, ground_tolerance);
   ground_rank_ = rank_;
-  eliminate(L, ground, ground + joints, rows, motion_tolerance);
+  eliminate(L, ground, ground + joints, rows, tolerance);
 }
 
 void WhitenedRows::eliminate(const RowMajorMatrix& L, int first, int last, int rows,
@@ -64,19 +59,39 @@ double WhitenedRows::free_share(int row, const RowMajorMatrix& L) const noexcept
   return L(row, row) > 0.0 ? motion(row).squaredNorm() / L(row, row) : 0.0;
 }
 
-/// L = W W' with W of full column rank r: L^+ = W (W'W)^-2 W'.
-void WhitenedRows::least_squares(const Eigen::VectorXd& rhs, int rows, Eigen::VectorXd& nu) noexcept {
-  const int r = rank_;
+void WhitenedRows::motion_multipliers(const Eigen::VectorXd& rhs, int ground, int rows,
+                                      Eigen::VectorXd& nu) noexcept {
+  const int r = mobility();
+  const int g = ground_rank_;
+  if (r < rows - ground) {
+    least_squares(rhs, ground, rows, nu);
+    return;
+  }
+  const auto pivot = [&](int c) { return pivots_[static_cast<std::size_t>(g + c)]; };
+  auto y = substitution_.head(r);
+  for (int c = 0; c < r; ++c) {
+    y(c) = (rhs(pivot(c)) - W_.row(pivot(c)).segment(g, c).dot(y.head(c))) / W_(pivot(c), g + c);
+  }
+  for (int c = r - 1; c >= 0; --c) {
+    for (int k = c + 1; k < r; ++k) y(c) -= W_(pivot(k), g + c) * nu(pivot(k));
+    nu(pivot(c)) = y(c) / W_(pivot(c), g + c);
+  }
+}
+
+/// The rows' L is B B' with B of full column rank: its pseudo-inverse is B (B'B)^-2 B'.
+void WhitenedRows::least_squares(const Eigen::VectorXd& rhs, int ground, int rows,
+                                 Eigen::VectorXd& nu) noexcept {
+  const int r = mobility();
+  const auto B = W_.block(ground, ground_rank_, rows - ground, r);
   auto factor = gram_.topLeftCorner(r, r);
-  for (int k = 0; k < r; ++k) {  // Cholesky of W'W, lower
+  for (int k = 0; k < r; ++k) {  // Cholesky of B'B, lower
     for (int i = k; i < r; ++i) {
-      const double left =
-          W_.col(i).head(rows).dot(W_.col(k).head(rows)) - factor.row(i).head(k).dot(factor.row(k).head(k));
+      const double left = B.col(i).dot(B.col(k)) - factor.row(i).head(k).dot(factor.row(k).head(k));
       factor(i, k) = i == k ? std::sqrt(left) : left / factor(k, k);
     }
   }
   auto y = substitution_.head(r);
-  for (int k = 0; k < r; ++k) y(k) = W_.col(k).head(rows).dot(rhs.head(rows));
+  for (int k = 0; k < r; ++k) y(k) = B.col(k).dot(rhs.segment(ground, rows - ground));
   for (int pass = 0; pass < 2; ++pass) {
     for (int k = 0; k < r; ++k) y(k) = (y(k) - factor.row(k).head(k).dot(y.head(k))) / factor(k, k);
     for (int k = r - 1; k >= 0; --k) {
@@ -84,7 +99,7 @@ void WhitenedRows::least_squares(const Eigen::VectorXd& rhs, int rows, Eigen::Ve
       y(k) /= factor(k, k);
     }
   }
-  for (int i = 0; i < rows; ++i) nu(i) = W_.row(i).head(r).dot(y);
+  for (int i = ground; i < rows; ++i) nu(i) = B.row(i - ground).dot(y);
 }
 
 void WhitenedRows::hold_ground(const Eigen::VectorXd& bias) noexcept {

@@ -23,18 +23,22 @@ class WhitenedRows {
   explicit WhitenedRows(int row_capacity);
 
   /// `L`: lower triangle. Rows [0, ground) are the ground's, [ground, ground + joints) span all motions, the
-  /// rest follow.
-  void factorise(const RowMajorMatrix& L, int ground, int joints, int rows) noexcept;
+  /// rest follow. A row counts as dependent when the ones before leave less than `tolerance` of its L_ii.
+  void factorise(const RowMajorMatrix& L, int ground, int joints, int rows,
+                 double tolerance = motion_tolerance) noexcept;
+  static constexpr double motion_tolerance = 1e-8;   ///< the share below which a row counts as unreachable
+  static constexpr double ground_tolerance = 1e-10;  ///< rounding leaves about 1e-15 on a dependent row
 
   int mobility() const noexcept { return rank_ - ground_rank_; }
+  int ground_rank() const noexcept { return ground_rank_; }
   /// B_i, of a row beyond the ground.
   auto motion(int row) const noexcept { return W_.row(row).segment(ground_rank_, mobility()); }
   /// A_i Mc A_i' over A_i M^-1 A_i': how much of a row the ground leaves.
   double free_share(int row, const RowMajorMatrix& L) const noexcept;
 
-  /// nu of least norm among those that bring L nu nearest to `rhs`, with every row taken as one block (ground
-  /// = rows).
-  void least_squares(const Eigen::VectorXd& rhs, int rows, Eigen::VectorXd& nu) noexcept;
+  /// Rows [ground, rows), which factorise() took as its second block: nu of least norm among those that bring
+  /// their accelerations, rhs = b - g - held_acceleration by row, nearest to 0.
+  void motion_multipliers(const Eigen::VectorXd& rhs, int ground, int rows, Eigen::VectorXd& nu) noexcept;
   int rank() const noexcept { return rank_; }
 
   /// What holding the ground rows at `bias` (desired minus free acceleration, by row) adds to the
@@ -49,6 +53,7 @@ class WhitenedRows {
 
  private:
   void eliminate(const RowMajorMatrix& L, int first, int last, int rows, double tolerance) noexcept;
+  void least_squares(const Eigen::VectorXd& rhs, int ground, int rows, Eigen::VectorXd& nu) noexcept;
 
   RowMajorMatrix W_;
   RowMajorMatrix gram_;

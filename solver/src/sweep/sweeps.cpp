@@ -15,44 +15,70 @@ Vector6 cross_motion(const Vector6& v, const Vector6& m) {
   return result;
 }
 
-/// v x* f (RBDA 2.32).
-Vector6 cross_force(const Vector6& v, const Vector6& f) {
-  const Vector3 w = v.head<3>();
-  Vector6 result;
-  result << w.cross(f.head<3>()) + v.tail<3>().cross(f.tail<3>()), w.cross(f.tail<3>());
-  return result;
+/// Turns R about its own column k: R Rot(e_k, q).
+void turn_about_column(int k, double q, Matrix3& R) {
+  const double cosine = std::cos(q);
+  const double sine = std::sin(q);
+  const int i = (k + 1) % 3;
+  const int j = (k + 2) % 3;
+  const Vector3 column = R.col(i);
+  R.col(i) = cosine * column + sine * R.col(j);
+  R.col(j) = cosine * R.col(j) - sine * column;
+}
+
+/// Turns R about an axis given in its own coordinates, by Rodrigues' formula on each column.
+void turn_about_axis(const Vector3& axis_in_base, double q, Matrix3& R) {
+  const double sine = std::sin(q);
+  const double versine = 1.0 - std::cos(q);
+  for (int k = 0; k < 3; ++k) {
+    const Vector3 normal = axis_in_base.cross(R.col(k));
+    R.col(k) += sine * normal + versine * axis_in_base.cross(normal);
+  }
 }
 
 /// Pose and joint motion of body i from its parent's.
 void place(const Body& body, double q, const BodySweep& parent, BodySweep& sweep) {
-  const Matrix3 R = parent.R * body.pose_in_parent.rotation;
-  const Vector3 axis = R * body.joint.axis;
-  sweep.p = parent.p + parent.R * body.pose_in_parent.position;
+  if (sweep.turned_in_parent) {
+    sweep.R.noalias() = parent.R * body.pose_in_parent.rotation;
+  } else {
+    sweep.R = parent.R;
+  }
+  sweep.p = parent.p;
+  sweep.p.noalias() += parent.R * body.pose_in_parent.position;
+  const int k = sweep.axis_column;
+  const Vector3 axis = k >= 0 ? Vector3(sweep.R.col(k)) : Vector3(sweep.R * body.joint.axis);
   if (body.joint.type == JointType::prismatic) {
-    sweep.R = R;
     sweep.p += q * axis;
     sweep.S << Vector3::Zero(), axis;
     return;
   }
-  // Rodrigues: turn the columns of R about the axis.
-  const double sine = std::sin(q);
-  const double versine = 1.0 - std::cos(q);
-  for (int k = 0; k < 3; ++k) {
-    const Vector3 column = R.col(k);
-    const Vector3 normal = axis.cross(column);
-    sweep.R.col(k) = column + sine * normal + versine * axis.cross(normal);
+  if (k >= 0) {
+    turn_about_column(k, q, sweep.R);
+  } else {
+    turn_about_axis(axis, q, sweep.R);
   }
   sweep.S << axis, sweep.p.cross(axis);
 }
 
-/// The body's own inertia, in the base's axes and about its origin.
-void write_inertia(const RigidInertia& inertia, BodySweep& sweep) {
+/// The body's own inertia in the base's axes and about its origin, and what its motion, gravity and the world
+/// do to it:
+///   pA = v x* I v - f_ext - I g
+void write_inertia(const RigidInertia& inertia, bool moving, const Vector3& gravity, const ForceVector& f_ext,
+                   BodySweep& sweep) {
   const RigidInertia turned = inertia.expressed_in({sweep.R, sweep.p});
   const Vector3& h = turned.first_moment;
   sweep.IA.topLeftCorner<3, 3>() = turned.rotational;
   sweep.IA.topRightCorner<3, 3>() = skew(h);
   sweep.IA.bottomLeftCorner<3, 3>() = -skew(h);
   sweep.IA.bottomRightCorner<3, 3>() = turned.mass * Matrix3::Identity();
+  sweep.pA.setZero();
+  if (!moving) return;
+  const Vector3 w = sweep.v.head<3>();
+  const Vector3 v = sweep.v.tail<3>();
+  const Vector3 momentum = turned.mass * v - h.cross(w);
+  const Vector3 spin = turned.rotational * w + h.cross(v);
+  sweep.pA << w.cross(spin) + v.cross(momentum) - h.cross(gravity), w.cross(momentum) - turned.mass * gravity;
+  if (!f_ext.is_zero()) sweep.pA -= sweep.to_base(f_ext);
 }
 
 /// Inverse of the lower Cholesky factor of a symmetric positive definite 6 x 6; false when it is not.
@@ -85,10 +111,17 @@ Sweeps::Sweeps(const Model& model, int row_capacity)
       origins(static_cast<std::size_t>(2 * row_capacity)),
       A(Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 2 * row_capacity)) {
   for (BodySweep& body : bodies) {
-    body.columns.reserve(static_cast<std::size_t>(2 * row_capacity));
-    body.SA.resize(static_cast<std::size_t>(2 * row_capacity));
+    body.columns.reserve(origins.size());
+    body.SA.resize(origins.size());
   }
-  for (const Body& body : model.bodies()) parents_.push_back(body.parent);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = model.bodies()[i];
+    parents_.push_back(body.parent);
+    bodies[i].turned_in_parent = body.pose_in_parent.rotation != Matrix3::Identity();
+    for (int k = 0; k < 3; ++k) {
+      if (body.joint.axis == Vector3::Unit(k)) bodies[i].axis_column = k;
+    }
+  }
 }
 
 void Sweeps::clear_rows() noexcept {
@@ -122,8 +155,6 @@ int Sweeps::add_joint_row(int joint) noexcept {
 
 void outward_kinematics(const Model& model, const State& state, bool moving, const Vector3& gravity,
                         Sweeps& sweeps) noexcept {
-  Vector6 fall;
-  fall << Vector3::Zero(), gravity;
   for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
     const Body& body = model.bodies()[i];
     BodySweep& sweep = sweeps.bodies[i];
@@ -145,13 +176,7 @@ void outward_kinematics(const Model& model, const State& state, bool moving, con
         sweep.v += joint_twist;
       }
     }
-    write_inertia(body.inertia, sweep);
-    sweep.pA.setZero();
-    if (moving) {
-      const Vector6 momentum = sweep.IA * sweep.v;
-      sweep.pA = cross_force(sweep.v, momentum) - sweep.to_base(state.f_ext[i]);
-      sweep.pA.noalias() -= sweep.IA.rightCols<3>() * gravity;
-    }
+    write_inertia(body.inertia, moving, gravity, state.f_ext[i], sweep);
   }
 }
 
@@ -179,16 +204,20 @@ bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, const Vector
     parent.pA.noalias() += sweep.IA * sweep.c;
 
     const double free_qdd = D_inverse * (sweep.u - sweep.U.dot(sweep.c));
-    for (std::size_t k = 0; k < sweep.columns.size(); ++k) {
-      const int column = sweep.columns[k];
+    const std::size_t carried = sweep.columns.size();
+    const int* const columns = sweep.columns.data();
+    double* const SA = sweep.SA.data();
+    for (std::size_t k = 0; k < carried; ++k) {
+      const int column = columns[k];
       const bool own_joint =
           sweeps.origins[static_cast<std::size_t>(column)].joint_body == static_cast<int>(i);
-      const double SA = own_joint ? 1.0 : sweep.S.dot(sweeps.A.col(column));
-      sweep.SA[k] = SA;
-      sweeps.g(column) += sweeps.A.col(column).dot(sweep.c) + SA * free_qdd;
-      sweeps.A.col(column) -= UD * SA;
-      const double SA_D = SA * D_inverse;
-      for (std::size_t l = 0; l <= k; ++l) sweeps.L(column, sweep.columns[l]) += SA_D * sweep.SA[l];
+      auto A = sweeps.A.col(column);
+      SA[k] = own_joint ? 1.0 : sweep.S.dot(A);
+      sweeps.g(column) += A.dot(sweep.c) + SA[k] * free_qdd;
+      A -= UD * SA[k];
+      const double SA_D = SA[k] * D_inverse;
+      double* const L = &sweeps.L(column, 0);
+      for (std::size_t l = 0; l <= k; ++l) L[columns[l]] += SA_D * SA[l];
     }
   }
 

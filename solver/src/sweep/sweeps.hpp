@@ -58,8 +58,10 @@ struct BodySweep {
   Vector3 p;  ///< [m] origin of the body from the base's
   double D = 0.0;
   double u = 0.0;
-  std::vector<int> columns;  ///< of A, of the rows at this body and beyond
-  std::vector<double> SA;    ///< S'A of those columns
+  int axis_column = -1;  ///< the body's own axis that the joint turns about or slides along; -1: some other
+  bool turned_in_parent = false;  ///< at q = 0
+  std::vector<int> columns;       ///< of A, of the rows at this body and beyond
+  std::vector<double> SA;         ///< S'A of those columns
 
   /// A wrench in the body's coordinates, written in the base's.
   Vector6 to_base(const ForceVector& f) const {

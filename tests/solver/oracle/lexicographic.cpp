@@ -88,10 +88,21 @@ class Levels {
   const solver::Row& row(Index i) const { return rows_[static_cast<std::size_t>(i)]; }
   OracleRow& result(Index i) { return out_.rows[static_cast<std::size_t>(i)]; }
   Vector y(Index i) const { return Y_.row(i).transpose(); }
-  /// Whether nothing that the row could do moves its axis: the ground holds it, or the accelerations that the
-  /// levels above have frozen do.
+  /// Whether the ground holds the row's axis, or no motor moves it.
+  bool unreachable(Index i) const {
+    const Real length = Y_.row(i).squaredNorm();
+    if (length < std::max(1e-8L * without_ground_[i], 1e-20L * size_[i])) return true;
+    for (Index j = 0; j < p_.G.cols(); ++j) {
+      if (!(tau_lo_[j] < tau_hi_[j])) continue;
+      const Real along = Y_.row(i).dot(p_.G.col(j));
+      if (along * along > 1e-16L * length * p_.G.col(j).squaredNorm()) return false;
+    }
+    return true;
+  }
+  /// Whether nothing that the row could do moves its axis: unreachable, or the accelerations that the levels
+  /// above have frozen hold it.
   bool idle(Index i) const {
-    if (Y_.row(i).squaredNorm() < std::max(1e-8L * without_ground_[i], 1e-20L * size_[i])) return true;
+    if (unreachable(i)) return true;
     Matrix frozen(c_.size(), 0);
     for (const Held& held : held_) {
       if (one_sided(held.kind) || held.softness > 0) continue;
@@ -262,7 +273,7 @@ class Levels {
   void hold(int level) {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const auto i = static_cast<Index>(r);
-      if (row(i).level != level) continue;
+      if (row(i).level != level || unreachable(i)) continue;
       const RowKind kind = row(i).kind;
       const Real R = softness(i);
       const Real nu = kind == RowKind::force ? Real(0) : result(i).nu;

@@ -21,6 +21,7 @@ struct Value {
   double constant = 0.0;  ///< SI
   int parameter = -1;     ///< index into Program::parameters; -1 for a constant
   double sign = 1.0;
+  int signal = -1;  ///< index of a number signal that gives the value instead; -1: none
 
   double evaluate(const std::vector<double>& parameters) const {
     return parameter < 0 ? constant : sign * parameters[static_cast<std::size_t>(parameter)];
@@ -42,15 +43,50 @@ struct Parameter {
   Span span;
 };
 
-enum class FrameParent { world, body, frame };
+enum class FrameParent { world, body, frame, signal };
 
 /// Frame 0 is the world, then follow the frames of the robot, then the declared ones (parents before
 /// children).
 struct FrameDeclaration {
   std::string name;
   FrameParent parent = FrameParent::world;
-  int parent_index = -1;  ///< body of the model, or index of the parent frame
+  int parent_index = -1;  ///< body of the model, index of the parent frame, or of the pose signal
   solver::Pose pose;      ///< in the parent
+  Span span;
+};
+
+enum class SignalType { boolean, number, pose, wrench };
+
+/// A value that is measured outside of zwang.
+struct Signal {
+  std::string name;
+  SignalType type = SignalType::boolean;
+  double unit_scale = 1.0;  ///< SI value of one unit of a number signal
+  int in = 0;               ///< frame that a pose or a wrench is seen from
+  Value stale_after;        ///< [s] the age at which it counts as invalid
+  Span span;
+};
+
+/// A stretch of floor: a polygon that need not be convex, or a circle.
+struct Region {
+  std::string name;
+  int parent = 0;                              ///< frame
+  std::vector<std::array<double, 2>> polygon;  ///< [m] corners in the parent, counter-clockwise
+  std::array<double, 2> centre{};              ///< [m] of a circle, in the parent
+  double radius = 0.0;                         ///< [m] 0: a polygon
+  Span span;
+};
+
+enum class FeatureKind { distance, angle, direction };
+
+/// A coordinate that is not an axis of one frame.
+struct Feature {
+  std::string name;
+  FeatureKind kind = FeatureKind::distance;
+  int first = 0, second = 0;  ///< frames: the two ends, the two owners of the axes, or `move` and `in`
+  solver::Axis first_axis = solver::Axis::x, second_axis = solver::Axis::x;  ///< of an angle: x, y or z
+  std::array<double, 6> direction{};  ///< coefficients of x, y, z, rx, ry, rz, as written
+  bool turns = false;                 ///< measured in rad rather than in m
   Span span;
 };
 
@@ -63,9 +99,19 @@ struct AxisStatements {
   bool here = false;  ///< a position driver at the value it has on entry
   std::optional<ValueRange> position, velocity, acceleration, force;
   Value time_constant{.constant = 0.5};
+  std::optional<Value> stiffness;  ///< of a position driver with `damping` [N/m] or [N m/rad]
+  std::optional<Value> damping;    ///< [N s/m] or [N m s/rad]
+  std::optional<Value> weight;     ///< of a soft row [kg] or [kg m^2]; none: as strict as the others
   int level = 1;
+  bool is_planar_speed = false;           ///< `speed`: the range `velocity` is for the planar velocity's norm
   Span span;                              ///< the axis's key
   std::array<Span, 4> statement_spans{};  ///< by solver::Quantity
+};
+
+enum class GroupKind {
+  axes,    ///< statements about axes of `move` in `in`
+  inside,  ///< `move` stays inside `region`
+  feature  ///< statements about `feature`: one entry of `axes`, whose `axis` means nothing
 };
 
 struct Group {
@@ -73,6 +119,12 @@ struct Group {
   int move = 0;  ///< frame
   int in = 0;    ///< frame
   std::vector<AxisStatements> axes;
+  GroupKind kind = GroupKind::axes;
+  int region = -1;
+  bool moves_footprint = false;  ///< of `inside`: the robot's whole footprint rather than the point `move`
+  Value margin;                  ///< [m] of `inside`
+  int level = 1;                 ///< of `inside`
+  int feature = -1;
   Span span;
 };
 
@@ -83,6 +135,9 @@ enum class Op {
   coordinate,  ///< `index` group, `axis` index into Group::axes, `what`
   speed,       ///< of the frame `index` [m/s]
   moved,       ///< length of the path of the frame `index` since the task was entered [m]
+  signal,      ///< `index`: a number in SI, or true and false
+  valid,       ///< whether the signal `index` is fresh
+  feature,     ///< `index`
   abs,
   negate,
   add,
@@ -106,6 +161,7 @@ struct ExpressionNode {
   double number = 0.0;
   int index = -1;
   int axis = -1;
+  bool in_always = false;  ///< the group `index` is one of Program::always, not of the task
   CoordinateQuantity what = CoordinateQuantity::position;
   int left = -1;
   int right = -1;
@@ -137,7 +193,8 @@ struct SetAction {
 
 struct Exit {
   Condition when;
-  Value dwell;  ///< `for` [s]
+  Value dwell;                   ///< `for` [s]
+  std::optional<Value> release;  ///< once true, the comparison stays true until its left side passes this
   Target target;
   std::vector<SetAction> set;
   std::string note;
@@ -150,9 +207,24 @@ struct Timeout {
   Span span;
 };
 
+/// Entry number `most` + 1 since the start goes to `target` instead.
+struct Attempts {
+  int most = 1;
+  Target target;
+  Span span;
+};
+
+/// What holds in every task: groups at level 0 and exits that interrupt.
+struct Always {
+  std::vector<Group> groups;
+  std::vector<Exit> exits;
+};
+
 struct Task {
   std::string name;
   std::string about;
+  std::optional<Condition> require;  ///< must be true on entry
+  std::optional<Attempts> attempts;
   Value blend{.constant = 0.2};  ///< [s]
   std::vector<SetAction> set_on_entry;
   std::vector<Group> groups;
@@ -168,6 +240,10 @@ struct Program {
   std::optional<Scene> scene;
   std::vector<Parameter> parameters;
   std::vector<FrameDeclaration> frames;
+  std::vector<Signal> signals;
+  std::vector<Region> regions;
+  std::vector<Feature> features;
+  Always always;
   std::vector<Task> tasks;
   int start = 0;
 

@@ -78,6 +78,7 @@ struct ForceVector {
     return *this;
   }
   Vector6 vector() const { return (Vector6() << angular, linear).finished(); }
+  bool is_zero() const { return angular == Vector3::Zero() && linear == Vector3::Zero(); }
 };
 
 /// Power of a force along a motion. [W]
@@ -169,7 +170,9 @@ struct RigidInertia {
     const Vector3 h = R * first_moment;
     const Vector3 half = h + 0.5 * mass * p;
     const Matrix3 mixed = half * p.transpose();
-    Matrix3 J = R * rotational * R.transpose() - mixed - mixed.transpose();
+    Matrix3 J = -mixed - mixed.transpose();
+    const Matrix3 turned = R * rotational;
+    J.noalias() += turned * R.transpose();
     J.diagonal().array() += 2.0 * p.dot(half);
     return {mass, h + mass * p, J};
   }

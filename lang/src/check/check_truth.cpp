@@ -1,0 +1,149 @@
+// Conditions that are decided before the run, and thresholds with two sides.
+#include <algorithm>
+#include <limits>
+
+#include "check/context.hpp"
+#include "diagnostic/wordings.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What a node can be: a number in [low, high]; of a truth value 0, 1 or both.
+struct Interval {
+  double low = -infinity;
+  double high = infinity;
+};
+
+constexpr Interval undecided{0.0, 1.0};
+constexpr Interval never{0.0, 0.0};
+constexpr Interval always{1.0, 1.0};
+
+Interval less(const Interval& a, const Interval& b, bool or_equal) {
+  if (or_equal ? a.high <= b.low : a.high < b.low) return always;
+  if (or_equal ? a.low > b.high : a.low >= b.high) return never;
+  return undecided;
+}
+
+Interval product(const Interval& a, const Interval& b) {
+  const bool is_point = a.low == a.high && b.low == b.high;
+  if (is_point) return {a.low * b.low, a.low * b.low};
+  return a.low >= 0.0 && b.low >= 0.0 ? Interval{0.0, infinity} : Interval{};
+}
+
+/// A parameter may be set to anything in its range.
+Interval parameter_interval(const CheckContext& context, int index) {
+  const Parameter& parameter = context.symbols.parameters[static_cast<std::size_t>(index)].parameter;
+  if (parameter.range) return {parameter.range->low, parameter.range->high};
+  return {};
+}
+
+Interval interval_of(const CheckContext& context, const ExpressionNode& node, const Interval& a,
+                     const Interval& b) {
+  switch (node.op) {
+    case Op::constant:
+      return {node.number, node.number};
+    case Op::parameter:
+      return parameter_interval(context, node.index);
+    case Op::elapsed:
+    case Op::speed:
+    case Op::moved:
+      return {0.0, infinity};
+    case Op::coordinate:
+      return node.what == CoordinateQuantity::saturated ? undecided : Interval{};
+    case Op::signal:
+      return context.symbols.signals[static_cast<std::size_t>(node.index)].signal.type == SignalType::boolean
+                 ? undecided
+                 : Interval{};
+    case Op::valid:
+      return undecided;
+    case Op::feature:
+      return context.symbols.features[static_cast<std::size_t>(node.index)].feature.kind ==
+                     FeatureKind::distance
+                 ? Interval{0.0, infinity}
+                 : Interval{};
+    case Op::abs:
+      return {a.low > 0.0 ? a.low : a.high < 0.0 ? -a.high : 0.0, std::max(-a.low, a.high)};
+    case Op::negate:
+      return {-a.high, -a.low};
+    case Op::add:
+      return {a.low + b.low, a.high + b.high};
+    case Op::subtract:
+      return {a.low - b.high, a.high - b.low};
+    case Op::multiply:
+      return product(a, b);
+    case Op::divide:
+      return {};
+    case Op::less:
+      return less(a, b, false);
+    case Op::less_equal:
+      return less(a, b, true);
+    case Op::greater:
+      return less(b, a, false);
+    case Op::greater_equal:
+      return less(b, a, true);
+    case Op::logical_and:
+      return {std::min(a.low, b.low), std::min(a.high, b.high)};
+    case Op::logical_or:
+      return {std::max(a.low, b.low), std::max(a.high, b.high)};
+    case Op::logical_not:
+      return {1.0 - a.high, 1.0 - a.low};
+  }
+  return {};
+}
+
+bool is_comparison(Op op) {
+  return op == Op::less || op == Op::less_equal || op == Op::greater || op == Op::greater_equal;
+}
+
+/// The value of a subtree that holds only constants and parameters; nullopt when something is measured.
+std::optional<double> fixed_value(const CheckContext& context, const Condition& condition, int index) {
+  const ExpressionNode& node = condition.nodes[static_cast<std::size_t>(index)];
+  if (node.op == Op::constant) return node.number;
+  if (node.op == Op::parameter) {
+    return context.symbols.parameters[static_cast<std::size_t>(node.index)].parameter.value;
+  }
+  if (node.op != Op::negate) return std::nullopt;
+  const std::optional<double> value = fixed_value(context, condition, node.left);
+  if (!value) return std::nullopt;
+  return -*value;
+}
+
+}  // namespace
+
+void check_is_open(CheckContext& context, const Condition& condition) {
+  std::vector<Interval> intervals;
+  for (const ExpressionNode& node : condition.nodes) {
+    const Interval none;
+    const Interval& a = node.left >= 0 ? intervals[static_cast<std::size_t>(node.left)] : none;
+    const Interval& b = node.right >= 0 ? intervals[static_cast<std::size_t>(node.right)] : none;
+    const Interval result = interval_of(context, node, a, b);
+    intervals.push_back(result);
+  }
+  const Interval& root = intervals.back();
+  if (root.low == root.high)
+    context.diagnostics.add(wording::decided_condition(condition.span, root.low > 0.5));
+}
+
+void check_release(CheckContext& context, const ExitText& exit, const Condition& condition,
+                   const Dimension& compared) {
+  const ExpressionNode& root = condition.nodes.back();
+  const Span span = exit.release->span;
+  const bool compares = is_comparison(root.op);
+  const std::optional<double> threshold =
+      compares ? fixed_value(context, condition, root.right) : std::nullopt;
+  if (!threshold) {
+    context.diagnostics.add(wording::release_without_threshold(span));
+    return;
+  }
+  if (!check_value(context, *exit.release, compared, "`release`")) return;
+  const double release = present_value(context, *exit.release);
+  const bool is_below = root.op == Op::less || root.op == Op::less_equal;
+  if (is_below ? release < *threshold : release > *threshold) {
+    context.diagnostics.add(wording::release_on_wrong_side(span, is_below));
+  }
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,181 @@
+#include <algorithm>
+#include <cmath>
+
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "spec/parse_task.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
+  SignalText signal;
+  signal.name = parse_name(entry.key, "a signal's name", diagnostics);
+  const std::string what = "signal `" + entry.key.text + "`";
+  MapReader map(entry.value, what, diagnostics);
+  static const std::vector<std::string> types{"bool", "number", "pose", "wrench"};
+  if (const Node* type = map.required("type")) {
+    signal.type = parse_word(*type, what + "'s `type`", diagnostics);
+    const bool is_known = std::find(types.begin(), types.end(), signal.type.text) != types.end();
+    if (signal.type.exists() && !is_known) {
+      diagnostics.add(
+          wording::unknown_name(type->span, "type of signal", type->text, nearest(type->text, types)));
+      signal.type = {};
+    }
+  }
+  if (const Node* unit = map.optional("unit")) {
+    std::string unknown;
+    signal.unit = parse_unit(unit->text, unknown);
+    if (!signal.unit && !unit->is_bad) {
+      diagnostics.add(wording::unknown_unit(unit->span, unit->text, unknown, nearest_unit(unknown)));
+      signal.is_bad = true;
+    }
+  }
+  if (const Node* in = map.optional("in")) signal.in = parse_word(*in, what + "'s `in`", diagnostics);
+  const Node* stale = map.optional("stale_after");
+  if (stale != nullptr) {
+    signal.stale_after = parse_value(*stale, what + "'s `stale_after`", diagnostics);
+  } else if (map.is_mapping() && !map.has_misspelt({"stale_after"})) {
+    diagnostics.add(wording::signal_without_age(entry.key.span, entry.key.text));
+  }
+  signal.is_bad = signal.is_bad || !signal.type.exists();
+  map.finish();
+  return signal;
+}
+
+RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
+  RegionText region;
+  region.name = parse_name(entry.key, "a region's name", diagnostics);
+  const std::string what = "region `" + entry.key.text + "`";
+  MapReader map(entry.value, what, diagnostics);
+  const Node* polygon = map.optional("polygon");
+  const Node* circle = map.optional("circle");
+  if (const Node* parent = map.optional("parent")) {
+    region.parent = parse_word(*parent, what + "'s `parent`", diagnostics);
+  }
+  const bool is_one = (polygon != nullptr) != (circle != nullptr);
+  if (map.is_mapping() && !is_one && !map.has_misspelt({"polygon", "circle"})) {
+    diagnostics.add(wording::one_region_shape(entry.key.span, what));
+  } else if (polygon != nullptr && require_sequence(*polygon, what + "'s `polygon`", diagnostics)) {
+    double area = 0.0;
+    for (const Node& corner : polygon->items) {
+      const auto at = parse_vector(corner, dimension::length, 2, 2, "a corner of " + what, diagnostics);
+      if (at) region.polygon.push_back({(*at)[0], (*at)[1]});
+    }
+    const auto& p = region.polygon;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const auto& next = p[(i + 1) % p.size()];
+      area += 0.5 * (p[i][0] * next[1] - next[0] * p[i][1]);
+    }
+    if (p.size() == polygon->items.size() && (p.size() < 3 || std::abs(area) < 1e-6)) {
+      diagnostics.add(wording::flat_region(polygon->span, what));
+    }
+    if (area < 0.0) std::reverse(region.polygon.begin(), region.polygon.end());
+  } else if (circle != nullptr) {
+    MapReader circle_map(*circle, what + "'s circle", diagnostics);
+    if (const Node* at = circle_map.required("at")) {
+      const auto centre = parse_vector(*at, dimension::length, 2, 2, what + "'s centre", diagnostics);
+      if (centre) region.centre = {(*centre)[0], (*centre)[1]};
+    }
+    if (const Node* radius = circle_map.required("radius")) {
+      region.radius = parse_plain(*radius, dimension::length, what + "'s radius", diagnostics).value_or(1.0);
+      if (region.radius <= 0.0)
+        diagnostics.add(wording::not_positive(radius->span, what + "'s radius", false));
+    }
+    circle_map.finish();
+  }
+  map.finish();
+  return region;
+}
+
+/// `hook` or `hook.x`.
+Word parse_end(const Node& node, const std::string& what, std::optional<solver::Axis>* axis,
+               Diagnostics& diagnostics) {
+  Word word = parse_word(node, what, diagnostics);
+  if (axis == nullptr || !word.exists()) return word;
+  const std::size_t dot = word.text.rfind('.');
+  if (dot != std::string::npos) *axis = axis_named(word.text.substr(dot + 1));
+  if (!*axis || is_rotation(**axis)) {
+    diagnostics.add(wording::not_an_axis_of_a_frame(node.span, word.text));
+    return {};
+  }
+  word.text.resize(dot);
+  return word;
+}
+
+FeatureText parse_feature(const Entry& entry, Diagnostics& diagnostics) {
+  FeatureText feature;
+  feature.name = parse_name(entry.key, "a feature's name", diagnostics);
+  const std::string what = "feature `" + entry.key.text + "`";
+  MapReader map(entry.value, what, diagnostics);
+  const Node* distance = map.optional("distance");
+  const Node* angle = map.optional("angle");
+  const Node* direction = map.optional("direction");
+  const int count =
+      (distance != nullptr ? 1 : 0) + (angle != nullptr ? 1 : 0) + (direction != nullptr ? 1 : 0);
+  if (map.is_mapping() && count != 1 && !map.has_misspelt({"distance", "angle", "direction"})) {
+    diagnostics.add(wording::one_feature_kind(entry.key.span, what));
+    feature.is_bad = true;
+  } else if (direction != nullptr) {
+    feature.kind = FeatureKind::direction;
+    MapReader direction_map(*direction, what + "'s direction", diagnostics);
+    if (const Node* move = direction_map.required("move")) {
+      feature.first = parse_word(*move, "`move`", diagnostics);
+    }
+    if (const Node* in = direction_map.required("in")) feature.second = parse_word(*in, "`in`", diagnostics);
+    bool is_zero = true;
+    for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) {
+      const Node* node = direction_map.optional(name);
+      if (node == nullptr) continue;
+      const double value = parse_plain(*node, dimension::none, what + "." + name, diagnostics).value_or(1.0);
+      feature.direction[static_cast<std::size_t>(*axis_named(name))] = value;
+      is_zero = is_zero && value == 0.0;
+    }
+    if (is_zero) diagnostics.add(wording::feature_without_direction(direction->span, what));
+    direction_map.finish();
+  } else if (const Node* ends = distance != nullptr ? distance : angle; ends != nullptr) {
+    feature.kind = distance != nullptr ? FeatureKind::distance : FeatureKind::angle;
+    const bool is_angle = feature.kind == FeatureKind::angle;
+    if (require_sequence(*ends, what, diagnostics)) {
+      if (ends->items.size() != 2) {
+        diagnostics.add(wording::wrong_count(ends->span, what, 2, 2, ends->items.size()));
+        feature.is_bad = true;
+      } else {
+        feature.first =
+            parse_end(ends->items[0], what, is_angle ? &feature.first_axis : nullptr, diagnostics);
+        feature.second =
+            parse_end(ends->items[1], what, is_angle ? &feature.second_axis : nullptr, diagnostics);
+      }
+    }
+  }
+  map.finish();
+  return feature;
+}
+
+template <typename Item>
+std::vector<Item> parse_each(const Node& node, const char* what, Item (*parse)(const Entry&, Diagnostics&),
+                             Diagnostics& diagnostics) {
+  std::vector<Item> items;
+  if (!require_mapping(node, what, diagnostics)) return items;
+  for (const Entry& entry : node.entries) {
+    if (!entry.key.is_bad) items.push_back(parse(entry, diagnostics));
+  }
+  return items;
+}
+
+}  // namespace
+
+std::vector<SignalText> parse_signals(const Node& node, Diagnostics& diagnostics) {
+  return parse_each(node, "`signals`", parse_signal, diagnostics);
+}
+
+std::vector<RegionText> parse_regions(const Node& node, Diagnostics& diagnostics) {
+  return parse_each(node, "`regions`", parse_region, diagnostics);
+}
+
+std::vector<FeatureText> parse_features(const Node& node, Diagnostics& diagnostics) {
+  return parse_each(node, "`features`", parse_feature, diagnostics);
+}
+
+}  // namespace zwang::lang

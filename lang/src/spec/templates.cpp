@@ -1,0 +1,189 @@
+#include "spec/templates.hpp"
+
+#include <array>
+
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "spec/shape.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+struct ArgumentKind {
+  std::string_view word;
+  std::optional<Dimension> dimension;  ///< none: a name
+};
+
+constexpr std::array argument_kinds{
+    ArgumentKind{"frame", std::nullopt},
+    ArgumentKind{"task", std::nullopt},
+    ArgumentKind{"number", dimension::none},
+    ArgumentKind{"length", dimension::length},
+    ArgumentKind{"angle", dimension::angle},
+    ArgumentKind{"time", dimension::time},
+    ArgumentKind{"mass", dimension::mass},
+    ArgumentKind{"velocity", dimension::velocity},
+    ArgumentKind{"acceleration", dimension::acceleration},
+    ArgumentKind{"force", dimension::force},
+    ArgumentKind{"torque", dimension::torque},
+    ArgumentKind{"angular_velocity", dimension::angular_velocity},
+    ArgumentKind{"angular_acceleration", dimension::angular_acceleration},
+};
+
+const ArgumentKind* find_kind(const std::string& word) {
+  for (const ArgumentKind& kind : argument_kinds) {
+    if (kind.word == word) return &kind;
+  }
+  return nullptr;
+}
+
+bool is_name_part(char c) {
+  return is_identifier(std::string{'_', c});
+}
+
+/// Puts the arguments' texts in the place of `$name` everywhere below the node.
+void substitute(Node& node, const std::map<std::string, Node>& values) {
+  for (Node& item : node.items) substitute(item, values);
+  for (Entry& entry : node.entries) substitute(entry.value, values);
+  if (!node.is_scalar()) return;
+  std::string result;
+  for (std::size_t at = 0; at < node.text.size();) {
+    std::size_t end = at + 1;
+    if (node.text[at] == '$') {
+      while (end < node.text.size() && is_name_part(node.text[end])) ++end;
+    }
+    const auto value = values.find(node.text.substr(at + 1, end - at - 1));
+    if (node.text[at] == '$' && value != values.end()) {
+      result += trimmed(value->second.text);
+      node.is_replaced = true;
+      node.is_bad = node.is_bad || value->second.is_bad;
+    } else {
+      result += node.text.substr(at, end - at);
+    }
+    at = end;
+  }
+  node.text = std::move(result);
+}
+
+}  // namespace
+
+void Templates::declare(const Node& node) {
+  if (!require_mapping(node, "`templates`", diagnostics_)) return;
+  for (const Entry& entry : node.entries) {
+    if (entry.key.is_bad) continue;
+    Template declared;
+    declared.span = entry.key.span;
+    MapReader map(entry.value, "template `" + entry.key.text + "`", diagnostics_);
+    declared.body = map.required("body");
+    const Node* arguments = map.optional("args");
+    if (arguments != nullptr && require_mapping(*arguments, "`args`", diagnostics_)) {
+      for (const Entry& argument : arguments->entries) {
+        if (find_kind(argument.value.text) == nullptr) {
+          std::vector<std::string> known;
+          for (const ArgumentKind& kind : argument_kinds) known.emplace_back(kind.word);
+          diagnostics_.add(wording::unknown_name(argument.value.span, "kind of argument", argument.value.text,
+                                                 nearest(argument.value.text, known)));
+        }
+        declared.arguments[argument.key.text] = argument.value.text;
+      }
+    }
+    declared.is_bad = declared.body == nullptr;
+    map.finish();
+    templates_[entry.key.text] = declared;
+  }
+}
+
+std::optional<Node> Templates::expand(const Node& task) {
+  std::set<std::string> open;
+  return expand_from(task, open);
+}
+
+std::optional<Node> Templates::expand_from(const Node& task, std::set<std::string>& open) {
+  const Entry* use = task.is_mapping() ? task.find("use") : nullptr;
+  if (use == nullptr) return task;
+  const Word name = parse_word(use->value, "`use`", diagnostics_);
+  if (!name.exists()) return std::nullopt;
+  const auto found = templates_.find(name.text);
+  if (found == templates_.end()) {
+    std::vector<std::string> known;
+    for (const auto& [other, declared] : templates_) known.push_back(other);
+    diagnostics_.add(wording::unknown_name(name.span, "template", name.text, nearest(name.text, known)));
+    return std::nullopt;
+  }
+  Template& used = found->second;
+  used.is_used = true;
+  if (!open.insert(name.text).second) {
+    diagnostics_.add(wording::template_recursion(name.span, name.text));
+    return std::nullopt;
+  }
+  std::map<std::string, Node> values;
+  if (used.is_bad || !fill_arguments(used, task, name.text, values)) return std::nullopt;
+  Node body = *used.body;
+  substitute(body, values);
+  std::optional<Node> expanded = expand_from(body, open);
+  if (!expanded || !require_mapping(*expanded, "the body of template `" + name.text + "`", diagnostics_)) {
+    return std::nullopt;
+  }
+  for (const Entry& entry : task.entries) {
+    if (entry.key.text == "use" || entry.key.text == "with") continue;
+    std::erase_if(expanded->entries, [&](const Entry& old) { return old.key.text == entry.key.text; });
+    expanded->entries.push_back(entry);
+  }
+  return expanded;
+}
+
+bool Templates::fill_arguments(const Template& used, const Node& task, const std::string& name,
+                               std::map<std::string, Node>& values) {
+  const Entry* with = task.find("with");
+  const std::size_t errors = diagnostics_.all().size();
+  if (with != nullptr && !require_mapping(with->value, "`with`", diagnostics_)) return false;
+  std::vector<std::string> known;
+  for (const auto& [argument, kind] : used.arguments) known.push_back(argument);
+  bool is_misspelt = false;
+  for (const Entry& entry : with != nullptr ? with->value.entries : std::vector<Entry>{}) {
+    const auto argument = used.arguments.find(entry.key.text);
+    if (argument == used.arguments.end()) {
+      const std::string meant = nearest(entry.key.text, known);
+      is_misspelt = is_misspelt || !meant.empty();
+      diagnostics_.add(wording::extra_argument(entry.key.span, name, entry.key.text, meant));
+    } else if (check_argument(argument->first, argument->second, entry.value)) {
+      values[argument->first] = entry.value;
+    } else {
+      values[argument->first].is_bad = true;
+    }
+  }
+  for (const std::string& argument : known) {
+    if (values.contains(argument) || is_misspelt) continue;
+    diagnostics_.add(wording::missing_template_argument(task.find("use")->value.span, name, argument));
+  }
+  return diagnostics_.all().size() == errors;
+}
+
+bool Templates::check_argument(const std::string& name, const std::string& kind, const Node& value) {
+  const ArgumentKind* expected = find_kind(kind);
+  if (expected == nullptr || value.is_bad) return false;
+  if (!expected->dimension) {
+    if (value.is_scalar() && !value.text.empty() && value.text[0] != '$' && number_length(value.text) == 0) {
+      return true;
+    }
+    diagnostics_.add(wording::wrong_argument(value.span, name, "the name of a " + kind));
+    return false;
+  }
+  const ValueText text = parse_value(value, "argument `" + name + "`", diagnostics_);
+  if (text.kind == ValueKind::bad) return false;
+  // What a parameter measures is asked where the argument is used.
+  const bool fits = text.kind == ValueKind::parameter ||
+                    (text.kind == ValueKind::quantity && text.quantity.dimension == *expected->dimension);
+  if (!fits) diagnostics_.add(wording::wrong_argument(value.span, name, describe(*expected->dimension)));
+  return fits;
+}
+
+void Templates::report_unused() const {
+  for (const auto& [name, declared] : templates_) {
+    if (!declared.is_used) diagnostics_.add(wording::unused(declared.span, "template", name));
+  }
+}
+
+}  // namespace zwang::lang

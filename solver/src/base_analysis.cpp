@@ -1,0 +1,181 @@
+#include "zwang/solver/base_analysis.hpp"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/whitened_rows.hpp"
+#include "constraint/ground.hpp"
+#include "input_check.hpp"
+#include "sweep/sweeps.hpp"
+#include "zwang/solver/solver.hpp"
+
+namespace zwang::solver {
+
+namespace {
+
+constexpr double unreachable_share = 1e-8;
+constexpr double rank_tolerance = 1e-6;  // of singular values, relative to the largest
+
+/// One pass of the sweeps over the ground, the freedoms of base and joints, and one row more.
+struct WhitenedRobot {
+  WhitenedRobot(const Model& model, const State& state, const Row* row)
+      : ground(ground_row_count(model)),
+        base(model.has_fixed_base() ? 0 : 6),
+        sweeps(model, ground + base + model.joint_count() + 1),
+        rows(ground + base + model.joint_count() + 1) {
+    outward_kinematics(model, state, false, Vector3::Zero(), sweeps);
+    sweeps.clear_rows();
+    for (int i = 0; i < ground; ++i) {
+      const GroundRow held = ground_row(i, model, sweeps);
+      sweeps.add_row(held.body, held.a);
+    }
+    for (int i = 0; i < base; ++i) sweeps.add_row(0, Vector6::Unit(i));
+    for (int j = 0; j < model.joint_count(); ++j) sweeps.add_joint_row(j);
+    if (row != nullptr) {
+      const auto body = [this](int i) -> const BodySweep& {
+        return sweeps.bodies[static_cast<std::size_t>(i)];
+      };
+      sweeps.add_row(row->body, body(row->body).to_base(row->a));
+      if (row->reference_body >= 0) {
+        sweeps.extend_last_row(row->reference_body, body(row->reference_body).to_base(-row->a_reference));
+      }
+    }
+    const Eigen::VectorXd no_torque = Eigen::VectorXd::Zero(model.joint_count());
+    if (!inward_inertia(model, no_torque, Vector6::Zero(), sweeps)) {
+      throw std::invalid_argument("analysis: an inertia of the model cannot be inverted");
+    }
+    rows.factorise(sweeps.L, ground, base + model.joint_count(), sweeps.rows);
+  }
+
+  Eigen::VectorXd joint(int j) const { return rows.motion(ground + base + j).transpose(); }
+  Eigen::VectorXd base_freedom(int i) const { return rows.motion(ground + i).transpose(); }
+  int last_row() const { return sweeps.rows - 1; }
+
+  int ground, base;
+  Sweeps sweeps;
+  WhitenedRows rows;
+};
+
+int rank_of(const Eigen::MatrixXd& columns) {
+  if (columns.size() == 0) return 0;
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(columns).singularValues();
+  if (!(values(0) > 0.0)) return 0;
+  return static_cast<int>((values.array() > rank_tolerance * values(0)).count());
+}
+
+/// Independent planar motions of the base; one counts where the ground leaves more than the smallest share of
+/// it.
+int base_mobility(const WhitenedRobot& robot) {
+  Eigen::MatrixXd planar(robot.rows.mobility(), 3);
+  for (int i = 0; i < 3; ++i) {
+    const int row = robot.ground + 2 + i;  // rz, x and y of the six freedoms
+    planar.col(i) = robot.base_freedom(i + 2) / std::sqrt(robot.sweeps.L(row, row));
+  }
+  if (planar.size() == 0) return 0;
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(planar).singularValues();
+  return static_cast<int>((values.array() > std::sqrt(unreachable_share)).count());
+}
+
+/// Columns T_j of the actuated joints, each of length 1: a rank should not depend on gears.
+Eigen::MatrixXd motor_directions(const Model& model, const WhitenedRobot& robot) {
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(robot.rows.mobility(), model.joint_count());
+  int motors = 0;
+  for (int j = 0; j < model.joint_count(); ++j) {
+    if (!model.joint(j).actuated) continue;
+    const Eigen::VectorXd column = robot.joint(j);
+    if (column.norm() > 0.0) T.col(motors) = column / column.norm();
+    ++motors;
+  }
+  return T.leftCols(motors);
+}
+
+Row row_along(const Model& model, const State& state, const AttachedFrame& move, const AttachedFrame& in,
+              Axis axis) {
+  ConstraintSet set(1, 1);
+  AxisConstraint constraint;
+  constraint.move = move;
+  constraint.in = in;
+  constraint.axis = axis;
+  constraint.driver = Driver{.quantity = Quantity::force, .target = 1.0};
+  if (!set.add(constraint) || !set.fill(model, state))
+    throw std::invalid_argument("analysis: no row for this axis");
+  return set.rows().front();
+}
+
+/// A force row that asks for more than the motors can make: phi f is what they can.
+double largest_force(const Model& model, const State& state, Row row, double effective_mass) {
+  double most = 0.0;
+  for (int j = 0; j < model.joint_count(); ++j) {
+    const Joint& joint = model.joint(j);
+    if (joint.actuated && std::isfinite(joint.max_effort)) most += joint.max_effort;
+  }
+  Solver solver(model);
+  Solution solution(model);
+  // Doubled until the motors give out: what they make no longer follows the wish.
+  for (row.force = std::max(1.0, most); row.force < 1e9 * std::max(1.0, effective_mass); row.force *= 2.0) {
+    const Status status = solver.solve(state, {row}, solution);
+    if (status != Status::ok && status != Status::iteration_limit) return 0.0;
+    if (solution.rows[0].phi < 1.0 - 1e-9) return solution.rows[0].nu;
+  }
+  return infinity;
+}
+
+State at_rest(const State& state) {
+  State rest = state;
+  rest.qd.setZero();
+  rest.tau_ff.setZero();
+  rest.base_twist = {};
+  for (ForceVector& f : rest.f_ext) f = {};
+  return rest;
+}
+
+}  // namespace
+
+AxisAnalysis analyse_axis(const Model& model, const State& state, const AttachedFrame& move,
+                          const AttachedFrame& in, Axis axis) {
+  if (!fits(state, model) || !is_finite(state))
+    throw std::invalid_argument("analysis: the state does not fit the model");
+  const State rest = at_rest(state);
+  const Row row = row_along(model, rest, move, in, axis);
+  const WhitenedRobot robot(model, rest, &row);
+  const Eigen::VectorXd B = robot.rows.motion(robot.last_row()).transpose();
+  AxisAnalysis result;
+  result.kappa = robot.rows.free_share(robot.last_row(), robot.sweeps.L);
+  result.effective_mass = result.kappa > unreachable_share ? 1.0 / B.squaredNorm() : infinity;
+  if (result.kappa <= unreachable_share) return result;
+  const Eigen::VectorXd along = motor_directions(model, robot).transpose() * B;
+  result.reachable = along.size() > 0 && along.lpNorm<Eigen::Infinity>() > rank_tolerance * B.norm();
+  if (result.reachable) result.largest_force = largest_force(model, rest, row, result.effective_mass);
+  return result;
+}
+
+BaseAnalysis analyse_base(const Model& model, const State& state) {
+  if (!fits(state, model) || !is_finite(state))
+    throw std::invalid_argument("analysis: the state does not fit the model");
+  const State rest = at_rest(state);
+  const WhitenedRobot robot(model, rest, nullptr);
+  BaseAnalysis result;
+  result.mobility = robot.rows.mobility();
+  const Eigen::MatrixXd motors = motor_directions(model, robot);
+  result.motor_rank = rank_of(motors);
+  result.exact = result.motor_rank == result.mobility;
+  result.internal_forces = static_cast<int>(motors.cols()) - result.motor_rank;
+  result.redundant_ground_rows = robot.ground - robot.rows.ground_rank();
+
+  if (!model.has_fixed_base()) {
+    result.base_mobility = base_mobility(robot);
+    const AttachedFrame own{0, {}};
+    const std::array axes{Axis::x, Axis::y, Axis::rz};
+    for (std::size_t k = 0; k < axes.size(); ++k)
+      result.axes[k] = analyse_axis(model, rest, own, own, axes[k]);
+  }
+  const bool rollers = std::any_of(model.wheels().begin(), model.wheels().end(),
+                                   [](const Wheel& wheel) { return wheel.roller_angle.has_value(); });
+  result.mirrored_rollers = rollers && model.wheels().size() >= 4 && !result.exact;
+  result.locked = !model.has_fixed_base() && !model.wheels().empty() && result.base_mobility == 0;
+  return result;
+}
+
+}  // namespace zwang::solver
