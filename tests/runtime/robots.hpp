@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -161,19 +162,19 @@ inline Nodes apply(Op op, Nodes a) {
   a.push_back(n);
   return a;
 }
-inline Nodes apply(Op op, Nodes a, Nodes b) {
+inline Nodes apply(Op op, const Nodes& a, const Nodes& b) {
   const int shift = static_cast<int>(a.size());
-  ExpressionNode n;
-  n.op = op;
-  n.left = shift - 1;
-  n.right = shift + static_cast<int>(b.size()) - 1;
-  for (ExpressionNode& node : b) {
+  Nodes all(a.size() + b.size() + 1);
+  std::copy(a.begin(), a.end(), all.begin());
+  std::transform(b.begin(), b.end(), all.begin() + shift, [shift](ExpressionNode node) {
     if (node.left >= 0) node.left += shift;
     if (node.right >= 0) node.right += shift;
-    a.push_back(node);
-  }
-  a.push_back(n);
-  return a;
+    return node;
+  });
+  all.back().op = op;
+  all.back().left = shift - 1;
+  all.back().right = shift + static_cast<int>(b.size()) - 1;
+  return all;
 }
 inline Nodes unknown() {
   return apply(Op::divide, number(0.0), number(0.0));
