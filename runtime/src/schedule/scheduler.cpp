@@ -8,6 +8,7 @@
 #include "schedule/braking.hpp"
 #include "schedule/condition.hpp"
 #include "schedule/frame_table.hpp"
+#include "schedule/supported.hpp"
 
 namespace zwang::runtime {
 
@@ -420,8 +421,10 @@ void Scheduler::Parts::put_constraints() noexcept {
   blend->put(wanted, progress, *set, in_force);
 }
 
-Scheduler::Scheduler(const lang::Program& program, double period)
-    : parts_(std::make_unique<Parts>(program, period)) {}
+Scheduler::Scheduler(const lang::Program& program, double period) {
+  require_supported(program);
+  parts_ = std::make_unique<Parts>(program, period);
+}
 Scheduler::~Scheduler() = default;
 Scheduler::Scheduler(Scheduler&&) noexcept = default;
 Scheduler& Scheduler::operator=(Scheduler&&) noexcept = default;

@@ -66,7 +66,7 @@ struct AxisReading {
 class Scheduler {
  public:
   /// The program is copied. Throws std::invalid_argument on a program without tasks or with an index out of
-  /// range, or a period that is not positive.
+  /// range, with a part of the language that the runtime does not run yet, or a period that is not positive.
   Scheduler(const lang::Program& program, double period);
   ~Scheduler();
   Scheduler(Scheduler&&) noexcept;
