@@ -1,8 +1,10 @@
 // What the answer may not depend on: where the world's frame stands, the order of rows, the units.
 #include <gtest/gtest.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <numeric>
+#include <string>
 
 #include "law_problem.hpp"
 
@@ -164,6 +166,12 @@ std::vector<solver::Row> in_units(std::vector<solver::Row> rows, const Units& u)
   return rows;
 }
 
+double condition_of_inertia(const solver::Model& model, const solver::State& state) {
+  const Eigen::MatrixXd M = DenseDynamics(model, state).M.cast<double>();
+  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(M).singularValues();
+  return values(0) / values(values.size() - 1);
+}
+
 TEST_P(Invariance, UnitsDoNotMatter) {
   const Units units[] = {{1000.0, 1.0, 1.0}, {1.0, 0.001, 1.0}, {1.0, 1.0, 60.0}, {39.37, 2.2046, 0.1}};
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
@@ -183,8 +191,15 @@ TEST_P(Invariance, UnitsDoNotMatter) {
         tau[j] /= slides(model, j) ? u.force() : u.torque();
         qdd[j] /= slides(model, j) ? u.acceleration() : 1.0 / (u.time * u.time);
       }
-      EXPECT_LT(relative_difference(tau, si.tau), 1e-9) << "seed " << seed << ", length " << u.length;
-      EXPECT_LT(relative_difference(qdd, si.qdd), 1e-9) << "seed " << seed << ", length " << u.length;
+      // Two roundings of one problem differ by the condition of its mass matrix in either system of units.
+      const double condition = std::max(condition_of_inertia(p.model, p.state),
+                                        condition_of_inertia(model, in_units(p.model, p.state, u)));
+      const double tolerance = condition < 1e5 ? 1e-9 : 1e-7;
+      const auto problem = [&] {
+        return "seed " + std::to_string(seed) + ", condition " + std::to_string(condition);
+      };
+      EXPECT_LT(relative_difference(tau, si.tau), tolerance) << problem();
+      EXPECT_LT(relative_difference(qdd, si.qdd), tolerance) << problem();
     }
   }
 }
