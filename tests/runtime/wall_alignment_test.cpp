@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct Setting {
   const char* push = "20 N";
   double friction = 0.0;
 };
+
+void PrintTo(const Setting& setting, std::ostream* out) {
+  *out << "yaw " << setting.start_yaw << " deg, push " << setting.push << ", friction " << setting.friction;
+}
 
 lang::Program load(const Setting& setting) {
   lang::Diagnostics diagnostics;
