@@ -240,10 +240,9 @@ Status Solver::project_velocity(State& state) noexcept {
   const Vector6 at_rest = Vector6::Zero();
   outward_kinematics(w.model, state, true, w.gravity(state), w.sweeps);
   w.sweeps.clear_rows();
-  w.add_ground_rows();
   for (int i = 0; i < w.ground; ++i) {
     const GroundRow row = ground_row(i, w.model, w.sweeps);
-    w.forces(i) = -row.a.dot(w.body_sweep(row.body).v);
+    w.forces(w.sweeps.add_row(row.body, row.a)) = -row.a.dot(w.body_sweep(row.body).v);
   }
   outward_kinematics(w.model, state, false, Vector3::Zero(), w.sweeps);
   w.tau_ff.setZero();
