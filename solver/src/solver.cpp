@@ -52,6 +52,7 @@ Solution::Solution(const Model& model, int row_capacity)
     : tau(Eigen::VectorXd::Zero(model.joint_count())),
       qdd(Eigen::VectorXd::Zero(model.joint_count())),
       acceleration(static_cast<std::size_t>(model.body_count())) {
+  if (row_capacity < 1) throw std::invalid_argument("solution: row_capacity must be at least 1");
   rows.reserve(static_cast<std::size_t>(row_capacity));
 }
 
@@ -222,7 +223,10 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
     solution.acceleration[i] = w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a);
   }
   solution.tau.setZero();
-  for (const int j : w.motors) solution.tau(j) = w.tau_ff(j) + w.forces(w.first_joint_row() + j);
+  for (const int j : w.motors) {
+    const double limit = w.model.joint(j).max_effort;  // not even by a rounding beyond
+    solution.tau(j) = std::clamp(w.tau_ff(j) + w.forces(w.first_joint_row() + j), -limit, limit);
+  }
   solution.rows.clear();
   for (std::size_t i = 0; i < rows.size(); ++i) solution.rows.push_back(w.problem.row(static_cast<int>(i)));
   solution.mobility = w.whitened.mobility();

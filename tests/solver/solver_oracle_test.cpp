@@ -1,5 +1,6 @@
 // The solver's sweeps and active set against the dense oracle on seeded random problems.
-// ZWANG_ORACLE_PROBLEMS sets how many a test draws, ZWANG_ORACLE_SEED where they start.
+// ZWANG_ORACLE_PROBLEMS sets how many a test draws (all together 10 098 by default), ZWANG_ORACLE_SEED where
+// they start.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -75,6 +76,11 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << c.family << " " << to_string(c.robot);
 }
 
+/// Ground whose wheels contradict each other nearly amplifies the sweeps' rounding.
+constexpr double ill_condition = 1e5;
+constexpr double tolerance = 1e-9;
+constexpr double tolerance_if_ill_conditioned = 1e-7;
+
 class SolverOracle : public testing::TestWithParam<Case> {
  protected:
   static void TearDownTestSuite() {
@@ -89,12 +95,29 @@ class SolverOracle : public testing::TestWithParam<Case> {
       }
       passed += count;
     }
-    std::printf("\n");
+    const Difference& w = worst();
+    std::printf(
+        "\nworst difference: tau %.1e  qdd %.1e  bodies %.1e  phi %.1e  nu %.1e  shortest nu %.1e  residual "
+        "%.1e\n",
+        w.tau, w.qdd, w.bodies, w.phi, w.nu, w.shortest, w.residual);
   }
   /// How many problems took how many iterations, all stages together.
   static std::map<int, long>& iterations() {
     static std::map<int, long> counts;
     return counts;
+  }
+  /// Of the problems that are judged by `tolerance`.
+  static Difference& worst() {
+    static Difference largest;
+    return largest;
+  }
+  static void note(const Difference& d) {
+    Difference& w = worst();
+    for (double Difference::*const kind :
+         {&Difference::tau, &Difference::qdd, &Difference::bodies, &Difference::phi, &Difference::nu,
+          &Difference::shortest, &Difference::residual}) {
+      w.*kind = std::max(w.*kind, d.*kind);
+    }
   }
 };
 
@@ -125,9 +148,8 @@ std::string describe(const std::vector<solver::Row>& rows, const solver::Solutio
 
 TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
   const Family f = family(GetParam().family);
-  const int problems = setting("ZWANG_ORACLE_PROBLEMS", 12);
+  const int problems = setting("ZWANG_ORACLE_PROBLEMS", 54);
   const int first = setting("ZWANG_ORACLE_SEED", 1);
-  double worst = 0.0;
   int failures = 0;
   for (int seed = first; seed < first + problems; ++seed) {
     Random random(static_cast<std::uint64_t>(seed) * 7919u + static_cast<std::uint64_t>(GetParam().robot));
@@ -149,19 +171,28 @@ TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
     const Difference d = difference(model, rows, got, want);
     ++iterations()[got.iterations];
     const double off = d.worst();
-    worst = std::max(worst, off);
-    if (status == solver::Status::ok && off < 1e-9 && d.same_mobility) continue;
+    const bool is_solved = status == solver::Status::ok && d.same_mobility;
+    if (is_solved && off < tolerance) {
+      note(d);
+      continue;
+    }
+    const auto condition = static_cast<double>(ground_condition(model, measured));
+    if (is_solved && condition > ill_condition && off < tolerance_if_ill_conditioned) {
+      std::printf("%s %s, seed %d: off by %.1e, condition of the ground %.1e\n", GetParam().family.c_str(),
+                  to_string(GetParam().robot), seed, off, condition);
+      continue;
+    }
     ++failures;
     if (failures > 3) continue;  // enough to look into
-    ADD_FAILURE() << "seed " << seed << ", " << to_string(status) << ", effort " << effort << ", "
-                  << got.iterations << " iterations, mobility " << got.mobility << " want " << want.mobility
-                  << "\n  tau " << d.tau << " qdd " << d.qdd << " bodies " << d.bodies << " phi " << d.phi
-                  << " nu " << d.nu << " shortest nu " << d.shortest << " residual " << d.residual
-                  << "\n  tau  " << got.tau.transpose() << "\n  want " << want.tau.transpose() << "\n"
+    ADD_FAILURE() << "seed " << seed << ", condition " << condition << ", " << to_string(status)
+                  << ", effort " << effort << ", " << got.iterations << " iterations, mobility "
+                  << got.mobility << " want " << want.mobility << "\n  tau " << d.tau << " qdd " << d.qdd
+                  << " bodies " << d.bodies << " phi " << d.phi << " nu " << d.nu << " shortest nu "
+                  << d.shortest << " residual " << d.residual << "\n  tau  " << got.tau.transpose()
+                  << "\n  want " << want.tau.transpose() << "\n"
                   << describe(rows, got, want);
   }
   EXPECT_EQ(failures, 0) << "of " << problems;
-  RecordProperty("worst", std::to_string(worst));
 }
 
 std::vector<Case> cases() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "constraint/kinematics.hpp"
 #include "constraint/measure.hpp"
@@ -114,6 +115,9 @@ Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axi
 }
 
 ConstraintSet::ConstraintSet(int constraint_capacity, int row_capacity) {
+  if (constraint_capacity < 1 || row_capacity < 1) {
+    throw std::invalid_argument("constraint set: capacities must be at least 1");
+  }
   constraints_.reserve(static_cast<std::size_t>(constraint_capacity));
   coordinates_.reserve(static_cast<std::size_t>(constraint_capacity));
   rows_.reserve(static_cast<std::size_t>(row_capacity));

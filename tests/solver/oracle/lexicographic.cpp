@@ -1,6 +1,7 @@
 #include "oracle/lexicographic.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -393,6 +394,22 @@ ReducedProblem::ReducedProblem(const solver::Model& m, const solver::State& stat
   for (Index j = 0; j < joints; ++j) {
     if (!model.joint(static_cast<int>(j)).actuated) G.col(j).setZero();
   }
+}
+
+Real ground_condition(const solver::Model& model, const solver::State& state) {
+  const DenseDynamics dynamics(model, state);
+  const Matrix J = dynamics.ground().jacobian;
+  if (J.rows() == 0) return 1;
+  Matrix L = J * dynamics.M.inverse() * J.transpose();
+  const Vector scale = L.diagonal().cwiseSqrt().cwiseInverse();
+  L = (scale.asDiagonal() * L * scale.asDiagonal()).eval();
+  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(L, Eigen::EigenvaluesOnly).eigenvalues();
+  const Real largest = values[values.size() - 1];
+  Real smallest = largest;
+  for (const Real value : values) {
+    if (value > 1e-10L * largest) smallest = std::min(smallest, value);
+  }
+  return largest / smallest;
 }
 
 OracleSolution solve(const solver::Model& model, const solver::State& state,

@@ -129,7 +129,7 @@ struct Row {
 };
 
 /// The constraints in force at one instant, and the coordinates and rows that `fill` computes from a state.
-/// Sized once: `fill` does not allocate, lock, throw or print.
+/// Sized once, std::invalid_argument for a size below 1: `fill` does not allocate, lock, throw or print.
 class ConstraintSet {
  public:
   explicit ConstraintSet(int constraint_capacity = 64, int row_capacity = 64);
