@@ -58,7 +58,9 @@ Solution::Solution(const Model& model, int row_capacity)
 
 namespace {
 
+/// Rows on the base's own freedoms, needed where the joints' rows do not span every motion.
 int base_freedoms(const Model& model) {
+  if (every_motion_turns_a_wheel(model)) return 0;
   switch (model.base_type()) {
     case BaseType::fixed:
       return 0;
