@@ -77,7 +77,7 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
 }
 
 /// Ground whose wheels contradict each other nearly amplifies the sweeps' rounding.
-constexpr double ill_condition = 1e5;
+constexpr double ill_condition = 1e4;
 constexpr double tolerance = 1e-9;
 constexpr double tolerance_if_ill_conditioned = 1e-7;
 
