@@ -126,7 +126,10 @@ double braking_speed(double distance, double braking, double h) noexcept {
 }
 
 FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept {
-  if (frame.body < 0) return {frame.pose, Vector3::Zero(), Vector3::Zero()};
+  if (frame.body < 0) {
+    const Matrix3& R = frame.pose.rotation;
+    return {frame.pose, R * frame.twist.angular, R * frame.twist.linear};
+  }
   return motion_of_body(frame.body, model, state).at(frame.pose);
 }
 

@@ -29,7 +29,9 @@ struct Range {
 /// A frame fixed to a body, or to the world (body = -1).
 struct AttachedFrame {
   int body = -1;
-  Pose pose;  ///< in the body's frame, or in the world
+  Pose pose;           ///< in the body's frame, or in the world
+  MotionVector twist;  ///< of a frame in the world that moves (an observed object), in its own axes and at
+                       ///< its origin; its acceleration counts as 0. Ignored on a body.
 };
 
 /// The value that drives an axis. [SI: m, rad, m/s, ..., N, N m]
