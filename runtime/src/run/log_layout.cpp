@@ -53,6 +53,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
     using solver::Quantity;
     const auto unit = [&](Quantity quantity) { return std::string(unit_of(s.says.axis, quantity)); };
     StatementColumns c;
+    const std::size_t first = columns_.size();
     const bool ranges = s.says.position || s.says.velocity || s.says.acceleration;
     if (s.says.driver || ranges) {
       c.position = add(s.name + ".position", unit(Quantity::position));
@@ -67,6 +68,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
       c.residual = add(s.name + ".residual", unit(Quantity::acceleration));
     }
     if (ranges) c.limit_nu = add(s.name + ".limit_nu", unit(Quantity::force));
+    for (std::size_t i = first; i < columns_.size(); ++i) columns_[i].span = s.says.span;
     of_statement_.push_back(c);
   }
   for (const lang::Task& t : scheduler.tasks()) {
@@ -114,6 +116,10 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
     put_statements(statements, tick);
     const std::vector<int>& exits = guards_[static_cast<std::size_t>(tick.scheduler.task())];
     for (std::size_t i = 0; i < exits.size(); ++i) put(exits[i], tick.scheduler.dwell(static_cast<int>(i)));
+    const std::vector<int>& always = guards_[static_cast<std::size_t>(tick.scheduler.always_task())];
+    for (std::size_t i = 0; i < always.size(); ++i) {
+      put(always[i], tick.scheduler.always_dwell(static_cast<int>(i)));
+    }
   }
   const std::size_t extra =
       std::min(tick.extra.size(), values_.size() - static_cast<std::size_t>(first_extra_));
