@@ -21,7 +21,7 @@ ParameterText parse_parameter(const Entry& entry, Diagnostics& diagnostics) {
   if (const Node* range = map.optional("range")) {
     parameter.range = parse_range(*range, "the range of " + what, diagnostics);
   }
-  if (const Node* help = map.optional("help")) parameter.help = help->text;
+  if (const Node* help = map.optional("help")) parameter.help = parse_text(*help, "`help`", diagnostics);
   map.finish();
   return parameter;
 }
@@ -44,7 +44,6 @@ void parse_tasks(const Node& node, Templates& templates, TaskFile& file, Diagnos
   if (node.entries.empty()) diagnostics.add(wording::no_tasks(node.span));
   if (node.entries.size() > most_tasks) {
     diagnostics.add(wording::too_many_tasks(node.entries[most_tasks].key.span, most_tasks));
-    return;
   }
   for (const Entry& entry : node.entries) {
     if (entry.key.is_bad) continue;
@@ -131,7 +130,7 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   TaskFile file;
   if (const Node* robot = map.required("robot")) file.robot = parse_word(*robot, "`robot`", diagnostics);
   if (const Node* scene = map.optional("scene")) file.scene = parse_word(*scene, "`scene`", diagnostics);
-  if (const Node* about = map.optional("about")) file.about = about->text;
+  if (const Node* about = map.optional("about")) file.about = parse_text(*about, "`about`", diagnostics);
   const auto each = [&](std::string_view key, const auto& use) {
     const Node* node = map.optional(key);
     if (node == nullptr || !require_mapping(*node, "`" + std::string(key) + "`", diagnostics)) return;
