@@ -43,6 +43,8 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
   if (!file) return std::nullopt;
   std::optional<Robot> robot = load_robot_of(*file, path, root, options, diagnostics);
   std::optional<Scene> scene = load_scene_of(*file, path, root, options, diagnostics);
+  // Names of a section that could not be read would all be called unknown.
+  if (file->is_incomplete) return std::nullopt;
   std::optional<CheckedFile> checked =
       check(std::move(*file), std::move(robot), std::move(scene), options, diagnostics);
   if (!checked) return std::nullopt;

@@ -1,3 +1,5 @@
+#include <map>
+
 #include "diagnostic/wordings.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
@@ -55,11 +57,20 @@ void parse_tasks(const Node& node, Templates& templates, TaskFile& file, Diagnos
 
 void parse_always(const Node& node, TaskFile& file, Diagnostics& diagnostics) {
   MapReader map(node, "`always`", diagnostics);
-  if (const Node* groups = map.optional("constraints")) {
-    file.always_groups = parse_groups(*groups, 0, diagnostics);
-  }
+  file.always_groups = parse_constraints(map, 0, diagnostics);
   if (const Node* exits = map.optional("exits")) file.always_exits = parse_exits(*exits, diagnostics);
   map.finish();
+}
+
+std::map<std::string, std::optional<Dimension>> dimensions_of(const std::vector<ParameterText>& parameters) {
+  std::map<std::string, std::optional<Dimension>> dimensions;
+  for (const ParameterText& parameter : parameters) {
+    if (!parameter.name.exists()) continue;
+    const bool is_good = parameter.value.kind == ValueKind::quantity;
+    dimensions[parameter.name.text] =
+        is_good ? std::optional(parameter.value.quantity.dimension) : std::nullopt;
+  }
+  return dimensions;
 }
 
 }  // namespace
@@ -143,11 +154,16 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   if (const Node* node = map.optional("regions")) file.regions = parse_regions(*node, diagnostics);
   if (const Node* node = map.optional("signals")) file.signals = parse_signals(*node, diagnostics);
   if (const Node* node = map.optional("features")) file.features = parse_features(*node, diagnostics);
-  Templates templates(diagnostics);
+  Templates templates(dimensions_of(file.parameters), diagnostics);
   if (const Node* node = map.optional("templates")) templates.declare(*node);
+  if (map.has_misspelt({"templates", "params"})) templates.forgive_unknown();
   if (const Node* node = map.optional("always")) parse_always(*node, file, diagnostics);
   if (const Node* start = map.required("start")) file.start = parse_word(*start, "`start`", diagnostics);
   if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, templates, file, diagnostics);
+  for (const char* section : {"params", "frames", "regions", "signals", "features", "templates", "always"}) {
+    const bool is_absent = document.root.find(section) == nullptr;
+    file.is_incomplete = file.is_incomplete || (is_absent && map.has_misspelt({section}));
+  }
   if (!diagnostics.has_errors()) templates.report_unused();
   map.finish();
   return file;

@@ -195,6 +195,14 @@ std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnost
   return groups;
 }
 
+std::vector<GroupText> parse_constraints(MapReader& map, int lowest_level, Diagnostics& diagnostics) {
+  if (const Node* node = map.optional("constraints")) return parse_groups(*node, lowest_level, diagnostics);
+  if (!map.has_misspelt({"constraints"})) return {};
+  GroupText unread;
+  unread.is_incomplete = true;
+  return {unread};
+}
+
 std::vector<ExitText> parse_exits(const Node& node, Diagnostics& diagnostics) {
   std::vector<ExitText> exits;
   if (!require_sequence(node, "`exits`", diagnostics)) return exits;
@@ -213,7 +221,7 @@ TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnosti
   task.is_bad = !map.is_mapping();
   if (const Node* node = map.optional("about")) task.about = parse_text(*node, "`about`", diagnostics);
   if (const Node* node = map.optional("enter")) parse_enter(*node, task, diagnostics);
-  if (const Node* node = map.optional("constraints")) task.groups = parse_groups(*node, 1, diagnostics);
+  task.groups = parse_constraints(map, 1, diagnostics);
   if (const Node* node = map.optional("exits")) task.exits = parse_exits(*node, diagnostics);
   if (const Node* node = map.optional("timeout")) task.timeout = parse_timeout(*node, diagnostics);
   if (const Node* node = map.optional("attempts")) {
