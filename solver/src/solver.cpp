@@ -76,7 +76,7 @@ Vector6 base_freedom(const Model& model, int index) {
 
 bool is_valid(const Row& row) {
   return is_finite(row.a) && is_finite(row.a_reference) && std::isfinite(row.b) && std::isfinite(row.force) &&
-         std::isfinite(row.fade) && row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
+         std::isfinite(row.fade) && row.weight > 0.0 && row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
 }
 
 }  // namespace
@@ -228,6 +228,10 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   solution.mobility = w.whitened.mobility();
   solution.iterations = w.problem.iterations();
   return exact ? Status::ok : Status::iteration_limit;
+}
+
+int Solver::opposing(int row, std::span<int> out) const noexcept {
+  return workspace_->problem.opposing(row, out);
 }
 
 Status Solver::project_velocity(State& state) noexcept {

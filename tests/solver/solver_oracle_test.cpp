@@ -32,7 +32,7 @@ Family family(const std::string& name) {
   Family f{{}, no_limit, no_limit};
   RowOptions& o = f.rows;
   // Everything off; each family switches on what its name says.
-  o.one_sided = o.force = o.fading = o.duplicate = o.relative = 0.0;
+  o.one_sided = o.force = o.fading = o.duplicate = o.relative = o.weight = o.sum = 0.0;
   o.bound = 1e4;
   o.count = 3;
   if (name == "equalities") return f;
@@ -48,6 +48,13 @@ Family family(const std::string& name) {
   if (name == "levels_fading") o.levels = 2, o.count = 6, o.bound = 60.0, o.fading = 0.4, o.one_sided = 0.3;
   if (name == "levels_torque") {
     o.levels = 2, o.count = 6, o.bound = 60.0, f.least_effort = 1.0, f.most_effort = 20.0;
+  }
+  if (name == "weights") o.weight = 0.7, o.fading = 0.3, o.bound = 60.0, o.one_sided = 0.3;
+  if (name == "levels_weights") o.levels = 2, o.count = 6, o.weight = 0.6, o.fading = 0.2, o.one_sided = 0.3;
+  if (name == "sums") o.sum = 0.4, o.count = 5, o.bound = 60.0;
+  if (name == "levels_sums") {
+    o.levels = 3, o.count = 8, o.sum = 0.3, o.bound = 60.0, o.force = 0.2, o.one_sided = 0.3;
+    o.fading = 0.2, f.least_effort = 2.0, f.most_effort = 40.0;
   }
   if (name == "everything") {
     f.rows = RowOptions{};
@@ -93,24 +100,24 @@ class SolverOracle : public testing::TestWithParam<Case> {
 
 std::string describe(const std::vector<solver::Row>& rows, const solver::Solution& got,
                      const OracleSolution& want) {
-  static const char* const kinds[] = {"driver", "upper", "lower", "force"};
+  static const char* const kinds[] = {"driver", "upper", "lower", "force", "sum"};
   static const char* const statuses[] = {"held",        "force_limited", "torque_limited",
                                          "unreachable", "blocked",       "conflict"};
   std::string out;
   char line[400];
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const solver::Row& r = rows[i];
-    std::snprintf(
-        line, sizeof line,
-        "    %zu %-6s level %d body %d/%d b %.4f f %.3f [%.3f, %.3f] fade %.3f: nu %.9g want %.9g%s, phi "
-        "%.6g want %.6Lg, s %.3g want %.3Lg, %s\n",
-        i, kinds[static_cast<int>(r.kind)], r.level, r.body, r.reference_body, r.b, r.force, r.lo, r.hi,
-        r.fade, got.rows[i].nu, static_cast<double>(want.rows[i].nu),
-        want.rows[i].idle     ? " (idle)"
-        : want.rows[i].unique ? ""
-                              : " (not unique)",
-        got.rows[i].phi, want.rows[i].phi, got.rows[i].residual, want.rows[i].residual,
-        statuses[static_cast<int>(got.rows[i].status)]);
+    std::snprintf(line, sizeof line,
+                  "    %zu %-6s level %d body %d/%d b %.4f f %.3f [%.3f, %.3f] weight %.3g fade %.3f: nu "
+                  "%.9g want %.9g%s, phi "
+                  "%.6g want %.6Lg, s %.3g want %.3Lg, %s\n",
+                  i, kinds[static_cast<int>(r.kind)], r.level, r.body, r.reference_body, r.b, r.force, r.lo,
+                  r.hi, r.weight, r.fade, got.rows[i].nu, static_cast<double>(want.rows[i].nu),
+                  want.rows[i].idle     ? " (idle)"
+                  : want.rows[i].unique ? ""
+                                        : " (not unique)",
+                  got.rows[i].phi, want.rows[i].phi, got.rows[i].residual, want.rows[i].residual,
+                  statuses[static_cast<int>(got.rows[i].status)]);
     out += line;
   }
   return out;
@@ -159,9 +166,9 @@ TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
 
 std::vector<Case> cases() {
   std::vector<Case> out;
-  for (const char* name :
-       {"equalities", "relative", "one_sided", "bounds", "duplicates", "fading", "torque", "force", "levels",
-        "levels_force", "levels_fading", "levels_torque", "everything"}) {
+  for (const char* name : {"equalities", "relative", "one_sided", "bounds", "duplicates", "fading", "torque",
+                           "force", "levels", "levels_force", "levels_fading", "levels_torque", "weights",
+                           "levels_weights", "sums", "levels_sums", "everything"}) {
     for (const Robot robot : all_robots) out.push_back({name, robot});
   }
   return out;

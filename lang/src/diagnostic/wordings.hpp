@@ -169,6 +169,7 @@ Diagnostic compensation_too_large(const Span& span, const std::string& what);
 Diagnostic limit_without_rest(const Span& span, const std::string& what);
 Diagnostic too_few_corners(const Span& span, const std::string& what);
 Diagnostic flat_polygon(const Span& span, const std::string& what);
+Diagnostic posture_outside(const Span& span, const std::string& what, const Span& joint);
 Diagnostic impossible_model(const Span& span, const std::string& reason);
 
 Diagnostic xml_too_deep(const Span& span, int limit);

@@ -38,7 +38,7 @@ struct Runner::Parts {
         scheduler(program, settings.period),
         solver(model, {.row_capacity = scheduler.row_capacity()}),
         solution(model, scheduler.row_capacity()),
-        sample(model),
+        sample(model, program.signals.size()),
         guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
         statements(scheduler, program),
         limits(statements, program.robot),
@@ -72,7 +72,11 @@ struct Runner::Parts {
 };
 
 bool Runner::Parts::control(const Sensed& sensed) noexcept {
-  sample = sensed;
+  sample.time = sensed.time;
+  sample.state = sensed.state;
+  // A snapshot may have fewer or more signals than the program; the sample keeps its size.
+  std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), sample.signals.size()),
+              sample.signals.begin());
   solver_status = solver.project_velocity(sample.state);
   if (solver_status != solver::Status::ok) return false;
   scheduler.tick(sample);

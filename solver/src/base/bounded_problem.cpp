@@ -11,7 +11,6 @@ constexpr double unreachable_share = 1e-8;      // A Mc A' over A M^-1 A'
 constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
 constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
 constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
-constexpr double bound_tolerance = 1e-9;        // relative: when nu counts as being at its bound
 constexpr double motor_rank_tolerance = 1e-12;  // of a pivot of T'T, relative to its trace
 
 /// One-sided rows push harder than any driver can, and harder the higher they rank: so where ranges
@@ -72,9 +71,14 @@ void BoundedProblem::set_row(int i, const Row& row, double free_share) noexcept 
   e.level = row.level;
   e.lo = row.lo;
   e.hi = row.hi;
+  e.weight = row.weight;
   e.fade = std::clamp(row.fade, 0.0, 1.0);
   e.force = e.fade * row.force;
   e.length = B(i).norm();
+  if (e.kind == RowKind::sum && e.fade > 0.0) {
+    e.lo /= e.fade;
+    e.hi /= e.fade;
+  }
   if (free_share < unreachable_share || e.fade == 0.0) {
     e.out = true;
     e.status = RowStatus::unreachable;
@@ -98,6 +102,7 @@ bool BoundedProblem::solve(int max_iterations) noexcept {
   bound_rows();
   for (int level = next_level(-1); level >= 0; level = next_level(level)) {
     project_rows(level);
+    start_sums(level);
     exact = solve_forces(level, max_iterations) && exact;
     exact = solve_motion(level, max_iterations) && exact;
     freeze(level);
@@ -147,7 +152,7 @@ void BoundedProblem::bound_rows() noexcept {
   if (scale == 0.0) scale = 1.0;
   for (int i = 0; i < rows_; ++i) {
     Entry& e = entry(i);
-    if (e.out) continue;
+    if (e.out || e.kind == RowKind::sum) continue;
     double force = largest_force(i);
     if (force == 0.0) {
       e.out = true;
@@ -190,6 +195,10 @@ bool BoundedProblem::is_one_sided(int i) const noexcept {
   return kind == RowKind::upper || kind == RowKind::lower;
 }
 
+bool BoundedProblem::is_motion(int i) const noexcept {
+  return is_one_sided(i) || entries_[static_cast<std::size_t>(i)].kind == RowKind::driver;
+}
+
 /// A row takes part in a stage while something of it is left free.
 bool BoundedProblem::takes_part(int i) const noexcept {
   return !entries_[static_cast<std::size_t>(i)].out && V_.row(i).head(dimension_).squaredNorm() > 0.0;
@@ -202,8 +211,16 @@ Range BoundedProblem::bounds_at(int i, int level) const noexcept {
   return {e.kind == RowKind::lower ? 0.0 : -infinity, e.kind == RowKind::upper ? 0.0 : infinity};
 }
 
-/// R = L_jj (1 - alpha)/alpha.
+/// R = 1/w + L_jj (1 - alpha)/alpha, at the row's own level.
 double BoundedProblem::softness(int i) const noexcept {
+  const Entry& e = entries_[static_cast<std::size_t>(i)];
+  return (is_motion(i) ? 1.0 / e.weight : 0.0) + held_softness(i);
+}
+
+/// Of what a row keeps against the levels below it. A weight decides how much of b is worth reaching; what
+/// was reached is kept firmly. A fading row lets go in the measure that it fades, so that it never does in
+/// one step.
+double BoundedProblem::held_softness(int i) const noexcept {
   const Entry& e = entries_[static_cast<std::size_t>(i)];
   return e.fade < 1.0 ? e.length * e.length * (1.0 - e.fade) / e.fade : 0.0;
 }
@@ -218,7 +235,7 @@ void BoundedProblem::freeze(int level) noexcept {
   auto F = F_.topLeftCorner(dimension_, dimension_);
   for (int i = 0; i < rows_; ++i) {
     const Entry& e = entry(i);
-    if (e.level != level || is_one_sided(i) || !takes_part(i)) continue;
+    if (e.level != level || is_one_sided(i) || e.kind == RowKind::sum || !takes_part(i)) continue;
     if (frozen_count_ == dimension_) return;
     auto v = solved_.head(dimension_);
     v.noalias() = F.transpose() * B(i).transpose();
@@ -228,56 +245,11 @@ void BoundedProblem::freeze(int level) noexcept {
     }
     const double left = v.squaredNorm();
     if (left <= dependent_share * e.length * e.length) continue;
-    const double R = softness(i);
+    const double R = held_softness(i);
     if (R == 0.0) frozen_.col(frozen_count_++).head(dimension_) = v / std::sqrt(left);
     work_.head(dimension_).noalias() = F * v;
     work_.head(dimension_) *= (1.0 - std::sqrt(R / (R + left))) / left;
     F.noalias() -= work_.head(dimension_) * v.transpose();
-  }
-}
-
-void BoundedProblem::report() noexcept {
-  bool motor_at_limit = false;
-  for (int j = 0; j < motors_; ++j) {
-    const double width = bound_tolerance * (tau_hi_(j) - tau_lo_(j));
-    if (!std::isfinite(width)) continue;
-    motor_at_limit = motor_at_limit || tau_(j) <= tau_lo_(j) + width || tau_(j) >= tau_hi_(j) - width;
-  }
-  for (int i = 0; i < rows_; ++i) {
-    const Entry& e = entry(i);
-    RowSolution& row = solutions_[static_cast<std::size_t>(i)];
-    row = RowSolution{};
-    if (e.kind == RowKind::force) {
-      row.phi = e.phi;
-      row.nu = e.phi * e.force;
-      row.saturated = e.phi < 1.0 - bound_tolerance;
-      row.status = e.out           ? e.status
-                   : e.blocked     ? RowStatus::blocked
-                   : row.saturated ? RowStatus::torque_limited
-                                   : RowStatus::held;
-      continue;
-    }
-    const double s = B(i).dot(p_.head(dimension_)) - d_(i);
-    row.nu = e.out ? 0.0 : e.nu;
-    row.residual = e.kind == RowKind::upper   ? std::max(s, 0.0)
-                   : e.kind == RowKind::lower ? std::min(s, 0.0)
-                                              : s;
-    const double width = bound_tolerance * std::max(1.0, std::max(std::abs(e.lo), std::abs(e.hi)));
-    const bool at_low = e.nu <= e.lo + width && e.lo < 0.0;
-    const bool at_high = e.nu >= e.hi - width && e.hi > 0.0;
-    row.saturated = !e.out && (at_low || at_high);
-    const bool met = std::abs(row.residual) <= 1e-8 * (1.0 + std::abs(d_(i)));
-    if (met || (is_soft(i) && !row.saturated && !e.out)) {
-      row.status = e.out && !met ? e.status : RowStatus::held;
-    } else if (e.out) {
-      row.status = e.status;
-    } else if (row.saturated) {
-      row.status = is_one_sided(i) ? RowStatus::conflict : RowStatus::force_limited;
-    } else if (e.blocked) {
-      row.status = RowStatus::blocked;
-    } else {
-      row.status = motor_at_limit ? RowStatus::torque_limited : RowStatus::conflict;
-    }
   }
 }
 

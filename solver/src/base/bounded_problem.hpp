@@ -11,9 +11,14 @@
 /// achieved is frozen (B_i.p + R mu_i stays, mu_i free: hard rows close their direction, soft ones yield with
 /// the same R), and higher one-sided rows are posed again and stay as well kept as they were. Within a level
 /// the force rows come first: phi is as near to 1 as the motors allow, then fixed.
+///
+/// A sum S bounds what is pressed along its axis: if the world blocked that axis and nothing else, it would
+/// have to answer with B_S.p / |B_S|^2, to which a row along the same axis adds its nu and any other row its
+/// share B_S.B_i / |B_S|^2. From the level of S on, what is added to p keeps that inside [lo, hi].
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "base/quadratic_program.hpp"
@@ -39,16 +44,19 @@ class BoundedProblem {
   const RowSolution& row(int i) const noexcept { return solutions_[static_cast<std::size_t>(i)]; }
   double tau(int motor) const noexcept { return tau_(motor); }
   int iterations() const noexcept { return iterations_; }
+  int opposing(int row, std::span<int> out) noexcept;
 
  private:
   struct Entry {
     RowKind kind = RowKind::driver;
     Quantity quantity = Quantity::velocity;
     int level = 1;
-    double lo = 0.0, hi = 0.0;  ///< of nu, in its own unit, fading included; finite
+    double lo = 0.0, hi = 0.0;  ///< of nu, in its own unit, fading included; finite (but on a sum)
     double force = 0.0;         ///< f, fading included
     double fade = 1.0;
+    double weight = infinity;
     double length = 0.0;   ///< |B_i|
+    double above = 0.0;    ///< of a sum: B_S.p / |B_S|^2 of the levels above
     double offset = 0.0;   ///< how far beyond b its own level left a violated one-sided row
     bool blocked = false;  ///< the levels above leave it no freedom
     bool out = false;      ///< unreachable: takes no part
@@ -59,10 +67,12 @@ class BoundedProblem {
   auto P(int row) noexcept { return P_.row(row).head(dimension_); }
   Entry& entry(int i) noexcept { return entries_[static_cast<std::size_t>(i)]; }
   bool is_one_sided(int i) const noexcept;
-  bool is_soft(int i) noexcept { return entry(i).fade < 1.0; }
+  bool is_motion(int i) const noexcept;
+  bool is_soft(int i) noexcept { return softness(i) > 0.0; }
   bool takes_part(int i) const noexcept;
   Range bounds_at(int i, int level) const noexcept;
   double softness(int i) const noexcept;
+  double held_softness(int i) const noexcept;
   double largest_force(int row) noexcept;
   int next_level(int after) const noexcept;
 
@@ -74,8 +84,19 @@ class BoundedProblem {
   bool least_multipliers(int level, int max_iterations) noexcept;
   void freeze(int level) noexcept;
   bool least_torques(int max_iterations) noexcept;
-  void report() noexcept;
 
+  void report() noexcept;
+  RowSolution report_force(int i, bool motor_at_limit) noexcept;
+  RowSolution report_sum(int i) noexcept;
+  RowSolution report_motion(int i, bool motor_at_limit) noexcept;
+  bool is_sum_at_bound(int i, double direction) noexcept;
+  bool is_held_by_sum(int i, double wanted) noexcept;
+  double opposition(int k, int i, double wanted, double miss) noexcept;
+
+  void start_sums(int level) noexcept;
+  bool sum_counts(int i, int level) const noexcept;
+  double sum_of(int i, const Eigen::VectorXd& p) noexcept;
+  bool sums_hold(int level, const Eigen::VectorXd& p) noexcept;
   bool limits_above_hold(int first) noexcept;
   double room_of(int i, const Eigen::VectorXd& p) noexcept;
   bool brake(int forces, int level, int max_iterations) noexcept;
@@ -87,6 +108,7 @@ class BoundedProblem {
   void pose_multiplier(int k, int level) noexcept;
   void pose_motion(int n, int level, bool with_motors) noexcept;
   void pose_motors(int n, int level) noexcept;
+  void pose_sums(int n, int level, int variable, int equation) noexcept;
   void take_p(int n) noexcept;
   void take_limits(int first) noexcept;
   void take_multipliers(int level) noexcept;

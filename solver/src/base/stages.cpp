@@ -8,8 +8,7 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double torque_tolerance =
-    1e-12;  // relative: rounding that least-squares torques may show at a limit
+constexpr double rounding = 1e-12;  // relative: what torques and sums may show at a limit
 
 double nonzero(double length) {
   return length > 0.0 ? length : 1.0;
@@ -22,6 +21,36 @@ void BoundedProblem::pose_limits_above(int level) noexcept {
   for (int i = 0; i < rows_; ++i) {
     if (is_one_sided(i) && entry(i).level < level && takes_part(i)) posed_.push_back(i);
   }
+}
+
+/// From its level on a sum counts what is added to p.
+void BoundedProblem::start_sums(int level) noexcept {
+  for (int i = 0; i < rows_; ++i) {
+    Entry& e = entry(i);
+    if (e.kind != RowKind::sum || e.level != level || e.out) continue;
+    e.above = 0.0;
+    e.above = sum_of(i, p_);
+  }
+}
+
+bool BoundedProblem::sum_counts(int i, int level) const noexcept {
+  const Entry& e = entries_[static_cast<std::size_t>(i)];
+  return e.kind == RowKind::sum && e.level <= level && !e.out;
+}
+
+double BoundedProblem::sum_of(int i, const Eigen::VectorXd& p) noexcept {
+  const Entry& e = entry(i);
+  return B(i).dot(p.head(dimension_)) / (e.length * e.length) - e.above;
+}
+
+bool BoundedProblem::sums_hold(int level, const Eigen::VectorXd& p) noexcept {
+  for (int i = 0; i < rows_; ++i) {
+    if (!sum_counts(i, level)) continue;
+    const Entry& e = entry(i);
+    const double sum = sum_of(i, p);
+    if (sum < e.lo - rounding * std::abs(e.lo) || sum > e.hi + rounding * std::abs(e.hi)) return false;
+  }
+  return true;
 }
 
 /// min sum (1 - phi)^2 with torques that make the motion, the limits above braking as they must. Mostly
@@ -39,10 +68,10 @@ bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
   pose_limits_above(level);
   bool exact = true;
   work_.head(dimension_) = fixed_.head(dimension_);
-  bool full = limits_above_hold(forces) && torques_for(work_);
+  bool full = limits_above_hold(forces) && sums_hold(level, work_) && torques_for(work_);
   if (!full && static_cast<int>(posed_.size()) > forces && motors_reach_all_) {
     exact = brake(forces, level, max_iterations);
-    full = torques_for(work_);
+    full = sums_hold(level, work_) && torques_for(work_);
     if (full) take_limits(forces);
   }
   if (full) {
@@ -66,7 +95,7 @@ bool BoundedProblem::limits_above_hold(int first) noexcept {
 /// How far a limit is from what it must keep, with its present multiplier; negative where it does not.
 double BoundedProblem::room_of(int i, const Eigen::VectorXd& p) noexcept {
   const Entry& e = entry(i);
-  const double s = B(i).dot(p.head(dimension_)) + softness(i) * e.nu - d_(i) - e.offset;
+  const double s = B(i).dot(p.head(dimension_)) + held_softness(i) * e.nu - d_(i) - e.offset;
   return e.kind == RowKind::upper ? -s : s;
 }
 
@@ -131,16 +160,22 @@ bool BoundedProblem::share_torque(int forces, int level, int max_iterations) noe
   return exact;
 }
 
-/// Variables: `n` of rows, then the motors, then the room that each limit above keeps.
+/// Variables: `n` of rows, then the motors, the room that each limit above keeps, and the sums.
 void BoundedProblem::resize_program(int n, int level, int curvature_rows, bool with_motors) noexcept {
   units_.clear();
-  int limits = 0;
-  for (int k = 0; k < n && with_motors; ++k) {
-    const int i = posed_[static_cast<std::size_t>(k)];
-    if (is_one_sided(i) && entry(i).level < level) ++limits;
+  if (!with_motors) {
+    program_.resize(n, curvature_rows, 0);
+    return;
   }
-  program_.resize(n + (with_motors ? motors_ + limits : 0), curvature_rows,
-                  with_motors ? dimension_ + limits : 0);
+  int bounded = 0;  // limits above and sums: a variable and an equation each
+  for (int k = 0; k < n; ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    if (is_one_sided(i) && entry(i).level < level) ++bounded;
+  }
+  for (int i = 0; i < rows_; ++i) {
+    if (sum_counts(i, level)) ++bounded;
+  }
+  program_.resize(n + motors_ + bounded, curvature_rows, dimension_ + bounded);
 }
 
 /// The variable nu |V_i| of a motion row: its bounds, and where it stands.
@@ -179,12 +214,31 @@ void BoundedProblem::pose_motors(int n, int level) noexcept {
       const double along = V(i).dot(V(posed_[static_cast<std::size_t>(other)]));
       program_.E(other)(equation) = sign * along * units_[static_cast<std::size_t>(other)] / length;
     }
-    program_.E(k)(equation) += sign * softness(i) / (length * length);
+    program_.E(k)(equation) += sign * held_softness(i) / (length * length);
     const int room = n + motors_ + limit++;
     program_.E(room)(equation) = 1.0;
     program_.lo(room) = 0.0;
     program_.hi(room) = infinity;
     program_.z(room) = std::max(0.0, room_of(i, p_) / length);
+  }
+  pose_sums(n, level, n + motors_ + limit, dimension_ + limit);
+}
+
+/// The variable sigma = |B_S| (the sum): B_S.p / |B_S| = sigma + what the levels above made of it.
+void BoundedProblem::pose_sums(int n, int level, int variable, int equation) noexcept {
+  for (int i = 0; i < rows_; ++i) {
+    if (!sum_counts(i, level)) continue;
+    const double length = entry(i).length;
+    for (int k = 0; k < n; ++k) {
+      const double along = B(i).dot(P(posed_[static_cast<std::size_t>(k)])) / length;
+      program_.E(k)(equation) = along * units_[static_cast<std::size_t>(k)];
+    }
+    program_.E(variable)(equation) = -1.0;
+    program_.lo(variable) = entry(i).lo * length;
+    program_.hi(variable) = entry(i).hi * length;
+    program_.z(variable) = std::clamp(sum_of(i, p_), entry(i).lo, entry(i).hi) * length;
+    ++variable;
+    ++equation;
   }
 }
 
@@ -199,7 +253,7 @@ void BoundedProblem::pose_rows(int level) noexcept {
   posed_.clear();
   for (int i = 0; i < rows_; ++i) {
     const Entry& e = entry(i);
-    if (e.level == level && e.kind != RowKind::force && takes_part(i)) posed_.push_back(i);
+    if (e.level == level && is_motion(i) && takes_part(i)) posed_.push_back(i);
   }
   pose_limits_above(level);
 }
@@ -220,7 +274,7 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
     pose_motion(n, level, false);
     exact = program_.solve(max_iterations, iterations_);
     take_p(n);
-    possible = torques_for(work_);
+    possible = sums_hold(level, work_) && torques_for(work_);
   }
   if (possible) {
     tau_.head(motors_) = candidate_.head(motors_);
@@ -234,7 +288,8 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   p_.head(dimension_) = work_.head(dimension_);
   exact = least_multipliers(level, max_iterations) && exact;
   for (const int i : posed_) {
-    // A soft row rests where a . Xdd + R nu = b; what is beyond that it could not hold.
+    // A fading row rests where a . Xdd + R nu = b; what is beyond that it could not hold, or it was not worth
+    // it.
     if (is_one_sided(i) && entry(i).level == level) entry(i).offset = std::max(0.0, -room_of(i, p_));
     if (entry(i).kind == RowKind::lower && entry(i).level == level) entry(i).offset *= -1.0;
   }
@@ -248,7 +303,7 @@ void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
     const double length = V(i).norm();
     program_.V(k) = V(i).transpose() / length;
     program_.g(k) = (d_(i) + entry(i).offset - B(i).dot(fixed_.head(dimension_))) / length;
-    program_.R(k) = softness(i) / (length * length);
+    program_.R(k) = (entry(i).level == level ? softness(i) : held_softness(i)) / (length * length);
     pose_multiplier(k, level);
   }
   if (with_motors) pose_motors(n, level);
@@ -273,7 +328,7 @@ void BoundedProblem::take_multipliers(int level) noexcept {
     Entry& e = entry(i);
     e.nu = program_.z(variable) / V(i).norm();
     if (e.level == level) e.nu = std::clamp(e.nu, e.lo, e.hi);
-    if (e.fade < 1.0) continue;
+    if (program_.R(variable) > 0.0) continue;
     const bool free = program_.is_free(variable);
     if (!free && std::abs(program_.reduced_gradient(variable)) > 100.0 * program_.gradient_tolerance())
       continue;
@@ -318,7 +373,7 @@ bool BoundedProblem::torques_for(const Eigen::VectorXd& p) noexcept {
   }
   candidate_.head(motors_).noalias() = T_.topLeftCorner(motors_, dimension_) * y;
   for (int j = 0; j < motors_; ++j) {
-    const double slack = torque_tolerance * (std::abs(tau_lo_(j)) + std::abs(tau_hi_(j)));
+    const double slack = rounding * (std::abs(tau_lo_(j)) + std::abs(tau_hi_(j)));
     const double room = std::isfinite(slack) ? slack : 0.0;
     if (candidate_(j) < tau_lo_(j) - room || candidate_(j) > tau_hi_(j) + room) return false;
     candidate_(j) = std::clamp(candidate_(j), tau_lo_(j), tau_hi_(j));

@@ -282,6 +282,7 @@ std::vector<Row> random_rows(const Model& model, const RowOptions& options, Rand
     if (!rows.empty() && random.chance(options.duplicate)) {
       row = rows[static_cast<std::size_t>(random.pick(0, static_cast<int>(rows.size()) - 1))];
       row.fade = 1.0;
+      row.weight = solver::infinity;
       if (random.chance(0.3)) row.b += random.uniform(-1.0, 1.0);
     } else {
       row.body = planar && random.chance(0.6) ? 0 : random.pick(first, bodies - 1);
@@ -310,6 +311,13 @@ std::vector<Row> random_rows(const Model& model, const RowOptions& options, Rand
       row.hi = std::max(0.0, row.force);
     } else {
       row.kind = RowKind::driver;
+      row.lo = -F * random.uniform(0.0, 1.0);
+      row.hi = F * random.uniform(0.0, 1.0);
+    }
+    if (options.weight > 0.0 && random.chance(options.weight))
+      row.weight = std::pow(10.0, random.uniform(-1.0, 3.0));
+    if (options.sum > 0.0 && random.chance(options.sum)) {
+      row.kind = RowKind::sum;
       row.lo = -F * random.uniform(0.0, 1.0);
       row.hi = F * random.uniform(0.0, 1.0);
     }

@@ -49,6 +49,8 @@ struct RowOptions {
   double fading = 0.15;
   double duplicate = 0.15;  ///< a copy of an earlier row, or a mixture of two; b is consistent or not
   double relative = 0.15;   ///< between two bodies
+  double weight = 0.1;      ///< soft
+  double sum = 0.1;         ///< bounds what the rows press with together
   double bound = 60.0;      ///< largest |nu| [N] or [N m]
   double demand = 3.0;      ///< largest |b| [m/s^2] or [rad/s^2]
 };
