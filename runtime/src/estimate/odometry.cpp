@@ -50,6 +50,14 @@ Odometry::Odometry(const solver::Model& model, const Pose& start, const Odometry
   past_.resize(static_cast<std::size_t>(std::ceil(settings.memory / settings.period)) + 1);
 }
 
+void Odometry::start_at(const Pose& start) noexcept {
+  pose_ = start;
+  twist_ = {};
+  started_ = false;
+  updates_ = 0;
+  last_correction_ = 0.0;
+}
+
 void Odometry::update(double time, solver::State& state) noexcept {
   const solver::WheelTwist wheels = solver::twist_from_wheels(model_, state);
   slip_ = wheels.slip;

@@ -21,6 +21,9 @@ class Odometry {
   explicit Odometry(const solver::Model& model, const solver::Pose& start = {},
                     const OdometrySettings& settings = {});
 
+  /// Forgets everything and starts anew at X_WB.
+  void start_at(const solver::Pose& start) noexcept;
+
   /// Gives the state the base's twist as the wheels tell it, and the pose that it leads to. Reads q and qd.
   /// Keeps its own height, roll and pitch: those of `start`.
   void update(double time, solver::State& state) noexcept;
