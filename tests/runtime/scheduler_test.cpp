@@ -6,49 +6,12 @@
 #include <functional>
 #include <limits>
 
-#include "robots.hpp"
+#include "scheduler_bench.hpp"
 
 namespace zwang::runtime {
 namespace {
 
 using namespace test;
-
-/// Runs a scheduler by hand: the base stands still unless a test moves it, and the solver's results are made
-/// up.
-struct Bench {
-  explicit Bench(lang::Program p)
-      : program(std::move(p)), scheduler(program, period), sensed(program.robot.model) {}
-
-  void tick() {
-    scheduler.tick(sensed);
-    if (scheduler.transition()) transitions.push_back(*scheduler.transition());
-    ASSERT_TRUE(scheduler.constraints().fill(program.robot.model, sensed.state));
-    solver::Solution solution(program.robot.model, scheduler.row_capacity());
-    solution.rows.assign(scheduler.constraints().rows().size(), answer);
-    scheduler.observe(solution);
-    ++ticks;
-    sensed.time = ticks * period;
-  }
-  /// Ticks until the scheduler switches; -1 when it does not within `most`.
-  int ticks_to_switch(int most) {
-    for (int i = 1; i <= most; ++i) {
-      tick();
-      if (scheduler.transition()) return i;
-    }
-    return -1;
-  }
-  const solver::AxisConstraint& constraint(int i) {
-    return scheduler.constraints().constraints()[static_cast<std::size_t>(i)];
-  }
-  int count() { return static_cast<int>(scheduler.constraints().constraints().size()); }
-
-  lang::Program program;
-  Scheduler scheduler;
-  Sensed sensed;
-  solver::RowSolution answer;
-  std::vector<Transition> transitions;
-  int ticks = 0;
-};
 
 const std::vector<AxisStatements> forward = {drive("go.x", Axis::x, Quantity::velocity, 0.1)};
 
@@ -358,19 +321,6 @@ TEST(Construction, RefusesProgramsThatCannotRun) {
 
 TEST(Construction, RefusesWhatWouldBeReadAndThenForgotten) {
   const std::vector<std::pair<std::string, std::function<void(lang::Program&)>>> parts = {
-      {"`always`", [](lang::Program& p) { p.always.groups = p.tasks[0].groups; }},
-      {"`always`", [](lang::Program& p) { p.always.exits = {exit(always_true(), to_failed)}; }},
-      {"`require`", [](lang::Program& p) { p.tasks[0].require = always_true(); }},
-      {"`attempts`", [](lang::Program& p) { p.tasks[0].attempts = lang::Attempts{}; }},
-      {"`release`",
-       [](lang::Program& p) {
-         p.tasks[0].exits = {exit(always_true(), to_done)};
-         p.tasks[0].exits[0].release = lang::Value{};
-       }},
-      {"`goto: back`",
-       [](lang::Program& p) {
-         p.tasks[0].exits = {exit(always_true(), {lang::TargetKind::back, -1})};
-       }},
       {"stiffness and damping",
        [](lang::Program& p) { p.tasks[0].groups[0].axes[0].stiffness = lang::Value{}; }},
       {"a weight", [](lang::Program& p) { p.tasks[0].groups[0].axes[0].weight = lang::Value{}; }},
@@ -381,15 +331,11 @@ TEST(Construction, RefusesWhatWouldBeReadAndThenForgotten) {
          p.tasks[0].groups[0].axes[0].driver.reset();
          p.tasks[0].groups[0].axes[0].force = between(-1, 1);
        }},
-      {"a value from a signal", [](lang::Program& p) { p.tasks[0].groups[0].axes[0].target.signal = 0; }},
       {"`inside` a region", [](lang::Program& p) { p.tasks[0].groups[0].kind = lang::GroupKind::inside; }},
       {"a constraint on a feature",
        [](lang::Program& p) { p.tasks[0].groups[0].kind = lang::GroupKind::feature; }},
-      {"a condition on a signal",
-       [](lang::Program& p) { p.tasks[0].exits = {exit(when(name(Op::signal, 0)), to_done)}; }},
       {"a condition on a feature",
        [](lang::Program& p) { p.tasks[0].exits = {exit(when(name(Op::feature, 0)), to_done)}; }},
-      {"a frame on a pose signal", [](lang::Program& p) { p.frames[2].parent = lang::FrameParent::signal; }},
   };
   EXPECT_NO_THROW(Scheduler(program({task("a", forward)}), period));
   for (const auto& [words, change] : parts) {

@@ -116,6 +116,10 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
     put_statements(statements, tick);
     const std::vector<int>& exits = guards_[static_cast<std::size_t>(tick.scheduler.task())];
     for (std::size_t i = 0; i < exits.size(); ++i) put(exits[i], tick.scheduler.dwell(static_cast<int>(i)));
+    const std::vector<int>& always = guards_[static_cast<std::size_t>(tick.scheduler.always_task())];
+    for (std::size_t i = 0; i < always.size(); ++i) {
+      put(always[i], tick.scheduler.always_dwell(static_cast<int>(i)));
+    }
   }
   const std::size_t extra =
       std::min(tick.extra.size(), values_.size() - static_cast<std::size_t>(first_extra_));

@@ -26,7 +26,10 @@ StatementTable::StatementTable(const Scheduler& scheduler, const lang::Program& 
   // First what the file says, then what the robot adds.
   for (const bool own : {true, false}) {
     for (std::size_t t = 0; t < tasks.size(); ++t) {
-      const std::size_t own_groups = t < program.tasks.size() ? program.tasks[t].groups.size() : 0;
+      const bool is_always = static_cast<int>(t) == scheduler.always_task();
+      const std::size_t own_groups = is_always                  ? tasks[t].groups.size()
+                                     : t < program.tasks.size() ? program.tasks[t].groups.size()
+                                                                : 0;
       ids_[t].resize(tasks[t].groups.size());
       for (std::size_t g = 0; g < tasks[t].groups.size(); ++g) {
         if ((g < own_groups) != own) continue;

@@ -35,8 +35,9 @@ bool same(const solver::AttachedFrame& a, const solver::AttachedFrame& b) {
   return a.body == b.body && a.pose.rotation == b.pose.rotation && a.pose.position == b.pose.position;
 }
 
-bool same_axis(const AxisConstraint& a, const AxisConstraint& b) {
-  return a.axis == b.axis && a.level == b.level && same(a.move, b.move) && same(a.in, b.in);
+/// A frame that a signal moves is the same one wherever it is; one that was set in between is another.
+bool same(const FrameKey& a, const FrameKey& b) {
+  return a.frame >= 0 && a.frame == b.frame && a.settings == b.settings;
 }
 
 bool is_force(const Driver& driver) {
@@ -99,7 +100,7 @@ void Blend::start(const std::vector<Wanted>& wanted, double duration) noexcept {
   taken_.assign(before_.size(), 0);
   for (int i = 0; i < static_cast<int>(wanted.size()); ++i) {
     const AxisConstraint& c = wanted[static_cast<std::size_t>(i)].constraint;
-    const int old = match(c);
+    const int old = match(wanted[static_cast<std::size_t>(i)]);
     if (old < 0) {
       add_entering(wanted, i, c.driver.has_value(), ranges_of(c));
     } else {
@@ -125,10 +126,18 @@ void Blend::settle(const std::vector<Wanted>& wanted) noexcept {
   }
 }
 
-int Blend::match(const AxisConstraint& constraint) const noexcept {
+bool Blend::is_match(const Part& part, const Wanted& wanted) noexcept {
+  if (part.always || wanted.always) return part.always && wanted.always && part.origin == wanted.origin;
+  const AxisConstraint& a = part.present;
+  const AxisConstraint& b = wanted.constraint;
+  return a.axis == b.axis && a.level == b.level && (same(part.move, wanted.move) || same(a.move, b.move)) &&
+         (same(part.in, wanted.in) || same(a.in, b.in));
+}
+
+int Blend::match(const Wanted& wanted) const noexcept {
   int best = -1;
   for (std::size_t i = 0; i < before_.size(); ++i) {
-    if (taken_[i] != 0 || !same_axis(before_[i].present, constraint)) continue;
+    if (taken_[i] != 0 || !is_match(before_[i], wanted)) continue;
     const double alpha = before_[i].present.alpha;
     if (best < 0 || alpha > before_[static_cast<std::size_t>(best)].present.alpha) best = static_cast<int>(i);
   }
@@ -158,14 +167,23 @@ void Blend::join(const std::vector<Wanted>& wanted, int index, const Part& from)
   if (drove || (in_old & ~in_both) != 0U) add_leaving(from, drove, in_old & ~in_both);
 }
 
+Blend::Part Blend::part_of(const std::vector<Wanted>& wanted, int index) noexcept {
+  const Wanted& w = wanted[static_cast<std::size_t>(index)];
+  Part part;
+  part.origin = w.origin;
+  part.move = w.move;
+  part.in = w.in;
+  part.always = w.always;
+  part.wanted = index;
+  return part;
+}
+
 void Blend::add(const Part& part) noexcept {
   if (parts_.size() < parts_.capacity()) parts_.push_back(part);
 }
 
 void Blend::add_entering(const std::vector<Wanted>& wanted, int index, bool drives, Ranges ranges) noexcept {
-  Part part;
-  part.origin = wanted[static_cast<std::size_t>(index)].origin;
-  part.wanted = index;
+  Part part = part_of(wanted, index);
   part.drives = drives;
   part.ranges = ranges;
   part.entering = true;
@@ -174,11 +192,9 @@ void Blend::add_entering(const std::vector<Wanted>& wanted, int index, bool driv
 
 void Blend::add_persisting(const std::vector<Wanted>& wanted, int index, const Part& from, bool drives,
                            Ranges ranges) noexcept {
-  Part part;
+  Part part = part_of(wanted, index);
   part.old = from.present;
   if (drives) part.old.driver = driver_now(from.present);
-  part.origin = wanted[static_cast<std::size_t>(index)].origin;
-  part.wanted = index;
   part.drives = drives;
   part.persists = true;
   part.ranges = ranges;
@@ -191,6 +207,8 @@ void Blend::add_leaving(const Part& from, bool drives, Ranges ranges) noexcept {
   part.old = from.present;
   keep_only(part.old, drives, ranges);
   part.origin = from.origin;
+  part.move = from.move;
+  part.in = from.in;
   part.drives = drives;
   part.alpha_from = from.present.alpha;
   part.present = part.old;

@@ -15,10 +15,18 @@
 
 namespace zwang::runtime {
 
-/// A constraint that the active task wants, with its present values.
+/// A frame by its name, and how often it was set. Without one, frames that coincide are the same.
+struct FrameKey {
+  int frame = -1;
+  int settings = 0;
+};
+
+/// A constraint that the active task or `always` wants, with its present values.
 struct Wanted {
   solver::AxisConstraint constraint;
   Origin origin;
+  FrameKey move, in;
+  bool always = false;  ///< persists as itself, whatever the tasks say of its axis
 };
 
 /// Most rows that a constraint can become.
@@ -46,6 +54,8 @@ class Blend {
     solver::AxisConstraint old;      ///< as it was when the blend began
     solver::AxisConstraint present;  ///< as it was put last
     Origin origin;
+    FrameKey move, in;
+    bool always = false;
     int wanted = -1;  ///< index of what it becomes; -1: it leaves
     bool drives = false;
     bool persists = false;  ///< its driver and its ranges start from `old`
@@ -54,6 +64,7 @@ class Blend {
     bool entering = false;
   };
 
+  static Part part_of(const std::vector<Wanted>& wanted, int index) noexcept;
   void settle(const std::vector<Wanted>& wanted) noexcept;
   void add_entering(const std::vector<Wanted>& wanted, int index, bool drives, Ranges ranges) noexcept;
   void add_persisting(const std::vector<Wanted>& wanted, int index, const Part& from, bool drives,
@@ -61,7 +72,8 @@ class Blend {
   void add_leaving(const Part& from, bool drives, Ranges ranges) noexcept;
   void add(const Part& part) noexcept;
   void join(const std::vector<Wanted>& wanted, int index, const Part& from) noexcept;
-  int match(const solver::AxisConstraint& constraint) const noexcept;
+  static bool is_match(const Part& part, const Wanted& wanted) noexcept;
+  int match(const Wanted& wanted) const noexcept;
   void make_room() noexcept;
   solver::AxisConstraint present(const Part& part, const solver::AxisConstraint* wanted,
                                  double progress) const noexcept;

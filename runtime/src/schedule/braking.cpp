@@ -48,12 +48,13 @@ bool is_base(const std::vector<lang::FrameDeclaration>& frames, int index) {
          f.pose.rotation.isIdentity();
 }
 
-bool gives(lang::Task& task, const lang::BaseLimit& limit,
+bool gives(const std::vector<lang::Group>& groups, const lang::BaseLimit& limit,
            const std::vector<lang::FrameDeclaration>& frames) {
-  for (lang::Group& group : task.groups) {
+  for (const lang::Group& group : groups) {
+    if (group.kind != lang::GroupKind::axes) continue;
     if (!is_base(frames, group.move) || !is_base(frames, group.in)) continue;
-    for (AxisStatements& axis : group.axes) {
-      if (axis.axis == limit.axis && range_of(axis, limit.quantity)) return true;
+    for (AxisStatements axis : group.axes) {
+      if (!axis.is_planar_speed && axis.axis == limit.axis && range_of(axis, limit.quantity)) return true;
     }
   }
   return false;
@@ -116,14 +117,14 @@ lang::Task brake_task(const char* name, const lang::Robot& robot, int base) {
   return task;
 }
 
-void add_limits(lang::Task& task, const lang::Robot& robot, int base,
+void add_limits(lang::Task& task, const lang::Always& always, const lang::Robot& robot, int base,
                 const std::vector<lang::FrameDeclaration>& frames) {
   if (robot.model.has_fixed_base()) return;
   lang::Group group;
   group.name = "limits";
   group.move = group.in = base;
   for (const lang::BaseLimit& limit : robot.limits) {
-    if (gives(task, limit, frames)) continue;
+    if (gives(task.groups, limit, frames) || gives(always.groups, limit, frames)) continue;
     AxisStatements& axis = axis_of(group, limit.axis, limit.span);
     range_of(axis, limit.quantity) =
         lang::ValueRange{{.constant = limit.range.low}, {.constant = limit.range.high}};

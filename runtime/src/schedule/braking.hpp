@@ -18,8 +18,9 @@ int base_frame(std::vector<lang::FrameDeclaration>& frames, const lang::Robot& r
 /// Brings the base to rest as the robot file's `stop` allows.
 lang::Task brake_task(const char* name, const lang::Robot& robot, int base);
 
-/// Adds the robot file's limits to a task, as level-0 ranges on the base, where the task gives none.
-void add_limits(lang::Task& task, const lang::Robot& robot, int base,
+/// Adds the robot file's limits to a task, as level-0 ranges on the base, where neither the task nor `always`
+/// gives any.
+void add_limits(lang::Task& task, const lang::Always& always, const lang::Robot& robot, int base,
                 const std::vector<lang::FrameDeclaration>& frames);
 
 }  // namespace zwang::runtime

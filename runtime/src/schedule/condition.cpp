@@ -1,11 +1,12 @@
 #include "schedule/condition.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace zwang::runtime {
 
 namespace {
+
+using lang::Op;
 
 // Truth values are 0 and 1; unknown, of a number or of a truth value, is NaN.
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -29,68 +30,76 @@ double either(double a, double b) {
   return truth(!std::isnan(a) && !std::isnan(b), false);
 }
 
-double value_of(const lang::ExpressionNode& node, const Facts& facts, const std::vector<double>& values) {
-  const double a = node.left >= 0 ? values[static_cast<std::size_t>(node.left)] : unknown;
-  const double b = node.right >= 0 ? values[static_cast<std::size_t>(node.right)] : unknown;
+bool is_name(Op op) {
+  return op >= Op::parameter && op <= Op::feature;
+}
+
+double apply(Op op, double a, double b) {
   const bool known = !std::isnan(a) && !std::isnan(b);
-  switch (node.op) {
-    case lang::Op::constant:
-      return number(node.number);
-    case lang::Op::parameter:
-      return number(facts.parameter(node.index));
-    case lang::Op::elapsed:
-      return number(facts.elapsed());
-    case lang::Op::coordinate:
-      return number(facts.coordinate(node.index, node.axis, node.what));
-    case lang::Op::speed:
-      return number(facts.speed(node.index));
-    case lang::Op::moved:
-      return number(facts.moved(node.index));
-    case lang::Op::abs:
+  switch (op) {
+    case Op::abs:
       return std::abs(a);
-    case lang::Op::negate:
+    case Op::negate:
       return -a;
-    case lang::Op::add:
+    case Op::add:
       return number(a + b);
-    case lang::Op::subtract:
+    case Op::subtract:
       return number(a - b);
-    case lang::Op::multiply:
+    case Op::multiply:
       return number(a * b);
-    case lang::Op::divide:
+    case Op::divide:
       return number(a / b);
-    case lang::Op::less:
+    case Op::less:
       return truth(known, a < b);
-    case lang::Op::less_equal:
+    case Op::less_equal:
       return truth(known, a <= b);
-    case lang::Op::greater:
+    case Op::greater:
       return truth(known, a > b);
-    case lang::Op::greater_equal:
+    case Op::greater_equal:
       return truth(known, a >= b);
-    case lang::Op::logical_and:
+    case Op::logical_and:
       return both(a, b);
-    case lang::Op::logical_or:
+    case Op::logical_or:
       return either(a, b);
-    case lang::Op::logical_not:
+    case Op::logical_not:
       return truth(!std::isnan(a), a == 0.0);
-    case lang::Op::signal:
-    case lang::Op::valid:
-    case lang::Op::feature:
-      return unknown;  // not measured by the runtime yet
+    default:  // names and constants have no operands
+      return unknown;
   }
-  return unknown;
+}
+
+/// The comparison goes on to hold until its left side has passed `q`.
+double not_yet_passed(Op op, double a, double q) {
+  const bool known = !std::isnan(a) && !std::isnan(q);
+  return truth(known, op == Op::less || op == Op::less_equal ? a <= q : a >= q);
 }
 
 }  // namespace
 
-Verdict evaluate(const lang::Condition& condition, const Facts& facts,
-                 std::vector<double>& scratch) noexcept {
-  if (condition.nodes.empty()) return Verdict::no;
-  for (std::size_t i = 0; i < condition.nodes.size(); ++i) {
-    scratch[i] = value_of(condition.nodes[i], facts, scratch);
+Judgement evaluate(const lang::Condition& condition, int owner, const Facts& facts,
+                   std::vector<double>& scratch, std::optional<double> release) noexcept {
+  Judgement judgement;
+  const std::size_t count = condition.nodes.size();
+  if (count == 0) return judgement;
+  for (std::size_t i = 0; i < count; ++i) {
+    const lang::ExpressionNode& node = condition.nodes[i];
+    if (node.op == Op::constant) {
+      scratch[i] = number(node.number);
+    } else if (is_name(node.op)) {
+      const Fact fact = facts.look_up(node, owner);
+      scratch[i] = number(fact.value);
+      judgement.stale = judgement.stale || fact.stale;
+    } else {
+      const double a = node.left >= 0 ? scratch[static_cast<std::size_t>(node.left)] : unknown;
+      const double b = node.right >= 0 ? scratch[static_cast<std::size_t>(node.right)] : unknown;
+      const bool is_root = i + 1 == count;
+      scratch[i] = release && is_root ? not_yet_passed(node.op, a, *release) : apply(node.op, a, b);
+    }
   }
-  const double root = scratch[condition.nodes.size() - 1];
-  if (std::isnan(root)) return Verdict::unknown;
-  return root != 0.0 ? Verdict::yes : Verdict::no;
+  const double root = scratch[count - 1];
+  if (!std::isnan(root)) judgement.verdict = root != 0.0 ? Verdict::yes : Verdict::no;
+  if (std::isnan(root)) judgement.verdict = Verdict::unknown;
+  return judgement;
 }
 
 }  // namespace zwang::runtime

@@ -4,33 +4,48 @@
 
 namespace zwang::runtime {
 
-FrameTable::FrameTable(const std::vector<lang::FrameDeclaration>& declarations, const solver::Model& model) {
+solver::AttachedFrame carried(const solver::AttachedFrame& parent, const solver::Pose& pose) noexcept {
+  if (parent.body >= 0) return {parent.body, parent.pose * pose, {}};
+  // A frame of a moving frame: the twist at its own origin, in its own axes.
+  return {-1, parent.pose * pose, solver::PluckerTransform(pose) * parent.twist};
+}
+
+FrameTable::FrameTable(const std::vector<lang::FrameDeclaration>& declarations, const solver::Model& model,
+                       std::size_t signal_count)
+    : signals_(signal_count) {
   for (const lang::FrameDeclaration& d : declarations) {
-    const int limit = d.parent == lang::FrameParent::body    ? model.body_count()
-                      : d.parent == lang::FrameParent::frame ? static_cast<int>(entries_.size())
-                                                             : 0;
+    const int limit = d.parent == lang::FrameParent::body     ? model.body_count()
+                      : d.parent == lang::FrameParent::frame  ? static_cast<int>(entries_.size())
+                      : d.parent == lang::FrameParent::signal ? static_cast<int>(signal_count)
+                                                              : 0;
     const bool known =
         d.parent == lang::FrameParent::world || (d.parent_index >= 0 && d.parent_index < limit);
     if (!known) throw std::invalid_argument("scheduler: the parent of frame `" + d.name + "` is unknown");
-    entries_.push_back({d.parent, d.parent_index, d.pose, {}, {}});
-    attach(entries_.back());
+    Entry entry;
+    entry.parent = d.parent;
+    entry.parent_index = d.parent_index;
+    entry.pose_in_parent = d.pose;
+    if (d.parent == lang::FrameParent::signal) entry.signal = d.parent_index;
+    if (d.parent == lang::FrameParent::frame) entry.signal = signal_of(d.parent_index);
+    attach(entry);
+    entries_.push_back(entry);
   }
 }
 
 void FrameTable::attach(Entry& entry) const noexcept {
   switch (entry.parent) {
-    case lang::FrameParent::signal:  // refused by the constructor until the runtime reads signals
     case lang::FrameParent::world:
-      entry.attached = {-1, entry.pose_in_parent};
+      entry.attached = {-1, entry.pose_in_parent, {}};
+      break;
+    case lang::FrameParent::signal:
+      entry.attached = carried(signals_[static_cast<std::size_t>(entry.parent_index)], entry.pose_in_parent);
       break;
     case lang::FrameParent::body:
-      entry.attached = {entry.parent_index, entry.pose_in_parent};
+      entry.attached = {entry.parent_index, entry.pose_in_parent, {}};
       break;
-    case lang::FrameParent::frame: {
-      const solver::AttachedFrame& parent = attached(entry.parent_index);
-      entry.attached = {parent.body, parent.pose * entry.pose_in_parent};
+    case lang::FrameParent::frame:
+      entry.attached = carried(attached(entry.parent_index), entry.pose_in_parent);
       break;
-    }
   }
 }
 
@@ -42,25 +57,61 @@ void FrameTable::update(const solver::Model& model, const solver::State& state) 
   }
 }
 
+/// A jump that is no motion adds nothing to the path.
+void FrameTable::move_quietly(Entry& entry, const solver::FrameMotion& motion) const noexcept {
+  entry.motion = motion;
+  entry.path_end = motion.pose.position;
+}
+
+void FrameTable::feed(int signal, const solver::AttachedFrame& seen) noexcept {
+  signals_[static_cast<std::size_t>(signal)] = seen;
+  for (Entry& entry : entries_) {
+    if (entry.signal != signal) continue;
+    attach(entry);
+    const solver::Matrix3& R = entry.attached.pose.rotation;
+    move_quietly(entry,
+                 {entry.attached.pose, R * entry.attached.twist.angular, R * entry.attached.twist.linear});
+  }
+}
+
 void FrameTable::set(int frame, int source, const solver::Model& model, const solver::State& state) noexcept {
   Entry& target = entries_[static_cast<std::size_t>(frame)];
   solver::Pose parent_pose;
   if (target.parent == lang::FrameParent::body) {
-    parent_pose = solver::motion_of({target.parent_index, {}}, model, state).pose;
+    parent_pose = solver::motion_of({target.parent_index, {}, {}}, model, state).pose;
   } else if (target.parent == lang::FrameParent::frame) {
     parent_pose = pose(target.parent_index);
+  } else if (target.parent == lang::FrameParent::signal) {
+    parent_pose = signals_[static_cast<std::size_t>(target.parent_index)].pose;
   }
   target.pose_in_parent = parent_pose.inverse() * pose(source);
+  ++target.settings;
   for (std::size_t i = static_cast<std::size_t>(frame); i < entries_.size(); ++i) {
-    attach(entries_[i]);
-    entries_[i].motion = solver::motion_of(entries_[i].attached, model, state);
-    entries_[i].path_end = entries_[i].motion.pose.position;
+    Entry& entry = entries_[i];
+    if (entry.parent == lang::FrameParent::frame) {
+      const int above = settings_of(entry.parent_index);
+      if (above != entry.settings_above) ++entry.settings;
+      entry.settings_above = above;
+    }
+    attach(entry);
+    move_quietly(entry, solver::motion_of(entry.attached, model, state));
   }
 }
 
 void FrameTable::start_paths() noexcept {
   for (Entry& entry : entries_) {
     entry.path = 0.0;
+    entry.path_end = entry.motion.pose.position;
+  }
+}
+
+void FrameTable::keep_paths() noexcept {
+  for (Entry& entry : entries_) entry.kept_path = entry.path;
+}
+
+void FrameTable::resume_paths() noexcept {
+  for (Entry& entry : entries_) {
+    entry.path = entry.kept_path;
     entry.path_end = entry.motion.pose.position;
   }
 }

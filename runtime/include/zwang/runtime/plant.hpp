@@ -2,16 +2,54 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "zwang/solver/state.hpp"
 
 namespace zwang::runtime {
 
+/// What a signal of the task file was last measured to be. Only the value of the signal's own type counts.
+///
+/// It is up to the plant whether a sample stays here until the next one comes or is there for one tick only:
+/// a sample with the stamp of the last one is the last one. The runtime keeps the latest valid sample and
+/// calls the signal invalid when that is older than the task file's `stale_after`; a signal that was never
+/// received ages from the start of the run. Samples are ignored, as if they had not come, that are not
+/// `valid`, hold a number that is not finite, are older than one that came before, or are stamped later than
+/// the snapshot.
+struct SignalSample {
+  bool valid = false;  ///< false: nothing was measured, or nothing to be trusted
+  double stamp = 0.0;  ///< [s] when it was measured, by the clock of `Sensed::time`
+  bool boolean = false;
+  double number = 0.0;  ///< SI, whatever unit the task file gives the signal
+  /// Of a pose signal: X_IP, the signal's frame `in` and what is seen from there, both at the stamp.
+  solver::Pose pose;
+  /// How what is seen moves in the world: at its origin, in the axes of `in`. None: it stands.
+  std::optional<solver::MotionVector> twist;
+  solver::ForceVector wrench;  ///< in the axes of `in` and about its origin [N m, N]
+};
+
+/// Where the base was, by somebody who sees it: a localisation, a tracker, a mark on the wall.
+struct MeasuredPose {
+  double stamp = 0.0;  ///< [s] when it was measured, by the clock of `Sensed::time`
+  solver::Pose pose;   ///< X_WB; only x, y and yaw count
+};
+
 /// One stamped snapshot of everything the controller may know.
 struct Sensed {
-  explicit Sensed(const solver::Model& model) : state(model) {}
+  explicit Sensed(const solver::Model& model, std::size_t signal_count = 0)
+      : state(model), signals(signal_count) {}
   double time = 0.0;  ///< [s]
   solver::State state;
+  /// Whether the state's base pose and twist are measured. If not, the runtime reckons them from the wheels;
+  /// the pose in the first snapshot is where it starts.
+  bool base_measured = true;
+  /// For the reckoning, where somebody measures it now and then. The same stamp again is the same
+  /// measurement.
+  std::optional<MeasuredPose> base_fix;
+  /// Parallel to lang::Program::signals, and sized once. Those that are missing are never received.
+  std::vector<SignalSample> signals;
 };
 
 enum class PlantStatus {

@@ -25,9 +25,17 @@ const char* to_string(Outcome outcome) noexcept;
 
 enum class Cause {
   start,        ///< the program's start task
-  exit,         ///< one of the task's exits
+  always,       ///< one of the exits of `always`
   timeout,      ///< the task's timeout
+  exit,         ///< one of the task's exits
   never_stood,  ///< the brake did not bring the base to rest in time
+};
+
+/// What kept the run out of the task that it was on its way to.
+enum class Refusal {
+  none,
+  require,   ///< the task's `require` was false or unknown: `failed`
+  attempts,  ///< the task's `attempts` were used up: where they lead
 };
 
 /// A switch of tasks. Tasks are indices into Scheduler::tasks().
@@ -36,8 +44,13 @@ struct Transition {
   int from = -1;      ///< -1 at the start
   int to = 0;
   Cause cause = Cause::start;
-  int exit = -1;                ///< index of the exit taken
-  std::uint64_t also_true = 0;  ///< bit i: exit i would have been taken too
+  int exit = -1;                    ///< index of the exit taken, of `always` or of the task
+  bool resumes = false;             ///< `back`: `to` goes on where it was interrupted
+  Refusal refusal = Refusal::none;  ///< of the last task that turned the run away
+  int refused = -1;                 ///< that task
+  std::uint64_t also_always = 0;    ///< bit i: exit i of `always` would have been taken too
+  bool also_timeout = false;        ///< the timeout was due too
+  std::uint64_t also_true = 0;      ///< bit i: exit i of the task would have been taken too
 };
 
 /// The axis statement that a constraint comes from.
@@ -45,6 +58,7 @@ struct Origin {
   int task = -1;
   int group = -1;
   int axis = -1;
+  bool operator==(const Origin&) const = default;
 };
 
 /// One constraint of the present set.
@@ -86,16 +100,20 @@ class Scheduler {
   Phase phase() const noexcept;
   Outcome outcome() const noexcept;  ///< none until `done` or `failed` is reached
   int task() const noexcept;
-  double elapsed() const noexcept;  ///< [s] since the task was entered
+  /// [s] since the task was entered, interruptions left out.
+  double elapsed() const noexcept;
   AxisReading reading(const Origin& origin) const noexcept;
-  /// How long the exit's condition has been true without a break. [s]
+  /// How long the condition of the active task's exit has been true without a break. [s]
   double dwell(int exit) const noexcept;
+  double always_dwell(int exit) const noexcept;  ///< the same of an exit of `always` [s]
   const std::vector<double>& parameters() const noexcept;
 
-  /// The program's tasks, each with the robot's limits as the group `limits` where it gives none of its own,
-  /// then the two that brake: `done` and `failed`.
+  /// The program's tasks, each with the robot's limits as the group `limits` where neither it nor `always`
+  /// gives any, then the two that brake, `done` and `failed`, then `always`, whose groups and exits are in
+  /// force throughout.
   const std::vector<lang::Task>& tasks() const noexcept;
   int program_task_count() const noexcept;
+  int always_task() const noexcept;
   int row_capacity() const noexcept;  ///< no tick has more rows
   double period() const noexcept;     ///< [s]
 

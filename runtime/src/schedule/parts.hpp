@@ -1,0 +1,126 @@
+/// What a scheduler is made of. One file for each step of the tick: tick_sense, tick_choose, tick_switch,
+/// tick_rows.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "schedule/blend.hpp"
+#include "schedule/condition.hpp"
+#include "schedule/frame_table.hpp"
+#include "schedule/guards.hpp"
+#include "schedule/signal_table.hpp"
+#include "schedule/task_list.hpp"
+#include "zwang/runtime/scheduler.hpp"
+
+namespace zwang::runtime {
+
+/// An axis of `always` or of the active task.
+struct ActiveAxis {
+  Origin origin;
+  std::optional<solver::AttachedFrame> entry_axes;  ///< `here` in axes of the moved body: the axes on entry
+  double here = 0.0;
+  bool has_here = false;
+  bool lost = false;  ///< its axes hang on a pose signal that is not known now, or its value on such a signal
+  AxisReading reading;
+};
+
+/// Where `back` leads.
+struct Interruption {
+  int task = -1;
+  double spent = 0.0;  ///< [s] in the task until it was interrupted
+};
+
+struct Scheduler::Parts final : Facts {
+  Parts(const lang::Program& given, double control_period);
+
+  // Steps 1 to 3: the snapshot, stale signals, frames, and what conditions ask about.
+  void sense(const Sensed& sensed) noexcept;
+  Fact look_up(const lang::ExpressionNode& node, int owner) const noexcept override;
+  Fact coordinate(const lang::ExpressionNode& node, int owner) const noexcept;
+  Fact of_frame(int frame, double value) const noexcept;
+  bool is_known(int frame) const noexcept;
+  solver::Coordinate coordinate_of(const lang::Group& group, const lang::AxisStatements& axis,
+                                   const ActiveAxis* active_axis) const noexcept;
+
+  // Steps 4 and 5: guards, and at most one transition.
+  struct Choice {
+    Transition transition;
+    lang::Target target;
+  };
+  void advance_guards() noexcept;
+  std::optional<Choice> choose() noexcept;
+  std::optional<Choice> choose_while_stopping() noexcept;
+  bool is_heeded(const lang::Target& target) const noexcept;
+  bool is_timed_out() const noexcept;
+  void check_rest() noexcept;
+
+  // Step 6: the switch, `set`, and every `here`.
+  void take(Choice choice) noexcept;
+  void lead(Transition& transition, const lang::Target& target) const noexcept;
+  void turn_away(Transition& transition) noexcept;
+  void interrupt(const Transition& transition) noexcept;
+  void enter() noexcept;
+  void resume() noexcept;
+  void apply(const std::vector<lang::SetAction>& actions) noexcept;
+  void list_axes() noexcept;
+  void capture_here(ActiveAxis& a) noexcept;
+
+  // Step 7: the constraints in force.
+  void track_losses() noexcept;
+  void start_blend() noexcept;
+  void put_constraints() noexcept;
+  void want() noexcept;
+  Wanted wanted_of(const ActiveAxis& a) const noexcept;
+  solver::Driver driver_of(const ActiveAxis& a) const noexcept;
+  double braking_of(const lang::AxisStatements& a, const solver::AxisConstraint& c) const noexcept;
+  solver::Range value(const lang::ValueRange& range) const noexcept;
+  solver::AttachedFrame axes_frame(const lang::Group& group, const ActiveAxis* a) const noexcept;
+  void read(const solver::Solution& solution) noexcept;
+
+  const lang::Task& active() const noexcept { return tasks[task]; }
+  double elapsed() const noexcept { return now - entered; }
+  const lang::Group& group(const Origin& origin) const noexcept {
+    return tasks[origin.task].groups[static_cast<std::size_t>(origin.group)];
+  }
+  const lang::AxisStatements& statements(const ActiveAxis& a) const noexcept {
+    return group(a.origin).axes[static_cast<std::size_t>(a.origin.axis)];
+  }
+  const ActiveAxis* find(const Origin& origin) const noexcept;
+
+  const solver::Model model;
+  const lang::Stop stop;
+  std::vector<lang::BaseLimit> limits;
+  std::vector<double> parameters;
+  std::vector<lang::FrameDeclaration> declarations;
+  const int base;  ///< frame
+  const TaskList tasks;
+  FrameTable frames;
+  SignalTable signals;
+  const double period;
+  const double radius;  ///< [m] of the footprint
+  const int start;
+
+  Phase phase = Phase::running;
+  Outcome outcome = Outcome::none;
+  int task = -1;
+  double now = 0.0;
+  double entered = 0.0;   ///< [s] when the task was entered; later by what interruptions took
+  double switched = 0.0;  ///< [s] when the present blend began
+  double blend_time = 0.0;
+  std::vector<int> entries;  ///< of each task, since the start
+  Interruption interruption;
+  const solver::State* state = nullptr;  ///< of the present tick
+  std::optional<Transition> transition;
+  Guards guards;
+  Guards always_guards;
+  std::vector<ActiveAxis> axes;  ///< those of `always` first
+  std::size_t always_axes = 0;
+  std::vector<double> scratch;
+  std::vector<Wanted> wanted;
+  std::vector<InForce> in_force;
+  std::optional<Blend> blend;
+  std::optional<solver::ConstraintSet> set;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,129 @@
+#include "schedule/signal_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "schedule/guards.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr double longest_memory = 10.0;  // [s] of the pose that a pose signal is seen from
+
+/// The oldest that a sample of the signal can be and still count.
+double oldest(const lang::Signal& signal, const lang::Program& program) {
+  double age = signal.stale_after.constant;
+  if (signal.stale_after.parameter >= 0) {
+    const lang::Parameter& p = program.parameters[static_cast<std::size_t>(signal.stale_after.parameter)];
+    age = p.range ? p.range->high : longest_memory;
+  }
+  return std::clamp(age, 0.0, longest_memory);
+}
+
+bool is_finite(const SignalSample& sample, lang::SignalType type) {
+  switch (type) {
+    case lang::SignalType::boolean:
+      return true;
+    case lang::SignalType::number:
+      return std::isfinite(sample.number);
+    case lang::SignalType::pose:
+      return sample.pose.rotation.allFinite() && sample.pose.position.allFinite() &&
+             (!sample.twist || (sample.twist->angular.allFinite() && sample.twist->linear.allFinite()));
+    case lang::SignalType::wrench:
+      return sample.wrench.angular.allFinite() && sample.wrench.linear.allFinite();
+  }
+  return false;
+}
+
+/// The pose on the way from `a` to `b`: straight, and turning at a constant rate.
+solver::Pose between(const solver::Pose& a, const solver::Pose& b, double part) {
+  const Eigen::Quaterniond turn = Eigen::Quaterniond(a.rotation).slerp(part, Eigen::Quaterniond(b.rotation));
+  return {turn.toRotationMatrix(), a.position + part * (b.position - a.position)};
+}
+
+}  // namespace
+
+SignalTable::SignalTable(const lang::Program& program, double period) : period_(period) {
+  for (const lang::Signal& signal : program.signals) {
+    Entry entry;
+    entry.declared = signal;
+    if (signal.type == lang::SignalType::pose) {
+      entry.past.resize(static_cast<std::size_t>(oldest(signal, program) / period) + 2);
+    }
+    entries_.push_back(std::move(entry));
+  }
+}
+
+double SignalTable::value(int signal) const noexcept {
+  if (!known(signal)) return std::numeric_limits<double>::quiet_NaN();
+  const Entry& entry = at(signal);
+  if (entry.declared.type == lang::SignalType::boolean) return entry.last.boolean ? 1.0 : 0.0;
+  return entry.last.number;
+}
+
+void SignalTable::remember(Entry& entry, double time, const solver::Pose& pose) noexcept {
+  if (entry.past.empty()) return;
+  entry.newest = (entry.newest + 1) % entry.past.size();
+  entry.past[entry.newest] = {time, pose};
+  entry.past_count = std::min(entry.past_count + 1, entry.past.size());
+}
+
+solver::Pose SignalTable::pose_then(const Entry& entry, double time) noexcept {
+  const std::size_t size = entry.past.size();
+  const Past* after = &entry.past[entry.newest];
+  for (std::size_t i = 1; i < entry.past_count && time < after->time; ++i) {
+    const Past* before = &entry.past[(entry.newest + size - i) % size];
+    if (before->time <= time) {
+      return between(before->pose, after->pose, (time - before->time) / (after->time - before->time));
+    }
+    after = before;
+  }
+  return after->pose;
+}
+
+bool SignalTable::is_new(const Entry& entry, const SignalSample& sample, double latest) noexcept {
+  if (!sample.valid || !(sample.stamp <= latest)) return false;
+  return !entry.received || sample.stamp > entry.last.stamp;
+}
+
+/// A pose signal becomes a pose in the world at its stamp, and stays there until the next sample.
+void SignalTable::take(int index, const SignalSample& sample, FrameTable& frames) noexcept {
+  Entry& entry = entries_[static_cast<std::size_t>(index)];
+  entry.last = sample;
+  entry.received = true;
+  if (entry.declared.type != lang::SignalType::pose) return;
+  const solver::Pose seen_from = pose_then(entry, sample.stamp);
+  solver::AttachedFrame seen{-1, seen_from * sample.pose, {}};
+  if (sample.twist) {
+    // From the axes it is seen in to its own, both at its origin.
+    const solver::Matrix3 R = sample.pose.rotation.transpose();
+    seen.twist = {R * sample.twist->angular, R * sample.twist->linear};
+  }
+  frames.feed(index, seen);
+}
+
+void SignalTable::update(const Sensed& sensed, const std::vector<double>& parameters,
+                         FrameTable& frames) noexcept {
+  if (!started_) start_ = sensed.time;
+  const double latest = sensed.time + clock_rounding * period_;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    Entry& entry = entries_[i];
+    const bool is_pose = entry.declared.type == lang::SignalType::pose;
+    if (is_pose) remember(entry, sensed.time, frames.pose(entry.declared.in));
+    // Until the first sample the signal's frame is where it is seen from.
+    if (is_pose && !started_) frames.feed(static_cast<int>(i), {-1, frames.pose(entry.declared.in), {}});
+    if (i < sensed.signals.size()) {
+      const SignalSample& sample = sensed.signals[i];
+      if (is_new(entry, sample, latest) && is_finite(sample, entry.declared.type)) {
+        take(static_cast<int>(i), sample, frames);
+      }
+    }
+    entry.age = sensed.time - (entry.received ? entry.last.stamp : start_);
+    entry.stale = entry.age > entry.declared.stale_after.evaluate(parameters) + clock_rounding * period_;
+  }
+  started_ = true;
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,164 @@
+#include "schedule/task_list.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "schedule/braking.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+void require_index(int index, std::size_t size, const char* what) {
+  if (index < 0 || static_cast<std::size_t>(index) >= size) {
+    throw std::invalid_argument(std::string("scheduler: ") + what + " is out of range");
+  }
+}
+
+/// One task, or `always`, against the program that it stands in.
+class TaskCheck {
+ public:
+  TaskCheck(const lang::Program& program, std::size_t frames, const lang::Task& task)
+      : program_(program), frames_(frames), task_(task) {}
+
+  void check() const {
+    for (const lang::Group& group : task_.groups) check_group(group);
+    for (const lang::Exit& exit : task_.exits) {
+      check_condition(exit.when);
+      check_target(exit.target);
+      for (const lang::SetAction& action : exit.set) check_set(action);
+    }
+    for (const lang::SetAction& action : task_.set_on_entry) check_set(action);
+    if (task_.require) check_condition(*task_.require);
+    if (task_.timeout) check_target(task_.timeout->target);
+    if (task_.attempts) check_target(task_.attempts->target);
+  }
+
+ private:
+  void check_group(const lang::Group& group) const {
+    require_index(group.move, frames_, "a moved frame");
+    require_index(group.in, frames_, "an axes frame");
+  }
+
+  void check_target(const lang::Target& target) const {
+    if (target.kind == lang::TargetKind::task) {
+      require_index(target.task, program_.tasks.size(), "an exit's target");
+    }
+  }
+
+  void check_set(const lang::SetAction& action) const {
+    if (action.sets_frame) {
+      require_index(action.index, frames_, "a frame to set");
+      require_index(action.source, frames_, "a frame to copy");
+    } else {
+      require_index(action.index, program_.parameters.size(), "a parameter to set");
+    }
+  }
+
+  void check_condition(const lang::Condition& condition) const {
+    for (std::size_t i = 0; i < condition.nodes.size(); ++i) {
+      const lang::ExpressionNode& node = condition.nodes[i];
+      if (node.left >= static_cast<int>(i) || node.right >= static_cast<int>(i)) {
+        throw std::invalid_argument("scheduler: an operand stands behind its operator");
+      }
+      check_name(node);
+    }
+  }
+
+  void check_name(const lang::ExpressionNode& node) const {
+    switch (node.op) {
+      case lang::Op::parameter:
+        return require_index(node.index, program_.parameters.size(), "a condition's parameter");
+      case lang::Op::speed:
+      case lang::Op::moved:
+        return require_index(node.index, frames_, "a condition's frame");
+      case lang::Op::signal:
+      case lang::Op::valid:
+        return require_index(node.index, program_.signals.size(), "a condition's signal");
+      case lang::Op::feature:
+        return require_index(node.index, program_.features.size(), "a condition's feature");
+      case lang::Op::coordinate: {
+        const std::vector<lang::Group>& groups = node.in_always ? program_.always.groups : task_.groups;
+        require_index(node.index, groups.size(), "a condition's group");
+        return require_index(node.axis, groups[static_cast<std::size_t>(node.index)].axes.size(),
+                             "a condition's axis");
+      }
+      default:
+        return;
+    }
+  }
+
+  const lang::Program& program_;
+  std::size_t frames_;
+  const lang::Task& task_;
+};
+
+std::size_t axis_count(const lang::Task& task) {
+  std::size_t count = 0;
+  for (const lang::Group& group : task.groups) count += group.axes.size();
+  return count;
+}
+
+int row_count(const lang::Task& task) {
+  int rows = 0;
+  for (const lang::Group& group : task.groups) {
+    for (const lang::AxisStatements& a : group.axes) {
+      rows +=
+          (a.driver ? 1 : 0) + 2 * ((a.position ? 1 : 0) + (a.velocity ? 1 : 0) + (a.acceleration ? 1 : 0));
+    }
+  }
+  return rows;
+}
+
+std::size_t longest_condition(const lang::Task& task) {
+  std::size_t nodes = task.require ? task.require->nodes.size() : 0;
+  for (const lang::Exit& exit : task.exits) nodes = std::max(nodes, exit.when.nodes.size());
+  return nodes;
+}
+
+bool leads_back(const lang::Target& target, const std::vector<bool>& known) {
+  if (target.kind == lang::TargetKind::back) return true;
+  return target.kind == lang::TargetKind::task && known[static_cast<std::size_t>(target.task)];
+}
+
+bool leads_back(const lang::Task& task, const std::vector<bool>& known) {
+  if (task.timeout && leads_back(task.timeout->target, known)) return true;
+  if (task.attempts && leads_back(task.attempts->target, known)) return true;
+  return std::any_of(task.exits.begin(), task.exits.end(),
+                     [&](const lang::Exit& exit) { return leads_back(exit.target, known); });
+}
+
+}  // namespace
+
+TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDeclaration>& frames, int base)
+    : tasks(program.tasks), program_tasks(static_cast<int>(program.tasks.size())) {
+  require_index(program.start, tasks.size(), "the start task");
+  for (lang::Task& task : tasks) add_limits(task, program.always, program.robot, base, frames);
+  tasks.push_back(brake_task("done", program.robot, base));
+  tasks.push_back(brake_task("failed", program.robot, base));
+  lang::Task always;
+  always.name = "always";
+  always.groups = program.always.groups;
+  always.exits = program.always.exits;
+  tasks.push_back(always);
+
+  for (const lang::Task& task : tasks) {
+    TaskCheck(program, frames.size(), task).check();
+    most_axes = std::max(most_axes, axis_count(task));
+    most_exits = std::max(most_exits, task.exits.size());
+    most_rows = std::max(most_rows, row_count(task));
+    most_nodes = std::max(most_nodes, longest_condition(task));
+  }
+  most_axes += axis_count(always);
+  most_rows += row_count(always);
+
+  leads_back.assign(tasks.size(), false);
+  for (std::size_t pass = 0; pass < tasks.size(); ++pass) {
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      if (runtime::leads_back(tasks[i], leads_back)) leads_back[i] = true;
+    }
+  }
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,32 @@
+/// Every task that a run can be in, checked and with its places counted, before the first tick.
+#pragma once
+
+#include <vector>
+
+#include "zwang/lang/program.hpp"
+
+namespace zwang::runtime {
+
+/// The program's tasks with the robot's limits, then `done`, `failed` and `always`.
+struct TaskList {
+  /// Throws std::invalid_argument on an index that is out of range. `frames` are the program's, with the
+  /// base's among them.
+  TaskList(const lang::Program& program, const std::vector<lang::FrameDeclaration>& frames, int base);
+
+  const lang::Task& operator[](int task) const noexcept { return tasks[static_cast<std::size_t>(task)]; }
+  int done() const noexcept { return program_tasks; }
+  int failed() const noexcept { return program_tasks + 1; }
+  int always() const noexcept { return program_tasks + 2; }
+  bool ends(int task) const noexcept { return task >= program_tasks; }
+
+  std::vector<lang::Task> tasks;
+  int program_tasks = 0;
+  std::vector<bool> leads_back;  ///< of each task: `back` can be reached from it
+  // The most that can be in force at once, `always` included.
+  std::size_t most_axes = 0;
+  std::size_t most_exits = 0;
+  std::size_t most_nodes = 0;  ///< of a condition
+  int most_rows = 0;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,106 @@
+// Steps 4 and 5 of the tick: guards, then at most one transition.
+#include "schedule/parts.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr double at_rest_speed = 0.01;               // [m/s]
+constexpr double at_rest_turn = 0.0174532925199433;  // [rad/s], 1 deg/s
+constexpr double longest_stop = 10.0;                // [s]
+
+void mark(std::uint64_t& bits, std::size_t exit) {
+  if (exit < 64) bits |= std::uint64_t{1} << exit;
+}
+
+}  // namespace
+
+/// Those of `always` on every tick; those of a task never on the tick of its entry, which is the one that
+/// this is not called in for them.
+void Scheduler::Parts::advance_guards() noexcept {
+  always_guards.advance(tasks[tasks.always()].exits, tasks.always(), *this, parameters, scratch);
+  if (task >= 0) guards.advance(active().exits, task, *this, parameters, scratch);
+}
+
+/// An exit of `always` is ignored while its own target is active, and `back` where nothing was interrupted.
+bool Scheduler::Parts::is_heeded(const lang::Target& target) const noexcept {
+  if (target.kind == lang::TargetKind::back) return interruption.task >= 0;
+  return target.kind != lang::TargetKind::task || target.task != task;
+}
+
+bool Scheduler::Parts::is_timed_out() const noexcept {
+  const auto& timeout = active().timeout;
+  return timeout && elapsed() >= timeout->after.evaluate(parameters) - clock_rounding * period;
+}
+
+/// Order is priority: the exits of `always`, the timeout, then the task's exits, each from top to bottom.
+std::optional<Scheduler::Parts::Choice> Scheduler::Parts::choose() noexcept {
+  Choice choice;
+  Transition& t = choice.transition;
+  t.time = now;
+  t.from = task;
+  bool any = false;
+  const auto offer = [&](Cause cause, int exit, const lang::Target& target) {
+    if (any) return false;
+    any = true;
+    t.cause = cause;
+    t.exit = exit;
+    choice.target = target;
+    return true;
+  };
+  const std::vector<lang::Exit>& interrupting = tasks[tasks.always()].exits;
+  for (std::size_t i = 0; i < interrupting.size(); ++i) {
+    const lang::Target& target = interrupting[i].target;
+    if (!is_heeded(target) || !always_guards.is_due(interrupting, i, parameters)) continue;
+    if (!offer(Cause::always, static_cast<int>(i), target)) mark(t.also_always, i);
+  }
+  if (is_timed_out()) t.also_timeout = !offer(Cause::timeout, -1, active().timeout->target);
+  const std::vector<lang::Exit>& exits = active().exits;
+  for (std::size_t i = 0; i < exits.size(); ++i) {
+    if (!guards.is_due(exits, i, parameters)) continue;
+    if (!offer(Cause::exit, static_cast<int>(i), exits[i].target)) mark(t.also_true, i);
+  }
+  if (!any) return std::nullopt;
+  return choice;
+}
+
+/// Once the end is reached, the one thing that can still change it is an exit of `always` to `failed`.
+std::optional<Scheduler::Parts::Choice> Scheduler::Parts::choose_while_stopping() noexcept {
+  if (task != tasks.done()) return std::nullopt;
+  const std::vector<lang::Exit>& exits = tasks[tasks.always()].exits;
+  for (std::size_t i = 0; i < exits.size(); ++i) {
+    if (exits[i].target.kind != lang::TargetKind::failed) continue;
+    if (!always_guards.is_due(exits, i, parameters)) continue;
+    Choice choice;
+    choice.transition.time = now;
+    choice.transition.from = task;
+    choice.transition.cause = Cause::always;
+    choice.transition.exit = static_cast<int>(i);
+    choice.target = exits[i].target;
+    return choice;
+  }
+  return std::nullopt;
+}
+
+void Scheduler::Parts::check_rest() noexcept {
+  if (phase != Phase::stopping) return;
+  const solver::MotionVector& twist = state->base_twist;
+  const bool stands =
+      model.has_fixed_base() || (twist.linear.norm() < at_rest_speed && twist.angular.norm() < at_rest_turn);
+  if (stands) {
+    phase = Phase::finished;
+  } else if (elapsed() > longest_stop) {
+    if (task == tasks.done()) {
+      Transition t;
+      t.time = now;
+      t.from = task;
+      t.to = tasks.failed();
+      t.cause = Cause::never_stood;
+      transition = t;
+    }
+    outcome = Outcome::failed;
+    phase = Phase::finished;
+  }
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,140 @@
+// Step 6 of the tick: the switch, `set`, and every `here`.
+#include "schedule/parts.hpp"
+
+namespace zwang::runtime {
+
+void Scheduler::Parts::apply(const std::vector<lang::SetAction>& actions) noexcept {
+  for (const lang::SetAction& action : actions) {
+    if (action.sets_frame) {
+      // An unknown pose is none to copy.
+      if (is_known(action.source)) frames.set(action.index, action.source, model, *state);
+    } else {
+      parameters[static_cast<std::size_t>(action.index)] = action.value.evaluate(parameters);
+    }
+  }
+}
+
+/// `back` where nothing was interrupted has nowhere to go.
+void Scheduler::Parts::lead(Transition& t, const lang::Target& target) const noexcept {
+  t.resumes = false;
+  switch (target.kind) {
+    case lang::TargetKind::task:
+      t.to = target.task;
+      return;
+    case lang::TargetKind::done:
+      t.to = tasks.done();
+      return;
+    case lang::TargetKind::back:
+      t.resumes = interruption.task >= 0;
+      t.to = t.resumes ? interruption.task : tasks.failed();
+      return;
+    case lang::TargetKind::failed:
+      t.to = tasks.failed();
+      return;
+  }
+}
+
+/// Past the tasks whose attempts are used up; to `failed` where one requires what does not hold.
+void Scheduler::Parts::turn_away(Transition& t) noexcept {
+  for (int hops = 0; hops <= tasks.program_tasks; ++hops) {
+    if (t.resumes || tasks.ends(t.to)) return;
+    const lang::Task& next = tasks[t.to];
+    const bool used_up = next.attempts && entries[static_cast<std::size_t>(t.to)] >= next.attempts->most;
+    if (used_up) {
+      t.refusal = Refusal::attempts;
+      t.refused = t.to;
+      lead(t, next.attempts->target);
+      continue;
+    }
+    if (next.require && evaluate(*next.require, t.to, *this, scratch).verdict != Verdict::yes) {
+      t.refusal = Refusal::require;
+      t.refused = t.to;
+      t.to = tasks.failed();
+    }
+    return;
+  }
+  t.to = tasks.failed();  // attempts that lead to one another in a circle
+}
+
+/// An interruption of an interruption does not change where `back` leads.
+void Scheduler::Parts::interrupt(const Transition& t) noexcept {
+  if (t.cause != Cause::always || interruption.task >= 0 || tasks.ends(task)) return;
+  interruption = {task, elapsed()};
+  frames.keep_paths();
+}
+
+void Scheduler::Parts::enter() noexcept {
+  ++entries[static_cast<std::size_t>(task)];
+  apply(active().set_on_entry);
+  entered = now;
+  frames.start_paths();
+  // It is over where no `back` can follow.
+  if (!tasks.leads_back[static_cast<std::size_t>(task)]) interruption = {};
+  if (tasks.ends(task)) {
+    phase = Phase::stopping;
+    outcome = task == tasks.done() ? Outcome::done : Outcome::failed;
+  }
+}
+
+/// No entry: neither counted nor asked what it requires, nothing is set, and the time goes on where it was.
+void Scheduler::Parts::resume() noexcept {
+  entered = now - interruption.spent;
+  frames.resume_paths();
+  interruption = {};
+}
+
+void Scheduler::Parts::take(Choice choice) noexcept {
+  Transition& t = choice.transition;
+  if (t.cause == Cause::always || t.cause == Cause::exit) {
+    const int owner = t.cause == Cause::always ? tasks.always() : task;
+    apply(tasks[owner].exits[static_cast<std::size_t>(t.exit)].set);
+  }
+  interrupt(t);
+  lead(t, choice.target);
+  turn_away(t);
+  transition = t;
+  task = t.to;
+  if (t.resumes) {
+    resume();
+  } else {
+    enter();
+  }
+  guards.restart();
+  list_axes();
+  start_blend();
+}
+
+void Scheduler::Parts::list_axes() noexcept {
+  const auto list = [&](int owner) {
+    const lang::Task& t = tasks[owner];
+    for (std::size_t g = 0; g < t.groups.size(); ++g) {
+      for (std::size_t i = 0; i < t.groups[g].axes.size(); ++i) {
+        ActiveAxis a;
+        a.origin = {owner, static_cast<int>(g), static_cast<int>(i)};
+        capture_here(a);
+        axes.push_back(a);
+      }
+    }
+  };
+  // Those of `always` stay, with their `here`, from the start of the run on.
+  if (axes.empty()) {
+    list(tasks.always());
+    always_axes = axes.size();
+  }
+  axes.erase(axes.begin() + static_cast<std::ptrdiff_t>(always_axes), axes.end());
+  list(task);
+}
+
+void Scheduler::Parts::capture_here(ActiveAxis& a) noexcept {
+  const lang::AxisStatements& s = statements(a);
+  const lang::Group& g = group(a.origin);
+  if (!s.here || a.has_here || !is_known(g.in)) return;
+  const solver::AttachedFrame& move = frames.attached(g.move);
+  const solver::AttachedFrame& in = frames.attached(g.in);
+  // Axes that the moved body carries cannot tell where it is: they stay where they were on entry.
+  if (in.body >= 0 && in.body == move.body) a.entry_axes = solver::AttachedFrame{-1, frames.pose(g.in), {}};
+  a.here = coordinate_of(g, s, &a).position;
+  a.has_here = true;
+}
+
+}  // namespace zwang::runtime

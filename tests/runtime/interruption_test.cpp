@@ -1,0 +1,436 @@
+// Each test is a sentence of the task language's section "The scheduler": `always`, `back`, `attempts`,
+// `require`, `release`, and who goes first.
+#include "scheduler_bench.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+using namespace test;
+using lang::SignalType;
+
+const std::vector<AxisStatements> forward = {drive("go.x", Axis::x, Quantity::velocity, 0.1)};
+const std::vector<AxisStatements> still = {drive("go.x", Axis::x, Quantity::velocity, 0.0)};
+
+Nodes heard(int signal) {
+  return name(Op::signal, signal);
+}
+Nodes below(int signal, double threshold) {
+  return apply(Op::less, heard(signal), number(threshold));
+}
+Nodes above(int signal, double threshold) {
+  return apply(Op::greater, heard(signal), number(threshold));
+}
+
+/// `work` is interrupted by `pause` while the signal 0 is below 1; `pause` leads back when it is above 2.
+lang::Program interrupted_work() {
+  lang::Task work = task("work", forward), pause = task("pause", still);
+  work.exits = {exit(after(1e6), to_done)};
+  pause.exits = {exit(when(above(0, 2.0)), back)};
+  lang::Program p = program({work, pause});
+  p.signals = {signal("near", SignalType::number, 1e9), signal("extra", SignalType::number, 1e9)};
+  p.always.exits = {exit(when(below(0, 1.0)), to_task(1))};
+  return p;
+}
+constexpr int work = 0, pause = 1;
+
+TEST(Always, ConstraintsAreInForceInEveryTaskAndWhileTheBaseBrakes) {
+  lang::Task a = task("a", forward), b = task("b", still);
+  a.exits = {exit(after(0.002), to_task(1))};
+  b.exits = {exit(after(0.002), to_done)};
+  lang::Program p = program({a, b});
+  AxisStatements slow = free_axis("manners.y", Axis::y);
+  slow.velocity = between(-0.3, 0.3);
+  slow.level = 0;
+  p.always.groups = task("", {slow}).groups;
+  Bench bench(p);
+  bench.sensed.state.base_twist.linear = {0.5, 0.0, 0.0};  // never at rest
+  for (int i = 0; i < 8; ++i) {
+    bench.tick();
+    int found = 0;
+    for (int c = 0; c < bench.count(); ++c) {
+      const InForce& source = bench.scheduler.in_force()[static_cast<std::size_t>(c)];
+      if (source.origin.task != bench.scheduler.always_task()) continue;
+      ++found;
+      EXPECT_TRUE(source.active);
+      EXPECT_EQ(bench.constraint(c).level, 0);
+      EXPECT_EQ(bench.constraint(c).alpha, 1.0);
+      EXPECT_EQ(bench.constraint(c).velocity->high, 0.3);
+    }
+    EXPECT_EQ(found, 1) << i;
+  }
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
+  EXPECT_EQ(bench.scheduler.phase(), Phase::stopping);
+}
+
+TEST(Always, ItsRangesReplaceTheRobotsOnTheSameAxis) {
+  lang::Program p = program({task("a", forward)});
+  p.robot.limits = {{Axis::x, Quantity::velocity, {-1, 1}, {}}, {Axis::y, Quantity::velocity, {-1, 1}, {}}};
+  AxisStatements slow = free_axis("manners.x", Axis::x);
+  slow.velocity = between(-2, 2);
+  slow.level = 0;
+  p.always.groups = task("", {slow}).groups;
+  const Scheduler scheduler(p, period);
+  const lang::Group& limits = scheduler.tasks()[0].groups.back();
+  ASSERT_EQ(limits.name, "limits");
+  ASSERT_EQ(limits.axes.size(), 1u);
+  EXPECT_EQ(limits.axes[0].axis, Axis::y);
+}
+
+TEST(Always, AnExitInterruptsTheTask) {
+  Bench bench(interrupted_work());
+  bench.hear(0, 5.0);
+  bench.ticks_more(10);
+  EXPECT_EQ(bench.scheduler.task(), work);
+  bench.hear(0, 0.5);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), pause);
+  EXPECT_EQ(bench.transitions.back().cause, Cause::always);
+  EXPECT_EQ(bench.transitions.back().exit, 0);
+  EXPECT_EQ(bench.scheduler.why(bench.transitions.back()), "a condition");
+}
+
+TEST(Always, AnExitIsIgnoredWhileItsOwnTargetIsActive) {
+  Bench bench(interrupted_work());
+  bench.hear(0, 0.5);
+  bench.ticks_more(20);
+  EXPECT_EQ(bench.scheduler.task(), pause);
+  EXPECT_EQ(bench.transitions.size(), 2u) << "the start and one interruption";
+}
+
+TEST(Always, GuardsAreEvaluatedOnEveryTickAndKeepTheirTimersOverSwitches) {
+  lang::Program p = interrupted_work();
+  p.always.exits[0].dwell.constant = 0.010;
+  p.tasks.push_back(task("next", forward));
+  p.tasks[0].exits = {exit(after(0.004), to_task(2))};
+  p.tasks[2].exits = {exit(after(0.004), to_task(0))};
+  Bench bench(p);
+  for (int i = 1; i <= 9; ++i) {
+    bench.hear(0, 0.5);
+    bench.tick();
+    EXPECT_NEAR(bench.scheduler.always_dwell(0), i * period, 1e-12) << "entry ticks count, the first one too";
+    EXPECT_NE(bench.scheduler.task(), pause);
+  }
+  EXPECT_EQ(bench.transitions.size(), 3u) << "there were switches meanwhile";
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), pause);
+}
+
+TEST(Always, UnknownCountsAsTrueAtOnceWhenASignalIsOlderThanItsStaleAfter) {
+  lang::Program p = interrupted_work();
+  p.signals[0].stale_after.constant = 0.020;
+  p.always.exits[0].dwell.constant = 10.0;  // not waited for
+  Bench bench(p);
+  bench.hear(0, 5.0);
+  bench.ticks_more(21);  // 20 ms old on the last of them: not older yet
+  EXPECT_EQ(bench.scheduler.task(), work);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), pause);
+  EXPECT_EQ(bench.transitions.back().cause, Cause::always);
+}
+
+TEST(Always, UnknownForAnyOtherReasonDoesNotFire) {
+  lang::Program p = interrupted_work();
+  p.always.exits[0].when = when(apply(Op::less, unknown(), number(1.0)));
+  Bench bench(p);
+  bench.ticks_more(50);
+  EXPECT_EQ(bench.scheduler.task(), work);
+}
+
+TEST(Always, AStaleSignalThatDoesNotDecideDoesNotFire) {
+  lang::Program p = interrupted_work();
+  p.signals[0].stale_after.constant = 0.005;
+  const Nodes never = apply(Op::less, number(1.0), number(0.0));
+  p.always.exits[0].when = when(apply(Op::logical_and, below(0, 1.0), never));
+  Bench bench(p);
+  bench.ticks_more(50);
+  EXPECT_EQ(bench.scheduler.task(), work);
+}
+
+TEST(Task, UnknownDoesNotFireButItsTimeoutDoes) {
+  lang::Task a = task("a", forward);
+  a.exits = {exit(when(below(0, 1.0)), to_done), exit(when(apply(Op::logical_not, below(0, 1.0))), to_done)};
+  a.timeout = lang::Timeout{{.constant = 0.050}, to_failed, {}};
+  lang::Program p = program({a});
+  p.signals = {signal("near", SignalType::number, 0.005)};
+  Bench bench(p);
+  bench.tick();
+  EXPECT_EQ(bench.ticks_to_switch(100), 50);
+  EXPECT_EQ(bench.transitions.back().cause, Cause::timeout);
+}
+
+TEST(Back, ResumesTheInterruptedTaskAndItsTimeoutKeepsTheTimeAlreadySpent) {
+  lang::Program p = interrupted_work();
+  p.tasks[0].timeout = lang::Timeout{{.constant = 0.030}, to_failed, {}};
+  Bench bench(p);
+  bench.hear(0, 5.0);
+  bench.ticks_more(11);  // entry and 10 ms
+  bench.hear(0, 0.5);
+  bench.tick();  // interrupted after 11 ms
+  ASSERT_EQ(bench.scheduler.task(), pause);
+  bench.hear(0, 5.0);
+  bench.ticks_more(1);
+  EXPECT_TRUE(bench.transitions.back().resumes);
+  EXPECT_EQ(bench.scheduler.task(), work);
+  EXPECT_NEAR(bench.scheduler.elapsed(), 0.011, 1e-9);
+  EXPECT_EQ(bench.ticks_to_switch(100), 19);
+  EXPECT_EQ(bench.transitions.back().cause, Cause::timeout);
+}
+
+TEST(Back, HereIsTakenAnew) {
+  lang::Program p = interrupted_work();
+  AxisStatements hold = drive("go.x", Axis::x, Quantity::position, 0.0);
+  hold.here = true;
+  p.tasks[0].groups = task("", {hold}, base_link, world_frame).groups;
+  Bench bench(p);
+  bench.hear(0, 5.0);
+  bench.sensed.state.base_pose.position.x() = 1.0;
+  bench.tick();
+  EXPECT_EQ(bench.constraint(0).driver->target, 1.0);
+  bench.hear(0, 0.5);
+  bench.tick();
+  bench.sensed.state.base_pose.position.x() = 3.0;
+  bench.hear(0, 5.0);
+  bench.tick();
+  ASSERT_EQ(bench.scheduler.task(), work);
+  EXPECT_EQ(bench.constraint(0).driver->target, 3.0);
+}
+
+TEST(Back, IsNoEntryAttemptsRequireAndSetAreUntouched) {
+  lang::Program p = interrupted_work();
+  p.parameters.resize(1);
+  p.parameters[0].value = 1.0;
+  lang::SetAction set;
+  set.sets_frame = false;
+  set.index = 0;
+  set.value.constant = 2.0;
+  p.tasks[0].set_on_entry = {set};
+  p.tasks[0].attempts = lang::Attempts{1, to_failed, {}};
+  // True on the entry at x = 0, and never again.
+  p.tasks[0].require = when(apply(Op::less, coordinate(0, 0, CoordinateQuantity::position), number(0.5)));
+  p.tasks[0].groups[0].in = world_frame;
+  lang::SetAction other = set;
+  other.value.constant = 3.0;
+  p.tasks[1].exits[0].set = {other};
+  Bench bench(p);
+  bench.hear(0, 5.0);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.parameters()[0], 2.0);
+  bench.sensed.state.base_pose.position.x() = 1.0;
+  bench.hear(0, 0.5);
+  bench.tick();
+  bench.hear(0, 5.0);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), work);
+  EXPECT_EQ(bench.scheduler.parameters()[0], 3.0) << "the exit's own `set` is run, the entry's is not";
+}
+
+TEST(Back, MovedGoesOnFromWhereTheInterruptionCame) {
+  lang::Program p = interrupted_work();
+  p.tasks[0].exits = {exit(when(apply(Op::greater, name(Op::moved, base_link), number(0.95))), to_done)};
+  Bench bench(p);
+  double& x = bench.sensed.state.base_pose.position.x();
+  bench.hear(0, 5.0);
+  bench.tick();
+  x = 0.6;
+  bench.tick();
+  bench.hear(0, 0.5);
+  bench.tick();
+  x = 2.0;  // moved while interrupted
+  bench.tick();
+  bench.hear(0, 5.0);
+  bench.tick();
+  ASSERT_EQ(bench.scheduler.task(), work);
+  x = 2.3;
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), work);
+  x = 2.4;
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
+}
+
+TEST(Back, AnInterruptionOfAnInterruptionDoesNotOverwriteWhereItLeads) {
+  lang::Program p = interrupted_work();
+  lang::Task wait = task("wait", still);
+  wait.exits = {exit(when(above(1, 2.0)), back)};
+  p.tasks.push_back(wait);
+  p.always.exits.push_back(exit(when(below(1, 1.0)), to_task(2)));
+  Bench bench(p);
+  bench.hear(0, 5.0);
+  bench.hear(1, 5.0);
+  bench.ticks_more(5);
+  bench.hear(0, 1.5);
+  bench.hear(0, 0.5);
+  bench.tick();
+  ASSERT_EQ(bench.scheduler.task(), pause);
+  bench.hear(0, 1.5);  // neither interrupts any more nor leads back
+  bench.hear(1, 0.5);
+  bench.tick();
+  ASSERT_EQ(bench.scheduler.task(), 2);
+  bench.hear(1, 5.0);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), work);
+}
+
+TEST(Back, AnInterruptionIsOverInATaskFromWhichNoBackCanFollow) {
+  lang::Program p = interrupted_work();
+  lang::Task elsewhere = task("elsewhere", forward);
+  elsewhere.exits = {exit(after(1e6), to_done)};
+  p.tasks.push_back(elsewhere);
+  p.tasks[1].timeout = lang::Timeout{{.constant = 0.005}, to_task(2), {}};
+  Bench bench(p);
+  bench.hear(0, 0.5);
+  bench.ticks_more(2);
+  ASSERT_EQ(bench.scheduler.task(), pause);
+  bench.hear(0, 1.5);
+  ASSERT_EQ(bench.ticks_to_switch(20), 5);
+  ASSERT_EQ(bench.scheduler.task(), 2);
+  bench.hear(0, 0.5);
+  bench.tick();
+  ASSERT_EQ(bench.scheduler.task(), pause);
+  bench.hear(0, 5.0);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), 2) << "back leads to what was interrupted last";
+}
+
+TEST(Attempts, EntryNPlusOneSinceTheStartGoesToItsGoto) {
+  lang::Task a = task("a", forward), b = task("b", still), c = task("c", still);
+  a.exits = {exit(after(0.002), to_task(1))};
+  b.exits = {exit(after(0.002), to_task(0))};
+  b.attempts = lang::Attempts{3, to_task(2), {}};
+  c.exits = {exit(after(1e6), to_done)};
+  Bench bench(program({a, b, c}));
+  int entries = 0;
+  for (int i = 0; i < 100 && bench.scheduler.task() != 2; ++i) {
+    bench.tick();
+    if (bench.scheduler.transition() && bench.scheduler.task() == 1) ++entries;
+  }
+  EXPECT_EQ(entries, 3);
+  ASSERT_EQ(bench.scheduler.task(), 2);
+  EXPECT_EQ(bench.transitions.back().refusal, Refusal::attempts);
+  EXPECT_EQ(bench.transitions.back().refused, 1);
+  EXPECT_EQ(bench.scheduler.why(bench.transitions.back()), "elapsed, but `b` was entered 3 times");
+}
+
+TEST(Attempts, ThatLeadToOneAnotherInACircleFail) {
+  lang::Task a = task("a", forward), b = task("b", still);
+  a.attempts = lang::Attempts{1, to_task(1), {}};
+  b.attempts = lang::Attempts{1, to_task(0), {}};
+  a.exits = {exit(after(0.001), to_task(1))};
+  b.exits = {exit(after(0.001), to_task(0))};
+  Bench bench(program({a, b}));
+  bench.ticks_more(3);
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::failed);
+}
+
+TEST(Require, FalseOrUnknownOnEntryFailsWithTheConditionsWords) {
+  const Nodes no = apply(Op::less, number(1), number(0));
+  const Nodes maybe = apply(Op::less, unknown(), number(1));
+  for (const Nodes& nodes : {no, maybe}) {
+    lang::Task a = task("a", forward), b = task("b", still);
+    a.exits = {exit(after(0.002), to_task(1))};
+    b.require = when(nodes, "the door is open");
+    lang::SetAction set;
+    set.sets_frame = false;
+    set.index = 0;
+    b.set_on_entry = {set};
+    lang::Program p = program({a, b});
+    p.parameters.resize(1);
+    p.parameters[0].value = 1.0;
+    Bench bench(p);
+    bench.ticks_more(3);
+    EXPECT_EQ(bench.scheduler.outcome(), Outcome::failed);
+    EXPECT_EQ(bench.transitions.back().refusal, Refusal::require);
+    EXPECT_EQ(bench.scheduler.why(bench.transitions.back()), "elapsed, but `b` requires the door is open");
+    EXPECT_EQ(bench.scheduler.parameters()[0], 1.0) << "what is not entered sets nothing";
+  }
+}
+
+TEST(Require, HoldsForTheStartTaskAndLetsItInWhenTrue) {
+  lang::Task a = task("a", forward);
+  a.require = when(apply(Op::less, number(1), number(0)));
+  Bench refused(program({a}));
+  refused.tick();
+  EXPECT_EQ(refused.scheduler.outcome(), Outcome::failed);
+  a.require = always_true();
+  Bench entered(program({a}));
+  entered.tick();
+  EXPECT_EQ(entered.scheduler.task(), 0);
+}
+
+TEST(Release, OnceTrueTheComparisonStaysTrueUntilTheQuantityPassesIt) {
+  lang::Task a = task("a", forward);
+  a.exits = {exit(when(below(0, 0.8)), to_done, 0.010)};
+  a.exits[0].release = lang::Value{.constant = 1.2};
+  lang::Program p = program({a});
+  p.signals = {signal("near", SignalType::number, 1e9)};
+  Bench bench(p);
+  const auto dwell_at = [&](double value) {
+    bench.hear(0, value);
+    bench.tick();
+    return bench.scheduler.dwell(0);
+  };
+  bench.hear(0, 5.0);
+  bench.tick();
+  EXPECT_EQ(dwell_at(1.0), 0.0) << "not below the threshold";
+  EXPECT_NEAR(dwell_at(0.7), 0.001, 1e-12);
+  EXPECT_NEAR(dwell_at(1.1), 0.002, 1e-12) << "above the threshold, not past the release";
+  EXPECT_EQ(dwell_at(1.3), 0.0);
+  EXPECT_EQ(dwell_at(1.1), 0.0) << "released";
+}
+
+TEST(Release, WhatIsUnknownHasNotPassedIt) {
+  lang::Task a = task("a", forward);
+  a.exits = {exit(when(above(0, 2.0)), to_done, 0.010)};
+  a.exits[0].release = lang::Value{.constant = 1.0};
+  lang::Program p = program({a});
+  p.signals = {signal("near", SignalType::number, 0.002)};
+  Bench bench(p);
+  bench.hear(0, 3.0);
+  bench.ticks_more(2);
+  EXPECT_GT(bench.scheduler.dwell(0), 0.0);
+  bench.ticks_more(4);
+  EXPECT_EQ(bench.scheduler.dwell(0), 0.0) << "unknown restarts `for`";
+  bench.hear(0, 1.5);
+  bench.tick();
+  EXPECT_GT(bench.scheduler.dwell(0), 0.0);
+}
+
+TEST(Order, ExitsOfAlwaysGoBeforeTheTimeoutAndTheTasksExitsAndTheOthersAreAlsoTrue) {
+  lang::Task a = task("a", forward), b = task("b", still);
+  a.exits = {exit(after(0.003), to_done), exit(after(0.003), to_failed)};
+  a.timeout = lang::Timeout{{.constant = 0.003}, to_failed, {}};
+  lang::Program p = program({a, b});
+  p.always.exits = {exit(when(apply(Op::less, number(1), number(0))), to_failed),
+                    exit(after(0.003), to_task(1)), exit(after(0.003), to_failed)};
+  Bench bench(p);
+  bench.tick();
+  EXPECT_EQ(bench.ticks_to_switch(10), 3);
+  const Transition& t = bench.transitions.back();
+  EXPECT_EQ(bench.scheduler.task(), 1);
+  EXPECT_EQ(t.cause, Cause::always);
+  EXPECT_EQ(t.exit, 1);
+  EXPECT_EQ(t.also_always, 0b100u);
+  EXPECT_TRUE(t.also_timeout);
+  EXPECT_EQ(t.also_true, 0b11u);
+}
+
+TEST(End, AnExitOfAlwaysToFailedStillCountsWhileTheBaseBrakesForDone) {
+  lang::Task a = task("a", forward);
+  a.exits = {exit(after(0.001), to_done)};
+  lang::Program p = program({a, task("pause", still)});
+  p.signals = {signal("stop", SignalType::boolean, 1e9), signal("near", SignalType::boolean, 1e9)};
+  p.always.exits = {exit(when(heard(1)), to_task(1)), exit(when(heard(0)), to_failed)};
+  Bench bench(p);
+  bench.sensed.state.base_twist.linear = {0.5, 0.0, 0.0};
+  bench.ticks_more(10);
+  ASSERT_EQ(bench.scheduler.outcome(), Outcome::done);
+  bench.hear(1, 1.0);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::done) << "the run is over: no task is entered any more";
+  bench.hear(0, 1.0);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::failed);
+}
+
+}  // namespace
+}  // namespace zwang::runtime

@@ -1,0 +1,264 @@
+// Each test is a sentence about signals: of the task language's sections "Geometry, once" and "The
+// scheduler".
+#include "scheduler_bench.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+using namespace test;
+using lang::SignalType;
+
+constexpr int partner_frame = 3;
+constexpr int socket_frame = 4;  ///< hangs on `partner`, 0.5 m behind it
+
+/// A base that glides along the frame of a pose signal, seen from itself.
+lang::Program docking(const std::vector<AxisStatements>& axes, double stale_after = 0.05) {
+  lang::Program p = program({task("glide", axes, base_link, socket_frame)});
+  p.signals = {signal("partner", SignalType::pose, stale_after)};
+  p.signals[0].in = base_link;
+  lang::FrameDeclaration partner, socket;
+  partner.name = "partner";
+  partner.parent = lang::FrameParent::signal;
+  partner.parent_index = 0;
+  socket.name = "socket";
+  socket.parent = lang::FrameParent::frame;
+  socket.parent_index = partner_frame;
+  socket.pose.position = {-0.5, 0, 0};
+  p.frames.push_back(partner);
+  p.frames.push_back(socket);
+  return p;
+}
+
+AxisStatements to_socket() {
+  AxisStatements a = drive("glide.x", Axis::x, Quantity::position, 0.0);
+  a.force = between(-30, 40);
+  return a;
+}
+
+void see(Bench& bench, const solver::Pose& pose, double stamp) {
+  bench.sensed.signals[0].valid = true;
+  bench.sensed.signals[0].stamp = stamp;
+  bench.sensed.signals[0].pose = pose;
+}
+
+TEST(PoseSignal, BecomesAWorldPoseAtItsStamp) {
+  // The base drives along x at 1 m/s and turns at 1 rad/s; what it sees 20 ms late stands still.
+  Bench bench(docking({to_socket()}));
+  const solver::Pose object{solver::rotation_from_rpy(0, 0, 0.3), {2.0, 1.0, 0.0}};
+  const auto base_at = [](double t) {
+    return solver::Pose{solver::rotation_from_rpy(0, 0, t), {t, 0.0, 0.0}};
+  };
+  const double delay = 0.0205;  // between two ticks
+  for (int i = 0; i < 200; ++i) {
+    const double t = bench.sensed.time;
+    bench.sensed.state.base_pose = base_at(t);
+    if (t > delay) see(bench, base_at(t - delay).inverse() * object, t - delay);
+    bench.tick();
+    if (t <= delay) continue;
+    const solver::Pose& in = bench.constraint(0).in.pose;
+    const solver::Vector3 socket = object * solver::Vector3(-0.5, 0, 0);
+    EXPECT_EQ(bench.constraint(0).in.body, -1);
+    // The base's path between two ticks is taken as straight: off by (w dt)^2 v/8 at most.
+    EXPECT_LT((in.position - socket).norm(), 1e-6);
+    EXPECT_LT((in.rotation - object.rotation).norm(), 1e-6);
+  }
+}
+
+TEST(PoseSignal, StaysFixedInTheWorldBetweenSamples) {
+  Bench bench(docking({to_socket()}));
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, 0.0);
+  for (int i = 0; i < 40; ++i) {
+    bench.sensed.state.base_pose.position.x() = 0.01 * i;
+    bench.tick();
+    EXPECT_EQ(bench.constraint(0).in.pose.position.x(), 1.5);
+    EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::position);
+  }
+}
+
+TEST(PoseSignal, HasNoVelocityUnlessItCarriesATwist) {
+  Bench bench(docking({to_socket()}));
+  // Seen turned by 90 deg: its x is the base's y. It moves along the base's x at 0.2 m/s and turns.
+  const solver::Pose seen{solver::rotation_from_rpy(0, 0, std::numbers::pi / 2), {2.0, 0.0, 0.0}};
+  see(bench, seen, 0.0);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.constraints().coordinates()[0].velocity, 0.0);
+  see(bench, seen, bench.sensed.time);
+  bench.sensed.signals[0].twist = solver::MotionVector{{0, 0, 0.1}, {0.2, 0.3, 0}};
+  bench.tick();
+  // Along the socket's x, which is the base's y: what stands moves against it with minus its velocity at the
+  // place of the base's origin, v + w x r with r = (-2, 0).
+  EXPECT_NEAR(bench.scheduler.constraints().coordinates()[0].velocity, -(0.3 + 0.1 * -2.0), 1e-12);
+}
+
+TEST(PoseSignal, WhileInvalidMotionRowsInItsFrameStandStillWithTheSameForceRange) {
+  AxisStatements pace = drive("glide.y", Axis::y, Quantity::velocity, 0.3);
+  pace.force = between(-5, 6);
+  AxisStatements push = drive("glide.rz", Axis::rz, Quantity::force, 2.0);
+  push.velocity = between(-0.1, 0.2);
+  Bench bench(docking({to_socket(), pace, push}, 0.010));
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, 0.0);
+  bench.ticks_more(11);
+  EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::position);
+  EXPECT_EQ(bench.constraint(1).driver->target, 0.3);
+  bench.tick();
+  EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::velocity);
+  EXPECT_EQ(bench.constraint(0).driver->target, 0.0);
+  EXPECT_EQ(bench.constraint(0).driver->force.low, -30.0);
+  EXPECT_EQ(bench.constraint(0).driver->force.high, 40.0);
+  EXPECT_EQ(bench.constraint(1).driver->target, 0.0);
+  EXPECT_EQ(bench.constraint(1).driver->force.high, 6.0);
+  EXPECT_EQ(bench.constraint(2).driver->quantity, Quantity::force);
+  EXPECT_EQ(bench.constraint(2).driver->target, 2.0) << "a force row is no motion row";
+  EXPECT_EQ(bench.constraint(2).velocity->low, 0.0);
+  EXPECT_EQ(bench.constraint(2).velocity->high, 0.0);
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, bench.sensed.time);
+  bench.tick();
+  EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::position);
+  EXPECT_EQ(bench.constraint(1).driver->target, 0.3);
+  EXPECT_EQ(bench.constraint(2).velocity->high, 0.2);
+}
+
+TEST(PoseSignal, LossAndReturnAreBlendedLikeASwitch) {
+  lang::Program p = docking({to_socket()}, 0.010);
+  p.tasks[0].blend.constant = 0.010;
+  Bench bench(p);
+  for (int i = 0; i < 30; ++i) {
+    see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, bench.sensed.time);
+    bench.tick();
+  }
+  bench.ticks_more(9);
+  EXPECT_FALSE(bench.constraint(0).before.has_value());
+  bench.tick();
+  EXPECT_FALSE(bench.constraint(0).before.has_value()) << "10 ms old: not older";
+  for (int i = 1; i <= 9; ++i) {
+    bench.tick();
+    ASSERT_TRUE(bench.constraint(0).before.has_value());
+    EXPECT_EQ(bench.constraint(0).before->quantity, Quantity::position);
+    EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::velocity);
+    EXPECT_NEAR(bench.constraint(0).progress, 0.1 * i, 1e-9);
+  }
+}
+
+TEST(PoseSignal, WhatConditionsAskOfItsFrameIsUnknownWhileItIsInvalid) {
+  for (const bool by_feature : {false, true}) {
+    lang::Program p = docking({to_socket()}, 0.010);
+    const Nodes asked =
+        by_feature ? name(Op::speed, socket_frame) : coordinate(0, 0, CoordinateQuantity::position);
+    const Nodes anything = apply(Op::less, asked, number(1e9));
+    p.tasks[0].exits = {exit(when(anything), to_done, 1e6)};
+    Bench bench(p);
+    bench.ticks_more(2);
+    EXPECT_EQ(bench.scheduler.dwell(0), 0.0) << "not received yet";
+    see(bench, {}, bench.sensed.time);
+    bench.ticks_more(11);
+    EXPECT_NEAR(bench.scheduler.dwell(0), 0.011, 1e-12);
+    bench.tick();
+    EXPECT_EQ(bench.scheduler.dwell(0), 0.0);
+  }
+}
+
+TEST(PoseSignal, AFrameThatASignalMovesIsTheSameAxesAfterASwitch) {
+  lang::Program p = docking({to_socket()});
+  lang::Task next = p.tasks[0];
+  next.name = "next";
+  next.blend.constant = 0.010;
+  p.tasks[0].exits = {exit(after(0.005), to_task(1))};
+  p.tasks.push_back(next);
+  Bench bench(p);
+  for (int i = 0; i < 8; ++i) {
+    // Noise: never twice at one place.
+    see(bench, {solver::Matrix3::Identity(), {2.0 + 0.001 * (i % 3), 0.0, 0.0}}, bench.sensed.time);
+    bench.tick();
+  }
+  ASSERT_EQ(bench.scheduler.task(), 1);
+  ASSERT_EQ(bench.count(), 1) << "persists, and does not fade";
+  EXPECT_EQ(bench.constraint(0).alpha, 1.0);
+}
+
+TEST(Signal, NeverReceivedAgesFromTheStartOfTheRun) {
+  lang::Program p = program({task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}),
+                             task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.0)})});
+  p.signals = {signal("scanner", SignalType::number, 0.025)};
+  p.always.exits = {exit(when(apply(Op::less, name(Op::signal, 0), number(1.0))), to_task(1))};
+  Bench bench(p);
+  bench.ticks = 5000;  // the run starts late in the clock's life
+  bench.sensed.time = 5.0;
+  bench.tick();
+  EXPECT_EQ(bench.ticks_to_switch(100), 26);
+  EXPECT_EQ(bench.scheduler.task(), 1);
+}
+
+TEST(Signal, ValidTellsWhetherItIsFresh) {
+  lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
+  a.exits = {exit(when(name(Op::valid, 0)), to_done, 1e6)};
+  lang::Program p = program({a});
+  p.signals = {signal("scanner", SignalType::number, 0.005)};
+  Bench bench(p);
+  bench.ticks_more(3);
+  EXPECT_EQ(bench.scheduler.dwell(0), 0.0);
+  bench.hear(0, 1.0);
+  bench.ticks_more(6);
+  EXPECT_NEAR(bench.scheduler.dwell(0), 0.006, 1e-12);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.dwell(0), 0.0);
+}
+
+TEST(Signal, SamplesThatAreInvalidNotFiniteOldOrFromTheFutureAreIgnored) {
+  lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
+  a.groups[0].axes[0].target.signal = 0;
+  lang::Program p = program({a});
+  p.signals = {signal("pace", SignalType::number, 1.0)};
+  Bench bench(p);
+  bench.ticks_more(10);
+  bench.hear(0, 0.5);
+  bench.tick();
+  const auto target_after = [&](bool valid, double stamp, double value) {
+    bench.sensed.signals[0] = SignalSample{};
+    bench.sensed.signals[0].valid = valid;
+    bench.sensed.signals[0].stamp = stamp;
+    bench.sensed.signals[0].number = value;
+    bench.tick();
+    return bench.constraint(0).driver->target;
+  };
+  EXPECT_EQ(target_after(false, bench.sensed.time, 0.1), 0.5);
+  EXPECT_EQ(target_after(true, bench.sensed.time, std::nan("")), 0.5);
+  EXPECT_EQ(target_after(true, 0.002, 0.2), 0.5) << "older than what came before";
+  EXPECT_EQ(target_after(true, bench.sensed.time + 0.5, 0.3), 0.5);
+  EXPECT_EQ(target_after(true, bench.sensed.time, 0.4), 0.4);
+}
+
+TEST(Signal, ANumberDrivesAndWhileItIsInvalidTheAxisStandsStillWithTheSameForceRange) {
+  lang::Task a = task(
+      "a", {drive("go.x", Axis::x, Quantity::velocity, 0.1), drive("go.y", Axis::y, Quantity::force, 0.1)});
+  a.groups[0].axes[0].target.signal = 0;
+  a.groups[0].axes[0].force = between(-7, 8);
+  a.groups[0].axes[1].target.signal = 0;
+  lang::Program p = program({a});
+  p.signals = {signal("pace", SignalType::number, 0.010)};
+  Bench bench(p);
+  bench.hear(0, 0.25);
+  bench.ticks_more(11);
+  EXPECT_EQ(bench.constraint(0).driver->target, 0.25);
+  EXPECT_EQ(bench.constraint(1).driver->target, 0.25);
+  bench.tick();
+  EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::velocity);
+  EXPECT_EQ(bench.constraint(0).driver->target, 0.0);
+  EXPECT_EQ(bench.constraint(0).driver->force.high, 8.0);
+  EXPECT_EQ(bench.constraint(1).driver->target, 0.0) << "a force that nobody knows is none";
+}
+
+TEST(Signal, ABooleanIsAConditionByItself) {
+  lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
+  a.exits = {exit(when(name(Op::signal, 0)), to_done, 0.003)};
+  lang::Program p = program({a});
+  p.signals = {signal("latch", SignalType::boolean, 1.0)};
+  Bench bench(p);
+  bench.hear(0, 0.0);
+  bench.ticks_more(20);
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::none);
+  bench.hear(0, 1.0);
+  EXPECT_EQ(bench.ticks_to_switch(10), 3);
+}
+
+}  // namespace
+}  // namespace zwang::runtime
