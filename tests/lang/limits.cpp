@@ -67,6 +67,33 @@ Files with_nodes(const std::string& name, int nodes) {
   return {{name + ".yaml", text}, {"robots/made.urdf", urdf}};
 }
 
+/// A template whose body has so many keys, values, lists and maps.
+std::string template_of(const std::string& name, int nodes) {
+  // The map, the timeout's key and its map of four, the key and the list of the exits; an exit is a map of
+  // four, with a note of six.
+  const int left = nodes - 1 - 6 - 2;
+  int exits = left / 5;
+  while ((left - 5 * exits) % 2 != 0) --exits;
+  const int notes = (left - 5 * exits) / 2;
+  std::string text = "  " + name + ":\n    body:\n      timeout: {after: 99 s, goto: done}\n      exits:\n";
+  for (int i = 0; i < exits; ++i) {
+    text += "        - {when: elapsed > " + std::to_string(i + 1) + " s, goto: done" +
+            (i < notes ? ", note: n" : "") + "}\n";
+  }
+  return text;
+}
+
+/// 199 uses of a template of 100, and one that makes up the rest.
+Files with_expanded_nodes(const std::string& name, int nodes) {
+  std::string text = head + "templates:\n" + template_of("hundred", 100) +
+                     template_of("rest", nodes - 199 * 100) + "tasks:\n";
+  for (int i = 1; i <= 199; ++i) {
+    const std::string task = i == 1 ? "go" : "t" + std::to_string(i);
+    text += "  " + task + ": {use: hundred, timeout: {after: 99 s, goto: t" + std::to_string(i + 1) + "}}\n";
+  }
+  return task_file(name, text + "  t200: {use: rest}\n");
+}
+
 Files key_of_length(const std::string& name, int bytes) {
   const std::string task(as_size(bytes), 'a');
   return task_file(name,
@@ -144,6 +171,7 @@ std::vector<Limit> limits() {
       {"E111_line", "E111", 4096, true, line_of_length},
       {"E112_depth", "E112", 32, false, nested},
       {"robot_E113_nodes", "E113", 20000, true, with_nodes},
+      {"E113_templates", "E113", 20000, true, with_expanded_nodes},
       {"E114_key", "E114", 128, true, key_of_length},
       {"E115_scalar", "E115", 4096, true, scalar_of_length},
       {"E116_tasks", "E116", 256, true, with_tasks},

@@ -49,7 +49,7 @@ Condition check_exit(CheckContext& context, const ExitText& exit, const TaskText
     condition = check_condition(context, exit.when, task != nullptr ? task->groups : none, &compared);
   }
   if (exit.dwell) check_time(context, *exit.dwell, "`for`", true);
-  if (condition && !exit.dwell && measures(context, *condition)) {
+  if (condition && !exit.dwell && !exit.is_incomplete && measures(context, *condition)) {
     context.diagnostics.add(wording::measured_without_for(exit.when.span));
   }
   if (condition) check_is_open(context, *condition);

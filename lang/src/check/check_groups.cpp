@@ -120,7 +120,7 @@ class AxisCheck {
     std::string first_word;
     for (const Quantity quantity : quantities) {
       const std::optional<StatementText>& statement = text_[quantity];
-      if (!statement || statement->is_range) continue;
+      if (!statement || statement->is_range || statement->value.kind == ValueKind::bad) continue;
       if (first == nullptr) {
         first = &*statement;
         first_word = word_of(quantity);

@@ -52,7 +52,10 @@ ParameterSymbol check_parameter(CheckContext& context, const ParameterText& text
   symbol.parameter.value = quantity.value;
   symbol.parameter.unit = quantity.unit;
   symbol.parameter.unit_scale = quantity.scale;
+  const int errors_before = context.diagnostics.error_count();
   symbol.parameter.range = check_range(context, text, quantity.dimension);
+  // Which of the two is wrong is not known, nor what the parameter measures then.
+  symbol.is_bad = context.diagnostics.error_count() > errors_before;
   const auto& range = symbol.parameter.range;
   const bool is_overridden = context.options.parameters.contains(text.name.text);
   if (range && !is_overridden && (quantity.value < range->low || quantity.value > range->high)) {

@@ -13,8 +13,16 @@ auto order_of(const Diagnostic& d) {
   return std::make_tuple(d.span.exists() ? 0 : 1, d.span.source, d.span.begin.line, d.span.begin.column);
 }
 
+/// Places first: they tell most apart, and thousands are compared where a file is nothing but mistakes. What
+/// is wrong with a key of a template's body is the same in every task that uses it.
 bool is_same(const Diagnostic& a, const Diagnostic& b) {
-  return a.code == b.code && order_of(a) == order_of(b) && a.message == b.message;
+  return a.span.begin.line == b.span.begin.line && a.span.begin.column == b.span.begin.column &&
+         a.span.source == b.span.source && a.code == b.code && (a.message == b.message || a.code == "E101");
+}
+
+/// A name that nobody declared may stand in many places; one declaration mends them all.
+bool is_about_a_name(const Diagnostic& d) {
+  return d.code == "E301" || d.code == "E303";
 }
 
 }  // namespace
@@ -26,9 +34,14 @@ int Diagnostics::add_source(Source source) {
 
 void Diagnostics::add(Diagnostic diagnostic) {
   // A template's body is read once per use; what is wrong with it is said once.
-  const bool known = std::any_of(diagnostics_.begin(), diagnostics_.end(),
-                                 [&](const Diagnostic& other) { return is_same(other, diagnostic); });
-  if (!known) diagnostics_.push_back(std::move(diagnostic));
+  const bool may_be_elsewhere = is_about_a_name(diagnostic);
+  for (Diagnostic& other : diagnostics_) {
+    if (is_same(other, diagnostic)) return;
+    if (!may_be_elsewhere || other.message != diagnostic.message) continue;
+    other.related.push_back({diagnostic.span, "and here"});
+    return;
+  }
+  diagnostics_.push_back(std::move(diagnostic));
 }
 
 bool Diagnostics::has_errors() const {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <ostream>
 
 #include "diagnostic/severity.hpp"
@@ -28,9 +29,8 @@ std::string columns(std::string_view line, std::size_t begin, std::size_t end) {
 }
 
 /// The source line and a caret under the span; of a long line the part around it.
-void render_line(const Diagnostics& diagnostics, const Span& span, std::ostream& out) {
+void render_line(const TextIndex& index, const Span& span, std::ostream& out) {
   constexpr std::size_t widest = 140;
-  const TextIndex index(diagnostics.source(span.source).text);
   const std::string_view line = index.line(span.begin.line);
   if (line.empty() && span.begin.line >= index.line_count()) return;
   const std::size_t length = count_code_points(line);
@@ -51,11 +51,15 @@ void render_line(const Diagnostics& diagnostics, const Span& span, std::ostream&
 }  // namespace
 
 void render_human(const Diagnostics& diagnostics, std::ostream& out, const RenderOptions& options) {
+  std::map<int, TextIndex> indices;  // a text is looked through once, not for every message
   for (const Diagnostic& d : diagnostics.sorted()) {
     if (d.severity == Severity::note && !options.notes) continue;
     if (d.span.exists()) out << place(diagnostics, d.span) << ": ";
     out << word_of(d.severity) << ' ' << d.code << ": " << escaped(d.message) << '\n';
-    if (d.span.exists()) render_line(diagnostics, d.span, out);
+    if (d.span.exists()) {
+      const auto [index, is_new] = indices.try_emplace(d.span.source, diagnostics.source(d.span.source).text);
+      render_line(index->second, d.span, out);
+    }
     if (!d.help.empty()) out << "     = help: " << escaped(d.help) << '\n';
     for (const RelatedSpan& related : d.related) {
       out << "     = ";

@@ -36,6 +36,7 @@ Diagnostic merge_key(const Span& span);
 Diagnostic duplicate_key(const Span& span, const std::string& key, const Span& first);
 Diagnostic too_deep(const Span& span, int limit);
 Diagnostic too_many_nodes(const Span& span, int limit);
+Diagnostic too_many_expanded_nodes(const Span& span, int limit);
 Diagnostic key_too_long(const Span& span, std::size_t limit);
 Diagnostic scalar_too_long(const Span& span, std::size_t limit);
 Diagnostic too_many_tasks(const Span& span, std::size_t limit);

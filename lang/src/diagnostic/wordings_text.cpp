@@ -150,6 +150,11 @@ Diagnostic too_many_nodes(const Span& span, int limit) {
   return error("E113", span, "the file has more than " + std::to_string(limit) + " keys and values");
 }
 
+Diagnostic too_many_expanded_nodes(const Span& span, int limit) {
+  return error("E113", span,
+               "here the templates have made more than " + std::to_string(limit) + " keys and values");
+}
+
 Diagnostic key_too_long(const Span& span, std::size_t limit) {
   return error("E114", span, "this key is longer than " + std::to_string(limit) + " bytes");
 }

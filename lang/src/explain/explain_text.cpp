@@ -135,7 +135,9 @@ a bound on what there is to check.)~",
                   .fix = "Look for a bracket that was opened again and again and never closed."},
       Explanation{.code = "E113",
                   .title = "too many keys and values",
-                  .why = "A file may hold 20 000 keys, values, lists and maps together.",
+                  .why = "A file may hold 20 000 keys, values, lists and maps together, and its templates "
+                         "may make as many "
+                         "again where they are used.",
                   .fix = "Split the file, or use templates for tasks that repeat themselves."},
       Explanation{.code = "E114",
                   .title = "a key is too long",

@@ -72,16 +72,23 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
   group.name = parse_name(entry.key, "a group's name", diagnostics);
   const std::string& path = entry.key.text;
   MapReader map(entry.value, "constraint group `" + path + "`", diagnostics);
-  if (entry.value.find("feature") != nullptr) {
+  const auto is_meant = [&](const char* key) {
+    return entry.value.find(key) != nullptr || (entry.value.find("in") == nullptr && map.has_misspelt({key}));
+  };
+  if (is_meant("feature")) {
     group.kind = GroupKind::feature;
-    group.feature = parse_word(*map.required("feature"), "`feature`", diagnostics);
+    if (const Node* feature = map.required("feature")) {
+      group.feature = parse_word(*feature, "`feature`", diagnostics);
+    }
     AxisText axis;
     axis.name = {path, entry.key.span};
     parse_statements(map, path, axis, lowest_level, diagnostics);
     group.axes.push_back(std::move(axis));
-  } else if (entry.value.find("inside") != nullptr) {
+  } else if (is_meant("inside")) {
     group.kind = GroupKind::inside;
-    group.region = parse_word(*map.required("inside"), "`inside`", diagnostics);
+    if (const Node* region = map.required("inside")) {
+      group.region = parse_word(*region, "`inside`", diagnostics);
+    }
     if (const Node* node = map.required("move")) group.move = parse_word(*node, "`move`", diagnostics);
     if (const Node* node = map.optional("margin")) {
       group.margin = parse_value(*node, path + ".margin", diagnostics);
@@ -147,6 +154,7 @@ ExitText parse_exit(const Node& node, Diagnostics& diagnostics) {
   if (target != nullptr) exit.target = parse_word(*target, "`goto`", diagnostics);
   if (set != nullptr) exit.set = parse_sets(*set, diagnostics);
   if (note != nullptr) exit.note = parse_text(*note, "`note`", diagnostics);
+  exit.is_incomplete = map.has_unread_keys();
   map.finish();
   return exit;
 }
@@ -237,6 +245,10 @@ TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnosti
     attempts.finish();
     task.attempts = std::move(text);
   }
+  if (map.has_misspelt({"use"})) {
+    for (const char* key : {"use", "with"}) map.optional(key);
+  }
+  task.is_bad = task.is_bad || map.has_unread_keys();
   map.finish();
   return task;
 }

@@ -32,6 +32,7 @@ SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
       signal.is_bad = true;
     }
   }
+  if (map.has_misspelt({"unit"})) signal.is_bad = true;  // what it measures is not known
   if (const Node* in = map.optional("in")) signal.in = parse_word(*in, what + "'s `in`", diagnostics);
   const Node* stale = map.optional("stale_after");
   if (stale != nullptr) {

@@ -103,6 +103,7 @@ struct ExitText {
   std::vector<SetText> set;
   std::string note;
   Span span;
+  bool is_incomplete = false;  ///< a key could not be read: what the exit lacks may have been there
 };
 
 struct TimeoutText {

@@ -5,6 +5,7 @@
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "spec/shape.hpp"
+#include "tree/read.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -41,6 +42,13 @@ const ArgumentKind* find_kind(const std::string& word) {
 
 bool is_name_part(char c) {
   return is_identifier(std::string{'_', c});
+}
+
+int count_nodes(const Node& node) {
+  int count = 1;
+  for (const Node& item : node.items) count += count_nodes(item);
+  for (const Entry& entry : node.entries) count += 1 + count_nodes(entry.value);
+  return count;
 }
 
 /// Puts the arguments' texts in the place of `$name` everywhere below the node.
@@ -93,6 +101,7 @@ void Templates::declare(const Node& node) {
       }
     }
     declared.is_bad = declared.body == nullptr;
+    if (declared.body != nullptr) declared.nodes = count_nodes(*declared.body);
     map.finish();
     templates_[entry.key.text] = declared;
   }
@@ -120,6 +129,12 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
   used.is_used = true;
   if (!open.insert(name.text).second) {
     diagnostics_.add(wording::template_recursion(name.span, name.text));
+    return std::nullopt;
+  }
+  if (nodes_ > most_nodes) return std::nullopt;
+  nodes_ += used.nodes;
+  if (nodes_ > most_nodes) {
+    diagnostics_.add(wording::too_many_expanded_nodes(name.span, most_nodes));
     return std::nullopt;
   }
   std::map<std::string, Node> values;

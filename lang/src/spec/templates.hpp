@@ -32,6 +32,7 @@ class Templates {
   struct Template {
     std::map<std::string, std::string> arguments;  ///< name -> kind
     const Node* body = nullptr;
+    int nodes = 0;  ///< of the body
     Span span;
     bool is_bad = false;
     bool is_used = false;
@@ -47,6 +48,7 @@ class Templates {
   std::map<std::string, std::optional<Dimension>> parameters_;
   Diagnostics& diagnostics_;
   bool forgives_unknown_ = false;
+  int nodes_ = 0;  ///< that the uses of templates have made
 };
 
 }  // namespace zwang::lang

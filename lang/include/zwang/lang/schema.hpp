@@ -1,4 +1,5 @@
-/// JSON Schemas (draft 7) of zwang's files, for editors: completion, hover texts, the first check while typing.
+/// JSON Schemas (draft 7) of zwang's files, for editors: completion, hover texts, the first check while
+/// typing.
 #pragma once
 
 #include <string>
