@@ -5,12 +5,13 @@
 #include "output.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/program.hpp"
+#include "zwang/lang/scenario.hpp"
 
 namespace zwang::cli {
 
 namespace {
 
-enum class Kind { task, robot, scene };
+enum class Kind { task, robot, scene, scenario };
 
 const char* word(Kind kind) {
   switch (kind) {
@@ -19,12 +20,14 @@ const char* word(Kind kind) {
     case Kind::robot:
       return "robot";
     case Kind::scene:
+      return "scene";
+    case Kind::scenario:
       break;
   }
-  return "scene";
+  return "scenario";
 }
 
-/// By the first key of the file. What is none of the three is read as a task file, whose reader says what is
+/// By the first key of the file. What is none of them is read as a task file, whose reader says what is
 /// wrong.
 Kind kind_of(const std::string& path) {
   std::string start(16 * 1024, '\0');
@@ -36,6 +39,7 @@ Kind kind_of(const std::string& path) {
     const std::size_t begin = line.find_first_not_of(" \t\r");
     if (begin == std::string::npos || line[begin] == '#' || line.compare(begin, 3, "---") == 0) continue;
     if (line.compare(begin, 11, "zwang_robot") == 0) return Kind::robot;
+    if (line.compare(begin, 14, "zwang_scenario") == 0) return Kind::scenario;
     if (line.compare(begin, 11, "zwang_scene") == 0) return Kind::scene;
     return Kind::task;
   }
@@ -59,6 +63,10 @@ std::optional<std::string> check(const std::string& path, Kind kind, lang::Diagn
       if (const auto scene = lang::load_scene(path, diagnostics)) {
         return "scene, " + count(scene->objects.size(), "object");
       }
+      return std::nullopt;
+    case Kind::scenario:
+      if (const auto scenario = lang::load_scenario(path, diagnostics))
+        return "scenario, " + count(scenario->cells.size(), "run");
       return std::nullopt;
     case Kind::task:
       break;

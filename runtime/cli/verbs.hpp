@@ -24,6 +24,14 @@ struct ValidateArguments {
 };
 int validate(const ValidateArguments& arguments);
 
+struct TestArguments {
+  std::vector<std::string> paths;    ///< scenario files, or folders that are searched for them
+  int jobs = 0;                      ///< threads; 0: as many as there are cores
+  std::optional<std::string> junit;  ///< file for a JUnit XML report
+  Format format = Format::human;
+};
+int test(const TestArguments& arguments);
+
 struct RunArguments {
   std::string file;
   std::optional<std::string> robot, scene, log;
