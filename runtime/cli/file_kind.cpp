@@ -5,6 +5,7 @@
 
 #include "output.hpp"
 #include "zwang/lang/program.hpp"
+#include "zwang/lang/scenario.hpp"
 
 namespace zwang::cli {
 
@@ -23,9 +24,11 @@ const char* word_of(FileKind kind) {
     case FileKind::robot:
       return "robot";
     case FileKind::scene:
+      return "scene";
+    case FileKind::scenario:
       break;
   }
-  return "scene";
+  return "scenario";
 }
 
 std::optional<FileKind> kind_by_key(const std::string& path) {
@@ -39,6 +42,7 @@ std::optional<FileKind> kind_by_key(const std::string& path) {
     const std::size_t begin = line.find_first_not_of(" \t\r");
     if (begin == std::string::npos || line[begin] == '#' || line.compare(begin, 3, "---") == 0) continue;
     if (line.compare(begin, 11, "zwang_robot") == 0) return FileKind::robot;
+    if (line.compare(begin, 14, "zwang_scenario") == 0) return FileKind::scenario;
     if (line.compare(begin, 11, "zwang_scene") == 0) return FileKind::scene;
     if (line.compare(begin, 6, "zwang:") == 0) return FileKind::task;
     return std::nullopt;
@@ -57,6 +61,11 @@ std::optional<std::string> read_as(FileKind kind, const std::string& path, lang:
     case FileKind::scene:
       if (const auto scene = lang::load_scene(path, diagnostics)) {
         return "scene, " + count(scene->objects.size(), "object");
+      }
+      return std::nullopt;
+    case FileKind::scenario:
+      if (const auto scenario = lang::load_scenario(path, diagnostics)) {
+        return "scenario, " + count(scenario->cells.size(), "run");
       }
       return std::nullopt;
     case FileKind::task:

@@ -8,7 +8,7 @@
 
 namespace zwang::cli {
 
-enum class FileKind { task, robot, scene };
+enum class FileKind { task, robot, scene, scenario };
 
 const char* word_of(FileKind kind);
 /// By the file's first key. nullopt when it is none of zwang's.

@@ -132,6 +132,16 @@ int parse_and_do(int argc, char** argv) {
   RunArguments to_run;
   std::vector<std::string> parameter_texts;
   std::optional<std::string> yaw_text, at_text, seed_text;
+  TestArguments to_test;
+  CLI::App* test_verb = app.add_subcommand("test", "Run scenario files and judge what they expect");
+  test_verb->add_option("paths", to_test.paths, "scenario files, or folders that hold some")->required();
+  test_verb
+      ->add_option("-j,--jobs", to_test.jobs, "runs at the same time (default: as many as there are cores)")
+      ->check(CLI::Range(1, 1024));
+  test_verb->add_option("--junit", to_test.junit, "file for a JUnit XML report");
+  test_verb->add_option("--format", to_test.format, "human (default) or json: one object on stdout")
+      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+
   CLI::App* run_verb = app.add_subcommand("run", "Run a task on the simulated robot");
   run_verb->add_option("file", to_run.file, "the task file")->required();
   run_verb->add_option("--robot", to_run.robot, "robot file, in the place of the task's own");
@@ -167,6 +177,7 @@ int parse_and_do(int argc, char** argv) {
     throw Impossible(std::string(mistake.what()) + "\nTry `zwang --help`.");
   }
   if (chosen) return chosen();
+  if (test_verb->parsed()) return test(to_test);
   if (info_verb->parsed()) return info(to_tell);
   to_run.parameters = parameters(parameter_texts);
   if (seed_text) to_run.seed = seed(*seed_text);

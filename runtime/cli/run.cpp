@@ -11,8 +11,8 @@
 #include "run_report.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/program.hpp"
-#include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::cli {
 
@@ -158,9 +158,9 @@ class Live {
 };
 
 /// The run itself; what it leaves is in the arguments and in the report.
-void control(runtime::MujocoPlant& plant, runtime::Runner& runner, runtime::Recorder& recorder,
+void control(runtime::ScenePlant& plant, runtime::Runner& runner, runtime::Recorder& recorder,
              const lang::Program& program, Live& live, RunReport& report) {
-  runtime::Sensed sensed(program.robot.model);
+  runtime::Sensed sensed(program.robot.model, program.signals.size());
   std::vector<double> truth(3 + program.scene->objects.size());
   TruthWatch watch(plant.truth(), period);
   PlantStatus status = PlantStatus::ok;
@@ -171,8 +171,9 @@ void control(runtime::MujocoPlant& plant, runtime::Runner& runner, runtime::Reco
       runner.guard().stop(runtime::StopReason::requested);
     }
     if (give_up && Clock::now() > *give_up) break;
+    // A sample that does not arrive is the guard's to count: it is shown the last one again.
     status = plant.sense(sensed);
-    if (status != PlantStatus::ok) break;
+    if (status == PlantStatus::diverged) break;
     put_truth(plant.truth(), truth);
     recorder.wait_for_room();
     const Eigen::VectorXd& tau = runner.step(sensed, truth);
@@ -217,11 +218,12 @@ int run(const RunArguments& arguments) {
   if (!program->scene)
     throw Impossible(arguments.file + ": names no scene to run in; give one with --scene FILE");
 
-  runtime::MujocoPlantOptions options;
-  options.period = period;
-  options.start_at = arguments.start_at;
-  options.start_yaw = arguments.start_yaw;
-  runtime::MujocoPlant plant(program->robot, *program->scene, options);
+  runtime::ScenePlantOptions options;
+  options.simulation.period = period;
+  options.simulation.start_at = arguments.start_at;
+  options.simulation.start_yaw = arguments.start_yaw;
+  options.seed = arguments.seed;
+  runtime::ScenePlant plant(*program, options);
   runtime::RunnerSettings settings;
   settings.period = period;
   settings.extra_columns = truth_columns(*program->scene);

@@ -8,6 +8,7 @@
 #include "output.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/program.hpp"
+#include "zwang/lang/scenario.hpp"
 
 namespace zwang::cli {
 
@@ -110,7 +111,7 @@ int validate(const ValidateArguments& arguments) {
   for (const std::string& path : paths) {
     Checked& file = checked.emplace_back();
     file.path = path;
-    // What is none of the three is read as a task file, whose reader says what is wrong.
+    // What is none of them is read as a task file, whose reader says what is wrong.
     file.kind = kind_by_key(path).value_or(FileKind::task);
     file.summary = read_as(file.kind, path, file.diagnostics);
     const bool is_denied = arguments.deny_warnings && file.diagnostics.count(lang::Severity::warning) > 0;

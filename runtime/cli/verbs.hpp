@@ -56,6 +56,13 @@ struct GraphArguments {
   GraphFormat format = GraphFormat::dot;
 };
 int graph(const GraphArguments& arguments);
+struct TestArguments {
+  std::vector<std::string> paths;    ///< scenario files, or folders that are searched for them
+  int jobs = 0;                      ///< threads; 0: as many as there are cores
+  std::optional<std::string> junit;  ///< file for a JUnit XML report
+  Format format = Format::human;
+};
+int test(const TestArguments& arguments);
 
 struct RunArguments {
   std::string file;

@@ -210,5 +210,21 @@ Diagnostic urdf_refused(const Span& span, const std::string& message);
 
 Diagnostic one_shape(const Span& span, const std::string& what);
 Diagnostic fixed_with_mass(const Span& span, const std::string& what, const Span& mass);
+Diagnostic scripted_with_mass(const Span& span, const std::string& what, const Span& mass);
+Diagnostic one_fault(const Span& span);
+Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
+                         const std::vector<std::string>& known);
+Diagnostic script_step(const Span& span);
+Diagnostic times_not_rising(const Span& span, const std::string& what);
+Diagnostic one_signal_source(const Span& span, const std::string& signal);
+Diagnostic all_dropped(const Span& span);
+
+Diagnostic unknown_outcome(const Span& span, const std::string& text, const std::vector<std::string>& known);
+Diagnostic one_expectation(const Span& span);
+Diagnostic at_the_end_only(const Span& span);
+Diagnostic nothing_expected(const Span& span);
+Diagnostic empty_matrix_key(const Span& span, const std::string& key);
+Diagnostic too_many_cells(const Span& span, std::size_t count, std::size_t most);
+Diagnostic not_a_time(const Span& span, const std::string& name);
 
 }  // namespace zwang::lang::wording

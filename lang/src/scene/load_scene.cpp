@@ -1,6 +1,8 @@
 #include "scene/load_scene.hpp"
 
 #include "diagnostic/wordings.hpp"
+#include "scene/faults.hpp"
+#include "scene/load_signals.hpp"
 #include "spec/shape.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
@@ -98,6 +100,13 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   if (const Node* node = map.optional("friction")) {
     object.friction = plain(*node, dimension::none, what + "'s `friction`", 0.0, true, diagnostics);
   }
+  if (const Node* node = map.optional("motion")) {
+    object.motion = parse_motion(*node, what + "'s `motion`", diagnostics);
+    if (mass != nullptr) diagnostics.add(wording::scripted_with_mass(node->span, what, mass->span));
+  }
+  if (const Node* node = map.optional("dock")) {
+    object.dock = parse_dock(*node, what + "'s `dock`", diagnostics);
+  }
   map.finish();
   return object;
 }
@@ -127,6 +136,11 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
       if (!entry.key.is_bad) scene.objects.push_back(parse_object(entry, diagnostics));
     }
   }
+  if (const Node* node = map.optional("signals")) {
+    scene.signals = parse_scene_signals(*node, scene.objects, diagnostics);
+  }
+  if (const Node* node = map.optional("state")) scene.state = parse_state_noise(*node, diagnostics);
+  if (const Node* node = map.optional("faults")) scene.faults = parse_faults(*node, diagnostics);
   map.finish();
   return scene;
 }

@@ -14,6 +14,11 @@ constexpr double largest_plausible = 1e9;
 // The protective stop's torques reach their limit at this joint speed and shrink with it below, so that the
 // wheels come to rest without chattering around it.
 constexpr double full_brake_speed = 0.5;  // [rad/s] or [m/s]
+// A robot that says to be faster than this changes its position within a few ticks, however coarse its
+// encoders are.
+constexpr double moving_joint = 0.1;  // [rad/s] or [m/s]
+constexpr double moving_base = 0.01;  // [m/s]
+constexpr int believed_frozen_ticks = 2;
 // Rounding in a clock that adds up periods must not count as a lost tick.
 constexpr double clock_rounding = 0.5;  // of a period
 
@@ -71,6 +76,8 @@ const char* to_string(StopReason reason) noexcept {
       return "a sensed number is not finite";
     case StopReason::lost_ticks:
       return "too long without a good sample";
+    case StopReason::frozen:
+      return "the robot says that it moves, and its position does not change";
     case StopReason::bad_torque:
       return "a commanded torque is not finite";
     case StopReason::solver:
@@ -104,7 +111,8 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
       limit_(Eigen::VectorXd::Zero(robot.model.joint_count())),
       stop_limit_(limit_),
       last_(limit_),
-      next_(limit_) {
+      next_(limit_),
+      last_q_(limit_) {
   if (!(settings.period > 0.0) || !(settings.max_step >= settings.period) || settings.max_lost_ticks < 1 ||
       !(settings.max_slew > 0.0)) {
     throw std::invalid_argument("safety guard: a setting is not positive, or max_step is below the period");
@@ -147,7 +155,19 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
   }
   last_time_ = sensed.time;
   lost_ticks_ = 0;
+  watch_for_a_frozen_state(sensed.state);
   return SampleStatus::good;
+}
+
+void SafetyGuard::watch_for_a_frozen_state(const solver::State& state) noexcept {
+  const bool moves = state.qd.lpNorm<Eigen::Infinity>() > moving_joint ||
+                     state.base_twist.linear.lpNorm<Eigen::Infinity>() > moving_base;
+  const bool stands = state.q == last_q_ && state.base_pose.position == last_position_;
+  frozen_ticks_ = moves && stands ? frozen_ticks_ + 1 : 0;
+  if (frozen_ticks_ > 0) ++counters_.frozen;
+  if (frozen_ticks_ >= settings_.max_lost_ticks) stop(StopReason::frozen);
+  last_q_ = state.q;
+  last_position_ = state.base_pose.position;
 }
 
 void SafetyGuard::brake(const Sensed& sensed) noexcept {
@@ -167,7 +187,12 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
     }
   }
   if (stopped()) {
-    brake(sensed);
+    // A brake that believes a speed of the past drives the robot backwards.
+    if (frozen_ticks_ > believed_frozen_ticks) {
+      next_.setZero();
+    } else {
+      brake(sensed);
+    }
     return send(tau, GuardStatus::stopped);
   }
   GuardStatus status = GuardStatus::passed;
@@ -213,6 +238,7 @@ void SafetyGuard::reset() noexcept {
   reason_ = StopReason::none;
   has_time_ = false;
   lost_ticks_ = 0;
+  frozen_ticks_ = 0;
 }
 
 }  // namespace zwang::runtime

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "object_geometry.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -22,6 +24,7 @@ using solver::Vector3;
 constexpr double corner_radius = 1e-6;       ///< [m]
 constexpr double contact_half_height = 1.0;  ///< [m] of the upright faces that meet in the bumper's plane
 constexpr double max_wheel_lift = 0.002;     ///< [m]
+constexpr double scripted_mass = 1e6;        ///< [kg] whatever meets it does not move it
 constexpr double no_friction = 1e-5;         ///< the least that MuJoCo takes
 
 [[noreturn]] void refuse(const std::string& what) {
@@ -136,32 +139,6 @@ bool is_rectangle(const std::vector<Vector3>& p) {
          std::abs(side.dot(next)) < 1e-9 * side.norm() * next.norm();
 }
 
-/// Where an object stands, and what of it the robot can touch.
-struct ObjectGeometry {
-  Vector3 centre;  ///< [m] world
-  Vector3 half;    ///< [m] half extents of a box; radius, radius, half height of a cylinder
-  bool round = false;
-};
-
-ObjectGeometry geometry_of(const SceneObject& object) {
-  const auto& size = object.size;
-  ObjectGeometry g;
-  g.round = object.shape == ShapeKind::cylinder;
-  Vector3 shift = Vector3::Zero();
-  if (object.shape == ShapeKind::wall) {
-    g.half = 0.5 * Vector3(size[1], size[0], size[2]);  // the wall's x is its thickness
-    shift.x() = g.half.x();                             // `at` lies on the face that looks along -x
-  } else if (object.shape == ShapeKind::box) {
-    g.half = 0.5 * Vector3(size[0], size[1], size[2]);
-  } else {
-    g.half = Vector3(size[0], size[0], 0.5 * size[2]);
-  }
-  if (!(g.half.minCoeff() > 0.0)) refuse("the object `" + object.name + "` has no size");
-  const Matrix3 turn = solver::rotation_from_rpy(0.0, 0.0, object.yaw);
-  g.centre = Vector3(object.at[0], object.at[1], g.half.z()) + turn * shift;
-  return g;
-}
-
 class MjcfWriter {
  public:
   MjcfWriter(const lang::Robot& robot, const SimulatedRobot& simulated, const lang::Scene& scene)
@@ -183,6 +160,7 @@ class MjcfWriter {
     for (std::size_t k = 0; k < scene_.objects.size(); ++k) write_object(k);
     text_ += "</worldbody>\n";
     write_pairs();
+    write_docks();
     write_motors();
     text_ += "</mujoco>\n";
     return std::move(text_);
@@ -295,12 +273,13 @@ class MjcfWriter {
     const std::string name = numbered("object", k);
     text_ += "<body" + attribute("name", name) + attribute("pos", list_of(g.centre)) +
              attribute("euler", list_of(0.0, 0.0, object.yaw)) + ">\n";
-    if (object.mass) {
-      if (!(*object.mass > 0.0)) refuse("the mass of `" + object.name + "` is not positive");
+    if (object.mass || !object.motion.empty()) {
+      const double mass = object.mass.value_or(scripted_mass);
+      if (!(mass > 0.0)) refuse("the mass of `" + object.name + "` is not positive");
       text_ += "<joint" + attribute("name", name + "_x") + " type=\"slide\" axis=\"1 0 0\"/>\n";
       text_ += "<joint" + attribute("name", name + "_y") + " type=\"slide\" axis=\"0 1 0\"/>\n";
       text_ += "<joint" + attribute("name", name + "_turn") + " type=\"hinge\" axis=\"0 0 1\"/>\n";
-      text_ += inertial(inertia_of(*object.mass, g));
+      text_ += inertial(inertia_of(mass, g));
     }
     if (is_met(object)) write_faces(g, name);
     text_ += "</body>\n";
@@ -350,8 +329,7 @@ class MjcfWriter {
       if (!is_met(scene_.objects[k])) continue;
       if (!simulated_.outline.empty()) write_meeting_of_robot(k);
       for (std::size_t other = 0; other < k; ++other) {
-        const bool moves = scene_.objects[k].mass || scene_.objects[other].mass;
-        if (moves && is_met(scene_.objects[other])) write_meeting(k, other);
+        if ((moves(k) || moves(other)) && is_met(scene_.objects[other])) write_meeting(k, other);
       }
     }
     text_ += "</contact>\n";
@@ -361,6 +339,23 @@ class MjcfWriter {
   double sideways_friction(std::size_t w) const {
     const solver::Wheel& wheel = model_.wheels()[w];
     return wheel.roller_angle || wheel.holds_sideways ? scene_.floor_friction : no_friction;
+  }
+
+  bool moves(std::size_t k) const { return scene_.objects[k].mass || !scene_.objects[k].motion.empty(); }
+
+  /// Ties that hold nothing until the plant puts one in force: the hook's origin to a point of the object.
+  void write_docks() {
+    text_ += "<equality>\n";
+    for (std::size_t k = 0; k < scene_.objects.size(); ++k) {
+      if (!scene_.objects[k].dock) continue;
+      const solver::Frame& hook = hook_of(model_, scene_.objects[k]);
+      text_ += "<connect" + attribute("name", numbered("dock", k)) +
+               attribute("body1", numbered("body", static_cast<std::size_t>(hook.body))) +
+               attribute("body2", numbered("object", k)) +
+               attribute("anchor", list_of(hook.pose_in_body.position)) + " active=\"false\" " + stiff() +
+               "/>\n";
+    }
+    text_ += "</equality>\n";
   }
 
   void write_meeting_of_robot(std::size_t k) {
@@ -471,6 +466,12 @@ Vector3 point_below(const lang::Robot& robot, const std::string& support) {
 }
 
 }  // namespace
+
+const solver::Frame& hook_of(const Model& model, const SceneObject& object) {
+  const auto frame = model.find_frame(object.dock->hook);
+  if (!frame) refuse("the robot has no frame `" + object.dock->hook + "` to latch in `" + object.name + "`");
+  return model.frames()[static_cast<std::size_t>(*frame)];
+}
 
 SimulatedRobot prepare_robot(const lang::Robot& robot) {
   SimulatedRobot simulated;

@@ -2,7 +2,7 @@
 ///
 /// Names: `body_<i>`, `joint_<j>`, `motor_<j>` after the model's numbers, `wheel_<w>`, `floor`; of the
 /// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`; of the scene `object_<k>` (body) with
-/// geoms `object_<k>_face` and `object_<k>_edge_<c>`.
+/// geoms `object_<k>_face` and `object_<k>_edge_<c>`, `dock_<k>` (equality).
 ///
 /// Robot and objects meet in one plane, at the height of the bumper: corners of the one against faces of the
 /// other, each pair one contact point. A corner is a sphere of 1 um tangent to both of its sides. Objects
@@ -31,6 +31,9 @@ struct SimulatedRobot {
 
 /// Throws std::invalid_argument when the robot cannot be simulated.
 SimulatedRobot prepare_robot(const lang::Robot& robot);
+
+/// The frame that latches in the object's dock. Throws std::invalid_argument when the robot has none.
+const solver::Frame& hook_of(const solver::Model& model, const lang::SceneObject& object);
 
 std::string write_mjcf(const lang::Robot& robot, const SimulatedRobot& simulated, const lang::Scene& scene,
                        double period);

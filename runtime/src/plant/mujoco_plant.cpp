@@ -7,17 +7,16 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <csetjmp>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
 #include "contact_spring.hpp"
-#include "floor_friction.hpp"
+#include "joint_friction.hpp"
 #include "mjcf.hpp"
 #include "side_friction.hpp"
+#include "simulated_object.hpp"
+#include "simulator.hpp"
 
 namespace zwang::runtime {
 
@@ -32,115 +31,6 @@ constexpr double start_overlap = 1e-5;  ///< [m] allowed between robot and objec
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("plant: " + what);
-}
-
-// MuJoCo reports errors through handlers of the whole process. Its own wait for a key and write a file.
-// No frame between the handler and the place that it jumps to holds anything that would need destroying.
-thread_local std::jmp_buf* error_exit = nullptr;
-
-void on_error(const char* message) {
-  if (error_exit != nullptr) std::longjmp(*error_exit, 1);
-  std::fprintf(stderr, "zwang: MuJoCo: %s\n", message);
-  std::abort();
-}
-
-void on_warning(const char* /*message*/) {}  // counted in mjData, where every step looks
-
-mjfCollision collide_sphere_box = nullptr;  ///< MuJoCo's own
-
-/// MuJoCo's collision of a sphere with a box stops at a depth of the sphere's radius, and so would a spring's
-/// force. Where the centre is inside the box, the depth is measured to the nearest face instead. Only in
-/// simulations of this file: others in the process keep what they have.
-int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphere, int box, mjtNum margin) {
-  const int count = collide_sphere_box(m, d, contact, sphere, box, margin);
-  if (error_exit == nullptr || count != 1) return count;
-  const Eigen::Map<const Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>> axes(d->geom_xmat + 9 * box);
-  const Eigen::Map<const Vector3> half(m->geom_size + 3 * box), box_at(d->geom_xpos + 3 * box),
-      centre(d->geom_xpos + 3 * sphere);
-  const Vector3 local = axes.transpose() * (centre - box_at);
-  const Vector3 depth = half - local.cwiseAbs();
-  int face = 0;
-  if (!(depth.minCoeff(&face) > 0.0)) return count;
-  const Vector3 out = (local[face] > 0.0 ? 1.0 : -1.0) * axes.col(face);
-  contact->dist = -(depth[face] + m->geom_size[3 * sphere]);
-  Eigen::Map<Vector3>(contact->frame) = -out;  // from the sphere to the box
-  std::fill(contact->frame + 3, contact->frame + 9, 0.0);
-  Eigen::Map<Vector3>(contact->pos) = centre - (m->geom_size[3 * sphere] + 0.5 * contact->dist) * out;
-  return count;
-}
-
-mjfCollision collide_plane_sphere = nullptr;  ///< MuJoCo's own
-
-/// Turns the contact of a wheel so that its first tangent is the rolling direction: friction may differ
-/// between the two. Only in simulations of this file, as above.
-int collide_along(const mjModel* m, const mjData* d, mjContact* contact, int plane, int sphere,
-                  mjtNum margin) {
-  const int count = collide_plane_sphere(m, d, contact, plane, sphere, margin);
-  const int body = m->geom_bodyid[sphere];
-  if (error_exit == nullptr || count != 1 || m->body_jntnum[body] != 1) return count;
-  const int joint = m->body_jntadr[body];
-  if (m->jnt_type[joint] != mjJNT_HINGE) return count;
-  const Eigen::Map<const Vector3> axis(d->xaxis + 3 * joint), normal(contact->frame);
-  Eigen::Map<Vector3>(contact->frame + 3) = axis.cross(normal).normalized();
-  return count;
-}
-
-/// Once, before all else.
-void install_handlers() {
-  static const bool installed = [] {
-    mju_user_error = on_error;
-    mju_user_warning = on_warning;
-    collide_sphere_box = mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX];
-    mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX] = collide_deep;
-    collide_plane_sphere = mjCOLLISIONFUNC[mjGEOM_PLANE][mjGEOM_SPHERE];
-    mjCOLLISIONFUNC[mjGEOM_PLANE][mjGEOM_SPHERE] = collide_along;
-    return true;
-  }();
-  static_cast<void>(installed);
-}
-
-/// False when MuJoCo raised an error: the data is void.
-bool guarded(void (*call)(const mjModel*, mjData*), const mjModel* model, mjData* data) noexcept {
-  std::jmp_buf exit;
-  error_exit = &exit;
-  if (setjmp(exit) != 0) {
-    error_exit = nullptr;
-    return false;
-  }
-  call(model, data);
-  error_exit = nullptr;
-  return true;
-}
-
-struct ModelDeleter {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DataDeleter {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-
-using ModelPointer = std::unique_ptr<mjModel, ModelDeleter>;
-using DataPointer = std::unique_ptr<mjData, DataDeleter>;
-
-struct VirtualFiles {
-  VirtualFiles() { mj_defaultVFS(&vfs); }
-  ~VirtualFiles() { mj_deleteVFS(&vfs); }
-  VirtualFiles(const VirtualFiles&) = delete;
-  VirtualFiles& operator=(const VirtualFiles&) = delete;
-  mjVFS vfs;
-};
-
-ModelPointer compile(const std::string& mjcf) {
-  const char* const file = "plant.xml";
-  const auto files = std::make_unique<VirtualFiles>();  // two megabytes: not for the stack
-  if (mj_makeEmptyFileVFS(&files->vfs, file, static_cast<int>(mjcf.size())) != 0) {
-    refuse("the simulation's text does not fit MuJoCo's virtual files");
-  }
-  std::memcpy(files->vfs.filedata[mj_findFileVFS(&files->vfs, file)], mjcf.data(), mjcf.size());
-  std::array<char, 1000> error{};
-  ModelPointer model(mj_loadXML(file, &files->vfs, error.data(), static_cast<int>(error.size())));
-  if (!model || error[0] != '\0') refuse(std::string("MuJoCo refuses the simulation: ") + error.data());
-  return model;
 }
 
 Matrix3 matrix_of(const mjtNum* quaternion) {
@@ -193,11 +83,6 @@ struct MujocoPlant::Simulation {
     const RollingSphere* sphere = nullptr;  ///< set: a ball joint; q is integrated
     bool turns_wheel = false;
   };
-  /// An object that slides on the floor: three freedoms from `velocity` in qvel.
-  struct Slider {
-    int velocity = 0;
-    FloorFriction friction;
-  };
   /// Which object and whether the robot's outline a geom belongs to.
   struct GeomOwner {
     int object = -1;
@@ -211,6 +96,7 @@ struct MujocoPlant::Simulation {
         simulated(prepare_robot(robot)),
         posture(lang::start_state(robot).q),
         side_friction(robot.model, scene.floor_friction),
+        joint_friction(robot),
         wheel_loads(robot.model.wheels().size(), 0.0) {
     install_handlers();
     if (!(options.period > 0.0) || options.period > 0.01) refuse("the period is not within 0 and 10 ms");
@@ -222,7 +108,9 @@ struct MujocoPlant::Simulation {
     compare_inertia();
     find_owners(scene, robot.footprint);
     set_springs(scene);
-    find_sliders(scene);
+    find_objects(scene);
+    torque = Eigen::VectorXd::Zero(robot_model.joint_count());
+    base_mass = model->body_mass[base_body];
     const std::array<double, 2> at = options.start_at.value_or(scene.start_at);
     start(at, options.start_yaw.value_or(scene.start_yaw));
   }
@@ -309,14 +197,72 @@ struct MujocoPlant::Simulation {
     }
   }
 
-  void find_sliders(const lang::Scene& scene) {
+  void find_objects(const lang::Scene& scene) {
     for (std::size_t k = 0; k < scene.objects.size(); ++k) {
-      if (!scene.objects[k].mass) continue;
-      const int joint = id_of(mjOBJ_JOINT, numbered("object", static_cast<int>(k)) + "_x");
-      const double gravity = robot_model.gravity().norm();
-      sliders.push_back(
-          {model->jnt_dofadr[joint], floor_friction_of(scene.objects[k], scene.floor_friction, gravity)});
+      const lang::SceneObject& object = scene.objects[k];
+      const std::string name = numbered("object", static_cast<int>(k));
+      SimulatedObject simulated_object{.described = object, .geometry = geometry_of(object)};
+      simulated_object.body = id_of(mjOBJ_BODY, name);
+      const int joint = id_of(mjOBJ_JOINT, name + "_x");
+      if (joint >= 0) {
+        simulated_object.position = model->jnt_qposadr[joint];
+        simulated_object.velocity = model->jnt_dofadr[joint];
+      }
+      if (object.mass)
+        simulated_object.friction =
+            floor_friction_of(object, scene.floor_friction, robot_model.gravity().norm());
+      if (object.dock) {
+        const solver::Frame& hook = hook_of(robot_model, object);
+        simulated_object.hook_body = id_of(mjOBJ_BODY, numbered("body", hook.body));
+        simulated_object.hook = hook.pose_in_body.position;
+        simulated_object.equality = id_of(mjOBJ_EQUALITY, numbered("dock", static_cast<int>(k)));
+      }
+      objects.push_back(std::move(simulated_object));
     }
+  }
+
+  /// A hook that is near enough to its socket is tied to the object where it is.
+  void latch_hooks() noexcept {
+    for (std::size_t k = 0; k < objects.size(); ++k) {
+      const SimulatedObject& object = objects[k];
+      if (object.equality < 0 || truth.objects[k].latched) continue;
+      const Vector3 hook = vector_of(data->xpos + 3 * object.hook_body) +
+                           matrix_of(data->xquat + 4 * object.hook_body) * object.hook;
+      if (!is_in_reach(object, truth.objects[k], hook)) continue;
+      Eigen::Map<Vector3>(model->eq_data + mjNEQDATA * object.equality) = object.hook;
+      Eigen::Map<Vector3>(model->eq_data + mjNEQDATA * object.equality + 3) =
+          matrix_of(data->xquat + 4 * object.body).transpose() *
+          (hook - vector_of(data->xpos + 3 * object.body));
+      model->eq_active[object.equality] = 1;
+      truth.objects[k].latched = true;
+    }
+  }
+
+  void read_objects() noexcept {
+    for (std::size_t k = 0; k < objects.size(); ++k) {
+      const int body = objects[k].body;
+      place_truth(objects[k], vector_of(data->xpos + 3 * body), matrix_of(data->xquat + 4 * body),
+                  truth.objects[k]);
+    }
+  }
+
+  void set_floor_friction(double coefficient) noexcept {
+    for (int p = 0; p < model->npair; ++p) {
+      const int wheel = std::max(owner_of(model->pair_geom1[p]).wheel, owner_of(model->pair_geom2[p]).wheel);
+      if (wheel < 0) continue;
+      mjtNum* friction = model->pair_friction + 5 * p;
+      // Skidding wheels have next to none in the second direction.
+      if (friction[1] == friction[0]) friction[1] = coefficient;
+      friction[0] = coefficient;
+    }
+    side_friction.set_coefficient(coefficient);
+  }
+
+  void set_payload(double mass) noexcept {
+    const double change = base_mass + mass - model->body_mass[base_body];
+    model->body_mass[base_body] += change;
+    model->body_subtreemass[base_body] += change;
+    model->body_subtreemass[0] += change;
   }
 
   const GeomOwner& owner_of(int geom) const { return owners[static_cast<std::size_t>(geom)]; }
@@ -329,6 +275,7 @@ struct MujocoPlant::Simulation {
     refuse_overlap();
     if (robot_model.base_type() == solver::BaseType::ground) settle(yaw);
     read_base();
+    read_objects();
     truth.velocity.setZero();
     truth.acceleration.setZero();
   }
@@ -407,10 +354,9 @@ struct MujocoPlant::Simulation {
       Eigen::Map<Vector3>(data->qfrc_applied) = base_rotation() * wrench.linear;
       Eigen::Map<Vector3>(data->qfrc_applied + 3) = wrench.angular;
     }
-    for (Slider& slider : sliders) {
-      const Vector3 moving = vector_of(data->qvel + slider.velocity);
-      Eigen::Map<Vector3>(data->qfrc_applied + slider.velocity) =
-          slider.friction.step(moving, model->opt.timestep);
+    for (SimulatedObject& object : objects) {
+      follow_script(object, time(), data->qpos, data->qvel);
+      add_floor_friction(object, model->opt.timestep, data->qvel, data->qfrc_applied);
     }
     if (!guarded(mj_step, model.get(), data.get())) return false;
     if (!side_friction.empty()) read_loads();
@@ -501,8 +447,15 @@ struct MujocoPlant::Simulation {
   PlantStatus apply(const Eigen::VectorXd& tau) noexcept {
     if (diverged) return PlantStatus::diverged;
     if (tau.size() != q.size() || !tau.allFinite()) return PlantStatus::unreachable;
+    torque = tau;
+    joint_friction.add_to(torque, qd, model->opt.timestep);
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (joints[j].motor >= 0) data->ctrl[joints[j].motor] = tau[static_cast<Eigen::Index>(j)];
+      const double given = torque[static_cast<Eigen::Index>(j)];
+      if (joints[j].motor >= 0) {
+        data->ctrl[joints[j].motor] = given;
+      } else if (joints[j].sphere == nullptr) {
+        data->qfrc_applied[joints[j].velocity] = given;
+      }
     }
     const double before = time();
     if (!step()) {
@@ -516,6 +469,8 @@ struct MujocoPlant::Simulation {
     read_base();
     read_joints();
     read_contacts(before);
+    read_objects();
+    latch_hooks();
     return PlantStatus::ok;
   }
 
@@ -535,6 +490,8 @@ struct MujocoPlant::Simulation {
   SimulatedRobot simulated;
   Eigen::VectorXd posture;  ///< q at the start
   SideFriction side_friction;
+  JointFriction joint_friction;
+  Eigen::VectorXd torque;           ///< of the joints, friction included
   std::vector<double> wheel_loads;  ///< [N] that the floor carries each wheel with, in the last step
   std::string text;
   ModelPointer model;
@@ -542,7 +499,8 @@ struct MujocoPlant::Simulation {
   int base_body = 0;
   std::vector<JointAddress> joints;
   std::vector<GeomOwner> owners;  ///< by geom
-  std::vector<Slider> sliders;
+  std::vector<SimulatedObject> objects;
+  double base_mass = 0.0;  ///< [kg] without a payload
   Eigen::VectorXd q, qd;
   Vector3 velocity = Vector3::Zero();
   Truth truth;
@@ -566,6 +524,18 @@ PlantStatus MujocoPlant::apply(const Eigen::VectorXd& tau) noexcept {
 
 const Truth& MujocoPlant::truth() const noexcept {
   return simulation_->truth;
+}
+
+void MujocoPlant::set_floor_friction(double coefficient) noexcept {
+  simulation_->set_floor_friction(coefficient);
+}
+
+void MujocoPlant::set_payload(double mass) noexcept {
+  simulation_->set_payload(mass);
+}
+
+void MujocoPlant::diverge() noexcept {
+  simulation_->diverged = true;
 }
 
 const std::string& MujocoPlant::mjcf() const noexcept {

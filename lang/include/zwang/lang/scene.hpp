@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,20 @@
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
+
+/// Where a scripted object stands at a time; between two of them it moves straight and evenly.
+struct Waypoint {
+  double time = 0.0;  ///< [s]
+  std::array<double, 2> at{};
+  double yaw = 0.0;
+};
+
+/// A socket in which a hook latches.
+struct Dock {
+  std::array<double, 2> at{};  ///< [m] in the axes of the object, from its `at`
+  double reach = 0.02;         ///< [m] the hook latches when its frame is as near as this
+  std::string hook;            ///< a frame of the robot
+};
 
 enum class ShapeKind { box, cylinder, wall };
 
@@ -21,10 +36,69 @@ struct SceneObject {
   std::array<double, 2> at{};    ///< [m] world; a wall's `at` is a point of its face, midway along it
   double yaw = 0.0;  ///< [rad] a wall's face looks along its own -x: a robot that drives along +x meets it
                      ///< square at yaw 0
-  std::optional<double> mass;  ///< [kg]; none: fixed to the world
-  double stiffness = 1e5;      ///< [N/m] of one contact point
-  double damping = 0.3;        ///< damping ratio of the contact
-  double friction = 0.0;       ///< Coulomb coefficient
+  std::optional<double> mass;    ///< [kg]; none: fixed to the world
+  double stiffness = 1e5;        ///< [N/m] of one contact point
+  double damping = 0.3;          ///< damping ratio of the contact
+  double friction = 0.0;         ///< Coulomb coefficient
+  std::vector<Waypoint> motion;  ///< scripted: moves whatever stands in its way; empty: none
+  std::optional<Dock> dock;
+  Span span;
+};
+
+struct ScriptStep {
+  double time = 0.0;   ///< [s] from here on
+  double value = 0.0;  ///< SI; 0 and 1 of a bool
+  bool valid = true;   ///< false: nothing is measured
+};
+
+enum class SceneSignalKind {
+  script,    ///< a bool or a number
+  pose,      ///< of the object, in the frame that the task file's signal is seen from
+  distance,  ///< of the object's edge from the robot's base frame, in the plane [m]
+  latch,     ///< whether the hook holds in the object's dock
+};
+
+/// Where a signal of the task file with this name comes from, and how well it is measured.
+struct SceneSignal {
+  std::string name;
+  SceneSignalKind kind = SceneSignalKind::script;
+  std::vector<ScriptStep> script;
+  int object = -1;           ///< index into Scene::objects
+  double noise = 0.0;        ///< [m] standard deviation of a distance and of a pose's x and y
+  double angle_noise = 0.0;  ///< [rad] of a pose's yaw
+  double delay = 0.0;        ///< [s] from the measurement to its arrival
+  double period = 0.0;       ///< [s] between measurements; 0: every tick
+  double dropouts = 0.0;     ///< the share of measurements that are lost, 0 to 1
+  Span span;
+};
+
+/// Standard deviations of what the robot is told of itself; all 0: the plant's truth.
+struct StateNoise {
+  double position = 0.0;  ///< [m]
+  double yaw = 0.0;       ///< [rad]
+  double velocity = 0.0;  ///< [m/s]
+  double turn = 0.0;      ///< [rad/s]
+};
+
+enum class FaultKind {
+  samples_lost,     ///< no sample arrives
+  samples_nan,      ///< an entry of the state is not a number
+  samples_frozen,   ///< the state of the fault's begin, with the clock running on
+  clock_backwards,  ///< samples are stamped 10 ms before the fault's begin
+  torque_lost,      ///< of `joint`: the motor gives none
+  torque_stuck,     ///< it keeps what it gave at the fault's begin
+  torque_flipped,   ///< it gives the opposite
+  floor_friction,   ///< the floor's friction is `value`
+  payload,          ///< the base weighs `value` [kg] more, where its centre of mass is
+  plant_diverges,   ///< the simulation leaves the finite numbers
+};
+
+struct Fault {
+  FaultKind kind = FaultKind::samples_lost;
+  double at = 0.0;                                            ///< [s]
+  double duration = std::numeric_limits<double>::infinity();  ///< [s]
+  std::string joint;
+  double value = 0.0;
   Span span;
 };
 
@@ -33,6 +107,9 @@ struct Scene {
   double start_yaw = 0.0;            ///< [rad]
   double floor_friction = 0.9;
   std::vector<SceneObject> objects;
+  std::vector<SceneSignal> signals;
+  StateNoise state;
+  std::vector<Fault> faults;
 };
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics);

@@ -17,8 +17,10 @@ namespace zwang::runtime {
 struct ObjectTruth {
   std::string name;
   double force = 0.0;  ///< [N] normal force that the robot presses on the object with, now, all contacts
-  std::optional<double> touched;  ///< [s] time of the first contact
-  double peak_force = 0.0;        ///< [N] largest `force` so far
+  std::optional<double> touched;       ///< [s] time of the first contact
+  double peak_force = 0.0;             ///< [N] largest `force` so far
+  double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the object's `at`
+  bool latched = false;                ///< a hook holds in its dock
 };
 
 struct Truth {
@@ -39,10 +41,11 @@ struct MujocoPlantOptions {
 };
 
 /// Wheels that hold one direction are spheres that act exactly as the model's wheels do; other wheels are
-/// spheres on hinges. The robot meets objects with the corners and sides of its footprint's convex hull, at
-/// the bumper's height; each contact point is a spring of the object's stiffness. Objects with a mass slide
-/// on the floor. Contact forces are those of the last step, so they belong to the instant at its beginning.
-/// MuJoCo's error and warning handlers are replaced for the whole process.
+/// spheres on hinges; those that skid slide sideways against dry friction. Dry and viscous friction of the
+/// joints is the robot file's. The robot meets objects with the corners and sides of its footprint's convex
+/// hull, at the bumper's height; each contact point is a spring of the object's stiffness. Objects with a
+/// mass slide on the floor. Contact forces are those of the last step, so they belong to the instant at its
+/// beginning. MuJoCo's error and warning handlers are replaced for the whole process.
 class MujocoPlant : public Plant {
  public:
   /// Throws std::invalid_argument when the robot or the scene cannot be simulated, with the reason.
@@ -54,6 +57,12 @@ class MujocoPlant : public Plant {
   /// `unreachable`, and no step, for torques that are not finite or too few. Torques are not clamped here.
   PlantStatus apply(const Eigen::VectorXd& tau) noexcept override;
   const Truth& truth() const noexcept;
+  /// From now on; kept finite and positive by the caller.
+  void set_floor_friction(double coefficient) noexcept;
+  /// The base weighs this much [kg] more than its model says, where its centre of mass is.
+  void set_payload(double mass) noexcept;
+  /// As if the simulation had failed.
+  void diverge() noexcept;
   /// The MJCF that was compiled, for inspection.
   const std::string& mjcf() const noexcept;
 

@@ -18,7 +18,7 @@ enum class SampleStatus {
 };
 const char* to_string(SampleStatus status) noexcept;
 
-enum class StopReason { none, bad_sample, lost_ticks, bad_torque, solver, plant, requested };
+enum class StopReason { none, bad_sample, lost_ticks, frozen, bad_torque, solver, plant, requested };
 const char* to_string(StopReason reason) noexcept;
 
 enum class GuardStatus {
@@ -33,7 +33,7 @@ const char* to_string(GuardStatus status) noexcept;
 struct GuardSettings {
   double period = 1e-3;     ///< [s] control period
   double max_step = 0.1;    ///< [s] a longer step of time is refused
-  int max_lost_ticks = 20;  ///< as many without a good sample stop the robot
+  int max_lost_ticks = 20;  ///< as many without a good sample, or with a frozen one, stop the robot
   double max_slew = std::numeric_limits<double>::infinity();  ///< [N m/s] or [N/s] of a joint
 };
 
@@ -41,6 +41,7 @@ struct GuardCounters {
   std::uint64_t samples = 0;
   std::uint64_t refused_values = 0;
   std::uint64_t refused_clock = 0;
+  std::uint64_t frozen = 0;
   std::uint64_t bad_torques = 0;
   std::uint64_t limited = 0;
   std::uint64_t slewed = 0;
@@ -53,11 +54,13 @@ class SafetyGuard {
   explicit SafetyGuard(const lang::Robot& robot, const GuardSettings& settings = {});
 
   /// Every sample comes through here first. Numbers that are not finite latch the stop at once, and so do
-  /// `max_lost_ticks` without a good sample.
+  /// `max_lost_ticks` without a good sample, or with samples that say to move and stand where the last one
+  /// did.
   SampleStatus admit(const Sensed& sensed) noexcept;
 
   /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew;
-  /// the brake's when the stop is latched. `tau` keeps its size. Call it when `admit` said good.
+  /// the brake's when the stop is latched, and none on a frozen sample. `tau` keeps its size. Call it when
+  /// `admit` said good.
   GuardStatus output(const Sensed& sensed, const Eigen::VectorXd& wanted, Eigen::VectorXd& tau) noexcept;
   /// The torques to send when `admit` refused the sample: the last ones, or none when the stop is latched.
   GuardStatus output_blind(Eigen::VectorXd& tau) noexcept;
@@ -73,6 +76,7 @@ class SafetyGuard {
 
  private:
   void brake(const Sensed& sensed) noexcept;
+  void watch_for_a_frozen_state(const solver::State& state) noexcept;
   GuardStatus send(Eigen::VectorXd& tau, GuardStatus status) noexcept;
 
   GuardSettings settings_;
@@ -80,6 +84,9 @@ class SafetyGuard {
   Eigen::VectorXd stop_limit_;  ///< [N m] what the protective stop may use
   Eigen::VectorXd last_;        ///< sent last
   Eigen::VectorXd next_;
+  Eigen::VectorXd last_q_;  ///< of the last good sample, as is the position
+  solver::Vector3 last_position_ = solver::Vector3::Zero();
+  int frozen_ticks_ = 0;
   double last_time_ = 0.0;
   bool has_time_ = false;
   int lost_ticks_ = 0;

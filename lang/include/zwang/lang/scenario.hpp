@@ -1,0 +1,82 @@
+/// A scenario: a claim about a task that `zwang test` tries, in every cell of its matrix.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/diagnostic.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang {
+
+/// One run: what stands in the place of the task file's own words.
+struct ScenarioCell {
+  std::string name;  ///< "robot diff_base, start_yaw 20 deg"; "as written" where nothing varies
+  std::optional<std::filesystem::path> robot, scene;
+  std::optional<std::array<double, 2>> start_at;  ///< [m]
+  std::optional<double> start_yaw;                ///< [rad]
+  std::map<std::string, std::string> parameters;  ///< name -> quantity as text
+  std::vector<Fault> faults;                      ///< beside the scene's own
+};
+
+struct Scenario {
+  std::string path;
+  std::string about;
+  std::filesystem::path task;
+  double time_limit = 600.0;  ///< [s] of the run; one that goes on for longer is `unfinished`
+  std::uint64_t seed = 0;
+  std::vector<ScenarioCell> cells;
+};
+
+enum class ExpectationKind {
+  outcome,     ///< the run ends with `word`
+  diagnostic,  ///< the task is refused, and `word` is among the reasons
+  at_end,      ///< `that` holds on the last tick of the last task, before the brake
+  within,  ///< `that` holds at the latest `within` after the time `of`, and from then on while a task runs
+  always,  ///< `that` holds on every tick
+};
+
+/// The signals that `that` asks for are the quantities of `truth_names`; group 0 of them does not exist.
+struct Expectation {
+  ExpectationKind kind = ExpectationKind::outcome;
+  std::string word;
+  double within = 0.0;  ///< [s]
+  int of = -1;          ///< index into `truth_names`, a time; -1: the start
+  Condition that;
+  std::string text;  ///< for reports
+  Span span;
+};
+
+/// What the plant measures, as expectations call it. First come `truth_base_count` of the base, then
+/// `truth_object_count` of each object, in the order of these enumerations.
+enum TruthOfBase { truth_x, truth_y, truth_yaw, truth_speed, truth_turn, truth_torque, truth_base_count };
+enum TruthOfObject {
+  truth_force,
+  truth_peak,
+  truth_touched,
+  truth_object_x,
+  truth_object_y,
+  truth_object_yaw,
+  truth_object_count
+};
+std::vector<std::string> truth_names(const Scene& scene);
+
+/// Reads a scenario file and multiplies its matrix out.
+std::optional<Scenario> load_scenario(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+/// A cell ready to run.
+struct ScenarioRun {
+  std::optional<Program> program;  ///< none: the task was refused, and `of_task` says why
+  std::vector<Expectation> expectations;
+};
+
+/// nullopt when the scenario itself is wrong: `of_scenario` says why. Both may be empty lists of diagnostics.
+std::optional<ScenarioRun> load_run(const std::filesystem::path& path, std::size_t cell,
+                                    Diagnostics& of_scenario, Diagnostics& of_task);
+
+}  // namespace zwang::lang

@@ -1,0 +1,89 @@
+#include "diagnostic/make.hpp"
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang::wording {
+
+namespace {
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "`" : ", `") + word + "`";
+  return text;
+}
+
+Diagnostic unknown_word(const char* code, const Span& span, const std::string& message,
+                        const std::string& text, const std::vector<std::string>& known) {
+  Diagnostic diagnostic = error(code, span, message, "write one of " + list_of(known));
+  return with_suggestion(std::move(diagnostic), nearest(text, known));
+}
+
+}  // namespace
+
+Diagnostic scripted_with_mass(const Span& span, const std::string& what, const Span& mass) {
+  return with_related(error("E902", span, what + " follows a motion and has a mass", "keep one of them"),
+                      mass, "`mass` is given here");
+}
+
+Diagnostic unknown_outcome(const Span& span, const std::string& text, const std::vector<std::string>& known) {
+  return unknown_word("E903", span, in_ticks(text) + " is not how a run can end", text, known);
+}
+
+Diagnostic one_expectation(const Span& span) {
+  return error("E904", span,
+               "an expectation says exactly one of `outcome`, `diagnostic`, `at`, `within`, `always`");
+}
+
+Diagnostic at_the_end_only(const Span& span) {
+  return with_replacement(
+      error("E904", span, "`at` knows one instant, the end", "write `at: end`, or use `within`"), "end");
+}
+
+Diagnostic nothing_expected(const Span& span) {
+  return error("E904", span, "a scenario that expects nothing cannot fail",
+               "write for example `- outcome: done`");
+}
+
+Diagnostic empty_matrix_key(const Span& span, const std::string& key) {
+  return error("E905", span, "`matrix." + key + "` holds no value: the matrix would be empty");
+}
+
+Diagnostic too_many_cells(const Span& span, std::size_t count, std::size_t most) {
+  return error("E905", span,
+               "the matrix has " + std::to_string(count) + " cells, more than " + std::to_string(most));
+}
+
+Diagnostic not_a_time(const Span& span, const std::string& name) {
+  return error("E906", span, "`of` needs a time, and " + in_ticks(name) + " is none",
+               "use for example `truth.wall.touched`");
+}
+
+Diagnostic one_fault(const Span& span) {
+  return error("E907", span, "a fault says exactly one thing that goes wrong",
+               "`samples`, `clock`, `wheel` with `torque`, `floor_friction`, `payload` or `plant`");
+}
+
+Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
+                         const std::vector<std::string>& known) {
+  return unknown_word("E907", span, "`" + key + "` cannot be " + in_ticks(text), text, known);
+}
+
+Diagnostic script_step(const Span& span) {
+  return error("E908", span, "a step of a script is a time and a value", "write for example `[5 s, true]`");
+}
+
+Diagnostic times_not_rising(const Span& span, const std::string& what) {
+  return error("E908", span, "the times of " + what + " must rise");
+}
+
+Diagnostic one_signal_source(const Span& span, const std::string& signal) {
+  return error("E908", span, "signal " + in_ticks(signal) + " needs exactly one source",
+               "give it a `script`, `pose_of`, `distance_to` or `latch`");
+}
+
+Diagnostic all_dropped(const Span& span) {
+  return error("E908", span, "`dropouts` must stay below 100 %: nothing would ever arrive");
+}
+
+}  // namespace zwang::lang::wording

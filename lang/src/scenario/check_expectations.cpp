@@ -1,0 +1,124 @@
+#include "check/context.hpp"
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "scenario/scenario_file.hpp"
+#include "spec/units.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+struct TruthQuantity {
+  const char* name;
+  Dimension dimension;
+};
+
+// In the order of TruthOfBase and of TruthOfObject.
+constexpr TruthQuantity of_base[] = {{"x", dimension::length},
+                                     {"y", dimension::length},
+                                     {"yaw", dimension::angle},
+                                     {"speed", dimension::velocity},
+                                     {"turn", dimension::angular_velocity},
+                                     {"torque", dimension::none}};
+constexpr TruthQuantity of_object[] = {{"force", dimension::force},  {"peak", dimension::force},
+                                       {"touched", dimension::time}, {"x", dimension::length},
+                                       {"y", dimension::length},     {"yaw", dimension::angle}};
+static_assert(std::size(of_base) == truth_base_count && std::size(of_object) == truth_object_count);
+
+void declare(Symbols& symbols, const std::string& owner, const TruthQuantity& quantity) {
+  SignalSymbol symbol;
+  symbol.signal.name = "truth." + owner + "." + quantity.name;
+  symbol.signal.type = SignalType::number;
+  symbol.dimension = quantity.dimension;
+  symbols.signals.push_back(std::move(symbol));
+}
+
+Symbols truth_symbols(const Scene& scene) {
+  Symbols symbols;
+  for (const TruthQuantity& quantity : of_base) declare(symbols, "base", quantity);
+  for (const SceneObject& object : scene.objects) {
+    for (const TruthQuantity& quantity : of_object) declare(symbols, object.name, quantity);
+  }
+  return symbols;
+}
+
+void declare_program(const Program& program, Symbols& symbols) {
+  for (const Parameter& parameter : program.parameters) {
+    ParameterSymbol symbol;
+    symbol.parameter = parameter;
+    std::string unknown;
+    if (const auto unit = parse_unit(parameter.unit, unknown)) symbol.dimension = unit->dimension;
+    symbols.parameters.push_back(std::move(symbol));
+  }
+  for (const FrameDeclaration& frame : program.frames) {
+    FrameSymbol symbol;
+    symbol.declaration = frame;
+    symbols.frames.push_back(std::move(symbol));
+  }
+}
+
+/// The index of a time of the truth.
+int find_time(const Word& name, const Symbols& symbols, Diagnostics& diagnostics) {
+  const auto index = symbols.find_signal(name.text);
+  if (!index) {
+    diagnostics.add(
+        wording::unknown_name(name.span, "quantity", name.text, nearest(name.text, symbols.signal_names())));
+    return -1;
+  }
+  if (symbols.signals[static_cast<std::size_t>(*index)].dimension != dimension::time)
+    diagnostics.add(wording::not_a_time(name.span, name.text));
+  return *index;
+}
+
+std::string text_of(const ExpectationText& text) {
+  switch (text.kind) {
+    case ExpectationKind::outcome:
+      return "outcome: " + text.word.text;
+    case ExpectationKind::diagnostic:
+      return "diagnostic: " + text.word.text;
+    case ExpectationKind::at_end:
+      return "at end: " + text.that.text;
+    case ExpectationKind::within:
+      return "within " + format_number(text.within) + " s" +
+             (text.of.exists() ? " of " + text.of.text : std::string()) + ": " + text.that.text;
+    case ExpectationKind::always:
+      break;
+  }
+  return "always: " + text.that.text;
+}
+
+}  // namespace
+
+std::vector<std::string> truth_names(const Scene& scene) {
+  return truth_symbols(scene).signal_names();
+}
+
+std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& file, const Program& program,
+                                                           Diagnostics& diagnostics) {
+  Symbols symbols = truth_symbols(program.scene.value_or(Scene{}));
+  declare_program(program, symbols);
+  const TaskFile no_task;
+  const std::optional<Robot> robot;
+  const LoadOptions options;
+  CheckContext context{no_task, robot, options, symbols, diagnostics};
+  std::vector<Expectation> expectations;
+  for (const ExpectationText& text : file.expectations) {
+    Expectation expected;
+    expected.kind = text.kind;
+    expected.word = text.word.text;
+    expected.within = text.within;
+    expected.text = text_of(text);
+    expected.span = text.span;
+    const bool has_condition =
+        text.kind != ExpectationKind::outcome && text.kind != ExpectationKind::diagnostic;
+    if (text.of.exists()) expected.of = find_time(text.of, symbols, diagnostics);
+    if (has_condition && !text.that.is_bad) {
+      if (auto that = check_condition(context, text.that, {})) expected.that = std::move(*that);
+    }
+    expectations.push_back(std::move(expected));
+  }
+  if (diagnostics.has_errors()) return std::nullopt;
+  return expectations;
+}
+
+}  // namespace zwang::lang

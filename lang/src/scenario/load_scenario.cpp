@@ -1,0 +1,157 @@
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "scenario/scenario_file.hpp"
+#include "tree/file.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<ScenarioFile> read_scenario(const fs::path& path, Diagnostics& diagnostics) {
+  const std::optional<int> source = read_file(path, yaml_size_limit, {}, diagnostics);
+  if (!source) return std::nullopt;
+  const std::optional<Document> document = read(*source, diagnostics);
+  if (!document) return std::nullopt;
+  return parse_scenario_file(*document, diagnostics);
+}
+
+/// Puts values of the matrix into a cell.
+class CellMaker {
+ public:
+  CellMaker(const ScenarioFile& file, const fs::path& path, Diagnostics& diagnostics)
+      : file_(file), path_(path), root_(root_of(path)), diagnostics_(diagnostics) {}
+
+  void put(const std::string& key, const MatrixValue& value, ScenarioCell& cell) const {
+    if (key == "robot") {
+      cell.robot = resolve_path(value.word.text, path_, root_, value.word.span, diagnostics_);
+    } else if (key == "scene") {
+      cell.scene = resolve_path(value.word.text, path_, root_, value.word.span, diagnostics_);
+    } else if (key == "start_at") {
+      cell.start_at = value.at;
+    } else if (key == "start_yaw") {
+      cell.start_yaw = value.yaw;
+    } else if (key == "faults") {
+      put_faults(value, cell);
+    } else {
+      cell.parameters[key.substr(7)] = value.word.text;  // params.NAME
+    }
+  }
+
+ private:
+  void put_faults(const MatrixValue& value, ScenarioCell& cell) const {
+    if (value.word.text == "none") return;
+    std::vector<std::string> names{"none"};
+    for (const FaultSet& set : file_.faults) {
+      names.push_back(set.name);
+      if (set.name != value.word.text) continue;
+      cell.faults = set.faults;
+      return;
+    }
+    diagnostics_.add(wording::unknown_name(value.word.span, "set of faults", value.word.text,
+                                           nearest(value.word.text, names)));
+  }
+
+  const ScenarioFile& file_;
+  const fs::path& path_;
+  fs::path root_;
+  Diagnostics& diagnostics_;
+};
+
+/// The product of all keys, the last one varying fastest.
+std::vector<ScenarioCell> multiply(const ScenarioFile& file, const fs::path& path, Diagnostics& diagnostics) {
+  const CellMaker maker(file, path, diagnostics);
+  ScenarioCell first;
+  for (const MatrixKey& key : file.fixed) maker.put(key.name, key.values.front(), first);
+  std::vector<ScenarioCell> cells{first};
+  std::size_t count = 1;
+  for (const MatrixKey& key : file.matrix) count *= std::max<std::size_t>(1, key.values.size());
+  if (count > most_cells) {
+    diagnostics.add(wording::too_many_cells(file.task.span, count, most_cells));
+    return {};
+  }
+  for (const MatrixKey& key : file.matrix) {
+    std::vector<ScenarioCell> wider;
+    for (const ScenarioCell& cell : cells) {
+      for (const MatrixValue& value : key.values) {
+        ScenarioCell next = cell;
+        maker.put(key.name, value, next);
+        next.name += (next.name.empty() ? "" : ", ") + value.label;
+        wider.push_back(std::move(next));
+      }
+    }
+    cells = std::move(wider);
+    if (diagnostics.has_errors()) return {};
+  }
+  for (ScenarioCell& cell : cells) {
+    if (cell.name.empty()) cell.name = "as written";
+  }
+  return cells;
+}
+
+std::optional<Scenario> scenario_of(const ScenarioFile& file, const fs::path& path,
+                                    Diagnostics& diagnostics) {
+  Scenario scenario;
+  scenario.path = path.string();
+  scenario.about = file.about;
+  scenario.time_limit = file.time_limit;
+  scenario.seed = file.seed;
+  if (file.task.exists()) {
+    const auto task = resolve_path(file.task.text, path, root_of(path), file.task.span, diagnostics);
+    // Read here so that a task file that is not there is the scenario's mistake, where it is named.
+    if (task && read_file(*task, yaml_size_limit, file.task.span, diagnostics)) scenario.task = *task;
+  }
+  scenario.cells = multiply(file, path, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return scenario;
+}
+
+/// Of a task that was refused: nobody can say what the conditions mean, and nobody needs to.
+std::vector<Expectation> expectations_of_words(const ScenarioFile& file) {
+  std::vector<Expectation> expectations;
+  for (const ExpectationText& text : file.expectations) {
+    Expectation expected;
+    expected.kind = text.kind;
+    expected.word = text.word.text;
+    expected.text = text.kind == ExpectationKind::outcome      ? "outcome: " + text.word.text
+                    : text.kind == ExpectationKind::diagnostic ? "diagnostic: " + text.word.text
+                                                               : text.that.text;
+    expected.span = text.span;
+    expectations.push_back(std::move(expected));
+  }
+  return expectations;
+}
+
+}  // namespace
+
+std::optional<Scenario> load_scenario(const fs::path& path, Diagnostics& diagnostics) {
+  const std::optional<ScenarioFile> file = read_scenario(path, diagnostics);
+  if (!file || diagnostics.has_errors()) return std::nullopt;
+  return scenario_of(*file, path, diagnostics);
+}
+
+std::optional<ScenarioRun> load_run(const fs::path& path, std::size_t cell, Diagnostics& of_scenario,
+                                    Diagnostics& of_task) {
+  const std::optional<ScenarioFile> file = read_scenario(path, of_scenario);
+  if (!file || of_scenario.has_errors()) return std::nullopt;
+  const std::optional<Scenario> scenario = scenario_of(*file, path, of_scenario);
+  if (!scenario) return std::nullopt;
+  const ScenarioCell& chosen = scenario->cells.at(cell);
+  LoadOptions options;
+  options.robot = chosen.robot;
+  options.scene = chosen.scene;
+  options.parameters = chosen.parameters;
+  ScenarioRun run;
+  run.program = load(scenario->task, options, of_task);
+  if (!run.program) {
+    run.expectations = expectations_of_words(*file);
+    return run;
+  }
+  auto expectations = check_expectations(*file, *run.program, of_scenario);
+  if (!expectations) return std::nullopt;
+  run.expectations = std::move(*expectations);
+  return run;
+}
+
+}  // namespace zwang::lang

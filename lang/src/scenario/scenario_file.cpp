@@ -1,0 +1,182 @@
+#include "scenario/scenario_file.hpp"
+
+#include <algorithm>
+
+#include "diagnostic/wordings.hpp"
+#include "scene/faults.hpp"
+#include "spec/shape.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+const std::vector<std::string> outcomes{"done", "failed", "stopped", "diverged", "refused"};
+
+bool is_parameter(const std::string& key) {
+  return key.rfind("params.", 0) == 0 && key.size() > 7;
+}
+
+std::string stem(const std::string& path) {
+  return std::filesystem::path(path).stem().string();
+}
+
+/// One value of the key `name`, whose kind follows from it.
+std::optional<MatrixValue> parse_matrix_value(const std::string& name, const Node& node,
+                                              Diagnostics& diagnostics) {
+  MatrixValue value;
+  const std::string what = "`" + name + "`";
+  if (name == "start_at") {
+    const auto at = parse_vector(node, dimension::length, 2, 2, what, diagnostics);
+    if (!at) return std::nullopt;
+    value.at = {(*at)[0], (*at)[1]};
+    value.label = "start_at [" + node.items[0].text + ", " + node.items[1].text + "]";
+    return value;
+  }
+  if (name == "start_yaw") {
+    value.yaw = parse_plain(node, dimension::angle, what, diagnostics);
+    if (!value.yaw) return std::nullopt;
+    value.label = name + " " + node.text;
+    return value;
+  }
+  value.word = parse_word(node, what, diagnostics);
+  if (!value.word.exists()) return std::nullopt;
+  const bool is_path = name == "robot" || name == "scene";
+  const std::string key = is_parameter(name) ? name.substr(7) : name;
+  value.label = key + " " + (is_path ? stem(node.text) : node.text);
+  return value;
+}
+
+MatrixKey parse_matrix_key(const Entry& entry, Diagnostics& diagnostics) {
+  MatrixKey key;
+  key.name = entry.key.text;
+  if (!require_sequence(entry.value, "`matrix." + key.name + "`", diagnostics)) return key;
+  for (const Node& item : entry.value.items) {
+    if (auto value = parse_matrix_value(key.name, item, diagnostics)) key.values.push_back(std::move(*value));
+  }
+  if (entry.value.items.empty()) diagnostics.add(wording::empty_matrix_key(entry.value.span, key.name));
+  return key;
+}
+
+void parse_matrix(const Node& node, ScenarioFile& file, Diagnostics& diagnostics) {
+  MapReader map(node, "`matrix`", diagnostics);
+  if (!map.is_mapping()) return;
+  for (const Entry& entry : node.entries) {
+    if (!entry.key.is_bad && is_parameter(entry.key.text)) map.optional(entry.key.text);
+  }
+  for (const char* name : {"robot", "scene", "start_at", "start_yaw", "faults"}) map.optional(name);
+  for (const Entry& entry : node.entries) {
+    const bool is_known = is_parameter(entry.key.text) || entry.key.text == "robot" ||
+                          entry.key.text == "scene" || entry.key.text == "start_at" ||
+                          entry.key.text == "start_yaw" || entry.key.text == "faults";
+    if (!entry.key.is_bad && is_known) file.matrix.push_back(parse_matrix_key(entry, diagnostics));
+  }
+  map.finish();
+}
+
+void parse_fixed(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics) {
+  for (const char* name : {"robot", "scene", "start_at", "start_yaw"}) {
+    const Node* node = map.optional(name);
+    if (node == nullptr) continue;
+    if (auto value = parse_matrix_value(name, *node, diagnostics)) {
+      file.fixed.push_back({name, {std::move(*value)}});
+    }
+  }
+  const Node* parameters = map.optional("params");
+  if (parameters == nullptr || !require_mapping(*parameters, "`params`", diagnostics)) return;
+  for (const Entry& entry : parameters->entries) {
+    if (entry.key.is_bad) continue;
+    const std::string name = "params." + entry.key.text;
+    if (auto value = parse_matrix_value(name, entry.value, diagnostics)) {
+      file.fixed.push_back({name, {std::move(*value)}});
+    }
+  }
+}
+
+void parse_fault_sets(const Node& node, ScenarioFile& file, Diagnostics& diagnostics) {
+  if (!require_mapping(node, "`faults`", diagnostics)) return;
+  for (const Entry& entry : node.entries) {
+    if (entry.key.is_bad) continue;
+    file.faults.push_back({entry.key.text, parse_faults(entry.value, diagnostics)});
+  }
+}
+
+std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& diagnostics) {
+  MapReader map(node, "an expectation", diagnostics);
+  if (!map.is_mapping()) return std::nullopt;
+  ExpectationText expected;
+  expected.span = node.span;
+  const Node* outcome = map.optional("outcome");
+  const Node* code = map.optional("diagnostic");
+  const Node* at = map.optional("at");
+  const Node* within = map.optional("within");
+  const Node* always = map.optional("always");
+  const auto given = {outcome, code, at, within, always};
+  const auto count = std::count_if(given.begin(), given.end(), [](const Node* n) { return n != nullptr; });
+  bool is_good = true;
+  if (count != 1) {
+    if (count > 1 || !map.has_misspelt({"outcome", "diagnostic", "at", "within", "always"}))
+      diagnostics.add(wording::one_expectation(node.span));
+    is_good = false;
+  }
+  if (outcome != nullptr) {
+    expected.word = parse_word(*outcome, "`outcome`", diagnostics);
+    if (expected.word.exists() &&
+        std::find(outcomes.begin(), outcomes.end(), expected.word.text) == outcomes.end())
+      diagnostics.add(wording::unknown_outcome(outcome->span, expected.word.text, outcomes));
+  }
+  if (code != nullptr) {
+    expected.kind = ExpectationKind::diagnostic;
+    expected.word = parse_word(*code, "`diagnostic`", diagnostics);
+  }
+  if (at != nullptr) {
+    expected.kind = ExpectationKind::at_end;
+    if (at->text != "end" && !at->is_bad) diagnostics.add(wording::at_the_end_only(at->span));
+  }
+  if (within != nullptr) {
+    expected.kind = ExpectationKind::within;
+    expected.within = parse_plain(*within, dimension::time, "`within`", diagnostics).value_or(0.0);
+    if (expected.within < 0.0) diagnostics.add(wording::not_positive(within->span, "`within`", true));
+    if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
+  }
+  const Node* that = always != nullptr ? always : nullptr;
+  if (always != nullptr) expected.kind = ExpectationKind::always;
+  if (at != nullptr || within != nullptr) that = map.required("that");
+  if (that != nullptr) expected.that = parse_condition(*that, diagnostics);
+  map.report_split_condition();
+  map.finish();
+  if (!is_good) return std::nullopt;
+  return expected;
+}
+
+}  // namespace
+
+std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagnostics& diagnostics) {
+  MapReader map(document.root, "a scenario file", diagnostics);
+  if (!map.is_mapping() || !check_version(map, "zwang_scenario", diagnostics)) return std::nullopt;
+  ScenarioFile file;
+  if (const Node* about = map.optional("about")) file.about = about->text;
+  if (const Node* task = map.required("task")) file.task = parse_word(*task, "`task`", diagnostics);
+  if (const Node* limit = map.optional("time_limit")) {
+    file.time_limit = parse_plain(*limit, dimension::time, "`time_limit`", diagnostics).value_or(1.0);
+    if (file.time_limit <= 0.0) diagnostics.add(wording::not_positive(limit->span, "`time_limit`", false));
+  }
+  if (const Node* seed = map.optional("seed")) {
+    const auto value = parse_integer(*seed, "`seed`", 0, 1'000'000'000, diagnostics);
+    file.seed = static_cast<std::uint64_t>(value.value_or(0));
+  }
+  parse_fixed(map, file, diagnostics);
+  if (const Node* matrix = map.optional("matrix")) parse_matrix(*matrix, file, diagnostics);
+  if (const Node* faults = map.optional("faults")) parse_fault_sets(*faults, file, diagnostics);
+  const Node* expect = map.required("expect");
+  if (expect != nullptr && require_sequence(*expect, "`expect`", diagnostics)) {
+    for (const Node& item : expect->items) {
+      if (auto expected = parse_expectation(item, diagnostics))
+        file.expectations.push_back(std::move(*expected));
+    }
+    if (expect->items.empty()) diagnostics.add(wording::nothing_expected(expect->span));
+  }
+  map.finish();
+  return file;
+}
+
+}  // namespace zwang::lang

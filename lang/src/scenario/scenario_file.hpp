@@ -1,0 +1,62 @@
+/// A scenario file as its author wrote it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spec/expression.hpp"
+#include "spec/value.hpp"
+#include "tree/read.hpp"
+#include "zwang/lang/scenario.hpp"
+
+namespace zwang::lang {
+
+/// A value that varies, as one cell has it.
+struct MatrixValue {
+  std::string label;  ///< for the cell's name
+  Word word;          ///< a path, a quantity as text, the name of a set of faults
+  std::optional<std::array<double, 2>> at;
+  std::optional<double> yaw;
+};
+
+struct MatrixKey {
+  std::string name;  ///< robot, scene, start_at, start_yaw, params.NAME, faults
+  std::vector<MatrixValue> values;
+};
+
+struct FaultSet {
+  std::string name;
+  std::vector<Fault> faults;
+};
+
+struct ExpectationText {
+  ExpectationKind kind = ExpectationKind::outcome;
+  Word word;
+  double within = 0.0;
+  Word of;
+  ConditionText that;
+  Span span;
+};
+
+struct ScenarioFile {
+  std::string about;
+  Word task;
+  double time_limit = 600.0;
+  std::uint64_t seed = 0;
+  std::vector<MatrixKey> fixed;  ///< the keys that stand beside the matrix, with one value each
+  std::vector<MatrixKey> matrix;
+  std::vector<FaultSet> faults;
+  std::vector<ExpectationText> expectations;
+};
+
+inline constexpr std::size_t most_cells = 1000;
+
+/// The shape of a scenario file. nullopt when it is not one at all.
+std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagnostics& diagnostics);
+
+/// Names and dimensions of what is expected. nullopt on an error.
+std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& file, const Program& program,
+                                                           Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

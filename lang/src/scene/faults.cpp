@@ -1,0 +1,93 @@
+#include "scene/faults.hpp"
+
+#include <array>
+
+#include "diagnostic/wordings.hpp"
+#include "spec/shape.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+struct FaultWord {
+  const char* key;
+  const char* word;
+  FaultKind kind;
+};
+constexpr std::array words{
+    FaultWord{"samples", "lost", FaultKind::samples_lost},
+    FaultWord{"samples", "nan", FaultKind::samples_nan},
+    FaultWord{"samples", "frozen", FaultKind::samples_frozen},
+    FaultWord{"clock", "backwards", FaultKind::clock_backwards},
+    FaultWord{"torque", "lost", FaultKind::torque_lost},
+    FaultWord{"torque", "stuck", FaultKind::torque_stuck},
+    FaultWord{"torque", "flipped", FaultKind::torque_flipped},
+    FaultWord{"plant", "diverges", FaultKind::plant_diverges},
+};
+
+/// What `key` says, one of its words.
+void parse_word_of(const char* key, const Node& node, Fault& fault, int& found, Diagnostics& diagnostics) {
+  ++found;
+  std::vector<std::string> known;
+  for (const FaultWord& word : words) {
+    if (std::string_view(word.key) != key) continue;
+    known.emplace_back(word.word);
+    if (node.text != word.word) continue;
+    fault.kind = word.kind;
+    return;
+  }
+  if (!node.is_bad) diagnostics.add(wording::unknown_fault(node.span, key, node.text, known));
+}
+
+double positive(const Node& node, const Dimension& expected, const std::string& what, bool zero_allowed,
+                Diagnostics& diagnostics) {
+  const double value = parse_plain(node, expected, what, diagnostics).value_or(1.0);
+  if (value < 0.0 || (value == 0.0 && !zero_allowed))
+    diagnostics.add(wording::not_positive(node.span, what, zero_allowed));
+  return value;
+}
+
+Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
+  Fault fault;
+  fault.span = node.span;
+  MapReader map(node, "a fault", diagnostics);
+  if (!map.is_mapping()) return fault;
+  if (const Node* at = map.required("at"))
+    fault.at = positive(*at, dimension::time, "a fault's `at`", true, diagnostics);
+  if (const Node* length = map.optional("for"))
+    fault.duration = positive(*length, dimension::time, "a fault's `for`", false, diagnostics);
+  const Node* wheel = map.optional("wheel");
+  if (wheel != nullptr) fault.joint = parse_word(*wheel, "`wheel`", diagnostics).text;
+  int found = 0;
+  for (const char* key : {"samples", "clock", "torque", "plant"}) {
+    if (const Node* word = map.optional(key)) parse_word_of(key, *word, fault, found, diagnostics);
+  }
+  if (const Node* friction = map.optional("floor_friction")) {
+    ++found;
+    fault.kind = FaultKind::floor_friction;
+    fault.value = positive(*friction, dimension::none, "`floor_friction`", false, diagnostics);
+  }
+  if (const Node* payload = map.optional("payload")) {
+    ++found;
+    fault.kind = FaultKind::payload;
+    fault.value = positive(*payload, dimension::mass, "`payload`", false, diagnostics);
+  }
+  const bool names_wheel = fault.kind == FaultKind::torque_lost || fault.kind == FaultKind::torque_stuck ||
+                           fault.kind == FaultKind::torque_flipped;
+  if (found != 1 && !map.has_unread_keys()) diagnostics.add(wording::one_fault(node.span));
+  if (found == 1 && names_wheel && wheel == nullptr) map.required("wheel");
+  if (found == 1 && !names_wheel && wheel != nullptr) diagnostics.add(wording::one_fault(node.span));
+  map.finish();
+  return fault;
+}
+
+}  // namespace
+
+std::vector<Fault> parse_faults(const Node& node, Diagnostics& diagnostics) {
+  std::vector<Fault> faults;
+  if (!require_sequence(node, "`faults`", diagnostics)) return faults;
+  for (const Node& item : node.items) faults.push_back(parse_fault(item, diagnostics));
+  return faults;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,168 @@
+#include "scene/load_signals.hpp"
+
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+double not_negative(MapReader& map, const char* key, const Dimension& expected, Diagnostics& diagnostics) {
+  const Node* node = map.optional(key);
+  if (node == nullptr) return 0.0;
+  const std::string what = map.what() + "'s `" + key + "`";
+  const double value = parse_plain(*node, expected, what, diagnostics).value_or(0.0);
+  if (value < 0.0) diagnostics.add(wording::not_positive(node->span, what, true));
+  return value;
+}
+
+/// `[[0 s, false], [5 s, true]]`: what the signal is from each time on.
+void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostics) {
+  const std::string what = "signal `" + signal.name + "`'s script";
+  if (!require_sequence(node, what, diagnostics)) return;
+  double last = -1.0;
+  for (const Node& step : node.items) {
+    if (!step.is_sequence() || step.items.size() != 2) {
+      diagnostics.add(wording::script_step(step.span));
+      continue;
+    }
+    const auto time = parse_plain(step.items[0], dimension::time, what, diagnostics);
+    if (!time) continue;
+    if (*time <= last) diagnostics.add(wording::times_not_rising(step.items[0].span, what));
+    last = *time;
+    const Node& value = step.items[1];
+    const bool is_word = value.text == "true" || value.text == "false" || value.text == "lost";
+    ScriptStep parsed{*time, value.text == "true" ? 1.0 : 0.0, value.text != "lost"};
+    if (!is_word) {
+      const ValueText number = parse_value(value, what, diagnostics);
+      if (number.kind == ValueKind::bad) continue;
+      if (number.kind != ValueKind::quantity) {
+        diagnostics.add(wording::script_step(step.span));
+        continue;
+      }
+      parsed.value = number.quantity.value;
+    }
+    signal.script.push_back(parsed);
+  }
+}
+
+void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<SceneObject>& objects,
+                       Diagnostics& diagnostics) {
+  const Word word = parse_word(node, "signal `" + signal.name + "`", diagnostics);
+  if (!word.exists()) return;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    names.push_back(objects[i].name);
+    if (objects[i].name == word.text) signal.object = static_cast<int>(i);
+  }
+  if (signal.object < 0)
+    diagnostics.add(wording::unknown_name(word.span, "object", word.text, nearest(word.text, names)));
+}
+
+SceneSignal parse_signal(const Entry& entry, const std::vector<SceneObject>& objects,
+                         Diagnostics& diagnostics) {
+  SceneSignal signal;
+  signal.name = parse_name(entry.key, "a signal's name", diagnostics).text;
+  signal.span = entry.key.span;
+  MapReader map(entry.value, "signal `" + entry.key.text + "`", diagnostics);
+  if (!map.is_mapping()) return signal;
+  struct Source {
+    const char* key;
+    SceneSignalKind kind;
+  };
+  int found = 0;
+  for (const Source& source :
+       {Source{"script", SceneSignalKind::script}, Source{"pose_of", SceneSignalKind::pose},
+        Source{"distance_to", SceneSignalKind::distance}, Source{"latch", SceneSignalKind::latch}}) {
+    const Node* node = map.optional(source.key);
+    if (node == nullptr) continue;
+    ++found;
+    signal.kind = source.kind;
+    if (source.kind == SceneSignalKind::script) {
+      parse_script(*node, signal, diagnostics);
+    } else {
+      parse_object_name(*node, signal, objects, diagnostics);
+    }
+  }
+  if (found != 1 && !map.has_misspelt({"script", "pose_of", "distance_to", "latch"}))
+    diagnostics.add(wording::one_signal_source(entry.key.span, entry.key.text));
+  signal.noise = not_negative(map, "noise", dimension::length, diagnostics);
+  signal.angle_noise = not_negative(map, "angle_noise", dimension::angle, diagnostics);
+  signal.delay = not_negative(map, "delay", dimension::time, diagnostics);
+  const double rate = not_negative(map, "rate", dimension::frequency, diagnostics);
+  if (rate > 0.0) signal.period = 1.0 / rate;
+  signal.dropouts = not_negative(map, "dropouts", dimension::none, diagnostics);
+  if (signal.dropouts >= 1.0) diagnostics.add(wording::all_dropped(map.optional("dropouts")->span));
+  map.finish();
+  return signal;
+}
+
+}  // namespace
+
+std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<SceneObject>& objects,
+                                             Diagnostics& diagnostics) {
+  std::vector<SceneSignal> signals;
+  if (!require_mapping(node, "`signals`", diagnostics)) return signals;
+  for (const Entry& entry : node.entries) {
+    if (!entry.key.is_bad) signals.push_back(parse_signal(entry, objects, diagnostics));
+  }
+  return signals;
+}
+
+std::vector<Waypoint> parse_motion(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  std::vector<Waypoint> points;
+  if (!require_sequence(node, what, diagnostics)) return points;
+  double last = -1.0;
+  for (const Node& item : node.items) {
+    MapReader map(item, what, diagnostics);
+    if (!map.is_mapping()) continue;
+    Waypoint point;
+    if (const Node* time = map.required("time")) {
+      point.time = parse_plain(*time, dimension::time, what, diagnostics).value_or(last + 1.0);
+      if (point.time <= last) diagnostics.add(wording::times_not_rising(time->span, what));
+      last = point.time;
+    }
+    if (const Node* at = map.required("at")) {
+      if (const auto place = parse_vector(*at, dimension::length, 2, 2, what, diagnostics))
+        point.at = {(*place)[0], (*place)[1]};
+    }
+    if (const Node* yaw = map.optional("yaw"))
+      point.yaw = parse_plain(*yaw, dimension::angle, what, diagnostics).value_or(0.0);
+    map.finish();
+    points.push_back(point);
+  }
+  return points;
+}
+
+std::optional<Dock> parse_dock(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  MapReader map(node, what, diagnostics);
+  if (!map.is_mapping()) return std::nullopt;
+  Dock dock;
+  if (const Node* at = map.required("at")) {
+    if (const auto place = parse_vector(*at, dimension::length, 2, 2, what, diagnostics))
+      dock.at = {(*place)[0], (*place)[1]};
+  }
+  if (const Node* reach = map.optional("reach")) {
+    dock.reach =
+        parse_plain(*reach, dimension::length, what + "'s `reach`", diagnostics).value_or(dock.reach);
+    if (dock.reach <= 0.0) diagnostics.add(wording::not_positive(reach->span, what + "'s `reach`", false));
+  }
+  if (const Node* hook = map.required("hook")) dock.hook = parse_word(*hook, "`hook`", diagnostics).text;
+  map.finish();
+  return dock;
+}
+
+StateNoise parse_state_noise(const Node& node, Diagnostics& diagnostics) {
+  StateNoise noise;
+  if (node.is_scalar() && node.text == "perfect") return noise;
+  MapReader map(node, "`state`", diagnostics);
+  if (!map.is_mapping()) return noise;
+  noise.position = not_negative(map, "position", dimension::length, diagnostics);
+  noise.yaw = not_negative(map, "yaw", dimension::angle, diagnostics);
+  noise.velocity = not_negative(map, "velocity", dimension::velocity, diagnostics);
+  noise.turn = not_negative(map, "turn", dimension::angular_velocity, diagnostics);
+  map.finish();
+  return noise;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include "output.hpp"
+#include "test_report.hpp"
+#include "verbs.hpp"
+#include "zwang/lang/scenario.hpp"
+#include "zwang/runtime/scenario_run.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+bool is_scenario(const fs::path& path) {
+  if (path.extension() != ".yaml") return false;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    return line.rfind("zwang_scenario", 0) == 0;
+  }
+  return false;
+}
+
+/// In the order given; those of a folder by name.
+std::vector<std::string> scenario_files(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    if (!fs::is_directory(path)) {
+      require_file(path);
+      files.push_back(path);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const auto& entry : fs::recursive_directory_iterator(path)) {
+      if (entry.is_regular_file() && is_scenario(entry.path())) found.push_back(entry.path().string());
+    }
+    std::sort(found.begin(), found.end());
+    if (found.empty()) throw Impossible(path + ": there is no scenario file in it");
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+/// A run that waits for its thread.
+struct Job {
+  std::size_t report = 0, cell = 0;
+  const lang::Scenario* scenario = nullptr;
+};
+
+std::vector<std::string> codes_of(const lang::Diagnostics& diagnostics) {
+  std::vector<std::string> codes;
+  for (const lang::Diagnostic& d : diagnostics.sorted()) {
+    if (d.severity == lang::Severity::error && std::find(codes.begin(), codes.end(), d.code) == codes.end())
+      codes.push_back(d.code);
+  }
+  return codes;
+}
+
+/// One line that is written over itself; nothing where stdout is no terminal.
+class Progress {
+ public:
+  Progress(std::size_t runs, bool shown) : runs_(runs), shown_(shown && stdout_is_terminal()) {}
+  void done(bool passed) {
+    const std::lock_guard lock(mutex_);
+    ++finished_;
+    failed_ += passed ? 0U : 1U;
+    if (!shown_) return;
+    std::ostringstream line;
+    line << '\r' << finished_ << " of " << runs_ << " runs";
+    if (failed_ > 0) line << ", " << failed_ << " failed";
+    print(line.str() + "\033[K");
+    if (finished_ == runs_) print("\r\033[K");
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t runs_, finished_ = 0, failed_ = 0;
+  bool shown_;
+};
+
+/// The readers of YAML and URDF report through handlers of the whole process: one at a time.
+class Loader {
+ public:
+  std::optional<lang::ScenarioRun> load(const Job& job, ScenarioReport& report,
+                                        std::vector<std::string>& codes) {
+    const std::lock_guard lock(mutex_);
+    lang::Diagnostics of_scenario, of_task;
+    auto run = lang::load_run(job.scenario->path, job.cell, of_scenario, of_task);
+    codes = codes_of(of_task);
+    if (!run) {
+      report.readable = false;
+      report.diagnostics = of_scenario;
+    }
+    return run;
+  }
+
+ private:
+  std::mutex mutex_;
+};
+
+void work(const std::vector<Job>& jobs, std::atomic<std::size_t>& next, Loader& loader,
+          std::vector<ScenarioReport>& reports, Progress& progress) {
+  for (std::size_t j = next++; j < jobs.size(); j = next++) {
+    const Job& job = jobs[j];
+    ScenarioReport& report = reports[job.report];
+    const lang::ScenarioCell& cell = job.scenario->cells[job.cell];
+    std::vector<std::string> codes;
+    runtime::CellResult& result = report.cells[job.cell];
+    if (const auto run = loader.load(job, report, codes)) {
+      result = runtime::run_cell(*job.scenario, cell, *run, codes);
+    } else {
+      result.name = cell.name;
+      result.outcome = "error";
+      result.because = "the scenario file";
+    }
+    progress.done(result.passed);
+  }
+}
+
+}  // namespace
+
+int test(const TestArguments& arguments) {
+  const std::vector<std::string> files = scenario_files(arguments.paths);
+  std::vector<ScenarioReport> reports(files.size());
+  std::vector<std::optional<lang::Scenario>> scenarios(files.size());
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    reports[i].path = files[i];
+    scenarios[i] = lang::load_scenario(files[i], reports[i].diagnostics);
+    reports[i].readable = scenarios[i].has_value();
+    if (!scenarios[i]) continue;
+    reports[i].cells.resize(scenarios[i]->cells.size());
+    for (std::size_t c = 0; c < scenarios[i]->cells.size(); ++c) jobs.push_back({i, c, &*scenarios[i]});
+  }
+
+  const auto begin = Clock::now();
+  Progress progress(jobs.size(), arguments.format == Format::human);
+  Loader loader;
+  std::atomic<std::size_t> next{0};
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  const std::size_t wanted = arguments.jobs > 0 ? static_cast<std::size_t>(arguments.jobs) : cores;
+  std::vector<std::thread> threads;
+  for (std::size_t t = 0; t < std::min(wanted, jobs.size()); ++t)
+    threads.emplace_back([&] { work(jobs, next, loader, reports, progress); });
+  for (std::thread& thread : threads) thread.join();
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+
+  print(arguments.format == Format::json ? json_report(reports, seconds) : human_report(reports, seconds));
+  if (arguments.junit) {
+    std::ofstream file(*arguments.junit, std::ios::binary);
+    file << junit_report(reports);
+    if (!file.flush()) throw Impossible(*arguments.junit + ": cannot be written");
+  }
+  return std::all_of(reports.begin(), reports.end(), passed) ? exit_good : exit_bad;
+}
+
+}  // namespace zwang::cli

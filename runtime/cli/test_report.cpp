@@ -1,0 +1,204 @@
+#include "test_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "output.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+using runtime::CellResult;
+using runtime::ExpectationResult;
+
+std::string number(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  return text;
+}
+
+std::string seconds_of(double value, int decimals) {
+  return number(value, decimals) + " s";
+}
+
+std::string percent(double share) {
+  return number(100.0 * share, 1) + " %";
+}
+
+std::string margin_text(const ExpectationResult& result) {
+  if (!result.margin) return {};
+  return "margin " + percent(*result.margin) + " at " + seconds_of(result.time, 3);
+}
+
+std::string outcome_text(const CellResult& cell) {
+  std::string text = cell.outcome;
+  if (!cell.because.empty()) text += " (" + cell.because + ")";
+  return text;
+}
+
+/// Expectations of a file, each over all runs.
+struct Summary {
+  std::string text;
+  std::size_t held = 0, count = 0;
+  std::optional<double> margin;
+  std::string where;  ///< the run with the least margin
+};
+
+std::vector<Summary> summarise(const ScenarioReport& report) {
+  std::vector<Summary> summaries;
+  for (const CellResult& cell : report.cells) {
+    summaries.resize(std::max(summaries.size(), cell.expectations.size()));
+    for (std::size_t i = 0; i < cell.expectations.size(); ++i) {
+      const ExpectationResult& result = cell.expectations[i];
+      Summary& summary = summaries[i];
+      if (summary.text.empty()) summary.text = result.text;
+      ++summary.count;
+      summary.held += result.held ? 1U : 0U;
+      if (!result.margin || (summary.margin && *summary.margin <= *result.margin)) continue;
+      summary.margin = result.margin;
+      summary.where = cell.name;
+    }
+  }
+  return summaries;
+}
+
+void describe(const ScenarioReport& report, std::ostream& out) {
+  out << report.path << "\n";
+  if (!report.readable) {
+    lang::render_human(report.diagnostics, out);
+    return;
+  }
+  for (const CellResult& cell : report.cells) {
+    out << (cell.passed ? "  ok    " : "  FAIL  ") << padded(cell.name, 48) << "  " << outcome_text(cell);
+    if (cell.simulated > 0.0)
+      out << " after " << seconds_of(cell.simulated, 2) << " (" << seconds_of(cell.wall, 2)
+          << " of computing)";
+    out << "\n";
+    for (const ExpectationResult& result : cell.expectations) {
+      if (result.held) continue;
+      out << "        missed: " << result.text << "  [" << place(report.diagnostics, result.span) << "] "
+          << margin_text(result) << "\n";
+    }
+  }
+  for (const Summary& summary : summarise(report)) {
+    out << "  " << padded_left(std::to_string(summary.held) + "/" + std::to_string(summary.count), 7) << "  "
+        << summary.text;
+    if (summary.margin) out << "   least margin " << percent(*summary.margin) << " (" << summary.where << ")";
+    out << "\n";
+  }
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+std::size_t failures(const ScenarioReport& report) {
+  if (!report.readable) return 1;
+  return static_cast<std::size_t>(std::count_if(report.cells.begin(), report.cells.end(),
+                                                [](const CellResult& cell) { return !cell.passed; }));
+}
+
+nlohmann::ordered_json json_of(const CellResult& cell) {
+  nlohmann::ordered_json expectations = nlohmann::ordered_json::array();
+  for (const ExpectationResult& result : cell.expectations) {
+    nlohmann::ordered_json one = {{"text", result.text}, {"held", result.held}};
+    if (result.margin && std::isfinite(*result.margin)) one["margin"] = *result.margin;
+    one["time"] = result.time;
+    expectations.push_back(std::move(one));
+  }
+  return {{"name", cell.name},           {"passed", cell.passed},       {"outcome", cell.outcome},
+          {"because", cell.because},     {"simulated", cell.simulated}, {"wall", cell.wall},
+          {"expectations", expectations}};
+}
+
+}  // namespace
+
+bool passed(const ScenarioReport& report) {
+  return failures(report) == 0;
+}
+
+std::string human_report(const std::vector<ScenarioReport>& reports, double seconds) {
+  std::ostringstream out;
+  std::size_t runs = 0, good = 0;
+  for (const ScenarioReport& report : reports) {
+    describe(report, out);
+    runs += report.cells.size();
+    good += report.cells.size() - (report.readable ? failures(report) : 0);
+  }
+  out << good << " of " << runs << " runs as expected, in " << seconds_of(seconds, 1) << "\n";
+  return out.str();
+}
+
+std::string json_report(const std::vector<ScenarioReport>& reports, double seconds) {
+  nlohmann::ordered_json files = nlohmann::ordered_json::array();
+  bool good = true;
+  for (const ScenarioReport& report : reports) {
+    nlohmann::ordered_json cells = nlohmann::ordered_json::array();
+    for (const CellResult& cell : report.cells) cells.push_back(json_of(cell));
+    good = good && passed(report);
+    files.push_back({{"file", report.path},
+                     {"passed", passed(report)},
+                     {"runs", cells},
+                     {"diagnostics", nlohmann::ordered_json::parse(lang::render_json(report.diagnostics))}});
+  }
+  const nlohmann::ordered_json whole = {{"passed", good}, {"seconds", seconds}, {"scenarios", files}};
+  return whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string junit_report(const std::vector<ScenarioReport>& reports) {
+  std::ostringstream out;
+  out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
+  for (const ScenarioReport& report : reports) {
+    const std::size_t tests = report.readable ? report.cells.size() : 1;
+    out << "  <testsuite name=\"" << escaped(report.path) << "\" tests=\"" << tests << "\" failures=\""
+        << failures(report) << "\">\n";
+    if (!report.readable) {
+      std::ostringstream text;
+      lang::render_human(report.diagnostics, text);
+      out << "    <testcase name=\"the scenario file\" classname=\"" << escaped(report.path)
+          << "\" time=\"0\"><failure message=\"not readable\">" << escaped(text.str())
+          << "</failure></testcase>\n";
+    }
+    for (const CellResult& cell : report.cells) {
+      out << "    <testcase name=\"" << escaped(cell.name) << "\" classname=\"" << escaped(report.path)
+          << "\" time=\"" << number(cell.wall, 3) << "\">";
+      if (!cell.passed) {
+        std::string missed;
+        for (const ExpectationResult& result : cell.expectations) {
+          if (!result.held) missed += result.text + "  " + margin_text(result) + "\n";
+        }
+        out << "<failure message=\"" << escaped(outcome_text(cell)) << "\">" << escaped(missed)
+            << "</failure>";
+      }
+      out << "</testcase>\n";
+    }
+    out << "  </testsuite>\n";
+  }
+  out << "</testsuites>\n";
+  return out.str();
+}
+
+}  // namespace zwang::cli

@@ -1,0 +1,28 @@
+/// What `zwang test` says of the scenarios that it ran.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "zwang/lang/diagnostic.hpp"
+#include "zwang/lang/scenario.hpp"
+#include "zwang/runtime/scenario_run.hpp"
+
+namespace zwang::cli {
+
+/// One scenario file: its runs, or why there are none.
+struct ScenarioReport {
+  std::string path;
+  lang::Diagnostics diagnostics;           ///< of the scenario file
+  std::vector<runtime::CellResult> cells;  ///< in the order of the matrix
+  bool readable = false;
+};
+
+bool passed(const ScenarioReport& report);
+
+/// Every run in a line, those that failed with what they missed; then each expectation with its least margin.
+std::string human_report(const std::vector<ScenarioReport>& reports, double seconds);
+std::string json_report(const std::vector<ScenarioReport>& reports, double seconds);
+std::string junit_report(const std::vector<ScenarioReport>& reports);
+
+}  // namespace zwang::cli

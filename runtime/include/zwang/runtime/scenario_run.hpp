@@ -1,0 +1,36 @@
+/// Runs one cell of a scenario and judges what was expected of it, by the plant's own measurements.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/scenario.hpp"
+
+namespace zwang::runtime {
+
+struct ExpectationResult {
+  std::string text;
+  lang::Span span;
+  bool held = false;
+  /// What was left, as a share of the threshold (of `within`, of its time): negative when it was not held.
+  std::optional<double> margin;
+  double time = 0.0;  ///< [s] of the run, when the margin was least
+};
+
+struct CellResult {
+  std::string name;
+  bool passed = false;
+  std::string outcome;     ///< done, failed, stopped, diverged, refused, unfinished, error
+  std::string because;     ///< of a stop or an error; the codes of a refusal
+  double simulated = 0.0;  ///< [s]
+  double wall = 0.0;       ///< [s]
+  std::vector<ExpectationResult> expectations;
+};
+
+/// `codes` are those of the diagnostics of a task that was refused. Touches nothing outside of its arguments:
+/// cells may run side by side on threads.
+CellResult run_cell(const lang::Scenario& scenario, const lang::ScenarioCell& cell,
+                    const lang::ScenarioRun& run, const std::vector<std::string>& codes = {});
+
+}  // namespace zwang::runtime

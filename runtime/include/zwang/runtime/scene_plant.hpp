@@ -1,0 +1,39 @@
+/// The simulated plant as a scene has it: what is measured, and what goes wrong.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/mujoco_plant.hpp"
+
+namespace zwang::runtime {
+
+struct ScenePlantOptions {
+  MujocoPlantOptions simulation;
+  std::uint64_t seed = 0;           ///< of all noise and dropouts
+  std::vector<lang::Fault> faults;  ///< beside the scene's own
+};
+
+/// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected.
+class ScenePlant : public Plant {
+ public:
+  /// Throws std::invalid_argument when the program has no scene, or robot, scene and faults do not go
+  /// together.
+  explicit ScenePlant(const lang::Program& program, const ScenePlantOptions& options = {});
+  ~ScenePlant() override;
+
+  /// `unreachable`, and `sensed` untouched, when a sample is lost.
+  PlantStatus sense(Sensed& sensed) noexcept override;
+  PlantStatus apply(const Eigen::VectorXd& tau) noexcept override;
+  const Truth& truth() const noexcept;
+  /// Without noise or faults.
+  const solver::State& true_state() const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace zwang::runtime

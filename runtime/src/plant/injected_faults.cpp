@@ -1,0 +1,73 @@
+#include "injected_faults.hpp"
+
+#include <limits>
+#include <stdexcept>
+
+namespace zwang::runtime {
+
+using lang::Fault;
+using lang::FaultKind;
+
+namespace {
+
+constexpr double clock_jump = 0.01;  ///< [s]
+constexpr double tick_rounding = 1e-9;
+
+}  // namespace
+
+InjectedFaults::InjectedFaults(std::vector<Fault> faults, const solver::Model& model) : kept_(model) {
+  for (Fault& fault : faults) {
+    Injected injected;
+    if (!fault.joint.empty()) {
+      const auto joint = model.find_joint(fault.joint);
+      if (!joint) throw std::invalid_argument("fault: the robot has no joint `" + fault.joint + "`");
+      injected.joint = *joint;
+    }
+    injected.fault = std::move(fault);
+    faults_.push_back(std::move(injected));
+  }
+}
+
+bool InjectedFaults::in_force(const Fault& fault, double time) noexcept {
+  return time >= fault.at - tick_rounding && time < fault.at + fault.duration - tick_rounding;
+}
+
+const Fault* InjectedFaults::find(FaultKind kind, double time) const noexcept {
+  for (const Injected& injected : faults_) {
+    if (injected.fault.kind == kind && in_force(injected.fault, time)) return &injected.fault;
+  }
+  return nullptr;
+}
+
+bool InjectedFaults::active(FaultKind kind, double time) const noexcept {
+  return find(kind, time) != nullptr;
+}
+
+void InjectedFaults::spoil(Sensed& sensed) noexcept {
+  const double time = sensed.time;
+  if (active(FaultKind::samples_frozen, time)) {
+    if (!is_frozen_) kept_ = sensed.state;
+    is_frozen_ = true;
+    sensed.state = kept_;
+  } else {
+    is_frozen_ = false;
+  }
+  if (active(FaultKind::samples_nan, time))
+    sensed.state.base_twist.linear.x() = std::numeric_limits<double>::quiet_NaN();
+  if (const Fault* fault = find(FaultKind::clock_backwards, time)) sensed.time = fault->at - clock_jump;
+}
+
+void InjectedFaults::spoil(Eigen::VectorXd& tau, double time) noexcept {
+  for (Injected& injected : faults_) {
+    const FaultKind kind = injected.fault.kind;
+    if (injected.joint < 0 || injected.joint >= tau.size() || !in_force(injected.fault, time)) continue;
+    double& torque = tau(injected.joint);
+    if (!injected.has_begun) injected.kept = torque;
+    injected.has_begun = true;
+    if (kind == FaultKind::torque_lost) torque = 0.0;
+    if (kind == FaultKind::torque_stuck) torque = injected.kept;
+    if (kind == FaultKind::torque_flipped) torque = -torque;
+  }
+}
+
+}  // namespace zwang::runtime

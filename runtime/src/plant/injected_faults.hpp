@@ -1,0 +1,39 @@
+/// Faults of samples and of motors, injected between the runtime and a plant. Knows no simulator.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "zwang/lang/scene.hpp"
+#include "zwang/runtime/plant.hpp"
+
+namespace zwang::runtime {
+
+class InjectedFaults {
+ public:
+  /// Throws std::invalid_argument on a fault of a joint that the model does not have.
+  InjectedFaults(std::vector<lang::Fault> faults, const solver::Model& model);
+
+  bool active(lang::FaultKind kind, double time) const noexcept;
+  /// The first fault of the kind in force, or none.
+  const lang::Fault* find(lang::FaultKind kind, double time) const noexcept;
+  /// What arrives of a true sample; allocates nothing.
+  void spoil(Sensed& sensed) noexcept;
+  /// What the motors make of the command.
+  void spoil(Eigen::VectorXd& tau, double time) noexcept;
+
+ private:
+  struct Injected {
+    lang::Fault fault;
+    Eigen::Index joint = -1;
+    bool has_begun = false;
+    double kept = 0.0;  ///< torque at the begin
+  };
+  static bool in_force(const lang::Fault& fault, double time) noexcept;
+
+  std::vector<Injected> faults_;
+  solver::State kept_;  ///< at the begin of a frozen state
+  bool is_frozen_ = false;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,43 @@
+#include "joint_friction.hpp"
+
+#include <algorithm>
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr double frequency = 200.0;    ///< [1/s]
+constexpr double damping_ratio = 0.7;  ///< while the bristle holds
+
+}  // namespace
+
+JointFriction::JointFriction(const lang::Robot& robot) {
+  for (std::size_t j = 0; j < robot.friction.size(); ++j) {
+    const lang::JointFriction& friction = robot.friction[j];
+    if (friction.coulomb <= 0.0 && friction.viscous <= 0.0) continue;
+    const solver::Body& body = robot.model.bodies()[j + 1];
+    const bool slides = body.joint.type == solver::JointType::prismatic;
+    const double inertia =
+        body.joint.rotor_inertia +
+        (slides ? body.inertia.mass : body.joint.axis.dot(body.inertia.rotational * body.joint.axis));
+    Bristle bristle;
+    bristle.joint = static_cast<Eigen::Index>(j);
+    bristle.coulomb = friction.coulomb;
+    bristle.viscous = friction.viscous;
+    bristle.stiffness = inertia * frequency * frequency;
+    bristle.damping = 2.0 * damping_ratio * inertia * frequency;
+    joints_.push_back(bristle);
+  }
+}
+
+void JointFriction::add_to(Eigen::VectorXd& torque, const Eigen::VectorXd& qd, double period) noexcept {
+  for (Bristle& bristle : joints_) {
+    const double rate = qd(bristle.joint);
+    const double longest = bristle.coulomb / bristle.stiffness;
+    bristle.stretch = std::clamp(bristle.stretch + period * rate, -longest, longest);
+    const double dry = bristle.stiffness * bristle.stretch + bristle.damping * rate;
+    torque(bristle.joint) -= std::clamp(dry, -bristle.coulomb, bristle.coulomb) + bristle.viscous * rate;
+  }
+}
+
+}  // namespace zwang::runtime

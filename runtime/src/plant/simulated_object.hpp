@@ -1,0 +1,38 @@
+/// One object of the scene inside the simulation: where its numbers are, and what moves it besides contacts.
+#pragma once
+
+#include <optional>
+
+#include "floor_friction.hpp"
+#include "object_geometry.hpp"
+#include "zwang/runtime/mujoco_plant.hpp"
+
+namespace zwang::runtime {
+
+struct SimulatedObject {
+  lang::SceneObject described;
+  ObjectGeometry geometry;
+  int body = 0;
+  int position = -1, velocity = -1;       ///< of its joints x, y, turn in qpos and qvel; -1: it is fixed
+  std::optional<FloorFriction> friction;  ///< of one that slides on the floor
+  int equality = -1;                      ///< of its dock; -1: none
+  int hook_body = 0;
+  solver::Vector3 hook = solver::Vector3::Zero();  ///< [m] in that body
+};
+
+/// Puts a scripted object where it is at this time. Its joints are measured from where it was written, along
+/// the axes that it had there.
+void follow_script(const SimulatedObject& object, double time, double* qpos, double* qvel) noexcept;
+
+/// What the floor does to one that slides; moves its bristles by one step of `period` [s].
+void add_floor_friction(SimulatedObject& object, double period, const double* qvel, double* force) noexcept;
+
+/// Where the object's `at` is when its body is there.
+void place_truth(const SimulatedObject& object, const solver::Vector3& centre,
+                 const solver::Matrix3& rotation, ObjectTruth& truth) noexcept;
+
+/// Whether the hook, a point in the world, is near enough to the dock of the object to latch.
+bool is_in_reach(const SimulatedObject& object, const ObjectTruth& truth,
+                 const solver::Vector3& hook) noexcept;
+
+}  // namespace zwang::runtime

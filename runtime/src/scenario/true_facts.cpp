@@ -1,0 +1,59 @@
+#include "scenario/true_facts.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TrueFacts::TrueFacts(const lang::Program& program)
+    : program_(program),
+      frames_(program.frames, program.robot.model, program.signals.size()),
+      values_(lang::truth_names(program.scene.value_or(lang::Scene{})).size(), unknown) {}
+
+void TrueFacts::update(const Truth& truth, const solver::State& state, double torque_share) noexcept {
+  frames_.update(program_.robot.model, state);
+  if (time_ == 0.0) frames_.start_paths();
+  time_ = truth.time;
+  values_[lang::truth_x] = truth.x;
+  values_[lang::truth_y] = truth.y;
+  values_[lang::truth_yaw] = truth.yaw;
+  values_[lang::truth_speed] = truth.velocity.head<2>().norm();
+  values_[lang::truth_turn] = truth.velocity.z();
+  values_[lang::truth_torque] = torque_share;
+  for (std::size_t k = 0; k < truth.objects.size(); ++k) {
+    const ObjectTruth& object = truth.objects[k];
+    double* values = values_.data() + lang::truth_base_count + k * lang::truth_object_count;
+    values[lang::truth_force] = object.force;
+    values[lang::truth_peak] = object.peak_force;
+    values[lang::truth_touched] = object.touched.value_or(unknown);
+    values[lang::truth_object_x] = object.x;
+    values[lang::truth_object_y] = object.y;
+    values[lang::truth_object_yaw] = object.yaw;
+  }
+}
+
+double TrueFacts::look_up(const lang::ExpressionNode& node) const noexcept {
+  const auto index = static_cast<std::size_t>(node.index);
+  switch (node.op) {
+    case lang::Op::parameter:
+      return program_.parameters[index].value;
+    case lang::Op::elapsed:
+      return time_;
+    case lang::Op::signal:
+      return values_[index];
+    case lang::Op::speed:
+      return frames_.signal_of(node.index) >= 0 ? unknown : frames_.speed(node.index);
+    case lang::Op::moved:
+      return frames_.signal_of(node.index) >= 0 ? unknown : frames_.moved(node.index);
+    default:
+      return unknown;
+  }
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,29 @@
+/// What the plant measured, as conditions ask for it.
+#pragma once
+
+#include <vector>
+
+#include "schedule/frame_table.hpp"
+#include "zwang/lang/scenario.hpp"
+#include "zwang/runtime/mujoco_plant.hpp"
+
+namespace zwang::runtime {
+
+class TrueFacts {
+ public:
+  explicit TrueFacts(const lang::Program& program);
+
+  /// `torque_share`: of its limit, of the motor that is nearest to it.
+  void update(const Truth& truth, const solver::State& state, double torque_share) noexcept;
+  /// NaN where nobody knows: an object that was never touched, a frame that hangs on a signal.
+  double look_up(const lang::ExpressionNode& node) const noexcept;
+  double quantity(int index) const noexcept { return values_[static_cast<std::size_t>(index)]; }
+
+ private:
+  const lang::Program& program_;
+  FrameTable frames_;
+  std::vector<double> values_;  ///< in the order of lang::truth_names
+  double time_ = 0.0;
+};
+
+}  // namespace zwang::runtime

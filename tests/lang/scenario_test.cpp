@@ -1,0 +1,189 @@
+// Scenario files: the matrix multiplied out, and mistakes found where they are written.
+#include "zwang/lang/scenario.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace zwang::lang {
+namespace {
+
+using test::rendered;
+
+const char* const good = R"(zwang_scenario: 1
+task: wall_align.yaml
+scene: scenes/wall.yaml
+params: {push: 20 N}
+matrix:
+  start_yaw: [-5 deg, 5 deg]
+  params.push: [10 N, 20 N, 30 N]
+  faults: [none, slip]
+faults:
+  slip: [{at: 1 s, for: 0.5 s, floor_friction: 0.05}]
+expect:
+  - outcome: done
+  - {at: end, that: abs(truth.wall.force - $push) < 0.2 N}
+  - {within: 3 s, of: truth.wall.touched, that: abs(truth.base.yaw) < 0.1 deg}
+  - {always: speed(bumper) < 1 m/s and truth.base.torque <= 1}
+)";
+
+/// The shipped task, robot and scene, with a scenario of the test's own beside them.
+class Shelf {
+ public:
+  explicit Shelf(const std::string& scenario) {
+    for (const char* name : {"wall_align.yaml", "robots/mecanum_base.yaml", "robots/mecanum_base.urdf",
+                             "robots/diff_base.yaml", "robots/diff_base.urdf", "scenes/wall.yaml"})
+      folder_.write(name, test::slurp(test::source_dir / "specs" / name));
+    path = folder_.write("scenario.yaml", scenario);
+  }
+  std::filesystem::path path;
+
+ private:
+  test::Folder folder_;
+};
+
+TEST(Scenario, multiplies_its_matrix_out_with_the_last_key_fastest) {
+  const Shelf shelf(good);
+  Diagnostics diagnostics;
+  const auto scenario = load_scenario(shelf.path, diagnostics);
+  ASSERT_TRUE(scenario) << rendered(diagnostics);
+  ASSERT_EQ(scenario->cells.size(), 12u);
+  EXPECT_EQ(scenario->cells[0].name, "start_yaw -5 deg, push 10 N, faults none");
+  EXPECT_EQ(scenario->cells[1].name, "start_yaw -5 deg, push 10 N, faults slip");
+  EXPECT_EQ(scenario->cells[11].name, "start_yaw 5 deg, push 30 N, faults slip");
+  EXPECT_NEAR(*scenario->cells[0].start_yaw, -5.0 * 3.14159265358979 / 180.0, 1e-12);
+  EXPECT_EQ(scenario->cells[11].parameters.at("push"), "30 N") << "the matrix replaces the fixed value";
+  EXPECT_TRUE(scenario->cells[0].faults.empty());
+  ASSERT_EQ(scenario->cells[1].faults.size(), 1u);
+  EXPECT_EQ(scenario->cells[1].faults[0].kind, FaultKind::floor_friction);
+  EXPECT_EQ(scenario->cells[1].faults[0].duration, 0.5);
+}
+
+TEST(Scenario, resolves_names_of_the_truth_in_the_cells_own_world) {
+  const Shelf shelf(good);
+  Diagnostics of_scenario, of_task;
+  const auto run = load_run(shelf.path, 4, of_scenario, of_task);
+  ASSERT_TRUE(run) << rendered(of_scenario) << rendered(of_task);
+  ASSERT_TRUE(run->program);
+  EXPECT_EQ(run->program->parameters[0].value, 30.0);
+  ASSERT_EQ(run->expectations.size(), 4u);
+  const std::vector<std::string> names = truth_names(*run->program->scene);
+  EXPECT_EQ(names[truth_yaw], "truth.base.yaw");
+  const int touched = int{truth_base_count} + int{truth_touched};
+  EXPECT_EQ(names[static_cast<std::size_t>(touched)], "truth.wall.touched");
+  EXPECT_EQ(run->expectations[2].of, touched);
+  EXPECT_EQ(run->expectations[2].text, "within 3 s of truth.wall.touched: abs(truth.base.yaw) < 0.1 deg");
+}
+
+TEST(Scenario, a_task_that_is_refused_is_no_mistake_of_the_scenario) {
+  const Shelf shelf(R"(zwang_scenario: 1
+task: wall_align.yaml
+params: {push: 20 m}
+expect: [{diagnostic: E202}]
+)");
+  Diagnostics of_scenario, of_task;
+  const auto run = load_run(shelf.path, 0, of_scenario, of_task);
+  ASSERT_TRUE(run);
+  EXPECT_FALSE(run->program);
+  EXPECT_FALSE(of_scenario.has_errors());
+  EXPECT_EQ(test::count(of_task, "E202"), 1);
+}
+
+struct Mistake {
+  const char* from;
+  const char* to;
+  const char* code;
+  int line;
+};
+
+TEST(Scenario, mistakes_are_found_where_they_are_written) {
+  const Mistake mistakes[] = {
+      {"outcome: done", "outcome: don", "E903", 12},
+      {"at: end", "at: start", "E904", 13},
+      {"outcome: done", "always: true < 1", "E301", 12},
+      {"outcome: done", "{outcome: done, diagnostic: E404}", "E904", 12},
+      {"start_yaw: [-5 deg, 5 deg]", "start_yaw: []", "E905", 6},
+      {"of: truth.wall.touched", "of: truth.wall.force", "E906", 14},
+      {"of: truth.wall.touched", "of: truth.wal.touched", "E301", 14},
+      {"floor_friction: 0.05", "samples: gone", "E907", 10},
+      {"floor_friction: 0.05", "floor_friction: 0.05, payload: 3 kg", "E907", 10},
+      {"floor_friction: 0.05", "torque: lost", "E103", 10},
+      {"faults: [none, slip]", "faults: [none, slipp]", "E301", 8},
+      {"start_yaw: [-5 deg, 5 deg]", "start_yaw: [-5 m, 5 deg]", "E202", 6},
+      {"truth.wall.force - $push", "truth.wall.forc - $push", "E301", 13},
+      {"abs(truth.base.yaw) < 0.1 deg", "abs(truth.base.yaw) < 0.1 m", "E202", 14},
+      {"scene: scenes/wall.yaml", "scen: scenes/wall.yaml", "E101", 3},
+      {"task: wall_align.yaml", "task: wall_alin.yaml", "E109", 2},
+      {"zwang_scenario: 1", "zwang_scenario: 2", "E108", 1},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const Shelf shelf(test::replaced(good, mistake.from, mistake.to));
+    Diagnostics of_scenario, of_task;
+    EXPECT_FALSE(load_run(shelf.path, 0, of_scenario, of_task)) << mistake.to;
+    ASSERT_GE(test::count(of_scenario, mistake.code), 1) << mistake.to << "\n" << rendered(of_scenario);
+    EXPECT_EQ(of_scenario.error_count(), 1) << rendered(of_scenario);
+    EXPECT_EQ(of_scenario.sorted()[0].span.begin.line, mistake.line) << rendered(of_scenario);
+  }
+}
+
+TEST(Scene, reads_what_unfolds_in_time) {
+  const test::Folder folder;
+  const auto path = folder.write("scene.yaml", R"(zwang_scene: 1
+state: {position: 2 mm, velocity: 1 cm/s}
+objects:
+  cart:
+    box: [0.6 m, 0.4 m, 0.5 m]
+    at: [2 m, 0 m]
+    motion: [{time: 1 s, at: [2 m, 0 m]}, {time: 3 s, at: [2 m, 1 m], yaw: 90 deg}]
+    dock: {at: [-0.3 m, 0 m], reach: 3 cm, hook: hook}
+signals:
+  loaded: {script: [[0 s, false], [5 s, true]]}
+  partner: {pose_of: cart, noise: 5 mm, angle_noise: 0.5 deg, delay: 100 ms, rate: 20 Hz, dropouts: 5 %}
+faults:
+  - {at: 2 s, wheel: left_wheel, torque: flipped}
+  - {at: 3 s, for: 10 ms, samples: nan}
+)");
+  Diagnostics diagnostics;
+  const auto scene = load_scene(path, diagnostics);
+  ASSERT_TRUE(scene) << rendered(diagnostics);
+  EXPECT_EQ(scene->state.velocity, 0.01);
+  ASSERT_EQ(scene->objects[0].motion.size(), 2u);
+  EXPECT_NEAR(scene->objects[0].motion[1].yaw, 3.14159265358979 / 2.0, 1e-12);
+  EXPECT_EQ(scene->objects[0].dock->reach, 0.03);
+  EXPECT_EQ(scene->signals[1].period, 0.05);
+  EXPECT_EQ(scene->signals[1].dropouts, 0.05);
+  EXPECT_EQ(scene->signals[0].script[1].value, 1.0);
+  EXPECT_EQ(scene->faults[0].joint, "left_wheel");
+  EXPECT_EQ(scene->faults[1].kind, FaultKind::samples_nan);
+}
+
+TEST(Scene, mistakes_in_what_unfolds_are_found_where_they_are_written) {
+  const char* const text = R"(zwang_scene: 1
+objects:
+  cart: {box: [0.6 m, 0.4 m, 0.5 m], at: [2 m, 0 m], motion: [{time: 1 s, at: [2 m, 0 m]}, {time: 3 s, at: [2 m, 1 m]}]}
+signals:
+  loaded: {script: [[0 s, false], [5 s, true]]}
+  partner: {pose_of: cart, dropouts: 5 %}
+)";
+  const Mistake mistakes[] = {
+      {"[5 s, true]", "[0 s, true]", "E908", 5},
+      {"[5 s, true]", "[5 s]", "E908", 5},
+      {"time: 3 s", "time: 1 s", "E908", 3},
+      {"pose_of: cart", "pose_of: car", "E301", 6},
+      {"pose_of: cart", "pose_of: cart, latch: cart", "E908", 6},
+      {"dropouts: 5 %", "dropouts: 100 %", "E908", 6},
+      {"at: [2 m, 0 m], motion", "at: [2 m, 0 m], mass: 3 kg, motion", "E902", 3},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const test::Folder folder;
+    Diagnostics diagnostics;
+    EXPECT_FALSE(
+        load_scene(folder.write("s.yaml", test::replaced(text, mistake.from, mistake.to)), diagnostics));
+    ASSERT_GE(test::count(diagnostics, mistake.code), 1) << mistake.to << "\n" << rendered(diagnostics);
+    EXPECT_EQ(diagnostics.error_count(), 1) << rendered(diagnostics);
+    EXPECT_EQ(diagnostics.sorted()[0].span.begin.line, mistake.line) << rendered(diagnostics);
+  }
+}
+
+}  // namespace
+}  // namespace zwang::lang

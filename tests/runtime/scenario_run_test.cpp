@@ -1,0 +1,106 @@
+// Scenarios judged: what holds is said to hold, what does not is missed with its margin.
+#include "zwang/runtime/scenario_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace zwang::runtime {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs the first cell of a scenario over the shipped wall alignment.
+CellResult run_scenario(const std::string& text) {
+  const fs::path folder = fs::path(testing::TempDir()) / "scenario_run";
+  for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "robots/skid_base.yaml",
+                           "robots/skid_base.urdf", "scenes/wall.yaml", "wall_align.yaml"}) {
+    fs::create_directories((folder / name).parent_path());
+    fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name,
+                  fs::copy_options::overwrite_existing);
+  }
+  std::ofstream(folder / "scenario.yaml") << "zwang_scenario: 1\ntask: wall_align.yaml\n" << text;
+  lang::Diagnostics of_scenario, of_task;
+  const auto scenario = lang::load_scenario(folder / "scenario.yaml", of_scenario);
+  const auto run = lang::load_run(folder / "scenario.yaml", 0, of_scenario, of_task);
+  std::ostringstream words;
+  lang::render_human(of_scenario, words);
+  if (!scenario || !run) throw std::runtime_error(words.str());
+  std::vector<std::string> codes;
+  for (const lang::Diagnostic& d : of_task.all()) codes.push_back(d.code);
+  return run_cell(*scenario, scenario->cells[0], *run, codes);
+}
+
+TEST(ScenarioRun, TheWallAlignmentKeepsWhatIsExpectedOfIt) {
+  const CellResult result = run_scenario(R"(expect:
+  - outcome: done
+  - {at: end, that: abs(truth.wall.force - 20 N) < 0.2 N and abs(truth.base.yaw) < 0.1 deg}
+  - {within: 3 s, of: truth.wall.touched, that: abs(truth.base.yaw) < 0.1 deg}
+  - {always: speed(base_link) < 0.12 m/s}
+  - {at: end, that: moved(base_link) > 0.4 m and elapsed > 5 s}
+)");
+  EXPECT_TRUE(result.passed);
+  EXPECT_EQ(result.outcome, "done");
+  for (const ExpectationResult& expected : result.expectations) EXPECT_TRUE(expected.held) << expected.text;
+  ASSERT_TRUE(result.expectations[1].margin);
+  EXPECT_GT(*result.expectations[1].margin, 0.5);
+}
+
+TEST(ScenarioRun, WhatDoesNotHoldIsMissedWithItsMargin) {
+  const CellResult result = run_scenario(R"(expect:
+  - outcome: failed
+  - {at: end, that: truth.wall.force < 10 N}
+  - {within: 10 ms, of: truth.wall.touched, that: abs(truth.base.yaw) < 0.1 deg}
+  - {always: truth.base.speed < 0.04 m/s}
+  - {within: 1 s, of: truth.wall.touched, that: truth.wall.force > 100 N}
+  - {at: end, that: not truth.wall.force < 10 N}
+)");
+  EXPECT_FALSE(result.passed);
+  ASSERT_EQ(result.expectations.size(), 6u);
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(result.expectations[static_cast<std::size_t>(i)].held) << i;
+  EXPECT_NEAR(*result.expectations[1].margin, -1.0, 0.02) << "20 N where 10 N were allowed";
+  EXPECT_LT(*result.expectations[2].margin, 0.0) << "square too late";
+  EXPECT_LT(*result.expectations[3].margin, -0.95) << "0.08 m/s and more where 0.04 m/s were allowed";
+  EXPECT_FALSE(result.expectations[4].margin) << "it never held to the end";
+  EXPECT_TRUE(result.expectations[5].held);
+}
+
+TEST(ScenarioRun, ARefusedTaskHasItsCodes) {
+  const CellResult refused =
+      run_scenario("params: {push: 200 N}\nexpect: [{outcome: refused}, {diagnostic: E204}]\n");
+  EXPECT_TRUE(refused.passed) << refused.because;
+  const CellResult missed =
+      run_scenario("params: {push: 200 N}\nexpect: [{outcome: done}, {diagnostic: E404}]\n");
+  EXPECT_FALSE(missed.expectations[0].held);
+  EXPECT_FALSE(missed.expectations[1].held);
+}
+
+TEST(ScenarioRun, ARunThatGoesOnForTooLongIsUnfinished) {
+  const CellResult result = run_scenario("time_limit: 0.5 s\nexpect: [{outcome: done}]\n");
+  EXPECT_EQ(result.outcome, "unfinished");
+  EXPECT_FALSE(result.passed);
+  EXPECT_NEAR(result.simulated, 0.5, 1e-6);
+}
+
+TEST(ScenarioRun, APlantThatFailsIsNeverAPass) {
+  const CellResult result = run_scenario(R"(faults: {broken: [{at: 1 s, plant: diverges}]}
+matrix: {faults: [broken]}
+expect: [{outcome: done}]
+)");
+  EXPECT_EQ(result.outcome, "diverged");
+  EXPECT_FALSE(result.passed);
+}
+
+TEST(ScenarioRun, AFaultOfAJointThatTheRobotDoesNotHaveIsSaid) {
+  const CellResult result = run_scenario(R"(faults: {broken: [{at: 1 s, wheel: left_wheel, torque: lost}]}
+matrix: {faults: [broken]}
+expect: [{outcome: done}]
+)");
+  EXPECT_EQ(result.outcome, "error");
+  EXPECT_NE(result.because.find("left_wheel"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zwang::runtime

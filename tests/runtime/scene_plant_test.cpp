@@ -1,0 +1,342 @@
+// A scene as it unfolds: scripted motion, signals measured badly, hooks that latch, faults, and friction in
+// the joints. Expected values are the formulas of what the scene says.
+#include "zwang/runtime/scene_plant.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+namespace zwang::runtime {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double period = 1e-3;
+constexpr double degree = std::numbers::pi / 180.0;
+
+const char* const task_text = R"(zwang: 1
+robot: robots/mecanum_base.yaml
+signals:
+  partner: {type: pose, in: hook, stale_after: 1 s}
+  near: {type: number, unit: m, stale_after: 1 s}
+  latch: {type: bool, stale_after: 1 s}
+  loaded: {type: bool, stale_after: 1 s}
+start: stand
+tasks:
+  stand:
+    constraints:
+      stand: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: elapsed > 1 s, goto: done}
+)";
+
+lang::Program program_with(const std::string& scene) {
+  const fs::path folder = fs::path(testing::TempDir()) / "scene_plant";
+  fs::create_directories(folder / "robots");
+  for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf"}) {
+    fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name,
+                  fs::copy_options::overwrite_existing);
+  }
+  std::ofstream(folder / "task.yaml") << task_text;
+  std::ofstream(folder / "scene.yaml") << "zwang_scene: 1\n" << scene;
+  lang::LoadOptions options;
+  options.scene = folder / "scene.yaml";
+  lang::Diagnostics diagnostics;
+  auto program = lang::load(folder / "task.yaml", options, diagnostics);
+  std::ostringstream text;
+  lang::render_human(diagnostics, text);
+  if (!program) throw std::runtime_error(text.str());
+  return *program;
+}
+
+/// Steps the plant without torque, or with `tau`, and calls `look` with each sample.
+template <typename Look>
+void follow(ScenePlant& plant, const lang::Program& program, double seconds, const Eigen::VectorXd& tau,
+            const Look& look) {
+  Sensed sensed(program.robot.model, program.signals.size());
+  const int ticks = static_cast<int>(std::lround(seconds / period));
+  for (int i = 0; i < ticks; ++i) {
+    const PlantStatus status = plant.sense(sensed);
+    look(sensed, status);
+    if (plant.apply(tau) != PlantStatus::ok) return;
+  }
+}
+
+const Eigen::VectorXd idle = Eigen::VectorXd::Zero(4);
+
+const char* const cart = R"(objects:
+  cart:
+    box: [0.6 m, 0.4 m, 0.5 m]
+    at: [-2 m, 0.3 m]
+    motion: [{time: 0.5 s, at: [-2 m, 0.3 m]}, {time: 1.5 s, at: [-3 m, 0.8 m], yaw: 90 deg}]
+)";
+
+TEST(ScenePlant, ScriptedObjectsFollowTheirScript) {
+  const lang::Program program = program_with(cart);
+  ScenePlant plant(program);
+  follow(plant, program, 2.0, idle, [&](const Sensed&, PlantStatus) {
+    const ObjectTruth& object = plant.truth().objects[0];
+    const double share = std::clamp(plant.truth().time - period - 0.5, 0.0, 1.0);
+    if (plant.truth().time == 0.0) return;
+    // The truth is that of the step's end; a script is looked up at its beginning.
+    ASSERT_NEAR(object.x, -2.0 - share, 1.5e-3);
+    ASSERT_NEAR(object.y, 0.3 + 0.5 * share, 1.5e-3);
+    ASSERT_NEAR(object.yaw, 90.0 * degree * share, 3e-3);
+  });
+}
+
+// It comes from behind at 1 m/s and takes the 46 kg base along.
+TEST(ScenePlant, ScriptedObjectsPushWhatStandsInTheirWay) {
+  const lang::Program program = program_with(R"(objects:
+  cart:
+    box: [0.6 m, 0.4 m, 0.5 m]
+    at: [-1 m, 0 m]
+    motion: [{time: 0 s, at: [-1 m, 0 m]}, {time: 2 s, at: [0 m, 0 m]}]
+)");
+  ScenePlant plant(program);
+  follow(plant, program, 2.0, idle, [](const Sensed&, PlantStatus) {});
+  EXPECT_GT(plant.truth().x, 0.69);
+  EXPECT_GT(plant.truth().objects[0].peak_force, 10.0);
+  EXPECT_NEAR(plant.truth().objects[0].x, 0.0, 2e-3) << "the base does not hold it up";
+}
+
+// The hook looks back from x = -0.40 m: the cart at (-2, 0.3) stands 1.6 m ahead of it and 0.3 m to its
+// right.
+TEST(ScenePlant, PoseSignalsAreSeenFromTheirFrame) {
+  const lang::Program program = program_with(std::string(cart) + "signals: {partner: {pose_of: cart}}\n");
+  ScenePlant plant(program);
+  Sensed sensed(program.robot.model, program.signals.size());
+  ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+  const SignalSample& partner = sensed.signals[0];
+  EXPECT_TRUE(partner.valid);
+  EXPECT_NEAR(partner.pose.position.x(), 1.6, 1e-4);
+  EXPECT_NEAR(partner.pose.position.y(), -0.3, 1e-4);
+  EXPECT_NEAR(std::abs(std::atan2(partner.pose.rotation(1, 0), partner.pose.rotation(0, 0))),
+              std::numbers::pi, 1e-4);
+  EXPECT_FALSE(sensed.signals[1].valid) << "nobody measures it";
+}
+
+// A dock at the near face of a box whose origin lies 1.7 m behind the base: its x axis points on into the
+// box, as the hook's does.
+TEST(ScenePlant, OfAnObjectWithADockTheSocketIsSeen) {
+  const lang::Program program = program_with(R"(objects:
+  dock:
+    box: [0.6 m, 0.5 m, 0.4 m]
+    at: [-1.7 m, 0.1 m]
+    fixed: true
+    dock: {at: [0.3 m, 0 m], hook: hook}
+signals: {partner: {pose_of: dock}}
+)");
+  ScenePlant plant(program);
+  Sensed sensed(program.robot.model, program.signals.size());
+  ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+  const solver::Pose& seen = sensed.signals[0].pose;
+  EXPECT_NEAR(seen.position.x(), 1.0, 1e-4);
+  EXPECT_NEAR(seen.position.y(), -0.1, 1e-4);
+  EXPECT_NEAR(std::atan2(seen.rotation(1, 0), seen.rotation(0, 0)), 0.0, 1e-4);
+}
+
+TEST(ScenePlant, DelayAndRateAreKept) {
+  const lang::Program program =
+      program_with(std::string(cart) + "signals: {near: {distance_to: cart, delay: 100 ms, rate: 20 Hz}}\n");
+  ScenePlant plant(program);
+  double first = -1.0, last_stamp = -1.0;
+  std::vector<double> stamps;
+  follow(plant, program, 1.5, idle, [&](const Sensed& sensed, PlantStatus) {
+    const SignalSample& near = sensed.signals[1];
+    if (!near.valid) return;
+    if (first < 0.0) first = sensed.time;
+    ASSERT_LE(near.stamp, sensed.time - 0.1 + 1e-9);
+    ASSERT_GE(near.stamp, sensed.time - 0.15 - 1e-9);
+    if (near.stamp != last_stamp) stamps.push_back(near.stamp);
+    last_stamp = near.stamp;
+  });
+  EXPECT_NEAR(first, 0.1, 1e-9);
+  ASSERT_GE(stamps.size(), 25u);
+  for (std::size_t i = 1; i < stamps.size(); ++i) EXPECT_NEAR(stamps[i] - stamps[i - 1], 0.05, 1e-9);
+}
+
+struct Statistics {
+  double mean = 0.0, deviation = 0.0, share_valid = 0.0;
+  std::vector<double> values;
+};
+
+Statistics distances(const std::string& measured, std::uint64_t seed) {
+  const lang::Program program = program_with(
+      "objects: {post: {cylinder: {radius: 0.5 m, height: 1 m}, at: [3 m, 4 m]}}\nsignals: {near: {" +
+      measured + "}}\n");
+  ScenePlantOptions options;
+  options.seed = seed;
+  ScenePlant plant(program, options);
+  Statistics s;
+  int ticks = 0;
+  follow(plant, program, 4.0, idle, [&](const Sensed& sensed, PlantStatus) {
+    ++ticks;
+    if (sensed.signals[1].valid) s.values.push_back(sensed.signals[1].number);
+  });
+  for (const double v : s.values) s.mean += v / static_cast<double>(s.values.size());
+  for (const double v : s.values)
+    s.deviation += (v - s.mean) * (v - s.mean) / static_cast<double>(s.values.size());
+  s.deviation = std::sqrt(s.deviation);
+  s.share_valid = static_cast<double>(s.values.size()) / ticks;
+  return s;
+}
+
+// 4000 samples: the mean is known to sigma / 63, sigma to 1.1 %, a share of 0.2 to 0.006; bounds at four
+// times.
+TEST(ScenePlant, NoiseAndDropoutsAreAsLargeAsTheSceneSays) {
+  const Statistics clean = distances("distance_to: post", 1);
+  EXPECT_NEAR(clean.mean, 4.5, 1e-4) << "5 m less the radius";
+  EXPECT_LT(clean.deviation, 1e-4);
+  const Statistics noisy = distances("distance_to: post, noise: 20 mm, dropouts: 20 %", 1);
+  EXPECT_NEAR(noisy.mean, 4.5, 4.0 * 0.02 / 56.0);
+  EXPECT_NEAR(noisy.deviation, 0.02, 0.05 * 0.02);
+  EXPECT_NEAR(noisy.share_valid, 0.8, 0.026);
+}
+
+TEST(ScenePlant, OneSeedIsOneRun) {
+  const char* const measured = "distance_to: post, noise: 20 mm, dropouts: 20 %";
+  EXPECT_EQ(distances(measured, 7).values, distances(measured, 7).values);
+  EXPECT_NE(distances(measured, 7).values, distances(measured, 8).values);
+}
+
+TEST(ScenePlant, ScriptedSignalsStepAtTheirTimes) {
+  const lang::Program program =
+      program_with("signals: {loaded: {script: [[0.1 s, false], [0.2 s, true], [0.3 s, lost]]}}\n");
+  ScenePlant plant(program);
+  follow(plant, program, 0.4, idle, [&](const Sensed& sensed, PlantStatus) {
+    const SignalSample& loaded = sensed.signals[3];
+    const int tick = static_cast<int>(std::lround(sensed.time / period));
+    EXPECT_EQ(loaded.valid, tick >= 100 && tick < 300) << sensed.time;
+    if (loaded.valid) {
+      EXPECT_EQ(loaded.boolean, tick >= 200) << sensed.time;
+    }
+  });
+}
+
+/// Pushes all wheels ahead (or back) with this force [N].
+Eigen::VectorXd push(double force) {
+  return Eigen::VectorXd::Constant(4, force * 0.0759 / 4.0);
+}
+
+// The base backs up into a dock 0.1 m behind its hook; once latched, it cannot be pulled away.
+TEST(ScenePlant, AHookLatchesInItsDockAndHolds) {
+  const lang::Program program = program_with(R"(objects:
+  dock:
+    box: [0.4 m, 0.4 m, 0.5 m]
+    at: [-0.70 m, 0 m]
+    fixed: true
+    dock: {at: [0.2 m, 0 m], reach: 1 cm, hook: hook}
+signals: {latch: {latch: dock}}
+)");
+  ScenePlant plant(program);
+  double latched_at = -1.0;
+  follow(plant, program, 2.0, push(-20.0), [&](const Sensed& sensed, PlantStatus) {
+    if (sensed.signals[2].boolean && latched_at < 0.0) {
+      latched_at = sensed.time;
+      EXPECT_NEAR(plant.truth().x, -0.09, 2e-3) << "within reach of the socket at -0.5 m";
+    }
+  });
+  ASSERT_GT(latched_at, 0.0);
+  EXPECT_TRUE(plant.truth().objects[0].latched);
+  const double before = plant.truth().x;
+  follow(plant, program, 1.0, push(30.0), [](const Sensed&, PlantStatus) {});
+  EXPECT_NEAR(plant.truth().x, before, 2e-3);
+}
+
+ScenePlantOptions with_fault(lang::FaultKind kind, double at, double duration, const char* joint = "",
+                             double value = 0.0) {
+  ScenePlantOptions options;
+  options.faults.push_back(lang::Fault{kind, at, duration, joint, value, {}});
+  return options;
+}
+
+TEST(ScenePlant, SamplesAreLostSpoiltAndFrozenForAsLongAsTheFaultLasts) {
+  const lang::Program program = program_with("");
+  using lang::FaultKind;
+  for (const FaultKind kind : {FaultKind::samples_lost, FaultKind::samples_nan, FaultKind::samples_frozen,
+                               FaultKind::clock_backwards}) {
+    ScenePlant plant(program, with_fault(kind, 0.1, 0.05));
+    double frozen = 0.0;
+    follow(plant, program, 0.2, push(20.0), [&](const Sensed& sensed, PlantStatus status) {
+      const int tick = static_cast<int>(std::lround(plant.truth().time / period));
+      const bool faulty = tick >= 100 && tick < 150;
+      const double vx = sensed.state.base_twist.linear.x();
+      if (tick == 100) frozen = vx;
+      EXPECT_EQ(status == PlantStatus::unreachable, faulty && kind == FaultKind::samples_lost) << tick;
+      EXPECT_EQ(std::isnan(vx), faulty && kind == FaultKind::samples_nan) << tick;
+      if (faulty && kind == FaultKind::samples_frozen) {
+        EXPECT_EQ(vx, frozen);
+      }
+      if (faulty && kind == FaultKind::clock_backwards) {
+        EXPECT_NEAR(sensed.time, 0.09, 1e-9);
+      }
+    });
+    EXPECT_GT(plant.truth().velocity.x(), 0.0);
+  }
+}
+
+// Four wheels push with 20 N. Without one of them three push, and the base turns; with one flipped two are
+// left over. A tenth of a second: afterwards the turning base's own axes matter.
+TEST(ScenePlant, MotorsFailAsTold) {
+  const lang::Program program = program_with("");
+  const auto speed = [&](lang::FaultKind kind, double at) {
+    ScenePlant plant(program, with_fault(kind, at, 10.0, "front_left_wheel"));
+    follow(plant, program, 0.1, push(20.0), [](const Sensed&, PlantStatus) {});
+    return plant.truth().velocity.x();
+  };
+  const double whole = speed(lang::FaultKind::torque_lost, 9.0);
+  EXPECT_NEAR(speed(lang::FaultKind::torque_lost, 0.0), 0.75 * whole, 0.02 * whole);
+  EXPECT_NEAR(speed(lang::FaultKind::torque_flipped, 0.0), 0.5 * whole, 0.02 * whole);
+  EXPECT_NEAR(speed(lang::FaultKind::torque_stuck, 0.02), whole, 1e-9) << "the command does not change";
+}
+
+TEST(ScenePlant, APayloadMakesTheBaseHeavierAndASlipperyFloorLetsItSlip) {
+  const lang::Program program = program_with("");
+  const auto speed = [&](const ScenePlantOptions& options, double force) {
+    ScenePlant plant(program, options);
+    follow(plant, program, 0.5, push(force), [](const Sensed&, PlantStatus) {});
+    return plant.truth().velocity.x();
+  };
+  // 46 kg, and of each wheel half its mass and its rotor: 4 (0.0066249 + 26^2 13.5e-6) / 0.0759^2 = 10.94 kg.
+  const double apparent = 46.0 + 4.0 * (0.0066249 + 676.0 * 13.5e-6) / (0.0759 * 0.0759);
+  const double light = speed({}, 20.0);
+  EXPECT_NEAR(light, 20.0 / apparent * 0.5, 0.01 * light);
+  const double heavy = speed(with_fault(lang::FaultKind::payload, 0.0, 10.0, "", 15.0), 20.0);
+  EXPECT_NEAR(heavy, 20.0 / (apparent + 15.0) * 0.5, 0.01 * heavy);
+  // 60 N asked of a floor that gives 0.05 m g = 22.6 N.
+  const double slipping = speed(with_fault(lang::FaultKind::floor_friction, 0.0, 10.0, "", 0.05), 60.0);
+  EXPECT_LT(slipping, 1.15 * 0.05 * 9.81 * 0.5);
+  EXPECT_GT(slipping, 0.5 * 0.05 * 9.81 * 0.5);
+}
+
+TEST(ScenePlant, ADivergedPlantStaysDiverged) {
+  const lang::Program program = program_with("");
+  ScenePlant plant(program, with_fault(lang::FaultKind::plant_diverges, 0.1, 0.001));
+  follow(plant, program, 0.3, idle, [](const Sensed&, PlantStatus) {});
+  EXPECT_NEAR(plant.truth().time, 0.1, 1e-9);
+  Sensed sensed(program.robot.model);
+  EXPECT_EQ(plant.sense(sensed), PlantStatus::diverged);
+}
+
+// 0.1 N m in each of four wheels: below 4 x 0.1 N m / R = 5.27 N nothing moves, above it the rest
+// accelerates.
+TEST(ScenePlant, DryFrictionOfTheJointsHoldsAndThenYields) {
+  lang::Program program = program_with("");
+  for (lang::JointFriction& friction : program.robot.friction) friction.coulomb = 0.1;
+  const double held = 0.4 / 0.0759;
+  const auto moved = [&](double force) {
+    ScenePlant plant(program);
+    follow(plant, program, 1.0, push(force), [](const Sensed&, PlantStatus) {});
+    return plant.truth();
+  };
+  EXPECT_LT(std::abs(moved(0.9 * held).x), 1e-4);
+  const double apparent = 46.0 + 4.0 * (0.0066249 + 676.0 * 13.5e-6) / (0.0759 * 0.0759);
+  const double v = moved(held + 10.0).velocity.x();
+  EXPECT_NEAR(v, 10.0 / apparent, 0.02 * v);
+}
+
+}  // namespace
+}  // namespace zwang::runtime
