@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "base/whitened_rows.hpp"
-#include "constraint/ground.hpp"
+#include "constraint/add_rows.hpp"
 #include "input_check.hpp"
 #include "sweep/sweeps.hpp"
 #include "zwang/solver/solver.hpp"
@@ -27,22 +27,10 @@ struct WhitenedRobot {
         rows(ground + base + model.joint_count() + 1) {
     outward_kinematics(model, state, Vector6::Zero(), sweeps);
     load_bodies_at_rest(sweeps);
-    for (int i = 0; i < ground; ++i) {
-      const GroundRow held = ground_row(i, model, sweeps);
-      sweeps.columns.add_row(held.body, held.a);
-    }
+    add_ground_rows(model, sweeps, [](int, const GroundRow&) {});
     for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, Vector6::Unit(i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
-    if (row != nullptr) {
-      const auto body = [this](int i) -> const BodySweep& {
-        return sweeps.bodies[static_cast<std::size_t>(i)];
-      };
-      sweeps.columns.add_row(row->body, body(row->body).to_base(row->a));
-      if (row->reference_body >= 0) {
-        sweeps.columns.extend_last_row(row->reference_body,
-                                       body(row->reference_body).to_base(-row->a_reference));
-      }
-    }
+    if (row != nullptr) add_row(*row, sweeps);
     const Eigen::VectorXd no_torque = Eigen::VectorXd::Zero(model.joint_count());
     if (!inward_inertia(model, no_torque, sweeps)) {
       throw std::invalid_argument("analysis: an inertia of the model cannot be inverted");

@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "base/whitened_rows.hpp"
-#include "constraint/ground.hpp"
+#include "constraint/add_rows.hpp"
 #include "input_check.hpp"
 #include "sweep/sweeps.hpp"
 
@@ -38,18 +38,8 @@ struct PopovVereshchagin::Workspace {
 
   /// `wanted`: b by row id.
   void add_rows(const std::vector<AccelerationRow>& rows) noexcept {
-    sweeps.columns.clear();
-    for (int i = 0; i < ground; ++i) {
-      const GroundRow row = ground_row(i, model, sweeps);
-      wanted(sweeps.columns.add_row(row.body, row.a)) = row.bias;
-    }
-    for (const AccelerationRow& row : rows) {
-      wanted(sweeps.columns.add_row(row.body, body_sweep(row.body).to_base(row.a))) = row.b;
-      if (row.reference_body >= 0) {
-        sweeps.columns.extend_last_row(row.reference_body,
-                                       body_sweep(row.reference_body).to_base(-row.a_reference));
-      }
-    }
+    add_ground_rows(model, sweeps, [this](int id, const GroundRow& row) { wanted(id) = row.bias; });
+    for (const AccelerationRow& row : rows) wanted(add_row(row, sweeps)) = row.b;
   }
 
   /// nu = L^-1 (b - g), line 21: the ground's rows are held, the given ones then met as well as that leaves.

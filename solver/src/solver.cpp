@@ -6,7 +6,7 @@
 
 #include "base/bounded_problem.hpp"
 #include "base/whitened_rows.hpp"
-#include "constraint/ground.hpp"
+#include "constraint/add_rows.hpp"
 #include "input_check.hpp"
 #include "sweep/sweeps.hpp"
 
@@ -109,25 +109,11 @@ struct Solver::Workspace {
   int first_joint_row() const { return ground + base; }
   int first_task_row() const { return ground + base + model.joint_count(); }
 
-  void add_ground_rows() noexcept {
-    for (int i = 0; i < ground; ++i) {
-      const GroundRow row = ground_row(i, model, sweeps);
-      ground_bias(sweeps.columns.add_row(row.body, row.a)) = row.bias;
-    }
-  }
-
   void add_rows(const std::vector<Row>& rows) noexcept {
-    sweeps.columns.clear();
-    add_ground_rows();
+    add_ground_rows(model, sweeps, [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
     for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, base_freedom(model, i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
-    for (const Row& row : rows) {
-      sweeps.columns.add_row(row.body, body_sweep(row.body).to_base(row.a));
-      if (row.reference_body >= 0) {
-        sweeps.columns.extend_last_row(row.reference_body,
-                                       body_sweep(row.reference_body).to_base(-row.a_reference));
-      }
-    }
+    for (const Row& row : rows) add_row(row, sweeps);
   }
 
   /// Feed-forward torque acts as far as the motor can make it.
@@ -250,11 +236,9 @@ Status Solver::project_velocity(State& state) noexcept {
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
-  w.sweeps.columns.clear();
-  for (int i = 0; i < w.ground; ++i) {
-    const GroundRow row = ground_row(i, w.model, w.sweeps);
-    w.forces(w.sweeps.columns.add_row(row.body, row.a)) = -row.a.dot(w.body_sweep(row.body).v);
-  }
+  add_ground_rows(w.model, w.sweeps, [&w](int id, const GroundRow& row) {
+    w.forces(id) = -row.a.dot(w.body_sweep(row.body).v);
+  });
   load_bodies_at_rest(w.sweeps);
   w.tau_ff.setZero();
   if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cholesky.hpp"
 #include "pairs.hpp"
 
 namespace zwang::solver {
@@ -110,24 +111,20 @@ void WhitenedRows::motion_multipliers(const Eigen::VectorXd& rhs, int ground, in
 void WhitenedRows::least_squares(const Eigen::VectorXd& rhs, int ground, int rows,
                                  Eigen::VectorXd& nu) noexcept {
   const int r = mobility();
-  const auto B = W_.block(ground, ground_rank_, rows - ground, r);
-  auto factor = gram_.topLeftCorner(r, r);
-  for (int k = 0; k < r; ++k) {  // Cholesky of B'B, lower
-    for (int i = k; i < r; ++i) {
-      const double left = B.col(i).dot(B.col(k)) - factor.row(i).head(k).dot(factor.row(k).head(k));
-      factor(i, k) = i == k ? std::sqrt(left) : left / factor(k, k);
-    }
+  const int n = rows - ground;
+  const auto B = [this, ground](int column) { return &W_(ground, ground_rank_ + column); };
+  double* const y = substitution_.data();
+  for (int k = 0; k < r; ++k) {
+    for (int c = 0; c <= k; ++c) gram_(k, c) = dot(n, B(k), B(c));
+    y[k] = dot(n, B(k), rhs.data() + ground);
   }
-  auto y = substitution_.head(r);
-  for (int k = 0; k < r; ++k) y(k) = B.col(k).dot(rhs.segment(ground, rows - ground));
+  cholesky(gram_, r, 0.0);
   for (int pass = 0; pass < 2; ++pass) {
-    for (int k = 0; k < r; ++k) y(k) = (y(k) - factor.row(k).head(k).dot(y.head(k))) / factor(k, k);
-    for (int k = r - 1; k >= 0; --k) {
-      for (int i = k + 1; i < r; ++i) y(k) -= factor(i, k) * y(i);
-      y(k) /= factor(k, k);
-    }
+    solve_lower(gram_, r, y);
+    solve_upper(gram_, r, y);
   }
-  for (int i = ground; i < rows; ++i) nu(i) = B.row(i - ground).dot(y);
+  std::fill_n(nu.data() + ground, n, 0.0);
+  for (int k = 0; k < r; ++k) add_multiple(n, y[k], B(k), nu.data() + ground);
 }
 
 void WhitenedRows::hold_ground(const Eigen::VectorXd& bias) noexcept {
