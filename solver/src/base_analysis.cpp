@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "base/whitened_rows.hpp"
-#include "constraint/ground.hpp"
+#include "constraint/add_rows.hpp"
 #include "input_check.hpp"
 #include "sweep/sweeps.hpp"
 #include "zwang/solver/solver.hpp"
@@ -25,33 +25,22 @@ struct WhitenedRobot {
         base(model.has_fixed_base() ? 0 : 6),
         sweeps(model, ground + base + model.joint_count() + 1),
         rows(ground + base + model.joint_count() + 1) {
-    outward_kinematics(model, state, false, Vector3::Zero(), sweeps);
-    sweeps.clear_rows();
-    for (int i = 0; i < ground; ++i) {
-      const GroundRow held = ground_row(i, model, sweeps);
-      sweeps.add_row(held.body, held.a);
-    }
-    for (int i = 0; i < base; ++i) sweeps.add_row(0, Vector6::Unit(i));
-    for (int j = 0; j < model.joint_count(); ++j) sweeps.add_joint_row(j);
-    if (row != nullptr) {
-      const auto body = [this](int i) -> const BodySweep& {
-        return sweeps.bodies[static_cast<std::size_t>(i)];
-      };
-      sweeps.add_row(row->body, body(row->body).to_base(row->a));
-      if (row->reference_body >= 0) {
-        sweeps.extend_last_row(row->reference_body, body(row->reference_body).to_base(-row->a_reference));
-      }
-    }
+    outward_kinematics(model, state, Vector6::Zero(), sweeps);
+    load_bodies_at_rest(sweeps);
+    add_ground_rows(model, sweeps, [](int, const GroundRow&) {});
+    for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, Vector6::Unit(i));
+    for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
+    if (row != nullptr) add_row(*row, sweeps);
     const Eigen::VectorXd no_torque = Eigen::VectorXd::Zero(model.joint_count());
-    if (!inward_inertia(model, no_torque, Vector6::Zero(), sweeps)) {
+    if (!inward_inertia(model, no_torque, sweeps)) {
       throw std::invalid_argument("analysis: an inertia of the model cannot be inverted");
     }
-    rows.factorise(sweeps.L, ground, base + model.joint_count(), sweeps.rows);
+    rows.factorise(sweeps.columns.L, ground, base + model.joint_count(), sweeps.columns.rows());
   }
 
   Eigen::VectorXd joint(int j) const { return rows.motion(ground + base + j).transpose(); }
   Eigen::VectorXd base_freedom(int i) const { return rows.motion(ground + i).transpose(); }
-  int last_row() const { return sweeps.rows - 1; }
+  int last_row() const { return sweeps.columns.rows() - 1; }
 
   int ground, base;
   Sweeps sweeps;
@@ -71,7 +60,7 @@ int base_mobility(const WhitenedRobot& robot) {
   Eigen::MatrixXd planar(robot.rows.mobility(), 3);
   for (int i = 0; i < 3; ++i) {
     const int row = robot.ground + 2 + i;  // rz, x and y of the six freedoms
-    planar.col(i) = robot.base_freedom(i + 2) / std::sqrt(robot.sweeps.L(row, row));
+    planar.col(i) = robot.base_freedom(i + 2) / std::sqrt(robot.sweeps.columns.L(row, row));
   }
   if (planar.size() == 0) return 0;
   const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(planar).singularValues();
@@ -142,7 +131,7 @@ AxisAnalysis analyse_axis(const Model& model, const State& state, const Attached
   const WhitenedRobot robot(model, rest, &row);
   const Eigen::VectorXd B = robot.rows.motion(robot.last_row()).transpose();
   AxisAnalysis result;
-  result.kappa = robot.rows.free_share(robot.last_row(), robot.sweeps.L);
+  result.kappa = robot.rows.free_share(robot.last_row(), robot.sweeps.columns.L);
   result.effective_mass = result.kappa > unreachable_share ? 1.0 / B.squaredNorm() : infinity;
   if (result.kappa <= unreachable_share) return result;
   const Eigen::VectorXd along = motor_directions(model, robot).transpose() * B;

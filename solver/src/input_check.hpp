@@ -1,25 +1,31 @@
 /// What every entry of the solver asks of its input before it touches anything.
 #pragma once
 
-#include <algorithm>
+#include <Eigen/Core>
 
 #include "zwang/solver/state.hpp"
 
 namespace zwang::solver {
 
+/// 0 where every number is finite, else NaN: infinity times 0 is NaN, and a NaN stays one in every sum.
+template <class Derived>
+double finite_sum(const Eigen::MatrixBase<Derived>& numbers) {
+  return (numbers * 0.0).sum();
+}
+
 inline bool is_finite(const MotionVector& v) {
-  return v.angular.allFinite() && v.linear.allFinite();
+  return finite_sum(v.angular) + finite_sum(v.linear) == 0.0;
 }
 inline bool is_finite(const ForceVector& f) {
-  return f.angular.allFinite() && f.linear.allFinite();
+  return finite_sum(f.angular) + finite_sum(f.linear) == 0.0;
 }
 
 inline bool is_finite(const State& state) {
-  return state.q.allFinite() && state.qd.allFinite() && state.tau_ff.allFinite() &&
-         state.base_pose.rotation.allFinite() && state.base_pose.position.allFinite() &&
-         is_finite(state.base_twist) &&
-         std::all_of(state.f_ext.begin(), state.f_ext.end(),
-                     [](const ForceVector& f) { return is_finite(f); });
+  double sum = finite_sum(state.q) + finite_sum(state.qd) + finite_sum(state.tau_ff) +
+               finite_sum(state.base_pose.rotation) + finite_sum(state.base_pose.position) +
+               finite_sum(state.base_twist.angular) + finite_sum(state.base_twist.linear);
+  for (const ForceVector& f : state.f_ext) sum += finite_sum(f.angular) + finite_sum(f.linear);
+  return sum == 0.0;
 }
 
 inline bool fits(const State& state, const Model& model) {

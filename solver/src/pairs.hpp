@@ -1,5 +1,5 @@
-/// Loops over a few neighbouring numbers, two at a time as every x86-64 and arm64 processor can. For the short
-/// vectors of the solver they cost less than the set-up of Eigen's loops for vectors of any size.
+/// Loops over a few neighbouring numbers, two at a time as every x86-64 and arm64 processor can. For the
+/// short vectors of the solver they cost less than the set-up of Eigen's loops for vectors of any size.
 #pragma once
 
 #include <Eigen/Core>

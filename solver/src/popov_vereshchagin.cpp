@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "base/whitened_rows.hpp"
-#include "constraint/ground.hpp"
+#include "constraint/add_rows.hpp"
 #include "input_check.hpp"
 #include "sweep/sweeps.hpp"
 
@@ -38,29 +38,20 @@ struct PopovVereshchagin::Workspace {
 
   /// `wanted`: b by row id.
   void add_rows(const std::vector<AccelerationRow>& rows) noexcept {
-    sweeps.clear_rows();
-    for (int i = 0; i < ground; ++i) {
-      const GroundRow row = ground_row(i, model, sweeps);
-      wanted(sweeps.add_row(row.body, row.a)) = row.bias;
-    }
-    for (const AccelerationRow& row : rows) {
-      wanted(sweeps.add_row(row.body, body_sweep(row.body).to_base(row.a))) = row.b;
-      if (row.reference_body >= 0) {
-        sweeps.extend_last_row(row.reference_body, body_sweep(row.reference_body).to_base(-row.a_reference));
-      }
-    }
+    add_ground_rows(model, sweeps, [this](int id, const GroundRow& row) { wanted(id) = row.bias; });
+    for (const AccelerationRow& row : rows) wanted(add_row(row, sweeps)) = row.b;
   }
 
   /// nu = L^-1 (b - g), line 21: the ground's rows are held, the given ones then met as well as that leaves.
   /// The rank is that of L, damped or not.
   void solve_base() noexcept {
-    const int m = sweeps.rows;
-    wanted.head(m) -= sweeps.g.head(m);
-    whitened.factorise(sweeps.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
+    const int m = sweeps.columns.rows();
+    wanted.head(m) -= sweeps.columns.g.head(m);
+    whitened.factorise(sweeps.columns.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
     rank = whitened.rank();
     if (settings.damping > 0.0) {
-      sweeps.L.diagonal().segment(ground, m - ground).array() += settings.damping * settings.damping;
-      whitened.factorise(sweeps.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
+      sweeps.columns.L.diagonal().segment(ground, m - ground).array() += settings.damping * settings.damping;
+      whitened.factorise(sweeps.columns.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
     }
     whitened.hold_ground(wanted);
     for (int i = ground; i < m; ++i) wanted(i) -= whitened.held_acceleration(i);
@@ -70,17 +61,9 @@ struct PopovVereshchagin::Workspace {
 
   /// J'A nu: every row's wrench carried rigidly inward to each joint. In the base's coordinates that is a
   /// sum.
-  void carry_wrenches(const std::vector<AccelerationRow>& rows, ConstrainedMotion& result) noexcept {
+  void carry_wrenches(ConstrainedMotion& result) noexcept {
     for (Vector6& wrench : wrenches) wrench.setZero();
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const AccelerationRow& row = rows[i];
-      const double force = nu(ground + static_cast<Eigen::Index>(i));
-      wrenches[static_cast<std::size_t>(row.body)] += body_sweep(row.body).to_base(row.a) * force;
-      if (row.reference_body >= 0) {
-        wrenches[static_cast<std::size_t>(row.reference_body)] -=
-            body_sweep(row.reference_body).to_base(row.a_reference) * force;
-      }
-    }
+    sweeps.columns.add_wrenches(ground, nu, wrenches);
     for (std::size_t i = wrenches.size() - 1; i > 0; --i) {
       result.tau_control(static_cast<Eigen::Index>(i) - 1) += sweeps.bodies[i].S.dot(wrenches[i]);
       wrenches[static_cast<std::size_t>(model.bodies()[i].parent)] += wrenches[i];
@@ -119,12 +102,13 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
       return Status::invalid_input;
   }
 
-  outward_kinematics(model, state, true, gravity, sweeps);
+  outward_kinematics(model, state, base_acceleration, sweeps);
+  load_bodies(state, gravity, sweeps);
   add_rows(rows);
-  if (!inward_inertia(model, state.tau_ff, base_acceleration, sweeps)) return Status::degenerate_model;
+  if (!inward_inertia(model, state.tau_ff, sweeps)) return Status::degenerate_model;
   solve_base();
-  outward_accelerations(model, nu, base_acceleration, sweeps, qdd);
-  if (!qdd.allFinite() || !nu.head(sweeps.rows).allFinite()) return Status::degenerate_model;
+  outward_accelerations(model, nu, sweeps, qdd);
+  if (!qdd.allFinite() || !nu.head(sweeps.columns.rows()).allFinite()) return Status::degenerate_model;
 
   result.qdd = qdd;
   result.rank = rank;
@@ -141,15 +125,10 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
     result.residual(static_cast<Eigen::Index>(i)) = acceleration - row.b;
   }
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
-    const BodySweep& sweep = sweeps.bodies[i];
-    double torque = 0.0;
-    for (std::size_t k = 0; k < sweep.columns.size(); ++k) {
-      torque += sweep.SA[k] * nu(sweeps.origins[static_cast<std::size_t>(sweep.columns[k])].row);
-    }
-    result.constraint_torque(static_cast<Eigen::Index>(i) - 1) = torque;
+    result.constraint_torque(static_cast<Eigen::Index>(i) - 1) = sweeps.bodies[i].constraint_force;
   }
   result.tau_control = state.tau_ff;
-  carry_wrenches(rows, result);
+  carry_wrenches(result);
   return Status::ok;
 }
 

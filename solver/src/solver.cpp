@@ -6,7 +6,7 @@
 
 #include "base/bounded_problem.hpp"
 #include "base/whitened_rows.hpp"
-#include "constraint/ground.hpp"
+#include "constraint/add_rows.hpp"
 #include "input_check.hpp"
 #include "sweep/sweeps.hpp"
 
@@ -109,24 +109,11 @@ struct Solver::Workspace {
   int first_joint_row() const { return ground + base; }
   int first_task_row() const { return ground + base + model.joint_count(); }
 
-  void add_ground_rows() noexcept {
-    for (int i = 0; i < ground; ++i) {
-      const GroundRow row = ground_row(i, model, sweeps);
-      ground_bias(sweeps.add_row(row.body, row.a)) = row.bias;
-    }
-  }
-
   void add_rows(const std::vector<Row>& rows) noexcept {
-    sweeps.clear_rows();
-    add_ground_rows();
-    for (int i = 0; i < base; ++i) sweeps.add_row(0, base_freedom(model, i));
-    for (int j = 0; j < model.joint_count(); ++j) sweeps.add_joint_row(j);
-    for (const Row& row : rows) {
-      sweeps.add_row(row.body, body_sweep(row.body).to_base(row.a));
-      if (row.reference_body >= 0) {
-        sweeps.extend_last_row(row.reference_body, body_sweep(row.reference_body).to_base(-row.a_reference));
-      }
-    }
+    add_ground_rows(model, sweeps, [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
+    for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, base_freedom(model, i));
+    for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
+    for (const Row& row : rows) add_row(row, sweeps);
   }
 
   /// Feed-forward torque acts as far as the motor can make it.
@@ -138,8 +125,8 @@ struct Solver::Workspace {
   }
 
   void factorise() noexcept {
-    whitened.factorise(sweeps.L, ground, first_task_row() - ground, sweeps.rows);
-    for (int i = 0; i < ground; ++i) forces(i) = ground_bias(i) - sweeps.g(i);
+    whitened.factorise(sweeps.columns.L, ground, first_task_row() - ground, sweeps.columns.rows());
+    for (int i = 0; i < ground; ++i) forces(i) = ground_bias(i) - sweeps.columns.g(i);
     whitened.hold_ground(forces);
   }
 
@@ -150,8 +137,8 @@ struct Solver::Workspace {
       const int id = first_task_row() + i;
       const Row& row = rows[static_cast<std::size_t>(i)];
       problem.B(i) = whitened.motion(id);
-      problem.d(i) = row.b - sweeps.g(id) - whitened.held_acceleration(id);
-      problem.set_row(i, row, sweeps.L(id, id));
+      problem.d(i) = row.b - sweeps.columns.g(id) - whitened.held_acceleration(id);
+      problem.set_row(i, row, sweeps.columns.L(id, id));
     }
     int motor = 0;
     for (const int j : motors) {
@@ -163,7 +150,7 @@ struct Solver::Workspace {
 
   /// Torques by joint into `forces`, and the ground's answer to them.
   void collect_forces() noexcept {
-    forces.head(sweeps.rows).setZero();
+    forces.head(sweeps.columns.rows()).setZero();
     int motor = 0;
     for (const int j : motors) forces(first_joint_row() + j) = problem.tau(motor++);
     whitened.ground_multipliers(forces, ground, first_task_row(), forces);
@@ -209,16 +196,17 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   }
 
   w.clamp_feed_forward(state);
-  const Vector6 at_rest = Vector6::Zero();
-  outward_kinematics(w.model, state, true, w.gravity(state), w.sweeps);
+  outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
+  load_bodies(state, w.gravity(state), w.sweeps);
   w.add_rows(rows);
-  if (!inward_inertia(w.model, w.tau_ff, at_rest, w.sweeps)) return Status::degenerate_model;
+  if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
   w.factorise();
   w.pose_problem(rows);
   const bool exact = w.problem.solve(w.settings.max_iterations);
   w.collect_forces();
-  outward_accelerations(w.model, w.forces, at_rest, w.sweeps, w.qdd);
-  if (!w.qdd.allFinite() || !w.forces.head(w.sweeps.rows).allFinite()) return Status::degenerate_model;
+  outward_accelerations(w.model, w.forces, w.sweeps, w.qdd);
+  if (!w.qdd.allFinite() || !w.forces.head(w.sweeps.columns.rows()).allFinite())
+    return Status::degenerate_model;
 
   solution.qdd = w.qdd;
   for (std::size_t i = 0; i < w.sweeps.bodies.size(); ++i) {
@@ -247,20 +235,17 @@ Status Solver::project_velocity(State& state) noexcept {
   if (w.ground == 0) return Status::ok;
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
-  const Vector6 at_rest = Vector6::Zero();
-  outward_kinematics(w.model, state, true, w.gravity(state), w.sweeps);
-  w.sweeps.clear_rows();
-  for (int i = 0; i < w.ground; ++i) {
-    const GroundRow row = ground_row(i, w.model, w.sweeps);
-    w.forces(w.sweeps.add_row(row.body, row.a)) = -row.a.dot(w.body_sweep(row.body).v);
-  }
-  outward_kinematics(w.model, state, false, Vector3::Zero(), w.sweeps);
+  outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
+  add_ground_rows(w.model, w.sweeps, [&w](int id, const GroundRow& row) {
+    w.forces(id) = -row.a.dot(w.body_sweep(row.body).v);
+  });
+  load_bodies_at_rest(w.sweeps);
   w.tau_ff.setZero();
-  if (!inward_inertia(w.model, w.tau_ff, at_rest, w.sweeps)) return Status::degenerate_model;
-  w.whitened.factorise(w.sweeps.L, w.ground, 0, w.sweeps.rows);
+  if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
+  w.whitened.factorise(w.sweeps.columns.L, w.ground, 0, w.sweeps.columns.rows());
   w.whitened.hold_ground(w.forces);
   w.whitened.ground_multipliers(w.forces, w.ground, w.ground, w.forces);
-  outward_accelerations(w.model, w.forces, at_rest, w.sweeps, w.qdd);
+  outward_accelerations(w.model, w.forces, w.sweeps, w.qdd);
   if (!w.qdd.allFinite()) return Status::degenerate_model;
   state.qd += w.qdd;
   if (!w.model.has_fixed_base()) state.base_twist += w.body_sweep(0).from_base(w.body_sweep(0).a);

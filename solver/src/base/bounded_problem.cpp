@@ -137,7 +137,7 @@ void BoundedProblem::factorise_motors() noexcept {
     motor_length_(j) = std::sqrt(squared);
     trace += squared;
   }
-  motors_reach_all_ = factorise(gram_, dimension_, motor_rank_tolerance * trace);
+  motors_reach_all_ = cholesky(gram_, dimension_, motor_rank_tolerance * trace);
 }
 
 /// No multiplier is unbounded: what the motors can do along a row bounds it, one-sided rows by a multiple of

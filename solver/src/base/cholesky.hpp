@@ -23,7 +23,7 @@ inline double eliminate_row(RowMajorMatrix& A, int k) noexcept {
 }
 
 /// The leading n x n block; false, and not finished, when a pivot is not above `least_pivot`.
-inline bool factorise(RowMajorMatrix& A, int n, double least_pivot) noexcept {
+inline bool cholesky(RowMajorMatrix& A, int n, double least_pivot) noexcept {
   for (int k = 0; k < n; ++k) {
     const double pivot = eliminate_row(A, k);
     if (!(pivot > least_pivot)) return false;

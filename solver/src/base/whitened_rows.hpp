@@ -44,24 +44,26 @@ class WhitenedRows {
   /// What holding the ground rows at `bias` (desired minus free acceleration, by row) adds to the
   /// acceleration of rows.
   void hold_ground(const Eigen::VectorXd& bias) noexcept;
-  double held_acceleration(int row) const noexcept {
-    return W_.row(row).head(ground_rank_).dot(held_.head(ground_rank_));
-  }
+  double held_acceleration(int row) const noexcept { return held_acceleration_(row); }
   /// Ground multipliers for the forces `f` on the rows beyond (the ones of hold_ground included). Zero on
   /// redundant rows.
   void ground_multipliers(const Eigen::VectorXd& forces, int ground, int rows, Eigen::VectorXd& nu) noexcept;
 
  private:
-  void eliminate(const RowMajorMatrix& L, int first, int last, int rows, double tolerance) noexcept;
+  int next_pivot(int first, int last, double tolerance) const noexcept;
+  void eliminate(const RowMajorMatrix& L, int first, int last, double tolerance) noexcept;
   void least_squares(const Eigen::VectorXd& rhs, int ground, int rows, Eigen::VectorXd& nu) noexcept;
 
-  RowMajorMatrix W_;
+  Eigen::MatrixXd W_;  ///< with a line to spare
   RowMajorMatrix gram_;
-  Eigen::VectorXd left_;  ///< diagonal of L minus what W explains so far
-  Eigen::VectorXd held_;
+  Eigen::VectorXd left_;  ///< diagonal of L minus what W explains so far; 0 at a pivot
+  Eigen::VectorXd inverse_diagonal_;
+  Eigen::VectorXd inverse_root_;       ///< 1 over the pivot of a column of W
+  Eigen::VectorXd held_;               ///< what the held ground adds, by column of W
+  Eigen::VectorXd held_acceleration_;  ///< W held, by row
   Eigen::VectorXd substitution_;
   std::vector<int> pivots_;
-  std::vector<char> picked_;
+  int rows_ = 0;
   int ground_rank_ = 0;
   int rank_ = 0;
 };

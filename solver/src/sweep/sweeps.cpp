@@ -1,24 +1,13 @@
 #include "sweep/sweeps.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace zwang::solver {
 
 namespace {
 
-/// v x m (RBDA 2.31).
-Vector6 cross_motion(const Vector6& v, const Vector6& m) {
-  const Vector3 w = v.head<3>();
-  Vector6 result;
-  result << w.cross(m.head<3>()), w.cross(m.tail<3>()) + v.tail<3>().cross(m.head<3>());
-  return result;
-}
-
 /// Turns R about its own column k: R Rot(e_k, q).
-void turn_about_column(int k, double q, Matrix3& R) {
-  const double cosine = std::cos(q);
-  const double sine = std::sin(q);
+void turn_about_column(int k, double cosine, double sine, Matrix3& R) {
   const int i = (k + 1) % 3;
   const int j = (k + 2) % 3;
   const Vector3 column = R.col(i);
@@ -27,9 +16,8 @@ void turn_about_column(int k, double q, Matrix3& R) {
 }
 
 /// Turns R about an axis given in its own coordinates, by Rodrigues' formula on each column.
-void turn_about_axis(const Vector3& axis_in_base, double q, Matrix3& R) {
-  const double sine = std::sin(q);
-  const double versine = 1.0 - std::cos(q);
+void turn_about_axis(const Vector3& axis_in_base, double cosine, double sine, Matrix3& R) {
+  const double versine = 1.0 - cosine;
   for (int k = 0; k < 3; ++k) {
     const Vector3 normal = axis_in_base.cross(R.col(k));
     R.col(k) += sine * normal + versine * axis_in_base.cross(normal);
@@ -52,32 +40,68 @@ void place(const Body& body, double q, const BodySweep& parent, BodySweep& sweep
     sweep.S << Vector3::Zero(), axis;
     return;
   }
+  const double cosine = std::cos(q);
+  const double sine = std::sin(q);
   if (k >= 0) {
-    turn_about_column(k, q, sweep.R);
+    turn_about_column(k, cosine, sine, sweep.R);
   } else {
-    turn_about_axis(axis, q, sweep.R);
+    turn_about_axis(axis, cosine, sine, sweep.R);
   }
   sweep.S << axis, sweep.p.cross(axis);
 }
 
-/// The body's own inertia in the base's axes and about its origin, and what its motion, gravity and the world
-/// do to it:
-///   pA = v x* I v - f_ext - I g
-void write_inertia(const RigidInertia& inertia, bool moving, const Vector3& gravity, const ForceVector& f_ext,
-                   BodySweep& sweep) {
-  const RigidInertia turned = inertia.expressed_in({sweep.R, sweep.p});
-  const Vector3& h = turned.first_moment;
-  sweep.IA.topLeftCorner<3, 3>() = turned.rotational;
+/// Twist and velocity products of a body from its parent's:  v = v_p + S qd,  c = c_p + v_p x S qd
+/// (RBDA 2.31).
+void move(double qd, const BodySweep& parent, BodySweep& sweep) {
+  const Vector3 w = parent.v.head<3>();
+  const Vector3 v = parent.v.tail<3>();
+  const Vector3 joint_w = sweep.S.head<3>() * qd;
+  const Vector3 joint_v = sweep.S.tail<3>() * qd;
+  sweep.v.head<3>() = w + joint_w;
+  sweep.v.tail<3>() = v + joint_v;
+  sweep.c.head<3>() = parent.c.head<3>() + w.cross(joint_w);
+  sweep.c.tail<3>() = parent.c.tail<3>() + w.cross(joint_v) + v.cross(joint_w);
+}
+
+/// The inertia about the centre of mass in the base's axes: J = R J_B R'.
+void turn_inertia(BodySweep& sweep) {
+  const Matrix3& R = sweep.R;
+  const Matrix3 half = R * sweep.inertia_in_body;
+  const double xx = half.row(0).dot(R.row(0));
+  const double yx = half.row(1).dot(R.row(0));
+  const double yy = half.row(1).dot(R.row(1));
+  const double zx = half.row(2).dot(R.row(0));
+  const double zy = half.row(2).dot(R.row(1));
+  const double zz = half.row(2).dot(R.row(2));
+  sweep.J << xx, yx, zx, yx, yy, zy, zx, zy, zz;
+}
+
+/// The rigid body's inertia about the base's origin, by the parallel axis theorem:
+///   IA = [ J + m (com.com 1 - com com')   m com x ]
+///        [ -m com x                        m 1     ]
+void write_inertia(BodySweep& sweep) {
+  const Vector3& com = sweep.com;
+  const Vector3 h = sweep.mass * com;
+  Matrix3 about_origin = sweep.J - h * com.transpose();
+  about_origin.diagonal().array() += h.dot(com);
+  sweep.IA.topLeftCorner<3, 3>() = about_origin;
   sweep.IA.topRightCorner<3, 3>() = skew(h);
   sweep.IA.bottomLeftCorner<3, 3>() = -skew(h);
-  sweep.IA.bottomRightCorner<3, 3>() = turned.mass * Matrix3::Identity();
-  sweep.pA.setZero();
-  if (!moving) return;
+  sweep.IA.bottomRightCorner<3, 3>() = sweep.mass * Matrix3::Identity();
+}
+
+/// The wrench that keeps da = 0, by Newton and Euler about the centre of mass:
+///   force   m (acceleration of the centre of mass - gravity)
+///   moment  J alpha + w x J w + com x force
+void write_bias(const Vector3& gravity, const ForceVector& f_ext, BodySweep& sweep) {
+  const Vector3& com = sweep.com;
   const Vector3 w = sweep.v.head<3>();
-  const Vector3 v = sweep.v.tail<3>();
-  const Vector3 momentum = turned.mass * v - h.cross(w);
-  const Vector3 spin = turned.rotational * w + h.cross(v);
-  sweep.pA << w.cross(spin) + v.cross(momentum) - h.cross(gravity), w.cross(momentum) - turned.mass * gravity;
+  const Vector3 alpha = sweep.c.head<3>();
+  const Vector3 v_com = sweep.v.tail<3>() + w.cross(com);
+  const Vector3 a_com = sweep.c.tail<3>() + alpha.cross(com) + w.cross(v_com);
+  const Vector3 force = sweep.mass * (a_com - gravity);
+  const Vector3 spin = sweep.J * w;
+  sweep.pA << sweep.J * alpha + w.cross(spin) + com.cross(force), force;
   if (!f_ext.is_zero()) sweep.pA -= sweep.to_base(f_ext);
 }
 
@@ -105,183 +129,111 @@ bool invert_factor(const Matrix6& inertia, Matrix6& inverse) {
 }  // namespace
 
 Sweeps::Sweeps(const Model& model, int row_capacity)
-    : bodies(static_cast<std::size_t>(model.body_count())),
-      L(RowMajorMatrix::Zero(2 * row_capacity, 2 * row_capacity)),
-      g(Eigen::VectorXd::Zero(2 * row_capacity)),
-      origins(static_cast<std::size_t>(2 * row_capacity)),
-      A(Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 2 * row_capacity)) {
-  for (BodySweep& body : bodies) {
-    body.columns.reserve(origins.size());
-    body.SA.resize(origins.size());
-  }
+    : bodies(static_cast<std::size_t>(model.body_count())), columns(model, row_capacity) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = model.bodies()[i];
-    parents_.push_back(body.parent);
-    bodies[i].turned_in_parent = body.pose_in_parent.rotation != Matrix3::Identity();
+    BodySweep& sweep = bodies[i];
+    sweep.mass = body.inertia.mass;
+    sweep.com_in_body.setZero();
+    if (sweep.mass > 0.0) sweep.com_in_body = body.inertia.first_moment / sweep.mass;
+    const Matrix3 com = skew(sweep.com_in_body);
+    sweep.inertia_in_body = body.inertia.rotational + sweep.mass * com * com;
+    sweep.turned_in_parent = body.pose_in_parent.rotation != Matrix3::Identity();
     for (int k = 0; k < 3; ++k) {
-      if (body.joint.axis == Vector3::Unit(k)) bodies[i].axis_column = k;
+      if (body.joint.axis == Vector3::Unit(k)) sweep.axis_column = k;
     }
   }
 }
 
-void Sweeps::clear_rows() noexcept {
-  rows = 0;
-  columns = 0;
-  for (BodySweep& body : bodies) body.columns.clear();
-}
-
-int Sweeps::add_column(int body, const Vector6& a, ColumnOrigin origin) noexcept {
-  A.col(columns) = a;
-  origins[static_cast<std::size_t>(columns)] = origin;
-  for (int i = body; i >= 0; i = parents_[static_cast<std::size_t>(i)]) {
-    bodies[static_cast<std::size_t>(i)].columns.push_back(columns);
-  }
-  return columns++;
-}
-
-int Sweeps::add_row(int body, const Vector6& a) noexcept {
-  add_column(body, a, {rows, -1});
-  return rows++;
-}
-
-void Sweeps::extend_last_row(int body, const Vector6& a) noexcept {
-  add_column(body, a, {rows - 1, -1});
-}
-
-int Sweeps::add_joint_row(int joint) noexcept {
-  add_column(joint + 1, Vector6::Zero(), {rows, joint + 1});
-  return rows++;
-}
-
-void outward_kinematics(const Model& model, const State& state, bool moving, const Vector3& gravity,
+void outward_kinematics(const Model& model, const State& state, const Vector6& base_acceleration,
                         Sweeps& sweeps) noexcept {
-  for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
+  BodySweep& base = sweeps.bodies.front();
+  base.R.setIdentity();
+  base.p.setZero();
+  base.com = base.com_in_body;
+  base.J = base.inertia_in_body;
+  base.v.setZero();
+  base.c.setZero();
+  if (model.has_fixed_base()) {
+    base.c = base_acceleration;
+  } else {
+    base.v = state.base_twist.vector();
+  }
+  for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
     const Body& body = model.bodies()[i];
+    const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
     BodySweep& sweep = sweeps.bodies[i];
-    if (i == 0) {
-      sweep.R.setIdentity();
-      sweep.p.setZero();
-      sweep.c.setZero();
-      sweep.v.setZero();
-      if (moving && !model.has_fixed_base()) sweep.v = state.base_twist.vector();
-    } else {
-      const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
-      const auto j = static_cast<Eigen::Index>(i) - 1;
-      place(body, state.q(j), parent, sweep);
-      sweep.v = parent.v;
-      sweep.c.setZero();
-      if (moving) {
-        const Vector6 joint_twist = sweep.S * state.qd(j);
-        sweep.c = cross_motion(parent.v, joint_twist);
-        sweep.v += joint_twist;
-      }
-    }
-    write_inertia(body.inertia, moving, gravity, state.f_ext[i], sweep);
+    const auto j = static_cast<Eigen::Index>(i) - 1;
+    place(body, state.q(j), parent, sweep);
+    sweep.com = sweep.p;
+    sweep.com.noalias() += sweep.R * sweep.com_in_body;
+    turn_inertia(sweep);
+    move(state.qd(j), parent, sweep);
   }
 }
 
-bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, const Vector6& base_acceleration,
-                    Sweeps& sweeps) noexcept {
-  const int m = sweeps.columns;
-  sweeps.L.topLeftCorner(m, m).setZero();
-  sweeps.g.head(m).setZero();
+void load_bodies(const State& state, const Vector3& gravity, Sweeps& sweeps) noexcept {
+  for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
+    write_inertia(sweeps.bodies[i]);
+    write_bias(gravity, state.f_ext[i], sweeps.bodies[i]);
+  }
+}
 
+void load_bodies_at_rest(Sweeps& sweeps) noexcept {
+  for (BodySweep& sweep : sweeps.bodies) {
+    write_inertia(sweep);
+    sweep.pA.setZero();
+    sweep.v.setZero();
+    sweep.c.setZero();
+  }
+}
+
+bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept {
+  sweeps.columns.arrange(sweeps.bodies);
   for (std::size_t i = sweeps.bodies.size() - 1; i > 0; --i) {
     const Body& body = model.bodies()[i];
     BodySweep& sweep = sweeps.bodies[i];
     BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
 
     sweep.U.noalias() = sweep.IA * sweep.S;
-    sweep.D = body.joint.rotor_inertia + sweep.S.dot(sweep.U);
-    if (!(sweep.D > 0.0)) return false;
+    const double D = body.joint.rotor_inertia + sweep.S.dot(sweep.U);
+    if (!(D > 0.0)) return false;
+    sweep.D_inverse = 1.0 / D;
     sweep.u = tau(static_cast<Eigen::Index>(i) - 1) - sweep.S.dot(sweep.pA);
-    const double D_inverse = 1.0 / sweep.D;
-    const Vector6 UD = sweep.U * D_inverse;
-
-    sweep.IA.noalias() -= UD * sweep.U.transpose();
-    parent.IA += sweep.IA;
+    const Vector6 UD = sweep.U * sweep.D_inverse;
+    for (int k = 0; k < 6; ++k) parent.IA.col(k) += sweep.IA.col(k) - UD * sweep.U(k);
     parent.pA += sweep.pA + UD * sweep.u;
-    parent.pA.noalias() += sweep.IA * sweep.c;
-
-    const double free_qdd = D_inverse * (sweep.u - sweep.U.dot(sweep.c));
-    const std::size_t carried = sweep.columns.size();
-    const int* const columns = sweep.columns.data();
-    double* const SA = sweep.SA.data();
-    for (std::size_t k = 0; k < carried; ++k) {
-      const int column = columns[k];
-      const bool own_joint =
-          sweeps.origins[static_cast<std::size_t>(column)].joint_body == static_cast<int>(i);
-      auto A = sweeps.A.col(column);
-      SA[k] = own_joint ? 1.0 : sweep.S.dot(A);
-      sweeps.g(column) += A.dot(sweep.c) + SA[k] * free_qdd;
-      A -= UD * SA[k];
-      const double SA_D = SA[k] * D_inverse;
-      double* const L = &sweeps.L(column, 0);
-      for (std::size_t l = 0; l <= k; ++l) L[columns[l]] += SA_D * SA[l];
-    }
+    sweeps.columns.carry(i, sweep, UD);
   }
-
-  BodySweep& base = sweeps.bodies.front();
   if (model.has_fixed_base()) {
-    sweeps.g.head(m).noalias() += sweeps.A.leftCols(m).transpose() * base_acceleration;
-  } else {
-    // With IA_0^-1 = F'F, F the inverse of the Cholesky factor: L += (F A)'(F A), g -= (F A)'(F pA).
-    if (!invert_factor(base.IA, sweeps.base_inverse_factor)) return false;
-    const Matrix6& F = sweeps.base_inverse_factor;
-    const Vector6 Fp = F * base.pA;
-    for (int k = 0; k < m; ++k) {
-      const Vector6 FA = F * sweeps.A.col(k);
-      sweeps.A.col(k) = FA;
-      sweeps.g(k) -= FA.dot(Fp);
-      for (int l = 0; l <= k; ++l) sweeps.L(k, l) += FA.dot(sweeps.A.col(l));
-    }
+    sweeps.columns.finish();
+    return true;
   }
-  sweeps.fold_columns();
+  const BodySweep& base = sweeps.bodies.front();
+  if (!invert_factor(base.IA, sweeps.base_inverse_factor)) return false;
+  sweeps.columns.finish(sweeps.base_inverse_factor, base.pA);
   return true;
 }
 
-/// Adds the rows and columns of L, and the entries of g, that belong to the same row. Columns of a row are
-/// neighbours.
-void Sweeps::fold_columns() noexcept {
-  if (columns == rows) return;
-  for (int k = 0; k < columns; ++k) {
-    const int row = origins[static_cast<std::size_t>(k)].row;
-    const bool first = k == 0 || origins[static_cast<std::size_t>(k) - 1].row != row;
-    g(row) = first ? g(k) : g(row) + g(k);
-    for (int l = 0; l <= k; ++l) {
-      const int other = origins[static_cast<std::size_t>(l)].row;
-      const bool first_other = l == 0 || origins[static_cast<std::size_t>(l) - 1].row != other;
-      // The off-diagonal pair of one row counts twice on its diagonal.
-      const double value = (row == other && k != l ? 2.0 : 1.0) * L(k, l);
-      L(row, other) = first && first_other ? value : L(row, other) + value;
-    }
-  }
-}
-
-void outward_accelerations(const Model& model, const Eigen::VectorXd& nu, const Vector6& base_acceleration,
-                           Sweeps& sweeps, Eigen::VectorXd& qdd) noexcept {
+void outward_accelerations(const Model& model, const Eigen::VectorXd& nu, Sweeps& sweeps,
+                           Eigen::VectorXd& qdd) noexcept {
+  sweeps.columns.set_multipliers(nu);
   BodySweep& base = sweeps.bodies.front();
-  base.a = base_acceleration;
+  base.da.setZero();
   if (!model.has_fixed_base()) {
-    // A holds F A by now: a_0 = F' (F A nu - F pA).
+    // IA_0 da_0 = A_0 nu - pA_0
     const Matrix6& F = sweeps.base_inverse_factor;
-    Vector6 force = -(F * base.pA);
-    for (int k = 0; k < sweeps.columns; ++k) {
-      force += sweeps.A.col(k) * nu(sweeps.origins[static_cast<std::size_t>(k)].row);
-    }
-    base.a = F.transpose() * force;
+    base.da = F.transpose() * (sweeps.columns.base_force() - F * base.pA);
   }
+  base.a = base.c + base.da;
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
     BodySweep& sweep = sweeps.bodies[i];
-    const auto parent = static_cast<std::size_t>(model.bodies()[i].parent);
-    sweep.a = sweeps.bodies[parent].a + sweep.c;
-    double force = sweep.u - sweep.U.dot(sweep.a);
-    for (std::size_t k = 0; k < sweep.columns.size(); ++k) {
-      force += sweep.SA[k] * nu(sweeps.origins[static_cast<std::size_t>(sweep.columns[k])].row);
-    }
-    const double joint_acceleration = force / sweep.D;
-    qdd(static_cast<Eigen::Index>(i) - 1) = joint_acceleration;
-    sweep.a += sweep.S * joint_acceleration;
+    const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(model.bodies()[i].parent)];
+    sweep.constraint_force = sweeps.columns.joint_force(i);
+    const double acceleration = sweep.D_inverse * (sweep.u - sweep.U.dot(parent.da) + sweep.constraint_force);
+    qdd(static_cast<Eigen::Index>(i) - 1) = acceleration;
+    sweep.da = parent.da + sweep.S * acceleration;
+    sweep.a = sweep.c + sweep.da;
   }
 }
 

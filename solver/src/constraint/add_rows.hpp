@@ -1,0 +1,34 @@
+/// How rows get into the sweeps: the one place for the solver, for Algorithm 1 alone and for the analysis.
+#pragma once
+
+#include "constraint/ground.hpp"
+#include "sweep/sweeps.hpp"
+
+namespace zwang::solver {
+
+/// The rows of the ground, which come first, at the configuration and the twists in `sweeps`. Each is handed
+/// to `take(id, row)`, too.
+template <class Take>
+void add_ground_rows(const Model& model, Sweeps& sweeps, Take take) noexcept {
+  sweeps.columns.clear();
+  const int count = ground_row_count(model);
+  for (int i = 0; i < count; ++i) {
+    const GroundRow row = ground_row(i, model, sweeps);
+    take(sweeps.columns.add_row(row.body, row.a), row);
+  }
+}
+
+/// A row of the public headers, whose forces are written in the coordinates of their bodies; returns its id.
+template <class BodyRow>
+int add_row(const BodyRow& row, Sweeps& sweeps) noexcept {
+  const auto in_base = [&sweeps](int body, const ForceVector& a) {
+    return sweeps.bodies[static_cast<std::size_t>(body)].to_base(a);
+  };
+  const int id = sweeps.columns.add_row(row.body, in_base(row.body, row.a));
+  if (row.reference_body >= 0) {
+    sweeps.columns.extend_last_row(row.reference_body, in_base(row.reference_body, -row.a_reference));
+  }
+  return id;
+}
+
+}  // namespace zwang::solver
