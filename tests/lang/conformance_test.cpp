@@ -33,7 +33,9 @@ std::string said_about(const std::string& name) {
   } else if (name.starts_with("scene_")) {
     is_good = load_scene(path, diagnostics).has_value();
   } else {
-    is_good = load(path, {}, diagnostics).has_value();
+    LoadOptions options;
+    options.notes = name.find("N6") != std::string::npos;
+    is_good = load(path, options, diagnostics).has_value();
   }
   EXPECT_EQ(is_good, !diagnostics.has_errors());
   const std::string text = test::rendered(diagnostics);

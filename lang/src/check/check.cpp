@@ -5,6 +5,7 @@
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "physics/physics.hpp"
 
 namespace zwang::lang {
 
@@ -215,6 +216,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
     checked.requirements.push_back(std::move(require));
   }
   check_flow(context, checked.conditions);
+  check_physics(context, scene);
   if (diagnostics.has_errors() || !robot) return std::nullopt;
   checked.robot = std::move(*robot);
   checked.scene = std::move(scene);
