@@ -83,6 +83,31 @@ int parse_and_do(int argc, char** argv) {
   run_verb->add_option("--format", to_run.format, "human (default) or json: one object on stdout")
       ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
 
+  PlanArguments to_plan;
+  std::vector<std::string> plan_parameters;
+  CLI::App* plan_verb =
+      app.add_subcommand("plan", "Show the rows of each task and what the robot makes of them");
+  plan_verb->add_option("file", to_plan.file, "the task file")->required();
+  plan_verb->add_option("--task", to_plan.task, "this task only");
+  plan_verb->add_option("--robot", to_plan.robot, "robot file, in the place of the task's own");
+  plan_verb->add_option("--scene", to_plan.scene, "scene file, in the place of the task's own");
+  plan_verb->add_option("-p,--param", plan_parameters, "set a parameter: name=value; may be repeated")
+      ->allow_extra_args(false);
+  plan_verb->add_option("--format", to_plan.format, "human (default) or json: one object on stdout")
+      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+
+  CLI::App* robot_verb = app.add_subcommand("robot", "Look at a robot, or begin its robot file");
+  robot_verb->require_subcommand(1);
+  RobotInspectArguments to_inspect;
+  CLI::App* inspect_verb = robot_verb->add_subcommand("inspect", "What the robot is and can do");
+  inspect_verb->add_option("file", to_inspect.file, "a robot file, or a bare URDF")->required();
+  inspect_verb->add_option("--format", to_inspect.format, "human (default) or json: one object on stdout")
+      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  RobotInitArguments to_init;
+  CLI::App* init_verb = robot_verb->add_subcommand("init", "Write a robot file from a URDF, to be filled in");
+  init_verb->add_option("urdf", to_init.urdf, "the URDF")->required();
+  init_verb->add_option("-o,--out", to_init.out, "the robot file to write (default stdout)");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version
@@ -95,6 +120,12 @@ int parse_and_do(int argc, char** argv) {
     throw Impossible(std::string(mistake.what()) + "\nTry `zwang --help`.");
   }
   if (validate_verb->parsed()) return validate(to_validate);
+  if (inspect_verb->parsed()) return robot_inspect(to_inspect);
+  if (init_verb->parsed()) return robot_init(to_init);
+  if (plan_verb->parsed()) {
+    to_plan.parameters = parameters(plan_parameters);
+    return plan(to_plan);
+  }
   to_run.parameters = parameters(parameter_texts);
   if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);

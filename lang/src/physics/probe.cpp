@@ -62,6 +62,11 @@ solver::AxisConstraint constraint_of(const PlannedAxis& axis, double force) {
   return constraint;
 }
 
+/// The motors have a force along the axis and make it alone: what only moves along with a turn is not pushed.
+bool is_pushed(const solver::AxisAnalysis& axis) {
+  return axis.reachable && axis.largest_force > 0.0;
+}
+
 double along(const solver::Row& row, const solver::Solution& solution) {
   const auto of = [&](int body) -> const solver::MotionVector& {
     return solution.acceleration[static_cast<std::size_t>(body)];
@@ -153,7 +158,7 @@ const AxisFigures* Probe::figures(const PlannedAxis& axis) {
       result.mass = result.least_mass = result.most_mass = one.effective_mass;
       result.force = result.least_force = result.most_force = one.largest_force;
     }
-    result.is_reachable = result.is_reachable || one.reachable;
+    result.is_reachable = result.is_reachable || is_pushed(one);
     result.masses.push_back(one.effective_mass);
     result.forces.push_back(one.largest_force);
     if (!std::isfinite(one.effective_mass)) continue;
@@ -167,7 +172,7 @@ const AxisFigures* Probe::figures(const PlannedAxis& axis) {
   for (std::size_t i = 0; axis.in_world && !result.is_reachable && i < general_.size(); ++i) {
     const solver::AxisAnalysis one =
         solver::analyse_axis(robot_.model, general_[i], axis.move, axis.in, axis.axis);
-    result.is_reachable = one.reachable;
+    result.is_reachable = is_pushed(one);
     result.is_held = result.is_held && !std::isfinite(one.effective_mass);
   }
   return &result;

@@ -265,6 +265,16 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   return RobotBuilder(*file, std::move(*urdf), errors_before, diagnostics).build();
 }
 
+std::optional<Robot> build_robot(const std::string& robot_file, Urdf urdf, Diagnostics& diagnostics) {
+  const int errors_before = diagnostics.error_count();
+  const int source = diagnostics.add_source({"robot file", robot_file});
+  const std::optional<Document> document = read(source, diagnostics);
+  if (!document) return std::nullopt;
+  const std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);
+  if (!file) return std::nullopt;
+  return RobotBuilder(*file, std::move(urdf), errors_before, diagnostics).build();
+}
+
 std::optional<Robot> load_robot(const std::filesystem::path& path, Diagnostics& diagnostics) {
   return load_robot_below(path, root_of(path), {}, diagnostics);
 }
