@@ -108,6 +108,12 @@ int parse_and_do(int argc, char** argv) {
   init_verb->add_option("urdf", to_init.urdf, "the URDF")->required();
   init_verb->add_option("-o,--out", to_init.out, "the robot file to write (default stdout)");
 
+  InfoArguments to_tell;
+  CLI::App* info_verb = app.add_subcommand("info", "Tell what is in the log of a run");
+  info_verb->add_option("log", to_tell.file, "the .mcap file")->required();
+  info_verb->add_option("--format", to_tell.format, "human (default) or json: one object on stdout")
+      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version
@@ -126,6 +132,7 @@ int parse_and_do(int argc, char** argv) {
     to_plan.parameters = parameters(plan_parameters);
     return plan(to_plan);
   }
+  if (info_verb->parsed()) return info(to_tell);
   to_run.parameters = parameters(parameter_texts);
   if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);

@@ -56,4 +56,10 @@ struct RobotInitArguments {
 };
 int robot_init(const RobotInitArguments& arguments);
 
+struct InfoArguments {
+  std::string file;
+  Format format = Format::human;
+};
+int info(const InfoArguments& arguments);
+
 }  // namespace zwang::cli
