@@ -7,7 +7,7 @@
 
 #include "output.hpp"
 #include "verbs.hpp"
-#include "zwang/lang/program.hpp"
+#include "zwang/lang/notes.hpp"
 #include "zwang/runtime/scheduler.hpp"
 #include "zwang/solver/base_analysis.hpp"
 #include "zwang/solver/popov_vereshchagin.hpp"
@@ -345,9 +345,8 @@ int plan(const PlanArguments& arguments) {
   options.robot = arguments.robot;
   options.scene = arguments.scene;
   options.parameters = arguments.parameters;
-  options.notes = true;
   lang::Diagnostics diagnostics;
-  const std::optional<lang::Program> program = lang::load(arguments.file, options, diagnostics);
+  const std::optional<lang::Program> program = lang::load_with_notes(arguments.file, options, diagnostics);
   if (!program) {
     std::ostringstream text;
     if (arguments.format == Format::json) {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "support.hpp"
-#include "zwang/lang/program.hpp"
+#include "zwang/lang/notes.hpp"
 
 namespace zwang::lang {
 namespace {
@@ -46,9 +46,7 @@ class Physics : public testing::Test {
         ", " + axes + "}\n    exits:\n      - {when: " + when +
         ", for: 0.1 s, goto: done}\n    timeout: {after: 9 s, goto: failed}\n";
     Diagnostics diagnostics;
-    LoadOptions options;
-    options.notes = true;
-    load(folder_.write("task.yaml", text), options, diagnostics);
+    load_with_notes(folder_.write("task.yaml", text), {}, diagnostics);
     return diagnostics;
   }
 

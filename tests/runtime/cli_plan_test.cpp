@@ -1,16 +1,11 @@
 // `zwang plan` and `zwang robot`, as processes. Expected numbers come from the robot file and the URDF.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
+
+#include "program.hpp"
 
 namespace zwang {
 namespace {
@@ -20,38 +15,20 @@ using nlohmann::json;
 
 const fs::path specs = fs::path(ZWANG_SOURCE_DIR) / "specs";
 
-struct Result {
-  int code = -1;
-  std::string out;
-};
+using test::read;
+using test::Result;
 
-std::string read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
-/// A folder with the shipped specs, gone afterwards.
-class CliPlan : public ::testing::Test {
+/// A folder with the shipped specs; arguments in one line, both streams in `out`.
+class CliPlan : public test::Program {
  protected:
-  CliPlan() {
-    folder_ = fs::temp_directory_path() / ("zwang_plan_" + std::to_string(getpid()) + "_" +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::copy(specs, folder_, fs::copy_options::recursive);
-  }
-  ~CliPlan() override { fs::remove_all(folder_); }
+  void SetUp() override { fs::copy(specs, folder_, fs::copy_options::recursive); }
 
-  Result zwang(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.string() + "' && '" ZWANG_PROGRAM "' " + arguments + " 2>&1";
-    Result result;
-    FILE* pipe = popen(command.c_str(), "r");
-    if (pipe == nullptr) return result;
-    std::array<char, 4096> buffer{};
-    for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-      result.out.append(buffer.data(), n);
-    }
-    result.code = WEXITSTATUS(pclose(pipe));
+  Result zwang(const std::string& line) {
+    std::istringstream in(line);
+    std::vector<std::string> arguments;
+    for (std::string word; in >> word;) arguments.push_back(word);
+    Result result = Program::zwang(arguments);
+    result.out += result.err;
     return result;
   }
   json zwang_json(const std::string& arguments) {
@@ -59,8 +36,6 @@ class CliPlan : public ::testing::Test {
     EXPECT_EQ(result.code, 0) << result.out;
     return json::parse(result.out);
   }
-  void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
-
   /// The first row of the task with this name and kind.
   static json row(const json& task, const std::string& name, const std::string& kind) {
     for (const json& r : task.at("rows")) {
@@ -69,8 +44,6 @@ class CliPlan : public ::testing::Test {
     ADD_FAILURE() << "no row " << name << " " << kind << " in " << task.dump(1);
     return {};
   }
-
-  fs::path folder_;
 };
 
 TEST_F(CliPlan, shows_the_rows_as_the_solver_gets_them) {

@@ -100,6 +100,23 @@ bool check_driver_value(CheckContext& context, const ValueText& value, const Dim
   return false;
 }
 
+namespace {
+
+/// A parameter that was declared without a unit is wrong there, once, and not wherever it is used.
+bool complain_of_bare_parameter(CheckContext& context, ParameterSymbol& symbol, const Dimension& expected) {
+  for (const ParameterText& text : context.file.parameters) {
+    const bool is_it = text.name.text == symbol.parameter.name && text.value.kind == ValueKind::quantity;
+    if (!is_it || text.value.quantity.has_unit) continue;
+    symbol.is_bad = true;
+    context.diagnostics.add(wording::needs_unit(text.value.span, "parameter `" + text.name.text + "`",
+                                                text.value.quantity.number, expected));
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 bool check_value(CheckContext& context, const ValueText& value, const Dimension& expected,
                  const std::string& what) {
   if (value.kind == ValueKind::quantity || value.kind == ValueKind::bad) {
@@ -121,6 +138,7 @@ bool check_value(CheckContext& context, const ValueText& value, const Dimension&
   }
   symbol->is_used = true;
   if (symbol->is_bad) return false;
+  if (symbol->dimension != expected && complain_of_bare_parameter(context, *symbol, expected)) return false;
   if (symbol->dimension != expected) {
     context.diagnostics.add(wording::wrong_parameter_dimension(value.span, what, expected, value.name,
                                                                symbol->dimension, symbol->parameter.span));
@@ -192,11 +210,11 @@ void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
 }
 
 std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
-                                 const LoadOptions& options, Diagnostics& diagnostics) {
+                                 const LoadOptions& options, bool with_notes, Diagnostics& diagnostics) {
   CheckedFile checked;
   checked.symbols.has_robot = robot.has_value();
   for (const TaskText& task : file.tasks) checked.symbols.tasks.push_back(task.name.text);
-  CheckContext context{file, robot, options, checked.symbols, diagnostics};
+  CheckContext context{file, robot, options, checked.symbols, diagnostics, with_notes};
   check_parameters(context);
   declare_signals(context);
   check_frames(context);

@@ -57,10 +57,6 @@ std::string figure(double value, const std::string& unit) {
   return unit.empty() ? std::string(text) : std::string(text) + " " + unit;
 }
 
-Diagnostic no_dynamics(const Span& span, const std::string& reason) {
-  return error("E809", span, "this robot's motion cannot be computed: " + reason);
-}
-
 Diagnostic held_axis(const Span& span, const std::string& axis) {
   return error("E404", span, "this base cannot move along `" + axis + "`: the ground holds it",
                "leave the axis out, or write it as a range");

@@ -10,7 +10,6 @@ namespace zwang::lang::wording {
 /// `18.0 N`, `0.08 m/s`: three significant digits.
 std::string figure(double value, const std::string& unit);
 
-Diagnostic no_dynamics(const Span& span, const std::string& reason);
 Diagnostic held_axis(const Span& span, const std::string& axis);
 /// `frame_ahead`: a frame that could be driven along this axis, as it is written; empty when there is none.
 Diagnostic axis_held_by_wheels(const Span& span, const std::string& axis, const std::string& frame_ahead);

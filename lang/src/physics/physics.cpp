@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "diagnostic/wordings_physics.hpp"
+#include "diagnostic/wordings.hpp"
 #include "physics/questions.hpp"
 
 namespace zwang::lang {
@@ -55,13 +55,13 @@ void check_physics(CheckContext& context, const std::optional<Scene>& scene) {
       ask_time_constant(plan, probe, remarks);
       ask_wheel_torque(plan, probe, remarks);
       ask_boundary(context, plan, probe, remarks);
-      if (!context.options.notes) continue;
+      if (!context.with_notes) continue;
       ask_impact(plan, probe, remarks);
       ask_force_budget(plan, probe, remarks);
     }
   } catch (const std::invalid_argument& error) {
     // The builder of the model took it, the sweeps cannot: nothing about motion can be said of this robot.
-    context.diagnostics.add(wording::no_dynamics(context.file.robot.span, error.what()));
+    context.diagnostics.add(wording::impossible_model(context.file.robot.span, error.what()));
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace zwang::lang {
 
-/// Asks what can be asked of a file that may have other errors; notes only where the options want them.
+/// Asks what can be asked of a file that may have other errors; notes only where they are wanted.
 void check_physics(CheckContext& context, const std::optional<Scene>& scene);
 
 }  // namespace zwang::lang

@@ -7,6 +7,7 @@
 
 #include "diagnostic/wordings_physics.hpp"
 #include "robot/load_robot.hpp"
+#include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_search.hpp"
 #include "zwang/lang/robot_draft.hpp"
@@ -313,6 +314,15 @@ class Drafter {
   Drive drive_;
 };
 
+std::optional<Robot> build_from(const std::string& robot_file, const Urdf& urdf, Diagnostics& diagnostics) {
+  const std::optional<Document> document =
+      read(diagnostics.add_source({"robot file", robot_file}), diagnostics);
+  if (!document) return std::nullopt;
+  const std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);
+  if (!file) return std::nullopt;
+  return build_robot(*file, urdf, 0, diagnostics);
+}
+
 }  // namespace
 
 std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const std::string& named_as,
@@ -326,7 +336,7 @@ std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const s
   const Urdf whole = completed(*urdf, found);
   for (const auto& [as, text] : drafter.assumed_texts()) {
     Diagnostics unheard;  // of a file that is not the user's; what the URDF lacks is
-    std::optional<Robot> robot = build_robot(text, whole, unheard);
+    std::optional<Robot> robot = build_from(text, whole, unheard);
     if (robot) {
       draft.assumed.push_back({as, std::move(*robot)});
     } else if (draft.assumed.empty()) {

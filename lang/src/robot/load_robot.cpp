@@ -249,6 +249,11 @@ class RobotBuilder {
 
 }  // namespace
 
+std::optional<Robot> build_robot(const RobotFile& file, Urdf urdf, int errors_before,
+                                 Diagnostics& diagnostics) {
+  return RobotBuilder(file, std::move(urdf), errors_before, diagnostics).build();
+}
+
 std::optional<Robot> load_robot_below(const std::filesystem::path& path, const std::filesystem::path& root,
                                       const Span& cause, Diagnostics& diagnostics) {
   const int errors_before = diagnostics.error_count();
@@ -262,21 +267,13 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   if (!urdf_path) return std::nullopt;
   std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics);
   if (!urdf) return std::nullopt;
-  return RobotBuilder(*file, std::move(*urdf), errors_before, diagnostics).build();
-}
-
-std::optional<Robot> build_robot(const std::string& robot_file, Urdf urdf, Diagnostics& diagnostics) {
-  const int errors_before = diagnostics.error_count();
-  const int source = diagnostics.add_source({"robot file", robot_file});
-  const std::optional<Document> document = read(source, diagnostics);
-  if (!document) return std::nullopt;
-  const std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);
-  if (!file) return std::nullopt;
-  return RobotBuilder(*file, std::move(urdf), errors_before, diagnostics).build();
+  return build_robot(*file, std::move(*urdf), errors_before, diagnostics);
 }
 
 std::optional<Robot> load_robot(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  return load_robot_below(path, root_of(path), {}, diagnostics);
+  std::optional<Robot> robot = load_robot_below(path, root_of(path), {}, diagnostics);
+  diagnostics.settle();
+  return robot;
 }
 
 }  // namespace zwang::lang

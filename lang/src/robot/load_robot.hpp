@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "zwang/lang/robot.hpp"
 
@@ -13,7 +14,8 @@ namespace zwang::lang {
 std::optional<Robot> load_robot_below(const std::filesystem::path& path, const std::filesystem::path& root,
                                       const Span& cause, Diagnostics& diagnostics);
 
-/// From the text of a robot file and a URDF that was read already.
-std::optional<Robot> build_robot(const std::string& robot_file, Urdf urdf, Diagnostics& diagnostics);
+/// Puts the two together. nullopt when there are more than `errors_before` errors.
+std::optional<Robot> build_robot(const RobotFile& file, Urdf urdf, int errors_before,
+                                 Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -262,7 +262,6 @@ struct LoadOptions {
   /// Robots, scenes and URDFs are read from below this folder only; none: the nearest parent of the task file
   /// with a `.zwang-root` file, else the task file's own folder.
   std::optional<std::filesystem::path> root;
-  bool notes = false;  ///< also say what is no mistake and good to know: impacts, force budgets
 };
 
 /// read, parse, check, lower. On any error nullopt, and the diagnostics say why; warnings do not stop it.
