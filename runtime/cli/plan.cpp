@@ -182,18 +182,17 @@ class Planner {
   solver::State state_;
 };
 
+/// What the row does with its quantity.
 const char* word(solver::RowKind kind) {
-  switch (kind) {
-    case solver::RowKind::driver:
-      return "drives";
-    case solver::RowKind::upper:
-      return "at most";
-    case solver::RowKind::lower:
-      return "at least";
-    case solver::RowKind::force:
-      break;
-  }
-  return "presses";
+  if (kind == solver::RowKind::driver) return "drives";
+  if (kind == solver::RowKind::upper) return "at most";
+  if (kind == solver::RowKind::lower) return "at least";
+  return kind == solver::RowKind::force ? "presses" : "bounds the sum";
+}
+
+/// Rows that only carry or bound a force ask for no acceleration.
+bool asks_for_acceleration(solver::RowKind kind) {
+  return kind == solver::RowKind::driver || kind == solver::RowKind::upper || kind == solver::RowKind::lower;
 }
 
 const char* word(solver::Quantity quantity) {
@@ -226,7 +225,7 @@ std::string bounds(const PlannedRow& planned) {
 }
 
 std::string demand(const PlannedRow& planned) {
-  if (planned.row.kind == solver::RowKind::force) return "-";
+  if (!asks_for_acceleration(planned.row.kind)) return "-";
   return number(planned.row.b) + " " + acceleration_unit(planned.turns);
 }
 
@@ -310,7 +309,7 @@ ordered_json json(const TaskPlan& plan, const lang::Diagnostics& diagnostics) {
                     {"a", json_of(p.row.a)},
                     {"body", p.row.body},
                     {"reference_body", p.row.reference_body},
-                    {"b", is_force ? ordered_json(nullptr) : ordered_json(p.row.b)},
+                    {"b", asks_for_acceleration(p.row.kind) ? ordered_json(p.row.b) : ordered_json(nullptr)},
                     {"force", is_force ? ordered_json(p.row.force) : ordered_json(nullptr)},
                     {"lo", finite(p.row.lo)},
                     {"hi", finite(p.row.hi)},

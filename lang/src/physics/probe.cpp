@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_configurations = 4;  // besides the start pose
 constexpr std::size_t most_axes = 400;
-constexpr int most_rows = 256;
+constexpr int most_rows = 64;
 
 /// In [0, 1), the same on every machine: the standard fixes the generator, not its distributions.
 double uniform(std::mt19937& generator) {
