@@ -6,6 +6,7 @@
 #include "spec/task_file.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
+#include "zwang/lang/notes.hpp"
 
 namespace zwang::lang {
 
@@ -32,7 +33,7 @@ std::optional<Scene> load_scene_of(const TaskFile& file, const fs::path& path, c
   return load_scene_from(*scene, file.scene.span, diagnostics);
 }
 
-std::optional<Program> load_phases(const fs::path& path, const LoadOptions& options,
+std::optional<Program> load_phases(const fs::path& path, const LoadOptions& options, bool with_notes,
                                    Diagnostics& diagnostics) {
   const fs::path root = options.root.value_or(root_of(path));
   const std::optional<int> source = read_file(path, yaml_size_limit, {}, diagnostics);
@@ -46,7 +47,7 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
   // Names of a section that could not be read would all be called unknown.
   if (file->is_incomplete) return std::nullopt;
   std::optional<CheckedFile> checked =
-      check(std::move(*file), std::move(robot), std::move(scene), options, diagnostics);
+      check(std::move(*file), std::move(robot), std::move(scene), options, with_notes, diagnostics);
   if (!checked) return std::nullopt;
   Program program = lower(std::move(*checked));
   program.path = path.string();
@@ -56,7 +57,14 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
 }  // namespace
 
 std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
-  std::optional<Program> program = load_phases(path, options, diagnostics);
+  std::optional<Program> program = load_phases(path, options, false, diagnostics);
+  diagnostics.settle();
+  return program;
+}
+
+std::optional<Program> load_with_notes(const fs::path& path, const LoadOptions& options,
+                                       Diagnostics& diagnostics) {
+  std::optional<Program> program = load_phases(path, options, true, diagnostics);
   diagnostics.settle();
   return program;
 }

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "output.hpp"
+#include "zwang/lang/notes.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
 
@@ -50,7 +51,8 @@ std::optional<FileKind> kind_by_key(const std::string& path) {
   return std::nullopt;
 }
 
-std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics) {
+std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,
+                                   bool with_notes) {
   switch (kind) {
     case FileKind::robot:
       if (const auto robot = lang::load_robot(path, diagnostics)) {
@@ -71,7 +73,8 @@ std::optional<std::string> read_as(FileKind kind, const std::string& path, lang:
     case FileKind::task:
       break;
   }
-  if (const auto program = lang::load(path, {}, diagnostics)) {
+  if (const auto program =
+          with_notes ? lang::load_with_notes(path, {}, diagnostics) : lang::load(path, {}, diagnostics)) {
     return count(program->tasks.size(), "task") + ", robot `" + program->robot.name + "`" +
            (program->scene ? ", with a scene" : "");
   }

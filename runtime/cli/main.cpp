@@ -117,6 +117,40 @@ void add_graph(CLI::App& app, std::function<int()>& chosen) {
   verb->callback([=, &chosen] { chosen = [=] { return graph(*arguments); }; });
 }
 
+void add_plan(CLI::App& app, std::function<int()>& chosen) {
+  const auto arguments = std::make_shared<PlanArguments>();
+  const auto texts = std::make_shared<std::vector<std::string>>();
+  CLI::App* verb = app.add_subcommand("plan", "Show the rows of each task and what the robot makes of them");
+  verb->add_option("file", arguments->file, "the task file")->required();
+  verb->add_option("--task", arguments->task, "this task only");
+  verb->add_option("--robot", arguments->robot, "robot file, in the place of the task's own");
+  verb->add_option("--scene", arguments->scene, "scene file, in the place of the task's own");
+  verb->add_option("-p,--param", *texts, "set a parameter: name=value; may be repeated")
+      ->allow_extra_args(false);
+  verb->add_option("--format", arguments->format, "human (default) or json: one object on stdout")
+      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  verb->callback([=, &chosen] {
+    arguments->parameters = parameters(*texts);
+    chosen = [=] { return plan(*arguments); };
+  });
+}
+
+void add_robot(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* verb = app.add_subcommand("robot", "Look at a robot, or begin its robot file");
+  verb->require_subcommand(1);
+  const auto inspected = std::make_shared<RobotInspectArguments>();
+  CLI::App* inspect = verb->add_subcommand("inspect", "What the robot is and can do");
+  inspect->add_option("file", inspected->file, "a robot file, or a bare URDF")->required();
+  inspect->add_option("--format", inspected->format, "human (default) or json: one object on stdout")
+      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  inspect->callback([=, &chosen] { chosen = [=] { return robot_inspect(*inspected); }; });
+  const auto begun = std::make_shared<RobotInitArguments>();
+  CLI::App* init = verb->add_subcommand("init", "Write a robot file from a URDF, to be filled in");
+  init->add_option("urdf", begun->urdf, "the URDF")->required();
+  init->add_option("-o,--out", begun->out, "the robot file to write (default stdout)");
+  init->callback([=, &chosen] { chosen = [=] { return robot_init(*begun); }; });
+}
+
 int parse_and_do(int argc, char** argv) {
   CLI::App app("Checks and runs task files for robots that touch the world.", "zwang");
   app.set_version_flag("--version", "zwang " ZWANG_VERSION);
@@ -128,6 +162,8 @@ int parse_and_do(int argc, char** argv) {
   add_fmt(app, chosen);
   add_schema(app, chosen);
   add_graph(app, chosen);
+  add_plan(app, chosen);
+  add_robot(app, chosen);
 
   RunArguments to_run;
   std::vector<std::string> parameter_texts;

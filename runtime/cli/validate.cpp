@@ -113,7 +113,7 @@ int validate(const ValidateArguments& arguments) {
     file.path = path;
     // What is none of them is read as a task file, whose reader says what is wrong.
     file.kind = kind_by_key(path).value_or(FileKind::task);
-    file.summary = read_as(file.kind, path, file.diagnostics);
+    file.summary = read_as(file.kind, path, file.diagnostics, arguments.notes);
     const bool is_denied = arguments.deny_warnings && file.diagnostics.count(lang::Severity::warning) > 0;
     file.is_good = file.summary && !file.diagnostics.has_errors() && !is_denied;
     is_good = is_good && file.is_good;

@@ -76,6 +76,26 @@ struct RunArguments {
 };
 int run(const RunArguments& arguments);
 
+struct PlanArguments {
+  std::string file;
+  std::optional<std::string> task, robot, scene;
+  std::map<std::string, std::string> parameters;
+  Format format = Format::human;
+};
+int plan(const PlanArguments& arguments);
+
+struct RobotInspectArguments {
+  std::string file;  ///< a robot file or a bare URDF
+  Format format = Format::human;
+};
+int robot_inspect(const RobotInspectArguments& arguments);
+
+struct RobotInitArguments {
+  std::string urdf;
+  std::optional<std::string> out;  ///< none: stdout
+};
+int robot_init(const RobotInitArguments& arguments);
+
 struct InfoArguments {
   std::string file;
   Format format = Format::human;

@@ -100,8 +100,8 @@ double largest_force(const Model& model, const State& state, Row row, double eff
     const Joint& joint = model.joint(j);
     if (joint.actuated && std::isfinite(joint.max_effort)) most += joint.max_effort;
   }
-  Solver solver(model);
-  Solution solution(model);
+  Solver solver(model, {.row_capacity = 1});
+  Solution solution(model, 1);
   // Doubled until the motors give out: what they make no longer follows the wish.
   for (row.force = std::max(1.0, most); row.force < 1e9 * std::max(1.0, effective_mass); row.force *= 2.0) {
     const Status status = solver.solve(state, {row}, solution);

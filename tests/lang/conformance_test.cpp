@@ -7,7 +7,7 @@
 
 #include "limits.hpp"
 #include "support.hpp"
-#include "zwang/lang/program.hpp"
+#include "zwang/lang/notes.hpp"
 
 namespace zwang::lang {
 namespace {
@@ -31,7 +31,8 @@ void load_as_named(const std::filesystem::path& path, Diagnostics& diagnostics) 
   } else if (name.starts_with("scene_")) {
     is_good = load_scene(path, diagnostics).has_value();
   } else {
-    is_good = load(path, {}, diagnostics).has_value();
+    const bool with_notes = name.find("N6") != std::string::npos;
+    is_good = (with_notes ? load_with_notes : load)(path, {}, diagnostics).has_value();
   }
   EXPECT_EQ(is_good, !diagnostics.has_errors());
 }

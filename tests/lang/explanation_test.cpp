@@ -10,7 +10,7 @@
 #include <set>
 
 #include "support.hpp"
-#include "zwang/lang/program.hpp"
+#include "zwang/lang/notes.hpp"
 
 namespace zwang::lang {
 namespace {
@@ -178,7 +178,8 @@ std::string urdf(std::string_view excerpt) {
 }
 
 /// What is said about an excerpt.
-Diagnostics said_about(ExcerptOf part, std::string_view excerpt) {
+Diagnostics said_about(ExcerptOf part, std::string_view excerpt, bool with_notes) {
+  const auto load_as_wanted = with_notes ? load_with_notes : load;
   const test::Folder folder;
   const fs::path robots = test::source_dir / "tests/conformance/robots";
   folder.write("robots/mini.yaml", test::slurp(robots / "mini.yaml"));
@@ -188,16 +189,16 @@ Diagnostics said_about(ExcerptOf part, std::string_view excerpt) {
     case ExcerptOf::nothing:
       break;
     case ExcerptOf::whole:
-      load(folder.write("task.yaml", std::string(excerpt)), {}, diagnostics);
+      load_as_wanted(folder.write("task.yaml", std::string(excerpt)), {}, diagnostics);
       break;
     case ExcerptOf::task_file:
-      load(folder.write("task.yaml", task_file(excerpt)), {}, diagnostics);
+      load_as_wanted(folder.write("task.yaml", task_file(excerpt)), {}, diagnostics);
       break;
     case ExcerptOf::task:
-      load(folder.write("task.yaml", task(excerpt)), {}, diagnostics);
+      load_as_wanted(folder.write("task.yaml", task(excerpt)), {}, diagnostics);
       break;
     case ExcerptOf::group:
-      load(folder.write("task.yaml", group(excerpt)), {}, diagnostics);
+      load_as_wanted(folder.write("task.yaml", group(excerpt)), {}, diagnostics);
       break;
     case ExcerptOf::robot:
       load_robot(folder.write("robot.yaml", robot(excerpt, "robots/mini.urdf")), diagnostics);
@@ -224,13 +225,13 @@ std::vector<Explanation> with_examples() {
 class Example : public testing::TestWithParam<Explanation> {};
 
 TEST_P(Example, shows_its_code_and_nothing_else) {
-  const Diagnostics diagnostics = said_about(GetParam().part, GetParam().example);
+  const Diagnostics diagnostics = said_about(GetParam().part, GetParam().example, GetParam().code[0] == 'N');
   EXPECT_EQ(test::count(diagnostics, std::string(GetParam().code)), 1) << test::rendered(diagnostics);
   EXPECT_EQ(diagnostics.all().size(), 1u) << test::rendered(diagnostics);
 }
 
 TEST_P(Example, is_good_once_mended) {
-  const Diagnostics diagnostics = said_about(GetParam().part, GetParam().instead);
+  const Diagnostics diagnostics = said_about(GetParam().part, GetParam().instead, GetParam().code[0] == 'N');
   EXPECT_TRUE(diagnostics.all().empty()) << test::rendered(diagnostics);
 }
 

@@ -5,6 +5,7 @@
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "physics/physics.hpp"
 
 namespace zwang::lang {
 
@@ -209,11 +210,11 @@ void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
 }
 
 std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
-                                 const LoadOptions& options, Diagnostics& diagnostics) {
+                                 const LoadOptions& options, bool with_notes, Diagnostics& diagnostics) {
   CheckedFile checked;
   checked.symbols.has_robot = robot.has_value();
   for (const TaskText& task : file.tasks) checked.symbols.tasks.push_back(task.name.text);
-  CheckContext context{file, robot, options, checked.symbols, diagnostics};
+  CheckContext context{file, robot, options, checked.symbols, diagnostics, with_notes};
   check_parameters(context);
   declare_signals(context);
   check_frames(context);
@@ -233,6 +234,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
     checked.requirements.push_back(std::move(require));
   }
   check_flow(context, checked.conditions);
+  check_physics(context, scene);
   if (diagnostics.has_errors() || !robot) return std::nullopt;
   checked.robot = std::move(*robot);
   checked.scene = std::move(scene);

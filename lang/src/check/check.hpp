@@ -23,7 +23,8 @@ struct CheckedFile {
 };
 
 /// `robot` none: it could not be read, and was complained of; what does not need it is checked all the same.
+/// `with_notes`: notes (N codes) are looked for, too.
 std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
-                                 const LoadOptions& options, Diagnostics& diagnostics);
+                                 const LoadOptions& options, bool with_notes, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -96,23 +96,11 @@ class AxisCheck {
     }
     const bool is_here = statement->value.kind == ValueKind::here && quantity == Quantity::position;
     if (is_here) return;
-    if (check_driver_value(context_, statement->value, expected, what))
-      check_is_reachable(quantity, *statement);
+    check_driver_value(context_, statement->value, expected, what);
   }
 
   const FrameSymbol* symbol(const std::optional<int>& frame) const {
     return frame ? &context_.symbols.frames[static_cast<std::size_t>(*frame)] : nullptr;
-  }
-
-  /// The ground holds the base's z, rx and ry. Standing still there is vacuous, anything else impossible.
-  void check_is_reachable(Quantity quantity, const StatementText& statement) {
-    const bool is_held = axis_ == Axis::z || axis_ == Axis::rx || axis_ == Axis::ry;
-    const FrameSymbol* move = symbol(move_);
-    if (!is_held || is_feature_ || move == nullptr || move->body != 0 || !context_.robot) return;
-    if (context_.robot->model.base_type() != solver::BaseType::ground) return;
-    const bool is_rest = quantity != Quantity::position && statement.value.kind == ValueKind::quantity &&
-                         statement.value.quantity.value == 0.0;
-    if (!is_rest) context_.diagnostics.add(wording::held_axis(statement.key_span, text_.name.text));
   }
 
   void check_single_driver() {

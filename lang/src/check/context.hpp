@@ -13,6 +13,7 @@ struct CheckContext {
   const LoadOptions& options;
   Symbols& symbols;
   Diagnostics& diagnostics;
+  bool with_notes = false;
 };
 
 /// Whether the value is there and measures `expected`; writes E105, E201, E202, E301. Marks parameters used.

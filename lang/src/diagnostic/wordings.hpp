@@ -141,7 +141,6 @@ Diagnostic rigid_feature(const Span& span, const std::string& name);
 Diagnostic driven_twice(const Span& span, const std::string& axis, const std::string& first,
                         const std::string& second, const Span& first_span);
 Diagnostic empty_range(const Span& span, const std::string& low, const std::string& high);
-Diagnostic held_axis(const Span& span, const std::string& axis);
 Diagnostic position_in_own_axes(const Span& span, const std::string& axis, const std::string& in,
                                 const std::string& move);
 Diagnostic force_range_without_zero(const Span& span, const std::string& axis);

@@ -230,11 +230,6 @@ Diagnostic empty_range(const Span& span, const std::string& low, const std::stri
   return error("E403", span, trimmed(low) + " is above " + trimmed(high), "write the lower end first");
 }
 
-Diagnostic held_axis(const Span& span, const std::string& axis) {
-  return error("E404", span, "this base cannot move along `" + axis + "`: the ground holds it",
-               "leave the axis out, or write it as a range");
-}
-
 Diagnostic position_in_own_axes(const Span& span, const std::string& axis, const std::string& in,
                                 const std::string& move) {
   const std::string why = in == move ? "`" + move + "` is always at 0 in its own axes"

@@ -76,6 +76,44 @@ the task was entered. Or drive a velocity.)~",
           .example = "move: bumper\nin: base_link\nx: {position: 1 m}",
           .instead = "move: bumper\nin: world\nx: {position: 1 m}"},
       Explanation{
+          .code = "E406",
+          .title = "more equality rows than freedoms",
+          .why =
+              R"~(A base that the ground leaves two freedoms can be told where to go in two ways, not in three. At one
+level nothing says which row gives way, so all of them would miss their values a little.)~",
+          .fix =
+              R"~(Leave a row out, give it a later `level`, or a `weight`, which makes it soft. On a base of two
+freedoms drive x and y of a frame ahead of the axle; the heading follows.)~",
+          .part = ExcerptOf::task_file,
+          .example = R"~(frames:
+  nose: {parent: base_link, at: [0.3 m, 0 m]}
+tasks:
+  go:
+    constraints:
+      come: {move: nose, in: world, x: {position: 1 m}, y: {position: 0 m}, rz: {position: 0 deg}}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(frames:
+  nose: {parent: base_link, at: [0.3 m, 0 m]}
+tasks:
+  go:
+    constraints:
+      come: {move: nose, in: world, x: {position: 1 m}, y: {position: 0 m}}
+    timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "W407",
+          .title = "a row that others already imply",
+          .why =
+              R"~(Two rows drive the same motion, whatever the robot's pose. With equal values one of them does nothing;
+with different ones neither is met.)~",
+          .fix = "Leave one of them out, or write it as a range.",
+          .part = ExcerptOf::task,
+          .example = R"~(constraints:
+  go: {move: base_link, in: base_link, x: {velocity: 0.1 m/s}}
+  too: {move: bumper, in: base_link, x: {velocity: 0.1 m/s}})~",
+          .instead = R"~(constraints:
+  go: {move: base_link, in: base_link, x: {velocity: 0.1 m/s}}
+  too: {move: bumper, in: base_link, x: {velocity: +-0.2 m/s}})~"},
+      Explanation{
           .code = "E408",
           .title = "a force range without zero",
           .why =

@@ -1,10 +1,133 @@
+#include <array>
+
 #include "explain/catalogue.hpp"
 
 namespace zwang::lang::catalogue {
 
-/// What needs the robot's model to be found.
+/// What needs the robot's model to be found. The examples' robot weighs 22.4 kg along x, wheels included, and
+/// its motors make 100 N.
 std::span<const Explanation> physics() {
-  return {};
+  static constexpr std::array entries{
+      Explanation{
+          .code = "E601",
+          .title = "a push that an acceleration limit caps",
+          .why =
+              R"~(Before a contact zwang knows nothing of it: it predicts the acceleration that the force would give in
+the open and keeps that within the limit. So the robot presses with its effective mass times the limit, and no
+harder. The mass has wheels and rotors in it; `zwang plan` shows it.)~",
+          .fix = "Ask for less force, or allow more acceleration: the message has both numbers.",
+          .part = ExcerptOf::group,
+          .example = "x: {force: 20 N, acceleration: +-0.3 m/s^2}",
+          .instead = "x: {force: 20 N, acceleration: +-1 m/s^2}"},
+      Explanation{
+          .code = "W601",
+          .title = "a push that an acceleration limit caps in some cases",
+          .why =
+              R"~(The force is within what the acceleration limit leaves, but not always: the parameter's range allows
+more, or the effective mass is smaller at other angles of the joints.)~",
+          .fix = "Narrow the parameter's range, ask for less, or allow more acceleration.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(params:
+  push: {value: 5 N, range: [1 N, 20 N]}
+tasks:
+  go:
+    constraints:
+      press: {move: base_link, in: base_link, x: {force: $push, acceleration: +-0.3 m/s^2}}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(params:
+  push: {value: 5 N, range: [1 N, 6 N]}
+tasks:
+  go:
+    constraints:
+      press: {move: base_link, in: base_link, x: {force: $push, acceleration: +-0.3 m/s^2}}
+    timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "W602",
+          .title = "a guard on `saturated` that never fires",
+          .why =
+              R"~(Blocked, a velocity driver asks for the acceleration velocity / time_constant and presses with the
+effective mass times that. When this is less than the axis's force range, the driver never comes to its bound and
+`saturated` stays false, however hard the obstacle.)~",
+          .fix = "Narrow the force range or shorten the `time_constant`: the message has both numbers.",
+          .part = ExcerptOf::task,
+          .example = R"~(constraints:
+  go: {move: base_link, in: base_link, x: {velocity: 0.05 m/s, force: +-20 N}}
+exits:
+  - {when: go.x.saturated, for: 0.1 s, goto: done}
+timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(constraints:
+  go: {move: base_link, in: base_link, x: {velocity: 0.05 m/s, force: +-20 N, time_constant: 50 ms}}
+exits:
+  - {when: go.x.saturated, for: 0.1 s, goto: done}
+timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "N603",
+          .title = "how hard the first hit is",
+          .why =
+              R"~(A force range holds what the robot presses with. The momentum with which it arrives nobody can hold:
+against a bumper of stiffness K the first peak is F + sqrt(F^2 + K m v^2), F the range, m the effective mass and v
+the speed. The note is there when that is above 2.5 F, and tells the speed at which it is not.)~",
+          .fix = "Arrive more slowly, or put a softer bumper on and say so in the robot file.",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: 0.15 m/s, force: +-40 N}",
+          .instead = "x: {velocity: 0.06 m/s, force: +-40 N}"},
+      Explanation{
+          .code = "W604",
+          .title = "a time constant that is too short",
+          .why =
+              R"~(A position driver that arrives at the velocity v brakes hardest with v / (2.718 time_constant). Where
+its acceleration range, or its force range over the effective mass, allows less, it overshoots. And no driver can
+be faster than the control period of 1 ms lets it be: 4 ms for a velocity, 8 ms for a position.)~",
+          .fix = "Lengthen the `time_constant` to what the message says, or lower the velocity.",
+          .part = ExcerptOf::group,
+          .example =
+              "move: bumper\nin: world\nx: {position: 1 m, velocity: +-0.5 m/s, acceleration: +-0.3 m/s^2}",
+          .instead =
+              "move: bumper\nin: world\nx: {position: 1 m, velocity: +-0.5 m/s, acceleration: +-0.3 m/s^2, "
+              "time_constant: 0.7 s}"},
+      Explanation{
+          .code = "N605",
+          .title = "what other rows may add to a limited direction",
+          .why =
+              R"~(A force range beside a driver bounds this row only. Rows along other axes that share the direction
+press as well, each within its own range.)~",
+          .fix =
+              R"~(Bound the sum: a force range alone on an axis, best under `always`, holds for all rows together.)~",
+          .part = ExcerptOf::task_file,
+          .example = R"~(frames:
+  askew: {parent: base_link, yaw: 30 deg}
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: 0.01 m/s, force: +-40 N}}
+      stand: {move: base_link, in: askew, x: {velocity: 0 m/s}}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: 0.01 m/s, force: +-40 N}}
+    timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "W606",
+          .title = "a driver beyond the motors",
+          .why = R"~(What the wheels' torques make along this axis is less than what the driver asks for from
+rest. It runs at the motors' limit and does not follow its time constant.)~",
+          .fix = "Ask for less, or lengthen the `time_constant`: the message has the number.",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: 1 m/s, time_constant: 0.1 s}",
+          .instead = "x: {velocity: 1 m/s, time_constant: 0.3 s}"},
+      Explanation{
+          .code = "W607",
+          .title = "a boundary that the motors cannot hold",
+          .why =
+              R"~(Before a boundary the robot counts on a deceleration: the axis's acceleration range, else the robot
+file's. Times the effective mass that is a force, and the motors make less: the boundary can be overrun.)~",
+          .fix = "Limit the acceleration to what the message says.",
+          .part = ExcerptOf::group,
+          .example = "in: world\nx: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-6 m/s^2}",
+          .instead = "in: world\nx: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-5 m/s^2}"},
+  };
+  return entries;
 }
 
 }  // namespace zwang::lang::catalogue

@@ -26,8 +26,8 @@ through parameters and through every sum, product and comparison of a condition.
 their own here: `deg/s` is not a velocity, and on the axes rx, ry and rz a force is a torque.)~",
           .fix = "Correct the unit, or move the value to the quantity that it was meant for.",
           .part = ExcerptOf::group,
-          .example = "y: {velocity: 20 N}",
-          .instead = "y: {force: 20 N}"},
+          .example = "x: {velocity: 20 N}",
+          .instead = "x: {force: 20 N}"},
       Explanation{
           .code = "E203",
           .title = "an unknown unit",

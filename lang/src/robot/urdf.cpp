@@ -89,6 +89,23 @@ UrdfJoint to_joint(const urdf::Joint& joint) {
   return result;
 }
 
+/// The radius of a shape that could roll.
+std::optional<double> radius_of(const urdf::GeometrySharedPtr& geometry) {
+  if (const auto cylinder = std::dynamic_pointer_cast<urdf::Cylinder>(geometry)) return cylinder->radius;
+  if (const auto sphere = std::dynamic_pointer_cast<urdf::Sphere>(geometry)) return sphere->radius;
+  return std::nullopt;
+}
+
+template <typename Shapes>
+std::optional<double> largest_radius(const Shapes& shapes) {
+  std::optional<double> largest;
+  for (const auto& shape : shapes) {
+    const std::optional<double> radius = shape ? radius_of(shape->geometry) : std::nullopt;
+    if (radius && *radius > largest.value_or(0.0)) largest = radius;
+  }
+  return largest;
+}
+
 Span span_of(const std::vector<XmlElement>& elements, std::string_view kind, const std::string& name) {
   for (const XmlElement& element : elements) {
     const XmlAttribute* attribute = element.find("name");
@@ -148,7 +165,8 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics) {
   urdf.name = model->getName();
   urdf.root = model->getRoot()->name;
   for (const auto& [name, link] : model->links_) {
-    UrdfLink result{name, {}, span_of(*elements, "link", name)};
+    UrdfLink result{name, {}, span_of(*elements, "link", name), largest_radius(link->collision_array)};
+    if (!result.radius) result.radius = largest_radius(link->visual_array);
     if (link->inertial) result.inertia = to_inertia(*link->inertial);
     urdf.links.push_back(std::move(result));
   }

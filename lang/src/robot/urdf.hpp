@@ -17,6 +17,7 @@ struct UrdfLink {
   std::string name;
   solver::RigidInertia inertia;  ///< zero where the file gives none
   Span span;
+  std::optional<double> radius;  ///< [m] of its largest cylinder or sphere, of what collides if there is any
 };
 
 struct UrdfJoint {

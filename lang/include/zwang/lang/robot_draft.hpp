@@ -1,0 +1,49 @@
+/// A robot file's first draft, from a URDF: the wheels found, and what nobody but the owner can know.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+
+namespace zwang::lang {
+
+struct DraftWheel {
+  std::string joint;
+  std::string link;
+  std::array<double, 3> at{};    ///< [m] in the base
+  std::optional<double> radius;  ///< [m] of the link's largest cylinder or sphere
+  std::optional<double> effort;  ///< [N m] of the URDF's limit
+  std::string swivel;            ///< the joint that steers it; empty: fixed to the base
+};
+
+/// The draft with its open places filled by assumption, to be looked at and not to be run.
+struct AssumedRobot {
+  std::string as;  ///< "differential", "skid steering", "mecanum", ...
+  Robot robot;
+};
+
+struct RobotDraft {
+  std::string name;
+  std::string base;
+  std::string drive;  ///< what the wheels look like, in words
+  double mass = 0.0;  ///< [kg] of all links
+  std::vector<DraftWheel> wheels;
+  std::vector<std::string> supports;          ///< links
+  std::vector<std::string> missing;           ///< what could not be known, a line each
+  std::vector<AssumedRobot> assumed;          ///< one for each kind of wheel that it may have; empty where no
+                                              ///< assumption makes a model of it
+  std::vector<std::string> assumption_notes;  ///< what was assumed, a line each
+  std::string text;  ///< the robot file; `FILL_IN` stands where it is refused until filled
+};
+
+inline constexpr const char* fill_in = "FILL_IN";
+
+/// `named_as` is how the robot file names the URDF, relative to itself. nullopt on a URDF that is refused.
+std::optional<RobotDraft> draft_robot(const std::filesystem::path& urdf, const std::string& named_as,
+                                      Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

@@ -1,0 +1,211 @@
+#include "diagnostic/wordings_physics.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "diagnostic/make.hpp"
+
+namespace zwang::lang::wording {
+
+namespace {
+
+struct Units {
+  const char *force, *mass, *speed, *acceleration;
+};
+
+Units units(bool turns) {
+  return turns ? Units{"N m", "kg m^2", "rad/s", "rad/s^2"} : Units{"N", "kg", "m/s", "m/s^2"};
+}
+
+/// To three significant digits, down or up: what is offered in the place of a number must do.
+double rounded(double value, bool up) {
+  if (!(value > 0.0)) return value;
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  const double steps = value / step;
+  return step * (up ? std::ceil(steps - 1e-9) : std::floor(steps + 1e-9));
+}
+
+std::string at_most(double value, const std::string& unit) {
+  return figure(rounded(value, false), unit);
+}
+std::string at_least(double value, const std::string& unit) {
+  return figure(rounded(value, true), unit);
+}
+
+std::string product(double mass, double acceleration, const Units& u) {
+  return figure(mass, u.mass) + " x " + figure(acceleration, u.acceleration);
+}
+
+std::string ahead(const std::string& frame) {
+  return frame.empty() ? "" : "move a frame ahead of the axle, for example " + frame;
+}
+
+Diagnostic capped(Diagnostic diagnostic, const Cap& cap, const Span& limit) {
+  const Units u = units(cap.turns);
+  diagnostic.help = "ask for `" + at_most(cap.most, u.force) + "` or less, or allow an acceleration of `" +
+                    at_least(cap.wanted / cap.mass, u.acceleration) + "`";
+  if (!limit.exists()) return diagnostic;
+  return with_related(std::move(diagnostic), limit, "the acceleration is limited here");
+}
+
+}  // namespace
+
+std::string figure(double value, const std::string& unit) {
+  char text[64];
+  const double size = std::abs(value);
+  std::snprintf(text, sizeof text, size >= 100.0 && size < 1e7 ? "%.0f" : "%.3g", value);
+  return unit.empty() ? std::string(text) : std::string(text) + " " + unit;
+}
+
+Diagnostic held_axis(const Span& span, const std::string& axis) {
+  return error("E404", span, "this base cannot move along `" + axis + "`: the ground holds it",
+               "leave the axis out, or write it as a range");
+}
+
+Diagnostic axis_held_by_wheels(const Span& span, const std::string& axis, const std::string& frame_ahead) {
+  return error("E404", span, "this base cannot move along `" + axis + "`: its wheels hold it",
+               frame_ahead.empty() ? "leave the axis out, or write it as a range" : ahead(frame_ahead));
+}
+
+Diagnostic no_motor_along(const Span& span, const std::string& axis) {
+  return error("E404", span, "no motor of this robot pushes along `" + axis + "`",
+               "leave the axis out, or write it as a range");
+}
+
+Diagnostic tied_axes(const Span& span, const std::string& axis, const std::string& move, int freedoms,
+                     const std::string& frame_ahead) {
+  return error("E404", span,
+               "this base cannot drive `" + move + "` along `" + axis +
+                   "` as well: its wheels leave it only one way to go at a time",
+               frame_ahead.empty()
+                   ? "leave one of the " + std::to_string(freedoms) + " out, or give it another `level`"
+                   : ahead(frame_ahead));
+}
+
+Diagnostic too_many_rows(const Span& span, int rows, int level, int freedoms, bool is_base,
+                         const std::string& frame_ahead) {
+  const std::string who = is_base ? "the base" : "the robot";
+  std::string help = "give it `level: " + std::to_string(std::min(level + 1, 9)) + "`, or leave it out";
+  if (!frame_ahead.empty())
+    help = "drive x and y of a frame ahead of the axle and leave rz out: " + frame_ahead;
+  return error("E406", span,
+               std::to_string(rows) + " equality rows at level " + std::to_string(level) + ", " + who +
+                   " has " + std::to_string(freedoms) + ": which may give way?",
+               std::move(help));
+}
+
+Diagnostic redundant_row(const Span& span, const std::string& axis, const std::string& twin,
+                         const Span& twin_span) {
+  const std::string message = twin.empty() ? "`" + axis + "` adds nothing to the rows before it"
+                                           : "`" + axis + "` and `" + twin + "` drive the same motion";
+  Diagnostic diagnostic = warning("W407", span, message, "leave one of them out, or write it as a range");
+  return twin_span.exists() ? with_related(std::move(diagnostic), twin_span, "`" + twin + "` is driven here")
+                            : diagnostic;
+}
+
+Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit) {
+  const Units u = units(cap.turns);
+  return capped(error("E601", span,
+                      "`" + cap.axis + "` can never press with " + figure(cap.wanted, u.force) +
+                          ": the acceleration limit caps it at " + figure(cap.most, u.force) + " (" +
+                          product(cap.mass, cap.most / cap.mass, u) + ")"),
+                cap, limit);
+}
+
+Diagnostic cannot_press_everywhere(const Span& span, const Cap& cap, double least, const Span& limit) {
+  const Units u = units(cap.turns);
+  Cap worst = cap;
+  worst.most = least;
+  return capped(warning("W601", span,
+                        "`" + cap.axis + "` cannot press with " + figure(cap.wanted, u.force) +
+                            " in every configuration: the acceleration limit caps it at " +
+                            figure(least, u.force) + " in some"),
+                worst, limit);
+}
+
+Diagnostic cannot_press_at_range_end(const Span& span, const Cap& cap, const Span& limit) {
+  const Units u = units(cap.turns);
+  return capped(
+      warning("W601", span,
+              "`" + cap.axis + "` cannot press with " + figure(cap.wanted, u.force) +
+                  ", which its parameter's range allows: the acceleration limit caps it at " +
+                  figure(cap.most, u.force) + " (" + product(cap.mass, cap.most / cap.mass, u) + ")"),
+      cap, limit);
+}
+
+Diagnostic dead_guard(const Span& span, const std::string& axis, bool turns, double mass, double acceleration,
+                      double pressed, double time_constant, const Span& guard) {
+  const Units u = units(turns);
+  std::string help = "a force range of `+-" + at_most(pressed, u.force) + "` or less";
+  if (time_constant > 0.0) help += ", or a `time_constant` of `" + at_most(time_constant, "s") + "` or less";
+  return with_related(
+      warning("W602", span,
+              "blocked, `" + axis + "` presses with " + figure(pressed, u.force) + " at most (" +
+                  product(mass, acceleration, u) + "): it never reaches this range",
+              help),
+      guard, "this is never true");
+}
+
+Diagnostic impact(const Span& span, const std::string& axis, const Hit& hit, double allowed,
+                  double gentle_speed) {
+  return make("N603", Severity::note, span,
+              "`" + axis + "`: " + figure(hit.mass, "kg") + " at " + figure(hit.speed, "m/s") + " against " +
+                  figure(hit.stiffness / 1000.0, "kN/m") + " peaks near " + figure(hit.peak, "N") +
+                  "; below " + figure(allowed, "N") + " from " + figure(gentle_speed, "m/s"),
+              "");
+}
+
+Diagnostic brakes_too_hard(const Span& span, const std::string& axis, bool turns, const Braking& b,
+                           double enough) {
+  const Units u = units(turns);
+  const std::string limit = b.by_force ? "its force range allows " + figure(b.allowed, u.acceleration) +
+                                             " (" + figure(b.allowed * b.mass, u.force) + " / " +
+                                             figure(b.mass, u.mass) + ")"
+                                       : "the acceleration limit allows " + figure(b.allowed, u.acceleration);
+  return warning("W604", span,
+                 "`" + axis + "` would brake with " + figure(b.peak, u.acceleration) + " from " +
+                     figure(b.speed, u.speed) + " (v/(e time_constant)), " + limit + ": it overshoots",
+                 "`time_constant: " + at_least(enough, "s") + "` or longer, or a lower velocity");
+}
+
+Diagnostic faster_than_the_tick(const Span& span, const std::string& axis, double time_constant,
+                                double least) {
+  return warning("W604", span,
+                 "`" + axis + "` has a time constant of " + figure(time_constant * 1e3, "ms") +
+                     ", which a control period of 1 ms cannot follow",
+                 "`time_constant: " + figure(least * 1e3, "ms") + "` or longer");
+}
+
+Diagnostic force_budget(const Span& span, const std::string& axis, bool turns, double own,
+                        const std::string& others, double added) {
+  const Units u = units(turns);
+  return make(
+      "N605", Severity::note, span,
+      "`" + axis + "` <= " + figure(own, u.force) + ", but " + others + " may add " + figure(added, u.force),
+      "");
+}
+
+Diagnostic beyond_the_motors(const Span& span, const std::string& axis, bool turns, double asked, double most,
+                             double mass, double time_constant, bool always) {
+  const Units u = units(turns);
+  std::string from = mass > 0.0 ? " (" + product(mass, asked / mass, u) + ")" : "";
+  std::string help = mass > 0.0 ? "ask for `" + at_most(most / mass, u.acceleration) + "` or less"
+                                : "ask for `" + at_most(most, u.force) + "` or less";
+  if (time_constant > 0.0) help = "`time_constant: " + at_least(time_constant, "s") + "` or longer";
+  return warning("W606", span,
+                 "`" + axis + "` asks for " + figure(asked, u.force) + from + ", the motors make " +
+                     figure(most, u.force) + " at most along it" + (always ? "" : " in some configurations"),
+                 help);
+}
+
+Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool turns, double mass,
+                             double braking, double force, double enough) {
+  const Units u = units(turns);
+  return warning("W607", span,
+                 "the boundary of `" + axis + "` brakes with up to " + figure(0.8 * braking * mass, u.force) +
+                     " (0.8 x " + product(mass, braking, u) + "), the motors make " + figure(force, u.force) +
+                     ": it can be overrun",
+                 "limit the acceleration to `+-" + at_most(enough, u.acceleration) + "`");
+}
+
+}  // namespace zwang::lang::wording

@@ -1,0 +1,71 @@
+/// What is said about a robot that cannot do what a file asks: E404, E406, W407 and the 600s.
+#pragma once
+
+#include <string>
+
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang::wording {
+
+/// `18.0 N`, `0.08 m/s`: three significant digits.
+std::string figure(double value, const std::string& unit);
+
+Diagnostic held_axis(const Span& span, const std::string& axis);
+/// `frame_ahead`: a frame that could be driven along this axis, as it is written; empty when there is none.
+Diagnostic axis_held_by_wheels(const Span& span, const std::string& axis, const std::string& frame_ahead);
+Diagnostic no_motor_along(const Span& span, const std::string& axis);
+Diagnostic tied_axes(const Span& span, const std::string& axis, const std::string& move, int freedoms,
+                     const std::string& frame_ahead);
+Diagnostic too_many_rows(const Span& span, int rows, int level, int freedoms, bool is_base,
+                         const std::string& frame_ahead);
+/// `twin`: the one axis that already says the same; empty when it takes several.
+Diagnostic redundant_row(const Span& span, const std::string& axis, const std::string& twin,
+                         const Span& twin_span);
+
+/// A force driver and what an acceleration range leaves of it.
+struct Cap {
+  std::string axis;
+  bool turns = false;
+  double wanted = 0.0;  ///< [N] or [N m]
+  double most = 0.0;    ///< [N] or [N m]
+  double mass = 0.0;    ///< effective, at the start [kg] or [kg m^2]
+};
+Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit);
+Diagnostic cannot_press_everywhere(const Span& span, const Cap& cap, double least, const Span& limit);
+Diagnostic cannot_press_at_range_end(const Span& span, const Cap& cap, const Span& limit);
+
+/// `time_constant`: with which the range would be reached [s]; 0 where the driver has none that matters.
+Diagnostic dead_guard(const Span& span, const std::string& axis, bool turns, double mass, double acceleration,
+                      double pressed, double time_constant, const Span& guard);
+
+struct Hit {
+  double mass = 0.0;       ///< [kg]
+  double speed = 0.0;      ///< [m/s]
+  double stiffness = 0.0;  ///< [N/m]
+  double peak = 0.0;       ///< [N]
+};
+Diagnostic impact(const Span& span, const std::string& axis, const Hit& hit, double allowed,
+                  double gentle_speed);
+
+struct Braking {
+  double speed = 0.0;          ///< [m/s] or [rad/s]
+  double time_constant = 0.0;  ///< [s]
+  double peak = 0.0;           ///< [m/s^2] or [rad/s^2]
+  double allowed = 0.0;        ///< [m/s^2] or [rad/s^2]
+  double mass = 0.0;           ///< [kg] or [kg m^2]
+  bool by_force = false;       ///< a force range allows it, over the mass
+};
+Diagnostic brakes_too_hard(const Span& span, const std::string& axis, bool turns, const Braking& braking,
+                           double enough);
+Diagnostic faster_than_the_tick(const Span& span, const std::string& axis, double time_constant,
+                                double least);
+
+Diagnostic force_budget(const Span& span, const std::string& axis, bool turns, double own,
+                        const std::string& others, double added);
+/// `mass` 0: the driver asks for the force itself.
+Diagnostic beyond_the_motors(const Span& span, const std::string& axis, bool turns, double asked, double most,
+                             double mass, double time_constant, bool always);
+Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool turns, double mass,
+                             double braking, double force, double enough);
+
+}  // namespace zwang::lang::wording

@@ -1,0 +1,67 @@
+// W607: a range of positions, or a region, that asks for more braking force than the motors have.
+//
+// A boundary counts on the deceleration a_brk: the axis's acceleration range, else the robot file's (else its
+// `stop`), and no more than the axis's force range over the effective mass. It uses
+//
+//   0.8 a_brk m        m: the effective mass
+#include <algorithm>
+#include <cmath>
+
+#include "diagnostic/wordings_physics.hpp"
+#include "physics/questions.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+void ask_axis(const PlannedTask& plan, const PlannedAxis& axis, const Span& span, const std::string& what,
+              Probe& probe, Remarks& remarks) {
+  const AxisFigures* figures = probe.figures(axis);
+  if (figures == nullptr || !figures->is_reachable) return;
+  double braking = std::min(acceleration_limit(plan, axis, 1.0, true).most,
+                            acceleration_limit(plan, axis, -1.0, true).most);
+  if (!std::isfinite(braking) && axis.turns()) return;
+  if (!std::isfinite(braking)) braking = probe.robot().stop.deceleration;
+  for (std::size_t i = 0; i < figures->masses.size(); ++i) {
+    const double mass = figures->masses[i];
+    const double force = figures->forces[i];
+    if (!std::isfinite(mass) || !(force > 0.0)) continue;
+    double a = braking;
+    if (const auto& range = axis[solver::Quantity::force]) {
+      a = std::min(a, std::min(range->high, -range->low) / mass);
+    }
+    if (0.8 * a * mass <= force * (1.0 + 1e-6)) continue;
+    remarks.add(wording::boundary_not_held(span, what, axis.turns(), mass, a, force, force / (0.8 * mass)));
+    return;
+  }
+}
+
+/// A region bounds the base in every direction: its own x and y stand for them.
+void ask_region(const PlannedTask& plan, const GroupText& group, const Robot& robot, Probe& probe,
+                Remarks& remarks) {
+  for (const solver::Axis axis : {solver::Axis::x, solver::Axis::y}) {
+    PlannedAxis own;
+    own.path = group.name.text;
+    own.move_name = robot.base_frame;
+    own.move = own.in = {0, {}};
+    own.axis = axis;
+    ask_axis(plan, own, group.region.span, group.name.text, probe, remarks);
+  }
+}
+
+}  // namespace
+
+void ask_boundary(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
+  for (const PlannedAxis& axis : plan.axes) {
+    if (!axis[solver::Quantity::position] || axis.text == nullptr) continue;
+    ask_axis(plan, axis, axis.span(solver::Quantity::position), axis.path, probe, remarks);
+  }
+  for (const auto* groups : {&context.file.always_groups, &plan.task->groups}) {
+    for (const GroupText& group : *groups) {
+      const bool is_region = group.kind == GroupKind::inside && group.region.exists();
+      if (is_region) ask_region(plan, group, *context.robot, probe, remarks);
+    }
+  }
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,92 @@
+// E406, W407, E404: more equality rows at one level than there are freedoms, rows that say the same thing
+// twice, and axes that can be driven one by one and not together.
+//
+//   n     rows that demand motion at the level
+//   m     freedoms that the ground leaves the base (or the whole robot, once a row moves another body)
+//   r     their rank on the ground, in general position
+//   r_k   their rank as coordinates of free bodies
+//
+//   n > m  E406          r_k < n  W407          r < r_k = n  E404: the wheels tie them together
+#include <algorithm>
+#include <map>
+
+#include "diagnostic/wordings_physics.hpp"
+#include "physics/questions.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+using Rows = std::vector<const PlannedAxis*>;
+
+bool stands_still(const PlannedAxis& axis) {
+  return *axis.driver == solver::Quantity::velocity && axis.target == 0.0;
+}
+
+/// Of a base with fewer than three freedoms, what `velocity: 0` holds depends on its heading: it may always
+/// be what the wheels hold anyway.
+bool counts(const PlannedAxis& axis, const Probe& probe) {
+  return axis.drives_motion() && !axis.is_soft &&
+         (!stands_still(axis) || axis.move.body != 0 || probe.base_mobility() == 3);
+}
+
+/// The first row that adds nothing to those before it; nullptr when all do.
+template <typename Rank>
+const PlannedAxis* first_dependent(const Rows& rows, const Rank& rank) {
+  Rows so_far;
+  for (const PlannedAxis* row : rows) {
+    so_far.push_back(row);
+    if (rank(so_far) < static_cast<int>(so_far.size())) return row;
+  }
+  return nullptr;
+}
+
+/// The earlier row that alone makes `row` redundant; nullptr when it takes several.
+const PlannedAxis* twin_of(const PlannedAxis* row, const Rows& rows, Probe& probe) {
+  for (const PlannedAxis* other : rows) {
+    if (other == row) return nullptr;
+    if (probe.kinematic_rank({other, row}) < 2) return other;
+  }
+  return nullptr;
+}
+
+void ask_level(int level, const Rows& rows, Probe& probe, Remarks& remarks) {
+  const auto n = static_cast<int>(rows.size());
+  const bool is_base_only =
+      std::all_of(rows.begin(), rows.end(), [](const PlannedAxis* row) { return row->move.body == 0; });
+  const int freedoms = is_base_only ? probe.base_mobility() : probe.mobility();
+  if (n > freedoms) {
+    const PlannedAxis& first_too_many = *rows[static_cast<std::size_t>(freedoms)];
+    remarks.add(wording::too_many_rows(first_too_many.driver_span(), n, level, freedoms, is_base_only,
+                                       is_base_only ? probe.frame_ahead() : ""));
+    return;
+  }
+  if (n < 2) return;
+  const auto kinematic = [&](const Rows& some) { return probe.kinematic_rank(some); };
+  if (const PlannedAxis* row = kinematic(rows) < n ? first_dependent(rows, kinematic) : nullptr) {
+    const PlannedAxis* twin = twin_of(row, rows, probe);
+    remarks.add(wording::redundant_row(row->driver_span(), row->path, twin != nullptr ? twin->path : "",
+                                       twin != nullptr ? twin->driver_span() : Span{}));
+    return;
+  }
+  const auto grounded = [&](const Rows& some) { return probe.rank(some); };
+  if (const PlannedAxis* row = grounded(rows) < n ? first_dependent(rows, grounded) : nullptr) {
+    remarks.add(wording::tied_axes(row->driver_span(), row->path, row->move_name, freedoms,
+                                   is_base_only ? probe.frame_ahead() : ""));
+  }
+}
+
+}  // namespace
+
+void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
+  std::map<int, Rows> levels;
+  for (const PlannedAxis& axis : plan.axes) {
+    if (!axis.driver || !counts(axis, probe)) continue;
+    const AxisFigures* figures = probe.figures(axis);
+    // What cannot move at all and is not asked to is no row to count.
+    if (figures != nullptr && figures->is_reachable) levels[axis.level].push_back(&axis);
+  }
+  for (const auto& [level, rows] : levels) ask_level(level, rows, probe, remarks);
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,68 @@
+#include "physics/physics.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "diagnostic/wordings.hpp"
+#include "physics/questions.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+bool is_same_axis(const PlannedAxis& a, const PlannedAxis& b) {
+  const auto is_same = [](const solver::AttachedFrame& f, const solver::AttachedFrame& g) {
+    return f.body == g.body && f.pose.rotation.isApprox(g.pose.rotation) &&
+           (f.pose.position - g.pose.position).norm() < 1e-9;
+  };
+  return a.axis == b.axis && is_same(a.move, b.move) && is_same(a.in, b.in);
+}
+
+/// A range on an axis of the base also bounds what frames on the base may do, however they are turned.
+bool bounds(const PlannedAxis& limit, const PlannedAxis& axis) {
+  if (is_same_axis(limit, axis)) return true;
+  const bool is_other_axis = axis.in.body == limit.in.body && axis.axis != limit.axis &&
+                             axis.in.pose.rotation.isApprox(limit.in.pose.rotation);
+  return limit.move.body == 0 && axis.move.body == 0 && limit.in.body == 0 && limit.turns() == axis.turns() &&
+         !is_other_axis;
+}
+
+}  // namespace
+
+AccelerationLimit acceleration_limit(const PlannedTask& plan, const PlannedAxis& axis, double sign,
+                                     bool own) {
+  AccelerationLimit limit;
+  for (const PlannedAxis& other : plan.axes) {
+    const std::optional<solver::Range>& range = other[solver::Quantity::acceleration];
+    if (!range || !bounds(other, axis) || (&other == &axis && !own)) continue;
+    const double most = sign > 0.0 ? range->high : -range->low;
+    if (most < limit.most) limit = {most, &other};
+  }
+  return limit;
+}
+
+void check_physics(CheckContext& context, const std::optional<Scene>& scene) {
+  if (!context.robot) return;
+  try {
+    Probe probe(*context.robot, scene);
+    Remarks remarks(context.diagnostics);
+    for (const TaskText& task : context.file.tasks) {
+      PlannedTask plan = plan_task(context, task);
+      ask_reach(plan, probe, remarks);
+      ask_freedoms(plan, probe, remarks);
+      ask_press(plan, probe, remarks);
+      ask_dead_guard(context, plan, probe, remarks);
+      ask_time_constant(plan, probe, remarks);
+      ask_wheel_torque(plan, probe, remarks);
+      ask_boundary(context, plan, probe, remarks);
+      if (!context.with_notes) continue;
+      ask_impact(plan, probe, remarks);
+      ask_force_budget(plan, probe, remarks);
+    }
+  } catch (const std::invalid_argument& error) {
+    // The builder of the model took it, the sweeps cannot: nothing about motion can be said of this robot.
+    context.diagnostics.add(wording::impossible_model(context.file.robot.span, error.what()));
+  }
+}
+
+}  // namespace zwang::lang

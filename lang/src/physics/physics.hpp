@@ -1,0 +1,12 @@
+/// Whether this robot can do what the file asks: E404, E406, W407 and the 600s, computed from its model
+/// through the solver.
+#pragma once
+
+#include "check/context.hpp"
+
+namespace zwang::lang {
+
+/// Asks what can be asked of a file that may have other errors; notes only where they are wanted.
+void check_physics(CheckContext& context, const std::optional<Scene>& scene);
+
+}  // namespace zwang::lang

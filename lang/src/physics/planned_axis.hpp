@@ -1,0 +1,52 @@
+/// What a task says about its axes, as numbers that the model can be asked about.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "check/context.hpp"
+#include "zwang/solver/constraint.hpp"
+
+namespace zwang::lang {
+
+/// One axis that is in force in a task: of the task, of `always`, or a limit of the robot file. SI.
+struct PlannedAxis {
+  std::string path;                ///< "go.x", "always.manners.x", "limits.x"
+  const AxisText* text = nullptr;  ///< nullptr: a limit of the robot file
+  std::string group;               ///< name of its group; empty under `always`
+  std::string move_name;           ///< of the moved frame
+  solver::AttachedFrame move, in;
+  bool in_world = false;  ///< `in` stands in the world: how it lies to the base changes while the base moves
+  solver::Axis axis = solver::Axis::x;
+  std::optional<solver::Quantity> driver;
+  std::optional<double> target;  ///< at the start; none: `here`, or a signal's
+  std::optional<double>
+      farthest_target;  ///< of all values that its parameter may take, the one farthest from 0
+  std::array<std::optional<solver::Range>, 4> ranges;  ///< by solver::Quantity, at the start
+  std::array<Span, 4> spans;                           ///< of the statements' values
+  double time_constant = 0.5;                          ///< [s]
+  Span time_constant_span;  ///< where it may be written: its value, else the axis's key
+  int level = 1;
+  bool is_soft = false;    ///< has a weight
+  bool is_spring = false;  ///< has stiffness and damping: pushes, and holds no motion
+
+  const std::optional<solver::Range>& operator[](solver::Quantity q) const {
+    return ranges[static_cast<std::size_t>(q)];
+  }
+  const Span& span(solver::Quantity q) const { return spans[static_cast<std::size_t>(q)]; }
+  const Span& driver_span() const { return span(*driver); }
+  bool drives_motion() const { return driver && *driver != solver::Quantity::force && !is_spring; }
+  bool turns() const { return is_rotation(axis); }
+};
+
+struct PlannedTask {
+  const TaskText* task = nullptr;
+  std::vector<PlannedAxis> axes;  ///< of `always`, of the task, then the robot file's limits
+};
+
+/// What can be read of the task; what is bad, and was complained of, is left out.
+PlannedTask plan_task(const CheckContext& context, const TaskText& task);
+
+}  // namespace zwang::lang

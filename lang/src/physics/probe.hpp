@@ -1,0 +1,74 @@
+/// Asks the robot's model, through the solver, what its axes can do.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "physics/planned_axis.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/scene.hpp"
+#include "zwang/solver/popov_vereshchagin.hpp"
+#include "zwang/solver/solver.hpp"
+
+namespace zwang::lang {
+
+/// An axis alone, at the start pose and over the configurations that it may meet. [kg] or [kg m^2], [N] or
+/// [N m]
+struct AxisFigures {
+  bool is_held = true;        ///< in every configuration the ground leaves nothing of it
+  bool is_reachable = false;  ///< in some configuration, at some heading, the motors have a force along it
+  double mass = 0.0;          ///< at the start; there infinite where the ground holds the axis
+  double least_mass = 0.0, most_mass = 0.0;
+  double force = 0.0;  ///< largest that the motors make, at the start
+  double least_force = 0.0, most_force = 0.0;
+  std::vector<double> masses, forces;  ///< of each configuration
+};
+
+/// Everything is computed at rest. Configurations: the start pose (the scene's, joints at 0), then, of a
+/// robot with swivels or arms, some more with other joint angles, always the same ones. What can be reached
+/// at all is also tried at other headings.
+class Probe {
+ public:
+  /// Throws std::invalid_argument on a model that dynamics cannot use.
+  Probe(const Robot& robot, const std::optional<Scene>& scene);
+
+  /// nullptr past the most axes that are looked at (a file may be hostile).
+  const AxisFigures* figures(const PlannedAxis& axis);
+  /// How many of the rows along the axes are independent, on the ground and in general position.
+  int rank(const std::vector<const PlannedAxis*>& axes);
+  /// The same without the ground and the joints: of the bodies' own coordinates.
+  int kinematic_rank(const std::vector<const PlannedAxis*>& axes);
+  /// What a force driver presses with against something that blocks its axis, after the acceleration ranges
+  /// among `limits` took their part; a number for each configuration. [N] or [N m]
+  std::vector<double> pressed(const PlannedAxis& axis, double force, const std::vector<PlannedAxis>& limits);
+
+  int base_mobility() const { return base_mobility_; }
+  int mobility() const { return mobility_; }
+  const Robot& robot() const { return robot_; }
+  /// On a base of two freedoms a frame whose x and y it can both drive, as it is written; empty on others.
+  std::string frame_ahead() const;
+  /// The axis in the world, at the start pose.
+  solver::Vector3 direction(const PlannedAxis& axis) const;
+  /// Whether the axis points up or turns the base over: what the ground itself holds.
+  bool is_out_of_plane(const PlannedAxis& axis) const;
+
+ private:
+  using Key = std::array<double, 27>;
+  static Key key_of(const PlannedAxis& axis);
+  solver::Row row_along(const PlannedAxis& axis, const solver::State& state);
+  int rank_at(const std::vector<const PlannedAxis*>& axes, const solver::State& state);
+
+  const Robot& robot_;
+  std::vector<solver::State> states_;   ///< the configurations, the start pose first
+  std::vector<solver::State> general_;  ///< any joint angles, any heading
+  int base_mobility_ = 0, mobility_ = 0;
+  std::map<Key, AxisFigures> figures_;
+  solver::Solver solver_;
+  solver::Solution solution_;
+  solver::PopovVereshchagin equalities_;
+  solver::ConstrainedMotion motion_;
+};
+
+}  // namespace zwang::lang

@@ -1,0 +1,61 @@
+/// The questions, a file each. All get a task's axes and write what they find into `remarks`.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "physics/planned_axis.hpp"
+#include "physics/probe.hpp"
+
+namespace zwang::lang {
+
+/// What was said once is not said again: a template's axis stands in several tasks, one of `always` in all.
+class Remarks {
+ public:
+  explicit Remarks(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  void add(Diagnostic diagnostic) {
+    if (said_[place(diagnostic.span)].insert(diagnostic.code).second) diagnostics_.add(std::move(diagnostic));
+  }
+  /// One cause, one message: whether something was said of this place already.
+  bool any_at(const Span& span) const { return said_.contains(place(span)); }
+
+ private:
+  using Place = std::tuple<int, int, int>;
+  static Place place(const Span& span) { return {span.source, span.begin.line, span.begin.column}; }
+
+  Diagnostics& diagnostics_;
+  std::map<Place, std::set<std::string>> said_;
+};
+
+/// E404 for an axis alone. Takes it out of the plan: what cannot be driven is not asked about again.
+void ask_reach(PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// E406, W407, and E404 for axes that the wheels tie together.
+void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// E601, W601: force drivers and acceleration ranges.
+void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W602: a guard on `saturated` that never fires.
+void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// N603: the first hit.
+void ask_impact(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W604: time constants too short for the braking, or for the tick.
+void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// N605: what other rows may add along a limited direction.
+void ask_force_budget(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W606: drivers beyond the motors.
+void ask_wheel_torque(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W607: boundaries that ask for more braking than the motors have.
+void ask_boundary(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
+
+/// Acceleration that the plan allows along the axis in the direction of `sign`: of ranges on that very axis,
+/// and on the base's own axes of the same kind. Infinite where there is none. `own`: the axis's own range
+/// too.
+struct AccelerationLimit {
+  double most = solver::infinity;  ///< [m/s^2] or [rad/s^2]
+  const PlannedAxis* from = nullptr;
+};
+AccelerationLimit acceleration_limit(const PlannedTask& plan, const PlannedAxis& axis, double sign, bool own);
+
+}  // namespace zwang::lang

@@ -1,0 +1,68 @@
+// W604: a time constant that is too short.
+//
+// A critically damped approach that comes in at the velocity range's v brakes hardest one time constant after
+// the range let go, with
+//
+//   a = v / (e tau)        e = 2.718...
+//
+// which the acceleration range, or the force range over the effective mass, must allow: else the base
+// overshoots.
+//
+// And whatever drives, the tick of dt = 1 ms must follow it. One tick passes between sensing and torque, so a
+// velocity error decays as z^2 - z + dt/tau = 0: without oscillation from tau = 4 dt on. A position driver
+// damps with 2/tau instead of 1/tau: from tau = 8 dt on.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "diagnostic/wordings_physics.hpp"
+#include "physics/questions.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+constexpr double tick = 1e-3;  // [s], the default control period
+
+void ask_tick(const PlannedAxis& axis, Remarks& remarks) {
+  if (axis.driver == solver::Quantity::acceleration) return;
+  const double least = (axis.driver == solver::Quantity::position ? 8.0 : 4.0) * tick;
+  if (axis.time_constant >= least) return;
+  remarks.add(wording::faster_than_the_tick(axis.time_constant_span, axis.path, axis.time_constant, least));
+}
+
+void ask_braking(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe, Remarks& remarks) {
+  const std::optional<solver::Range>& range = axis[solver::Quantity::velocity];
+  const AxisFigures* figures = probe.figures(axis);
+  if (axis.driver != solver::Quantity::position || !range || figures == nullptr ||
+      !std::isfinite(figures->mass))
+    return;
+  const double v = std::max(range->high, -range->low);
+  const double peak = v / (std::numbers::e * axis.time_constant);
+  const AccelerationLimit forward = acceleration_limit(plan, axis, 1.0, true);
+  const AccelerationLimit backward = acceleration_limit(plan, axis, -1.0, true);
+  double allowed = std::min(forward.most, backward.most);
+  bool by_force = false;
+  if (const auto& force = axis[solver::Quantity::force]) {
+    const double by_range = std::min(force->high, -force->low) / figures->mass;
+    by_force = by_range < allowed;
+    allowed = std::min(allowed, by_range);
+  }
+  // A range that allows nothing at all holds the axis on purpose.
+  if (peak <= allowed || !(allowed > 0.0)) return;
+  remarks.add(wording::brakes_too_hard(axis.time_constant_span, axis.path, axis.turns(),
+                                       {v, axis.time_constant, peak, allowed, figures->mass, by_force},
+                                       v / (std::numbers::e * allowed)));
+}
+
+}  // namespace
+
+void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
+  for (const PlannedAxis& axis : plan.axes) {
+    if (!axis.drives_motion() || !(axis.time_constant > 0.0)) continue;
+    ask_tick(axis, remarks);
+    ask_braking(plan, axis, probe, remarks);
+  }
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,23 @@
+/// Finds the wheels of a URDF by their joints, names and shapes.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "robot/urdf.hpp"
+#include "zwang/lang/robot_draft.hpp"
+
+namespace zwang::lang {
+
+struct FoundWheels {
+  std::string base;  ///< the link that floats
+  std::vector<DraftWheel> wheels;
+  std::vector<std::string> supports;    ///< links of passive casters and of balls
+  std::vector<std::string> others;      ///< moving joints that are neither wheels, nor swivels, nor casters
+  std::vector<std::string> in_between;  ///< moving joints between base and wheels that do not steer
+};
+
+FoundWheels find_wheels(const Urdf& urdf);
+
+}  // namespace zwang::lang

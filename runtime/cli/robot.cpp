@@ -1,0 +1,334 @@
+// What a robot is and can do, from its robot file or its bare URDF; and a first robot file from a URDF.
+#include "zwang/lang/robot.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "output.hpp"
+#include "verbs.hpp"
+#include "zwang/lang/robot_draft.hpp"
+#include "zwang/solver/base_analysis.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+bool is_urdf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char first = ' ';
+  while (file.get(first) && (first == ' ' || first == '\n' || first == '\r' || first == '\t' || first < 0)) {
+  }
+  return first == '<';
+}
+
+std::string number(double value) {
+  if (!std::isfinite(value)) return "no limit known";
+  char text[40];
+  std::snprintf(text, sizeof text, std::abs(value) >= 1e4 ? "%.0f" : "%.4g", value);
+  return text;
+}
+
+/// The smallest and the largest over the swivels' angles.
+struct Spread {
+  double least = solver::infinity, most = 0.0;
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  bool exists() const { return least <= most; }
+  std::string text(const char* unit) const {
+    const bool is_one = most - least < 1e-3 * most;
+    return (is_one ? number(least) : number(least) + " to " + number(most)) + " " + unit;
+  }
+};
+
+struct AxisSpread {
+  bool reachable = false;
+  Spread mass, force;
+};
+
+struct Analysis {
+  solver::BaseAnalysis start;
+  int mobility = 0;
+  bool locked = false;  ///< at some angles of the swivels
+  std::array<AxisSpread, 3> axes;
+
+  /// The motors make every wrench along the freedoms of the base.
+  bool exact() const {
+    return mobility ==
+           std::count_if(axes.begin(), axes.end(), [](const AxisSpread& a) { return a.reachable; });
+  }
+};
+
+/// All joints at 0, then turned by unequal angles: what depends on swivels shows.
+Analysis analyse(const solver::Model& model) {
+  Analysis result;
+  for (int turn = 0; turn < 5; ++turn) {
+    solver::State state(model);
+    for (int j = 0; turn > 0 && j < model.joint_count(); ++j) {
+      const double angle = 0.7 * turn + 1.1 * turn * j;  // [rad], in no pattern that a base could share
+      state.q(j) =
+          std::clamp(std::remainder(angle, 6.283185307179586), model.joint(j).lower, model.joint(j).upper);
+    }
+    const solver::BaseAnalysis base = solver::analyse_base(model, state);
+    if (turn == 0) result.start = base;
+    result.mobility = std::max(result.mobility, base.base_mobility);
+    result.locked = result.locked || base.locked;
+    for (std::size_t k = 0; k < base.axes.size(); ++k) {
+      // What moves along with a turn only is not pushed.
+      const bool is_pushed = base.axes[k].reachable && base.axes[k].largest_force > 0.0;
+      result.axes[k].reachable = result.axes[k].reachable || is_pushed;
+      if (!is_pushed) continue;
+      result.axes[k].mass.add(base.axes[k].effective_mass);
+      result.axes[k].force.add(base.axes[k].largest_force);
+    }
+  }
+  return result;
+}
+
+constexpr std::array axis_words{"x", "y", "rz"};
+
+std::string axes_text(const Analysis& a) {
+  std::string text;
+  for (std::size_t k = 0; k < axis_words.size(); ++k) {
+    const bool turns = k == 2;
+    text += "  " + padded(axis_words[k], 4);
+    if (!a.axes[k].reachable) {
+      text += "not reachable: the wheels hold it, or no motor pushes along it\n";
+      continue;
+    }
+    text += "effective mass " + a.axes[k].mass.text(turns ? "kg m^2" : "kg") + ", largest force " +
+            (a.axes[k].force.exists() ? a.axes[k].force.text(turns ? "N m" : "N") : "without a known limit") +
+            "\n";
+  }
+  return text;
+}
+
+std::string verdicts(const Analysis& a) {
+  const solver::BaseAnalysis& s = a.start;
+  std::string text = "  mobility " + std::to_string(a.mobility) + ": the motors make " +
+                     (a.exact() ? "every wrench along it exactly" : "some wrenches along it only") + "\n";
+  if (s.redundant_ground_rows > 0) {
+    text += "  " + std::to_string(s.redundant_ground_rows) + " redundant row" +
+            (s.redundant_ground_rows == 1 ? "" : "s") +
+            " of the ground: wheels that hold the same direction\n";
+  }
+  if (s.internal_forces > 0) {
+    text += "  " + std::to_string(s.internal_forces) +
+            (s.internal_forces == 1 ? " direction" : " directions") +
+            " in which motors only squeeze each other; the least torque is taken\n";
+  }
+  if (s.mirrored_rollers && !a.axes[2].reachable) {
+    text +=
+        "  MIRRORED ROLLERS? no torque turns this base. `roller` is the angle at the ground; seen from "
+        "above\n"
+        "  it is mirrored. Usual: 45 deg at front left and rear right, -45 deg at the others\n";
+  }
+  if (a.locked) {
+    text +=
+        "  LOCKED at general angles of its swivels: the axles do not meet in one point, so it must steer\n"
+        "  before it drives\n";
+  }
+  return text;
+}
+
+ordered_json json(const Analysis& a) {
+  ordered_json axes = ordered_json::object();
+  const auto spread = [](const Spread& s) {
+    return s.exists() ? ordered_json({s.least, s.most}) : ordered_json(nullptr);
+  };
+  for (std::size_t k = 0; k < axis_words.size(); ++k) {
+    axes[axis_words[k]] = {{"reachable", a.axes[k].reachable},
+                           {"effective_mass", spread(a.axes[k].mass)},
+                           {"largest_force", spread(a.axes[k].force)}};
+  }
+  return {{"mobility", a.mobility},
+          {"motor_rank", a.start.motor_rank},
+          {"exact", a.exact()},
+          {"redundant_ground_rows", a.start.redundant_ground_rows},
+          {"internal_forces", a.start.internal_forces},
+          {"mirrored_rollers", a.start.mirrored_rollers && !a.axes[2].reachable},
+          {"locked", a.locked},
+          {"axes", axes}};
+}
+
+std::string holds(const solver::Wheel& wheel) {
+  if (wheel.roller_angle) return "rollers at " + with_unit(*wheel.roller_angle, "rad", 3);
+  if (wheel.holds_rolling && wheel.holds_sideways) return "holds rolling and sideways";
+  return wheel.holds_rolling ? "holds rolling, slides sideways" : "holds sideways only";
+}
+
+std::string drive_of(const solver::Model& model) {
+  const auto rollers = std::count_if(model.wheels().begin(), model.wheels().end(),
+                                     [](const solver::Wheel& w) { return w.roller_angle.has_value(); });
+  const auto skids = std::count_if(model.wheels().begin(), model.wheels().end(), [](const solver::Wheel& w) {
+    return !w.roller_angle && !w.holds_sideways;
+  });
+  const auto steered = std::count_if(
+      model.wheels().begin(), model.wheels().end(),
+      [&](const solver::Wheel& w) { return model.bodies()[static_cast<std::size_t>(w.body)].parent > 0; });
+  std::string text = std::to_string(model.wheels().size()) + " wheels";
+  if (rollers > 0) text += ", " + std::to_string(rollers) + " with rollers";
+  if (skids > 0) text += ", " + std::to_string(skids) + " that slide sideways";
+  if (steered > 0) text += ", " + std::to_string(steered) + " on swivels";
+  return text;
+}
+
+std::vector<std::string> gaps(const lang::Robot& robot) {
+  std::vector<std::string> lines;
+  if (robot.limits.empty()) lines.push_back("limits: nothing bounds the base where a task says nothing");
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const solver::Joint& joint = robot.model.joint(wheel.body - 1);
+    if (joint.actuated && joint.rotor_inertia == 0.0) {
+      lines.push_back("rotor_inertia of `" + joint.name + "`: taken as 0");
+    }
+  }
+  return lines;
+}
+
+ordered_json wheel_json(const lang::Robot& robot, const solver::Wheel& wheel) {
+  const solver::Joint& joint = robot.model.joint(wheel.body - 1);
+  return {
+      {"joint", joint.name},
+      {"radius", wheel.radius},
+      {"holds", holds(wheel)},
+      {"actuated", joint.actuated},
+      {"effort", std::isfinite(joint.max_effort) ? ordered_json(joint.max_effort) : ordered_json(nullptr)}};
+}
+
+std::string listed(const char* title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string text = std::string(title) + "\n";
+  for (const std::string& line : lines) text += "  " + line + "\n";
+  return text;
+}
+
+void show(const lang::Robot& robot, Format format) {
+  const Analysis analysis = analyse(robot.model);
+  if (format == Format::json) {
+    ordered_json wheels = ordered_json::array();
+    for (const solver::Wheel& wheel : robot.model.wheels()) wheels.push_back(wheel_json(robot, wheel));
+    const ordered_json whole = {
+        {"robot", robot.name}, {"drive", drive_of(robot.model)}, {"mass", robot.model.total_mass()},
+        {"wheels", wheels},    {"analysis", json(analysis)},     {"missing", gaps(robot)}};
+    print(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    return;
+  }
+  std::string text = "robot `" + robot.name + "`, " + number(robot.model.total_mass()) + " kg, " +
+                     drive_of(robot.model) + "\n\nwheels\n";
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const solver::Joint& joint = robot.model.joint(wheel.body - 1);
+    text += "  " + joint.name + ": radius " + with_unit(wheel.radius * 1e3, "mm") + ", " + holds(wheel) +
+            ", " +
+            (joint.actuated ? number(joint.max_effort) + " N m, at most " +
+                                  number(joint.max_effort / wheel.radius) + " N at the ground"
+                            : std::string("no motor")) +
+            "\n";
+  }
+  text += "\nthe base, in its own axes\n" + axes_text(analysis) + verdicts(analysis) + "\n" +
+          listed("missing", gaps(robot));
+  print(text);
+}
+
+void show(const lang::RobotDraft& draft, Format format) {
+  if (format == Format::json) {
+    ordered_json wheels = ordered_json::array();
+    for (const lang::DraftWheel& w : draft.wheels) {
+      wheels.push_back({{"joint", w.joint},
+                        {"at", w.at},
+                        {"radius", w.radius ? ordered_json(*w.radius) : ordered_json(nullptr)},
+                        {"effort", w.effort ? ordered_json(*w.effort) : ordered_json(nullptr)},
+                        {"swivel", w.swivel}});
+    }
+    ordered_json assumed = ordered_json::array();
+    for (const lang::AssumedRobot& a : draft.assumed) {
+      assumed.push_back({{"as", a.as}, {"analysis", json(analyse(a.robot.model))}});
+    }
+    const ordered_json whole = {{"robot", draft.name},      {"base", draft.base},
+                                {"drive", draft.drive},     {"mass", draft.mass},
+                                {"wheels", wheels},         {"supports", draft.supports},
+                                {"missing", draft.missing}, {"assumptions", draft.assumption_notes},
+                                {"assumed", assumed}};
+    print(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    return;
+  }
+  std::string text = "URDF of `" + draft.name + "`, " + number(draft.mass) + " kg, " + draft.drive + "\n\n";
+  if (!draft.wheels.empty()) text += "wheels\n";
+  for (const lang::DraftWheel& w : draft.wheels) {
+    text += "  " + w.joint + ": at (" + number(w.at[0]) + ", " + number(w.at[1]) + ") m, radius " +
+            (w.radius ? with_unit(*w.radius * 1e3, "mm") : std::string("unknown")) + ", torque " +
+            (w.effort ? number(*w.effort) + " N m" : std::string("unknown")) +
+            (w.swivel.empty() ? "" : ", on the swivel `" + w.swivel + "`") + "\n";
+  }
+  for (const std::string& link : draft.supports) text += "  " + link + ": a support that holds nothing\n";
+  for (const lang::AssumedRobot& a : draft.assumed) {
+    const Analysis analysis = analyse(a.robot.model);
+    text += "\nthe base, " + a.as + "\n" + axes_text(analysis) + verdicts(analysis);
+  }
+  text += "\n" + listed("assumed for these figures", draft.assumption_notes) +
+          listed("missing in the URDF; `zwang robot init` writes a robot file to fill", draft.missing);
+  print(text);
+}
+
+int refused(const lang::Diagnostics& diagnostics, Format format) {
+  std::ostringstream text;
+  if (format == Format::json) {
+    text << "{\"ok\": false, \"diagnostics\": " << lang::render_json(diagnostics) << "}\n";
+  } else {
+    lang::render_human(diagnostics, text);
+  }
+  print(text.str());
+  return exit_bad;
+}
+
+}  // namespace
+
+int robot_inspect(const RobotInspectArguments& arguments) {
+  require_file(arguments.file);
+  lang::Diagnostics diagnostics;
+  if (is_urdf(arguments.file)) {
+    const auto name = std::filesystem::path(arguments.file).filename().string();
+    const auto draft = lang::draft_robot(arguments.file, name, diagnostics);
+    if (!draft) return refused(diagnostics, arguments.format);
+    show(*draft, arguments.format);
+    return exit_good;
+  }
+  const auto robot = lang::load_robot(arguments.file, diagnostics);
+  if (!robot) return refused(diagnostics, arguments.format);
+  show(*robot, arguments.format);
+  return exit_good;
+}
+
+int robot_init(const RobotInitArguments& arguments) {
+  namespace fs = std::filesystem;
+  require_file(arguments.urdf);
+  lang::Diagnostics diagnostics;
+  fs::path named = fs::path(arguments.urdf).filename();
+  if (arguments.out) {
+    const fs::path folder = fs::absolute(*arguments.out).parent_path();
+    named = fs::absolute(arguments.urdf).lexically_relative(folder);
+    if (fs::exists(*arguments.out)) throw Impossible(*arguments.out + ": is there already; remove it first");
+  }
+  const auto draft = lang::draft_robot(arguments.urdf, named.generic_string(), diagnostics);
+  if (!draft) return refused(diagnostics, Format::human);
+  if (draft->wheels.empty()) throw Impossible(arguments.urdf + ": no wheels found: a robot file needs some");
+  if (!arguments.out) {
+    print(draft->text);
+    return exit_good;
+  }
+  std::ofstream file(*arguments.out, std::ios::binary);
+  file << draft->text;
+  file.close();
+  if (!file) throw Impossible(*arguments.out + ": cannot be written");
+  print(*arguments.out + ": written; fill in\n" + listed("missing", draft->missing));
+  return exit_good;
+}
+
+}  // namespace zwang::cli

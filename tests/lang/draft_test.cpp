@@ -1,0 +1,160 @@
+// Robot files drafted from URDFs: refused while something is open, good once it is filled in.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "support.hpp"
+#include "zwang/lang/robot_draft.hpp"
+
+namespace zwang::lang {
+namespace {
+
+const std::filesystem::path real = test::source_dir / "../shared/robots";
+
+/// What a user would write in the open places.
+std::string filled(std::string text) {
+  const std::pair<const char*, const char*> values[] = {
+      {"radius: FILL_IN", "radius: 60 mm"},
+      {"holds: FILL_IN", "holds: [rolling]"},
+      {"effort: FILL_IN", "effort: 5 N m"},
+      {"deceleration: FILL_IN", "deceleration: 1 m/s^2"},
+      {"force: FILL_IN", "force: 50 N"},
+      {"polygon: FILL_IN", "polygon: [[0.3 m, 0.2 m], [-0.3 m, 0.2 m], [-0.3 m, -0.2 m], [0.3 m, -0.2 m]]"}};
+  for (const auto& [open, value] : values) text = std::regex_replace(text, std::regex(open), value);
+  return text;
+}
+
+class Draft : public testing::Test {
+ protected:
+  std::optional<RobotDraft> draft(const std::filesystem::path& urdf) {
+    std::optional<RobotDraft> draft = draft_robot(urdf, urdf.filename().string(), diagnostics_);
+    EXPECT_TRUE(draft) << test::rendered(diagnostics_);
+    folder_.write(urdf.filename().string(), test::slurp(urdf));
+    return draft;
+  }
+  std::optional<RobotDraft> real_draft(const std::string& name) { return draft(real / (name + ".urdf")); }
+
+  std::string said_of(const std::string& text) {
+    Diagnostics diagnostics;
+    const bool is_good = load_robot(folder_.write("robot.yaml", text), diagnostics).has_value();
+    EXPECT_EQ(is_good, !diagnostics.has_errors());
+    return test::rendered(diagnostics);
+  }
+
+  void expect_refused_until_filled(const RobotDraft& draft) {
+    EXPECT_NE(said_of(draft.text).find("FILL_IN"), std::string::npos) << draft.text;
+    EXPECT_EQ(said_of(filled(draft.text)), "") << filled(draft.text);
+  }
+
+  test::Folder folder_;
+  Diagnostics diagnostics_;
+};
+
+class RealDraft : public Draft {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::is_directory(real)) GTEST_SKIP() << real << " is not here";
+  }
+};
+
+TEST_F(Draft, of_the_shipped_urdf_has_its_wheels) {
+  const auto draft = this->draft(test::source_dir / "specs/robots/mecanum_base.urdf");
+  ASSERT_TRUE(draft);
+  ASSERT_EQ(draft->wheels.size(), 4U);
+  for (const DraftWheel& wheel : draft->wheels) {
+    ASSERT_TRUE(wheel.radius) << wheel.joint;
+    EXPECT_NEAR(*wheel.radius, 0.0759, 1e-9);
+    EXPECT_TRUE(wheel.effort);
+  }
+  // A URDF does not tell rollers: both readings are shown.
+  ASSERT_EQ(draft->assumed.size(), 2U);
+  expect_refused_until_filled(*draft);
+}
+
+TEST_F(Draft, of_a_smaller_urdf_takes_its_efforts) {
+  const auto draft = this->draft(test::source_dir / "tests/conformance/robots/mini.urdf");
+  ASSERT_TRUE(draft);
+  EXPECT_EQ(draft->wheels.size(), 0U);  // no joint is called a wheel and no link is round
+  EXPECT_TRUE(draft->assumed.empty());
+}
+
+TEST_F(RealDraft, finds_two_wheels_and_what_only_supports) {
+  const auto turtlebot = real_draft("turtlebot3_burger");
+  ASSERT_TRUE(turtlebot);
+  ASSERT_EQ(turtlebot->wheels.size(), 2U);
+  EXPECT_EQ(turtlebot->wheels[0].radius, 0.033);
+  EXPECT_EQ(turtlebot->supports, std::vector<std::string>{"caster_back_link"});
+  EXPECT_EQ(turtlebot->base, "base_link");
+
+  const auto mir = real_draft("mir100");
+  ASSERT_TRUE(mir);
+  EXPECT_EQ(mir->wheels.size(), 2U);
+  EXPECT_EQ(mir->supports.size(), 4U);  // wheels on casters that nobody drives
+
+  const auto fetch = real_draft("fetch");
+  ASSERT_TRUE(fetch);
+  EXPECT_EQ(fetch->wheels.size(), 2U);
+  for (const DraftWheel& wheel : fetch->wheels) EXPECT_FALSE(wheel.radius) << "its shape is a mesh";
+}
+
+TEST_F(RealDraft, finds_driven_wheels_on_swivels) {
+  for (const char* name : {"robile_4wheel", "eddie"}) {
+    const auto draft = real_draft(name);
+    ASSERT_TRUE(draft) << name;
+    EXPECT_EQ(draft->wheels.size(), 8U) << name;
+    EXPECT_EQ(draft->drive, "4 swivels with two driven wheels each") << name;
+    for (const DraftWheel& wheel : draft->wheels) EXPECT_FALSE(wheel.swivel.empty()) << name;
+  }
+}
+
+TEST_F(RealDraft, cannot_tell_mecanum_from_skid) {
+  for (const char* name : {"panther", "panther_mecanum", "ridgeback"}) {
+    const auto draft = real_draft(name);
+    ASSERT_TRUE(draft) << name;
+    EXPECT_EQ(draft->wheels.size(), 4U) << name;
+    EXPECT_EQ(draft->assumed.size(), 2U) << name;
+    EXPECT_NE(draft->text.find("holds: FILL_IN"), std::string::npos) << name;
+    const std::string radius = *draft->wheels[0].radius == 0.1825 ? "radius: 182.5 mm" : "mm, holds";
+    EXPECT_NE(draft->text.find(radius), std::string::npos) << name;
+  }
+}
+
+TEST_F(RealDraft, comes_to_a_model_for_every_robot) {
+  for (const auto& file : std::filesystem::directory_iterator(real)) {
+    if (file.path().extension() != ".urdf" || file.path().stem() == "husky_bullet") continue;
+    const auto draft = this->draft(file.path());
+    ASSERT_TRUE(draft);
+    EXPECT_FALSE(draft->assumed.empty()) << file.path();
+  }
+}
+
+TEST_F(RealDraft, is_refused_until_filled_and_good_then) {
+  for (const char* name : {"turtlebot3_burger", "diffbot", "mir100", "panther", "panther_mecanum",
+                           "ridgeback", "robile_4wheel"}) {
+    const auto draft = real_draft(name);
+    ASSERT_TRUE(draft) << name;
+    expect_refused_until_filled(*draft);
+  }
+}
+
+TEST_F(RealDraft, of_a_urdf_without_inertias_names_the_links) {
+  for (const auto& [name, link] :
+       {std::pair{"fetch", "r_gripper_finger_link"}, {"eddie", "front_left_struct_link"}}) {
+    const auto draft = real_draft(name);
+    ASSERT_TRUE(draft);
+    bool is_named = false;
+    for (const std::string& line : draft->missing)
+      is_named = is_named || line.find(link) != std::string::npos;
+    EXPECT_TRUE(is_named) << name;
+    // What no robot file can mend is told at its place in the URDF.
+    EXPECT_NE(said_of(filled(draft->text)).find(".urdf:"), std::string::npos) << name;
+  }
+}
+
+TEST_F(RealDraft, of_an_unexpanded_macro_is_refused) {
+  EXPECT_FALSE(draft_robot(real / "husky_bullet.urdf", "husky_bullet.urdf", diagnostics_));
+  EXPECT_EQ(diagnostics_.all().at(0).code, "E855");
+}
+
+}  // namespace
+}  // namespace zwang::lang

@@ -1,0 +1,173 @@
+// The physical diagnostics against formulas of the robot's own figures: each is silent just inside its bound
+// and speaks just outside, and the numbers that it tells are the formula's.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support.hpp"
+#include "zwang/lang/notes.hpp"
+
+namespace zwang::lang {
+namespace {
+
+// tests/conformance/robots/mini: a chassis of 20 kg and 0.8 kg m^2 about the middle of the axle, two wheels
+// of 1 kg with 0.001 kg m^2 about the vertical and 0.002 kg m^2 about their axles, 0.2 m to the side, motors
+// of 5 N m.
+constexpr double radius = 0.1, half_track = 0.2, spin = 0.002;
+constexpr double mass = 20.0 + 2.0 * 1.0 + 2.0 * spin / (radius * radius);
+constexpr double inertia = 0.8 + 2.0 * (0.001 + 1.0 * half_track * half_track) +
+                           2.0 * spin * (half_track / radius) * (half_track / radius);
+constexpr double force = 2.0 * 5.0 / radius;
+constexpr double torque = force * half_track;
+constexpr double stiffness = 20e3;  // of a bumper that the robot file does not tell
+
+std::string number(double value, const std::string& unit) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9f ", value);
+  return text + unit;
+}
+
+class Physics : public testing::Test {
+ protected:
+  Physics() {
+    for (const char* name : {"mini.urdf", "mini.yaml"}) {
+      folder_.write(std::string("robots/") + name,
+                    test::slurp(test::source_dir / "tests/conformance/robots" / name));
+    }
+  }
+
+  /// What is said about a task whose one group moves `move` in `in` with these axes.
+  Diagnostics said(const std::string& axes, const std::string& when = "elapsed > 2 s",
+                   const std::string& move = "base_link", const std::string& in = "base_link") {
+    const std::string text =
+        "zwang: 1\nrobot: robots/mini.yaml\nframes:\n  nose: {parent: base_link, at: [0.3 m, 0 m]}\n" +
+        std::string("start: go\ntasks:\n  go:\n    constraints:\n      go: {move: ") + move + ", in: " + in +
+        ", " + axes + "}\n    exits:\n      - {when: " + when +
+        ", for: 0.1 s, goto: done}\n    timeout: {after: 9 s, goto: failed}\n";
+    Diagnostics diagnostics;
+    load_with_notes(folder_.write("task.yaml", text), {}, diagnostics);
+    return diagnostics;
+  }
+
+  /// The code is silent for `inside` and told once for `outside`; returns what it told.
+  std::string only_outside(const std::string& code, const Diagnostics& inside, const Diagnostics& outside) {
+    EXPECT_EQ(test::count(inside, code), 0) << test::rendered(inside);
+    EXPECT_EQ(test::count(outside, code), 1) << test::rendered(outside);
+    for (const Diagnostic& d : outside.all()) {
+      if (d.code == code) return d.message + "\n" + d.help;
+    }
+    return "";
+  }
+
+  test::Folder folder_;
+};
+
+void expect_number(const std::string& text, const std::string& figure) {
+  EXPECT_NE(text.find(figure), std::string::npos) << figure << " in: " << text;
+}
+
+TEST_F(Physics, a_push_is_capped_at_mass_times_acceleration) {
+  const double cap = mass * 0.3;  // 6.72 N
+  const auto axes = [](double f) { return "x: {force: " + number(f, "N") + ", acceleration: +-0.3 m/s^2}"; };
+  const std::string text = only_outside("E601", said(axes(cap * 0.999)), said(axes(cap * 1.001)));
+  expect_number(text, "caps it at 6.72 N (22.4 kg x 0.3 m/s^2)");
+}
+
+TEST_F(Physics, a_pull_is_capped_by_the_other_end_of_the_range) {
+  const auto axes = [](double f) {
+    return "x: {force: " + number(-f, "N") + ", acceleration: [-0.2 m/s^2, 3 m/s^2]}";
+  };
+  only_outside("E601", said(axes(mass * 0.2 * 0.999)), said(axes(mass * 0.2 * 1.001)));
+}
+
+TEST_F(Physics, a_torque_is_capped_by_the_inertia_with_wheels) {
+  const auto axes = [](double n) {
+    return "rz: {force: " + number(n, "N m") + ", acceleration: +-0.5 rad/s^2}";
+  };
+  only_outside("E601", said(axes(inertia * 0.5 * 0.999)), said(axes(inertia * 0.5 * 1.001)));
+}
+
+TEST_F(Physics, the_motors_make_torque_over_radius) {
+  const auto push = [](double f) { return "x: {force: " + number(f, "N") + "}"; };
+  expect_number(only_outside("W606", said(push(force * 0.999)), said(push(force * 1.001))), "100 N at most");
+  const auto turn = [](double n) { return "rz: {force: " + number(n, "N m") + "}"; };
+  only_outside("W606", said(turn(torque * 0.999)), said(turn(torque * 1.001)));
+  // m v / tau = F
+  const double tau = mass * 1.0 / force;
+  const auto drive = [](double t) { return "x: {velocity: 1 m/s, time_constant: " + number(t, "s") + "}"; };
+  expect_number(only_outside("W606", said(drive(tau * 1.001)), said(drive(tau * 0.999))),
+                "time_constant: 0.224 s");
+}
+
+TEST_F(Physics, a_blocked_velocity_driver_presses_with_mass_times_velocity_over_time_constant) {
+  const double pressed = mass * 0.05 / 0.5;  // 2.24 N
+  const auto axes = [](double f) {
+    return "x: {velocity: 0.05 m/s, time_constant: 0.5 s, force: +-" + number(f, "N") + "}";
+  };
+  const std::string guard = "go.x.saturated";
+  expect_number(only_outside("W602", said(axes(pressed * 0.999), guard), said(axes(pressed * 1.001), guard)),
+                "2.24 N at most (22.4 kg x 0.1 m/s^2)");
+  // Without a guard on it the range is nothing but a range.
+  EXPECT_EQ(test::count(said(axes(pressed * 1.001)), "W602"), 0);
+}
+
+TEST_F(Physics, the_first_hit_peaks_at_what_momentum_adds) {
+  // P = F + sqrt(F^2 + K m v^2) comes to 2.5 F at v = sqrt(1.25 F^2 / (K m)).
+  const double F = 40.0;
+  const double v = std::sqrt(1.25 * F * F / (stiffness * mass));
+  const auto axes = [&](double speed) {
+    return "x: {velocity: " + number(speed, "m/s") + ", force: +-40 N}";
+  };
+  only_outside("N603", said(axes(v * 0.999)), said(axes(v * 1.001)));
+  const double peak = F + std::sqrt(F * F + stiffness * mass * 0.15 * 0.15);
+  char figure[40];
+  std::snprintf(figure, sizeof figure, "peaks near %.0f N; below 100 N", peak);
+  expect_number(only_outside("N603", said(axes(v * 0.9)), said(axes(0.15))), figure);
+}
+
+TEST_F(Physics, an_approach_brakes_with_velocity_over_e_time_constants) {
+  const double tau = 0.5 / (std::numbers::e * 0.3);
+  const auto axes = [](double t, const std::string& limit) {
+    return "x: {position: 1 m, velocity: +-0.5 m/s, " + limit + ", time_constant: " + number(t, "s") + "}";
+  };
+  const auto about = [&](double t, const std::string& limit) {
+    return said(axes(t, limit), "elapsed > 2 s", "nose", "world");
+  };
+  const std::string range = "acceleration: +-0.3 m/s^2";
+  only_outside("W604", about(tau * 1.001, range), about(tau * 0.999, range));
+  const std::string bound = "force: +-" + number(mass * 0.3, "N");
+  only_outside("W604", about(tau * 1.001, bound), about(tau * 0.999, bound));
+}
+
+TEST_F(Physics, a_boundary_brakes_with_its_share_of_the_acceleration) {
+  const double a = force / (0.8 * mass);
+  const auto axes = [](double braking) {
+    return "x: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-" + number(braking, "m/s^2") + "}";
+  };
+  only_outside("W607", said(axes(a * 0.999), "elapsed > 2 s", "base_link", "world"),
+               said(axes(a * 1.001), "elapsed > 2 s", "base_link", "world"));
+}
+
+TEST_F(Physics, one_cause_has_one_message) {
+  const Diagnostics said_of = said("x: {force: 500 N, acceleration: +-0.3 m/s^2}, y: {velocity: 1 m/s}");
+  EXPECT_EQ(said_of.all().size() - static_cast<std::size_t>(test::count(said_of, "W302")), 2U)
+      << test::rendered(said_of);
+  EXPECT_EQ(test::count(said_of, "E601"), 1);
+  EXPECT_EQ(test::count(said_of, "E404"), 1);
+}
+
+TEST_F(Physics, is_asked_beside_errors_of_other_kinds) {
+  const Diagnostics said_of = said("x: {velocity: 1 N}, y: {velocity: 1 m/s}");
+  EXPECT_EQ(test::count(said_of, "E202"), 1);
+  EXPECT_EQ(test::count(said_of, "E404"), 1);
+}
+
+TEST_F(Physics, the_shipped_task_has_nothing_to_warn_of) {
+  Diagnostics diagnostics;
+  ASSERT_TRUE(load(test::source_dir / "specs/wall_align.yaml", {}, diagnostics));
+  EXPECT_TRUE(diagnostics.all().empty()) << test::rendered(diagnostics);
+}
+
+}  // namespace
+}  // namespace zwang::lang

@@ -1,0 +1,165 @@
+// `zwang plan` and `zwang robot`, as processes. Expected numbers come from the robot file and the URDF.
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "program.hpp"
+
+namespace zwang {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const fs::path specs = fs::path(ZWANG_SOURCE_DIR) / "specs";
+
+using test::read;
+using test::Result;
+
+/// A folder with the shipped specs; arguments in one line, both streams in `out`.
+class CliPlan : public test::Program {
+ protected:
+  void SetUp() override { fs::copy(specs, folder_, fs::copy_options::recursive); }
+
+  Result zwang(const std::string& line) {
+    std::istringstream in(line);
+    std::vector<std::string> arguments;
+    for (std::string word; in >> word;) arguments.push_back(word);
+    Result result = Program::zwang(arguments);
+    result.out += result.err;
+    return result;
+  }
+  json zwang_json(const std::string& arguments) {
+    const Result result = zwang(arguments + " --format json");
+    EXPECT_EQ(result.code, 0) << result.out;
+    return json::parse(result.out);
+  }
+  /// The first row of the task with this name and kind.
+  static json row(const json& task, const std::string& name, const std::string& kind) {
+    for (const json& r : task.at("rows")) {
+      if (r.at("row") == name && r.at("kind") == kind) return r;
+    }
+    ADD_FAILURE() << "no row " << name << " " << kind << " in " << task.dump(1);
+    return {};
+  }
+};
+
+TEST_F(CliPlan, shows_the_rows_as_the_solver_gets_them) {
+  const json plan = zwang_json("plan wall_align.yaml");
+  EXPECT_EQ(plan.at("mobility"), 3);
+  ASSERT_EQ(plan.at("tasks").size(), 2U);
+  const json& press = plan.at("tasks")[0];
+
+  const json force = row(press, "contact.x", "presses");
+  EXPECT_EQ(force.at("force"), 20.0);
+  EXPECT_EQ(force.at("a"), json({0.0, 0.0, 0.0, 1.0, 0.0, 0.0}));
+  EXPECT_EQ(force.at("level"), 1);
+  EXPECT_TRUE(force.at("b").is_null());
+
+  // (v - ds)/h at rest, h = 10 ms
+  EXPECT_NEAR(row(press, "contact.x", "at most").at("b").get<double>(), 0.08 / 0.01, 1e-9);
+  EXPECT_NEAR(row(press, "contact.x", "at least").at("b").get<double>(), -0.05 / 0.01, 1e-9);
+  EXPECT_EQ(row(press, "contact.x", "at most").at("hi"), 0.0);
+  EXPECT_EQ(row(press, "limits.y", "at most").at("level"), 0);
+  EXPECT_EQ(press.at("equality_rows"), 1);
+  EXPECT_EQ(press.at("rank"), 1);
+
+  // `hold` pushes along the wall's x; the scene starts the base 20 deg askew.
+  const json askew = row(plan.at("tasks")[1], "contact.x", "presses").at("a");
+  EXPECT_NEAR(askew[3].get<double>(), std::cos(20.0 * std::numbers::pi / 180.0), 1e-9);
+  EXPECT_NEAR(askew[4].get<double>(), -std::sin(20.0 * std::numbers::pi / 180.0), 1e-9);
+  EXPECT_EQ(plan.at("tasks")[1].at("rank"), 2);
+}
+
+TEST_F(CliPlan, a_row_names_the_line_that_it_comes_from) {
+  const json plan = zwang_json("plan wall_align.yaml --task press");
+  const std::string from = row(plan.at("tasks")[0], "contact.y", "drives").at("from");
+  const std::string file = read(folder_ / "wall_align.yaml");
+  const std::size_t at = file.find("y:  {velocity: 0 m/s}");
+  const auto line = 1 + std::count(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+  EXPECT_EQ(from, "wall_align.yaml:" + std::to_string(line));
+}
+
+TEST_F(CliPlan, the_effective_mass_has_wheels_and_rotors_in_it) {
+  const json plan = zwang_json("plan wall_align.yaml --task press");
+  // 4 (I + gear^2 I_rotor) / r^2 beside the masses; the smooth rollers of the model do not turn.
+  const json axis = plan.at("tasks")[0].at("axes")[0];
+  const double rolling = 4.0 * (26.0 * 26.0 * 13.5e-6) / (0.0759 * 0.0759);
+  const double mass = axis.at("effective_mass");
+  EXPECT_GT(mass, 46.0 + rolling);
+  EXPECT_LT(mass, 46.0 + rolling + 4.0 * 2.3);  // a wheel's own spin weighs less than the wheel once more
+  // The impact's note tells the same mass.
+  bool is_told = false;
+  for (const json& note : plan.at("tasks")[0].at("notes")) is_told = is_told || note.at("code") == "N603";
+  EXPECT_TRUE(is_told);
+}
+
+TEST_F(CliPlan, one_task_of_the_file) {
+  const json plan = zwang_json("plan wall_align.yaml --task hold");
+  ASSERT_EQ(plan.at("tasks").size(), 1U);
+  EXPECT_EQ(plan.at("tasks")[0].at("task"), "hold");
+  const Result unknown = zwang("plan wall_align.yaml --task press_on");
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.out.find("press_on"), std::string::npos);
+}
+
+TEST_F(CliPlan, a_parameter_reaches_the_rows) {
+  const json plan = zwang_json("plan wall_align.yaml -p push=30N");
+  EXPECT_EQ(row(plan.at("tasks")[0], "contact.x", "presses").at("force"), 30.0);
+}
+
+TEST_F(CliPlan, a_bad_file_has_no_plan) {
+  write("bad.yaml", "zwang: 1\nrobot: robots/mecanum_base.yaml\nstart: go\ntasks: {}\n");
+  const Result result = zwang("plan bad.yaml");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.out.find("E301"), std::string::npos) << result.out;
+}
+
+TEST_F(CliPlan, inspect_tells_what_the_base_can_do) {
+  const json robot = zwang_json("robot inspect robots/mecanum_base.yaml");
+  EXPECT_EQ(robot.at("wheels").size(), 4U);
+  const json& analysis = robot.at("analysis");
+  EXPECT_EQ(analysis.at("mobility"), 3);
+  EXPECT_EQ(analysis.at("exact"), true);
+  EXPECT_EQ(analysis.at("internal_forces"), 1);
+  EXPECT_EQ(analysis.at("mirrored_rollers"), false);
+  // Each of four wheels pushes with effort / radius along x when all turn ahead.
+  const double effort = robot.at("wheels")[0].at("effort");
+  EXPECT_NEAR(analysis.at("axes").at("x").at("largest_force")[1].get<double>(), 4.0 * effort / 0.0759, 1e-6);
+}
+
+TEST_F(CliPlan, inspect_finds_rollers_that_were_read_from_above) {
+  std::string file = read(folder_ / "robots/mecanum_base.yaml");
+  for (std::size_t at = 0; (at = file.find("roller: ", at)) != std::string::npos; ++at) {
+    const bool is_negative = file[at + 8] == '-';
+    file = is_negative ? file.erase(at + 8, 1) : file.insert(at + 8, "-");
+  }
+  write("robots/mirrored.yaml", file);
+  const Result result = zwang("robot inspect robots/mirrored.yaml");
+  EXPECT_EQ(result.code, 0);
+  const json analysis = zwang_json("robot inspect robots/mirrored.yaml").at("analysis");
+  // A square wheelbase loses its yaw; another one keeps some.
+  EXPECT_EQ(analysis.at("mirrored_rollers"), !analysis.at("axes").at("rz").at("reachable").get<bool>());
+}
+
+TEST_F(CliPlan, init_writes_a_file_that_is_refused_until_it_is_filled) {
+  const Result made = zwang("robot init robots/mecanum_base.urdf -o robots/mine.yaml");
+  EXPECT_EQ(made.code, 0) << made.out;
+  const Result refused = zwang("validate robots/mine.yaml");
+  EXPECT_EQ(refused.code, 1);
+  EXPECT_NE(refused.out.find("FILL_IN"), std::string::npos) << refused.out;
+  EXPECT_EQ(zwang("robot init robots/mecanum_base.urdf -o robots/mine.yaml").code, 2) << "never overwritten";
+  EXPECT_EQ(zwang("robot init robots/none.urdf").code, 2);
+}
+
+TEST_F(CliPlan, inspect_refuses_what_is_no_robot) {
+  write("robots/broken.urdf", "<robot name='x'><link/></robot>");
+  const Result result = zwang("robot inspect robots/broken.urdf");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.out.find("error E8"), std::string::npos) << result.out;
+}
+
+}  // namespace
+}  // namespace zwang

@@ -1,0 +1,95 @@
+// The blocks of docs/tutorial.md are what they say: each is good, the mistake is refused in just these words,
+// and the last one runs.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "program.hpp"
+
+namespace zwang {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Block {
+  std::string language;
+  std::string text;
+  int line = 0;
+};
+
+std::vector<Block> blocks() {
+  std::ifstream in(fs::path(ZWANG_SOURCE_DIR) / "docs/tutorial.md");
+  std::vector<Block> result;
+  bool is_inside = false;
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line.starts_with("```")) {
+      is_inside = !is_inside;
+      if (is_inside) result.push_back({line.substr(3), "", number});
+    } else if (is_inside) {
+      result.back().text += line + "\n";
+    }
+  }
+  return result;
+}
+
+class Tutorial : public test::Program {
+ protected:
+  void SetUp() override {
+    fs::copy(fs::path(ZWANG_SOURCE_DIR) / "specs", folder_, fs::copy_options::recursive);
+  }
+  void write(const Block& block) { Program::write("mine.yaml", block.text); }
+};
+
+TEST_F(Tutorial, each_block_is_good) {
+  int tried = 0;
+  for (const Block& block : blocks()) {
+    if (block.language != "yaml") continue;
+    write(block);
+    const test::Result result = zwang({"validate", "--deny", "warnings", "mine.yaml"});
+    EXPECT_EQ(result.code, 0) << "docs/tutorial.md:" << block.line << "\n" << result.out << result.err;
+    ++tried;
+  }
+  EXPECT_EQ(tried, 5);
+}
+
+TEST_F(Tutorial, the_first_block_has_eight_lines) {
+  for (const Block& block : blocks()) {
+    if (block.language != "yaml") continue;
+    EXPECT_EQ(std::count(block.text.begin(), block.text.end(), '\n'), 8);
+    return;
+  }
+}
+
+TEST_F(Tutorial, the_mistake_is_refused_in_these_words) {
+  const std::vector<Block> all = blocks();
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (all[i].language != "yaml mistake") continue;
+    write(all[i]);
+    const test::Result result = zwang({"validate", "mine.yaml"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_EQ(result.out.substr(0, all[i + 1].text.size()), all[i + 1].text);
+    return;
+  }
+  FAIL() << "no mistake in the tutorial";
+}
+
+TEST_F(Tutorial, the_last_block_squares_the_base_up) {
+  std::optional<Block> last;
+  for (const Block& block : blocks()) {
+    if (block.language == "yaml") last = block;
+  }
+  ASSERT_TRUE(last);
+  write(*last);
+  const test::Result result = zwang({"run", "mine.yaml", "--quiet", "--format", "json"});
+  ASSERT_EQ(result.code, 0) << result.out << result.err;
+  const auto report = nlohmann::json::parse(result.out);
+  EXPECT_EQ(report.at("outcome"), "done");
+  EXPECT_NEAR(report.at("truth").at("base").at("yaw").get<double>(), 0.0, 0.1 * 0.0174532925199433);
+  EXPECT_NEAR(report.at("truth").at("wall").at("steady_force").get<double>(), 20.0, 0.2);
+}
+
+}  // namespace
+}  // namespace zwang
