@@ -32,9 +32,8 @@ std::optional<Scene> load_scene_of(const TaskFile& file, const fs::path& path, c
   return load_scene_from(*scene, file.scene.span, diagnostics);
 }
 
-}  // namespace
-
-std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+std::optional<Program> load_phases(const fs::path& path, const LoadOptions& options,
+                                   Diagnostics& diagnostics) {
   const fs::path root = options.root.value_or(root_of(path));
   const std::optional<int> source = read_file(path, yaml_size_limit, {}, diagnostics);
   if (!source) return std::nullopt;
@@ -44,11 +43,21 @@ std::optional<Program> load(const fs::path& path, const LoadOptions& options, Di
   if (!file) return std::nullopt;
   std::optional<Robot> robot = load_robot_of(*file, path, root, options, diagnostics);
   std::optional<Scene> scene = load_scene_of(*file, path, root, options, diagnostics);
+  // Names of a section that could not be read would all be called unknown.
+  if (file->is_incomplete) return std::nullopt;
   std::optional<CheckedFile> checked =
       check(std::move(*file), std::move(robot), std::move(scene), options, diagnostics);
   if (!checked) return std::nullopt;
   Program program = lower(std::move(*checked));
   program.path = path.string();
+  return program;
+}
+
+}  // namespace
+
+std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  std::optional<Program> program = load_phases(path, options, diagnostics);
+  diagnostics.settle();
   return program;
 }
 

@@ -3,6 +3,8 @@
 #include <charconv>
 #include <csignal>
 #include <exception>
+#include <functional>
+#include <memory>
 
 #include "output.hpp"
 #include "verbs.hpp"
@@ -50,18 +52,82 @@ std::map<std::string, std::string> parameters(const std::vector<std::string>& te
   return values;
 }
 
+/// Each verb adds its options and, when it is the one, says what to do.
+void add_validate(CLI::App& app, std::function<int()>& chosen) {
+  static const std::map<std::string, ReportFormat> report_formats = {{"human", ReportFormat::human},
+                                                                     {"short", ReportFormat::one_line},
+                                                                     {"json", ReportFormat::json},
+                                                                     {"sarif", ReportFormat::sarif}};
+  const auto arguments = std::make_shared<ValidateArguments>();
+  const auto deny = std::make_shared<std::string>();
+  CLI::App* verb = app.add_subcommand("validate", "Check task, robot and scene files without running them");
+  verb->add_option("files", arguments->files,
+                   "files, whose first key tells what they are, or folders of such files")
+      ->required();
+  verb->add_option("--format", arguments->format,
+                   "human (default), short (a line each), json (one object) or sarif (2.1.0)")
+      ->transform(CLI::CheckedTransformer(report_formats, CLI::ignore_case));
+  verb->add_option("--deny", *deny, "warnings: refuse files with warnings, too")
+      ->check(CLI::IsMember({"warnings"}));
+  verb->add_flag("--notes", arguments->notes, "show notes as well");
+  verb->callback([=, &chosen] {
+    arguments->deny_warnings = !deny->empty();
+    chosen = [=] { return validate(*arguments); };
+  });
+}
+
+void add_explain(CLI::App& app, std::function<int()>& chosen) {
+  const auto arguments = std::make_shared<ExplainArguments>();
+  CLI::App* verb = app.add_subcommand("explain", "Say what a diagnostic means and what to do about it");
+  verb->add_option("codes", arguments->codes, "codes, as E201");
+  verb->add_flag("--all", arguments->all, "list all codes; with --markdown all pages");
+  verb->add_flag("--markdown", arguments->markdown, "the pages of docs/errors");
+  verb->callback([=, &chosen] { chosen = [=] { return explain(*arguments); }; });
+}
+
+void add_fmt(CLI::App& app, std::function<int()>& chosen) {
+  const auto arguments = std::make_shared<FmtArguments>();
+  CLI::App* verb = app.add_subcommand("fmt", "Lay files out anew; comments, order and meaning stay");
+  verb->add_option("files", arguments->files, "task, robot and scene files")->required();
+  verb->add_flag("--check", arguments->check, "change nothing; tell which files would change");
+  verb->callback([=, &chosen] { chosen = [=] { return fmt(*arguments); }; });
+}
+
+void add_schema(CLI::App& app, std::function<int()>& chosen) {
+  using zwang::lang::SchemaKind;
+  static const std::map<std::string, SchemaKind> kinds = {{"task", SchemaKind::task},
+                                                          {"robot", SchemaKind::robot},
+                                                          {"scene", SchemaKind::scene},
+                                                          {"scenario", SchemaKind::scenario}};
+  const auto arguments = std::make_shared<SchemaArguments>();
+  CLI::App* verb = app.add_subcommand("schema", "Print the JSON Schema of a kind of file, for editors");
+  verb->add_option("kind", arguments->kind, "task (default), robot, scene or scenario")
+      ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case));
+  verb->callback([=, &chosen] { chosen = [=] { return schema(*arguments); }; });
+}
+
+void add_graph(CLI::App& app, std::function<int()>& chosen) {
+  static const std::map<std::string, GraphFormat> graph_formats = {{"dot", GraphFormat::dot},
+                                                                   {"mermaid", GraphFormat::mermaid}};
+  const auto arguments = std::make_shared<GraphArguments>();
+  CLI::App* verb = app.add_subcommand("graph", "Draw the tasks of a file and the ways between them");
+  verb->add_option("file", arguments->file, "the task file")->required();
+  verb->add_option("--format", arguments->format, "dot (default, for Graphviz) or mermaid")
+      ->transform(CLI::CheckedTransformer(graph_formats, CLI::ignore_case));
+  verb->callback([=, &chosen] { chosen = [=] { return graph(*arguments); }; });
+}
+
 int parse_and_do(int argc, char** argv) {
   CLI::App app("Checks and runs task files for robots that touch the world.", "zwang");
   app.set_version_flag("--version", "zwang " ZWANG_VERSION);
   app.require_subcommand(1);
 
-  ValidateArguments to_validate;
-  CLI::App* validate_verb =
-      app.add_subcommand("validate", "Check task, robot and scene files without running them");
-  validate_verb->add_option("files", to_validate.files, "the files; their first key tells what they are")
-      ->required();
-  validate_verb->add_option("--format", to_validate.format, "human (default) or json: one object on stdout")
-      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  std::function<int()> chosen;
+  add_validate(app, chosen);
+  add_explain(app, chosen);
+  add_fmt(app, chosen);
+  add_schema(app, chosen);
+  add_graph(app, chosen);
 
   RunArguments to_run;
   std::vector<std::string> parameter_texts;
@@ -100,7 +166,7 @@ int parse_and_do(int argc, char** argv) {
     // CLI11's own exit codes say nothing that ours do not.
     throw Impossible(std::string(mistake.what()) + "\nTry `zwang --help`.");
   }
-  if (validate_verb->parsed()) return validate(to_validate);
+  if (chosen) return chosen();
   if (info_verb->parsed()) return info(to_tell);
   to_run.parameters = parameters(parameter_texts);
   if (seed_text) to_run.seed = seed(*seed_text);

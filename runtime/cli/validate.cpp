@@ -1,7 +1,10 @@
-#include <fstream>
+#include <algorithm>
+#include <filesystem>
+#include <list>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "file_kind.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/program.hpp"
@@ -10,98 +13,115 @@ namespace zwang::cli {
 
 namespace {
 
-enum class Kind { task, robot, scene };
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
 
-const char* word(Kind kind) {
-  switch (kind) {
-    case Kind::task:
-      return "task";
-    case Kind::robot:
-      return "robot";
-    case Kind::scene:
-      break;
+struct Checked {
+  std::string path;
+  FileKind kind = FileKind::task;
+  std::optional<std::string> summary;
+  lang::Diagnostics diagnostics;
+  bool is_good = false;
+};
+
+/// zwang's own files below a folder, in the order of their names; links are not followed.
+std::vector<std::string> files_below(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    const fs::path& path = at->path();
+    const bool is_yaml = path.extension() == ".yaml" || path.extension() == ".yml";
+    if (is_yaml && at->is_regular_file() && !at->is_symlink() && kind_by_key(path.string())) {
+      files.push_back(path.string());
+    }
   }
-  return "scene";
+  if (error) throw Impossible(folder + ": " + error.message());
+  if (files.empty()) throw Impossible(folder + ": no task, robot or scene file below this folder");
+  std::sort(files.begin(), files.end());
+  return files;
 }
 
-/// By the first key of the file. What is none of the three is read as a task file, whose reader says what is
-/// wrong.
-Kind kind_of(const std::string& path) {
-  std::string start(16 * 1024, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
-  std::istringstream in(start);
-  for (std::string line; std::getline(in, line);) {
-    const std::size_t begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string::npos || line[begin] == '#' || line.compare(begin, 3, "---") == 0) continue;
-    if (line.compare(begin, 11, "zwang_robot") == 0) return Kind::robot;
-    if (line.compare(begin, 11, "zwang_scene") == 0) return Kind::scene;
-    return Kind::task;
+std::vector<std::string> files_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    if (fs::is_directory(path, error)) {
+      const std::vector<std::string> below = files_below(path);
+      files.insert(files.end(), below.begin(), below.end());
+    } else {
+      require_file(path);
+      files.push_back(path);
+    }
   }
-  return Kind::task;
+  return files;
 }
 
-std::string count(std::size_t n, const char* thing) {
+std::string count(int n, const char* thing) {
   return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
-/// What was read, in a few words; nothing when it is bad.
-std::optional<std::string> check(const std::string& path, Kind kind, lang::Diagnostics& diagnostics) {
-  switch (kind) {
-    case Kind::robot:
-      if (const auto robot = lang::load_robot(path, diagnostics)) {
-        return "robot `" + robot->name + "`, " + count(robot->model.wheels().size(), "wheel") + ", " +
-               with_unit(robot->model.total_mass(), "kg", 3);
-      }
-      return std::nullopt;
-    case Kind::scene:
-      if (const auto scene = lang::load_scene(path, diagnostics)) {
-        return "scene, " + count(scene->objects.size(), "object");
-      }
-      return std::nullopt;
-    case Kind::task:
-      break;
+std::string counts(const lang::Diagnostics& diagnostics) {
+  const int warnings = diagnostics.count(lang::Severity::warning);
+  return count(diagnostics.error_count(), "error") +
+         (warnings > 0 ? ", " + count(warnings, "warning") : std::string());
+}
+
+std::string human(const Checked& file, const ValidateArguments& arguments) {
+  std::ostringstream text;
+  lang::render_human(file.diagnostics, text, {.notes = arguments.notes});
+  if (file.is_good) {
+    text << file.path << ": good (" << *file.summary << ")\n";
+  } else {
+    text << file.path << ": " << counts(file.diagnostics) << "\n";
   }
-  if (const auto program = lang::load(path, {}, diagnostics)) {
-    return count(program->tasks.size(), "task") + ", robot `" + program->robot.name + "`" +
-           (program->scene ? ", with a scene" : "");
+  return text.str();
+}
+
+std::string short_lines(const Checked& file, const ValidateArguments& arguments) {
+  std::ostringstream text;
+  lang::render_short(file.diagnostics, text, {.notes = arguments.notes});
+  return text.str();
+}
+
+std::string json(const std::list<Checked>& checked, bool is_good, const ValidateArguments& arguments) {
+  ordered_json files = ordered_json::array();
+  ordered_json all = ordered_json::array();
+  for (const Checked& file : checked) {
+    files.push_back({{"file", file.path}, {"kind", word_of(file.kind)}, {"ok", file.is_good}});
+    const std::string rendered = lang::render_json(file.diagnostics, {.notes = arguments.notes});
+    for (auto& d : ordered_json::parse(rendered)) all.push_back(std::move(d));
   }
-  return std::nullopt;
+  const ordered_json whole = {{"ok", is_good}, {"files", files}, {"diagnostics", all}};
+  return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string sarif(const std::list<Checked>& checked, const ValidateArguments& arguments) {
+  std::vector<const lang::Diagnostics*> all;
+  for (const Checked& file : checked) all.push_back(&file.diagnostics);
+  return lang::render_sarif(all, ZWANG_VERSION, {.notes = arguments.notes});
 }
 
 }  // namespace
 
 int validate(const ValidateArguments& arguments) {
-  for (const std::string& path : arguments.files) require_file(path);
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  nlohmann::ordered_json all = nlohmann::ordered_json::array();
-  bool good = true;
-  for (const std::string& path : arguments.files) {
-    lang::Diagnostics diagnostics;
-    const Kind kind = kind_of(path);
-    const std::optional<std::string> summary = check(path, kind, diagnostics);
-    const bool ok = summary && !diagnostics.has_errors();
-    good = good && ok;
-    if (arguments.format == Format::json) {
-      files.push_back({{"file", path}, {"kind", word(kind)}, {"ok", ok}});
-      for (auto& d : nlohmann::ordered_json::parse(lang::render_json(diagnostics))) all.push_back(d);
-      continue;
-    }
-    std::ostringstream text;
-    lang::render_human(diagnostics, text);
-    if (ok) {
-      text << path << ": good (" << *summary << ")\n";
-    } else {
-      text << path << ": " << count(static_cast<std::size_t>(diagnostics.error_count()), "error") << "\n";
-    }
-    print(text.str());
+  const std::vector<std::string> paths = files_of(arguments.files);
+  std::list<Checked> checked;
+  bool is_good = true;
+  for (const std::string& path : paths) {
+    Checked& file = checked.emplace_back();
+    file.path = path;
+    // What is none of the three is read as a task file, whose reader says what is wrong.
+    file.kind = kind_by_key(path).value_or(FileKind::task);
+    file.summary = read_as(file.kind, path, file.diagnostics);
+    const bool is_denied = arguments.deny_warnings && file.diagnostics.count(lang::Severity::warning) > 0;
+    file.is_good = file.summary && !file.diagnostics.has_errors() && !is_denied;
+    is_good = is_good && file.is_good;
+    if (arguments.format == ReportFormat::human) print(human(file, arguments));
+    if (arguments.format == ReportFormat::one_line) print(short_lines(file, arguments));
   }
-  if (arguments.format == Format::json) {
-    const nlohmann::ordered_json whole = {{"ok", good}, {"files", files}, {"diagnostics", all}};
-    print(whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-  }
-  return good ? exit_good : exit_bad;
+  if (arguments.format == ReportFormat::json) print(json(checked, is_good, arguments));
+  if (arguments.format == ReportFormat::sarif) print(sarif(checked, arguments));
+  return is_good ? exit_good : exit_bad;
 }
 
 }  // namespace zwang::cli

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "zwang/lang/schema.hpp"
+
 namespace zwang::cli {
 
 enum ExitCode {
@@ -18,11 +20,42 @@ enum ExitCode {
 
 enum class Format { human, json };
 
+/// How what was found is written: for people, one line each, or for programs.
+enum class ReportFormat { human, one_line, json, sarif };
+
 struct ValidateArguments {
-  std::vector<std::string> files;
-  Format format = Format::human;
+  std::vector<std::string> files;  ///< or folders
+  ReportFormat format = ReportFormat::human;
+  bool deny_warnings = false;
+  bool notes = false;
 };
 int validate(const ValidateArguments& arguments);
+
+struct ExplainArguments {
+  std::vector<std::string> codes;
+  bool all = false;
+  bool markdown = false;
+};
+int explain(const ExplainArguments& arguments);
+
+struct FmtArguments {
+  std::vector<std::string> files;
+  bool check = false;  ///< only tell
+};
+int fmt(const FmtArguments& arguments);
+
+struct SchemaArguments {
+  lang::SchemaKind kind = lang::SchemaKind::task;
+};
+int schema(const SchemaArguments& arguments);
+
+enum class GraphFormat { dot, mermaid };
+
+struct GraphArguments {
+  std::string file;
+  GraphFormat format = GraphFormat::dot;
+};
+int graph(const GraphArguments& arguments);
 
 struct RunArguments {
   std::string file;

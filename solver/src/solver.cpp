@@ -148,7 +148,7 @@ struct Solver::Workspace {
       const Row& row = rows[static_cast<std::size_t>(i)];
       problem.B(i) = whitened.motion(id);
       problem.d(i) = row.b - sweeps.g(id) - whitened.held_acceleration(id);
-      problem.set_row(i, row, whitened.free_share(id, sweeps.L));
+      problem.set_row(i, row, sweeps.L(id, id));
     }
     int motor = 0;
     for (const int j : motors) {

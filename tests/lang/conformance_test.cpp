@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "limits.hpp"
 #include "support.hpp"
 #include "zwang/lang/program.hpp"
 
@@ -22,11 +23,8 @@ std::vector<std::string> cases() {
   return names;
 }
 
-/// What the command line would print; `ok` for a file without remarks.
-std::string said_about(const std::string& name) {
-  // Relative, so that the expectations hold in any folder.
-  const std::filesystem::path path = folder / (name + ".yaml");
-  Diagnostics diagnostics;
+void load_as_named(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  const std::string name = path.filename().string();
   bool is_good = false;
   if (name.starts_with("robot_")) {
     is_good = load_robot(path, diagnostics).has_value();
@@ -36,23 +34,65 @@ std::string said_about(const std::string& name) {
     is_good = load(path, {}, diagnostics).has_value();
   }
   EXPECT_EQ(is_good, !diagnostics.has_errors());
-  const std::string text = test::rendered(diagnostics);
-  return text.empty() ? "ok\n" : text;
+}
+
+/// What the command line would print with --notes; `ok` for a file without remarks.
+std::string said_about(const std::string& name) {
+  Diagnostics diagnostics;
+  // Relative, so that the expectations hold in any folder.
+  load_as_named(folder / (name + ".yaml"), diagnostics);
+  std::ostringstream out;
+  render_human(diagnostics, out, {.notes = true});
+  return out.str().empty() ? "ok\n" : out.str();
+}
+
+void expect_golden(const std::string& name, const std::string& said) {
+  const std::filesystem::path expected = test::source_dir / folder / (name + ".expected");
+  if (std::getenv("ZWANG_WRITE_EXPECTED") != nullptr) std::ofstream(expected) << said;
+  ASSERT_TRUE(std::filesystem::exists(expected));
+  EXPECT_EQ(said, test::slurp(expected));
 }
 
 class Conformance : public testing::TestWithParam<std::string> {};
 
 TEST_P(Conformance, says_exactly_what_is_expected) {
   std::filesystem::current_path(test::source_dir);
-  const std::filesystem::path expected = folder / (GetParam() + ".expected");
-  const std::string said = said_about(GetParam());
-  if (std::getenv("ZWANG_WRITE_EXPECTED") != nullptr) std::ofstream(expected) << said;
-  ASSERT_TRUE(std::filesystem::exists(expected));
-  EXPECT_EQ(said, test::slurp(expected));
+  expect_golden(GetParam(), said_about(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Conformance, testing::ValuesIn(cases()),
                          [](const auto& test_case) { return test_case.param; });
+
+/// Files that are too large to be kept are made here; what is said about them is kept all the same.
+class Limits : public testing::TestWithParam<test::Limit> {
+ protected:
+  void make(int size) {
+    std::filesystem::current_path(workplace_.path());
+    for (const auto& [path, text] : GetParam().make(GetParam().name, size)) {
+      workplace_.write((folder / path).string(), text);
+    }
+  }
+  void TearDown() override { std::filesystem::current_path(test::source_dir); }
+
+ private:
+  test::Folder workplace_;
+};
+
+TEST_P(Limits, hold_what_they_allow) {
+  make(GetParam().most);
+  Diagnostics diagnostics;
+  load_as_named(folder / (GetParam().name + ".yaml"), diagnostics);
+  EXPECT_EQ(test::count(diagnostics, GetParam().code), 0) << test::rendered(diagnostics);
+  EXPECT_EQ(diagnostics.has_errors(), !GetParam().is_meaningful) << test::rendered(diagnostics);
+}
+
+TEST_P(Limits, refuse_one_more) {
+  make(GetParam().most + 1);
+  expect_golden(GetParam().name, said_about(GetParam().name));
+}
+
+INSTANTIATE_TEST_SUITE_P(OfText, Limits, testing::ValuesIn(test::limits()),
+                         [](const auto& test_case) { return test_case.param.name; });
 
 }  // namespace
 }  // namespace zwang::lang

@@ -1,9 +1,6 @@
 // The program as its users meet it: a process with arguments, two streams and an exit code.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -17,21 +14,18 @@
 #include <sstream>
 #include <thread>
 
+#include "program.hpp"
+
 namespace zwang {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using test::read;
+using test::Result;
 
 const std::string specs = std::string(ZWANG_SOURCE_DIR) + "/specs/";
 const std::string wall_align = specs + "wall_align.yaml";
-
-std::string read(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::stringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// The number of the first line of the shipped task that contains the text.
 int line_of(const std::string& text) {
@@ -41,52 +35,8 @@ int line_of(const std::string& text) {
   return static_cast<int>(std::count(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(at), '\n')) + 1;
 }
 
-struct Result {
-  int code = -1;  ///< minus the signal when one ended it
-  std::string out, err;
-};
-
-/// Runs in a folder of its own, which is gone afterwards.
-class Cli : public ::testing::Test {
+class Cli : public test::Program {
  protected:
-  Cli() {
-    folder_ = fs::temp_directory_path() / ("zwang_cli_" + std::to_string(getpid()) + "_" +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  ~Cli() override { fs::remove_all(folder_); }
-
-  pid_t start(const std::vector<std::string>& arguments, const std::string& out = "out",
-              bool close_out = false) {
-    std::vector<char*> argv;
-    std::string program = ZWANG_PROGRAM;
-    argv.push_back(program.data());
-    std::vector<std::string> copies = arguments;
-    for (std::string& a : copies) argv.push_back(a.data());
-    argv.push_back(nullptr);
-    const pid_t child = fork();
-    if (child != 0) return child;
-    if (chdir(folder_.c_str()) != 0) _exit(99);
-    const int out_file = open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int err_file = open("err", O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    dup2(out_file, STDOUT_FILENO);
-    dup2(err_file, STDERR_FILENO);
-    if (close_out) close(STDOUT_FILENO);
-    execv(argv[0], argv.data());
-    _exit(98);
-  }
-  Result finish(pid_t child) {
-    int status = 0;
-    waitpid(child, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), read(folder_ / "out"),
-            read(folder_ / "err")};
-  }
-  Result zwang(const std::vector<std::string>& arguments) { return finish(start(arguments)); }
-
-  fs::path write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
   /// A task file beside the shipped robot and scene.
   Result run_task(const std::string& tasks, std::vector<std::string> more = {"--format", "json"}) {
     const fs::path file = write("task.yaml", "zwang: 1\nrobot: none.yaml\n" + tasks);
@@ -96,8 +46,6 @@ class Cli : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return zwang(arguments);
   }
-
-  fs::path folder_;
 };
 
 const char* const stand = R"(
@@ -278,7 +226,7 @@ TEST_F(Cli, WhatCannotBeDoneEndsWithTwoAndSaysWhyOnStderr) {
       {{"run", wall_align, "--seed", "1.5"}, "--seed"},
       {{"run", "no_such.yaml"}, "no_such.yaml: no such file"},
       {{"validate", wall_align, "no_such.yaml"}, "no_such.yaml: no such file"},
-      {{"validate", "."}, "is a folder"},
+      {{"validate", "."}, "no task, robot or scene file"},
       {{"validate", "fifo"}, "not a regular file"},
       {{"run", wall_align, "--robot", "no_robot.yaml"}, "no_robot.yaml: no such file"},
       {{"run", wall_align, "--scene", "no_scene.yaml"}, "no_scene.yaml: no such file"},

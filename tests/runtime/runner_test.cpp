@@ -92,6 +92,35 @@ TEST(Runner, ReportsEachLimitsWorstValueAndMargin) {
   EXPECT_NEAR(torque.worst, expected, 1e-3 * expected);
 }
 
+/// Knows the wheels only, and where the base stands in the first tick.
+struct ReckoningLoop : Loop {
+  using Loop::Loop;
+  void tick() {
+    const bool first = base.time == 0.0;
+    const solver::Pose start = sensed.state.base_pose;
+    base.sense(sensed);
+    sensed.base_measured = false;
+    if (!first) {
+      sensed.state.base_pose = start;
+      sensed.state.base_twist = {};
+    }
+    base.step(runner.step(sensed));
+  }
+};
+
+TEST(Runner, ReckonsTheBaseFromTheWheelsWhereItIsNotMeasured) {
+  Loop measured(errand());
+  ReckoningLoop reckoned(errand());
+  measured.base.pose = reckoned.base.pose = {1.0, -2.0, 0.7};
+  measured.run();
+  while (!reckoned.runner.finished() && reckoned.base.time < 20.0) reckoned.tick();
+  EXPECT_EQ(reckoned.runner.state(), RunState::done);
+  ASSERT_EQ(reckoned.runner.transitions().size(), 3u);
+  // The plant's wheels do not slip: both runs are the same but for the integration's rounding.
+  EXPECT_NEAR(reckoned.base.time, measured.base.time, 2 * period);
+  EXPECT_LT((reckoned.base.pose - measured.base.pose).norm(), 1e-4);
+}
+
 TEST(Runner, MakesNoHeapCallInAStep) {
   if (!zwang::test::can_count_heap_calls()) GTEST_SKIP() << "a sanitizer owns malloc";
   const auto path = std::filesystem::temp_directory_path() / "zwang_heap_test.csv";

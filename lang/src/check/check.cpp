@@ -99,6 +99,23 @@ bool check_driver_value(CheckContext& context, const ValueText& value, const Dim
   return false;
 }
 
+namespace {
+
+/// A parameter that was declared without a unit is wrong there, once, and not wherever it is used.
+bool complain_of_bare_parameter(CheckContext& context, ParameterSymbol& symbol, const Dimension& expected) {
+  for (const ParameterText& text : context.file.parameters) {
+    const bool is_it = text.name.text == symbol.parameter.name && text.value.kind == ValueKind::quantity;
+    if (!is_it || text.value.quantity.has_unit) continue;
+    symbol.is_bad = true;
+    context.diagnostics.add(wording::needs_unit(text.value.span, "parameter `" + text.name.text + "`",
+                                                text.value.quantity.number, expected));
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 bool check_value(CheckContext& context, const ValueText& value, const Dimension& expected,
                  const std::string& what) {
   if (value.kind == ValueKind::quantity || value.kind == ValueKind::bad) {
@@ -120,6 +137,7 @@ bool check_value(CheckContext& context, const ValueText& value, const Dimension&
   }
   symbol->is_used = true;
   if (symbol->is_bad) return false;
+  if (symbol->dimension != expected && complain_of_bare_parameter(context, *symbol, expected)) return false;
   if (symbol->dimension != expected) {
     context.diagnostics.add(wording::wrong_parameter_dimension(value.span, what, expected, value.name,
                                                                symbol->dimension, symbol->parameter.span));

@@ -188,10 +188,21 @@ class ConditionCheck {
     return nullptr;
   }
 
+  /// A group without a name may be the one that is meant; it was complained of.
+  bool has_unread_group() const {
+    for (const auto* groups : {&groups_, &context_.file.always_groups}) {
+      for (const GroupText& group : *groups) {
+        if (!group.name.exists()) return true;
+      }
+    }
+    return false;
+  }
+
   Type check_coordinate(const ExpressionText& node, const std::vector<std::string>& parts,
                         ExpressionNode& lowered) {
     std::vector<std::string> known;
     const GroupText* found = find_group(parts[0], lowered);
+    if (found == nullptr && has_unread_group()) return bad_type;
     if (found == nullptr) {
       for (const GroupText& group : groups_) known.push_back(group.name.text);
       return complain(wording::unknown_name(node.span, "group", parts[0], nearest(parts[0], known)));

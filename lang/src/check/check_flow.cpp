@@ -79,6 +79,16 @@ void check_uses(CheckContext& context) {
       context.diagnostics.add(wording::unused(symbol.signal.span, "signal", symbol.signal.name));
     }
   }
+  for (const RegionSymbol& symbol : context.symbols.regions) {
+    if (!symbol.is_used) {
+      context.diagnostics.add(wording::unused(symbol.region.span, "region", symbol.region.name));
+    }
+  }
+  for (const FeatureSymbol& symbol : context.symbols.features) {
+    if (!symbol.is_used) {
+      context.diagnostics.add(wording::unused(symbol.feature.span, "feature", symbol.feature.name));
+    }
+  }
   for (const FrameSymbol& symbol : context.symbols.frames) {
     if (symbol.is_declared && !symbol.is_used) {
       context.diagnostics.add(wording::unused(symbol.declaration.span, "frame", symbol.declaration.name));

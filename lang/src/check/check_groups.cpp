@@ -92,27 +92,16 @@ class AxisCheck {
         context_.diagnostics.add(
             wording::empty_range(statement->span, written(statement->low), written(statement->high)));
       }
-      if (quantity == Quantity::position) check_position_is_measurable(*statement);
       return;
     }
     const bool is_here = statement->value.kind == ValueKind::here && quantity == Quantity::position;
     if (is_here) return;
-    if (quantity == Quantity::position) check_position_is_measurable(*statement);
     if (check_driver_value(context_, statement->value, expected, what))
       check_is_reachable(quantity, *statement);
   }
 
   const FrameSymbol* symbol(const std::optional<int>& frame) const {
     return frame ? &context_.symbols.frames[static_cast<std::size_t>(*frame)] : nullptr;
-  }
-
-  /// A frame that rides along with the moved link is always at the same place in it.
-  void check_position_is_measurable(const StatementText& statement) {
-    const FrameSymbol* move = symbol(move_);
-    const FrameSymbol* in = symbol(in_);
-    if (move == nullptr || in == nullptr || in->body < 0 || move->body != in->body) return;
-    context_.diagnostics.add(wording::position_in_own_axes(statement.key_span, path_, in->declaration.name,
-                                                           move->declaration.name));
   }
 
   /// The ground holds the base's z, rx and ry. Standing still there is vacuous, anything else impossible.
@@ -203,6 +192,24 @@ void check_feature_group(CheckContext& context, const GroupText& group) {
   for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, std::nullopt, std::nullopt).check();
 }
 
+/// A frame that rides along with the moved link is always at the same place in it. The frames are the
+/// group's: its first position tells for all.
+void check_positions(CheckContext& context, const GroupText& group, const std::optional<int>& move_index,
+                     const std::optional<int>& in_index) {
+  if (!move_index || !in_index) return;
+  const FrameSymbol& move = context.symbols.frames[static_cast<std::size_t>(*move_index)];
+  const FrameSymbol& in = context.symbols.frames[static_cast<std::size_t>(*in_index)];
+  if (in.body < 0 || move.body != in.body) return;
+  for (const AxisText& axis : group.axes) {
+    const std::optional<StatementText>& position = axis[Quantity::position];
+    if (!position || (!position->is_range && position->value.kind == ValueKind::here)) continue;
+    context.diagnostics.add(wording::position_in_own_axes(position->key_span,
+                                                          group.name.text + "." + axis.name.text,
+                                                          in.declaration.name, move.declaration.name));
+    return;
+  }
+}
+
 void check_group(CheckContext& context, const GroupText& group) {
   if (group.kind == GroupKind::inside) return check_inside(context, group);
   if (group.kind == GroupKind::feature) return check_feature_group(context, group);
@@ -218,6 +225,7 @@ void check_group(CheckContext& context, const GroupText& group) {
   if (group.axes.empty() && !group.is_incomplete)
     context.diagnostics.add(wording::group_without_axes(group.name.span, group.name.text));
   for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, move, in).check();
+  check_positions(context, group, move, in);
 }
 
 }  // namespace

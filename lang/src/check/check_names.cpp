@@ -40,6 +40,14 @@ ParameterSymbol check_parameter(CheckContext& context, const ParameterText& text
     return symbol;
   }
   const Quantity& quantity = text.value.quantity;
+  // The range has a unit and the value has none: what the parameter measures is known, and what is missing.
+  const bool has_range = text.range && text.range->low.kind == ValueKind::quantity;
+  if (!quantity.has_unit && has_range && text.range->low.quantity.has_unit) {
+    symbol.is_bad = true;
+    context.diagnostics.add(wording::needs_unit(text.value.span, "parameter `" + text.name.text + "`",
+                                                quantity.number, text.range->low.quantity.dimension));
+    return symbol;
+  }
   symbol.dimension = quantity.dimension;
   symbol.parameter.value = quantity.value;
   symbol.parameter.unit = quantity.unit;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "diagnostic/wordings.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
@@ -35,8 +36,38 @@ bool Diagnostics::has_errors() const {
 }
 
 int Diagnostics::error_count() const {
+  return count(Severity::error);
+}
+
+int Diagnostics::count(Severity severity) const {
   return static_cast<int>(std::count_if(diagnostics_.begin(), diagnostics_.end(),
-                                        [](const Diagnostic& d) { return d.severity == Severity::error; }));
+                                        [&](const Diagnostic& d) { return d.severity == severity; }));
+}
+
+bool Diagnostics::is_allowed(const Diagnostic& d) {
+  if (d.severity == Severity::error) return false;
+  for (const Allowance& allowance : allowances_) {
+    const bool is_meant = allowance.code == d.code && allowance.span.source == d.span.source &&
+                          allowance.line == d.span.begin.line;
+    if (!is_meant) continue;
+    silenced_.push_back({d, allowance.reason});
+    return true;
+  }
+  return false;
+}
+
+void Diagnostics::settle() {
+  std::erase_if(diagnostics_, [this](const Diagnostic& d) { return is_allowed(d); });
+  // Behind an error the checks that warn may not have run.
+  if (has_errors()) return;
+  for (const Allowance& allowance : allowances_) {
+    const bool is_used = std::any_of(silenced_.begin(), silenced_.end(), [&](const Silenced& silenced) {
+      return silenced.diagnostic.code == allowance.code &&
+             silenced.diagnostic.span.source == allowance.span.source &&
+             silenced.diagnostic.span.begin.line == allowance.line;
+    });
+    if (!is_used) add(wording::idle_allowance(allowance.span, allowance.code, allowance.line));
+  }
 }
 
 std::vector<Diagnostic> Diagnostics::sorted() const {

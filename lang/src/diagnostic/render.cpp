@@ -1,25 +1,13 @@
 #include <algorithm>
 #include <ostream>
-#include <sstream>
 
+#include "diagnostic/severity.hpp"
 #include "tree/text.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
 
 namespace {
-
-const char* word(Severity severity) {
-  switch (severity) {
-    case Severity::note:
-      return "note";
-    case Severity::warning:
-      return "warning";
-    case Severity::error:
-      break;
-  }
-  return "error";
-}
 
 std::string place(const Diagnostics& diagnostics, const Span& span) {
   return escaped(diagnostics.source(span.source).path) + ":" + std::to_string(span.begin.line) + ":" +
@@ -60,47 +48,13 @@ void render_line(const Diagnostics& diagnostics, const Span& span, std::ostream&
       << std::string(marks - 1, '~') << '\n';
 }
 
-void render_json_string(std::ostream& out, std::string_view text) {
-  out << '"';
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out << '\\' << c;
-    } else if (c == '\n') {
-      out << "\\n";
-    } else if (byte < 0x20 || byte == 0x7F) {
-      static constexpr const char* digits = "0123456789abcdef";
-      out << "\\u00" << digits[byte >> 4u] << digits[byte & 0xFu];
-    } else {
-      out << c;
-    }
-  }
-  out << '"';
-}
-
-void render_json_range(std::ostream& out, const Diagnostics& diagnostics, const Span& span) {
-  if (!span.exists()) {
-    out << "\"file\":null,\"range\":null";
-    return;
-  }
-  const auto position = [&out](const Position& p) {
-    out << "{\"line\":" << p.line << ",\"column\":" << p.column << "}";
-  };
-  out << "\"file\":";
-  render_json_string(out, diagnostics.source(span.source).path);
-  out << ",\"range\":{\"start\":";
-  position(span.begin);
-  out << ",\"end\":";
-  position(span.end);
-  out << "}";
-}
-
 }  // namespace
 
-void render_human(const Diagnostics& diagnostics, std::ostream& out) {
+void render_human(const Diagnostics& diagnostics, std::ostream& out, const RenderOptions& options) {
   for (const Diagnostic& d : diagnostics.sorted()) {
+    if (d.severity == Severity::note && !options.notes) continue;
     if (d.span.exists()) out << place(diagnostics, d.span) << ": ";
-    out << word(d.severity) << ' ' << d.code << ": " << escaped(d.message) << '\n';
+    out << word_of(d.severity) << ' ' << d.code << ": " << escaped(d.message) << '\n';
     if (d.span.exists()) render_line(diagnostics, d.span, out);
     if (!d.help.empty()) out << "     = help: " << escaped(d.help) << '\n';
     for (const RelatedSpan& related : d.related) {
@@ -111,38 +65,12 @@ void render_human(const Diagnostics& diagnostics, std::ostream& out) {
   }
 }
 
-std::string render_json(const Diagnostics& diagnostics) {
-  std::ostringstream out;
-  out << '[';
-  bool first = true;
+void render_short(const Diagnostics& diagnostics, std::ostream& out, const RenderOptions& options) {
   for (const Diagnostic& d : diagnostics.sorted()) {
-    out << (first ? "" : ",") << "\n  {\"code\":";
-    first = false;
-    render_json_string(out, d.code);
-    out << ",\"severity\":\"" << word(d.severity) << "\",";
-    render_json_range(out, diagnostics, d.span);
-    out << ",\"message\":";
-    render_json_string(out, d.message);
-    out << ",\"help\":";
-    render_json_string(out, d.help);
-    out << ",\"replacement\":";
-    if (d.replacement) {
-      render_json_string(out, *d.replacement);
-    } else {
-      out << "null";
-    }
-    out << ",\"related\":[";
-    for (std::size_t i = 0; i < d.related.size(); ++i) {
-      out << (i > 0 ? ",{" : "{");
-      render_json_range(out, diagnostics, d.related[i].span);
-      out << ",\"text\":";
-      render_json_string(out, d.related[i].text);
-      out << '}';
-    }
-    out << "]}";
+    if (d.severity == Severity::note && !options.notes) continue;
+    if (d.span.exists()) out << place(diagnostics, d.span) << ": ";
+    out << word_of(d.severity) << ' ' << d.code << ": " << escaped(d.message) << '\n';
   }
-  out << (first ? "]" : "\n]");
-  return out.str();
 }
 
 }  // namespace zwang::lang

@@ -69,6 +69,14 @@ Diagnostic only_a_quantity(const Span& span, const std::string& what, const Dime
 Diagnostic number_out_of_range(const Span& span, const std::string& text);
 Diagnostic split_condition(const Span& span);
 
+// --- Comments that speak to zwang: E118 to W120 (text.cpp) ---
+Diagnostic unreadable_instruction(const Span& span, const std::string& word);
+Diagnostic allowance_without_code(const Span& span);
+Diagnostic allowance_without_reason(const Span& span, const std::string& code);
+Diagnostic unknown_code(const Span& span, const std::string& code, const std::string& meant);
+Diagnostic allowed_error(const Span& span, const std::string& code);
+Diagnostic idle_allowance(const Span& span, const std::string& code, int line);
+
 // --- Conditions: E105 (text.cpp) ---
 Diagnostic condition_ends(const Span& span);
 Diagnostic condition_too_deep(const Span& span, int limit);
@@ -169,6 +177,7 @@ Diagnostic compensation_too_large(const Span& span, const std::string& what);
 Diagnostic limit_without_rest(const Span& span, const std::string& what);
 Diagnostic too_few_corners(const Span& span, const std::string& what);
 Diagnostic flat_polygon(const Span& span, const std::string& what);
+Diagnostic posture_outside(const Span& span, const std::string& what, const Span& joint);
 Diagnostic impossible_model(const Span& span, const std::string& reason);
 
 Diagnostic xml_too_deep(const Span& span, int limit);

@@ -28,8 +28,10 @@ Diagnostic no_wheels(const Span& span) {
 }
 
 Diagnostic roller_angle(const Span& span, const std::string& what) {
-  return error("E802", span, what + "'s rollers lie across its axis: it could drive nothing",
-               "give the angle from the wheel's axis to the roller's at the ground, for example `45 deg`");
+  return error(
+      "E802", span, what + "'s rollers lie along its axis: it could drive nothing",
+      "give the angle from the wheel's axis to the roller's at the ground: about `45 deg` on a mecanum "
+      "wheel, `90 deg` on an omni wheel");
 }
 
 Diagnostic holds_and_roller(const Span& span, const std::string& what) {
@@ -66,6 +68,11 @@ Diagnostic too_few_corners(const Span& span, const std::string& what) {
 
 Diagnostic flat_polygon(const Span& span, const std::string& what) {
   return error("E807", span, "the polygon of `" + what + "` encloses no area");
+}
+
+Diagnostic posture_outside(const Span& span, const std::string& what, const Span& joint) {
+  return with_related(error("E809", span, what + " is outside the joint's limits"), joint,
+                      "they are given here");
 }
 
 Diagnostic impossible_model(const Span& span, const std::string& reason) {

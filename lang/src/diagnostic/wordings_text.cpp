@@ -290,6 +290,36 @@ Diagnostic split_condition(const Span& span) {
                "quote the condition or put it on its own line");
 }
 
+Diagnostic unreadable_instruction(const Span& span, const std::string& word) {
+  return error("E118", span, "no comment can tell zwang to " + in_ticks(word),
+               "write `# zwang: allow CODE the reason`");
+}
+
+Diagnostic allowance_without_code(const Span& span) {
+  return error("E118", span, "this comment does not say what it allows",
+               "write `# zwang: allow CODE the reason`");
+}
+
+Diagnostic allowance_without_reason(const Span& span, const std::string& code) {
+  return error("E118", span, "this comment allows " + code + " without a reason",
+               "write why behind the code: `# zwang: allow " + code + " the reason`");
+}
+
+Diagnostic unknown_code(const Span& span, const std::string& code, const std::string& meant) {
+  return with_suggestion(
+      error("E119", span, "there is no code " + in_ticks(code), "`zwang explain --all` lists the codes"),
+      meant);
+}
+
+Diagnostic allowed_error(const Span& span, const std::string& code) {
+  return error("E119", span, code + " is an error: it cannot be silenced", "mend what it is about");
+}
+
+Diagnostic idle_allowance(const Span& span, const std::string& code, int line) {
+  return warning("W120", span, "there is no " + code + " on line " + std::to_string(line) + " to allow",
+                 "delete the comment, or put it on the line that it is meant for");
+}
+
 Diagnostic condition_ends(const Span& span) {
   return error("E105", span, "the condition ends where a value is due");
 }

@@ -24,6 +24,7 @@ class RobotBuilder {
   std::optional<Robot> build() {
     check_base();
     apply_actuators();
+    check_posture();
     check_wheels();
     check_supports();
     check_frames();
@@ -96,6 +97,21 @@ class RobotBuilder {
         joint->joint.max_effort = effort;
       } else if (!std::isfinite(joint->joint.max_effort)) {
         diagnostics_.add(wording::no_effort(actuator.joint.span, actuator.joint.text, joint->span));
+      }
+    }
+  }
+
+  void check_posture() {
+    for (const PostureText& posture : file_.posture) {
+      const UrdfJoint* joint = moving_joint(posture.joint);
+      if (joint == nullptr) continue;
+      const bool slides = joint->joint.type == solver::JointType::prismatic;
+      const std::string what = posture_name(posture.joint.text);
+      if (!require_quantity(posture.value, slides ? dimension::length : dimension::angle, what, diagnostics_))
+        continue;
+      const double q = posture.value.quantity.value;
+      if (q < joint->joint.lower || q > joint->joint.upper) {
+        diagnostics_.add(wording::posture_outside(posture.value.span, what, joint->span));
       }
     }
   }
@@ -210,6 +226,10 @@ class RobotBuilder {
   }
 
   void add_joint_facts(Robot& robot) const {
+    robot.posture = Eigen::VectorXd::Zero(robot.model.joint_count());
+    for (const PostureText& posture : file_.posture) {
+      robot.posture(*robot.model.find_joint(posture.joint.text)) = posture.value.quantity.value;
+    }
     for (int j = 0; j < robot.model.joint_count(); ++j) {
       const std::string& name = robot.model.joint(j).name;
       Span span = urdf_.find_joint(name)->span;
@@ -249,6 +269,11 @@ class RobotBuilder {
 
 }  // namespace
 
+std::optional<Robot> build_robot(const RobotFile& file, Urdf urdf, int errors_before,
+                                 Diagnostics& diagnostics) {
+  return RobotBuilder(file, std::move(urdf), errors_before, diagnostics).build();
+}
+
 std::optional<Robot> load_robot_below(const std::filesystem::path& path, const std::filesystem::path& root,
                                       const Span& cause, Diagnostics& diagnostics) {
   const int errors_before = diagnostics.error_count();
@@ -262,11 +287,19 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   if (!urdf_path) return std::nullopt;
   std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics);
   if (!urdf) return std::nullopt;
-  return RobotBuilder(*file, std::move(*urdf), errors_before, diagnostics).build();
+  return build_robot(*file, std::move(*urdf), errors_before, diagnostics);
+}
+
+solver::State start_state(const Robot& robot) {
+  solver::State state(robot.model);
+  if (robot.posture.size() == state.q.size()) state.q = robot.posture;
+  return state;
 }
 
 std::optional<Robot> load_robot(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  return load_robot_below(path, root_of(path), {}, diagnostics);
+  std::optional<Robot> robot = load_robot_below(path, root_of(path), {}, diagnostics);
+  diagnostics.settle();
+  return robot;
 }
 
 }  // namespace zwang::lang

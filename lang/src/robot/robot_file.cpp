@@ -32,8 +32,8 @@ WheelText parse_wheel(const Node& node, Diagnostics& diagnostics) {
   }
   if (const Node* roller = map.optional("roller")) {
     wheel.roller = parse_plain(*roller, dimension::angle, what + "'s roller", diagnostics);
-    // At 90 deg the wheel would spin freely below the base: it could drive nothing.
-    if (wheel.roller && std::abs(std::cos(*wheel.roller)) < 1e-3) {
+    // At 0 deg it would roll away under the wheel's turning: the wheel could drive nothing.
+    if (wheel.roller && std::abs(std::sin(*wheel.roller)) < 1e-3) {
       diagnostics.add(wording::roller_angle(roller->span, what));
     }
   }
@@ -188,6 +188,10 @@ RobotFrameText parse_frame(const Entry& entry, Diagnostics& diagnostics) {
 
 }  // namespace
 
+std::string posture_name(const std::string& joint) {
+  return "the posture of `" + joint + "`";
+}
+
 std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics& diagnostics) {
   MapReader map(document.root, "a robot file", diagnostics);
   if (!map.is_mapping() || !check_version(map, "zwang_robot", diagnostics)) return std::nullopt;
@@ -212,6 +216,10 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
   }
   each(map.required("actuated"), "actuated",
        [&](const Entry& e) { file.actuators.push_back(parse_actuator(e, diagnostics)); });
+  each(map.optional("posture"), "posture", [&](const Entry& e) {
+    file.posture.push_back(
+        {{e.key.text, e.key.span}, parse_value(e.value, posture_name(e.key.text), diagnostics)});
+  });
   if (const Node* limits = map.optional("limits")) parse_limits(*limits, file, diagnostics);
   if (const Node* stop = map.required("stop")) parse_stop(*stop, file, diagnostics);
   each(map.optional("friction"), "friction",

@@ -27,6 +27,12 @@ struct ActuatorText {
   double rotor_inertia = 0.0;  ///< [kg m^2], the rotor's own
 };
 
+/// Where a joint stands at the start.
+struct PostureText {
+  Word joint;
+  ValueText value;  ///< an angle or a length, as the joint says
+};
+
 struct FrictionText {
   Word joint;
   JointFriction friction;
@@ -45,6 +51,7 @@ struct RobotFile {
   std::vector<WheelText> wheels;
   std::vector<Word> supports;
   std::vector<ActuatorText> actuators;
+  std::vector<PostureText> posture;
   std::vector<BaseLimit> limits;
   Stop stop;
   std::vector<FrictionText> friction;
@@ -54,6 +61,9 @@ struct RobotFile {
   std::optional<double> bumper_height;
   std::vector<RobotFrameText> frames;
 };
+
+/// What messages call it.
+std::string posture_name(const std::string& joint);
 
 /// The shape of a robot file. nullopt when it is not one at all.
 std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics& diagnostics);

@@ -123,7 +123,11 @@ std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cau
                               Diagnostics& diagnostics) {
   const std::optional<int> source = read_file(path, urdf_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
-  const auto elements = scan_xml(*source, diagnostics);
+  return read_urdf(*source, diagnostics);
+}
+
+std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics) {
+  const auto elements = scan_xml(source, diagnostics);
   if (!elements || !check_urdf(*elements, diagnostics)) return std::nullopt;
 
   urdf::ModelInterfaceSharedPtr model;
@@ -132,7 +136,7 @@ std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cau
     static std::mutex one_trap;  // console_bridge's handler is the process's
     const std::lock_guard lock(one_trap);
     const MessageTrap trap;
-    model = urdf::parseURDF(diagnostics.source(*source).text);
+    model = urdf::parseURDF(diagnostics.source(source).text);
     message = trap.first();
   }
   if (!model || !message.empty()) {

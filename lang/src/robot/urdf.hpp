@@ -40,5 +40,7 @@ struct Urdf {
 };
 
 std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics);
+/// Of a source that was read already.
+std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -135,10 +135,14 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
 
 std::optional<Scene> load_scene_from(const std::filesystem::path& path, const Span& cause,
                                      Diagnostics& diagnostics) {
-  const int errors_before = diagnostics.error_count();
   const std::optional<int> source = read_file(path, yaml_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
-  const std::optional<Document> document = read(*source, diagnostics);
+  return read_scene(*source, diagnostics);
+}
+
+std::optional<Scene> read_scene(int source, Diagnostics& diagnostics) {
+  const int errors_before = diagnostics.error_count();
+  const std::optional<Document> document = read(source, diagnostics);
   if (!document) return std::nullopt;
   std::optional<Scene> scene = parse_scene(*document, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
@@ -146,7 +150,9 @@ std::optional<Scene> load_scene_from(const std::filesystem::path& path, const Sp
 }
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  return load_scene_from(path, {}, diagnostics);
+  std::optional<Scene> scene = load_scene_from(path, {}, diagnostics);
+  diagnostics.settle();
+  return scene;
 }
 
 }  // namespace zwang::lang

@@ -12,4 +12,7 @@ namespace zwang::lang {
 std::optional<Scene> load_scene_from(const std::filesystem::path& path, const Span& cause,
                                      Diagnostics& diagnostics);
 
+/// Of a source that was read already.
+std::optional<Scene> read_scene(int source, Diagnostics& diagnostics);
+
 }  // namespace zwang::lang

@@ -1,3 +1,5 @@
+#include <map>
+
 #include "diagnostic/wordings.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
@@ -21,7 +23,7 @@ ParameterText parse_parameter(const Entry& entry, Diagnostics& diagnostics) {
   if (const Node* range = map.optional("range")) {
     parameter.range = parse_range(*range, "the range of " + what, diagnostics);
   }
-  if (const Node* help = map.optional("help")) parameter.help = help->text;
+  if (const Node* help = map.optional("help")) parameter.help = parse_text(*help, "`help`", diagnostics);
   map.finish();
   return parameter;
 }
@@ -44,7 +46,6 @@ void parse_tasks(const Node& node, Templates& templates, TaskFile& file, Diagnos
   if (node.entries.empty()) diagnostics.add(wording::no_tasks(node.span));
   if (node.entries.size() > most_tasks) {
     diagnostics.add(wording::too_many_tasks(node.entries[most_tasks].key.span, most_tasks));
-    return;
   }
   for (const Entry& entry : node.entries) {
     if (entry.key.is_bad) continue;
@@ -56,11 +57,20 @@ void parse_tasks(const Node& node, Templates& templates, TaskFile& file, Diagnos
 
 void parse_always(const Node& node, TaskFile& file, Diagnostics& diagnostics) {
   MapReader map(node, "`always`", diagnostics);
-  if (const Node* groups = map.optional("constraints")) {
-    file.always_groups = parse_groups(*groups, 0, diagnostics);
-  }
+  file.always_groups = parse_constraints(map, 0, diagnostics);
   if (const Node* exits = map.optional("exits")) file.always_exits = parse_exits(*exits, diagnostics);
   map.finish();
+}
+
+std::map<std::string, std::optional<Dimension>> dimensions_of(const std::vector<ParameterText>& parameters) {
+  std::map<std::string, std::optional<Dimension>> dimensions;
+  for (const ParameterText& parameter : parameters) {
+    if (!parameter.name.exists()) continue;
+    const bool is_good = parameter.value.kind == ValueKind::quantity;
+    dimensions[parameter.name.text] =
+        is_good ? std::optional(parameter.value.quantity.dimension) : std::nullopt;
+  }
+  return dimensions;
 }
 
 }  // namespace
@@ -131,7 +141,7 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   TaskFile file;
   if (const Node* robot = map.required("robot")) file.robot = parse_word(*robot, "`robot`", diagnostics);
   if (const Node* scene = map.optional("scene")) file.scene = parse_word(*scene, "`scene`", diagnostics);
-  if (const Node* about = map.optional("about")) file.about = about->text;
+  if (const Node* about = map.optional("about")) file.about = parse_text(*about, "`about`", diagnostics);
   const auto each = [&](std::string_view key, const auto& use) {
     const Node* node = map.optional(key);
     if (node == nullptr || !require_mapping(*node, "`" + std::string(key) + "`", diagnostics)) return;
@@ -144,11 +154,16 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   if (const Node* node = map.optional("regions")) file.regions = parse_regions(*node, diagnostics);
   if (const Node* node = map.optional("signals")) file.signals = parse_signals(*node, diagnostics);
   if (const Node* node = map.optional("features")) file.features = parse_features(*node, diagnostics);
-  Templates templates(diagnostics);
+  Templates templates(dimensions_of(file.parameters), diagnostics);
   if (const Node* node = map.optional("templates")) templates.declare(*node);
+  if (map.has_misspelt({"templates", "params"})) templates.forgive_unknown();
   if (const Node* node = map.optional("always")) parse_always(*node, file, diagnostics);
   if (const Node* start = map.required("start")) file.start = parse_word(*start, "`start`", diagnostics);
   if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, templates, file, diagnostics);
+  for (const char* section : {"params", "frames", "regions", "signals", "features", "templates", "always"}) {
+    const bool is_absent = document.root.find(section) == nullptr;
+    file.is_incomplete = file.is_incomplete || (is_absent && map.has_misspelt({section}));
+  }
   if (!diagnostics.has_errors()) templates.report_unused();
   map.finish();
   return file;

@@ -146,7 +146,7 @@ ExitText parse_exit(const Node& node, Diagnostics& diagnostics) {
   if (release != nullptr) exit.release = parse_value(*release, "`release`", diagnostics);
   if (target != nullptr) exit.target = parse_word(*target, "`goto`", diagnostics);
   if (set != nullptr) exit.set = parse_sets(*set, diagnostics);
-  if (note != nullptr) exit.note = note->text;
+  if (note != nullptr) exit.note = parse_text(*note, "`note`", diagnostics);
   map.finish();
   return exit;
 }
@@ -188,12 +188,19 @@ std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnost
   if (!require_mapping(node, "`constraints`", diagnostics)) return groups;
   if (node.entries.size() > most_groups) {
     diagnostics.add(wording::too_many_groups(node.entries[most_groups].key.span, most_groups));
-    return groups;
   }
   for (const Entry& entry : node.entries) {
     if (!entry.key.is_bad) groups.push_back(parse_group(entry, lowest_level, diagnostics));
   }
   return groups;
+}
+
+std::vector<GroupText> parse_constraints(MapReader& map, int lowest_level, Diagnostics& diagnostics) {
+  if (const Node* node = map.optional("constraints")) return parse_groups(*node, lowest_level, diagnostics);
+  if (!map.has_misspelt({"constraints"})) return {};
+  GroupText unread;
+  unread.is_incomplete = true;
+  return {unread};
 }
 
 std::vector<ExitText> parse_exits(const Node& node, Diagnostics& diagnostics) {
@@ -212,9 +219,9 @@ TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnosti
   }
   MapReader map(body, "task `" + entry.key.text + "`", diagnostics);
   task.is_bad = !map.is_mapping();
-  if (const Node* node = map.optional("about")) task.about = node->text;
+  if (const Node* node = map.optional("about")) task.about = parse_text(*node, "`about`", diagnostics);
   if (const Node* node = map.optional("enter")) parse_enter(*node, task, diagnostics);
-  if (const Node* node = map.optional("constraints")) task.groups = parse_groups(*node, 1, diagnostics);
+  task.groups = parse_constraints(map, 1, diagnostics);
   if (const Node* node = map.optional("exits")) task.exits = parse_exits(*node, diagnostics);
   if (const Node* node = map.optional("timeout")) task.timeout = parse_timeout(*node, diagnostics);
   if (const Node* node = map.optional("attempts")) {

@@ -91,6 +91,14 @@ Word parse_name(const Node& node, const std::string& what, Diagnostics& diagnost
   return word;
 }
 
+std::string parse_text(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  if (node.is_bad) return {};
+  if (!node.is_scalar()) {
+    diagnostics.add(wording::expected_value(node.span, what, node.kind == NodeKind::null));
+  }
+  return node.text;
+}
+
 std::optional<int> parse_integer(const Node& node, const std::string& what, int low, int high,
                                  Diagnostics& diagnostics) {
   if (node.is_bad) return std::nullopt;

@@ -47,6 +47,8 @@ class MapReader {
 Word parse_name(const Node& node, const std::string& what, Diagnostics& diagnostics);
 /// Any text on one place: a frame, a joint, a path.
 Word parse_word(const Node& node, const std::string& what, Diagnostics& diagnostics);
+/// A sentence for people: `about`, `help`, `note`.
+std::string parse_text(const Node& node, const std::string& what, Diagnostics& diagnostics);
 /// A whole number in [low, high].
 std::optional<int> parse_integer(const Node& node, const std::string& what, int low, int high,
                                  Diagnostics& diagnostics);

@@ -144,6 +144,7 @@ struct TaskFile {
   std::vector<ExitText> always_exits;
   Word start;
   std::vector<TaskText> tasks;
+  bool is_incomplete = false;  ///< a section has a misspelt name: what it would declare is not known
 };
 
 const char* word_of(solver::Quantity quantity);

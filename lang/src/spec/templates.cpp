@@ -58,6 +58,9 @@ void substitute(Node& node, const std::map<std::string, Node>& values) {
     if (node.text[at] == '$' && value != values.end()) {
       result += trimmed(value->second.text);
       node.is_replaced = true;
+      // A name that is nothing but the argument was written at the call: what is wrong with it is told there.
+      const bool is_whole = at == 0 && end == node.text.size() && is_identifier(trimmed(value->second.text));
+      if (is_whole && !value->second.is_bad) node.span = value->second.span;
       node.is_bad = node.is_bad || value->second.is_bad;
     } else {
       result += node.text.substr(at, end - at);
@@ -106,6 +109,7 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
   const Word name = parse_word(use->value, "`use`", diagnostics_);
   if (!name.exists()) return std::nullopt;
   const auto found = templates_.find(name.text);
+  if (found == templates_.end() && forgives_unknown_) return std::nullopt;
   if (found == templates_.end()) {
     std::vector<std::string> known;
     for (const auto& [other, declared] : templates_) known.push_back(other);
@@ -173,11 +177,27 @@ bool Templates::check_argument(const std::string& name, const std::string& kind,
   }
   const ValueText text = parse_value(value, "argument `" + name + "`", diagnostics_);
   if (text.kind == ValueKind::bad) return false;
-  // What a parameter measures is asked where the argument is used.
-  const bool fits = text.kind == ValueKind::parameter ||
-                    (text.kind == ValueKind::quantity && text.quantity.dimension == *expected->dimension);
+  if (text.kind == ValueKind::parameter) return check_parameter(name, text, *expected->dimension);
+  const bool fits = text.kind == ValueKind::quantity && text.quantity.dimension == *expected->dimension;
   if (!fits) diagnostics_.add(wording::wrong_argument(value.span, name, describe(*expected->dimension)));
   return fits;
+}
+
+bool Templates::check_parameter(const std::string& name, const ValueText& value, const Dimension& expected) {
+  const auto parameter = parameters_.find(value.name);
+  if (parameter == parameters_.end() && forgives_unknown_) return false;
+  if (parameter == parameters_.end()) {
+    std::vector<std::string> known;
+    for (const auto& [other, dimension] : parameters_) known.push_back(other);
+    diagnostics_.add(wording::unknown_name(value.span, "parameter", value.name, nearest(value.name, known)));
+    return false;
+  }
+  if (!parameter->second) return false;
+  if (*parameter->second == expected) return true;
+  diagnostics_.add(wording::wrong_argument(
+      value.span, name,
+      describe(expected) + ", but `" + value.name + "` is " + describe(*parameter->second)));
+  return false;
 }
 
 void Templates::report_unused() const {

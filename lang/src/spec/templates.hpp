@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "spec/value.hpp"
 #include "tree/node.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
@@ -13,8 +14,12 @@ namespace zwang::lang {
 
 class Templates {
  public:
-  explicit Templates(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  /// `parameters`: what each parameter of the file measures; none where that is not known.
+  Templates(std::map<std::string, std::optional<Dimension>> parameters, Diagnostics& diagnostics)
+      : parameters_(std::move(parameters)), diagnostics_(diagnostics) {}
 
+  /// Names that are not known are not complained of: their section could not be read.
+  void forgive_unknown() { forgives_unknown_ = true; }
   /// Reads the `templates` mapping.
   void declare(const Node& node);
   /// What the task `task` says: itself, or the body of the template that it uses, with its own keys in the
@@ -36,9 +41,12 @@ class Templates {
   bool fill_arguments(const Template& used, const Node& task, const std::string& name,
                       std::map<std::string, Node>& values);
   bool check_argument(const std::string& name, const std::string& kind, const Node& value);
+  bool check_parameter(const std::string& name, const ValueText& value, const Dimension& expected);
 
   std::map<std::string, Template> templates_;
+  std::map<std::string, std::optional<Dimension>> parameters_;
   Diagnostics& diagnostics_;
+  bool forgives_unknown_ = false;
 };
 
 }  // namespace zwang::lang

@@ -9,6 +9,7 @@
 #include <streambuf>
 
 #include "diagnostic/wordings.hpp"
+#include "tree/allowances.hpp"
 #include "tree/scalar_span.hpp"
 #include "tree/text.hpp"
 
@@ -224,6 +225,7 @@ std::optional<Document> read(int source, Diagnostics& diagnostics) {
   const std::string text = diagnostics.source(source).text;
   Document document{source, {}, {}};
   if (!prescan_yaml(source, text, diagnostics, document.comments)) return std::nullopt;
+  read_allowances(document.comments, text, diagnostics);
   TreeBuilder builder(source, text, diagnostics);
   try {
     ViewBuffer buffer(text);

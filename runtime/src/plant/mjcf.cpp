@@ -22,6 +22,7 @@ using solver::Vector3;
 constexpr double corner_radius = 1e-6;       ///< [m]
 constexpr double contact_half_height = 1.0;  ///< [m] of the upright faces that meet in the bumper's plane
 constexpr double max_wheel_lift = 0.002;     ///< [m]
+constexpr double no_friction = 1e-5;         ///< the least that MuJoCo takes
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("plant: " + what);
@@ -338,7 +339,7 @@ class MjcfWriter {
     for (std::size_t w = 0; w < model_.wheels().size(); ++w) {
       text_ += "<pair" + attribute("geom1", "floor") + attribute("geom2", numbered("wheel", w)) +
                " condim=\"3\" " + stiff() +
-               attribute("friction", list_of(scene_.floor_friction, scene_.floor_friction, 0.0, 0.0, 0.0)) +
+               attribute("friction", list_of(scene_.floor_friction, sideways_friction(w), 0.0, 0.0, 0.0)) +
                "/>\n";
     }
     for (std::size_t c = 0; c < simulated_.skids.size(); ++c) {
@@ -354,6 +355,12 @@ class MjcfWriter {
       }
     }
     text_ += "</contact>\n";
+  }
+
+  /// Of a contact's second direction, across the wheel's rolling. Skidding wheels: side_friction.hpp.
+  double sideways_friction(std::size_t w) const {
+    const solver::Wheel& wheel = model_.wheels()[w];
+    return wheel.roller_angle || wheel.holds_sideways ? scene_.floor_friction : no_friction;
   }
 
   void write_meeting_of_robot(std::size_t k) {
@@ -454,6 +461,15 @@ void level_wheels(const Model& model, SimulatedRobot& simulated) {
   }
 }
 
+/// A support stands on the ground straight below its link's origin.
+Vector3 point_below(const lang::Robot& robot, const std::string& support) {
+  const auto frame = robot.model.find_frame(support);
+  if (!frame) refuse("the model has no link `" + support + "` to support the base");
+  const solver::Frame& link = robot.model.frames()[static_cast<std::size_t>(*frame)];
+  if (link.body != 0) refuse("the support `" + support + "` is not fixed to the base");
+  return link.pose_in_body.position;
+}
+
 }  // namespace
 
 SimulatedRobot prepare_robot(const lang::Robot& robot) {
@@ -465,11 +481,12 @@ SimulatedRobot prepare_robot(const lang::Robot& robot) {
     return simulated;
   }
   level_wheels(robot.model, simulated);
-  if (robot.model.wheels().size() < 3) {
+  for (const std::string& support : robot.supports) simulated.skids.push_back(point_below(robot, support));
+  if (robot.supports.empty() && robot.model.wheels().size() < 3) {
     if (simulated.outline.empty()) refuse("a base on two wheels needs a footprint for its supports");
     simulated.skids = simulated.outline;
-    for (Vector3& skid : simulated.skids) skid.z() = simulated.ground;
   }
+  for (Vector3& skid : simulated.skids) skid.z() = simulated.ground;
   return simulated;
 }
 

@@ -17,6 +17,7 @@
 #include "contact_spring.hpp"
 #include "floor_friction.hpp"
 #include "mjcf.hpp"
+#include "side_friction.hpp"
 
 namespace zwang::runtime {
 
@@ -68,6 +69,22 @@ int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphe
   return count;
 }
 
+mjfCollision collide_plane_sphere = nullptr;  ///< MuJoCo's own
+
+/// Turns the contact of a wheel so that its first tangent is the rolling direction: friction may differ
+/// between the two. Only in simulations of this file, as above.
+int collide_along(const mjModel* m, const mjData* d, mjContact* contact, int plane, int sphere,
+                  mjtNum margin) {
+  const int count = collide_plane_sphere(m, d, contact, plane, sphere, margin);
+  const int body = m->geom_bodyid[sphere];
+  if (error_exit == nullptr || count != 1 || m->body_jntnum[body] != 1) return count;
+  const int joint = m->body_jntadr[body];
+  if (m->jnt_type[joint] != mjJNT_HINGE) return count;
+  const Eigen::Map<const Vector3> axis(d->xaxis + 3 * joint), normal(contact->frame);
+  Eigen::Map<Vector3>(contact->frame + 3) = axis.cross(normal).normalized();
+  return count;
+}
+
 /// Once, before all else.
 void install_handlers() {
   static const bool installed = [] {
@@ -75,6 +92,8 @@ void install_handlers() {
     mju_user_warning = on_warning;
     collide_sphere_box = mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX];
     mjCOLLISIONFUNC[mjGEOM_SPHERE][mjGEOM_BOX] = collide_deep;
+    collide_plane_sphere = mjCOLLISIONFUNC[mjGEOM_PLANE][mjGEOM_SPHERE];
+    mjCOLLISIONFUNC[mjGEOM_PLANE][mjGEOM_SPHERE] = collide_along;
     return true;
   }();
   static_cast<void>(installed);
@@ -172,6 +191,7 @@ struct MujocoPlant::Simulation {
     int velocity = 0;                       ///< in qvel
     int motor = -1;                         ///< in ctrl; -1 without a motor
     const RollingSphere* sphere = nullptr;  ///< set: a ball joint; q is integrated
+    bool turns_wheel = false;
   };
   /// An object that slides on the floor: three freedoms from `velocity` in qvel.
   struct Slider {
@@ -183,10 +203,15 @@ struct MujocoPlant::Simulation {
     int object = -1;
     bool robot = false;
     int corner = -1;  ///< of the robot's footprint
+    int wheel = -1;
   };
 
   Simulation(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options)
-      : robot_model(robot.model), simulated(prepare_robot(robot)) {
+      : robot_model(robot.model),
+        simulated(prepare_robot(robot)),
+        posture(lang::start_state(robot).q),
+        side_friction(robot.model, scene.floor_friction),
+        wheel_loads(robot.model.wheels().size(), 0.0) {
     install_handlers();
     if (!(options.period > 0.0) || options.period > 0.01) refuse("the period is not within 0 and 10 ms");
     text = write_mjcf(robot, simulated, scene, options.period);
@@ -220,6 +245,9 @@ struct MujocoPlant::Simulation {
       for (const RollingSphere& sphere : simulated.spheres.spheres) {
         if (sphere.body == j + 1) address.sphere = &sphere;
       }
+      for (const solver::Wheel& wheel : robot_model.wheels()) {
+        if (wheel.body == j + 1) address.turns_wheel = true;
+      }
       freedoms += address.sphere != nullptr ? 3 : 1;
       joints.push_back(address);
     }
@@ -228,7 +256,7 @@ struct MujocoPlant::Simulation {
       if (std::strncmp(name, "object_", 7) == 0) freedoms += 1;
     }
     if (model->nv != freedoms) refuse("MuJoCo changed the number of freedoms");
-    q.setZero(robot_model.joint_count());
+    q = posture;
     qd.setZero(robot_model.joint_count());
   }
 
@@ -251,6 +279,7 @@ struct MujocoPlant::Simulation {
       const char* name = mj_id2name(model.get(), mjOBJ_GEOM, g);
       GeomOwner& owner = owners[static_cast<std::size_t>(g)];
       if (std::strncmp(name, "object_", 7) == 0) owner.object = std::atoi(name + 7);
+      if (std::strncmp(name, "wheel_", 6) == 0) owner.wheel = std::atoi(name + 6);
       owner.robot = std::strncmp(name, "bumper_", 7) == 0;
       if (owner.robot && std::isdigit(static_cast<unsigned char>(name[7])) != 0) {
         owner.corner =
@@ -309,7 +338,10 @@ struct MujocoPlant::Simulation {
     const int steps = static_cast<int>(settling_time / model->opt.timestep);
     for (int i = 0; i < steps; ++i) {
       if (!step()) refuse("the simulation diverges while the robot settles on the floor");
+      hold_joints();
     }
+    std::fill(data->qfrc_applied, data->qfrc_applied + model->nv, 0.0);
+    side_friction.reset();
     const double height = data->qpos[2];
     const Matrix3 tilted = base_rotation();
     const Eigen::Quaterniond turned(Eigen::AngleAxisd(yaw - yaw_of(tilted), Vector3::UnitZ()) * tilted);
@@ -322,6 +354,16 @@ struct MujocoPlant::Simulation {
     if (!guarded(mj_forward, model.get(), data.get())) refuse("MuJoCo fails at the start pose");
   }
 
+  /// While the robot settles: joints other than the wheels keep their posture, and bear what hangs on them.
+  void hold_joints() {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].turns_wheel) continue;
+      data->qpos[joints[j].position] = posture[static_cast<Eigen::Index>(j)];
+      data->qvel[joints[j].velocity] = 0.0;
+      data->qfrc_applied[joints[j].velocity] = data->qfrc_bias[joints[j].velocity];
+    }
+  }
+
   void place(const std::array<double, 2>& at, double yaw) {
     const std::array<double, 4> turn = {std::cos(0.5 * yaw), 0.0, 0.0, std::sin(0.5 * yaw)};
     mjtNum* position = floats() ? data->qpos + model->jnt_qposadr[id_of(mjOBJ_JOINT, "base")]
@@ -329,6 +371,11 @@ struct MujocoPlant::Simulation {
     mjtNum* orientation = floats() ? position + 3 : model->body_quat + 4 * base_body;
     std::copy(at.begin(), at.end(), position);
     std::copy(turn.begin(), turn.end(), orientation);
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].sphere != nullptr) continue;
+      data->qpos[joints[j].position] = posture[static_cast<Eigen::Index>(j)];
+    }
+    q = posture;
   }
 
   void refuse_overlap() const {
@@ -353,9 +400,10 @@ struct MujocoPlant::Simulation {
   /// One step; false when the simulation is void.
   bool step() noexcept {
     const double before = data->time;
-    if (!simulated.spheres.spheres.empty()) {
+    if (!simulated.spheres.spheres.empty() || !side_friction.empty()) {
       // A free joint takes its force in world axes and its torque in the body's.
-      const solver::ForceVector wrench = sphere_products(simulated.spheres, base_twist());
+      const solver::ForceVector wrench = sphere_products(simulated.spheres, base_twist()) +
+                                         side_friction.step(base_twist(), wheel_loads, model->opt.timestep);
       Eigen::Map<Vector3>(data->qfrc_applied) = base_rotation() * wrench.linear;
       Eigen::Map<Vector3>(data->qfrc_applied + 3) = wrench.angular;
     }
@@ -365,6 +413,7 @@ struct MujocoPlant::Simulation {
           slider.friction.step(moving, model->opt.timestep);
     }
     if (!guarded(mj_step, model.get(), data.get())) return false;
+    if (!side_friction.empty()) read_loads();
     const double elapsed = data->time - before;
     if (!(std::abs(elapsed - model->opt.timestep) < 1e-6 * model->opt.timestep)) return false;
     for (const mjWarningStat& warning : data->warning) {
@@ -372,6 +421,18 @@ struct MujocoPlant::Simulation {
     }
     return is_finite(data->qpos, model->nq) && is_finite(data->qvel, model->nv) &&
            is_finite(data->qacc, model->nv);
+  }
+
+  void read_loads() noexcept {
+    std::fill(wheel_loads.begin(), wheel_loads.end(), 0.0);
+    for (int c = 0; c < data->ncon; ++c) {
+      const int wheel =
+          std::max(owner_of(data->contact[c].geom1).wheel, owner_of(data->contact[c].geom2).wheel);
+      if (wheel < 0) continue;
+      std::array<mjtNum, 6> wrench{};
+      mj_contactForce(model.get(), data.get(), c, wrench.data());
+      wheel_loads[static_cast<std::size_t>(wheel)] += wrench[0];
+    }
   }
 
   /// In base axes and at the base's origin.
@@ -472,6 +533,9 @@ struct MujocoPlant::Simulation {
 
   Model robot_model;
   SimulatedRobot simulated;
+  Eigen::VectorXd posture;  ///< q at the start
+  SideFriction side_friction;
+  std::vector<double> wheel_loads;  ///< [N] that the floor carries each wheel with, in the last step
   std::string text;
   ModelPointer model;
   DataPointer data;

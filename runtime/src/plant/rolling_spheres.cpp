@@ -57,14 +57,12 @@ RollingSphere sphere_for(const Model& model, int index) {
   sphere.axis.z() = 0.0;
   sphere.axis.normalize();
   sphere.along = sphere.axis.cross(Vector3::UnitZ());
-  if (wheel.roller_angle) {
-    const Vector3 held = Eigen::AngleAxisd(*wheel.roller_angle, Vector3::UnitZ()) * sphere.axis;
-    const double driven = held.dot(sphere.along);
-    if (std::abs(driven) < 1e-3) {
-      refuse("the rollers of `" + body.name + "` lie along its axis: turning it moves nothing");
-    }
-    sphere.slope = held.dot(sphere.axis) / driven;
+  const Vector3 held = Eigen::AngleAxisd(*wheel.roller_angle, Vector3::UnitZ()) * sphere.axis;
+  const double driven = held.dot(sphere.along);
+  if (std::abs(driven) < 1e-3) {
+    refuse("the rollers of `" + body.name + "` lie along its axis: turning it moves nothing");
   }
+  sphere.slope = held.dot(sphere.axis) / driven;
   return sphere;
 }
 
@@ -87,7 +85,7 @@ void require_physical(const RigidInertia& base) {
 }  // namespace
 
 bool is_rolling_sphere(const Wheel& wheel) {
-  return wheel.roller_angle.has_value() || (wheel.holds_rolling && !wheel.holds_sideways);
+  return wheel.roller_angle.has_value();
 }
 
 SphereBase replace_wheels_by_spheres(const Model& model) {

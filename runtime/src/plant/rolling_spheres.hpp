@@ -47,7 +47,7 @@ struct SphereBase {
   solver::RigidInertia base;  ///< of the simulated base
 };
 
-/// True for wheels that are simulated as spheres on ball joints: they hold one direction.
+/// True for wheels that are simulated as spheres on ball joints: those with rollers.
 bool is_rolling_sphere(const solver::Wheel& wheel);
 
 /// Throws std::invalid_argument, with the reason, when the wheels cannot be simulated exactly as spheres.

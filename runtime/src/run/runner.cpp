@@ -1,11 +1,14 @@
 #include "zwang/runtime/runner.hpp"
 
 #include <algorithm>
+#include <limits>
 
+#include "estimate/friction.hpp"
 #include "run/limit_table.hpp"
 #include "run/log_layout.hpp"
 #include "run/shortfall.hpp"
 #include "run/statement_table.hpp"
+#include "zwang/runtime/odometry.hpp"
 
 namespace zwang::runtime {
 
@@ -39,19 +42,25 @@ struct Runner::Parts {
         scheduler(program, settings.period),
         solver(model, {.row_capacity = scheduler.row_capacity()}),
         solution(model, scheduler.row_capacity()),
+        estimated(model, program.signals.size()),
         sample(model, program.signals.size()),
+        odometry(model, {}, {.period = settings.period}),
+        friction(program.robot),
         guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
         statements(scheduler, program),
         limits(statements, program.robot),
         layout(statements, scheduler, model, program.signals, settings.extra_columns),
+        wanted(Eigen::VectorXd::Zero(model.joint_count())),
         tau(Eigen::VectorXd::Zero(model.joint_count())) {
     transitions.reserve(kept_transitions);
     for (const lang::Parameter& p : program.parameters) parameter_names.push_back(p.name);
   }
 
-  /// Everything between a good sample and the guard. False when there are no torques to send.
-  bool control(const Sensed& sensed) noexcept;
-  void brake_protectively(bool good_sample, const Sensed& sensed) noexcept;
+  /// What is known of a good sample: itself, or with the base as the wheels tell it.
+  void estimate(const Sensed& sensed) noexcept;
+  /// Everything between that and the guard. False when there are no torques to send.
+  bool control() noexcept;
+  void brake_protectively(bool good_sample) noexcept;
 
   const solver::Model model;
   std::vector<std::string> parameter_names;
@@ -59,13 +68,19 @@ struct Runner::Parts {
   Scheduler scheduler;
   solver::Solver solver;
   solver::Solution solution;
-  Sensed sample;  ///< of this tick, its velocities as the ground allows them
+  Sensed estimated;  ///< the last good sample
+  Sensed sample;     ///< the same, its velocities as the ground allows them
+  Odometry odometry;
+  bool reckoning = false;  ///< the base is not measured: `odometry` tells it
+  double last_fix = -std::numeric_limits<double>::infinity();  ///< [s]
+  FrictionFeedForward friction;
   SafetyGuard guard;
   StatementTable statements;
   LimitTable limits;
   LogLayout layout;
   Recorder* recorder = nullptr;
-  Eigen::VectorXd tau;
+  Eigen::VectorXd wanted;  ///< the solution's torques and the friction's
+  Eigen::VectorXd tau;     ///< sent
   solver::Status solver_status = solver::Status::ok;
   GuardStatus guard_status = GuardStatus::passed;
   std::vector<Transition> transitions;
@@ -75,12 +90,29 @@ struct Runner::Parts {
   bool stands = false;  ///< after a protective stop
 };
 
-bool Runner::Parts::control(const Sensed& sensed) noexcept {
-  sample.time = sensed.time;
-  sample.state = sensed.state;
-  // A snapshot may have fewer or more signals than the program; the sample keeps its size.
-  std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), sample.signals.size()),
-              sample.signals.begin());
+void Runner::Parts::estimate(const Sensed& sensed) noexcept {
+  estimated.time = sensed.time;
+  estimated.state = sensed.state;
+  // A snapshot may have fewer or more signals than the program; the estimate keeps its size.
+  std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), estimated.signals.size()),
+              estimated.signals.begin());
+  if (sensed.base_measured) {
+    reckoning = false;
+    return;
+  }
+  if (!reckoning) odometry.start_at(sensed.state.base_pose);
+  reckoning = true;
+  if (sensed.base_fix && sensed.base_fix->stamp > last_fix) {
+    last_fix = sensed.base_fix->stamp;
+    odometry.correct(last_fix, sensed.base_fix->pose);
+  }
+  odometry.update(sensed.time, estimated.state);
+}
+
+bool Runner::Parts::control() noexcept {
+  sample.time = estimated.time;
+  sample.state = estimated.state;
+  std::copy(estimated.signals.begin(), estimated.signals.end(), sample.signals.begin());
   solver_status = solver.project_velocity(sample.state);
   if (solver_status != solver::Status::ok) return false;
   scheduler.tick(sample);
@@ -93,12 +125,14 @@ bool Runner::Parts::control(const Sensed& sensed) noexcept {
                       : solver::Status::capacity_exceeded;
   if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
   scheduler.observe(solution);
+  wanted = solution.tau;
+  friction.add_to(wanted, sample.state);
   return true;
 }
 
-void Runner::Parts::brake_protectively(bool good_sample, const Sensed& sensed) noexcept {
+void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   ++stopped_ticks;
-  const solver::MotionVector& twist = sensed.state.base_twist;
+  const solver::MotionVector& twist = estimated.state.base_twist;
   const bool at_rest =
       good_sample && twist.linear.norm() < at_rest_speed && twist.angular.norm() < at_rest_turn;
   stands = stands || at_rest || static_cast<double>(stopped_ticks) * period > longest_stop;
@@ -114,21 +148,28 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   Parts& p = *parts_;
   const bool good = p.guard.admit(sensed) == SampleStatus::good;
   bool solved = false;
+  if (good) p.estimate(sensed);
   if (good && !p.guard.stopped()) {
-    solved = p.control(sensed);
+    solved = p.control();
     if (!solved) p.guard.stop(StopReason::solver);
   }
-  p.guard_status = good ? p.guard.output(sensed, p.solution.tau, p.tau) : p.guard.output_blind(p.tau);
-  if (p.guard.stopped()) p.brake_protectively(good, sensed);
+  p.guard_status = good ? p.guard.output(p.estimated, p.wanted, p.tau) : p.guard.output_blind(p.tau);
+  if (p.guard.stopped()) p.brake_protectively(good);
   if (solved) {
     p.shortfall =
         find_shortfall(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solver, p.solution);
     p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau);
   }
   if (p.recorder != nullptr) {
-    const Tick tick{sensed,     p.scheduler,     solved ? &p.scheduler.constraints() : nullptr,
-                    p.solution, p.solver_status, p.guard_status,
-                    p.tau,      extra,           p.shortfall};
+    const Tick tick{good ? p.estimated : sensed,
+                    p.scheduler,
+                    solved ? &p.scheduler.constraints() : nullptr,
+                    p.solution,
+                    p.solver_status,
+                    p.guard_status,
+                    p.tau,
+                    extra,
+                    p.shortfall};
     p.recorder->record(p.layout.fill(p.statements, tick));
   }
   return p.tau;

@@ -71,7 +71,7 @@ RowSolution BoundedProblem::report_sum(int i) noexcept {
 RowSolution BoundedProblem::report_motion(int i, bool motor_at_limit) noexcept {
   const Entry& e = entry(i);
   RowSolution row;
-  const double s = B(i).dot(p_.head(dimension_)) - d_(i);
+  const double s = along(i, p_) - d_(i);
   row.nu = e.out ? 0.0 : e.nu;
   row.residual = e.kind == RowKind::upper   ? std::max(s, 0.0)
                  : e.kind == RowKind::lower ? std::min(s, 0.0)
@@ -105,9 +105,9 @@ bool BoundedProblem::is_sum_at_bound(int i, double direction) noexcept {
 bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
   for (int k = 0; k < rows_; ++k) {
     if (!sum_counts(k, entry(i).level)) continue;
-    const double along = B(k).dot(B(i));
-    if (std::abs(along) <= residual_tolerance * entry(k).length * entry(i).length) continue;
-    if (is_sum_at_bound(k, wanted * along)) return true;
+    const double share = dot(dimension_, &B_(k, 0), &B_(i, 0));
+    if (std::abs(share) <= residual_tolerance * entry(k).length * entry(i).length) continue;
+    if (is_sum_at_bound(k, wanted * share)) return true;
   }
   return false;
 }
@@ -119,15 +119,15 @@ bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
 double BoundedProblem::opposition(int k, int i, double wanted, double miss) noexcept {
   const Entry& e = entry(k);
   if (k == i || e.out) return 0.0;
-  const double along = B(i).dot(B(k));
-  if (std::abs(along) <= residual_tolerance * entry(i).length * e.length) return 0.0;
+  const double share = dot(dimension_, &B_(i, 0), &B_(k, 0));
+  if (std::abs(share) <= residual_tolerance * entry(i).length * e.length) return 0.0;
   if (e.kind == RowKind::sum) {
-    return e.level <= entry(i).level && is_sum_at_bound(k, wanted * along) ? miss : 0.0;
+    return e.level <= entry(i).level && is_sum_at_bound(k, wanted * share) ? miss : 0.0;
   }
   const double force = e.kind == RowKind::force ? e.phi * e.force : e.nu;
-  const double pushed_back = -std::copysign(1.0, wanted) * along * force;
+  const double pushed_back = -std::copysign(1.0, wanted) * share * force;
   const bool frozen = e.level < entry(i).level && !is_one_sided(k);
-  const double cosine = along / (entry(i).length * e.length);
+  const double cosine = share / (entry(i).length * e.length);
   return std::max(pushed_back, frozen ? cosine * cosine * miss : 0.0);
 }
 

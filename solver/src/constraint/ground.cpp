@@ -13,17 +13,6 @@ GroundRow base_row(int index) {
   return {0, Vector6::Unit(index < 2 ? index : 5), 0.0};
 }
 
-/// Held direction number `index` of a wheel, a unit vector in the ground's plane.
-Vector3 held_direction(const Wheel& wheel, int index, const Vector3& axis, const Vector3& normal) {
-  const Vector3 rolling = axis.cross(normal).normalized();
-  const Vector3 sideways = (axis - axis.dot(normal) * normal).normalized();
-  if (wheel.roller_angle) {
-    const double angle = *wheel.roller_angle;
-    return std::cos(angle) * sideways + std::sin(angle) * normal.cross(sideways);
-  }
-  return wheel.holds_rolling && index == 0 ? rolling : sideways;
-}
-
 /// No slip along u at the contact point P = C - R n under the wheel's centre C:
 ///   u . (v + w x P) = 0,   (w, v) the wheel's twist,   u fixed to the carrier (twist (w_c, v_c)), C moving
 ///   with the wheel.
@@ -47,6 +36,16 @@ GroundRow wheel_row(const Wheel& wheel, int index, const Model& model, const Swe
 }
 
 }  // namespace
+
+Vector3 held_direction(const Wheel& wheel, int index, const Vector3& axis, const Vector3& normal) noexcept {
+  const Vector3 rolling = axis.cross(normal).normalized();
+  const Vector3 sideways = (axis - axis.dot(normal) * normal).normalized();
+  if (wheel.roller_angle) {
+    const double angle = *wheel.roller_angle;
+    return std::cos(angle) * sideways + std::sin(angle) * normal.cross(sideways);
+  }
+  return wheel.holds_rolling && index == 0 ? rolling : sideways;
+}
 
 int ground_row_count(const Model& model) noexcept {
   int count = model.base_type() == BaseType::ground ? base_rows : 0;

@@ -14,6 +14,10 @@ struct GroundRow {
   double bias = 0.0;  ///< minus the velocity products
 };
 
+/// Held direction number `index` of a wheel, a unit vector in the plane of the ground. `axis` is the wheel's
+/// own; all in the same axes.
+Vector3 held_direction(const Wheel& wheel, int index, const Vector3& axis, const Vector3& normal) noexcept;
+
 int ground_row_count(const Model& model) noexcept;
 
 /// Row `index` of the ground at the configuration and the twists in `sweeps`.

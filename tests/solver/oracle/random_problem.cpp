@@ -57,6 +57,10 @@ const char* to_string(Robot robot) {
       return "skid";
     case Robot::mecanum_arm:
       return "mecanum_arm";
+    case Robot::tricycle:
+      return "tricycle";
+    case Robot::swerve:
+      return "swerve";
   }
   return "?";
 }
@@ -142,6 +146,16 @@ void add_caster(ModelBuilder& builder, const std::string& name, const Vector3& a
   }
 }
 
+/// A driven wheel under a swivel with a motor of its own, the one axis above the other.
+void add_steered_wheel(ModelBuilder& builder, const std::string& name, const Vector3& at, double max_effort,
+                       Random& random) {
+  builder.add_link(name, "base", {Matrix3::Identity(), at},
+                   motor(name + "_steering", Vector3::UnitZ(), max_effort, random.uniform(0.0, 0.02)),
+                   random_inertia(random, random.uniform(0.5, 2.0)));
+  add_wheel(builder, name + "_wheel", name, Vector3::Zero(), 0.0, random.uniform(0.05, 0.1), true, max_effort,
+            random, {});
+}
+
 void add_mecanum(ModelBuilder& builder, double max_effort, Random& random) {
   const double lx = random.uniform(0.15, 0.4);
   const double ly = random.uniform(0.15, 0.4);
@@ -219,6 +233,20 @@ Model random_model(Robot robot, Random& random, double max_effort) {
         add_caster(builder, "unit" + std::to_string(i), {0.3 * std::cos(angle), 0.3 * std::sin(angle), 0.0},
                    random.uniform(0.01, 0.04), 2, true, max_effort, random);
       }
+      return builder.build();
+    }
+    case Robot::tricycle: {
+      ModelBuilder builder(BaseType::ground, "base", chassis(random));
+      add_steered_wheel(builder, "front", {0.4, 0.0, 0.0}, max_effort, random);
+      add_wheel(builder, "left", "base", {-0.1, 0.2, 0.0}, 0.0, 0.08, false, max_effort, random, {});
+      add_wheel(builder, "right", "base", {-0.1, -0.2, 0.0}, 0.0, 0.08, false, max_effort, random, {});
+      return builder.build();
+    }
+    case Robot::swerve: {  // two wheels always have a common centre; three at random angles lock the base
+      ModelBuilder builder(BaseType::ground, "base", chassis(random));
+      add_steered_wheel(builder, "front", {0.25, 0.1, 0.0}, max_effort, random);
+      add_steered_wheel(builder, "rear", {-0.25, -0.1, 0.0}, max_effort, random);
+      if (random.chance(0.3)) add_steered_wheel(builder, "side", {0.0, 0.3, 0.0}, max_effort, random);
       return builder.build();
     }
     case Robot::skid: {

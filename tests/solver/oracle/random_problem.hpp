@@ -30,10 +30,22 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-enum class Robot { arm, tree, floating_tree, mecanum, omni, differential, kelo, skid, mecanum_arm };
-inline constexpr Robot all_robots[] = {Robot::arm,     Robot::tree, Robot::floating_tree,
-                                       Robot::mecanum, Robot::omni, Robot::differential,
-                                       Robot::kelo,    Robot::skid, Robot::mecanum_arm};
+enum class Robot {
+  arm,
+  tree,
+  floating_tree,
+  mecanum,
+  omni,
+  differential,
+  kelo,
+  skid,
+  mecanum_arm,
+  tricycle,
+  swerve
+};
+inline constexpr Robot all_robots[] = {
+    Robot::arm,  Robot::tree, Robot::floating_tree, Robot::mecanum,  Robot::omni,  Robot::differential,
+    Robot::kelo, Robot::skid, Robot::mecanum_arm,   Robot::tricycle, Robot::swerve};
 const char* to_string(Robot robot);
 
 solver::RigidInertia random_inertia(Random& random, double mass);

@@ -28,6 +28,20 @@ struct Diagnostic {
   std::optional<std::string> replacement;  ///< the literal text that may replace `span`
 };
 
+/// A comment `# zwang: allow CODE the reason`: silences warnings and notes of that code on one line.
+struct Allowance {
+  std::string code;
+  std::string reason;
+  int line = 0;  ///< that it speaks for, in the source of `span`
+  Span span;     ///< of the comment
+};
+
+/// What an allowance silenced.
+struct Silenced {
+  Diagnostic diagnostic;
+  std::string reason;
+};
+
 class Diagnostics {
  public:
   int add_source(Source source);
@@ -40,15 +54,37 @@ class Diagnostics {
   /// In the order of the text: by source, then position.
   std::vector<Diagnostic> sorted() const;
   const std::vector<Diagnostic>& all() const { return diagnostics_; }
+  int count(Severity severity) const;
+
+  void allow(Allowance allowance) { allowances_.push_back(std::move(allowance)); }
+  /// Takes out what allowances silence, and tells of those that silence nothing: for when all has been said.
+  /// The load functions end with it.
+  void settle();
+  const std::vector<Silenced>& silenced() const { return silenced_; }
 
  private:
+  bool is_allowed(const Diagnostic& diagnostic);
+
   std::vector<Source> sources_;
   std::vector<Diagnostic> diagnostics_;
+  std::vector<Allowance> allowances_;
+  std::vector<Silenced> silenced_;
+};
+
+struct RenderOptions {
+  bool notes = false;  ///< show notes as well
 };
 
 /// file:line:column, code, message, the source line with a caret, help.
-void render_human(const Diagnostics& diagnostics, std::ostream& out);
-/// One JSON array, a diagnostic an object with its range; for editors.
-std::string render_json(const Diagnostics& diagnostics);
+void render_human(const Diagnostics& diagnostics, std::ostream& out, const RenderOptions& options = {});
+/// `file:line:column: error E201: message`, one line each.
+void render_short(const Diagnostics& diagnostics, std::ostream& out, const RenderOptions& options = {});
+/// One JSON array, a diagnostic an object with its range and the edits that would mend it; for editors. Lines
+/// and columns from 1, columns in code points, ends exclusive.
+std::string render_json(const Diagnostics& diagnostics, const RenderOptions& options = {});
+/// A SARIF 2.1.0 log with one run; what allowances silenced is in it, marked as suppressed. `version` is the
+/// program's.
+std::string render_sarif(const std::vector<const Diagnostics*>& files, const std::string& version,
+                         const RenderOptions& options = {});
 
 }  // namespace zwang::lang

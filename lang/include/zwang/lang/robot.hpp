@@ -9,6 +9,7 @@
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/solver/constraint.hpp"
 #include "zwang/solver/model.hpp"
+#include "zwang/solver/state.hpp"
 
 namespace zwang::lang {
 
@@ -41,11 +42,15 @@ struct Robot {
   std::vector<solver::Vector3>
       footprint;                        ///< polygon corners in the base frame [m], z = 0, counter-clockwise
   std::vector<JointFriction> friction;  ///< of each joint
+  Eigen::VectorXd posture;              ///< q at the start [rad] or [m]; empty: all 0
   std::vector<std::string> supports;    ///< passive links that hold nothing in the plane
   double bumper_height = 0.15;          ///< [m] above the ground where the footprint touches the world
   double bumper_stiffness = 20e3;       ///< [N/m]
   std::vector<Span> joint_spans;        ///< where each joint's limits come from
 };
+
+/// How the robot stands before it moves: at the world's origin, its joints in their posture.
+solver::State start_state(const Robot& robot);
 
 /// Reads and checks a robot file and the URDF it names. The only URDF reader.
 std::optional<Robot> load_robot(const std::filesystem::path& path, Diagnostics& diagnostics);

@@ -30,12 +30,24 @@ struct SignalSample {
   solver::ForceVector wrench;  ///< in the axes of `in` and about its origin [N m, N]
 };
 
+/// Where the base was, by somebody who sees it: a localisation, a tracker, a mark on the wall.
+struct MeasuredPose {
+  double stamp = 0.0;  ///< [s] when it was measured, by the clock of `Sensed::time`
+  solver::Pose pose;   ///< X_WB; only x, y and yaw count
+};
+
 /// One stamped snapshot of everything the controller may know.
 struct Sensed {
   explicit Sensed(const solver::Model& model, std::size_t signal_count = 0)
       : state(model), signals(signal_count) {}
   double time = 0.0;  ///< [s]
   solver::State state;
+  /// Whether the state's base pose and twist are measured. If not, the runtime reckons them from the wheels;
+  /// the pose in the first snapshot is where it starts.
+  bool base_measured = true;
+  /// For the reckoning, where somebody measures it now and then. The same stamp again is the same
+  /// measurement.
+  std::optional<MeasuredPose> base_fix;
   /// Parallel to lang::Program::signals, and sized once. Those that are missing are never received.
   std::vector<SignalSample> signals;
 };

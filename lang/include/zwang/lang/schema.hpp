@@ -1,0 +1,14 @@
+/// JSON Schemas (draft 7) of zwang's files, for editors: completion, hover texts, the first check while typing.
+#pragma once
+
+#include <string>
+
+namespace zwang::lang {
+
+enum class SchemaKind { task, robot, scene, scenario };
+
+/// What a schema can say of a file: keys, shapes, and whether a text looks like a quantity. Names, dimensions
+/// and everything else is for `load` to judge.
+std::string json_schema(SchemaKind kind);
+
+}  // namespace zwang::lang

@@ -1,0 +1,162 @@
+#include <array>
+
+#include "explain/catalogue.hpp"
+
+namespace zwang::lang::catalogue {
+
+std::span<const Explanation> constraints() {
+  static constexpr std::array entries{
+      Explanation{
+          .code = "E401",
+          .title = "an axis is driven twice",
+          .why =
+              R"~(A single value drives, and an axis obeys one driver: it cannot be moved at a velocity and pushed with
+a force at once, since the world decides one of the two. What both lines can say together is a driver and its
+limits.)~",
+          .fix = "Keep one single value and write the others as ranges.",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: 0.1 m/s, force: 20 N}",
+          .instead = "x: {velocity: 0.1 m/s, force: +-20 N}"},
+      Explanation{
+          .code = "W402",
+          .title = "a driver asks for more than `always` allows",
+          .why =
+              R"~(What stands under `always` holds first. The driver will never reach its value, and an exit that waits
+for it will never fire.)~",
+          .fix = "Ask for a value within the limit, or, if the limit is too narrow, widen it where it is "
+                 "written.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(always:
+  constraints:
+    manners: {move: base_link, in: base_link, x: {velocity: +-0.5 m/s}}
+tasks:
+  go:
+    constraints:
+      drive: {move: base_link, in: base_link, x: {velocity: 0.9 m/s}}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(always:
+  constraints:
+    manners: {move: base_link, in: base_link, x: {velocity: +-0.5 m/s}}
+tasks:
+  go:
+    constraints:
+      drive: {move: base_link, in: base_link, x: {velocity: 0.4 m/s}}
+    timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "E403",
+          .title = "an empty range",
+          .why = "The lower end of a range is above its upper end: no value at all lies within.",
+          .fix = "Write the lower end first. With negative numbers that is the one farther from zero.",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: [0.08 m/s, -0.05 m/s]}",
+          .instead = "x: {velocity: [-0.05 m/s, 0.08 m/s]}"},
+      Explanation{
+          .code = "E404",
+          .title = "an axis that this base cannot move",
+          .why =
+              R"~(A wheeled base stands on the ground, which holds its height, roll and pitch; some drives hold its
+sideways motion too. A driver there asks for a motion that no torque can make. A range is no demand, and
+standing still costs nothing: both may stay.)~",
+          .fix =
+              R"~(Leave the axis out. Where a base of two freedoms shall move sideways, move a frame that lies ahead of
+the axle: turning carries it to the side.)~",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: 0.1 m/s}\nz: {velocity: 0.1 m/s}",
+          .instead = "x: {velocity: 0.1 m/s}"},
+      Explanation{
+          .code = "E405",
+          .title = "a position in axes that move along",
+          .why =
+              R"~(Seen from its own axes a frame is always at the same place; however the robot drives, the number stays
+what it is. So a position there can be neither reached nor kept.)~",
+          .fix =
+              R"~(Give the position in a frame of the world. `here` is allowed: it means the place in the world at which
+the task was entered. Or drive a velocity.)~",
+          .part = ExcerptOf::group,
+          .example = "move: bumper\nin: base_link\nx: {position: 1 m}",
+          .instead = "move: bumper\nin: world\nx: {position: 1 m}"},
+      Explanation{
+          .code = "E408",
+          .title = "a force range without zero",
+          .why =
+              R"~(A force range says how much may be spent. Where nothing stands in the way no force is needed, and a
+range from 5 N up would forbid just that. That zero is always allowed is what makes every task solvable.)~",
+          .fix = "Write the range from 0 or through 0. If the robot shall press, a single force does it.",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: 0.1 m/s, force: [5 N, 20 N]}",
+          .instead = "x: {velocity: 0.1 m/s, force: [0 N, 20 N]}"},
+      Explanation{
+          .code = "E409",
+          .title = "a frame that nothing can move",
+          .why =
+              R"~(`move` names what the robot moves: one of its links, or a frame that is carried by one. This frame
+stands in the world.)~",
+          .fix = "Swap the two: move a frame of the robot, `in` this one.",
+          .part = ExcerptOf::group,
+          .example = "move: world\nin: base_link",
+          .instead = "move: base_link\nin: world"},
+      Explanation{.code = "E410",
+                  .title = "a region without area",
+                  .why = "The corners lie on a line or are fewer than three: there is no inside to stay in.",
+                  .fix = "Give three corners or more, in the order in which one would walk around.",
+                  .part = ExcerptOf::task_file,
+                  .example = R"~(regions:
+  hall: {polygon: [[0 m, 0 m], [4 m, 0 m]]}
+tasks:
+  go:
+    constraints:
+      stay: {move: footprint, inside: hall}
+    timeout: {after: 10 s, goto: failed})~",
+                  .instead = R"~(regions:
+  hall: {polygon: [[0 m, 0 m], [4 m, 0 m], [4 m, 3 m], [0 m, 3 m]]}
+tasks:
+  go:
+    constraints:
+      stay: {move: footprint, inside: hall}
+    timeout: {after: 10 s, goto: failed})~"},
+      Explanation{.code = "E411",
+                  .title = "a direction that points nowhere",
+                  .why = "A direction is a sum of axes with coefficients; all of them are zero or absent.",
+                  .fix = "Give at least one of x, y, z, rx, ry, rz a coefficient that is not zero.",
+                  .part = ExcerptOf::task_file,
+                  .example = R"~(features:
+  slant: {direction: {move: base_link, in: world, x: 0, y: 0}}
+tasks:
+  go:
+    constraints:
+      slide: {feature: slant, velocity: 0.1 m/s}
+    timeout: {after: 10 s, goto: failed})~",
+                  .instead = R"~(features:
+  slant: {direction: {move: base_link, in: world, x: 1, y: 1}}
+tasks:
+  go:
+    constraints:
+      slide: {feature: slant, velocity: 0.1 m/s}
+    timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "E412",
+          .title = "a feature that never changes",
+          .why =
+              R"~(Both frames are carried by the same link, so the distance or angle between them is fixed when the robot
+is built. No motion can change it.)~",
+          .fix = "Measure from a frame of the robot to a frame of the world, or of another link.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(features:
+  gap: {distance: [base_link, bumper]}
+tasks:
+  go:
+    constraints:
+      near: {feature: gap, velocity: -0.1 m/s}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(features:
+  gap: {distance: [bumper, world]}
+tasks:
+  go:
+    constraints:
+      near: {feature: gap, velocity: -0.1 m/s}
+    timeout: {after: 10 s, goto: failed})~"},
+  };
+  return entries;
+}
+
+}  // namespace zwang::lang::catalogue

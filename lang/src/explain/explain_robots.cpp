@@ -1,0 +1,133 @@
+#include <array>
+
+#include "explain/catalogue.hpp"
+
+namespace zwang::lang::catalogue {
+
+std::span<const Explanation> robots() {
+  static constexpr std::array entries{
+      Explanation{
+          .code = "E801",
+          .title = "a fixed joint cannot move",
+          .why = "The robot file names a joint as a wheel or an actuator that the URDF declares as fixed.",
+          .fix =
+              R"~(Name the joint that turns. If it is this one, the URDF was written for a picture of the robot: make the
+joint `continuous` there.)~",
+          .part = ExcerptOf::urdf,
+          .example = R"~(<joint name="left" type="fixed">
+  <parent link="base_link"/>
+  <child link="left_link"/>
+  <origin xyz="0 0.2 0.1"/>
+</joint>)~",
+          .instead = R"~(<joint name="left" type="continuous">
+  <parent link="base_link"/>
+  <child link="left_link"/>
+  <origin xyz="0 0.2 0.1"/>
+  <axis xyz="0 1 0"/>
+  <limit effort="5" velocity="10"/>
+</joint>)~"},
+      Explanation{
+          .code = "E802",
+          .title = "a wheel that could not work",
+          .why =
+              R"~(A wheel turns on its own joint and holds some direction on the ground: its roller's axis, or rolling
+and sideways. This one slides, is named twice, holds what no wheel can hold, or has rollers that would let it
+drive nothing.)~",
+          .fix =
+              R"~(Give mecanum and omni wheels a `roller`, the angle about the base's +z from the wheel's axis to the
+roller's at the ground; plain wheels need none. `holds: [rolling]` is for skid steering.)~",
+          .part = ExcerptOf::robot,
+          .example = R"~(wheels:
+  - {joint: left, radius: 0.1 m, roller: 45 deg, holds: [rolling]}
+  - {joint: right, radius: 0.1 m})~",
+          .instead = R"~(wheels:
+  - {joint: left, radius: 0.1 m, holds: [rolling]}
+  - {joint: right, radius: 0.1 m})~"},
+      Explanation{
+          .code = "E803",
+          .title = "a base that hangs on a moving joint",
+          .why =
+              R"~(`base` is the link that the wheels carry and that floats with three freedoms above the ground. A link
+below a moving joint is somewhere else whenever that joint moves.)~",
+          .fix = "Name the link that hangs on nothing that moves, often `base_link` or `base_footprint`.",
+          .part = ExcerptOf::robot,
+          .example = "base: left_link",
+          .instead = "base: base_link"},
+      Explanation{
+          .code = "E804",
+          .title = "a motor without strength",
+          .why =
+              R"~(What a task can do is bounded by what the motors can give; zwang plans with that number and never
+commands more. Neither the robot file nor the URDF says it for this joint.)~",
+          .fix =
+              R"~(Add `effort` with the largest torque on the wheel's side of the gear, from the data sheet. A URDF that
+says `effort="0"` says nothing.)~",
+          .part = ExcerptOf::urdf,
+          .example = R"~(<joint name="left" type="continuous">
+  <parent link="base_link"/>
+  <child link="left_link"/>
+  <origin xyz="0 0.2 0.1"/>
+  <axis xyz="0 1 0"/>
+</joint>)~",
+          .instead = R"~(<joint name="left" type="continuous">
+  <parent link="base_link"/>
+  <child link="left_link"/>
+  <origin xyz="0 0.2 0.1"/>
+  <axis xyz="0 1 0"/>
+  <limit effort="5" velocity="10"/>
+</joint>)~"},
+      Explanation{
+          .code = "E805",
+          .title = "friction compensated in full",
+          .why =
+              R"~(A controller that pays back all of the friction, or more, has a robot that keeps rolling by itself as
+soon as the friction is a little lower than was measured.)~",
+          .fix = "Stay below 100 %; 80 % is usual.",
+          .part = ExcerptOf::robot,
+          .example = "friction: {left: {coulomb: 0.1 N m, compensate: 110 %}}",
+          .instead = "friction: {left: {coulomb: 0.1 N m, compensate: 80 %}}"},
+      Explanation{.code = "E806",
+                  .title = "a limit that forbids standing still",
+                  .why = "Limits of the robot hold at all times. A range without zero would demand motion "
+                         "even when nothing runs.",
+                  .fix = "Write a range through 0, for example `+-1 m/s`.",
+                  .part = ExcerptOf::robot,
+                  .example = "limits: {velocity: {x: [0.1 m/s, 1 m/s]}}",
+                  .instead = "limits: {velocity: {x: [0 m/s, 1 m/s]}}"},
+      Explanation{
+          .code = "E807",
+          .title = "a footprint without area",
+          .why = "The footprint is the outline of the robot on the floor; regions are kept by its corners.",
+          .fix = "Give three corners or more, in the order in which one would walk around the robot.",
+          .part = ExcerptOf::robot,
+          .example = "footprint: {polygon: [[0.3 m, 0 m], [-0.3 m, 0 m]]}",
+          .instead =
+              "footprint: {polygon: [[0.3 m, 0.2 m], [-0.3 m, 0.2 m], [-0.3 m, -0.2 m], [0.3 m, -0.2 m]]}"},
+      Explanation{
+          .code = "E808",
+          .title = "a body that cannot exist",
+          .why =
+              R"~(The equations of motion need masses above zero where something moves, and inertias that a real body
+could have: each of the three no larger than the sum of the other two. With other numbers the robot's
+accelerations would be nonsense, or infinite.)~",
+          .fix =
+              R"~(Correct the link in the URDF. The inertia of a box of mass m and sides a, b, c about its centre is
+m (b^2 + c^2) / 12, and so on.)~",
+          .part = ExcerptOf::urdf,
+          .example = R"~(<link name="left_link">
+  <inertial>
+    <mass value="0"/>
+    <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/>
+  </inertial>
+</link>)~",
+          .instead = R"~(<link name="left_link">
+  <inertial>
+    <mass value="1"/>
+    <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.001"/>
+  </inertial>
+</link>)~"},
+  };
+  return entries;
+}
+
+}  // namespace zwang::lang::catalogue

@@ -1,0 +1,196 @@
+#include "schema/parts.hpp"
+
+namespace zwang::lang::schema {
+
+namespace {
+
+/// What one of the four quantities of an axis may say.
+Json statement(const char* description, std::vector<Json> more = {}) {
+  std::vector<Json> choices = {reference("value"), reference("range"),
+                               word("the name of a signal of the type number")};
+  choices.insert(choices.end(), more.begin(), more.end());
+  Json schema = any_of(std::move(choices));
+  schema["description"] = description;
+  return schema;
+}
+
+std::vector<Property> manner() {
+  return {
+      {"time_constant", reference("value", "how fast a driver gets there: 63 % of a velocity step after it")},
+      {"level", Json{{"type", "integer"},
+                     {"minimum", 0},
+                     {"maximum", 9},
+                     {"description", "what a lower number wants goes first, and strictly"}}},
+      {"weight",
+       reference("value", "a mass: makes the rows soft, met to the fraction w / (w + effective mass)")}};
+}
+
+std::vector<Property> statements() {
+  std::vector<Property> properties = {
+      {"position",
+       statement("a single value moves there, a range stays inside", {one_of_words("", {"here"})})},
+      {"velocity", statement("a single value moves so fast, a range never faster")},
+      {"acceleration", statement("a single value accelerates so much, a range never more")},
+      {"force", statement("a single value pushes so hard, a range beside a driver of motion spends no more")},
+      {"stiffness", reference("value", "with `damping`: makes a spring of a position driver")},
+      {"damping", reference("value", "with `stiffness`")}};
+  for (Property& property : manner()) properties.push_back(std::move(property));
+  return properties;
+}
+
+Json axis() {
+  return any_of({one_of_words("says nothing, and lets conditions measure the axis", {"free"}),
+                 object("a single value drives, a range limits", statements())});
+}
+
+Json group() {
+  std::vector<Property> axes = {{"move", word("the frame that moves"), true},
+                                {"in", word("the frame whose axes these are"), true}};
+  for (Property& property : manner()) axes.push_back(std::move(property));
+  for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) axes.push_back({name, reference("axis")});
+  std::vector<Property> speed = {{"velocity", reference("range"), true}};
+  for (Property& property : manner()) speed.push_back(std::move(property));
+  axes.push_back({"speed", object("the norm of the planar velocity", std::move(speed))});
+  std::vector<Property> feature = {{"feature", word("the name of a feature"), true}};
+  for (Property& property : statements()) feature.push_back(std::move(property));
+  return any_of({object("statements about axes", std::move(axes)),
+                 object("stays inside a region",
+                        {{"move", word("a frame, or `footprint`"), true},
+                         {"inside", word("the name of a region"), true},
+                         {"margin", reference("value", "distance kept from the border")},
+                         {"level", Json{{"type", "integer"}, {"minimum", 0}, {"maximum", 9}}}}),
+                 object("statements about a feature", std::move(feature))});
+}
+
+Json set() {
+  Json schema = {{"type", "object"}, {"description", "frames.NAME: frame, params.NAME: value"}};
+  schema["patternProperties"] = {{"^frames\\.[A-Za-z_]\\w*$", word("the frame whose pose it takes")},
+                                 {"^params\\.[A-Za-z_]\\w*$", reference("value")}};
+  schema["additionalProperties"] = false;
+  return schema;
+}
+
+Json leads_to(const char* description) {
+  return word(description);
+}
+
+Json exit() {
+  return object("",
+                {{"when", reference("condition"), true},
+                 {"for", reference("value", "how long it must be true without a break")},
+                 {"release", reference("value", "once true it stays true until the quantity passes this")},
+                 {"goto", leads_to("a task, `done`, `failed`, or `back`"), true},
+                 {"set", reference("set")},
+                 {"note", word("for the log")}});
+}
+
+std::vector<Property> task_keys() {
+  return {{"about", word("what it is for")},
+          {"enter", object("on the way in", {{"require", reference("condition", "false on entry: `failed`")},
+                                             {"blend", reference("value", "how long the switch takes")},
+                                             {"set", reference("set")}})},
+          {"constraints", named("groups by their names", reference("group"))},
+          {"exits", list("asked from top to bottom; the first true one wins", reference("exit"))},
+          {"timeout", any_of({one_of_words("may run for ever", {"never"}),
+                              object("", {{"after", reference("value"), true},
+                                          {"goto", leads_to("a task, `done` or `failed`"), true}})})},
+          {"attempts", object("how often it may be entered",
+                              {{"max", Json{{"type", "integer"}, {"minimum", 1}}, true},
+                               {"goto", leads_to("where the next entry leads instead"), true}})}};
+}
+
+Json task_use() {
+  std::vector<Property> keys = {
+      {"use", word("the name of a template"), true},
+      {"with", named("its arguments", any_of({reference("value"), word("a name")}))}};
+  for (Property& property : task_keys()) keys.push_back(std::move(property));
+  return object("a template's task; further keys replace the template's", std::move(keys));
+}
+
+Json parameters() {
+  return named(
+      "values that may be set for one run, as `-p push=30N`",
+      any_of({reference("quantity"), object("", {{"value", reference("quantity"), true},
+                                                 {"range", reference("range", "what it may be set to")},
+                                                 {"help", word("one sentence for whoever sets it")}})}));
+}
+
+Json frames() {
+  return named(
+      "places with axes",
+      object("", {{"parent", word("`world`, a frame of the robot, another frame, or a pose signal"), true},
+                  {"at", reference("vector", "the origin, in the parent")},
+                  {"yaw", reference("quantity", "the heading, in the parent")},
+                  {"rpy", tuple("roll, pitch and yaw, in the parent", reference("quantity"), 3, 3)}}));
+}
+
+Json regions() {
+  const Json circle = object("", {{"at", reference("point"), true}, {"radius", reference("quantity"), true}});
+  return named("stretches of floor", object("", {{"polygon", reference("polygon")},
+                                                 {"circle", circle},
+                                                 {"parent", word("a frame; default `world`")}}));
+}
+
+Json signals() {
+  return named(
+      "values that are measured outside",
+      object("", {{"type", one_of_words("", {"bool", "number", "pose", "wrench"}), true},
+                  {"unit", word("of a number")},
+                  {"in", word("the frame that a pose or a wrench is seen from")},
+                  {"stale_after", reference("value", "the age at which a sample counts no more"), true}}));
+}
+
+Json features() {
+  std::vector<Property> direction = {{"move", word("the frame that moves"), true},
+                                     {"in", word("the frame whose axes these are"), true}};
+  for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) {
+    direction.push_back({name, reference("quantity", "its coefficient")});
+  }
+  return named("coordinates that are no axis of one frame",
+               object("", {{"distance", tuple("between two frames", word("a frame"), 2, 2)},
+                           {"angle", tuple("between two axes, as `hook.x`", word("frame.axis"), 2, 2)},
+                           {"direction", object("a sum of axes", std::move(direction))}}));
+}
+
+Json templates() {
+  const Json kinds =
+      one_of_words("", {"frame", "task", "number", "length", "angle", "time", "mass", "velocity",
+                        "acceleration", "force", "torque", "angular_velocity", "angular_acceleration"});
+  return named("tasks with holes",
+               object("", {{"args", named("what must be given, and of which kind", kinds)},
+                           {"body", reference("task"), true}}));
+}
+
+}  // namespace
+
+Json task_file() {
+  Json schema = object(
+      "A task of zwang",
+      {version("zwang"),
+       {"robot", word("the robot file, seen from this one"), true},
+       {"scene", word("the scene file, for the simulated plant")},
+       {"about", word("what this is for, in a line")},
+       {"params", parameters()},
+       {"frames", frames()},
+       {"regions", regions()},
+       {"signals", signals()},
+       {"features", features()},
+       {"templates", templates()},
+       {"always", object("what holds in every task",
+                         {{"constraints", named("groups by their names, at level 0", reference("group"))},
+                          {"exits", list("asked before those of the task", reference("exit"))}})},
+       {"start", word("the first task"), true},
+       {"tasks", named("tasks by their names", reference("task")), true}});
+  schema["definitions"] = {
+      {"condition",
+       Json{{"type", "string"}, {"description", "comparisons with units, joined by and, or, not"}}},
+      {"set", set()},
+      {"axis", axis()},
+      {"group", group()},
+      {"exit", exit()},
+      {"task", any_of({object("", task_keys()), task_use()})}};
+  // A condition may be a lone signal; `when: true` is none.
+  return schema;
+}
+
+}  // namespace zwang::lang::schema

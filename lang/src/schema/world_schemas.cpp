@@ -1,0 +1,130 @@
+// Robot, scene and scenario files.
+#include "schema/parts.hpp"
+
+namespace zwang::lang::schema {
+
+namespace {
+
+Json wheel() {
+  return object("", {{"joint", word("the joint that it turns on"), true},
+                     {"radius", reference("quantity"), true},
+                     {"roller", reference("quantity",
+                                          "mecanum and omni: from the wheel's axis to the roller's at "
+                                          "the ground, about the base's +z")},
+                     {"holds", list("what a plain wheel holds; both when absent",
+                                    one_of_words("", {"rolling", "sideways"}))}});
+}
+
+Json base_ranges(const char* description) {
+  return object(description,
+                {{"x", reference("range")}, {"y", reference("range")}, {"rz", reference("range")}});
+}
+
+Json robot_frame() {
+  return object("", {{"parent", word("a link, or an earlier frame"), true},
+                     {"at", reference("vector", "the origin, in the parent")},
+                     {"yaw", reference("quantity")},
+                     {"rpy", tuple("roll, pitch and yaw", reference("quantity"), 3, 3)}});
+}
+
+Json actuator() {
+  return object("",
+                {{"effort", reference("quantity", "largest torque on the joint's side; default the URDF's")},
+                 {"gear", reference("quantity", "turns of the motor for one of the joint")},
+                 {"rotor_inertia", reference("quantity", "of the rotor alone, before the gear")}});
+}
+
+Json joint_friction() {
+  return object("", {{"coulomb", reference("quantity", "dry friction")},
+                     {"viscous", reference("quantity", "friction that grows with the speed")},
+                     {"compensate", reference("quantity", "the part that the controller makes up for")}});
+}
+
+Json shape_sizes() {
+  return {{"box", tuple("three lengths", reference("quantity"), 3, 3)},
+          {"cylinder", object("", {{"radius", reference("quantity")}, {"height", reference("quantity")}})},
+          {"wall", object("", {{"length", reference("quantity")},
+                               {"thickness", reference("quantity")},
+                               {"height", reference("quantity")}})}};
+}
+
+Json scene_object() {
+  Json sizes = shape_sizes();
+  return object("has one shape: box, cylinder or wall",
+                {{"box", sizes["box"]},
+                 {"cylinder", sizes["cylinder"]},
+                 {"wall", sizes["wall"]},
+                 {"at", reference("point", "in the world; of a wall, a point of its face"), true},
+                 {"yaw", reference("quantity")},
+                 {"mass", reference("quantity", "of what can be pushed")},
+                 {"fixed", Json{{"type", "boolean"}}},
+                 {"stiffness", reference("quantity", "of a contact, as N/m")},
+                 {"damping", reference("quantity", "of a contact, against the critical one")},
+                 {"friction", reference("quantity", "coefficient")}});
+}
+
+Json start_pose() {
+  return object("where the robot stands", {{"at", reference("point")}, {"yaw", reference("quantity")}});
+}
+
+Json expectation() {
+  const Json condition = word("a condition; truth.* is what the plant measured");
+  return any_of({object("", {{"outcome", one_of_words("", {"done", "failed", "stopped"}), true}}),
+                 object("", {{"at", word("`end`, or a time"), true}, {"that", condition, true}}),
+                 object("", {{"within", reference("quantity"), true},
+                             {"of", word("what starts the time"), true},
+                             {"that", condition, true}}),
+                 object("", {{"always", condition, true}})});
+}
+
+}  // namespace
+
+Json robot_file() {
+  return object(
+      "What a URDF cannot say of a robot",
+      {version("zwang_robot"),
+       {"urdf", word("seen from this file"), true},
+       {"base", word("the link that floats"), true},
+       {"wheels", list("the drive follows from them", wheel()), true},
+       {"supports", list("links that stand on the ground and hold nothing", word("a link"))},
+       {"actuated", named("motors by their joints", actuator()), true},
+       {"limits", object("of the base, where a task gives none",
+                         {{"acceleration", base_ranges("")}, {"velocity", base_ranges("")}})},
+       {"stop",
+        object("the one brake",
+               {{"deceleration", reference("quantity"), true}, {"force", reference("quantity"), true}}),
+        true},
+       {"posture", named("where joints stand at the start", reference("quantity"))},
+       {"friction", named("by joint", joint_friction())},
+       {"footprint",
+        object("the outline on the floor, in the base frame", {{"polygon", reference("polygon"), true}}),
+        true},
+       {"bumper", object("", {{"stiffness", reference("quantity")}, {"height", reference("quantity")}})},
+       {"frames", named("places on the robot", robot_frame())}});
+}
+
+Json scene_file() {
+  return object("What stands around a simulated robot",
+                {version("zwang_scene"),
+                 {"start", start_pose()},
+                 {"floor", object("", {{"friction", reference("quantity")}})},
+                 {"objects", named("what the robot can meet", scene_object())}});
+}
+
+Json scenario_file() {
+  const Json one_or_more = any_of({word(""), list("", word(""))});
+  return object("A claim about a task, and how to test it",
+                {version("zwang_scenario"),
+                 {"task", word("the task file, seen from this one"), true},
+                 {"scene", word("in the place of the task's own")},
+                 {"robot", word("in the place of the task's own")},
+                 {"params", named("values for this scenario", reference("quantity"))},
+                 {"start_at", reference("point")},
+                 {"start_yaw", reference("quantity")},
+                 {"matrix", named("every combination is run: robot, start_at, start_yaw, params.NAME, faults",
+                                  list("", Json::object()))},
+                 {"faults", list("what goes wrong, and when", Json{{"type", "object"}})},
+                 {"expect", list("what must come true", expectation()), true}});
+}
+
+}  // namespace zwang::lang::schema

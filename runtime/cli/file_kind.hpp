@@ -1,0 +1,19 @@
+/// Which of zwang's files a file is, and reading it as that.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::cli {
+
+enum class FileKind { task, robot, scene };
+
+const char* word_of(FileKind kind);
+/// By the file's first key. nullopt when it is none of zwang's.
+std::optional<FileKind> kind_by_key(const std::string& path);
+/// What was read, in a few words; nothing when it is bad.
+std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics);
+
+}  // namespace zwang::cli

@@ -1,0 +1,13 @@
+#include "zwang/lang/schema.hpp"
+
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zwang::cli {
+
+int schema(const SchemaArguments& arguments) {
+  print(lang::json_schema(arguments.kind));
+  return exit_good;
+}
+
+}  // namespace zwang::cli

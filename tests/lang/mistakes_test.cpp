@@ -1,0 +1,159 @@
+// Mistakes that authors make, one at a time, in task files that are good without them: each is found where it
+// was made, and told once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang {
+namespace {
+
+struct Mistake {
+  std::string name;
+  std::string file;  ///< a shipped task file, or one of the drafts beside the checkout
+  std::string from, to;
+  std::string code;
+  /// Where the message points: the text on that line; empty: the line of the mistake.
+  std::string told_at;
+};
+
+std::vector<Mistake> mistakes() {
+  return {
+      // --- misspelt words ---
+      {"key_of_a_task", "wall_align", "    constraints:\n", "    constrains:\n", "E101", {}},
+      {"section", "wall_align", "params:", "parms:", "E101", {}},
+      {"section_of_templates", "hospital", "templates:", "template:", "E101", {}},
+      {"section_of_signals", "docking", "signals:", "signal:", "E101", {}},
+      {"section_of_regions", "hospital", "regions:", "region:", "E101", {}},
+      {"section_of_features", "docking", "features:", "feature:", "E101", {}},
+      {"constraints_of_always", "hospital", "always:\n  constraints:", "always:\n  constraint:", "E101",
+       "  constraint:"},
+      {"body_of_a_template", "hospital", "    body:", "    bdy:", "E101", {}},
+      {"quantity", "wall_align", "velocity: [-0.05", "velcity: [-0.05", "E101", {}},
+      {"parameter", "wall_align", "force: $push", "force: $psuh", "E301", {}},
+      {"measured_quantity", "wall_align", "contact.x.velocity", "contact.x.velocty", "E301", {}},
+      {"target", "wall_align", "goto: hold", "goto: holt", "E301", {}},
+      {"frame", "wall_align", "move: base_link", "move: base_lnk", "E301", {}},
+      {"set", "obstacle", "frames.touch: base_link", "frame.touch: base_link", "E105", {}},
+      {"capital", "obstacle", "goto: yield", "goto: Yield", "E301", {}},
+      {"type_of_signal", "docking", "type: bool", "type: boolean", "E301", {}},
+      {"parent", "docking", "{parent: partner}", "{parent: partnr}", "E301", {}},
+      {"axis_of_a_group", "docking", "glide.x.saturated", "glide.z.saturated", "E301", {}},
+      {"region", "hospital", "inside: corridor", "inside: coridor", "E301", {}},
+      {"argument_that_is_a_frame", "hospital", "target: pharmacy", "target: pharmcy", "E301", {}},
+      {"argument_that_is_a_task", "hospital", "then: load}", "then: laod}", "E301", {}},
+      {"name_of_an_argument", "hospital", "pace: 0.25 m/s", "pce: 0.25 m/s", "E303", {}},
+      {"template_of_a_task",
+       "hospital",
+       "to_door:      {use: drive_to",
+       "to_door:      {use: driveto",
+       "E301",
+       {}},
+      // --- units ---
+      {"acceleration_for_velocity", "wall_align", "0.08 m/s]", "0.08 m/s^2]", "E202", {}},
+      {"parameter_without_unit", "wall_align", "value: 20 N", "value: 20", "E201", {}},
+      {"parameter_without_unit_or_range",
+       "wall_align",
+       "{value: 20 N, range: [5 N, 40 N],",
+       "{value: 20,",
+       "E201",
+       {}},
+      {"time_without_unit", "wall_align", "for: 0.2 s", "for: 0.2", "E201", {}},
+      {"unit_without_slash", "wall_align", "5 mm/s", "5 mms", "E203", {}},
+      {"argument_without_unit", "hospital", "pace: 0.25 m/s", "pace: 0.25", "E303", {}},
+      {"argument_of_another_kind",
+       "hospital",
+       "pace: $speed, then: load",
+       "pace: $soft, then: load",
+       "E303",
+       {}},
+      {"newton_metre_in_one", "hospital", "force: +-20 N m", "force: +-20 Nm", "E203", {}},
+      {"degrees_for_metres",
+       "docking",
+       "abs(line.y.position) < 8 mm",
+       "abs(line.y.position) < 1 deg",
+       "E202",
+       {}},
+      // --- YAML ---
+      {"yes_for_free", "wall_align", "rz: free", "rz: yes", "E104", {}},
+      {"on_for_an_axis", "wall_align", "y:  {velocity", "on: {velocity", "E101", {}},
+      {"dash_for_comma", "wall_align", "[5 N, 40 N]", "[5 N - 40 N]", "E104", {}},
+      {"comma_in_a_condition", "docking", "when: not latch or", "when: not latch,", "E107", {}},
+      {"tab", "wall_align", "        move: base_link", "\tmove: base_link", "E100", {}},
+      {"key_twice", "wall_align", "rz: free", "y: free", "E102", {}},
+      {"shared_by_anchor", "docking", "stale_after: 300 ms", "stale_after: &age 300 ms", "E106", {}},
+      // --- shapes and levels ---
+      {"timeout_that_leads_nowhere", "wall_align", "{after: 20 s, goto: failed}", "20 s", "E104", {}},
+      {"axes_of_nobody", "wall_align", "        in: base_link\n", "", "E103", "move: base_link"},
+      {"level_ten", "hospital", "      margin: 10 cm", "      margin: 10 cm\n      level: 10", "E105",
+       "level: 10"},
+      {"limit_as_a_value", "hospital", "velocity: [0 m/s, $speed]", "velocity: $speed", "E104", {}},
+      {"number_in_words", "obstacle", "max: 3", "max: three", "E105", {}},
+      {"equals", "obstacle", "elapsed > 3 s", "elapsed = 3 s", "E105", {}},
+      {"ampersand", "obstacle", "go.x.saturated and moved", "go.x.saturated && moved", "E105", {}},
+      // --- meaning ---
+      {"swapped_range", "wall_align", "[-0.05 m/s, 0.08 m/s]", "[0.08 m/s, -0.05 m/s]", "E403", {}},
+      {"swapped_range_of_a_parameter", "hospital", "[0.2 m/s, 0.8 m/s]", "[0.8 m/s, 0.2 m/s]", "E403", {}},
+      {"two_drivers", "docking", "velocity: [-0.05 m/s, 0.05 m/s]", "velocity: 0.05 m/s", "E401", {}},
+      {"swapped_frames", "docking", "in: standoff", "in: hook", "E405",
+       "x:  {position: 0 m,   velocity: +-0.25"},
+      {"dead_guard", "docking", "reach < 3 cm, for: 0.2 s", "reach < -3 cm, for: 0.2 s", "E505", {}},
+      {"release_on_the_wrong_side", "hospital", "release: 1.2 m", "release: 0.6 m", "E506", {}},
+      {"back_from_a_task_of_its_own",
+       "hospital",
+       "for: 1 s, goto: to_door",
+       "for: 1 s, goto: back",
+       "E508",
+       {}},
+      {"no_age", "docking", ", stale_after: 300 ms", "", "E504", {}},
+      {"no_for", "obstacle", ", for: 20 ms", "", "W501", {}},
+      {"no_timeout", "obstacle", "    timeout: {after: 8 s, goto: failed}\n", "", "W503", "  yield:"},
+      {"value_outside_its_range", "docking", "{value: 20 N", "{value: 30 N", "E204", {}},
+  };
+}
+
+std::string text_of(const std::string& file) {
+  const auto shipped = test::source_dir / "specs" / (file + ".yaml");
+  return test::slurp(
+      std::filesystem::exists(shipped) ? shipped : test::source_dir / "../shared/cases" / (file + ".yaml"));
+}
+
+Diagnostics said_about(const std::string& text) {
+  const test::Folder folder;
+  for (const char* file : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "scenes/wall.yaml"}) {
+    folder.write(file, test::slurp(test::source_dir / "specs" / file));
+  }
+  Diagnostics diagnostics;
+  load(folder.write("task.yaml", text), {}, diagnostics);
+  return diagnostics;
+}
+
+int line_of(const std::string& text, std::size_t at) {
+  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+class MistakeOf : public testing::TestWithParam<Mistake> {};
+
+TEST_P(MistakeOf, is_found_in_its_place_and_told_once) {
+  const Mistake& mistake = GetParam();
+  const std::string good = text_of(mistake.file);
+  if (good.empty()) GTEST_SKIP() << "the draft " << mistake.file << " is not here";
+  ASSERT_TRUE(said_about(good).all().empty()) << test::rendered(said_about(good));
+  const std::size_t at = good.find(mistake.from);
+  ASSERT_NE(at, std::string::npos) << mistake.from;
+  const std::string bad = test::replaced(good, mistake.from, mistake.to);
+  const Diagnostics diagnostics = said_about(bad);
+  ASSERT_EQ(diagnostics.all().size(), 1u) << test::rendered(diagnostics);
+  const Diagnostic& said = diagnostics.all()[0];
+  EXPECT_EQ(said.code, mistake.code) << test::rendered(diagnostics);
+  const std::size_t told = mistake.told_at.empty() ? at : bad.find(mistake.told_at);
+  EXPECT_EQ(said.span.begin.line, line_of(bad, told)) << test::rendered(diagnostics);
+}
+
+INSTANTIATE_TEST_SUITE_P(An, MistakeOf, testing::ValuesIn(mistakes()),
+                         [](const auto& mistake) { return mistake.param.name; });
+
+}  // namespace
+}  // namespace zwang::lang

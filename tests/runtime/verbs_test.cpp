@@ -1,0 +1,182 @@
+// The verbs that do not run anything, as their users meet them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace zwang {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::read;
+using test::Result;
+
+const fs::path source = ZWANG_SOURCE_DIR;
+const fs::path specs = source / "specs";
+const fs::path conformance = source / "tests/conformance";
+
+bool contains(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+class Verbs : public test::Program {
+ protected:
+  /// A task beside the small robot of the golden suite.
+  std::string task(const std::string& name, const std::string& text) {
+    fs::create_directories(folder_ / "robots");
+    for (const char* file : {"robots/mini.yaml", "robots/mini.urdf"}) {
+      fs::copy_file(conformance / file, folder_ / file, fs::copy_options::overwrite_existing);
+    }
+    return write(name, text).string();
+  }
+  std::string endless() { return task("endless.yaml", read(conformance / "W503_endless.yaml")); }
+};
+
+TEST_F(Verbs, ValidateReadsFolders) {
+  Result r = zwang({"validate", specs.string(), "--format", "json"});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  const json files = json::parse(r.out)["files"];
+  std::size_t shipped = 0;
+  for (const auto& file : fs::recursive_directory_iterator(specs)) {
+    shipped += file.path().extension() == ".yaml" ? 1u : 0u;
+  }
+  EXPECT_EQ(files.size(), shipped);
+  for (const json& file : files) EXPECT_EQ(file["ok"], true) << file;
+}
+
+TEST_F(Verbs, ValidatePassesOverWhatIsNotOursInAFolder) {
+  endless();
+  write("compose.yaml", "services: {}\n");
+  const Result r = zwang({"validate", ".", "--format", "json"});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  EXPECT_EQ(json::parse(r.out)["files"].size(), 2u) << r.out;  // the task and its robot
+}
+
+TEST_F(Verbs, DeniedWarningsRefuseTheFile) {
+  const std::string file = endless();
+  Result r = zwang({"validate", file});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_TRUE(contains(r.out, "warning W503")) << r.out;
+  EXPECT_TRUE(contains(r.out, "endless.yaml: good")) << r.out;
+  r = zwang({"validate", file, "--deny", "warnings"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_TRUE(contains(r.out, "endless.yaml: 0 errors, 1 warning")) << r.out;
+  EXPECT_EQ(zwang({"validate", file, "--deny", "everything"}).code, 2);
+}
+
+TEST_F(Verbs, AnAllowedWarningIsNotDenied) {
+  const std::string file = task("allowed.yaml", read(conformance / "ok_allowed.yaml"));
+  const Result r = zwang({"validate", file, "--deny", "warnings"});
+  EXPECT_EQ(r.code, 0) << r.out;
+}
+
+TEST_F(Verbs, ValidateSpeaksShortAndSarif) {
+  const std::string file = endless();
+  Result r = zwang({"validate", file, "--format", "short"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_TRUE(contains(r.out, "endless.yaml:5:3: warning W503: ")) << r.out;
+  EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 1) << r.out;
+  r = zwang({"validate", file, specs.string(), "--format", "sarif"});
+  EXPECT_EQ(r.code, 0);
+  const json log = json::parse(r.out);
+  EXPECT_EQ(log["version"], "2.1.0");
+  ASSERT_EQ(log["runs"].size(), 1u);
+  EXPECT_EQ(log["runs"][0]["results"][0]["ruleId"], "W503");
+}
+
+TEST_F(Verbs, ExplainSaysWhatACodeMeans) {
+  Result r = zwang({"explain", "E201"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.out.find("error E201: a number without a unit\n"), 0u) << r.out;
+  r = zwang({"explain", "w503", "E405", "--markdown"});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.out, read(source / "docs/errors/W503.md") + "\n" + read(source / "docs/errors/E405.md"));
+  r = zwang({"explain", "--all"});
+  EXPECT_EQ(r.code, 0);
+  std::size_t pages = 0;
+  for (const auto& page : fs::directory_iterator(source / "docs/errors")) {
+    const std::string code = page.path().stem().string();
+    if (code == "README") continue;
+    EXPECT_TRUE(contains("\n" + r.out, "\n" + code + "  ")) << code;
+    ++pages;
+  }
+  EXPECT_EQ(static_cast<std::size_t>(std::count(r.out.begin(), r.out.end(), '\n')), pages);
+  r = zwang({"explain", "E000"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_TRUE(contains(r.err, "no code `E000`")) << r.err;
+  EXPECT_EQ(zwang({"explain"}).code, 2);
+}
+
+const char* const untidy =
+    "zwang: 1\nrobot:   robots/mini.yaml\nstart: go\ntasks:\n    go:   # drive\n      constraints:\n"
+    "         drive: {move: base_link,in: base_link, x: {velocity: 0.1 m/s}}\n      timeout: {after: 3 s, "
+    "goto: done}\n";
+const char* const tidy =
+    "zwang: 1\nrobot: robots/mini.yaml\nstart: go\ntasks:\n  go:  # drive\n    constraints:\n"
+    "      drive: {move: base_link, in: base_link, x: {velocity: 0.1 m/s}}\n    timeout: {after: 3 s, goto: "
+    "done}\n";
+
+TEST_F(Verbs, FmtWritesTheLayoutInOneStep) {
+  const fs::path file = task("task.yaml", untidy);
+  fs::permissions(file, fs::perms::owner_all | fs::perms::group_read);
+  fs::create_symlink("task.yaml", folder_ / "link.yaml");
+  Result r = zwang({"fmt", "--check", file.string()});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_TRUE(contains(r.out, "task.yaml: would be laid out anew")) << r.out;
+  EXPECT_EQ(read(file), untidy);
+  r = zwang({"fmt", (folder_ / "link.yaml").string()});
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(read(file), tidy);
+  EXPECT_TRUE(fs::is_symlink(folder_ / "link.yaml"));
+  EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_all | fs::perms::group_read);
+  r = zwang({"fmt", "--check", file.string()});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.out, "");
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) files += entry.is_directory() ? 0u : 1u;
+  EXPECT_EQ(files, 4u) << "task, link, out, err";
+}
+
+TEST_F(Verbs, FmtLeavesFilesWithErrorsAlone) {
+  const std::string bad = std::string(untidy) + "strat: go\n";
+  const std::string file = task("task.yaml", bad);
+  const Result r = zwang({"fmt", file});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_TRUE(contains(r.out, "error E101")) << r.out;
+  EXPECT_TRUE(contains(r.out, "task.yaml: left as it is")) << r.out;
+  EXPECT_EQ(read(file), bad);
+}
+
+TEST_F(Verbs, SchemaPrintsEveryKind) {
+  for (const char* kind : {"task", "robot", "scene", "scenario"}) {
+    const Result r = zwang({"schema", kind});
+    EXPECT_EQ(r.code, 0);
+    EXPECT_EQ(r.out, read(specs / "schemas" / (std::string(kind) + ".json"))) << kind;
+    EXPECT_EQ(json::parse(r.out)["$schema"], "http://json-schema.org/draft-07/schema#");
+  }
+  EXPECT_EQ(zwang({"schema"}).out, read(specs / "schemas/task.json"));
+  EXPECT_EQ(zwang({"schema", "robots"}).code, 2);
+}
+
+TEST_F(Verbs, GraphDrawsEveryWay) {
+  const fs::path graphs = source / "tests/runtime/graphs";
+  const std::string file = task("ways.yaml", read(graphs / "ways.yaml"));
+  for (const auto& [format, ending] : {std::pair{"dot", ".dot"}, {"mermaid", ".mmd"}}) {
+    const Result r = zwang({"graph", file, "--format", format});
+    EXPECT_EQ(r.code, 0) << r.err;
+    const fs::path expected = graphs / (std::string("ways") + ending);
+    if (std::getenv("ZWANG_WRITE_EXPECTED") != nullptr) std::ofstream(expected) << r.out;
+    EXPECT_EQ(r.out, read(expected));
+  }
+  const Result r = zwang({"graph", task("bad.yaml", "zwang: 1\n")});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_EQ(r.out, "");
+  EXPECT_TRUE(contains(r.err, "error E103")) << r.err;
+}
+
+}  // namespace
+}  // namespace zwang
