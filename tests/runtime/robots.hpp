@@ -226,6 +226,31 @@ class PlanarBase {
     inertia_ = rigid_ + (wheel_spin + rotor_inertia) * jacobian_.transpose() * jacobian_;
   }
 
+  /// The same of any base on wheels that hold one direction: its rigid inertia, the wheels' rates and spins.
+  explicit PlanarBase(const lang::Robot& robot) {
+    const solver::Model& model = robot.model;
+    const solver::State rest(model);
+    solver::RigidInertia whole;
+    for (int b = 0; b < model.body_count(); ++b) {
+      const solver::Pose at = solver::motion_of({b, {}, {}}, model, rest).pose;
+      whole = whole + model.bodies()[static_cast<std::size_t>(b)].inertia.expressed_in(at);
+    }
+    const double m = whole.mass, hx = whole.first_moment.x(), hy = whole.first_moment.y();
+    rigid_ << m, 0, -hy, 0, m, hx, -hy, hx, whole.rotational(2, 2);
+    inertia_ = rigid_;
+    for (int i = 0; i < 4; ++i) {
+      const solver::Wheel& wheel = model.wheels()[static_cast<std::size_t>(i)];
+      const solver::Body& body = model.bodies()[static_cast<std::size_t>(wheel.body)];
+      const solver::Vector3 p = body.pose_in_parent.position;
+      const double angle = *wheel.roller_angle;
+      const Eigen::Vector2d u(-std::sin(angle), std::cos(angle));
+      jacobian_.row(i) << u.x(), u.y(), u.y() * p.x() - u.x() * p.y();
+      jacobian_.row(i) /= wheel.radius * u.x();
+      const double spin = body.inertia.rotational(1, 1) + body.joint.rotor_inertia;
+      inertia_ += spin * jacobian_.row(i).transpose() * jacobian_.row(i);
+    }
+  }
+
   /// The planar wrench in base axes that the wheels' torques command.
   Eigen::Vector3d commanded(const Eigen::VectorXd& tau) const { return jacobian_.transpose() * tau; }
   const Eigen::Matrix3d& inertia() const { return inertia_; }
@@ -233,7 +258,8 @@ class PlanarBase {
 
   /// One period under the wheels' torques and an outer force in base axes at the origin.
   void step(const Eigen::VectorXd& tau, const Eigen::Vector3d& force = Eigen::Vector3d::Zero()) {
-    const Eigen::Vector3d w_cross(-V.z() * V.y() * rigid_(0, 0), V.z() * V.x() * rigid_(0, 0), 0.0);
+    const Eigen::Vector3d p = rigid_ * V;  // momentum
+    const Eigen::Vector3d w_cross(-V.z() * p.y(), V.z() * p.x(), V.x() * p.y() - V.y() * p.x());
     V += period * inertia_.ldlt().solve(commanded(tau) + force - w_cross);
     const double c = std::cos(pose.z()), s = std::sin(pose.z());
     pose += period * Eigen::Vector3d(c * V.x() - s * V.y(), s * V.x() + c * V.y(), V.z());

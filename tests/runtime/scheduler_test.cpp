@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <limits>
 
 #include "scheduler_bench.hpp"
@@ -317,37 +316,6 @@ TEST(Construction, RefusesProgramsThatCannotRun) {
   EXPECT_THROW(Scheduler(p, period), std::invalid_argument);
   p = program({task("a", forward, world_frame)});
   EXPECT_THROW(Scheduler(p, period), std::invalid_argument);
-}
-
-TEST(Construction, RefusesWhatWouldBeReadAndThenForgotten) {
-  const std::vector<std::pair<std::string, std::function<void(lang::Program&)>>> parts = {
-      {"stiffness and damping",
-       [](lang::Program& p) { p.tasks[0].groups[0].axes[0].stiffness = lang::Value{}; }},
-      {"a weight", [](lang::Program& p) { p.tasks[0].groups[0].axes[0].weight = lang::Value{}; }},
-      {"a limit of the planar speed",
-       [](lang::Program& p) { p.tasks[0].groups[0].axes[0].is_planar_speed = true; }},
-      {"a force range without a motion driver",
-       [](lang::Program& p) {
-         p.tasks[0].groups[0].axes[0].driver.reset();
-         p.tasks[0].groups[0].axes[0].force = between(-1, 1);
-       }},
-      {"`inside` a region", [](lang::Program& p) { p.tasks[0].groups[0].kind = lang::GroupKind::inside; }},
-      {"a constraint on a feature",
-       [](lang::Program& p) { p.tasks[0].groups[0].kind = lang::GroupKind::feature; }},
-      {"a condition on a feature",
-       [](lang::Program& p) { p.tasks[0].exits = {exit(when(name(Op::feature, 0)), to_done)}; }},
-  };
-  EXPECT_NO_THROW(Scheduler(program({task("a", forward)}), period));
-  for (const auto& [words, change] : parts) {
-    lang::Program p = program({task("a", forward)});
-    change(p);
-    try {
-      Scheduler scheduler(p, period);
-      ADD_FAILURE() << words;
-    } catch (const std::invalid_argument& e) {
-      EXPECT_NE(std::string(e.what()).find(words + " "), std::string::npos) << e.what();
-    }
-  }
 }
 
 /// Kleene's tables, by the exits that they let through.

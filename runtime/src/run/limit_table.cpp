@@ -12,6 +12,8 @@ using solver::Quantity;
 // A limit counts as met when less than this share of its range is left.
 constexpr double at_limit_share = 0.01;
 
+constexpr double one_sided_range = 1.0;  // [m], [m/s], ...: of a limit that has no other side
+
 constexpr std::array quantities = {Quantity::position, Quantity::velocity, Quantity::acceleration,
                                    Quantity::force};
 constexpr std::array words = {"position", "velocity", "acceleration", "force"};
@@ -84,7 +86,8 @@ void LimitTable::compare(int index, double value, double low, double high, bool 
     limit.seen = true;
   }
   // A force driver is meant to be at its force: it shows only when nothing else is at its limit.
-  const double share = std::max(margin / (high - low), wanted ? 0.99 * at_limit_share : 0.0);
+  const double range = std::isfinite(high - low) ? high - low : one_sided_range;
+  const double share = std::max(margin / range, wanted ? 0.99 * at_limit_share : 0.0);
   if (share < at_limit_share && (tightest_ < 0 || share < tightest_share_)) {
     tightest_ = index;
     tightest_share_ = share;
@@ -120,8 +123,10 @@ void LimitTable::update(const StatementTable& statements, const solver::Constrai
     }
     if (row.kind == solver::RowKind::driver) {
       compare(of[3], solution.rows[r].nu, c.driver->force.low, c.driver->force.high);
+    } else if (row.kind == solver::RowKind::sum) {
+      compare(of[3], solution.rows[r].nu, c.force->low, c.force->high);
     } else if (row.kind == solver::RowKind::force) {
-      const double f = std::abs(c.driver->target);
+      const double f = std::abs(row.force);  // of a spring what it asks for now
       compare(of[3], solution.rows[r].nu, -f, f, true);
     }
   }

@@ -10,7 +10,27 @@ namespace {
 
 constexpr double blank = std::numeric_limits<double>::quiet_NaN();
 
-enum Fixed { time, task, guard, solver, iterations, base_x, base_y, base_yaw, base_vx, base_vy, base_wz };
+enum Fixed {
+  time,
+  task,
+  guard,
+  solver,
+  iterations,
+  base_x,
+  base_y,
+  base_yaw,
+  base_vx,
+  base_vy,
+  base_wz,
+  cause,
+  cause_exit,
+  also_always,
+  also_true,
+  refusal,
+  missed,
+  missed_by,
+  held_back_by,
+};
 
 template <typename Enum>
 std::vector<std::string> words_up_to(Enum last) {
@@ -28,7 +48,7 @@ std::vector<std::string> task_names(const Scheduler& scheduler) {
 }  // namespace
 
 LogLayout::LogLayout(const StatementTable& statements, const Scheduler& scheduler, const solver::Model& model,
-                     const std::vector<Column>& extra) {
+                     const std::vector<lang::Signal>& signals, const std::vector<Column>& extra) {
   // In the order of `Fixed`.
   add("time", "s");
   add("task", "", task_names(scheduler));
@@ -41,6 +61,16 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
   add("base.vx", "m/s");
   add("base.vy", "m/s");
   add("base.wz", "rad/s");
+  add("switch", "", words_up_to(Cause::never_stood));
+  add("switch.exit", "");
+  add("switch.also_true.always", "");  // bit i: exit i + 1
+  add("switch.also_true", "");         // likewise; the timeout is the bit above the last exit
+  add("switch.refusal", "", words_up_to(Refusal::attempts));
+  std::vector<std::string> rows;
+  for (const Statement& s : statements.all()) rows.push_back(s.name);
+  add("missed", "", rows);
+  add("missed.by", "");
+  add("missed.held_back_by", "", rows);
   first_joint_ = static_cast<int>(columns_.size());
   for (int j = 0; j < model.joint_count(); ++j) {
     const solver::Joint& joint = model.joint(j);
@@ -49,28 +79,8 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
     add(joint.name + ".qd", slides ? "m/s" : "rad/s");
     add(joint.name + ".tau", slides ? "N" : "N m");
   }
-  for (const Statement& s : statements.all()) {
-    using solver::Quantity;
-    const auto unit = [&](Quantity quantity) { return std::string(unit_of(s.says.axis, quantity)); };
-    StatementColumns c;
-    const std::size_t first = columns_.size();
-    const bool ranges = s.says.position || s.says.velocity || s.says.acceleration;
-    if (s.says.driver || ranges) {
-      c.position = add(s.name + ".position", unit(Quantity::position));
-      c.velocity = add(s.name + ".velocity", unit(Quantity::velocity));
-      c.alpha = add(s.name + ".alpha", "");
-    }
-    if (s.says.driver) {
-      const bool pushes = s.says.driver == Quantity::force;
-      c.b = pushes ? add(s.name + ".f", unit(Quantity::force))
-                   : add(s.name + ".b", unit(Quantity::acceleration));
-      c.nu = add(s.name + ".nu", unit(Quantity::force));
-      c.residual = add(s.name + ".residual", unit(Quantity::acceleration));
-    }
-    if (ranges) c.limit_nu = add(s.name + ".limit_nu", unit(Quantity::force));
-    for (std::size_t i = first; i < columns_.size(); ++i) columns_[i].span = s.says.span;
-    of_statement_.push_back(c);
-  }
+  for (const lang::Signal& signal : signals) add_signal(signal);
+  for (const Statement& s : statements.all()) add_statement(s);
   for (const lang::Task& t : scheduler.tasks()) {
     guards_.emplace_back();
     for (std::size_t i = 0; i < t.exits.size(); ++i) {
@@ -80,6 +90,65 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
   first_extra_ = static_cast<int>(columns_.size());
   columns_.insert(columns_.end(), extra.begin(), extra.end());
   values_.resize(columns_.size(), blank);
+}
+
+void LogLayout::add_signal(const lang::Signal& signal) {
+  const std::size_t first = columns_.size();
+  const std::string name = "signal." + signal.name;
+  SignalColumns c;
+  c.type = signal.type;
+  switch (signal.type) {
+    case lang::SignalType::boolean:
+    case lang::SignalType::number:  // in SI; a length and a force have no unit in the program any more
+      c.value = add(name, "");
+      break;
+    case lang::SignalType::pose:
+      c.value = add(name + ".x", "m");
+      add(name + ".y", "m");
+      add(name + ".yaw", "rad");
+      break;
+    case lang::SignalType::wrench:
+      c.value = add(name + ".fx", "N");
+      add(name + ".fy", "N");
+      add(name + ".fz", "N");
+      add(name + ".mx", "N m");
+      add(name + ".my", "N m");
+      add(name + ".mz", "N m");
+      break;
+  }
+  c.age = add(name + ".age", "s");
+  c.known = add(name + ".valid", "");
+  for (std::size_t i = first; i < columns_.size(); ++i) columns_[i].span = signal.span;
+  of_signal_.push_back(c);
+}
+
+void LogLayout::add_statement(const Statement& s) {
+  using solver::Quantity;
+  const auto unit = [&](Quantity quantity) { return std::string(unit_of(s.says.axis, quantity)); };
+  StatementColumns c;
+  const std::size_t first = columns_.size();
+  const bool ranges = s.says.position || s.says.velocity || s.says.acceleration;
+  c.inside = s.inside;
+  if (s.says.driver || s.says.force || ranges) {
+    c.position = add(s.name + (s.inside ? ".left" : ".position"), unit(Quantity::position));
+    c.velocity = add(s.name + ".velocity", unit(Quantity::velocity));
+    c.alpha = add(s.name + ".alpha", "");
+  }
+  if (s.says.driver) {
+    const bool pushes = s.says.driver == Quantity::force || s.says.stiffness || s.says.damping;
+    c.b =
+        pushes ? add(s.name + ".f", unit(Quantity::force)) : add(s.name + ".b", unit(Quantity::acceleration));
+    c.nu = add(s.name + ".nu", unit(Quantity::force));
+    c.residual = add(s.name + ".residual", unit(Quantity::acceleration));
+    c.saturated = add(s.name + ".saturated", "");
+  }
+  if (ranges) {
+    c.limit_nu = add(s.name + ".limit_nu", unit(Quantity::force));
+    c.limit_residual = add(s.name + ".limit_residual", unit(Quantity::acceleration));
+  }
+  if (s.says.force && !s.says.driver) c.sum = add(s.name + ".sum", unit(Quantity::force));
+  for (std::size_t i = first; i < columns_.size(); ++i) columns_[i].span = s.says.span;
+  of_statement_.push_back(c);
 }
 
 int LogLayout::add(std::string name, std::string unit, std::vector<std::string> words) {
@@ -113,7 +182,14 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
   if (tick.set != nullptr) {
     put(solver, static_cast<double>(tick.solver_status));
     put(iterations, tick.solution.iterations);
+    put_transition(tick.scheduler);
+    put_signals(tick.scheduler);
     put_statements(statements, tick);
+    if (tick.shortfall.missed >= 0) {
+      put(missed, tick.shortfall.missed);
+      put(missed_by, tick.shortfall.residual);
+      if (tick.shortfall.count > 0) put(held_back_by, tick.shortfall.held_by[0].statement);
+    }
     const std::vector<int>& exits = guards_[static_cast<std::size_t>(tick.scheduler.task())];
     for (std::size_t i = 0; i < exits.size(); ++i) put(exits[i], tick.scheduler.dwell(static_cast<int>(i)));
     const std::vector<int>& always = guards_[static_cast<std::size_t>(tick.scheduler.always_task())];
@@ -138,9 +214,18 @@ void LogLayout::put_statements(const StatementTable& statements, const Tick& tic
   // alpha.
   for (std::size_t i = 0; i < in_force.size() && i < coordinates.size(); ++i) {
     const StatementColumns& c = columns_of(i);
-    put(c.position, coordinates[i].position);
-    put(c.velocity, coordinates[i].velocity);
     const bool first = c.alpha >= 0 && std::isnan(values_[static_cast<std::size_t>(c.alpha)]);
+    if (!c.inside) {
+      put(c.position, coordinates[i].position);
+      put(c.velocity, coordinates[i].velocity);
+    } else if (constraints[i].position) {
+      const solver::Range& range = *constraints[i].position;
+      const double left = std::min(coordinates[i].position - range.low, range.high - coordinates[i].position);
+      if (first || left < values_[static_cast<std::size_t>(c.position)]) {
+        put(c.position, left);
+        put(c.velocity, std::isfinite(range.low) ? coordinates[i].velocity : -coordinates[i].velocity);
+      }
+    }
     if (first || in_force[i].drives) put(c.alpha, constraints[i].alpha);
   }
   const std::vector<solver::Row>& rows = tick.set->rows();
@@ -149,13 +234,69 @@ void LogLayout::put_statements(const StatementTable& statements, const Tick& tic
     if (i >= in_force.size()) continue;
     const StatementColumns& c = columns_of(i);
     const solver::RowSolution& row = tick.solution.rows[r];
-    if (rows[r].kind == solver::RowKind::driver || rows[r].kind == solver::RowKind::force) {
-      put(c.b, rows[r].kind == solver::RowKind::force ? rows[r].force : rows[r].b);
-      put(c.nu, row.nu);
-      put(c.residual, row.residual);
-    } else if (c.limit_nu >= 0) {
-      const double so_far = values_[static_cast<std::size_t>(c.limit_nu)];
-      put(c.limit_nu, (std::isnan(so_far) ? 0.0 : so_far) + row.nu);
+    const auto so_far = [&](int column) {
+      const double value = column >= 0 ? values_[static_cast<std::size_t>(column)] : 0.0;
+      return std::isnan(value) ? 0.0 : value;
+    };
+    switch (rows[r].kind) {
+      case solver::RowKind::driver:
+      case solver::RowKind::force:
+        put(c.b, rows[r].kind == solver::RowKind::force ? rows[r].force : rows[r].b);
+        put(c.nu, row.nu);
+        put(c.residual, row.residual);
+        put(c.saturated, row.saturated ? 1.0 : 0.0);
+        break;
+      case solver::RowKind::sum:
+        put(c.sum, row.nu);
+        break;
+      case solver::RowKind::upper:
+      case solver::RowKind::lower:
+        put(c.limit_nu, so_far(c.limit_nu) + row.nu);
+        if (std::abs(row.residual) >= std::abs(so_far(c.limit_residual))) put(c.limit_residual, row.residual);
+        break;
+    }
+  }
+}
+
+void LogLayout::put_transition(const Scheduler& scheduler) noexcept {
+  if (!scheduler.transition()) return;
+  const Transition& t = *scheduler.transition();
+  put(cause, static_cast<double>(t.cause));
+  if (t.exit >= 0) put(cause_exit, t.exit + 1);
+  put(also_always, static_cast<double>(t.also_always));
+  const std::size_t exits = t.from >= 0 ? guards_[static_cast<std::size_t>(t.from)].size() : 0;
+  put(also_true,
+      static_cast<double>(t.also_true) + (t.also_timeout ? std::ldexp(1.0, static_cast<int>(exits)) : 0.0));
+  put(refusal, static_cast<double>(t.refusal));
+}
+
+void LogLayout::put_signals(const Scheduler& scheduler) noexcept {
+  for (std::size_t i = 0; i < of_signal_.size(); ++i) {
+    const SignalColumns& c = of_signal_[i];
+    const int signal = static_cast<int>(i);
+    put(c.age, scheduler.signal_age(signal));
+    put(c.known, scheduler.signal_known(signal) ? 1.0 : 0.0);
+    const SignalSample& sample = scheduler.signal_sample(signal);
+    if (!sample.valid) continue;
+    const solver::Matrix3& R = sample.pose.rotation;
+    switch (c.type) {
+      case lang::SignalType::boolean:
+        put(c.value, sample.boolean ? 1.0 : 0.0);
+        break;
+      case lang::SignalType::number:
+        put(c.value, sample.number);
+        break;
+      case lang::SignalType::pose:
+        put(c.value, sample.pose.position.x());
+        put(c.value + 1, sample.pose.position.y());
+        put(c.value + 2, std::atan2(R(1, 0), R(0, 0)));
+        break;
+      case lang::SignalType::wrench:
+        for (int k = 0; k < 3; ++k) {
+          put(c.value + k, sample.wrench.linear(k));
+          put(c.value + 3 + k, sample.wrench.angular(k));
+        }
+        break;
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "run/shortfall.hpp"
 #include "run/statement_table.hpp"
 #include "zwang/runtime/recorder.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -21,12 +22,13 @@ struct Tick {
   GuardStatus guard_status;
   const Eigen::VectorXd& tau;
   std::span<const double> extra;
+  const Shortfall& shortfall;
 };
 
 class LogLayout {
  public:
   LogLayout(const StatementTable& statements, const Scheduler& scheduler, const solver::Model& model,
-            const std::vector<Column>& extra);
+            const std::vector<lang::Signal>& signals, const std::vector<Column>& extra);
 
   const std::vector<Column>& columns() const noexcept { return columns_; }
   /// The record of a tick, one value a column; valid until the next call. Does not allocate.
@@ -34,15 +36,26 @@ class LogLayout {
 
  private:
   struct StatementColumns {
-    int position = -1, velocity = -1, b = -1, nu = -1, residual = -1, alpha = -1, limit_nu = -1;
+    int position = -1, velocity = -1, b = -1, nu = -1, residual = -1, saturated = -1, alpha = -1;
+    int limit_nu = -1, limit_residual = -1, sum = -1;
+    bool inside = false;  ///< `position` is what is left to the nearest edge
+  };
+  struct SignalColumns {
+    lang::SignalType type;
+    int value = -1, age = -1, known = -1;
   };
   int add(std::string name, std::string unit, std::vector<std::string> words = {});
   void put(int column, double value) noexcept;
+  void add_statement(const Statement& statement);
+  void add_signal(const lang::Signal& signal);
+  void put_signals(const Scheduler& scheduler) noexcept;
+  void put_transition(const Scheduler& scheduler) noexcept;
   void put_statements(const StatementTable& statements, const Tick& tick) noexcept;
 
   std::vector<Column> columns_;
   std::vector<double> values_;
   std::vector<StatementColumns> of_statement_;
+  std::vector<SignalColumns> of_signal_;
   std::vector<std::vector<int>> guards_;  // by task, exit
   int first_joint_ = 0;
   int first_extra_ = 0;

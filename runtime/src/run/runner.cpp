@@ -6,6 +6,7 @@
 #include "estimate/friction.hpp"
 #include "run/limit_table.hpp"
 #include "run/log_layout.hpp"
+#include "run/shortfall.hpp"
 #include "run/statement_table.hpp"
 #include "zwang/runtime/odometry.hpp"
 
@@ -48,10 +49,11 @@ struct Runner::Parts {
         guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
         statements(scheduler, program),
         limits(statements, program.robot),
-        layout(statements, scheduler, model, settings.extra_columns),
+        layout(statements, scheduler, model, program.signals, settings.extra_columns),
         wanted(Eigen::VectorXd::Zero(model.joint_count())),
         tau(Eigen::VectorXd::Zero(model.joint_count())) {
     transitions.reserve(kept_transitions);
+    for (const lang::Parameter& p : program.parameters) parameter_names.push_back(p.name);
   }
 
   /// What is known of a good sample: itself, or with the base as the wheels tell it.
@@ -61,6 +63,7 @@ struct Runner::Parts {
   void brake_protectively(bool good_sample) noexcept;
 
   const solver::Model model;
+  std::vector<std::string> parameter_names;
   double period;
   Scheduler scheduler;
   solver::Solver solver;
@@ -82,6 +85,7 @@ struct Runner::Parts {
   GuardStatus guard_status = GuardStatus::passed;
   std::vector<Transition> transitions;
   std::uint64_t transition_count = 0;
+  Shortfall shortfall;
   std::uint64_t stopped_ticks = 0;
   bool stands = false;  ///< after a protective stop
 };
@@ -152,6 +156,8 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   p.guard_status = good ? p.guard.output(p.estimated, p.wanted, p.tau) : p.guard.output_blind(p.tau);
   if (p.guard.stopped()) p.brake_protectively(good);
   if (solved) {
+    p.shortfall =
+        find_shortfall(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solver, p.solution);
     p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau);
   }
   if (p.recorder != nullptr) {
@@ -162,7 +168,8 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
                     p.solver_status,
                     p.guard_status,
                     p.tau,
-                    extra};
+                    extra,
+                    p.shortfall};
     p.recorder->record(p.layout.fill(p.statements, tick));
   }
   return p.tau;
@@ -215,6 +222,32 @@ const std::vector<Transition>& Runner::transitions() const noexcept {
 }
 std::uint64_t Runner::transition_count() const noexcept {
   return parts_->transition_count;
+}
+std::optional<ShortfallReport> Runner::shortfall() const {
+  const Shortfall& s = parts_->shortfall;
+  if (s.missed < 0) return std::nullopt;
+  const auto name = [&](int statement, const Origin& origin) {
+    const std::string part = parts_->scheduler.part_name(origin);
+    const std::string& whole = parts_->statements.all()[static_cast<std::size_t>(statement)].name;
+    return part.empty() ? whole : whole + "." + part;
+  };
+  ShortfallReport report;
+  report.row = name(s.missed, s.origin);
+  report.residual = s.residual;
+  const Statement& missed = parts_->statements.all()[static_cast<std::size_t>(s.missed)];
+  report.unit = unit_of(missed.says.axis, solver::Quantity::acceleration);
+  for (int i = 0; i < s.count; ++i) {
+    const Shortfall::Holder& by = s.held_by[static_cast<std::size_t>(i)];
+    report.held_back_by.push_back(name(by.statement, by.origin));
+  }
+  return report;
+}
+bool Runner::set_parameter(const std::string& name, double value) noexcept {
+  for (std::size_t i = 0; i < parts_->parameter_names.size(); ++i) {
+    if (parts_->parameter_names[i] == name)
+      return parts_->scheduler.set_parameter(static_cast<int>(i), value);
+  }
+  return false;
 }
 std::vector<LimitReport> Runner::limits() const {
   return parts_->limits.reports();

@@ -34,21 +34,23 @@ StatementTable::StatementTable(const Scheduler& scheduler, const lang::Program& 
       for (std::size_t g = 0; g < tasks[t].groups.size(); ++g) {
         if ((g < own_groups) != own) continue;
         for (const lang::AxisStatements& a : tasks[t].groups[g].axes) {
-          ids_[t][g].push_back(find_or_add(own ? tasks[t].name + "." + a.name : a.name, own, a));
+          const bool inside = tasks[t].groups[g].kind == lang::GroupKind::inside;
+          ids_[t][g].push_back(find_or_add(own ? tasks[t].name + "." + a.name : a.name, own, a, inside));
         }
       }
     }
   }
 }
 
-int StatementTable::find_or_add(const std::string& name, bool own, const lang::AxisStatements& says) {
+int StatementTable::find_or_add(const std::string& name, bool own, const lang::AxisStatements& says,
+                                bool inside) {
   for (std::size_t i = 0; i < statements_.size(); ++i) {
     if (statements_[i].own == own && statements_[i].name == name) {
       merge(statements_[i].says, says);
       return static_cast<int>(i);
     }
   }
-  statements_.push_back({name, own, says});
+  statements_.push_back({name, own, says, inside});
   return static_cast<int>(statements_.size()) - 1;
 }
 

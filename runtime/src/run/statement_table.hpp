@@ -14,6 +14,7 @@ struct Statement {
   std::string name;  ///< "press.contact.x", "limits.x", "stop.rz"
   bool own = true;   ///< written in the task file
   lang::AxisStatements says;
+  bool inside = false;  ///< stands for all the rows of a group `inside` a region
 };
 
 class StatementTable {
@@ -23,7 +24,7 @@ class StatementTable {
   int id(const Origin& origin) const noexcept;
 
  private:
-  int find_or_add(const std::string& name, bool own, const lang::AxisStatements& says);
+  int find_or_add(const std::string& name, bool own, const lang::AxisStatements& says, bool inside);
 
   std::vector<Statement> statements_;
   std::vector<std::vector<std::vector<int>>> ids_;  // by task, group, axis

@@ -15,10 +15,17 @@ using solver::Range;
 constexpr unsigned position_bit = 1U;
 constexpr unsigned velocity_bit = 2U;
 constexpr unsigned acceleration_bit = 4U;
+constexpr unsigned force_bit = 8U;  // of a force range alone; beside a driver it is the driver's
 
 unsigned ranges_of(const AxisConstraint& c) {
   return (c.position ? position_bit : 0U) | (c.velocity ? velocity_bit : 0U) |
-         (c.acceleration ? acceleration_bit : 0U);
+         (c.acceleration ? acceleration_bit : 0U) | (c.force ? force_bit : 0U);
+}
+
+/// A boundary's ranges come and go with its distance: it carries whatever there is.
+unsigned ranges_of(const Wanted& wanted) {
+  constexpr unsigned all = position_bit | velocity_bit | acceleration_bit | force_bit;
+  return wanted.origin.part >= 0 ? all : ranges_of(wanted.constraint);
 }
 
 void keep_only(AxisConstraint& c, bool driver, unsigned ranges) {
@@ -29,6 +36,7 @@ void keep_only(AxisConstraint& c, bool driver, unsigned ranges) {
   if ((ranges & position_bit) == 0U) c.position.reset();
   if ((ranges & velocity_bit) == 0U) c.velocity.reset();
   if ((ranges & acceleration_bit) == 0U) c.acceleration.reset();
+  if ((ranges & force_bit) == 0U) c.force.reset();
 }
 
 bool same(const solver::AttachedFrame& a, const solver::AttachedFrame& b) {
@@ -40,8 +48,10 @@ bool same(const FrameKey& a, const FrameKey& b) {
   return a.frame >= 0 && a.frame == b.frame && a.settings == b.settings;
 }
 
-bool is_force(const Driver& driver) {
-  return driver.quantity == Quantity::force;
+/// The same coordinate of the two frames that a constraint speaks of.
+bool measures_alike(const AxisConstraint& a, const AxisConstraint& b) {
+  return a.measure == b.measure && a.axis == b.axis && a.other_axis == b.other_axis &&
+         a.coefficients == b.coefficients;
 }
 
 double lerp(double from, double to, double progress) {
@@ -52,6 +62,9 @@ double lerp(double from, double to, double progress) {
 bool is_one_driver(const AxisConstraint& c) {
   if (!c.before || c.progress >= 1.0) return true;
   if (c.before->quantity != c.driver->quantity) return false;
+  if (c.driver->makes_force()) {
+    return c.before->stiffness == c.driver->stiffness && c.before->damping == c.driver->damping;
+  }
   const bool has_time_constant =
       c.driver->quantity == Quantity::position || c.driver->quantity == Quantity::velocity;
   return !has_time_constant || c.before->time_constant == c.driver->time_constant;
@@ -74,7 +87,7 @@ double finite(double bound, double scale) {
 }  // namespace
 
 int row_bound(const AxisConstraint& c) noexcept {
-  return (c.driver ? 1 : 0) +
+  return (c.driver || c.force ? 1 : 0) +
          2 * (static_cast<int>(c.position.has_value()) + static_cast<int>(c.velocity.has_value()) +
               static_cast<int>(c.acceleration.has_value()));
 }
@@ -99,10 +112,10 @@ void Blend::start(const std::vector<Wanted>& wanted, double duration) noexcept {
   parts_.clear();
   taken_.assign(before_.size(), 0);
   for (int i = 0; i < static_cast<int>(wanted.size()); ++i) {
-    const AxisConstraint& c = wanted[static_cast<std::size_t>(i)].constraint;
-    const int old = match(wanted[static_cast<std::size_t>(i)]);
+    const Wanted& w = wanted[static_cast<std::size_t>(i)];
+    const int old = match(w);
     if (old < 0) {
-      add_entering(wanted, i, c.driver.has_value(), ranges_of(c));
+      add_entering(wanted, i, w.constraint.driver.has_value(), ranges_of(w));
     } else {
       taken_[static_cast<std::size_t>(old)] = 1;
       join(wanted, i, before_[static_cast<std::size_t>(old)]);
@@ -110,7 +123,7 @@ void Blend::start(const std::vector<Wanted>& wanted, double duration) noexcept {
   }
   for (std::size_t i = 0; i < before_.size(); ++i) {
     const AxisConstraint& c = before_[i].present;
-    if (taken_[i] == 0) add_leaving(before_[i], c.driver.has_value(), ranges_of(c));
+    if (taken_[i] == 0 && !before_[i].far) add_leaving(before_[i], c.driver.has_value(), ranges_of(c));
   }
   make_room();
 }
@@ -119,8 +132,8 @@ void Blend::settle(const std::vector<Wanted>& wanted) noexcept {
   settled_ = true;
   parts_.clear();
   for (int i = 0; i < static_cast<int>(wanted.size()); ++i) {
-    const AxisConstraint& c = wanted[static_cast<std::size_t>(i)].constraint;
-    add_entering(wanted, i, c.driver.has_value(), ranges_of(c));
+    const Wanted& w = wanted[static_cast<std::size_t>(i)];
+    add_entering(wanted, i, w.constraint.driver.has_value(), ranges_of(w));
     parts_.back().alpha_from = 1.0;
     parts_.back().entering = false;
   }
@@ -130,7 +143,8 @@ bool Blend::is_match(const Part& part, const Wanted& wanted) noexcept {
   if (part.always || wanted.always) return part.always && wanted.always && part.origin == wanted.origin;
   const AxisConstraint& a = part.present;
   const AxisConstraint& b = wanted.constraint;
-  return a.axis == b.axis && a.level == b.level && (same(part.move, wanted.move) || same(a.move, b.move)) &&
+  return measures_alike(a, b) && a.level == b.level &&
+         (same(part.move, wanted.move) || same(a.move, b.move)) &&
          (same(part.in, wanted.in) || same(a.in, b.in));
 }
 
@@ -147,12 +161,13 @@ int Blend::match(const Wanted& wanted) const noexcept {
 /// The wanted constraint `index` speaks of the axis of `from`.
 void Blend::join(const std::vector<Wanted>& wanted, int index, const Part& from) noexcept {
   const AxisConstraint& to = wanted[static_cast<std::size_t>(index)].constraint;
-  const Ranges in_old = ranges_of(from.present);
-  const Ranges in_new = ranges_of(to);
+  const Ranges in_new = ranges_of(wanted[static_cast<std::size_t>(index)]);
+  const Ranges in_old = from.origin.part >= 0 ? in_new : ranges_of(from.present);
   const Ranges in_both = in_old & in_new;
   const bool drove = from.present.driver.has_value();
   const bool drives = to.driver.has_value();
-  const bool driver_persists = drove && drives && is_force(*from.present.driver) == is_force(*to.driver) &&
+  const bool driver_persists = drove && drives &&
+                               from.present.driver->makes_force() == to.driver->makes_force() &&
                                is_one_driver(from.present);
   if (driver_persists || (!drove && !drives)) {
     if (drives || in_both != 0U) add_persisting(wanted, index, from, drives, in_both);
@@ -258,6 +273,7 @@ AxisConstraint Blend::present(const Part& part, const AxisConstraint* wanted,
   loosen(c.position, part.old.position);
   loosen(c.velocity, part.old.velocity);
   loosen(c.acceleration, part.old.acceleration);
+  loosen(c.force, part.old.force);
   if (c.driver && part.old.driver) {
     const double scale = c.axis >= solver::Axis::rx ? torque_scale_ : force_scale_;
     c.driver->force = loosened(part.old.driver->force, c.driver->force, progress, scale);
@@ -276,6 +292,8 @@ void Blend::put(const std::vector<Wanted>& wanted, double progress, solver::Cons
   for (Part& part : parts_) {
     const AxisConstraint* target =
         part.wanted < 0 ? nullptr : &wanted[static_cast<std::size_t>(part.wanted)].constraint;
+    part.far = target != nullptr && wanted[static_cast<std::size_t>(part.wanted)].far;
+    if (part.far) continue;
     part.present = present(part, target, progress);
     if (!(part.present.alpha > 0.0) || in_force.size() == in_force.capacity()) continue;
     if (set.add(part.present)) in_force.push_back({part.origin, part.wanted >= 0, part.drives});

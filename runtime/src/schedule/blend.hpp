@@ -27,6 +27,7 @@ struct Wanted {
   Origin origin;
   FrameKey move, in;
   bool always = false;  ///< persists as itself, whatever the tasks say of its axis
+  bool far = false;     ///< not in force now, though nothing was switched: a boundary out of reach
 };
 
 /// Most rows that a constraint can become.
@@ -56,6 +57,7 @@ class Blend {
     Origin origin;
     FrameKey move, in;
     bool always = false;
+    bool far = false;
     int wanted = -1;  ///< index of what it becomes; -1: it leaves
     bool drives = false;
     bool persists = false;  ///< its driver and its ranges start from `old`

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "zwang/solver/base_analysis.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -42,12 +44,6 @@ std::optional<lang::ValueRange>& range_of(AxisStatements& axis, Quantity quantit
   return axis.force;
 }
 
-bool is_base(const std::vector<lang::FrameDeclaration>& frames, int index) {
-  const lang::FrameDeclaration& f = frames[static_cast<std::size_t>(index)];
-  return f.parent == lang::FrameParent::body && f.parent_index == 0 && f.pose.position.isZero() &&
-         f.pose.rotation.isIdentity();
-}
-
 bool gives(const std::vector<lang::Group>& groups, const lang::BaseLimit& limit,
            const std::vector<lang::FrameDeclaration>& frames) {
   for (const lang::Group& group : groups) {
@@ -74,6 +70,23 @@ AxisStatements& axis_of(lang::Group& group, Axis axis, const lang::Span& span) {
 }
 
 }  // namespace
+
+bool is_base(const std::vector<lang::FrameDeclaration>& frames, int frame) {
+  const lang::FrameDeclaration& f = frames[static_cast<std::size_t>(frame)];
+  return f.parent == lang::FrameParent::body && f.parent_index == 0 && f.pose.position.isZero() &&
+         f.pose.rotation.isIdentity();
+}
+
+solver::Vector3 effective_mass_of(const lang::Robot& robot) {
+  solver::Vector3 mass = solver::Vector3::Constant(robot.model.total_mass());
+  if (robot.model.has_fixed_base()) return mass;
+  const solver::BaseAnalysis base = solver::analyse_base(robot.model, solver::State(robot.model));
+  for (int i = 0; i < 3; ++i) {
+    const solver::AxisAnalysis& axis = base.axes[static_cast<std::size_t>(i)];
+    if (axis.reachable) mass(i) = axis.effective_mass;
+  }
+  return mass;
+}
 
 double footprint_radius(const lang::Robot& robot) {
   double radius = 0.0;

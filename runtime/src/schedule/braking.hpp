@@ -12,6 +12,12 @@ namespace zwang::runtime {
 /// torque. [m]
 double footprint_radius(const lang::Robot& robot);
 
+/// Whether a frame is the base itself.
+bool is_base(const std::vector<lang::FrameDeclaration>& frames, int frame);
+
+/// The base's mass along x, y and rz, wheels and rotors included, where every joint is at 0. [kg, kg, kg m^2]
+solver::Vector3 effective_mass_of(const lang::Robot& robot);
+
 /// The index of the frame that is the base itself; it is appended when the program does not have it.
 int base_frame(std::vector<lang::FrameDeclaration>& frames, const lang::Robot& robot);
 

@@ -9,6 +9,7 @@
 #include "schedule/condition.hpp"
 #include "schedule/frame_table.hpp"
 #include "schedule/guards.hpp"
+#include "schedule/region_fence.hpp"
 #include "schedule/signal_table.hpp"
 #include "schedule/task_list.hpp"
 #include "zwang/runtime/scheduler.hpp"
@@ -40,6 +41,9 @@ struct Scheduler::Parts final : Facts {
   Fact coordinate(const lang::ExpressionNode& node, int owner) const noexcept;
   Fact of_frame(int frame, double value) const noexcept;
   bool is_known(int frame) const noexcept;
+  Fact feature(const lang::Feature& feature) const noexcept;
+  solver::AxisConstraint measured(const lang::Group& group, const lang::AxisStatements& axis,
+                                  const ActiveAxis* active_axis) const noexcept;
   solver::Coordinate coordinate_of(const lang::Group& group, const lang::AxisStatements& axis,
                                    const ActiveAxis* active_axis) const noexcept;
 
@@ -73,7 +77,11 @@ struct Scheduler::Parts final : Facts {
   void want() noexcept;
   Wanted wanted_of(const ActiveAxis& a) const noexcept;
   solver::Driver driver_of(const ActiveAxis& a) const noexcept;
-  double braking_of(const lang::AxisStatements& a, const solver::AxisConstraint& c) const noexcept;
+  bool is_lost(const ActiveAxis& a) const noexcept;
+  void want_fence(const ActiveAxis& a, RegionFence& fence) noexcept;
+  double braking_of(const solver::AxisConstraint& c, const lang::AxisStatements& s) const noexcept;
+  double braking_along(const solver::Vector3& direction) const noexcept;
+  void find_braking() noexcept;
   solver::Range value(const lang::ValueRange& range) const noexcept;
   solver::AttachedFrame axes_frame(const lang::Group& group, const ActiveAxis* a) const noexcept;
   void read(const solver::Solution& solution) noexcept;
@@ -92,13 +100,19 @@ struct Scheduler::Parts final : Facts {
   const lang::Stop stop;
   std::vector<lang::BaseLimit> limits;
   std::vector<double> parameters;
+  const std::vector<std::optional<solver::Range>> parameter_ranges;
   std::vector<lang::FrameDeclaration> declarations;
+  const std::vector<lang::Feature> features;
   const int base;  ///< frame
   const TaskList tasks;
   FrameTable frames;
   SignalTable signals;
   const double period;
-  const double radius;  ///< [m] of the footprint
+  const double radius;             ///< [m] of the footprint
+  solver::Vector3 effective_mass;  ///< of the base along x, y and rz [kg, kg, kg m^2]
+  solver::Vector3 braking;         ///< what the ranges in force leave along them [m/s^2, m/s^2, rad/s^2]
+  std::vector<RegionFence> fences;
+  std::vector<std::vector<int>> fence_of;  ///< by task and group; -1: not `inside`
   const int start;
 
   Phase phase = Phase::running;

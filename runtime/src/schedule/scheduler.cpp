@@ -5,7 +5,6 @@
 
 #include "schedule/braking.hpp"
 #include "schedule/parts.hpp"
-#include "schedule/supported.hpp"
 
 namespace zwang::runtime {
 
@@ -21,12 +20,46 @@ const char* to_string(Outcome outcome) noexcept {
   return "?";
 }
 
+const char* to_string(Cause cause) noexcept {
+  switch (cause) {
+    case Cause::start:
+      return "start";
+    case Cause::always:
+      return "always";
+    case Cause::timeout:
+      return "timeout";
+    case Cause::exit:
+      return "exit";
+    case Cause::never_stood:
+      return "never_stood";
+  }
+  return "?";
+}
+
+const char* to_string(Refusal refusal) noexcept {
+  switch (refusal) {
+    case Refusal::none:
+      return "none";
+    case Refusal::require:
+      return "require";
+    case Refusal::attempts:
+      return "attempts";
+  }
+  return "?";
+}
+
 namespace {
 
 double positive(double period) {
   if (!(period > 0.0) || !std::isfinite(period))
     throw std::invalid_argument("scheduler: the period is not positive");
   return period;
+}
+
+std::vector<std::optional<solver::Range>> ranges_of(const std::vector<lang::Parameter>& parameters) {
+  std::vector<std::optional<solver::Range>> ranges;
+  for (const lang::Parameter& p : parameters) ranges.push_back(p.range);
+  return ranges;
 }
 
 /// About what the motors can do, for a bound that is infinite while it fades. [N]
@@ -45,34 +78,51 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       stop(given.robot.stop),
       limits(given.robot.limits),
       parameters(given.parameter_values()),
+      parameter_ranges(ranges_of(given.parameters)),
       declarations(given.frames),
+      features(given.features),
       base(base_frame(declarations, given.robot)),
       tasks(given, declarations, base),
       frames(declarations, given.robot.model, given.signals.size()),
       signals(given, positive(control_period)),
       period(control_period),
       radius(footprint_radius(given.robot)),
+      effective_mass(effective_mass_of(given.robot)),
+      braking(solver::Vector3::Zero()),
       start(given.start),
       entries(tasks.tasks.size(), 0),
       guards(tasks.most_exits, control_period, Unknown::does_not_fire),
       always_guards(tasks.most_exits, control_period, Unknown::fires_when_stale) {
+  std::size_t most_pairs = 0;
   for (const lang::Task& t : tasks.tasks) {
+    fence_of.emplace_back();
     for (const lang::Group& g : t.groups) {
-      if (frames.attached(g.move).body >= 0) continue;
-      throw std::invalid_argument("scheduler: `" + g.name + "` moves a frame of the world");
+      const bool can_move = frames.attached(g.move).body >= 0;
+      if (!can_move) throw std::invalid_argument("scheduler: `" + g.name + "` moves a frame of the world");
+      fence_of.back().push_back(-1);
+      if (g.moves_footprint && given.robot.footprint.empty()) {
+        throw std::invalid_argument("scheduler: `" + g.name +
+                                    "` moves a footprint that the robot does not have");
+      }
+      if (g.kind != lang::GroupKind::inside) continue;
+      fence_of.back().back() = static_cast<int>(fences.size());
+      fences.emplace_back(
+          given.regions[static_cast<std::size_t>(g.region)],
+          g.moves_footprint ? given.robot.footprint : std::vector<solver::Vector3>{solver::Vector3::Zero()});
+      most_pairs += fences.back().pair_count();
     }
   }
+  const std::size_t most_wanted = tasks.most_axes + most_pairs;
   axes.reserve(tasks.most_axes);
-  wanted.reserve(tasks.most_axes);
+  wanted.reserve(most_wanted);
   scratch.resize(tasks.most_nodes);
   const double force_scale = force_scale_of(model);
-  blend.emplace(tasks.most_axes, 3 * tasks.most_rows, force_scale, force_scale * radius);
+  blend.emplace(most_wanted, 3 * tasks.most_rows, force_scale, force_scale * radius);
   in_force.reserve(blend->capacity());
   set.emplace(static_cast<int>(blend->capacity()), 4 * tasks.most_rows);
 }
 
 Scheduler::Scheduler(const lang::Program& program, double period) {
-  require_supported(program);
   parts_ = std::make_unique<Parts>(program, period);
 }
 Scheduler::~Scheduler() = default;
@@ -131,6 +181,30 @@ double Scheduler::always_dwell(int exit) const noexcept {
 }
 const std::vector<double>& Scheduler::parameters() const noexcept {
   return parts_->parameters;
+}
+bool Scheduler::set_parameter(int index, double value) noexcept {
+  Parts& p = *parts_;
+  if (index < 0 || static_cast<std::size_t>(index) >= p.parameters.size() || !std::isfinite(value))
+    return false;
+  const auto& range = p.parameter_ranges[static_cast<std::size_t>(index)];
+  if (range && (value < range->low || value > range->high)) return false;
+  p.parameters[static_cast<std::size_t>(index)] = value;
+  return true;
+}
+bool Scheduler::signal_known(int signal) const noexcept {
+  return parts_->signals.known(signal);
+}
+double Scheduler::signal_age(int signal) const noexcept {
+  return parts_->signals.age(signal);
+}
+const SignalSample& Scheduler::signal_sample(int signal) const noexcept {
+  return parts_->signals.sample(signal);
+}
+std::string Scheduler::part_name(const Origin& origin) const {
+  if (origin.part < 0) return {};
+  const int fence =
+      parts_->fence_of[static_cast<std::size_t>(origin.task)][static_cast<std::size_t>(origin.group)];
+  return parts_->fences[static_cast<std::size_t>(fence)].name(static_cast<std::size_t>(origin.part));
 }
 const std::vector<lang::Task>& Scheduler::tasks() const noexcept {
   return parts_->tasks.tasks;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "schedule/braking.hpp"
+#include "schedule/region_fence.hpp"
 
 namespace zwang::runtime {
 
@@ -39,6 +41,10 @@ class TaskCheck {
   void check_group(const lang::Group& group) const {
     require_index(group.move, frames_, "a moved frame");
     require_index(group.in, frames_, "an axes frame");
+    for (const lang::AxisStatements& axis : group.axes) {
+      if (axis.target.signal < 0) continue;
+      require_index(axis.target.signal, program_.signals.size(), "a value's signal");
+    }
   }
 
   void check_target(const lang::Target& target) const {
@@ -103,12 +109,51 @@ std::size_t axis_count(const lang::Task& task) {
 int row_count(const lang::Task& task) {
   int rows = 0;
   for (const lang::Group& group : task.groups) {
+    if (group.kind == lang::GroupKind::inside) {
+      rows += RegionFence::most_near;
+      continue;
+    }
     for (const lang::AxisStatements& a : group.axes) {
-      rows +=
-          (a.driver ? 1 : 0) + 2 * ((a.position ? 1 : 0) + (a.velocity ? 1 : 0) + (a.acceleration ? 1 : 0));
+      rows += (a.driver || a.force ? 1 : 0) +
+              2 * ((a.position ? 1 : 0) + (a.velocity ? 1 : 0) + (a.acceleration ? 1 : 0));
     }
   }
   return rows;
+}
+
+/// Whether the frame rides on a part of the robot.
+bool is_on_robot(const std::vector<lang::FrameDeclaration>& frames, int frame) {
+  const lang::FrameDeclaration* f = &frames[static_cast<std::size_t>(frame)];
+  while (f->parent == lang::FrameParent::frame) f = &frames[static_cast<std::size_t>(f->parent_index)];
+  return f->parent == lang::FrameParent::body;
+}
+
+void shape(lang::Group& group, const lang::Program& program,
+           const std::vector<lang::FrameDeclaration>& frames) {
+  if (group.kind == lang::GroupKind::inside) {
+    require_index(group.region, program.regions.size(), "a region");
+    group.in = program.regions[static_cast<std::size_t>(group.region)].parent;
+    lang::AxisStatements rows;
+    rows.name = group.name;
+    rows.level = group.level;
+    rows.span = group.span;
+    rows.position = lang::ValueRange{group.margin, {.constant = solver::infinity}};
+    group.axes = {rows};
+  }
+  if (group.kind == lang::GroupKind::feature) {
+    require_index(group.feature, program.features.size(), "a feature");
+    const lang::Feature& feature = program.features[static_cast<std::size_t>(group.feature)];
+    require_index(feature.first, frames.size(), "a feature's frame");
+    require_index(feature.second, frames.size(), "a feature's frame");
+    group.move = feature.first;
+    group.in = feature.second;
+    // What two frames measure between them they measure either way.
+    const bool both_ways = feature.kind != lang::FeatureKind::direction;
+    if (both_ways && !is_on_robot(frames, group.move)) std::swap(group.move, group.in);
+    for (lang::AxisStatements& axis : group.axes) {
+      axis.axis = feature.turns ? solver::Axis::rz : solver::Axis::x;
+    }
+  }
 }
 
 std::size_t longest_condition(const lang::Task& task) {
@@ -134,13 +179,17 @@ bool leads_back(const lang::Task& task, const std::vector<bool>& known) {
 TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDeclaration>& frames, int base)
     : tasks(program.tasks), program_tasks(static_cast<int>(program.tasks.size())) {
   require_index(program.start, tasks.size(), "the start task");
-  for (lang::Task& task : tasks) add_limits(task, program.always, program.robot, base, frames);
+  for (lang::Task& task : tasks) {
+    for (lang::Group& group : task.groups) shape(group, program, frames);
+    add_limits(task, program.always, program.robot, base, frames);
+  }
   tasks.push_back(brake_task("done", program.robot, base));
   tasks.push_back(brake_task("failed", program.robot, base));
   lang::Task always;
   always.name = "always";
   always.groups = program.always.groups;
   always.exits = program.always.exits;
+  for (lang::Group& group : always.groups) shape(group, program, frames);
   tasks.push_back(always);
 
   for (const lang::Task& task : tasks) {

@@ -7,7 +7,9 @@
 
 namespace zwang::runtime {
 
-/// The program's tasks with the robot's limits, then `done`, `failed` and `always`.
+/// The program's tasks with the robot's limits, then `done`, `failed` and `always`. A group `inside` a region
+/// has one entry of `axes` that stands for its rows; one on a feature has the feature's frames as `move` and
+/// `in`, the one that the robot can move first.
 struct TaskList {
   /// Throws std::invalid_argument on an index that is out of range. `frames` are the program's, with the
   /// base's among them.

@@ -1,7 +1,9 @@
 // Step 7 of the tick: the constraints of the active task, of `always`, and of what fades.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "schedule/braking.hpp"
 #include "schedule/parts.hpp"
 
 namespace zwang::runtime {
@@ -18,8 +20,17 @@ bool is_rotation(Axis axis) {
 }
 
 bool says_something(const AxisStatements& axis) {
-  return axis.driver || axis.position || axis.velocity || axis.acceleration;
+  return axis.driver || axis.position || axis.velocity || axis.acceleration || axis.force;
 }
+
+bool of_one_axis(const Origin& a, const Origin& b) {
+  return a.task == b.task && a.group == b.group && a.axis == b.axis;
+}
+
+constexpr double least_braking = 1e-3;  // [m/s^2] or [rad/s^2]
+// Nearer than what can brake in time by this much speed, a pair of features is near.
+constexpr double near_speed = 0.3;    // [m/s]
+constexpr double lost_speed = 0.001;  // [m/s] inside a region that nobody knows where it is
 
 }  // namespace
 
@@ -33,25 +44,59 @@ Range Scheduler::Parts::value(const lang::ValueRange& range) const noexcept {
   return {range.low.evaluate(parameters), range.high.evaluate(parameters)};
 }
 
-/// a_brk of a position range: what the axis's own acceleration range allows, else the robot's; never more
-/// than the force range can do to the robot's mass.
-double Scheduler::Parts::braking_of(const AxisStatements& a, const solver::AxisConstraint& c) const noexcept {
-  const bool turns = is_rotation(a.axis);
-  double braking = turns ? stop.deceleration / radius : stop.deceleration;
-  if (c.acceleration) {
-    braking = std::min(-c.acceleration->low, c.acceleration->high);
-  } else {
-    for (const lang::BaseLimit& limit : limits) {
-      if (limit.quantity == Quantity::acceleration && is_rotation(limit.axis) == turns) {
-        braking = std::min({braking, -limit.range.low, limit.range.high});
-      }
+/// What the acceleration and force ranges in force leave for braking along the base's x, y and rz.
+void Scheduler::Parts::find_braking() noexcept {
+  braking.setConstant(solver::infinity);
+  const auto tighten = [&](int i, double most) { braking(i) = std::min(braking(i), most); };
+  for (const ActiveAxis& a : axes) {
+    const AxisStatements& s = statements(a);
+    const lang::Group& g = group(a.origin);
+    const bool on_base = g.kind == lang::GroupKind::axes && !s.is_planar_speed &&
+                         is_base(declarations, g.move) && is_base(declarations, g.in);
+    if (!on_base || !(s.acceleration || (s.force && !s.driver))) continue;
+    if (s.axis != Axis::x && s.axis != Axis::y && s.axis != Axis::rz) continue;
+    const int i = is_rotation(s.axis) ? 2 : static_cast<int>(s.axis);
+    if (s.acceleration) {
+      const Range range = value(*s.acceleration);
+      tighten(i, std::min(-range.low, range.high));
+    }
+    if (s.force && !s.driver) {
+      const Range range = value(*s.force);
+      tighten(i, std::min(-range.low, range.high) / effective_mass(i));
     }
   }
-  if (!turns && a.force) {
-    const Range force = value(*a.force);
-    braking = std::min({braking, -force.low / model.total_mass(), force.high / model.total_mass()});
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(braking(i))) braking(i) = i < 2 ? stop.deceleration : stop.deceleration / radius;
+    braking(i) = std::max(braking(i), least_braking);
   }
-  return std::max(braking, 1e-3);
+}
+
+/// a_brk along a direction in the world: straight along it, without leaving either range.
+double Scheduler::Parts::braking_along(const solver::Vector3& direction) const noexcept {
+  const solver::Vector3 n = state->base_pose.rotation.transpose() * direction;
+  double most = solver::infinity;
+  for (int i = 0; i < 2; ++i) {
+    if (std::abs(n(i)) > 1e-9) most = std::min(most, braking(i) / std::abs(n(i)));
+  }
+  return std::isfinite(most) ? most : braking.head<2>().minCoeff();
+}
+
+/// a_brk of a position range: what the axis's own acceleration range allows, else those in force on the base;
+/// never more than the force range can do to the robot's mass.
+double Scheduler::Parts::braking_of(const solver::AxisConstraint& c, const AxisStatements& s) const noexcept {
+  const bool turns = is_rotation(s.axis);
+  double most = turns ? braking(2) : braking.head<2>().minCoeff();
+  if (!turns && c.measure == solver::Measure::axis) {
+    const solver::Matrix3 R = solver::motion_of(c.in, model, *state).pose.rotation;
+    most = braking_along(R.col(static_cast<int>(s.axis)));
+  }
+  if (c.acceleration) most = std::min(-c.acceleration->low, c.acceleration->high);
+  if (s.force) {
+    const Range force = value(*s.force);
+    const double mass = turns ? effective_mass(2) : effective_mass.head<2>().maxCoeff();
+    most = std::min({most, -force.low / mass, force.high / mass});
+  }
+  return std::max(most, least_braking);
 }
 
 /// The driver as the task has it; where its axes or its value are not known, one that stands still with the
@@ -61,10 +106,13 @@ solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
   solver::Driver driver;
   driver.quantity = *s.driver;
   driver.time_constant = s.time_constant.evaluate(parameters);
+  if (s.stiffness) driver.stiffness = s.stiffness->evaluate(parameters);
+  if (s.damping) driver.damping = s.damping->evaluate(parameters);
   if (s.force) driver.force = value(*s.force);
   const bool pushes = driver.quantity == Quantity::force;
   if (a.lost && !(pushes && s.target.signal < 0)) {
     if (!pushes) driver.quantity = Quantity::velocity;
+    driver.stiffness = driver.damping = 0.0;
     driver.target = 0.0;
     return driver;
   }
@@ -83,35 +131,91 @@ Wanted Scheduler::Parts::wanted_of(const ActiveAxis& a) const noexcept {
   w.move = {g.move, frames.settings_of(g.move)};
   if (!a.entry_axes) w.in = {g.in, frames.settings_of(g.in)};
   solver::AxisConstraint& c = w.constraint;
-  c.move = frames.attached(g.move);
-  c.in = axes_frame(g, &a);
-  c.axis = s.axis;
+  c = measured(g, s, &a);
   c.level = s.level;
+  if (s.weight) c.weight = s.weight->evaluate(parameters);
   if (s.acceleration) c.acceleration = value(*s.acceleration);
   if (s.driver) c.driver = driver_of(a);
+  if (s.force && !s.driver) c.force = value(*s.force);
   // In axes that nobody knows, a range of places or of speeds allows no motion.
-  const bool blind = !is_known(g.in);
+  const bool blind = !is_known(g.in) || !is_known(g.move);
   if (s.position && !blind) c.position = value(*s.position);
   if (s.velocity && !blind) c.velocity = value(*s.velocity);
   const bool stands_by_driver = s.driver && *s.driver != Quantity::force;
   if (blind && (s.position || s.velocity) && !stands_by_driver) c.velocity = Range{0.0, 0.0};
-  if (c.position) c.braking = braking_of(s, c);
+  if (c.position) c.braking = braking_of(c, s);
   return w;
 }
 
-/// The constraints of `always` and of the active task, with the present values of the parameters.
+/// The nearest of the pairs of features that what is in force now could not keep apart much faster.
+void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexcept {
+  const lang::Group& g = group(a.origin);
+  const solver::AttachedFrame& move = frames.attached(g.move);
+  const solver::AttachedFrame& in = frames.attached(g.in);
+  fence.update(move, solver::motion_of(move, model, *state), in, solver::motion_of(in, model, *state),
+               g.margin.evaluate(parameters));
+  std::array<std::size_t, RegionFence::most_near> nearest{};
+  std::size_t count = 0;
+  const std::size_t first = wanted.size();
+  for (std::size_t i = 0; i < fence.pair_count(); ++i) {
+    Wanted w;
+    w.origin = a.origin;
+    w.origin.part = static_cast<int>(i);
+    w.always = a.origin.task == tasks.always();
+    w.far = true;
+    const RegionFence::Approach& approach = fence.approach(i);
+    if (std::isfinite(approach.left) && !a.lost) {
+      const double a_brk = braking_along(approach.normal);
+      const double allowed = solver::braking_speed(approach.left, a_brk, solver::ConstraintSet::horizon);
+      if (allowed < approach.speed + near_speed) {
+        w.constraint = fence.constraint(i);
+        w.constraint.level = g.level;
+        w.constraint.braking = a_brk;
+        // Sorted by what is left; the farthest gives way.
+        std::size_t at = count;
+        while (at > 0 && fence.approach(nearest[at - 1]).left > approach.left) --at;
+        if (count < nearest.size()) ++count;
+        for (std::size_t j = count; j-- > at + 1;) nearest[j] = nearest[j - 1];
+        if (at < count) nearest[at] = i;
+      }
+    }
+    if (a.lost && i == 0) {
+      w.constraint.move = move;
+      w.constraint.in = in;
+      w.constraint.measure = solver::Measure::speed;
+      w.constraint.velocity = Range{0.0, lost_speed};
+      w.constraint.level = g.level;
+      w.far = false;
+    }
+    wanted.push_back(w);
+  }
+  for (std::size_t i = 0; i < count; ++i) wanted[first + nearest[i]].far = false;
+}
+
+/// The constraints of `always` and of the active task, with the present values of the parameters. As many,
+/// and in the same order, until the next switch.
 void Scheduler::Parts::want() noexcept {
   wanted.clear();
+  find_braking();
   for (const ActiveAxis& a : axes) {
-    if (says_something(statements(a))) wanted.push_back(wanted_of(a));
+    const int fence =
+        fence_of[static_cast<std::size_t>(a.origin.task)][static_cast<std::size_t>(a.origin.group)];
+    if (fence >= 0) {
+      want_fence(a, fences[static_cast<std::size_t>(fence)]);
+    } else if (says_something(statements(a))) {
+      wanted.push_back(wanted_of(a));
+    }
   }
 }
 
+bool Scheduler::Parts::is_lost(const ActiveAxis& a) const noexcept {
+  const lang::Group& g = group(a.origin);
+  const int value_signal = statements(a).target.signal;
+  return !is_known(g.in) || !is_known(g.move) || (value_signal >= 0 && !signals.known(value_signal));
+}
+
 void Scheduler::Parts::start_blend() noexcept {
-  for (ActiveAxis& a : axes) {
-    const int value_signal = statements(a).target.signal;
-    a.lost = !is_known(group(a.origin).in) || (value_signal >= 0 && !signals.known(value_signal));
-  }
+  for (ActiveAxis& a : axes) a.lost = is_lost(a);
   want();
   switched = now;
   blend_time = active().blend.evaluate(parameters);
@@ -122,8 +226,7 @@ void Scheduler::Parts::start_blend() noexcept {
 void Scheduler::Parts::track_losses() noexcept {
   bool changed = false;
   for (ActiveAxis& a : axes) {
-    const int value_signal = statements(a).target.signal;
-    const bool lost = !is_known(group(a.origin).in) || (value_signal >= 0 && !signals.known(value_signal));
+    const bool lost = is_lost(a);
     changed = changed || lost != a.lost;
     if (!lost) capture_here(a);
   }
@@ -152,7 +255,7 @@ void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
     if (!source.active) continue;
     const bool is_driver = rows[i].kind == solver::RowKind::driver || rows[i].kind == solver::RowKind::force;
     for (ActiveAxis& a : axes) {
-      if (a.origin != source.origin) continue;
+      if (!of_one_axis(a.origin, source.origin)) continue;
       if (is_driver) {
         a.reading = {solution.rows[i].nu, solution.rows[i].residual, solution.rows[i].saturated};
       } else if (!statements(a).driver &&

@@ -1,5 +1,6 @@
 // Steps 1 to 3 of the tick: the snapshot, what of it is stale, and what conditions may ask about.
 #include <cmath>
+#include <utility>
 
 #include "schedule/parts.hpp"
 
@@ -41,6 +42,8 @@ Fact Scheduler::Parts::look_up(const lang::ExpressionNode& node, int owner) cons
       return {signals.known(node.index) ? 1.0 : 0.0};
     case lang::Op::coordinate:
       return coordinate(node, owner);
+    case lang::Op::feature:
+      return feature(features[static_cast<std::size_t>(node.index)]);
     default:
       return {};
   }
@@ -62,13 +65,64 @@ Fact Scheduler::Parts::coordinate(const lang::ExpressionNode& node, int owner) c
   }
   const lang::Group& g = group(origin);
   const solver::Coordinate c = coordinate_of(g, g.axes[static_cast<std::size_t>(node.axis)], a);
+  if (!is_known(g.move)) return of_frame(g.move, 0.0);
   return of_frame(g.in, node.what == lang::CoordinateQuantity::position ? c.position : c.velocity);
+}
+
+namespace {
+
+void set_measure(solver::AxisConstraint& c, const lang::Feature& feature) {
+  switch (feature.kind) {
+    case lang::FeatureKind::distance:
+      c.measure = solver::Measure::distance;
+      return;
+    case lang::FeatureKind::angle:
+      c.measure = solver::Measure::angle;
+      c.axis = feature.first_axis;
+      c.other_axis = feature.second_axis;
+      return;
+    case lang::FeatureKind::direction:
+      c.measure = solver::Measure::direction;
+      c.coefficients = feature.direction;
+      return;
+  }
+}
+
+}  // namespace
+
+Fact Scheduler::Parts::feature(const lang::Feature& feature) const noexcept {
+  for (const int frame : {feature.first, feature.second}) {
+    if (!is_known(frame)) return of_frame(frame, 0.0);
+  }
+  solver::AxisConstraint c;
+  c.move = frames.attached(feature.first);
+  c.in = frames.attached(feature.second);
+  set_measure(c, feature);
+  return {solver::coordinate_of(c, model, *state).position};
+}
+
+/// What the axis measures, between which frames, and nothing else of its constraint.
+solver::AxisConstraint Scheduler::Parts::measured(const lang::Group& group, const lang::AxisStatements& axis,
+                                                  const ActiveAxis* active_axis) const noexcept {
+  solver::AxisConstraint c;
+  c.move = frames.attached(group.move);
+  c.in = axes_frame(group, active_axis);
+  c.axis = axis.axis;
+  if (axis.is_planar_speed) c.measure = solver::Measure::speed;
+  if (group.kind == lang::GroupKind::feature) {
+    const lang::Feature& feature = features[static_cast<std::size_t>(group.feature)];
+    set_measure(c, feature);
+    // The frames may stand in the other order here.
+    if (feature.kind == lang::FeatureKind::angle && group.move != feature.first) {
+      std::swap(c.axis, c.other_axis);
+    }
+  }
+  return c;
 }
 
 solver::Coordinate Scheduler::Parts::coordinate_of(const lang::Group& group, const lang::AxisStatements& axis,
                                                    const ActiveAxis* active_axis) const noexcept {
-  return solver::coordinate_of(frames.attached(group.move), axes_frame(group, active_axis), axis.axis, model,
-                               *state);
+  return solver::coordinate_of(measured(group, axis, active_axis), model, *state);
 }
 
 const ActiveAxis* Scheduler::Parts::find(const Origin& origin) const noexcept {

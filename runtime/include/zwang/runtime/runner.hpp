@@ -36,6 +36,15 @@ struct LimitReport {
   std::string unit;     ///< SI
 };
 
+/// A row that does not get what it asks, because others hold it back: "`go.x` misses 0.31 m/s^2; held back by
+/// `boundary.edge2` and `manners.speed`".
+struct ShortfallReport {
+  std::string row;
+  double residual = 0.0;
+  std::string unit;
+  std::vector<std::string> held_back_by;  ///< the strongest first
+};
+
 struct RunnerSettings {
   double period = 1e-3;                                       ///< [s]
   double max_slew = std::numeric_limits<double>::infinity();  ///< [N m/s] or [N/s] of a joint
@@ -58,6 +67,10 @@ class Runner {
   /// The outcome is known and the base stands (or has had the time to).
   bool finished() const noexcept;
 
+  /// Sets a parameter of the task file, in SI, between two steps. False, and nothing happens, for a name that
+  /// is unknown and a value outside the parameter's range. Does not allocate.
+  bool set_parameter(const std::string& name, double value) noexcept;
+
   /// The columns of a log of this run. A recorder made with them may be attached before the first step; it
   /// must outlive the runner.
   std::vector<Column> columns() const;
@@ -74,6 +87,8 @@ class Runner {
   std::uint64_t transition_count() const noexcept;
   /// Every limit that was in force, in the order of the files. Allocates.
   std::vector<LimitReport> limits() const;
+  /// The row that fell farthest short in the last step because of others, if any. Allocates.
+  std::optional<ShortfallReport> shortfall() const;
   /// The limit that the last step was at, if any. Allocates.
   std::optional<LimitReport> limit_now() const;
 

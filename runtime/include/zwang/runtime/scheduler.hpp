@@ -31,12 +31,16 @@ enum class Cause {
   never_stood,  ///< the brake did not bring the base to rest in time
 };
 
+const char* to_string(Cause cause) noexcept;
+
 /// What kept the run out of the task that it was on its way to.
 enum class Refusal {
   none,
   require,   ///< the task's `require` was false or unknown: `failed`
   attempts,  ///< the task's `attempts` were used up: where they lead
 };
+
+const char* to_string(Refusal refusal) noexcept;
 
 /// A switch of tasks. Tasks are indices into Scheduler::tasks().
 struct Transition {
@@ -57,7 +61,8 @@ struct Transition {
 struct Origin {
   int task = -1;
   int group = -1;
-  int axis = -1;
+  int axis = -1;  ///< 0 for a group that has none: `inside`
+  int part = -1;  ///< of `inside`: the pair of features
   bool operator==(const Origin&) const = default;
 };
 
@@ -107,6 +112,14 @@ class Scheduler {
   double dwell(int exit) const noexcept;
   double always_dwell(int exit) const noexcept;  ///< the same of an exit of `always` [s]
   const std::vector<double>& parameters() const noexcept;
+  /// Sets a parameter from outside, between two ticks; constraints follow on the next one. False, and nothing
+  /// happens, for an index or a value outside its range or a value that is not finite.
+  bool set_parameter(int index, double value) noexcept;
+
+  // Signals, as of the last tick, parallel to the program's.
+  bool signal_known(int signal) const noexcept;  ///< received, and not older than its `stale_after`
+  double signal_age(int signal) const noexcept;  ///< [s]; since the start of the run when never received
+  const SignalSample& signal_sample(int signal) const noexcept;  ///< the latest valid one
 
   /// The program's tasks, each with the robot's limits as the group `limits` where neither it nor `always`
   /// gives any, then the two that brake, `done` and `failed`, then `always`, whose groups and exits are in
@@ -117,6 +130,8 @@ class Scheduler {
   int row_capacity() const noexcept;  ///< no tick has more rows
   double period() const noexcept;     ///< [s]
 
+  /// The words for one row of a group `inside` a region, "edge2"; empty for other origins. Allocates.
+  std::string part_name(const Origin& origin) const;
   /// Why a transition was taken, in the words of the task file. Allocates.
   std::string why(const Transition& transition) const;
   /// Where those words stand. Allocates nothing; the span may not exist.

@@ -1,0 +1,261 @@
+#include "schedule/region_fence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "schedule/frame_table.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+using solver::Vector3;
+
+constexpr double far = std::numeric_limits<double>::infinity();
+// Beyond a corner that the region does not turn around, both edges hold already: none may come as a surprise.
+constexpr double look_ahead = 1.0;  // [m]
+
+Eigen::Vector2d flat(const Vector3& v) {
+  return v.head<2>();
+}
+
+Vector3 high(const Eigen::Vector2d& v) {
+  return {v.x(), v.y(), 0.0};
+}
+
+double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// A frame whose y points along the side's left (or right) and whose x-y plane is the ground.
+solver::Pose side_pose(const Eigen::Vector2d& begin, const Eigen::Vector2d& y) {
+  solver::Pose pose;
+  pose.position = high(begin);
+  pose.rotation.col(0) = Vector3(y.y(), -y.x(), 0.0);
+  pose.rotation.col(1) = high(y);
+  pose.rotation.col(2) = Vector3::UnitZ();
+  return pose;
+}
+
+solver::Pose point_pose(const Vector3& p) {
+  solver::Pose pose;
+  pose.position = p;
+  return pose;
+}
+
+}  // namespace
+
+std::vector<RegionFence::Side> RegionFence::sides_of(const std::vector<Point>& polygon) {
+  std::vector<Side> sides;
+  const std::size_t n = polygon.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    Side side;
+    side.begin = polygon[i];
+    side.along = polygon[(i + 1) % n] - polygon[i];
+    side.length = side.along.norm();
+    side.along /= side.length;
+    side.left = {-side.along.y(), side.along.x()};
+    sides.push_back(side);
+  }
+  return sides;
+}
+
+RegionFence::RegionFence(const lang::Region& region, std::vector<Vector3> corners)
+    : region_(region), corners_(std::move(corners)) {
+  for (const auto& p : region.polygon) polygon_.emplace_back(p[0], p[1]);
+  for (const Vector3& c : corners_) outline_.push_back(flat(c));
+  edges_ = sides_of(polygon_);
+  if (outline_.size() > 2) sides_ = sides_of(outline_);
+  const std::size_t n = edges_.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    Side& edge = edges_[i];
+    Side& last = edges_[(i + n - 1) % n];
+    if (turn(last.along, edge.along) < 0.0) {
+      reflex_.push_back(static_cast<int>(i));
+    } else {
+      edge.before = std::min(look_ahead, last.length);
+      last.after = std::min(look_ahead, edge.length);
+    }
+  }
+  const int corner_count = static_cast<int>(corners_.size());
+  for (int c = 0; c < corner_count; ++c) {
+    if (region.radius > 0.0) pairs_.push_back({PairKind::corner_circle, c, 0});
+    for (int e = 0; e < static_cast<int>(n); ++e) pairs_.push_back({PairKind::corner_edge, c, e});
+    for (int v = 0; v < static_cast<int>(reflex_.size()); ++v) {
+      pairs_.push_back({PairKind::corner_vertex, c, v});
+    }
+  }
+  for (int v = 0; v < static_cast<int>(reflex_.size()); ++v) {
+    for (int s = 0; s < static_cast<int>(sides_.size()); ++s) {
+      pairs_.push_back({PairKind::vertex_side, v, s});
+    }
+  }
+  corner_now_.resize(corners_.size());
+  vertex_now_.resize(reflex_.size());
+  approaches_.resize(pairs_.size());
+}
+
+bool RegionFence::contains(const std::vector<Point>& polygon, const Point& p) noexcept {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Point& a = polygon[i];
+    const Point& b = polygon[j];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
+  }
+  return inside;
+}
+
+int RegionFence::nearest_side(const std::vector<Side>& sides, const Point& p) noexcept {
+  int nearest = -1;
+  double least = far;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const Side& s = sides[i];
+    const double along = std::clamp(s.along.dot(p - s.begin), 0.0, s.length);
+    const double distance = (p - s.begin - along * s.along).norm();
+    if (distance < least) {
+      least = distance;
+      nearest = static_cast<int>(i);
+    }
+  }
+  return nearest;
+}
+
+void RegionFence::update(const solver::AttachedFrame& move, const solver::FrameMotion& move_motion,
+                         const solver::AttachedFrame& in, const solver::FrameMotion& in_motion,
+                         double margin) noexcept {
+  move_ = move;
+  in_ = in;
+  margin_ = margin;
+  to_world_ = in_motion.pose.rotation;
+  move_to_world_ = move_motion.pose.rotation;
+  // The velocity of the moved body's point that is at p, less that of the parent's.
+  const auto relative = [&](const Vector3& p) {
+    const Vector3 moved = move_motion.linear + move_motion.angular.cross(p - move_motion.pose.position);
+    const Vector3 carried = in_motion.linear + in_motion.angular.cross(p - in_motion.pose.position);
+    return Vector3(moved - carried);
+  };
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Vector3 p = move_motion.pose * corners_[i];
+    Moving& now = corner_now_[i];
+    const Vector3 seen = in_motion.pose.inverse() * p;
+    now.place = flat(seen);
+    now.height = seen.z();
+    now.velocity = flat(to_world_.transpose() * relative(p));
+    now.inside = polygon_.empty() || contains(polygon_, now.place);
+    now.nearest = now.inside ? -1 : nearest_side(edges_, now.place);
+  }
+  for (std::size_t i = 0; i < reflex_.size(); ++i) {
+    const Vector3 p = in_motion.pose * high(polygon_[static_cast<std::size_t>(reflex_[i])]);
+    Moving& now = vertex_now_[i];
+    now.place = flat(move_motion.pose.inverse() * p);
+    now.velocity = flat(move_to_world_.transpose() * Vector3(-relative(p)));
+    now.inside = contains(outline_, now.place);
+    now.nearest = now.inside ? nearest_side(sides_, now.place) : -1;
+  }
+  for (std::size_t i = 0; i < pairs_.size(); ++i) approaches_[i] = look(pairs_[i]);
+}
+
+RegionFence::Approach RegionFence::look(const Pair& pair) const noexcept {
+  Approach result;
+  result.left = far;
+  const auto first = static_cast<std::size_t>(pair.first);
+  const auto second = static_cast<std::size_t>(pair.second);
+  const auto set = [&](double left, double rate, const Vector3& normal) { result = {left, -rate, normal}; };
+  switch (pair.kind) {
+    case PairKind::corner_edge: {
+      const Moving& c = corner_now_[first];
+      const Side& e = edges_[second];
+      const double along = e.along.dot(c.place - e.begin);
+      const double d = e.left.dot(c.place - e.begin);
+      const bool faces =
+          c.inside ? d >= 0.0 && along >= -e.before && along <= e.length + e.after : c.nearest == pair.second;
+      if (faces) set(d - margin_, e.left.dot(c.velocity), to_world_ * high(e.left));
+      break;
+    }
+    case PairKind::corner_vertex: {
+      const Moving& c = corner_now_[first];
+      const auto v = static_cast<std::size_t>(reflex_[second]);
+      const Side& after = edges_[v];
+      const Side& before = edges_[(v + edges_.size() - 1) % edges_.size()];
+      const Point offset = c.place - polygon_[v];
+      const bool faces = c.inside && after.along.dot(offset) < 0.0 && before.along.dot(offset) > 0.0;
+      const double d = offset.norm();
+      if (faces && d > 1e-6) set(d - margin_, offset.dot(c.velocity) / d, to_world_ * high(offset / d));
+      break;
+    }
+    case PairKind::vertex_side: {
+      const Moving& v = vertex_now_[first];
+      const Side& s = sides_[second];
+      const double along = s.along.dot(v.place - s.begin);
+      const double d = -s.left.dot(v.place - s.begin);
+      const bool faces = v.inside ? v.nearest == pair.second : d >= 0.0 && along >= 0.0 && along <= s.length;
+      if (faces) set(d - margin_, -s.left.dot(v.velocity), move_to_world_ * high(s.left));
+      break;
+    }
+    case PairKind::corner_circle: {
+      const Moving& c = corner_now_[first];
+      const Point offset = c.place - Point(region_.centre[0], region_.centre[1]);
+      const double d = offset.norm();
+      if (d > 1e-6) {
+        set(region_.radius - margin_ - d, -offset.dot(c.velocity) / d, to_world_ * high(-offset / d));
+      }
+      break;
+    }
+  }
+  return result;
+}
+
+std::string RegionFence::name(std::size_t index) const {
+  const Pair& pair = pairs_[index];
+  switch (pair.kind) {
+    case PairKind::corner_edge:
+      return "edge" + std::to_string(pair.second + 1);
+    case PairKind::corner_vertex:
+      return "vertex" + std::to_string(reflex_[static_cast<std::size_t>(pair.second)] + 1);
+    case PairKind::vertex_side:
+      return "vertex" + std::to_string(reflex_[static_cast<std::size_t>(pair.first)] + 1);
+    case PairKind::corner_circle:
+      break;
+  }
+  return "circle";
+}
+
+/// At the height of a corner, so that the distance is one in the plane.
+solver::Pose RegionFence::level_with(std::size_t corner, const Point& p) const noexcept {
+  return point_pose({p.x(), p.y(), corner_now_[corner].height});
+}
+
+solver::AxisConstraint RegionFence::constraint(std::size_t index) const noexcept {
+  const Pair& pair = pairs_[index];
+  const auto first = static_cast<std::size_t>(pair.first);
+  const auto second = static_cast<std::size_t>(pair.second);
+  solver::AxisConstraint c;
+  c.axis = solver::Axis::y;
+  c.position = solver::Range{margin_, solver::infinity};
+  switch (pair.kind) {
+    case PairKind::corner_edge:
+      c.move = carried(move_, point_pose(corners_[first]));
+      c.in = carried(in_, side_pose(edges_[second].begin, edges_[second].left));
+      break;
+    case PairKind::corner_vertex:
+      c.measure = solver::Measure::distance;
+      c.move = carried(move_, point_pose(corners_[first]));
+      c.in = carried(in_, level_with(first, polygon_[static_cast<std::size_t>(reflex_[second])]));
+      break;
+    case PairKind::vertex_side:
+      c.move = carried(in_, point_pose(high(polygon_[static_cast<std::size_t>(reflex_[first])])));
+      c.in = carried(move_, side_pose(sides_[second].begin, -sides_[second].left));
+      break;
+    case PairKind::corner_circle:
+      c.measure = solver::Measure::distance;
+      c.move = carried(move_, point_pose(corners_[first]));
+      c.in = carried(in_, level_with(first, {region_.centre[0], region_.centre[1]}));
+      c.position = solver::Range{-solver::infinity, region_.radius - margin_};
+      break;
+  }
+  return c;
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,91 @@
+/// Keeps a point or the robot's footprint inside a region: one row for each pair of features, of what moves
+/// and of the region's edge, that come near each other.
+///
+/// With d the signed distance of a pair, every pair asks d >= margin:
+///   corner and edge     the corner's place along the edge's inward normal
+///   corner and vertex   their distance; only at vertices where the region turns around an obstacle (reflex)
+///   vertex and side     the reflex vertex's place along the outward normal of a side of the footprint
+///   corner and circle   the corner's distance from the centre, at most radius - margin
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/solver/constraint.hpp"
+
+namespace zwang::runtime {
+
+class RegionFence {
+ public:
+  /// `corners`: what moves, in the frame that `move` names [m]; one point, or a footprint counter-clockwise.
+  RegionFence(const lang::Region& region, std::vector<solver::Vector3> corners);
+
+  std::size_t pair_count() const noexcept { return pairs_.size(); }
+  /// The most pairs that are put in force at once: the nearest.
+  static constexpr int most_near = 12;
+
+  /// Looks where everything is. `move` and `in`: the moved frame and the region's parent.
+  void update(const solver::AttachedFrame& move, const solver::FrameMotion& move_motion,
+              const solver::AttachedFrame& in, const solver::FrameMotion& in_motion, double margin) noexcept;
+
+  /// The distance that is left before `margin`, how fast it shrinks, and the direction in the world in which
+  /// what moves would brake. Infinitely far: the pair does not face each other.
+  struct Approach {
+    double left = 0.0;   ///< [m]
+    double speed = 0.0;  ///< [m/s]
+    solver::Vector3 normal = solver::Vector3::Zero();
+  };
+  const Approach& approach(std::size_t pair) const noexcept { return approaches_[pair]; }
+  /// "edge2", "vertex3", "circle": the feature of the region, counted from 1 as they are written. Allocates.
+  std::string name(std::size_t pair) const;
+  /// The pair's constraint, without level, braking and fading.
+  solver::AxisConstraint constraint(std::size_t pair) const noexcept;
+
+ private:
+  using Point = Eigen::Vector2d;
+  enum class PairKind { corner_edge, corner_vertex, vertex_side, corner_circle };
+  struct Pair {
+    PairKind kind;
+    int first, second;
+  };
+  /// A side from `begin` along `along`, with `left` pointing to its left.
+  struct Side {
+    Point begin, along, left;
+    double length = 0.0;
+    double before = 0.0, after = 0.0;  ///< how far it also counts beyond its ends [m]
+  };
+  static std::vector<Side> sides_of(const std::vector<Point>& polygon);
+  static bool contains(const std::vector<Point>& polygon, const Point& p) noexcept;
+  static int nearest_side(const std::vector<Side>& sides, const Point& p) noexcept;
+  Approach look(const Pair& pair) const noexcept;
+  solver::Pose level_with(std::size_t corner, const Point& p) const noexcept;
+
+  lang::Region region_;
+  std::vector<Point> polygon_;  ///< the region's, in its parent
+  std::vector<Side> edges_;     ///< of the region
+  std::vector<int> reflex_;     ///< vertices of the region
+  std::vector<solver::Vector3> corners_;
+  std::vector<Point> outline_;  ///< of what moves, in its own frame
+  std::vector<Side> sides_;     ///< of the footprint
+  std::vector<Pair> pairs_;
+
+  // As of the last update.
+  solver::AttachedFrame move_, in_;
+  solver::Matrix3 to_world_ = solver::Matrix3::Identity();  ///< from the region's parent
+  solver::Matrix3 move_to_world_ = solver::Matrix3::Identity();
+  double margin_ = 0.0;
+  struct Moving {
+    Point place = Point::Zero();     ///< seen from the other frame
+    double height = 0.0;             ///< likewise
+    Point velocity = Point::Zero();  ///< of the two against each other, in the other frame's axes
+    bool inside = true;              ///< of the other polygon
+    int nearest = -1;                ///< side of the other polygon
+  };
+  std::vector<Moving> corner_now_;  ///< in the region's parent
+  std::vector<Moving> vertex_now_;  ///< reflex vertices in the moved frame
+  std::vector<Approach> approaches_;
+};
+
+}  // namespace zwang::runtime
