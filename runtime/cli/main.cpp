@@ -83,6 +83,12 @@ int parse_and_do(int argc, char** argv) {
   run_verb->add_option("--format", to_run.format, "human (default) or json: one object on stdout")
       ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
 
+  InfoArguments to_tell;
+  CLI::App* info_verb = app.add_subcommand("info", "Tell what is in the log of a run");
+  info_verb->add_option("log", to_tell.file, "the .mcap file")->required();
+  info_verb->add_option("--format", to_tell.format, "human (default) or json: one object on stdout")
+      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version
@@ -95,6 +101,7 @@ int parse_and_do(int argc, char** argv) {
     throw Impossible(std::string(mistake.what()) + "\nTry `zwang --help`.");
   }
   if (validate_verb->parsed()) return validate(to_validate);
+  if (info_verb->parsed()) return info(to_tell);
   to_run.parameters = parameters(parameter_texts);
   if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);

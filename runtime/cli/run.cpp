@@ -1,4 +1,5 @@
 #include <atomic>
+#include <charconv>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -85,6 +86,31 @@ fs::path make_folder(const RunArguments& arguments) {
     if (fs::create_directory(folder, error)) return folder;
   }
   throw Impossible("runs: cannot make a folder for the log: " + error.message());
+}
+
+std::string exactly(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+/// The files that were read and everything that the command line changed: the same run again needs no more.
+runtime::LogContext context_of(const RunArguments& arguments, const lang::Program& program,
+                               const lang::Diagnostics& diagnostics) {
+  runtime::LogContext context;
+  context.sources = diagnostics.sources();
+  std::map<std::string, std::string>& facts = context.facts;
+  facts["zwang"] = ZWANG_VERSION;
+  facts["task"] = arguments.file;
+  if (arguments.robot) facts["robot"] = *arguments.robot;
+  if (arguments.scene) facts["scene"] = *arguments.scene;
+  facts["seed"] = std::to_string(arguments.seed);
+  facts["period [s]"] = exactly(period);
+  if (arguments.start_yaw) facts["start_yaw [rad]"] = exactly(*arguments.start_yaw);
+  if (arguments.start_at) {
+    facts["start_at [m]"] = exactly((*arguments.start_at)[0]) + ", " + exactly((*arguments.start_at)[1]);
+  }
+  for (const lang::Parameter& p : program.parameters) facts["params." + p.name] = exactly(p.value);
+  return context;
 }
 
 std::vector<runtime::Column> truth_columns(const lang::Scene& scene) {
@@ -202,7 +228,10 @@ int run(const RunArguments& arguments) {
   runtime::Runner runner(*program, settings);
 
   const fs::path folder = make_folder(arguments);
-  runtime::Recorder recorder(folder / "log.csv", runner.columns());
+  std::vector<std::unique_ptr<runtime::LogSink>> sinks;
+  sinks.push_back(runtime::mcap_sink(folder / "log.mcap", context_of(arguments, *program, diagnostics)));
+  sinks.push_back(runtime::csv_sink(folder / "log.csv"));
+  runtime::Recorder recorder(std::move(sinks), runner.columns());
   if (!recorder.status().error.empty()) throw Impossible(recorder.status().error);
   runner.record_to(&recorder);
 

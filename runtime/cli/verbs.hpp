@@ -36,4 +36,10 @@ struct RunArguments {
 };
 int run(const RunArguments& arguments);
 
+struct InfoArguments {
+  std::string file;
+  Format format = Format::human;
+};
+int info(const InfoArguments& arguments);
+
 }  // namespace zwang::cli

@@ -14,10 +14,12 @@ namespace zwang::solver {
 ConstrainedMotion::ConstrainedMotion(const Model& model, int row_capacity)
     : qdd(Eigen::VectorXd::Zero(model.joint_count())),
       acceleration(static_cast<std::size_t>(model.body_count())),
-      nu(Eigen::VectorXd::Zero(row_capacity)),
-      residual(Eigen::VectorXd::Zero(row_capacity)),
       tau_control(Eigen::VectorXd::Zero(model.joint_count())),
-      constraint_torque(Eigen::VectorXd::Zero(model.joint_count())) {}
+      constraint_torque(Eigen::VectorXd::Zero(model.joint_count())) {
+  if (row_capacity < 1) throw std::invalid_argument("constrained motion: row_capacity must be at least 1");
+  nu.setZero(row_capacity);
+  residual.setZero(row_capacity);
+}
 
 /// Rows have ids in the order ground, given.
 struct PopovVereshchagin::Workspace {

@@ -52,12 +52,15 @@ Solution::Solution(const Model& model, int row_capacity)
     : tau(Eigen::VectorXd::Zero(model.joint_count())),
       qdd(Eigen::VectorXd::Zero(model.joint_count())),
       acceleration(static_cast<std::size_t>(model.body_count())) {
+  if (row_capacity < 1) throw std::invalid_argument("solution: row_capacity must be at least 1");
   rows.reserve(static_cast<std::size_t>(row_capacity));
 }
 
 namespace {
 
+/// Rows on the base's own freedoms, needed where the joints' rows do not span every motion.
 int base_freedoms(const Model& model) {
+  if (every_motion_turns_a_wheel(model)) return 0;
   switch (model.base_type()) {
     case BaseType::fixed:
       return 0;
@@ -76,7 +79,7 @@ Vector6 base_freedom(const Model& model, int index) {
 
 bool is_valid(const Row& row) {
   return is_finite(row.a) && is_finite(row.a_reference) && std::isfinite(row.b) && std::isfinite(row.force) &&
-         std::isfinite(row.fade) && row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
+         std::isfinite(row.fade) && row.weight > 0.0 && row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
 }
 
 }  // namespace
@@ -149,7 +152,7 @@ struct Solver::Workspace {
       const Row& row = rows[static_cast<std::size_t>(i)];
       problem.B(i) = whitened.motion(id);
       problem.d(i) = row.b - sweeps.columns.g(id) - whitened.held_acceleration(id);
-      problem.set_row(i, row, whitened.free_share(id, sweeps.columns.L));
+      problem.set_row(i, row, sweeps.columns.L(id, id));
     }
     int motor = 0;
     for (const int j : motors) {
@@ -224,12 +227,19 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
     solution.acceleration[i] = w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a);
   }
   solution.tau.setZero();
-  for (const int j : w.motors) solution.tau(j) = w.tau_ff(j) + w.forces(w.first_joint_row() + j);
+  for (const int j : w.motors) {
+    const double limit = w.model.joint(j).max_effort;  // not even by a rounding beyond
+    solution.tau(j) = std::clamp(w.tau_ff(j) + w.forces(w.first_joint_row() + j), -limit, limit);
+  }
   solution.rows.clear();
   for (std::size_t i = 0; i < rows.size(); ++i) solution.rows.push_back(w.problem.row(static_cast<int>(i)));
   solution.mobility = w.whitened.mobility();
   solution.iterations = w.problem.iterations();
   return exact ? Status::ok : Status::iteration_limit;
+}
+
+int Solver::opposing(int row, std::span<int> out) const noexcept {
+  return workspace_->problem.opposing(row, out);
 }
 
 Status Solver::project_velocity(State& state) noexcept {

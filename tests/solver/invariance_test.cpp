@@ -162,6 +162,7 @@ std::vector<solver::Row> in_units(std::vector<solver::Row> rows, const Units& u)
     row.force *= u.force();
     row.lo *= u.force();
     row.hi *= u.force();
+    row.weight *= u.mass;
   }
   return rows;
 }

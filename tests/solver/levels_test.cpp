@@ -2,8 +2,9 @@
 // a skid-steered base that cannot push sideways.
 #include <gtest/gtest.h>
 
-#include <limits>
+#include <array>
 
+#include "carriage.hpp"
 #include "oracle/random_problem.hpp"
 #include "zwang/solver/solver.hpp"
 
@@ -12,39 +13,12 @@ namespace {
 
 using solver::Row;
 using solver::RowKind;
+using solver::test::along_rail;
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
-
-solver::Model carriage(double max_effort) {
-  solver::ModelBuilder builder(
-      solver::BaseType::fixed, "rail",
-      solver::RigidInertia::from_com(1.0, solver::Vector3::Zero(), solver::Matrix3::Identity()));
-  solver::Joint joint;
-  joint.name = "slide";
-  joint.type = solver::JointType::prismatic;
-  joint.actuated = true;
-  joint.max_effort = max_effort;
-  builder.add_link(
-      "carriage", "rail", {}, joint,
-      solver::RigidInertia::from_com(10.0, solver::Vector3::Zero(), solver::Matrix3::Identity()));
-  return builder.build();
-}
-
-Row along_x(RowKind kind, double b_or_force, double bound, int level, double fade = 1.0) {
-  Row row;
-  row.kind = kind;
-  row.body = 1;
-  row.a.linear = solver::Vector3::UnitX();
-  (kind == RowKind::force ? row.force : row.b) = b_or_force;
-  row.lo = kind == RowKind::lower ? 0.0 : -bound;
-  row.hi = kind == RowKind::upper ? 0.0 : bound;
-  row.level = level;
-  row.fade = fade;
-  return row;
-}
+constexpr double unlimited = solver::infinity;
 
 solver::Solution solve_carriage(const std::vector<Row>& rows, double max_effort = unlimited) {
-  const solver::Model model = carriage(max_effort);
+  const solver::Model model = solver::test::carriage(max_effort);
   solver::Solver solver(model);
   solver::Solution solution(model);
   EXPECT_EQ(solver.solve(solver::State(model), rows, solution), solver::Status::ok);
@@ -53,37 +27,37 @@ solver::Solution solve_carriage(const std::vector<Row>& rows, double max_effort 
 
 TEST(Levels, ASaturatedForceIsNotAddedToFromBelow) {
   const auto s =
-      solve_carriage({along_x(RowKind::driver, 5.0, 15.0, 0), along_x(RowKind::driver, 9.0, 50.0, 1)});
+      solve_carriage({along_rail(RowKind::driver, 5.0, 15.0, 0), along_rail(RowKind::driver, 9.0, 50.0, 1)});
   EXPECT_NEAR(s.tau[0], 15.0, 1e-12);
 }
 
 TEST(Levels, ALimitAboveHoldsAgainstMoreForceThanItsOwn) {
   // The limit's own force is 5 N at most; a push of 40 N from below would be 4 m/s^2.
   const auto s =
-      solve_carriage({along_x(RowKind::upper, 1.0, 5.0, 0), along_x(RowKind::force, 40.0, 40.0, 1)});
+      solve_carriage({along_rail(RowKind::upper, 1.0, 5.0, 0), along_rail(RowKind::force, 40.0, 40.0, 1)});
   EXPECT_NEAR(s.qdd[0], 1.0, 1e-12);
 }
 
 TEST(Levels, AFadingDriverAboveStillResistsAForceBelow) {
   // L = R = 0.1: L (mu + 4) + R mu = 2, so mu = 8 and 12 N in all.
-  const auto s =
-      solve_carriage({along_x(RowKind::driver, 2.0, 50.0, 0, 0.5), along_x(RowKind::force, 4.0, 4.0, 1)});
+  const auto s = solve_carriage(
+      {along_rail(RowKind::driver, 2.0, 50.0, 0, 0.5), along_rail(RowKind::force, 4.0, 4.0, 1)});
   EXPECT_NEAR(s.tau[0], 12.0, 1e-12);
 }
 
 TEST(Levels, AFadingForceAboveResistsAForceBelow) {
   // 0.5 * 6 N above; L (mu + 4) + R mu = 0 below, so mu = -2 and 5 N in all.
   const auto s =
-      solve_carriage({along_x(RowKind::force, 6.0, 6.0, 0, 0.5), along_x(RowKind::force, 4.0, 4.0, 1)});
+      solve_carriage({along_rail(RowKind::force, 6.0, 6.0, 0, 0.5), along_rail(RowKind::force, 4.0, 4.0, 1)});
   EXPECT_NEAR(s.tau[0], 5.0, 1e-12);
 }
 
 TEST(Levels, ALevelThatAsksNothingChangesNothing) {
-  const Row nothing = along_x(RowKind::force, 0.0, 0.0, 1);
+  const Row nothing = along_rail(RowKind::force, 0.0, 0.0, 1);
   for (const double fade : {1.0, 0.5, 0.1}) {
     for (const double bound : {500.0, 4.0}) {
       for (const RowKind kind : {RowKind::driver, RowKind::lower}) {
-        const Row row = along_x(kind, 2.0, bound, 0, fade);
+        const Row row = along_rail(kind, 2.0, bound, 0, fade);
         const auto alone = solve_carriage({row});
         const auto both = solve_carriage({row, nothing});
         EXPECT_NEAR(both.tau[0], alone.tau[0], 1e-12) << "fade " << fade << ", bound " << bound << ", "
@@ -93,10 +67,129 @@ TEST(Levels, ALevelThatAsksNothingChangesNothing) {
   }
 }
 
+solver::Row weighted(double b, double weight, double fade = 1.0) {
+  Row row = along_rail(RowKind::driver, b, 1000.0, 1, fade);
+  row.weight = weight;
+  return row;
+}
+
+TEST(Weights, TheFractionOfTheMassesIsMet) {
+  // w / (w + Lambda) of b, Lambda the 10 kg of the carriage.
+  for (const double w : {1.0, 10.0, 90.0}) {
+    const auto s = solve_carriage({weighted(2.0, w)});
+    EXPECT_NEAR(s.qdd[0], 2.0 * w / (w + 10.0), 1e-12);
+    EXPECT_EQ(s.rows[0].status, solver::RowStatus::held);
+  }
+}
+
+TEST(Weights, FadingAddsItsOwnSoftness) {
+  // R = 1/w + (1/m)(1 - alpha)/alpha, nu = b / (1/m + R).
+  const auto s = solve_carriage({weighted(2.0, 5.0, 0.25)});
+  EXPECT_NEAR(s.rows[0].nu, 2.0 / (0.1 + 0.2 + 0.1 * 3.0), 1e-12);
+}
+
+TEST(Weights, TwoWishesMeetWhereTheirMassesSay) {
+  // min of 1/2 m a^2 + sum 1/2 w (a - b)^2.
+  const auto s = solve_carriage({weighted(2.0, 30.0), weighted(-1.0, 10.0)});
+  EXPECT_NEAR(s.qdd[0], (30.0 * 2.0 - 10.0) / 50.0, 1e-12);
+}
+
+TEST(Weights, WhatASoftRowReachedIsKeptAgainstTheLevelsBelow) {
+  const auto s = solve_carriage({weighted(2.0, 10.0), along_rail(RowKind::force, 40.0, 40.0, 2)});
+  EXPECT_NEAR(s.qdd[0], 1.0, 1e-12);
+  EXPECT_EQ(s.rows[1].status, solver::RowStatus::blocked);
+}
+
+TEST(Sums, LimitWhatAllRowsPressWithTogether) {
+  const Row sum = along_rail(RowKind::sum, 0.0, 40.0, 0);
+  const Row pull = along_rail(RowKind::driver, 3.0, 25.0, 1);
+  const auto s = solve_carriage({sum, pull, along_rail(RowKind::force, 30.0, 30.0, 1)});
+  EXPECT_NEAR(s.tau[0], 30.0, 1e-12) << "30 N of 40 pushed are 3 m/s^2 by themselves";
+  const auto hard =
+      solve_carriage({sum, along_rail(RowKind::driver, 6.0, 25.0), along_rail(RowKind::driver, 6.0, 25.0)});
+  EXPECT_NEAR(hard.tau[0], 40.0, 1e-12);
+  EXPECT_NEAR(hard.rows[0].nu, 40.0, 1e-12);
+  EXPECT_TRUE(hard.rows[0].saturated);
+  for (const std::size_t i : {1u, 2u}) {
+    EXPECT_NEAR(hard.rows[i].nu, 20.0, 1e-12) << "equals share";
+    EXPECT_TRUE(hard.rows[i].saturated);
+    EXPECT_EQ(hard.rows[i].status, solver::RowStatus::force_limited);
+  }
+}
+
+TEST(Sums, LimitForceRowsToo) {
+  const auto s =
+      solve_carriage({along_rail(RowKind::sum, 0.0, 12.0, 1), along_rail(RowKind::force, 40.0, 40.0, 1)});
+  EXPECT_NEAR(s.rows[1].phi, 0.3, 1e-12);
+  EXPECT_EQ(s.rows[1].status, solver::RowStatus::force_limited);
+  EXPECT_NEAR(s.tau[0], 12.0, 1e-12);
+}
+
+TEST(Sums, CountTheirOwnLevelAndThoseBelow) {
+  // 15 N at level 0 stay outside; below, 5 of 50 N remain, in spite of the level between.
+  const auto s =
+      solve_carriage({along_rail(RowKind::force, 15.0, 15.0, 0), along_rail(RowKind::sum, 0.0, 5.0, 1)});
+  EXPECT_NEAR(s.tau[0], 15.0, 1e-12);
+  const auto free =
+      solve_carriage({along_rail(RowKind::upper, 9.0, 500.0, 0), along_rail(RowKind::sum, 0.0, 5.0, 1),
+                      along_rail(RowKind::driver, 2.0, 50.0, 2)});
+  EXPECT_NEAR(free.tau[0], 5.0, 1e-12);
+  EXPECT_NEAR(free.rows[1].nu, 5.0, 1e-12);
+}
+
+TEST(Sums, ABrakeOfAHigherLevelCountsAgainstAPushBelow) {
+  // The limit takes 30 of the 40 N away again: 10 N press, whatever the rows say each.
+  const auto s =
+      solve_carriage({along_rail(RowKind::upper, 1.0, 500.0, 0), along_rail(RowKind::sum, 0.0, 20.0, 0),
+                      along_rail(RowKind::force, 40.0, 40.0, 1)});
+  EXPECT_NEAR(s.rows[2].phi, 1.0, 1e-12);
+  EXPECT_NEAR(s.tau[0], 10.0, 1e-12);
+  EXPECT_NEAR(s.rows[1].nu, 10.0, 1e-12);
+}
+
+TEST(Sums, ALeavingOneLetsGoGradually) {
+  for (const double fade : {1.0, 0.5, 0.25}) {
+    const auto s =
+        solve_carriage({along_rail(RowKind::sum, 0.0, 5.0, 0, fade), along_rail(RowKind::driver, 9.0, 50.0)});
+    EXPECT_NEAR(s.tau[0], 5.0 / fade, 1e-12);
+  }
+}
+
+std::vector<int> opposing(const std::vector<Row>& rows, int row, std::size_t capacity = 8) {
+  const solver::Model model = solver::test::carriage();
+  solver::Solver solver(model);
+  solver::Solution solution(model);
+  EXPECT_EQ(solver.solve(solver::State(model), rows, solution), solver::Status::ok);
+  std::vector<int> out(capacity);
+  out.resize(static_cast<std::size_t>(solver.opposing(row, out)));
+  return out;
+}
+
+TEST(Opposing, NamesTheLimitsThatHoldADriverBackTheStrongestFirst) {
+  // The driver ends at its 40 N; 30 N of them are held.
+  const Row drive = along_rail(RowKind::driver, 5.0, 40.0);
+  const Row tight = along_rail(RowKind::upper, 1.0, 1000.0);
+  const Row loose = along_rail(RowKind::upper, 3.0, 1000.0);
+  EXPECT_EQ(opposing({drive, loose, tight}, 0), (std::vector<int>{2}));
+  const Row weak = along_rail(RowKind::upper, 1.0, 7.0);
+  EXPECT_EQ(opposing({drive, weak, tight}, 0), (std::vector<int>{2, 1}));
+  EXPECT_EQ(opposing({drive, weak, tight}, 0, 1), (std::vector<int>{2}))
+      << "the strongest, where only one fits";
+  EXPECT_TRUE(opposing({drive, loose, tight}, 1).empty()) << "that one is met";
+  EXPECT_TRUE(opposing({drive}, 3).empty()) << "no such row";
+}
+
+TEST(Opposing, NamesTheLevelsAboveAndTheSums) {
+  const Row still = along_rail(RowKind::driver, 0.0, 1000.0, 0);
+  const Row drive = along_rail(RowKind::driver, 1.0, 1000.0, 1);
+  EXPECT_EQ(opposing({still, drive}, 1), (std::vector<int>{0})) << "at rest without any force";
+  EXPECT_EQ(opposing({along_rail(RowKind::sum, 0.0, 4.0, 0), drive}, 1), (std::vector<int>{0}));
+}
+
 TEST(TorqueLimits, ALimitAboveBrakesAForceThatTheMotorAloneCouldNotMake) {
   // 40 N pushed and 30 N held back leave 10 N for a motor of 12 N.
-  const auto s =
-      solve_carriage({along_x(RowKind::upper, 1.0, 500.0, 0), along_x(RowKind::force, 40.0, 40.0, 1)}, 12.0);
+  const auto s = solve_carriage(
+      {along_rail(RowKind::upper, 1.0, 500.0, 0), along_rail(RowKind::force, 40.0, 40.0, 1)}, 12.0);
   EXPECT_NEAR(s.rows[1].phi, 1.0, 1e-12);
   EXPECT_NEAR(s.tau[0], 10.0, 1e-12);
   EXPECT_NEAR(s.qdd[0], 1.0, 1e-12);

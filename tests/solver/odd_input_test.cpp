@@ -85,6 +85,8 @@ INSTANTIATE_TEST_SUITE_P(
         Odd{"infinite_set_point", Status::invalid_input, [](Input& i) { i.rows[0].b = no_limit; }},
         Odd{"nan_fade", Status::invalid_input, [](Input& i) { i.rows[0].fade = nan; }},
         Odd{"bounds_without_zero", Status::invalid_input, [](Input& i) { i.rows[0].lo = 1.0; }},
+        Odd{"no_weight", Status::invalid_input, [](Input& i) { i.rows[0].weight = 0.0; }},
+        Odd{"nan_weight", Status::invalid_input, [](Input& i) { i.rows[0].weight = nan; }},
         Odd{"nan_bound", Status::invalid_input, [](Input& i) { i.rows[0].hi = nan; }},
         Odd{"too_many_rows", Status::capacity_exceeded, [](Input& i) { i.rows.resize(5, forward()); }}),
     [](const auto& drawn) { return drawn.param.name; });

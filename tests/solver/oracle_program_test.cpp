@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "carriage.hpp"
 #include "oracle/lexicographic.hpp"
 #include "oracle/quadratic_program.hpp"
 #include "oracle/random_problem.hpp"
@@ -75,38 +76,14 @@ TEST(OracleProgram, MatchesTheEnumerationOfActiveSets) {
   }
 }
 
-/// A carriage of mass m on a rail along x.
-struct Carriage {
-  static solver::Model model(double max_effort) {
-    solver::ModelBuilder builder(
-        solver::BaseType::fixed, "rail",
-        solver::RigidInertia::from_com(1.0, solver::Vector3::Zero(), solver::Matrix3::Identity()));
-    solver::Joint joint;
-    joint.name = "slide";
-    joint.type = solver::JointType::prismatic;
-    joint.actuated = true;
-    joint.max_effort = max_effort;
-    builder.add_link(
-        "carriage", "rail", {}, joint,
-        solver::RigidInertia::from_com(mass, solver::Vector3::Zero(), solver::Matrix3::Identity()));
-    return builder.build();
-  }
-  static solver::Row row(double b, double bound, int level) {
-    solver::Row r;
-    r.body = 1;
-    r.a.linear = solver::Vector3::UnitX();
-    r.b = b;
-    r.lo = -bound;
-    r.hi = bound;
-    r.level = level;
-    return r;
-  }
-  static constexpr double mass = 10.0;
-  static constexpr double none = std::numeric_limits<double>::infinity();
-};
+constexpr double none = solver::infinity;
+
+solver::Row drive(double b, double bound, int level) {
+  return solver::test::along_rail(solver::RowKind::driver, b, bound, level);
+}
 
 OracleSolution solve_carriage(double max_effort, const std::vector<solver::Row>& rows) {
-  const solver::Model model = Carriage::model(max_effort);
+  const solver::Model model = solver::test::carriage(max_effort);
   const solver::State state(model);
   OracleSolution s = solve(model, state, rows);
   EXPECT_LT(s.error, 1e-15L);
@@ -118,29 +95,28 @@ double value(Real x) {
 }
 
 TEST(OracleLevels, ForceInsideItsBoundMovesAndABoundLimits) {
-  OracleSolution s = solve_carriage(Carriage::none, {Carriage::row(2.0, 50.0, 1)});
+  OracleSolution s = solve_carriage(none, {drive(2.0, 50.0, 1)});
   EXPECT_NEAR(value(s.rows[0].nu), 20.0, 1e-14);
   EXPECT_NEAR(value(s.tau[0]), 20.0, 1e-14);
-  s = solve_carriage(Carriage::none, {Carriage::row(2.0, 15.0, 1)});
+  s = solve_carriage(none, {drive(2.0, 15.0, 1)});
   EXPECT_NEAR(value(s.rows[0].nu), 15.0, 1e-14);
   EXPECT_NEAR(value(s.rows[0].residual), -0.5, 1e-15);
-  s = solve_carriage(12.0, {Carriage::row(2.0, 15.0, 1)});
+  s = solve_carriage(12.0, {drive(2.0, 15.0, 1)});
   EXPECT_NEAR(value(s.tau[0]), 12.0, 1e-14);
   EXPECT_NEAR(value(s.rows[0].nu), 12.0, 1e-14);
 }
 
 TEST(OracleLevels, ASaturatedRowKeepsItsForceUnderALowerOne) {
-  const OracleSolution s =
-      solve_carriage(Carriage::none, {Carriage::row(5.0, 15.0, 0), Carriage::row(9.0, 50.0, 1)});
+  const OracleSolution s = solve_carriage(none, {drive(5.0, 15.0, 0), drive(9.0, 50.0, 1)});
   EXPECT_NEAR(value(s.rows[0].nu), 15.0, 1e-14);
   EXPECT_NEAR(value(s.tau[0]), 15.0, 1e-13);
 }
 
 TEST(OracleLevels, AForceRowIsPushedAsFarAsTheMotorGoes) {
-  solver::Row push = Carriage::row(0.0, 20.0, 1);
+  solver::Row push = drive(0.0, 20.0, 1);
   push.kind = solver::RowKind::force;
   push.force = 20.0;
-  OracleSolution s = solve_carriage(Carriage::none, {push});
+  OracleSolution s = solve_carriage(none, {push});
   EXPECT_NEAR(value(s.rows[0].phi), 1.0, 1e-15);
   EXPECT_NEAR(value(s.tau[0]), 20.0, 1e-14);
   s = solve_carriage(15.0, {push});
@@ -149,35 +125,34 @@ TEST(OracleLevels, AForceRowIsPushedAsFarAsTheMotorGoes) {
 }
 
 TEST(OracleLevels, AOneSidedRowAboveBrakesADriverBelow) {
-  solver::Row limit = Carriage::row(1.0, 500.0, 0);
+  solver::Row limit = drive(1.0, 500.0, 0);
   limit.kind = solver::RowKind::upper;
   limit.hi = 0.0;
-  const OracleSolution s = solve_carriage(Carriage::none, {limit, Carriage::row(3.0, 100.0, 1)});
+  const OracleSolution s = solve_carriage(none, {limit, drive(3.0, 100.0, 1)});
   EXPECT_NEAR(value(s.vdot[0]), 1.0, 1e-15);
   EXPECT_NEAR(value(s.tau[0]), 10.0, 1e-14);
 }
 
 TEST(OracleLevels, FadingIsAPullOfTheSameMassTimesItsShare) {
   // R = (1/m) (1 - alpha)/alpha, so nu = b / (1/m + R) = alpha m b.
-  solver::Row row = Carriage::row(2.0, 100.0, 1);
+  solver::Row row = drive(2.0, 100.0, 1);
   row.fade = 0.25;
-  const OracleSolution s = solve_carriage(Carriage::none, {row});
+  const OracleSolution s = solve_carriage(none, {row});
   EXPECT_NEAR(value(s.rows[0].nu), 0.25 * 20.0, 1e-14);
 }
 
 TEST(OracleLevels, AFadingRowAboveResistsInProportion) {
   // Above: frozen at y + R nu = e. Below wants b: with L = 1/m, mu is the compensation. L (nu + mu) + R mu =
   // e and L (nu + mu) = b give mu = (e - b)/R, nu = m b - mu.
-  solver::Row above = Carriage::row(0.0, 100.0, 0);
+  solver::Row above = drive(0.0, 100.0, 0);
   above.fade = 0.5;
-  const OracleSolution s = solve_carriage(Carriage::none, {above, Carriage::row(1.0, 100.0, 1)});
+  const OracleSolution s = solve_carriage(none, {above, drive(1.0, 100.0, 1)});
   EXPECT_NEAR(value(s.vdot[0]), 1.0, 1e-14);
   EXPECT_NEAR(value(s.rows[1].nu), 20.0, 1e-13);
 }
 
 TEST(OracleLevels, DuplicateRowsShareTheirForce) {
-  const OracleSolution s =
-      solve_carriage(Carriage::none, {Carriage::row(2.0, 50.0, 1), Carriage::row(2.0, 50.0, 1)});
+  const OracleSolution s = solve_carriage(none, {drive(2.0, 50.0, 1), drive(2.0, 50.0, 1)});
   EXPECT_NEAR(value(s.rows[0].nu), 10.0, 1e-14);
   EXPECT_NEAR(value(s.rows[1].nu), 10.0, 1e-14);
 }

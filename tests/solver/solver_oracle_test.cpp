@@ -1,5 +1,6 @@
 // The solver's sweeps and active set against the dense oracle on seeded random problems.
-// ZWANG_ORACLE_PROBLEMS sets how many a test draws, ZWANG_ORACLE_SEED where they start.
+// ZWANG_ORACLE_PROBLEMS sets how many a test draws (all together 10 098 by default), ZWANG_ORACLE_SEED where
+// they start.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -32,7 +33,7 @@ Family family(const std::string& name) {
   Family f{{}, no_limit, no_limit};
   RowOptions& o = f.rows;
   // Everything off; each family switches on what its name says.
-  o.one_sided = o.force = o.fading = o.duplicate = o.relative = 0.0;
+  o.one_sided = o.force = o.fading = o.duplicate = o.relative = o.weight = o.sum = 0.0;
   o.bound = 1e4;
   o.count = 3;
   if (name == "equalities") return f;
@@ -48,6 +49,13 @@ Family family(const std::string& name) {
   if (name == "levels_fading") o.levels = 2, o.count = 6, o.bound = 60.0, o.fading = 0.4, o.one_sided = 0.3;
   if (name == "levels_torque") {
     o.levels = 2, o.count = 6, o.bound = 60.0, f.least_effort = 1.0, f.most_effort = 20.0;
+  }
+  if (name == "weights") o.weight = 0.7, o.fading = 0.3, o.bound = 60.0, o.one_sided = 0.3;
+  if (name == "levels_weights") o.levels = 2, o.count = 6, o.weight = 0.6, o.fading = 0.2, o.one_sided = 0.3;
+  if (name == "sums") o.sum = 0.4, o.count = 5, o.bound = 60.0;
+  if (name == "levels_sums") {
+    o.levels = 3, o.count = 8, o.sum = 0.3, o.bound = 60.0, o.force = 0.2, o.one_sided = 0.3;
+    o.fading = 0.2, f.least_effort = 2.0, f.most_effort = 40.0;
   }
   if (name == "everything") {
     f.rows = RowOptions{};
@@ -68,6 +76,11 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
   return out << c.family << " " << to_string(c.robot);
 }
 
+/// Ground whose wheels contradict each other nearly amplifies the sweeps' rounding.
+constexpr double ill_condition = 1e5;
+constexpr double tolerance = 1e-9;
+constexpr double tolerance_if_ill_conditioned = 1e-7;
+
 class SolverOracle : public testing::TestWithParam<Case> {
  protected:
   static void TearDownTestSuite() {
@@ -82,35 +95,52 @@ class SolverOracle : public testing::TestWithParam<Case> {
       }
       passed += count;
     }
-    std::printf("\n");
+    const Difference& w = worst();
+    std::printf(
+        "\nworst difference: tau %.1e  qdd %.1e  bodies %.1e  phi %.1e  nu %.1e  shortest nu %.1e  residual "
+        "%.1e\n",
+        w.tau, w.qdd, w.bodies, w.phi, w.nu, w.shortest, w.residual);
   }
   /// How many problems took how many iterations, all stages together.
   static std::map<int, long>& iterations() {
     static std::map<int, long> counts;
     return counts;
   }
+  /// Of the problems that are judged by `tolerance`.
+  static Difference& worst() {
+    static Difference largest;
+    return largest;
+  }
+  static void note(const Difference& d) {
+    Difference& w = worst();
+    for (double Difference::*const kind :
+         {&Difference::tau, &Difference::qdd, &Difference::bodies, &Difference::phi, &Difference::nu,
+          &Difference::shortest, &Difference::residual}) {
+      w.*kind = std::max(w.*kind, d.*kind);
+    }
+  }
 };
 
 std::string describe(const std::vector<solver::Row>& rows, const solver::Solution& got,
                      const OracleSolution& want) {
-  static const char* const kinds[] = {"driver", "upper", "lower", "force"};
+  static const char* const kinds[] = {"driver", "upper", "lower", "force", "sum"};
   static const char* const statuses[] = {"held",        "force_limited", "torque_limited",
                                          "unreachable", "blocked",       "conflict"};
   std::string out;
   char line[400];
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const solver::Row& r = rows[i];
-    std::snprintf(
-        line, sizeof line,
-        "    %zu %-6s level %d body %d/%d b %.4f f %.3f [%.3f, %.3f] fade %.3f: nu %.9g want %.9g%s, phi "
-        "%.6g want %.6Lg, s %.3g want %.3Lg, %s\n",
-        i, kinds[static_cast<int>(r.kind)], r.level, r.body, r.reference_body, r.b, r.force, r.lo, r.hi,
-        r.fade, got.rows[i].nu, static_cast<double>(want.rows[i].nu),
-        want.rows[i].idle     ? " (idle)"
-        : want.rows[i].unique ? ""
-                              : " (not unique)",
-        got.rows[i].phi, want.rows[i].phi, got.rows[i].residual, want.rows[i].residual,
-        statuses[static_cast<int>(got.rows[i].status)]);
+    std::snprintf(line, sizeof line,
+                  "    %zu %-6s level %d body %d/%d b %.4f f %.3f [%.3f, %.3f] weight %.3g fade %.3f: nu "
+                  "%.9g want %.9g%s, phi "
+                  "%.6g want %.6Lg, s %.3g want %.3Lg, %s\n",
+                  i, kinds[static_cast<int>(r.kind)], r.level, r.body, r.reference_body, r.b, r.force, r.lo,
+                  r.hi, r.weight, r.fade, got.rows[i].nu, static_cast<double>(want.rows[i].nu),
+                  want.rows[i].idle     ? " (idle)"
+                  : want.rows[i].unique ? ""
+                                        : " (not unique)",
+                  got.rows[i].phi, want.rows[i].phi, got.rows[i].residual, want.rows[i].residual,
+                  statuses[static_cast<int>(got.rows[i].status)]);
     out += line;
   }
   return out;
@@ -118,9 +148,8 @@ std::string describe(const std::vector<solver::Row>& rows, const solver::Solutio
 
 TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
   const Family f = family(GetParam().family);
-  const int problems = setting("ZWANG_ORACLE_PROBLEMS", 12);
+  const int problems = setting("ZWANG_ORACLE_PROBLEMS", 54);
   const int first = setting("ZWANG_ORACLE_SEED", 1);
-  double worst = 0.0;
   int failures = 0;
   for (int seed = first; seed < first + problems; ++seed) {
     Random random(static_cast<std::uint64_t>(seed) * 7919u + static_cast<std::uint64_t>(GetParam().robot));
@@ -142,26 +171,35 @@ TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
     const Difference d = difference(model, rows, got, want);
     ++iterations()[got.iterations];
     const double off = d.worst();
-    worst = std::max(worst, off);
-    if (status == solver::Status::ok && off < 1e-9 && d.same_mobility) continue;
+    const bool is_solved = status == solver::Status::ok && d.same_mobility;
+    if (is_solved && off < tolerance) {
+      note(d);
+      continue;
+    }
+    const auto condition = static_cast<double>(ground_condition(model, measured));
+    if (is_solved && condition > ill_condition && off < tolerance_if_ill_conditioned) {
+      std::printf("%s %s, seed %d: off by %.1e, condition of the ground %.1e\n", GetParam().family.c_str(),
+                  to_string(GetParam().robot), seed, off, condition);
+      continue;
+    }
     ++failures;
     if (failures > 3) continue;  // enough to look into
-    ADD_FAILURE() << "seed " << seed << ", " << to_string(status) << ", effort " << effort << ", "
-                  << got.iterations << " iterations, mobility " << got.mobility << " want " << want.mobility
-                  << "\n  tau " << d.tau << " qdd " << d.qdd << " bodies " << d.bodies << " phi " << d.phi
-                  << " nu " << d.nu << " shortest nu " << d.shortest << " residual " << d.residual
-                  << "\n  tau  " << got.tau.transpose() << "\n  want " << want.tau.transpose() << "\n"
+    ADD_FAILURE() << "seed " << seed << ", condition " << condition << ", " << to_string(status)
+                  << ", effort " << effort << ", " << got.iterations << " iterations, mobility "
+                  << got.mobility << " want " << want.mobility << "\n  tau " << d.tau << " qdd " << d.qdd
+                  << " bodies " << d.bodies << " phi " << d.phi << " nu " << d.nu << " shortest nu "
+                  << d.shortest << " residual " << d.residual << "\n  tau  " << got.tau.transpose()
+                  << "\n  want " << want.tau.transpose() << "\n"
                   << describe(rows, got, want);
   }
   EXPECT_EQ(failures, 0) << "of " << problems;
-  RecordProperty("worst", std::to_string(worst));
 }
 
 std::vector<Case> cases() {
   std::vector<Case> out;
-  for (const char* name :
-       {"equalities", "relative", "one_sided", "bounds", "duplicates", "fading", "torque", "force", "levels",
-        "levels_force", "levels_fading", "levels_torque", "everything"}) {
+  for (const char* name : {"equalities", "relative", "one_sided", "bounds", "duplicates", "fading", "torque",
+                           "force", "levels", "levels_force", "levels_fading", "levels_torque", "weights",
+                           "levels_weights", "sums", "levels_sums", "everything"}) {
     for (const Robot robot : all_robots) out.push_back({name, robot});
   }
   return out;

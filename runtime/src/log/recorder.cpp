@@ -1,12 +1,9 @@
 #include "zwang/runtime/recorder.hpp"
 
 #include <atomic>
-#include <cerrno>
-#include <charconv>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 #include <cstring>
+#include <exception>
 #include <mutex>
 #include <stdexcept>
 #include <thread>
@@ -16,35 +13,17 @@ namespace zwang::runtime {
 namespace {
 
 constexpr auto idle = std::chrono::milliseconds(5);  // between two looks at an empty ring
-constexpr int significant_digits = 9;
-constexpr std::size_t longest_number = 32;
 
-void append_number(std::string& line, double value) {
-  char digits[longest_number];
-  // Negative zero would make two equal states differ in the log.
-  const auto end = std::to_chars(digits, digits + longest_number, value == 0.0 ? 0.0 : value,
-                                 std::chars_format::general, significant_digits);
-  line.append(digits, end.ptr);
-}
-
-void append_value(std::string& line, const Column& column, double value) {
-  if (std::isnan(value)) return;
-  if (column.words.empty()) {
-    append_number(line, value);
-    return;
+/// What a sink says, thrown or returned.
+template <typename Call>
+std::string complaint(const Call& call) {
+  try {
+    return call();
+  } catch (const std::exception& e) {
+    return std::string("a log sink failed: ") + e.what();
+  } catch (...) {
+    return "a log sink failed";
   }
-  const auto index = static_cast<std::size_t>(value);
-  if (value >= 0.0 && index < column.words.size()) line += column.words[index];
-}
-
-std::string header(const std::vector<Column>& columns) {
-  std::string line;
-  for (const Column& column : columns) {
-    if (!line.empty()) line += ',';
-    line += column.name;
-    if (!column.unit.empty()) line += " [" + column.unit + "]";
-  }
-  return line + "\n";
 }
 
 }  // namespace
@@ -52,91 +31,102 @@ std::string header(const std::vector<Column>& columns) {
 /// A ring with one producer (the control thread) and one consumer (the writer's thread). `head` and `tail`
 /// only grow; a slot is theirs modulo the capacity.
 struct Recorder::Writer {
-  Writer(const std::filesystem::path& path, std::vector<Column> given, std::size_t slots)
+  struct Output {
+    std::unique_ptr<LogSink> sink;
+    bool failed = false;
+  };
+
+  Writer(std::vector<std::unique_ptr<LogSink>> given_sinks, std::vector<Column> given, std::size_t slots)
       : columns(std::move(given)), capacity(slots), ring(slots * columns.size()) {
-    file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr) {
-      fail(path.string() + ": " + std::strerror(errno));
-    } else {
-      put(header(columns));
-    }
+    for (std::unique_ptr<LogSink>& sink : given_sinks) outputs.push_back({std::move(sink)});
+    each([this](LogSink& sink) { return sink.open(columns); });
     thread = std::thread([this] { run(); });
   }
 
-  void fail(const std::string& what) {
+  /// Whether every sink did what was asked.
+  template <typename Call>
+  bool each(const Call& call) {
+    bool good = true;
+    for (Output& output : outputs) {
+      if (!output.failed) {
+        const std::string said = complaint([&] { return call(*output.sink); });
+        if (!said.empty()) fail(output, said);
+      }
+      good = good && !output.failed;
+    }
+    return good;
+  }
+
+  void fail(Output& output, const std::string& what) {
+    output.failed = true;
     const std::lock_guard lock(error_mutex);
     if (error.empty()) error = what;
   }
 
-  bool put(const std::string& text) {
-    if (file == nullptr) return false;
-    if (std::fwrite(text.data(), 1, text.size(), file) == text.size()) return true;
-    give_up();
-    return false;
-  }
-
-  void flush() {
-    if (file != nullptr && std::fflush(file) != 0) give_up();
-  }
-
-  void give_up() {
-    fail(std::string("the log could not be written: ") + std::strerror(errno));
-    std::fclose(file);
-    file = nullptr;
-  }
-
   void run() {
-    std::string line;
     while (true) {
       const bool last_look = closing.load(std::memory_order_acquire);
-      drain(line);
+      drain();
       if (last_look) break;
       std::this_thread::sleep_for(idle);
     }
-    if (file != nullptr && std::fclose(file) != 0) {
-      fail(std::string("the log could not be closed: ") + std::strerror(errno));
+    // A sink that failed has a file to close all the same.
+    for (Output& output : outputs) {
+      const std::string said = complaint([&] { return output.sink->close(); });
+      if (!said.empty()) fail(output, said);
     }
-    file = nullptr;
   }
 
-  void drain(std::string& line) {
+  void drain() {
     const std::uint64_t end = head.load(std::memory_order_acquire);
     std::uint64_t begin = tail.load(std::memory_order_relaxed);
     if (begin == end) return;
     std::uint64_t count = 0;
     for (; begin != end; ++begin) {
-      const double* values = &ring[static_cast<std::size_t>(begin % capacity) * columns.size()];
-      line.clear();
-      for (std::size_t i = 0; i < columns.size(); ++i) {
-        if (i > 0) line += ',';
-        append_value(line, columns[i], values[i]);
-      }
-      line += '\n';
+      const std::span<const double> values(&ring[static_cast<std::size_t>(begin % capacity) * columns.size()],
+                                           columns.size());
+      if (each([&](LogSink& sink) { return sink.write(values); })) ++count;
       tail.store(begin + 1, std::memory_order_release);
-      if (put(line)) ++count;
     }
-    flush();
-    if (file != nullptr) written.fetch_add(count, std::memory_order_relaxed);
+    if (each([](LogSink& sink) { return sink.flush(); })) written.fetch_add(count, std::memory_order_relaxed);
   }
 
   const std::vector<Column> columns;
   const std::size_t capacity;
   std::vector<double> ring;
+  std::vector<Output> outputs;  // the writer's thread's own
   std::atomic<std::uint64_t> head{0};
   std::atomic<std::uint64_t> tail{0};
   std::atomic<std::uint64_t> written{0};
   std::atomic<std::uint64_t> dropped{0};
   std::atomic<bool> closing{false};
-  std::FILE* file = nullptr;
   mutable std::mutex error_mutex;  // never taken by the control thread
   std::string error;
   std::thread thread;
 };
 
-Recorder::Recorder(const std::filesystem::path& path, std::vector<Column> columns, std::size_t capacity) {
-  if (columns.empty() || capacity == 0) throw std::invalid_argument("recorder: no columns, or no room");
-  writer_ = std::make_unique<Writer>(path, std::move(columns), capacity);
+namespace {
+
+std::vector<std::unique_ptr<LogSink>> only(std::unique_ptr<LogSink> sink) {
+  std::vector<std::unique_ptr<LogSink>> sinks;
+  sinks.push_back(std::move(sink));
+  return sinks;
 }
+
+}  // namespace
+
+Recorder::Recorder(std::vector<std::unique_ptr<LogSink>> sinks, std::vector<Column> columns,
+                   std::size_t capacity) {
+  if (columns.empty() || capacity == 0) throw std::invalid_argument("recorder: no columns, or no room");
+  if (sinks.empty()) throw std::invalid_argument("recorder: nowhere to write");
+  for (const std::unique_ptr<LogSink>& sink : sinks) {
+    if (!sink) throw std::invalid_argument("recorder: a sink is null");
+  }
+  writer_ = std::make_unique<Writer>(std::move(sinks), std::move(columns), capacity);
+}
+
+Recorder::Recorder(const std::filesystem::path& path, std::vector<Column> columns, std::size_t capacity)
+    : Recorder(only(csv_sink(path)), std::move(columns), capacity) {}
 
 Recorder::~Recorder() {
   close();

@@ -53,6 +53,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
     using solver::Quantity;
     const auto unit = [&](Quantity quantity) { return std::string(unit_of(s.says.axis, quantity)); };
     StatementColumns c;
+    const std::size_t first = columns_.size();
     const bool ranges = s.says.position || s.says.velocity || s.says.acceleration;
     if (s.says.driver || ranges) {
       c.position = add(s.name + ".position", unit(Quantity::position));
@@ -67,6 +68,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
       c.residual = add(s.name + ".residual", unit(Quantity::acceleration));
     }
     if (ranges) c.limit_nu = add(s.name + ".limit_nu", unit(Quantity::force));
+    for (std::size_t i = first; i < columns_.size(); ++i) columns_[i].span = s.says.span;
     of_statement_.push_back(c);
   }
   for (const lang::Task& t : scheduler.tasks()) {

@@ -11,7 +11,6 @@ constexpr double unreachable_share = 1e-8;      // A Mc A' over A M^-1 A'
 constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
 constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
 constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
-constexpr double bound_tolerance = 1e-9;        // relative: when nu counts as being at its bound
 constexpr double motor_rank_tolerance = 1e-12;  // of a pivot of T'T, relative to its trace
 
 /// One-sided rows push harder than any driver can, and harder the higher they rank: so where ranges
@@ -34,22 +33,23 @@ double nonzero(double length) {
 }  // namespace
 
 BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
-    : B_(Eigen::MatrixXd::Zero(rows, dimension)),
-      T_(Eigen::MatrixXd::Zero(motors, dimension)),
-      V_(Eigen::MatrixXd::Zero(rows, dimension)),
-      P_(Eigen::MatrixXd::Zero(rows, dimension)),
-      d_(Eigen::VectorXd::Zero(rows)),
-      tau_(Eigen::VectorXd::Zero(motors)),
-      tau_lo_(Eigen::VectorXd::Zero(motors)),
-      tau_hi_(Eigen::VectorXd::Zero(motors)),
-      candidate_(Eigen::VectorXd::Zero(motors)),
-      p_(Eigen::VectorXd::Zero(dimension)),
-      fixed_(Eigen::VectorXd::Zero(dimension)),
-      work_(Eigen::VectorXd::Zero(dimension)),
-      solved_(Eigen::VectorXd::Zero(dimension)),
-      F_(Eigen::MatrixXd::Zero(dimension, dimension)),
-      frozen_(Eigen::MatrixXd::Zero(dimension, dimension)),
-      gram_(Eigen::MatrixXd::Zero(dimension, dimension)),
+    : B_(RowMajorMatrix::Zero(rows, dimension)),
+      T_(RowMajorMatrix::Zero(motors, dimension)),
+      V_(RowMajorMatrix::Zero(rows, dimension)),
+      P_(RowMajorMatrix::Zero(rows, dimension)),
+      d_(Vector::Zero(rows)),
+      tau_(Vector::Zero(motors)),
+      tau_lo_(Vector::Zero(motors)),
+      tau_hi_(Vector::Zero(motors)),
+      candidate_(Vector::Zero(motors)),
+      motor_length_(Vector::Zero(motors)),
+      p_(Vector::Zero(dimension)),
+      fixed_(Vector::Zero(dimension)),
+      work_(Vector::Zero(dimension)),
+      solved_(Vector::Zero(dimension)),
+      F_(RowMajorMatrix::Zero(dimension, dimension)),
+      frozen_(RowMajorMatrix::Zero(dimension, dimension)),
+      gram_(RowMajorMatrix::Zero(dimension, dimension)),
       entries_(static_cast<std::size_t>(rows)),
       solutions_(static_cast<std::size_t>(rows)),
       program_(2 * rows + motors, dimension, dimension + rows) {
@@ -64,7 +64,7 @@ void BoundedProblem::resize(int rows, int motors, int dimension) noexcept {
   dimension_ = dimension;
 }
 
-void BoundedProblem::set_row(int i, const Row& row, double free_share) noexcept {
+void BoundedProblem::set_row(int i, const Row& row, double unconstrained) noexcept {
   Entry& e = entry(i);
   e = Entry{};
   e.kind = row.kind;
@@ -72,10 +72,16 @@ void BoundedProblem::set_row(int i, const Row& row, double free_share) noexcept 
   e.level = row.level;
   e.lo = row.lo;
   e.hi = row.hi;
+  e.weight = row.weight;
   e.fade = std::clamp(row.fade, 0.0, 1.0);
   e.force = e.fade * row.force;
-  e.length = B(i).norm();
-  if (free_share < unreachable_share || e.fade == 0.0) {
+  const double squared = dot(dimension_, &B_(i, 0), &B_(i, 0));
+  e.length = std::sqrt(squared);
+  if (e.kind == RowKind::sum && e.fade > 0.0) {
+    e.lo /= e.fade;
+    e.hi /= e.fade;
+  }
+  if (!(squared >= unreachable_share * unconstrained) || squared == 0.0 || e.fade == 0.0) {
     e.out = true;
     e.status = RowStatus::unreachable;
   }
@@ -90,17 +96,20 @@ void BoundedProblem::set_motor(int j, double lowest, double highest) noexcept {
 bool BoundedProblem::solve(int max_iterations) noexcept {
   iterations_ = 0;
   frozen_count_ = 0;
-  F_.topLeftCorner(dimension_, dimension_).setIdentity();
+  all_free_ = true;
   p_.head(dimension_).setZero();
   tau_.head(motors_).setZero();
+  torques_are_least_ = true;
   bool exact = true;
   factorise_motors();
   bound_rows();
-  for (int level = next_level(-1); level >= 0; level = next_level(level)) {
+  for (int level = next_level(-1), below = 0; level >= 0; level = below) {
+    below = next_level(level);
     project_rows(level);
+    start_sums(level);
     exact = solve_forces(level, max_iterations) && exact;
     exact = solve_motion(level, max_iterations) && exact;
-    freeze(level);
+    if (below >= 0) freeze(level);
   }
   exact = least_torques(max_iterations) && exact;
   report();
@@ -119,21 +128,16 @@ int BoundedProblem::next_level(int after) const noexcept {
 /// T'T, whose inverse gives the torques of least norm. Without full rank the motors do not reach every
 /// motion.
 void BoundedProblem::factorise_motors() noexcept {
-  auto gram = gram_.topLeftCorner(dimension_, dimension_);
-  gram.noalias() = T_.topLeftCorner(motors_, dimension_).transpose() * T_.topLeftCorner(motors_, dimension_);
-  motors_reach_all_ = true;
-  const double least_pivot = motor_rank_tolerance * gram.trace();
-  for (int k = 0; k < dimension_; ++k) {  // Cholesky in place, lower
-    const double pivot = gram(k, k) - gram.row(k).head(k).squaredNorm();
-    if (!(pivot > least_pivot)) {
-      motors_reach_all_ = false;
-      return;
-    }
-    gram(k, k) = std::sqrt(pivot);
-    for (int i = k + 1; i < dimension_; ++i) {
-      gram(i, k) = (gram(i, k) - gram.row(i).head(k).dot(gram.row(k).head(k))) / gram(k, k);
-    }
+  double trace = 0.0;
+  for (int k = 0; k < dimension_; ++k) std::fill_n(&gram_(k, 0), k + 1, 0.0);
+  for (int j = 0; j < motors_; ++j) {
+    const double* const T = &T_(j, 0);
+    for (int k = 0; k < dimension_; ++k) add_multiple(k + 1, T[k], T, &gram_(k, 0));
+    const double squared = dot(dimension_, T, T);
+    motor_length_(j) = std::sqrt(squared);
+    trace += squared;
   }
+  motors_reach_all_ = factorise(gram_, dimension_, motor_rank_tolerance * trace);
 }
 
 /// No multiplier is unbounded: what the motors can do along a row bounds it, one-sided rows by a multiple of
@@ -147,7 +151,7 @@ void BoundedProblem::bound_rows() noexcept {
   if (scale == 0.0) scale = 1.0;
   for (int i = 0; i < rows_; ++i) {
     Entry& e = entry(i);
-    if (e.out) continue;
+    if (e.out || e.kind == RowKind::sum) continue;
     double force = largest_force(i);
     if (force == 0.0) {
       e.out = true;
@@ -163,25 +167,36 @@ void BoundedProblem::bound_rows() noexcept {
 
 /// Upper bound of |nu| with B_i nu = T'tau: both sides times B_i.
 double BoundedProblem::largest_force(int i) noexcept {
+  const double length = entry(i).length;
   double sum = 0.0;
   for (int j = 0; j < motors_; ++j) {
-    const double along = std::abs(B_.row(i).head(dimension_).dot(T_.row(j).head(dimension_)));
-    if (along > driven_share * T(j).norm() * entry(i).length)
-      sum += along * std::max(-tau_lo_(j), tau_hi_(j));
+    const double share = std::abs(dot(dimension_, &B_(i, 0), &T_(j, 0)));
+    if (share > driven_share * motor_length_(j) * length) sum += share * std::max(-tau_lo_(j), tau_hi_(j));
   }
-  const double length = B_.row(i).head(dimension_).squaredNorm();
-  return length > 0.0 ? sum / length : 0.0;
+  return length > 0.0 ? sum / (length * length) : 0.0;
 }
 
 /// V_i = F'B_i and P_i = F V_i = K B_i: the row as the levels above let it act.
 void BoundedProblem::project_rows(int level) noexcept {
-  const auto F = F_.topLeftCorner(dimension_, dimension_);
   for (int i = 0; i < rows_; ++i) {
-    V(i).noalias() = B(i) * F;
-    const bool blocked = V(i).squaredNorm() <= blocked_share * entry(i).length * entry(i).length;
-    if (entry(i).level == level) entry(i).blocked = blocked;
-    if (blocked) V(i).setZero();
-    P(i).noalias() = V(i) * F.transpose();
+    Entry& e = entry(i);
+    const bool is_posed = e.level == level || (e.level < level && is_one_sided(i));
+    if (e.out || !is_posed) continue;
+    double* const V = &V_(i, 0);
+    double* const P = &P_(i, 0);
+    if (all_free_) {
+      std::copy_n(&B_(i, 0), dimension_, V);
+      std::copy_n(&B_(i, 0), dimension_, P);
+      e.reach = e.length;
+      continue;
+    }
+    std::fill_n(V, dimension_, 0.0);
+    for (int k = 0; k < dimension_; ++k) add_multiple(dimension_, B_(i, k), &F_(k, 0), V);
+    const double squared = dot(dimension_, V, V);
+    const bool blocked = squared <= blocked_share * e.length * e.length;
+    if (e.level == level) e.blocked = blocked;
+    e.reach = blocked ? 0.0 : std::sqrt(squared);
+    for (int k = 0; k < dimension_; ++k) P[k] = blocked ? 0.0 : dot(dimension_, V, &F_(k, 0));
   }
 }
 
@@ -190,9 +205,14 @@ bool BoundedProblem::is_one_sided(int i) const noexcept {
   return kind == RowKind::upper || kind == RowKind::lower;
 }
 
+bool BoundedProblem::is_motion(int i) const noexcept {
+  return is_one_sided(i) || entries_[static_cast<std::size_t>(i)].kind == RowKind::driver;
+}
+
 /// A row takes part in a stage while something of it is left free.
 bool BoundedProblem::takes_part(int i) const noexcept {
-  return !entries_[static_cast<std::size_t>(i)].out && V_.row(i).head(dimension_).squaredNorm() > 0.0;
+  const Entry& e = entries_[static_cast<std::size_t>(i)];
+  return !e.out && e.reach > 0.0;
 }
 
 /// Below its own level a row holds what it reached with whatever that takes.
@@ -202,8 +222,16 @@ Range BoundedProblem::bounds_at(int i, int level) const noexcept {
   return {e.kind == RowKind::lower ? 0.0 : -infinity, e.kind == RowKind::upper ? 0.0 : infinity};
 }
 
-/// R = L_jj (1 - alpha)/alpha.
+/// R = 1/w + L_jj (1 - alpha)/alpha, at the row's own level.
 double BoundedProblem::softness(int i) const noexcept {
+  const Entry& e = entries_[static_cast<std::size_t>(i)];
+  return (is_motion(i) ? 1.0 / e.weight : 0.0) + held_softness(i);
+}
+
+/// Of what a row keeps against the levels below it. A weight decides how much of b is worth reaching; what
+/// was reached is kept firmly. A fading row lets go in the measure that it fades, so that it never does in
+/// one step.
+double BoundedProblem::held_softness(int i) const noexcept {
   const Entry& e = entries_[static_cast<std::size_t>(i)];
   return e.fade < 1.0 ? e.length * e.length * (1.0 - e.fade) / e.fade : 0.0;
 }
@@ -215,69 +243,30 @@ double BoundedProblem::softness(int i) const noexcept {
 ///
 /// A hard row (R = 0) closes its direction, a soft one makes the robot heavier along it.
 void BoundedProblem::freeze(int level) noexcept {
-  auto F = F_.topLeftCorner(dimension_, dimension_);
+  double* const v = solved_.data();
+  double* const Fv = work_.data();
   for (int i = 0; i < rows_; ++i) {
     const Entry& e = entry(i);
-    if (e.level != level || is_one_sided(i) || !takes_part(i)) continue;
+    if (e.level != level || is_one_sided(i) || e.kind == RowKind::sum || !takes_part(i)) continue;
     if (frozen_count_ == dimension_) return;
-    auto v = solved_.head(dimension_);
-    v.noalias() = F.transpose() * B(i).transpose();
+    if (all_free_) F_.topLeftCorner(dimension_, dimension_).setIdentity();
+    all_free_ = false;
+    std::fill_n(v, dimension_, 0.0);
+    for (int k = 0; k < dimension_; ++k) add_multiple(dimension_, B_(i, k), &F_(k, 0), v);
     for (int c = 0; c < frozen_count_; ++c) {
-      const auto other = frozen_.col(c).head(dimension_);
-      v -= other.dot(v) * other;
+      add_multiple(dimension_, -dot(dimension_, &frozen_(c, 0), v), &frozen_(c, 0), v);
     }
-    const double left = v.squaredNorm();
+    const double left = dot(dimension_, v, v);
     if (left <= dependent_share * e.length * e.length) continue;
-    const double R = softness(i);
-    if (R == 0.0) frozen_.col(frozen_count_++).head(dimension_) = v / std::sqrt(left);
-    work_.head(dimension_).noalias() = F * v;
-    work_.head(dimension_) *= (1.0 - std::sqrt(R / (R + left))) / left;
-    F.noalias() -= work_.head(dimension_) * v.transpose();
-  }
-}
-
-void BoundedProblem::report() noexcept {
-  bool motor_at_limit = false;
-  for (int j = 0; j < motors_; ++j) {
-    const double width = bound_tolerance * (tau_hi_(j) - tau_lo_(j));
-    if (!std::isfinite(width)) continue;
-    motor_at_limit = motor_at_limit || tau_(j) <= tau_lo_(j) + width || tau_(j) >= tau_hi_(j) - width;
-  }
-  for (int i = 0; i < rows_; ++i) {
-    const Entry& e = entry(i);
-    RowSolution& row = solutions_[static_cast<std::size_t>(i)];
-    row = RowSolution{};
-    if (e.kind == RowKind::force) {
-      row.phi = e.phi;
-      row.nu = e.phi * e.force;
-      row.saturated = e.phi < 1.0 - bound_tolerance;
-      row.status = e.out           ? e.status
-                   : e.blocked     ? RowStatus::blocked
-                   : row.saturated ? RowStatus::torque_limited
-                                   : RowStatus::held;
-      continue;
+    const double R = held_softness(i);
+    if (R == 0.0) {
+      double* const frozen = &frozen_(frozen_count_++, 0);
+      std::fill_n(frozen, dimension_, 0.0);
+      add_multiple(dimension_, 1.0 / std::sqrt(left), v, frozen);
     }
-    const double s = B(i).dot(p_.head(dimension_)) - d_(i);
-    row.nu = e.out ? 0.0 : e.nu;
-    row.residual = e.kind == RowKind::upper   ? std::max(s, 0.0)
-                   : e.kind == RowKind::lower ? std::min(s, 0.0)
-                                              : s;
-    const double width = bound_tolerance * std::max(1.0, std::max(std::abs(e.lo), std::abs(e.hi)));
-    const bool at_low = e.nu <= e.lo + width && e.lo < 0.0;
-    const bool at_high = e.nu >= e.hi - width && e.hi > 0.0;
-    row.saturated = !e.out && (at_low || at_high);
-    const bool met = std::abs(row.residual) <= 1e-8 * (1.0 + std::abs(d_(i)));
-    if (met || (is_soft(i) && !row.saturated && !e.out)) {
-      row.status = e.out && !met ? e.status : RowStatus::held;
-    } else if (e.out) {
-      row.status = e.status;
-    } else if (row.saturated) {
-      row.status = is_one_sided(i) ? RowStatus::conflict : RowStatus::force_limited;
-    } else if (e.blocked) {
-      row.status = RowStatus::blocked;
-    } else {
-      row.status = motor_at_limit ? RowStatus::torque_limited : RowStatus::conflict;
-    }
+    const double share = (1.0 - std::sqrt(R / (R + left))) / left;
+    for (int k = 0; k < dimension_; ++k) Fv[k] = share * dot(dimension_, &F_(k, 0), v);
+    for (int k = 0; k < dimension_; ++k) add_multiple(dimension_, -Fv[k], v, &F_(k, 0));
   }
 }
 

@@ -11,12 +11,19 @@
 /// achieved is frozen (B_i.p + R mu_i stays, mu_i free: hard rows close their direction, soft ones yield with
 /// the same R), and higher one-sided rows are posed again and stay as well kept as they were. Within a level
 /// the force rows come first: phi is as near to 1 as the motors allow, then fixed.
+///
+/// A sum S bounds what is pressed along its axis: if the world blocked that axis and nothing else, it would
+/// have to answer with B_S.p / |B_S|^2, to which a row along the same axis adds its nu and any other row its
+/// share B_S.B_i / |B_S|^2. From the level of S on, what is added to p keeps that inside [lo, hi].
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
+#include "base/cholesky.hpp"
 #include "base/quadratic_program.hpp"
+#include "pairs.hpp"
 #include "zwang/solver/constraint.hpp"
 #include "zwang/solver/solver.hpp"
 
@@ -30,7 +37,8 @@ class BoundedProblem {
   auto B(int row) noexcept { return B_.row(row).head(dimension_); }
   auto T(int motor) noexcept { return T_.row(motor).head(dimension_); }
   double& d(int row) noexcept { return d_(row); }
-  void set_row(int row, const Row& source, double free_share) noexcept;
+  /// After B(row): `unconstrained` is A_i M^-1 A_i', what the row would be without the ground.
+  void set_row(int row, const Row& source, double unconstrained) noexcept;
   void set_motor(int motor, double lowest, double highest) noexcept;
 
   /// False when an active set met its iteration cap; all results stay inside their bounds.
@@ -39,30 +47,42 @@ class BoundedProblem {
   const RowSolution& row(int i) const noexcept { return solutions_[static_cast<std::size_t>(i)]; }
   double tau(int motor) const noexcept { return tau_(motor); }
   int iterations() const noexcept { return iterations_; }
+  int opposing(int row, std::span<int> out) noexcept;
 
  private:
   struct Entry {
     RowKind kind = RowKind::driver;
     Quantity quantity = Quantity::velocity;
     int level = 1;
-    double lo = 0.0, hi = 0.0;  ///< of nu, in its own unit, fading included; finite
+    double lo = 0.0, hi = 0.0;  ///< of nu, in its own unit, fading included; finite (but on a sum)
     double force = 0.0;         ///< f, fading included
     double fade = 1.0;
+    double weight = infinity;
     double length = 0.0;   ///< |B_i|
+    double reach = 0.0;    ///< |V_i|, at the present level
+    double above = 0.0;    ///< of a sum: B_S.p / |B_S|^2 of the levels above
     double offset = 0.0;   ///< how far beyond b its own level left a violated one-sided row
     bool blocked = false;  ///< the levels above leave it no freedom
     bool out = false;      ///< unreachable: takes no part
     RowStatus status = RowStatus::held;
     double nu = 0.0, phi = 0.0;
   };
-  auto V(int row) noexcept { return V_.row(row).head(dimension_); }
-  auto P(int row) noexcept { return P_.row(row).head(dimension_); }
+  using Vector = Eigen::VectorXd;
+  /// B_i . p, the acceleration that p makes along row i.
+  double along(int i, const Vector& p) const noexcept { return dot(dimension_, &B_(i, 0), p.data()); }
+  /// p += P_i nu
+  void push(int i, double nu, Vector& p) const noexcept { add_multiple(dimension_, nu, &P_(i, 0), p.data()); }
+  void copy(const Vector& from, Vector& to) const noexcept {
+    std::copy_n(from.data(), dimension_, to.data());
+  }
   Entry& entry(int i) noexcept { return entries_[static_cast<std::size_t>(i)]; }
   bool is_one_sided(int i) const noexcept;
-  bool is_soft(int i) noexcept { return entry(i).fade < 1.0; }
+  bool is_motion(int i) const noexcept;
+  bool is_soft(int i) noexcept { return softness(i) > 0.0; }
   bool takes_part(int i) const noexcept;
   Range bounds_at(int i, int level) const noexcept;
   double softness(int i) const noexcept;
+  double held_softness(int i) const noexcept;
   double largest_force(int row) noexcept;
   int next_level(int after) const noexcept;
 
@@ -74,10 +94,22 @@ class BoundedProblem {
   bool least_multipliers(int level, int max_iterations) noexcept;
   void freeze(int level) noexcept;
   bool least_torques(int max_iterations) noexcept;
-  void report() noexcept;
 
+  void report() noexcept;
+  RowSolution report_force(int i, bool motor_at_limit) noexcept;
+  RowSolution report_sum(int i) noexcept;
+  RowSolution report_motion(int i, bool motor_at_limit) noexcept;
+  bool is_sum_at_bound(int i, double direction) noexcept;
+  bool is_held_by_sum(int i, double wanted) noexcept;
+  double opposition(int k, int i, double wanted, double miss) noexcept;
+
+  void start_sums(int level) noexcept;
+  bool sum_counts(int i, int level) const noexcept;
+  double sum_of(int i, const Vector& p) noexcept;
+  bool sums_hold(int level, const Vector& p) noexcept;
   bool limits_above_hold(int first) noexcept;
-  double room_of(int i, const Eigen::VectorXd& p) noexcept;
+  bool limits_rest(int level) noexcept;
+  double room_of(int i, const Vector& p) noexcept;
   bool brake(int forces, int level, int max_iterations) noexcept;
   bool share_torque(int forces, int level, int max_iterations) noexcept;
 
@@ -87,25 +119,29 @@ class BoundedProblem {
   void pose_multiplier(int k, int level) noexcept;
   void pose_motion(int n, int level, bool with_motors) noexcept;
   void pose_motors(int n, int level) noexcept;
+  void pose_sums(int n, int level, int variable, int equation) noexcept;
   void take_p(int n) noexcept;
   void take_limits(int first) noexcept;
   void take_multipliers(int level) noexcept;
   void take_motors(int first) noexcept;
-  bool torques_for(const Eigen::VectorXd& p) noexcept;
+  bool torques_for(const Vector& p) noexcept;
 
   int rows_ = 0, motors_ = 0, dimension_ = 0, iterations_ = 0;
-  Eigen::MatrixXd B_, T_;
-  Eigen::MatrixXd V_;  ///< B F: rows in the metric that the levels above leave
-  Eigen::MatrixXd P_;  ///< B K: the motion that a unit force along a row makes
-  Eigen::VectorXd d_, tau_, tau_lo_, tau_hi_, candidate_;
-  Eigen::VectorXd p_;      ///< sum of the constraint forces so far
-  Eigen::VectorXd fixed_;  ///< its part that the present stage cannot change
-  Eigen::VectorXd work_, solved_;
-  Eigen::MatrixXd F_;       ///< K = F F': motion by force, under what the levels above have frozen
-  Eigen::MatrixXd frozen_;  ///< orthonormal columns: F times them is 0
+  RowMajorMatrix B_, T_;
+  RowMajorMatrix V_;  ///< B F: rows in the metric that the levels above leave
+  RowMajorMatrix P_;  ///< B K: the motion that a unit force along a row makes
+  Vector d_, tau_, tau_lo_, tau_hi_, candidate_;
+  Vector motor_length_;  ///< |T_j|
+  Vector p_;             ///< sum of the constraint forces so far
+  Vector fixed_;         ///< its part that the present stage cannot change
+  Vector work_, solved_;
+  RowMajorMatrix F_;       ///< K = F F': motion by force, under what the levels above have frozen
+  RowMajorMatrix frozen_;  ///< orthonormal rows: F times them is 0
   int frozen_count_ = 0;
-  Eigen::MatrixXd gram_;  ///< Cholesky factor of T'T
+  bool all_free_ = true;  ///< F is still 1
+  RowMajorMatrix gram_;   ///< Cholesky factor of T'T
   bool motors_reach_all_ = false;
+  bool torques_are_least_ = false;  ///< tau_ are the least ones that make p_
   std::vector<Entry> entries_;
   std::vector<RowSolution> solutions_;
   std::vector<int> posed_;     ///< row of each variable of the present stage

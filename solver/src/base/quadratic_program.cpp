@@ -9,6 +9,7 @@ namespace zwang::solver {
 namespace {
 constexpr double relative_gradient_tolerance = 1e-12;
 constexpr double curvature_tolerance = 1e-12;  // of a reduced Hessian's pivot, relative to its diagonal
+constexpr double ample_curvature = 1e-6;       // the same, of a variable that is superbasic from the start
 constexpr double rank_tolerance = 1e-9;        // of E's columns, which are of length 1
 constexpr double slope_tolerance = 1e3;        // times the gradient tolerance
 constexpr double least_pivot = 1e-11;          // of a basic variable's rate, relative to the largest
@@ -17,8 +18,8 @@ constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
 QuadraticProgram::QuadraticProgram(int n, int d, int m)
-    : V_(Eigen::MatrixXd::Zero(d, n)),
-      E_(Eigen::MatrixXd::Zero(m, n)),
+    : V_(RowMajorMatrix::Zero(n, d)),
+      E_(RowMajorMatrix::Zero(n, m)),
       R_(Eigen::VectorXd::Zero(n)),
       g_(Eigen::VectorXd::Zero(n)),
       lo_(Eigen::VectorXd::Zero(n)),
@@ -29,11 +30,12 @@ QuadraticProgram::QuadraticProgram(int n, int d, int m)
       direction_(Eigen::VectorXd::Zero(n)),
       multipliers_(Eigen::VectorXd::Zero(m)),
       work_(Eigen::VectorXd::Zero(std::max(n, d))),
-      eliminated_(Eigen::MatrixXd::Zero(m, std::max(n, 2 * m))),
-      inverse_basis_(Eigen::MatrixXd::Zero(m, m)),
-      follow_(Eigen::MatrixXd::Zero(m, n)),
-      reduced_V_(Eigen::MatrixXd::Zero(d, n)),
-      cholesky_(Eigen::MatrixXd::Zero(n, n)),
+      step_(Eigen::VectorXd::Zero(n)),
+      eliminated_(RowMajorMatrix::Zero(m, std::max(n, 2 * m))),
+      inverse_basis_(RowMajorMatrix::Zero(m, m)),
+      follow_(RowMajorMatrix::Zero(n, m)),
+      reduced_V_(RowMajorMatrix::Zero(n, d)),
+      factor_(RowMajorMatrix::Zero(n, n)),
       place_(index(n)),
       stuck_(index(n)) {
   basics_.reserve(index(std::max(n, m)));
@@ -45,21 +47,21 @@ void QuadraticProgram::resize(int variables, int curvature_rows, int equality_ro
   variables_ = variables;
   curvature_rows_ = curvature_rows;
   equality_rows_ = equality_rows;
-  V_.topLeftCorner(curvature_rows, variables).setZero();
-  E_.topLeftCorner(equality_rows, variables).setZero();
-  R_.head(variables).setZero();
-  g_.head(variables).setZero();
-  z_.head(variables).setZero();
+  for (int k = 0; k < variables; ++k) {
+    std::fill_n(V(k), curvature_rows, 0.0);
+    std::fill_n(E(k), equality_rows, 0.0);
+    R_(k) = g_(k) = z_(k) = 0.0;
+  }
 }
 
 bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
   choose_basis();
-  superbasics_.clear();
-  bool at_minimum = true;
+  if (!factorise_basis()) return false;
+  choose_superbasics();
+  bool at_minimum = superbasics_.empty();
   int refinements = 0;
   int idle = 0;  // steps of length zero in a row: then take the first way down, so that no cycle can form
   for (int i = 0; i < max_iterations; ++i) {
-    if (!factorise_basis()) return false;
     compute_reduced_gradient();
     // Rounding, or a curvature near nothing, can leave a slope: step again before pricing.
     if (at_minimum && slope_of_superbasics() > slope_tolerance * tolerance_ &&
@@ -73,20 +75,24 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
       if (entering < 0) return true;
       place_[index(entering)] = Place::superbasic;
       superbasics_.push_back(entering);
+      const Curvature curvature = add_superbasic(static_cast<int>(superbasics_.size()) - 1);
+      curved_ = curvature.left > curvature_tolerance * curvature.own;
     }
     ++iterations;
-    const bool curved = reduced_direction();
-    if (!curved && !goes_down()) {
+    curved_ ? newton_step() : flat_line();
+    if (!curved_ && !goes_down()) {
       park(superbasics_.back());
+      reduce();
       at_minimum = superbasics_.empty();
       continue;
     }
-    double length = curved ? 1.0 : infinite_step;
+    double length = curved_ ? 1.0 : infinite_step;
     const int blocking = longest_step(length);
     if (length ==
         infinite_step) {  // no bound on the way: the caller gave an infinite one to a row that cannot hold
       stuck_[index(superbasics_.back())] = 1;
       park(superbasics_.back());
+      reduce();
       continue;
     }
     for (const int k : basics_) z_(k) += length * direction_(k);
@@ -94,8 +100,12 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
     idle = length > 0.0 ? 0 : idle + 1;
     if (blocking >= 0) {
       z_(blocking) = direction_(blocking) > 0.0 ? hi_(blocking) : lo_(blocking);
-      if (place_[index(blocking)] == Place::basic) replace_basic(blocking);
+      if (place_[index(blocking)] == Place::basic) {
+        replace_basic(blocking);
+        if (!factorise_basis()) return false;
+      }
       park(blocking);
+      reduce();
     }
     for (const int k : basics_) z_(k) = std::clamp(z_(k), lo_(k), hi_(k));
     for (const int k : superbasics_) z_(k) = std::clamp(z_(k), lo_(k), hi_(k));
@@ -114,7 +124,7 @@ void QuadraticProgram::choose_basis() noexcept {
   rank_ = 0;
   if (equality_rows_ == 0) return;
   auto M = eliminated_.topLeftCorner(equality_rows_, variables_);
-  M = E_.topLeftCorner(equality_rows_, variables_);
+  M = E_.topLeftCorner(variables_, equality_rows_).transpose();
   for (int k = 0; k < variables_; ++k) {
     const double room = std::min(hi_(k) - z_(k), z_(k) - lo_(k));
     const double width = hi_(k) - lo_(k);
@@ -148,12 +158,37 @@ void QuadraticProgram::choose_basis() noexcept {
   rank_ = static_cast<int>(basics_.size());
 }
 
+/// What stands between its bounds may move at once, as far as it adds curvature of its own: more than the
+/// rounding of what the basic variables, which follow it, add or take away.
+void QuadraticProgram::choose_superbasics() noexcept {
+  superbasics_.clear();
+  curved_ = true;
+  const auto curvature_of = [this](int k) { return dot(curvature_rows_, V(k), V(k)) + R_(k); };
+  double of_basics = 0.0;
+  for (const int k : basics_) of_basics = std::max(of_basics, curvature_of(k));
+  for (int k = 0; k < variables_; ++k) {
+    if (place_[index(k)] != Place::parked || !(z_(k) > lo_(k) && z_(k) < hi_(k))) continue;
+    const auto s = static_cast<int>(superbasics_.size());
+    superbasics_.push_back(k);
+    const Curvature curvature = add_superbasic(s);
+    double moved = 0.0;
+    for (int i = 0; i < rank_; ++i) moved = std::max(moved, follow_(s, i) * follow_(s, i));
+    const double around = std::max(curvature_of(k), moved * of_basics);
+    if (curvature.left > ample_curvature * around) {
+      place_[index(k)] = Place::superbasic;
+    } else {
+      superbasics_.pop_back();
+    }
+  }
+}
+
 /// Gauss-Jordan with row pivoting on [basis | 1].
 bool QuadraticProgram::factorise_basis() noexcept {
+  if (rank_ == 0) return true;
   auto M = eliminated_.topLeftCorner(rank_, 2 * rank_);
   for (int i = 0; i < rank_; ++i) {
     for (int k = 0; k < rank_; ++k) {
-      M(i, k) = E_(rows_[index(i)], basics_[index(k)]);
+      M(i, k) = E_(basics_[index(k)], rows_[index(i)]);
       M(i, rank_ + k) = i == k ? 1.0 : 0.0;
     }
   }
@@ -175,24 +210,26 @@ bool QuadraticProgram::factorise_basis() noexcept {
 
 /// gradient = V'(V z) + R z - g;  y from E_B' y = gradient_B;  reduced = gradient - E'y.
 void QuadraticProgram::compute_reduced_gradient() noexcept {
-  const auto V = V_.topLeftCorner(curvature_rows_, variables_);
-  auto p = work_.head(curvature_rows_);
-  p.noalias() = V * z_.head(variables_);
-  gradient_.head(variables_).noalias() = V.transpose() * p;
-  gradient_.head(variables_).array() += R_.head(variables_).array() * z_.head(variables_).array();
-  const double scale = std::max(gradient_.head(variables_).lpNorm<Eigen::Infinity>(),
-                                g_.head(variables_).lpNorm<Eigen::Infinity>());
+  double* const p = work_.data();
+  std::fill_n(p, curvature_rows_, 0.0);
+  for (int k = 0; k < variables_; ++k) {
+    if (z_(k) != 0.0) add_multiple(curvature_rows_, z_(k), V(k), p);
+  }
+  double scale = 0.0;
+  for (int k = 0; k < variables_; ++k) {
+    const double pull = dot(curvature_rows_, V(k), p) + R_(k) * z_(k);
+    scale = std::max({scale, std::abs(pull), std::abs(g_(k))});
+    gradient_(k) = pull - g_(k);
+  }
   tolerance_ = relative_gradient_tolerance * scale;
-  gradient_.head(variables_) -= g_.head(variables_);
 
-  for (int i = 0; i < rank_; ++i) {
-    double y = 0.0;
-    for (int k = 0; k < rank_; ++k) y += inverse_basis_(k, i) * gradient_(basics_[index(k)]);
-    multipliers_(i) = y;
+  std::fill_n(multipliers_.data(), rank_, 0.0);
+  for (int k = 0; k < rank_; ++k) {
+    add_multiple(rank_, gradient_(basics_[index(k)]), &inverse_basis_(k, 0), multipliers_.data());
   }
   for (int k = 0; k < variables_; ++k) {
     double value = gradient_(k);
-    for (int i = 0; i < rank_; ++i) value -= E_(rows_[index(i)], k) * multipliers_(i);
+    for (int i = 0; i < rank_; ++i) value -= E_(k, rows_[index(i)]) * multipliers_(i);
     reduced_(k) = place_[index(k)] == Place::basic ? 0.0 : value;
   }
 }
@@ -218,62 +255,65 @@ int QuadraticProgram::price(bool first_that_helps) const noexcept {
   return entering;
 }
 
-/// follow = E_B^-1 E_S; reduced V = V_S - V_B follow; reduced H = (reduced V)'(reduced V) + R_S + follow' R_B
-/// follow. Newton's step where the newest superbasic variable adds curvature, else the line along which the
-/// objective falls.
-bool QuadraticProgram::reduced_direction() noexcept {
-  const int n = static_cast<int>(superbasics_.size());
-  for (int s = 0; s < n; ++s) {
-    const int variable = superbasics_[index(s)];
-    for (int i = 0; i < rank_; ++i) {
-      double value = 0.0;
-      for (int k = 0; k < rank_; ++k) value += inverse_basis_(i, k) * E_(rows_[index(k)], variable);
-      follow_(i, s) = value;
-    }
-    auto column = reduced_V_.col(s).head(curvature_rows_);
-    column = V_.col(variable).head(curvature_rows_);
-    for (int i = 0; i < rank_; ++i) column -= follow_(i, s) * V_.col(basics_[index(i)]).head(curvature_rows_);
-  }
-  bool curved = true;
-  for (int s = 0; s < n; ++s) {
-    for (int t = 0; t <= s; ++t) {
-      double h = reduced_V_.col(s).head(curvature_rows_).dot(reduced_V_.col(t).head(curvature_rows_));
-      for (int i = 0; i < rank_; ++i) h += R_(basics_[index(i)]) * follow_(i, s) * follow_(i, t);
-      if (s == t) h += R_(superbasics_[index(s)]);
-      const double left = h - cholesky_.row(s).head(t).dot(cholesky_.row(t).head(t));
-      if (s != t) {
-        cholesky_(s, t) = left / cholesky_(t, t);
-      } else if (left > curvature_tolerance * h) {
-        cholesky_(s, s) = std::sqrt(left);
-      } else if (s < n - 1) {
-        cholesky_(s, s) = std::sqrt(curvature_tolerance * std::max(h, std::numeric_limits<double>::min()));
-      } else {
-        cholesky_(s, s) = 0.0;
-        curved = false;  // only the newest can lack curvature
-      }
-    }
-  }
-  auto step = work_.head(n);
-  if (curved) {
-    for (int s = 0; s < n; ++s) {
-      step(s) =
-          (-reduced_(superbasics_[index(s)]) - cholesky_.row(s).head(s).dot(step.head(s))) / cholesky_(s, s);
-    }
-  } else {
-    step(n - 1) = reduced_(superbasics_[index(n - 1)]) > 0.0 ? -1.0 : 1.0;
-    for (int s = 0; s < n - 1; ++s) step(s) = -cholesky_(n - 1, s) * step(n - 1);
-  }
-  for (int s = (curved ? n : n - 1) - 1; s >= 0; --s) {
-    const int last = curved ? n : n - 1;
-    double rest = step(s);
-    for (int t = s + 1; t < last; ++t) rest -= cholesky_(t, s) * step(t);
-    step(s) = rest / cholesky_(s, s);
-  }
-  for (int s = 0; s < n; ++s) direction_(superbasics_[index(s)]) = step(s);
+/// Row s of what belongs to the superbasic variables:
+///   follow = E_B^-1 E_s;  reduced V = V_s - V_B follow
+///   reduced H = (reduced V)'(reduced V) + R_s + follow' R_B follow
+/// and of the reduced Hessian's factor.
+QuadraticProgram::Curvature QuadraticProgram::add_superbasic(int s) noexcept {
+  const int variable = superbasics_[index(s)];
+  double* const follow = &follow_(s, 0);
+  double* const column = &reduced_V_(s, 0);
+  std::copy_n(V(variable), curvature_rows_, column);
   for (int i = 0; i < rank_; ++i) {
-    direction_(basics_[index(i)]) = -follow_.row(i).head(n).dot(step);
+    double value = 0.0;
+    for (int k = 0; k < rank_; ++k) value += inverse_basis_(i, k) * E_(variable, rows_[index(k)]);
+    follow[i] = value;
+    add_multiple(curvature_rows_, -value, V(basics_[index(i)]), column);
   }
-  return curved;
+  for (int t = 0; t <= s; ++t) {
+    double h = dot(curvature_rows_, column, &reduced_V_(t, 0));
+    for (int i = 0; i < rank_; ++i) h += R_(basics_[index(i)]) * follow[i] * follow_(t, i);
+    factor_(s, t) = h;
+  }
+  const double diagonal = factor_(s, s) += R_(variable);
+  const double pivot = eliminate_row(factor_, s);
+  const double least = curvature_tolerance * std::max(diagonal, std::numeric_limits<double>::min());
+  factor_(s, s) = std::sqrt(std::max(pivot, least));
+  return {diagonal, pivot};
+}
+
+/// All rows anew. Without the variable that left, the others have curvature as before.
+void QuadraticProgram::reduce() noexcept {
+  for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) add_superbasic(s);
+  curved_ = true;
+}
+
+/// To the minimum over the superbasic variables.
+void QuadraticProgram::newton_step() noexcept {
+  const int n = static_cast<int>(superbasics_.size());
+  for (int s = 0; s < n; ++s) step_(s) = -reduced_(superbasics_[index(s)]);
+  solve_lower(factor_, n, step_.data());
+  solve_upper(factor_, n, step_.data());
+  set_direction();
+}
+
+/// The newest superbasic variable adds no curvature: the line on which it moves and the others keep their
+/// minimum, G_11' x = -G_21' for a unit of it.
+void QuadraticProgram::flat_line() noexcept {
+  const int last = static_cast<int>(superbasics_.size()) - 1;
+  step_(last) = reduced_(superbasics_[index(last)]) > 0.0 ? -1.0 : 1.0;
+  for (int s = 0; s < last; ++s) step_(s) = -factor_(last, s) * step_(last);
+  solve_upper(factor_, last, step_.data());
+  set_direction();
+}
+
+void QuadraticProgram::set_direction() noexcept {
+  const int n = static_cast<int>(superbasics_.size());
+  for (const int k : basics_) direction_(k) = 0.0;
+  for (int s = 0; s < n; ++s) {
+    direction_(superbasics_[index(s)]) = step_(s);
+    for (int i = 0; i < rank_; ++i) direction_(basics_[index(i)]) -= follow_(s, i) * step_(s);
+  }
 }
 
 /// Turns a line without curvature the way that the objective falls; false when it is level.
@@ -317,8 +357,8 @@ void QuadraticProgram::replace_basic(int leaving) noexcept {
   const auto position = std::find(basics_.begin(), basics_.end(), leaving) - basics_.begin();
   std::size_t best = 0;
   for (std::size_t s = 1; s < superbasics_.size(); ++s) {
-    if (std::abs(follow_(position, static_cast<Eigen::Index>(s))) >
-        std::abs(follow_(position, static_cast<Eigen::Index>(best)))) {
+    if (std::abs(follow_(static_cast<Eigen::Index>(s), position)) >
+        std::abs(follow_(static_cast<Eigen::Index>(best), position))) {
       best = s;
     }
   }

@@ -3,8 +3,9 @@
 ///
 /// A primal active-set method in reduced form (Wolfe; the basic / superbasic split of Murtagh and Saunders
 /// 1978). Variables are basic (as many as E has independent rows; they follow the others so that E z stays),
-/// superbasic (free to move) or parked (at a bound, or wherever they started). The objective falls at every
-/// step that moves:
+/// superbasic (free to move) or parked (at a bound, or wherever they started). Those that start between their
+/// bounds start superbasic, so that one step settles all rows that need no bound. The objective falls at
+/// every step that moves:
 ///
 ///   price   at the minimum over the superbasic variables, the parked one with the steepest way down joins
 ///   them step    to the new minimum; where the objective has no curvature left, along the line on which it
@@ -19,6 +20,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/cholesky.hpp"
+
 namespace zwang::solver {
 
 class QuadraticProgram {
@@ -29,8 +32,8 @@ class QuadraticProgram {
   /// zeroed, bounds are left to set.
   void resize(int variables, int curvature_rows, int equality_rows) noexcept;
 
-  auto V(int variable) noexcept { return V_.col(variable).head(curvature_rows_); }
-  auto E(int variable) noexcept { return E_.col(variable).head(equality_rows_); }
+  double* V(int variable) noexcept { return &V_(variable, 0); }  ///< a column of V
+  double* E(int variable) noexcept { return &E_(variable, 0); }  ///< a column of E
   double& R(int variable) noexcept { return R_(variable); }
   double& g(int variable) noexcept { return g_(variable); }
   double& lo(int variable) noexcept { return lo_(variable); }
@@ -50,25 +53,35 @@ class QuadraticProgram {
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
   void choose_basis() noexcept;
+  void choose_superbasics() noexcept;
   bool factorise_basis() noexcept;
   void compute_reduced_gradient() noexcept;
   double slope_of_superbasics() const noexcept;
   int price(bool first_that_helps) const noexcept;
-  bool reduced_direction() noexcept;  ///< false: a way down without curvature
+  struct Curvature {
+    double own = 0.0;   ///< of the reduced Hessian's diagonal
+    double left = 0.0;  ///< of it, what the superbasic variables before leave
+  };
+  Curvature add_superbasic(int s) noexcept;
+  void reduce() noexcept;
+  void newton_step() noexcept;
+  void flat_line() noexcept;
+  void set_direction() noexcept;
   bool goes_down() noexcept;
   int longest_step(double& length) const noexcept;
   void replace_basic(int leaving) noexcept;
   void park(int variable) noexcept;
 
   int variables_ = 0, curvature_rows_ = 0, equality_rows_ = 0, rank_ = 0;
-  Eigen::MatrixXd V_, E_;
+  RowMajorMatrix V_, E_;  ///< transposed: a row a variable
   Eigen::VectorXd R_, g_, lo_, hi_, z_;
-  Eigen::VectorXd gradient_, reduced_, direction_, multipliers_, work_;
-  Eigen::MatrixXd eliminated_;     ///< scratch of choose_basis
-  Eigen::MatrixXd inverse_basis_;  ///< rank x rank
-  Eigen::MatrixXd follow_;         ///< rank x superbasics: how the basic variables follow
-  Eigen::MatrixXd reduced_V_;      ///< curvature rows x superbasics
-  Eigen::MatrixXd cholesky_;       ///< of the reduced Hessian
+  Eigen::VectorXd gradient_, reduced_, direction_, multipliers_, work_, step_;
+  RowMajorMatrix eliminated_;     ///< scratch of the elimination
+  RowMajorMatrix inverse_basis_;  ///< rank x rank
+  RowMajorMatrix follow_;         ///< how the basic variables follow, a row a superbasic one
+  RowMajorMatrix reduced_V_;      ///< a row a superbasic variable
+  RowMajorMatrix factor_;         ///< Cholesky factor of the reduced Hessian
+  bool curved_ = true;            ///< the newest superbasic variable adds curvature
   std::vector<Place> place_;
   std::vector<char> stuck_;
   std::vector<int> basics_, superbasics_, rows_;

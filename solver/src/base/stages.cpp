@@ -8,8 +8,7 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double torque_tolerance =
-    1e-12;  // relative: rounding that least-squares torques may show at a limit
+constexpr double rounding = 1e-12;  // relative: what torques and sums may show at a limit
 
 double nonzero(double length) {
   return length > 0.0 ? length : 1.0;
@@ -24,25 +23,54 @@ void BoundedProblem::pose_limits_above(int level) noexcept {
   }
 }
 
+/// From its level on a sum counts what is added to p.
+void BoundedProblem::start_sums(int level) noexcept {
+  for (int i = 0; i < rows_; ++i) {
+    Entry& e = entry(i);
+    if (e.kind != RowKind::sum || e.level != level || e.out) continue;
+    e.above = 0.0;
+    e.above = sum_of(i, p_);
+  }
+}
+
+bool BoundedProblem::sum_counts(int i, int level) const noexcept {
+  const Entry& e = entries_[static_cast<std::size_t>(i)];
+  return e.kind == RowKind::sum && e.level <= level && !e.out;
+}
+
+double BoundedProblem::sum_of(int i, const Vector& p) noexcept {
+  const Entry& e = entry(i);
+  return along(i, p) / (e.length * e.length) - e.above;
+}
+
+bool BoundedProblem::sums_hold(int level, const Vector& p) noexcept {
+  for (int i = 0; i < rows_; ++i) {
+    if (!sum_counts(i, level)) continue;
+    const Entry& e = entry(i);
+    const double sum = sum_of(i, p);
+    if (sum < e.lo - rounding * std::abs(e.lo) || sum > e.hi + rounding * std::abs(e.hi)) return false;
+  }
+  return true;
+}
+
 /// min sum (1 - phi)^2 with torques that make the motion, the limits above braking as they must. Mostly
 /// phi = 1 is possible: tried first with the limits as they are, then with what they need.
 bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
   posed_.clear();
-  fixed_.head(dimension_) = p_.head(dimension_);
+  copy(p_, work_);
   for (int i = 0; i < rows_; ++i) {
     if (entry(i).kind != RowKind::force || entry(i).level != level || !takes_part(i)) continue;
     posed_.push_back(i);
-    fixed_.head(dimension_) += P(i).transpose() * entry(i).force;
+    push(i, entry(i).force, work_);
   }
   if (posed_.empty()) return true;
   const int forces = static_cast<int>(posed_.size());
   pose_limits_above(level);
   bool exact = true;
-  work_.head(dimension_) = fixed_.head(dimension_);
-  bool full = limits_above_hold(forces) && torques_for(work_);
+  bool full = limits_above_hold(forces) && sums_hold(level, work_) && torques_for(work_);
   if (!full && static_cast<int>(posed_.size()) > forces && motors_reach_all_) {
     exact = brake(forces, level, max_iterations);
-    full = torques_for(work_);
+    full = sums_hold(level, work_) && torques_for(work_);
     if (full) take_limits(forces);
   }
   if (full) {
@@ -51,7 +79,8 @@ bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
   } else {
     exact = share_torque(forces, level, max_iterations) && exact;
   }
-  p_.head(dimension_) = work_.head(dimension_);
+  torques_are_least_ = full;
+  copy(work_, p_);
   return exact;
 }
 
@@ -64,9 +93,9 @@ bool BoundedProblem::limits_above_hold(int first) noexcept {
 }
 
 /// How far a limit is from what it must keep, with its present multiplier; negative where it does not.
-double BoundedProblem::room_of(int i, const Eigen::VectorXd& p) noexcept {
+double BoundedProblem::room_of(int i, const Vector& p) noexcept {
   const Entry& e = entry(i);
-  const double s = B(i).dot(p.head(dimension_)) + softness(i) * e.nu - d_(i) - e.offset;
+  const double s = along(i, p) + held_softness(i) * e.nu - d_(i) - e.offset;
   return e.kind == RowKind::upper ? -s : s;
 }
 
@@ -74,10 +103,11 @@ double BoundedProblem::room_of(int i, const Eigen::VectorXd& p) noexcept {
 bool BoundedProblem::brake(int forces, int level, int max_iterations) noexcept {
   const std::vector<int>::iterator begin = posed_.begin();
   std::rotate(begin, begin + forces, posed_.end());
+  copy(work_, fixed_);
   const int limits = static_cast<int>(posed_.size()) - forces;
   for (int k = 0; k < limits; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    fixed_.head(dimension_) -= P(i).transpose() * entry(i).nu;
+    push(i, -entry(i).nu, fixed_);
   }
   pose_motion(limits, level, false);
   const bool exact = program_.solve(max_iterations, iterations_);
@@ -89,24 +119,24 @@ bool BoundedProblem::brake(int forces, int level, int max_iterations) noexcept {
 void BoundedProblem::take_limits(int first) noexcept {
   for (int k = first; k < static_cast<int>(posed_.size()); ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    entry(i).nu = program_.z(k - first) / V(i).norm();
+    entry(i).nu = program_.z(k - first) / entry(i).reach;
   }
 }
 
 /// Torque does not suffice for all forces.
 bool BoundedProblem::share_torque(int forces, int level, int max_iterations) noexcept {
-  fixed_.head(dimension_) = p_.head(dimension_);
+  copy(p_, fixed_);
   const int n = static_cast<int>(posed_.size());
   for (int k = forces; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    fixed_.head(dimension_) -= P(i).transpose() * entry(i).nu;
+    push(i, -entry(i).nu, fixed_);
   }
   resize_program(n, level, 0, true);
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
     const Entry& e = entry(i);
     if (k < forces) {
-      const double length = nonzero(V(i).norm() * std::abs(e.force));
+      const double length = nonzero(e.reach * std::abs(e.force));
       units_.push_back(e.force / length);
       program_.R(k) = 2.0 / (length * length);
       program_.g(k) = 2.0 / length;
@@ -125,28 +155,34 @@ bool BoundedProblem::share_torque(int forces, int level, int max_iterations) noe
     if (k < forces) {
       entry(i).phi = program_.z(k) / program_.hi(k);
     } else {
-      entry(i).nu = program_.z(k) / V(i).norm();
+      entry(i).nu = program_.z(k) / entry(i).reach;
     }
   }
   return exact;
 }
 
-/// Variables: `n` of rows, then the motors, then the room that each limit above keeps.
+/// Variables: `n` of rows, then the motors, the room that each limit above keeps, and the sums.
 void BoundedProblem::resize_program(int n, int level, int curvature_rows, bool with_motors) noexcept {
   units_.clear();
-  int limits = 0;
-  for (int k = 0; k < n && with_motors; ++k) {
-    const int i = posed_[static_cast<std::size_t>(k)];
-    if (is_one_sided(i) && entry(i).level < level) ++limits;
+  if (!with_motors) {
+    program_.resize(n, curvature_rows, 0);
+    return;
   }
-  program_.resize(n + (with_motors ? motors_ + limits : 0), curvature_rows,
-                  with_motors ? dimension_ + limits : 0);
+  int bounded = 0;  // limits above and sums: a variable and an equation each
+  for (int k = 0; k < n; ++k) {
+    const int i = posed_[static_cast<std::size_t>(k)];
+    if (is_one_sided(i) && entry(i).level < level) ++bounded;
+  }
+  for (int i = 0; i < rows_; ++i) {
+    if (sum_counts(i, level)) ++bounded;
+  }
+  program_.resize(n + motors_ + bounded, curvature_rows, dimension_ + bounded);
 }
 
 /// The variable nu |V_i| of a motion row: its bounds, and where it stands.
 void BoundedProblem::pose_multiplier(int k, int level) noexcept {
   const int i = posed_[static_cast<std::size_t>(k)];
-  const double length = V(i).norm();
+  const double length = entry(i).reach;
   const Range bounds = bounds_at(i, level);
   units_.push_back(1.0 / length);
   program_.lo(k) = bounds.low * length;
@@ -158,12 +194,12 @@ void BoundedProblem::pose_multiplier(int k, int level) noexcept {
 /// B_i.p + R nu + room = b. Without them a level whose torque runs out would trade a limit above for itself.
 void BoundedProblem::pose_motors(int n, int level) noexcept {
   for (int k = 0; k < n; ++k) {
-    program_.E(k).head(dimension_) =
-        -P(posed_[static_cast<std::size_t>(k)]).transpose() * units_[static_cast<std::size_t>(k)];
+    add_multiple(dimension_, -units_[static_cast<std::size_t>(k)],
+                 &P_(posed_[static_cast<std::size_t>(k)], 0), program_.E(k));
   }
   for (int j = 0; j < motors_; ++j) {
-    const double length = nonzero(T(j).norm());
-    program_.E(n + j).head(dimension_) = T(j).transpose() / length;
+    const double length = nonzero(motor_length_(j));
+    add_multiple(dimension_, 1.0 / length, &T_(j, 0), program_.E(n + j));
     program_.lo(n + j) = tau_lo_(j) * length;
     program_.hi(n + j) = tau_hi_(j) * length;
     program_.z(n + j) = tau_(j) * length;
@@ -173,24 +209,43 @@ void BoundedProblem::pose_motors(int n, int level) noexcept {
     const int i = posed_[static_cast<std::size_t>(k)];
     if (!is_one_sided(i) || entry(i).level >= level) continue;
     const double sign = entry(i).kind == RowKind::upper ? 1.0 : -1.0;
-    const double length = V(i).norm();
+    const double length = entry(i).reach;
     const int equation = dimension_ + limit;
     for (int other = 0; other < n; ++other) {
-      const double along = V(i).dot(V(posed_[static_cast<std::size_t>(other)]));
-      program_.E(other)(equation) = sign * along * units_[static_cast<std::size_t>(other)] / length;
+      const double share = dot(dimension_, &V_(i, 0), &V_(posed_[static_cast<std::size_t>(other)], 0));
+      program_.E(other)[equation] = sign * share * units_[static_cast<std::size_t>(other)] / length;
     }
-    program_.E(k)(equation) += sign * softness(i) / (length * length);
+    program_.E(k)[equation] += sign * held_softness(i) / (length * length);
     const int room = n + motors_ + limit++;
-    program_.E(room)(equation) = 1.0;
+    program_.E(room)[equation] = 1.0;
     program_.lo(room) = 0.0;
     program_.hi(room) = infinity;
     program_.z(room) = std::max(0.0, room_of(i, p_) / length);
+  }
+  pose_sums(n, level, n + motors_ + limit, dimension_ + limit);
+}
+
+/// The variable sigma = |B_S| (the sum): B_S.p / |B_S| = sigma + what the levels above made of it.
+void BoundedProblem::pose_sums(int n, int level, int variable, int equation) noexcept {
+  for (int i = 0; i < rows_; ++i) {
+    if (!sum_counts(i, level)) continue;
+    const double length = entry(i).length;
+    for (int k = 0; k < n; ++k) {
+      const double share = dot(dimension_, &B_(i, 0), &P_(posed_[static_cast<std::size_t>(k)], 0)) / length;
+      program_.E(k)[equation] = share * units_[static_cast<std::size_t>(k)];
+    }
+    program_.E(variable)[equation] = -1.0;
+    program_.lo(variable) = entry(i).lo * length;
+    program_.hi(variable) = entry(i).hi * length;
+    program_.z(variable) = std::clamp(sum_of(i, p_), entry(i).lo, entry(i).hi) * length;
+    ++variable;
+    ++equation;
   }
 }
 
 void BoundedProblem::take_motors(int first) noexcept {
   for (int j = 0; j < motors_; ++j) {
-    tau_(j) = std::clamp(program_.z(first + j) / nonzero(T(j).norm()), tau_lo_(j), tau_hi_(j));
+    tau_(j) = std::clamp(program_.z(first + j) / nonzero(motor_length_(j)), tau_lo_(j), tau_hi_(j));
   }
 }
 
@@ -199,20 +254,38 @@ void BoundedProblem::pose_rows(int level) noexcept {
   posed_.clear();
   for (int i = 0; i < rows_; ++i) {
     const Entry& e = entry(i);
-    if (e.level == level && e.kind != RowKind::force && takes_part(i)) posed_.push_back(i);
+    if (e.level == level && is_motion(i) && takes_part(i)) posed_.push_back(i);
   }
   pose_limits_above(level);
+}
+
+/// Whether the posed rows are limits that are content with the present motion: those that push stand exactly
+/// where they push to, the others have room. (At no room without a push the share between equals is open.)
+bool BoundedProblem::limits_rest(int level) noexcept {
+  bool pushes = false;
+  for (const int i : posed_) {
+    if (!is_one_sided(i)) return false;
+    pushes = pushes || entry(i).nu != 0.0;
+  }
+  for (const int i : posed_) {
+    const double room = room_of(i, p_);
+    const double tolerance = rounding * (std::abs(d_(i)) + std::abs(entry(i).offset));
+    const bool stands = entry(i).nu != 0.0 && entry(i).level < level && std::abs(room) <= tolerance;
+    const bool is_free = entry(i).nu == 0.0 && (pushes ? room > 1e3 * tolerance : room >= 0.0);
+    if (!stands && !is_free) return false;
+  }
+  return true;
 }
 
 /// Most of the time no motor is at its limit: the problem is solved without the motors first, and stands when
 /// they can.
 bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   pose_rows(level);
-  if (posed_.empty()) return true;
+  if (posed_.empty() || limits_rest(level)) return true;
   const int n = static_cast<int>(posed_.size());
-  fixed_.head(dimension_) = p_.head(dimension_);
+  copy(p_, fixed_);
   for (const int i : posed_) {
-    if (is_one_sided(i)) fixed_.head(dimension_) -= P(i).transpose() * entry(i).nu;
+    if (is_one_sided(i)) push(i, -entry(i).nu, fixed_);
   }
   bool exact = true;
   bool possible = false;
@@ -220,7 +293,7 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
     pose_motion(n, level, false);
     exact = program_.solve(max_iterations, iterations_);
     take_p(n);
-    possible = torques_for(work_);
+    possible = sums_hold(level, work_) && torques_for(work_);
   }
   if (possible) {
     tau_.head(motors_) = candidate_.head(motors_);
@@ -230,11 +303,13 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
     take_p(n);
     take_motors(n);
   }
+  torques_are_least_ = possible;
   take_multipliers(level);
-  p_.head(dimension_) = work_.head(dimension_);
+  copy(work_, p_);
   exact = least_multipliers(level, max_iterations) && exact;
   for (const int i : posed_) {
-    // A soft row rests where a . Xdd + R nu = b; what is beyond that it could not hold.
+    // A fading row rests where a . Xdd + R nu = b; what is beyond that it could not hold, or it was not worth
+    // it.
     if (is_one_sided(i) && entry(i).level == level) entry(i).offset = std::max(0.0, -room_of(i, p_));
     if (entry(i).kind == RowKind::lower && entry(i).level == level) entry(i).offset *= -1.0;
   }
@@ -245,10 +320,11 @@ void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
   resize_program(n, level, dimension_, with_motors);
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    const double length = V(i).norm();
-    program_.V(k) = V(i).transpose() / length;
-    program_.g(k) = (d_(i) + entry(i).offset - B(i).dot(fixed_.head(dimension_))) / length;
-    program_.R(k) = softness(i) / (length * length);
+    const Entry& e = entry(i);
+    const double unit = 1.0 / e.reach;
+    add_multiple(dimension_, unit, &V_(i, 0), program_.V(k));
+    program_.g(k) = (d_(i) + e.offset - along(i, fixed_)) * unit;
+    program_.R(k) = (e.level == level ? softness(i) : held_softness(i)) * unit * unit;
     pose_multiplier(k, level);
   }
   if (with_motors) pose_motors(n, level);
@@ -256,10 +332,10 @@ void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
 
 /// p of the stage's solution, in work_.
 void BoundedProblem::take_p(int n) noexcept {
-  work_.head(dimension_) = fixed_.head(dimension_);
+  copy(fixed_, work_);
   for (int k = 0; k < n; ++k) {
     const double z = program_.z(k) * units_[static_cast<std::size_t>(k)];
-    work_.head(dimension_) += P(posed_[static_cast<std::size_t>(k)]).transpose() * z;
+    if (z != 0.0) push(posed_[static_cast<std::size_t>(k)], z, work_);
   }
 }
 
@@ -271,9 +347,9 @@ void BoundedProblem::take_multipliers(int level) noexcept {
     const int variable = static_cast<int>(k);
     const int i = posed_[k];
     Entry& e = entry(i);
-    e.nu = program_.z(variable) / V(i).norm();
+    e.nu = program_.z(variable) / e.reach;
     if (e.level == level) e.nu = std::clamp(e.nu, e.lo, e.hi);
-    if (e.fade < 1.0) continue;
+    if (program_.R(variable) > 0.0) continue;
     const bool free = program_.is_free(variable);
     if (!free && std::abs(program_.reduced_gradient(variable)) > 100.0 * program_.gradient_tolerance())
       continue;
@@ -290,8 +366,8 @@ bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
   program_.resize(n, 0, dimension_);
   for (int k = 0; k < n; ++k) {
     const int i = tied_[static_cast<std::size_t>(k)];
-    const double length = V(i).norm();
-    program_.E(k) = V(i).transpose() / length;
+    const double length = entry(i).reach;
+    add_multiple(dimension_, 1.0 / length, &V_(i, 0), program_.E(k));
     program_.R(k) = 1.0 / (length * length);
     program_.lo(k) = bounds_at(i, level).low * length;
     program_.hi(k) = bounds_at(i, level).high * length;
@@ -300,43 +376,40 @@ bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
   const bool exact = program_.solve(max_iterations, iterations_);
   for (int k = 0; k < n; ++k) {
     const int i = tied_[static_cast<std::size_t>(k)];
-    entry(i).nu = program_.z(k) / V(i).norm();
+    entry(i).nu = program_.z(k) / entry(i).reach;
   }
   return exact;
 }
 
-/// Least-norm torques for p into candidate_; false when the motors do not reach p or a limit is in the way.
-bool BoundedProblem::torques_for(const Eigen::VectorXd& p) noexcept {
+/// Least-norm torques for p into candidate_, tau = T (T'T)^-1 p; false when the motors do not reach p or a
+/// limit is in the way.
+bool BoundedProblem::torques_for(const Vector& p) noexcept {
   if (!motors_reach_all_) return false;
-  const auto factor = gram_.topLeftCorner(dimension_, dimension_);
-  auto y = solved_.head(dimension_);
-  y = p.head(dimension_);
-  for (int k = 0; k < dimension_; ++k) y(k) = (y(k) - factor.row(k).head(k).dot(y.head(k))) / factor(k, k);
-  for (int k = dimension_ - 1; k >= 0; --k) {
-    for (int i = k + 1; i < dimension_; ++i) y(k) -= factor(i, k) * y(i);
-    y(k) /= factor(k, k);
-  }
-  candidate_.head(motors_).noalias() = T_.topLeftCorner(motors_, dimension_) * y;
+  copy(p, solved_);
+  solve_lower(gram_, dimension_, solved_.data());
+  solve_upper(gram_, dimension_, solved_.data());
   for (int j = 0; j < motors_; ++j) {
-    const double slack = torque_tolerance * (std::abs(tau_lo_(j)) + std::abs(tau_hi_(j)));
+    const double torque = dot(dimension_, &T_(j, 0), solved_.data());
+    const double slack = rounding * (tau_hi_(j) - tau_lo_(j));
     const double room = std::isfinite(slack) ? slack : 0.0;
-    if (candidate_(j) < tau_lo_(j) - room || candidate_(j) > tau_hi_(j) + room) return false;
-    candidate_(j) = std::clamp(candidate_(j), tau_lo_(j), tau_hi_(j));
+    if (torque < tau_lo_(j) - room || torque > tau_hi_(j) + room) return false;
+    candidate_(j) = std::clamp(torque, tau_lo_(j), tau_hi_(j));
   }
   return true;
 }
 
 /// The last stage: of all torques that make p, the smallest.
 bool BoundedProblem::least_torques(int max_iterations) noexcept {
+  if (torques_are_least_) return true;
   if (torques_for(p_)) {
     tau_.head(motors_) = candidate_.head(motors_);
     return true;
   }
   program_.resize(motors_, 0, dimension_);
   posed_.clear();
-  pose_motors(0, 0);
+  pose_motors(0, -1);
   for (int j = 0; j < motors_; ++j) {
-    const double length = nonzero(T(j).norm());
+    const double length = nonzero(motor_length_(j));
     program_.R(j) = 1.0 / (length * length);
   }
   const bool exact = program_.solve(max_iterations, iterations_);

@@ -3,90 +3,58 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "constraint/kinematics.hpp"
+#include "constraint/measure.hpp"
 
 namespace zwang::solver {
 
 namespace {
 
-bool is_rotation(Axis axis) {
-  return axis >= Axis::rx;
-}
-int direction_of(Axis axis) {
-  return static_cast<int>(axis) % 3;
-}
-
 double wrap_to_pi(double angle) {
   return std::remainder(angle, 2.0 * std::numbers::pi);
 }
 
-/// The angle of the rotation R about its own axis `k` alone (the twist of a swing-twist decomposition).
-double twist_angle(const Matrix3& R, int k) {
-  const int i = (k + 1) % 3;
-  const int j = (k + 2) % 3;
-  return std::atan2(R(j, i) - R(i, j), R(i, i) + R(j, j));
+/// The unit constraint force of a measurement at F's origin, in the coordinates of a body and about its
+/// origin.
+ForceVector on_body(const Measurement& along, const Vector3& origin, const Pose& body) {
+  const Vector3 force = body.rotation.transpose() * along.force;
+  const Vector3 arm = body.rotation.transpose() * (origin - body.position);
+  return {body.rotation.transpose() * along.moment + arm.cross(force), force};
 }
 
-/// Axes carried by the moved body itself only orient: motion counts relative to the world.
-bool only_orients(const AttachedFrame& move, const AttachedFrame& in) {
-  return in.body >= 0 && in.body == move.body;
+double position_error(double target, const Coordinate& now, const AxisConstraint& constraint) {
+  const bool wraps = constraint.measure == Measure::axis && is_rotation(constraint.axis);
+  return wraps ? wrap_to_pi(target - now.position) : target - now.position;
 }
 
-/// The coordinate of F (motion `f`) along one axis of T (motion `t`), and its velocity products:
-///   translation  s = e.(p_F - p_T)   a = (p_F x e, e)    rotation  s = angle about e   a = (e, 0)
-///   ds = a.(V_k - V_c)               dds = a.(A_k - A_c) + gamma,   gamma = da/dt . (V_k - V_c)
-/// where e turns with T. With the origin of the coordinates at p_F and T on body c,
-///   translation  gamma = (v_F x e).(w_k - w_c) + (w_c x e).(v_F - v_c(p_F))
-///   rotation     gamma = (w_c x e).w_k
-/// Axes of the moved body itself give gamma = 0: the two products cancel.
-Coordinate relative_coordinate(const FrameMotion& f, const FrameMotion& t, Axis axis, bool own_axes) {
-  const int k = direction_of(axis);
-  const Vector3 e = t.pose.rotation.col(k);
-  Coordinate coordinate;
-  if (own_axes) {
-    coordinate.velocity = e.dot(is_rotation(axis) ? f.angular : f.linear);
-    return coordinate;
-  }
-  if (is_rotation(axis)) {
-    coordinate.position = twist_angle(t.pose.rotation.transpose() * f.pose.rotation, k);
-    coordinate.velocity = e.dot(f.angular - t.angular);
-    coordinate.acceleration_bias = t.angular.cross(e).dot(f.angular);
-    return coordinate;
-  }
-  const Vector3 offset = f.pose.position - t.pose.position;
-  const Vector3 v_c = t.linear + t.angular.cross(offset);
-  coordinate.position = e.dot(offset);
-  coordinate.velocity = e.dot(f.linear - v_c);
-  coordinate.acceleration_bias =
-      f.linear.cross(e).dot(f.angular - t.angular) + t.angular.cross(e).dot(f.linear - v_c);
-  return coordinate;
-}
-
-/// The unit constraint force along the axis at p_F, in the coordinates of a body and about its origin.
-ForceVector unit_constraint_force(const FrameMotion& f, const FrameMotion& t, Axis axis, const Pose& body) {
-  const Vector3 e = body.rotation.transpose() * t.pose.rotation.col(direction_of(axis));
-  if (is_rotation(axis)) return {e, Vector3::Zero()};
-  const Vector3 p = body.rotation.transpose() * (f.pose.position - body.position);
-  return {p.cross(e), e};
-}
-
-double driver_acceleration(const Driver& driver, const Coordinate& now, Axis axis) {
+double driver_acceleration(const Driver& driver, const Coordinate& now, const AxisConstraint& constraint) {
   const double w = 1.0 / driver.time_constant;
   switch (driver.quantity) {
     case Quantity::acceleration:
       return driver.target;
     case Quantity::velocity:
       return w * (driver.target - now.velocity) + driver.target_rate;
-    case Quantity::position: {
-      double error = driver.target - now.position;
-      if (is_rotation(axis)) error = wrap_to_pi(error);
-      return w * w * error + 2.0 * w * (driver.target_rate - now.velocity) + driver.target_acceleration;
-    }
+    case Quantity::position:
+      return w * w * position_error(driver.target, now, constraint) +
+             2.0 * w * (driver.target_rate - now.velocity) + driver.target_acceleration;
     case Quantity::force:
       break;
   }
   return 0.0;
+}
+
+/// f of a force driver or a spring, inside the force ranges.
+double driver_force(const Driver& driver, const Coordinate& now, const AxisConstraint& constraint) {
+  double f = driver.target;
+  if (driver.quantity == Quantity::position) {
+    f = driver.stiffness * position_error(driver.target, now, constraint) +
+        driver.damping * (driver.target_rate - now.velocity);
+  }
+  f = std::max(driver.force.low, std::min(f, driver.force.high));
+  if (constraint.force) f = std::max(constraint.force->low, std::min(f, constraint.force->high));
+  return f;
 }
 
 /// The accelerations that a range allows now.
@@ -126,17 +94,30 @@ double braking_speed(double distance, double braking, double h) noexcept {
 }
 
 FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept {
-  if (frame.body < 0) return {frame.pose, Vector3::Zero(), Vector3::Zero()};
+  if (frame.body < 0) {
+    return {frame.pose, frame.pose.rotation * frame.twist.angular, frame.pose.rotation * frame.twist.linear};
+  }
   return motion_of_body(frame.body, model, state).at(frame.pose);
+}
+
+Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept {
+  return measure(constraint, motion_of(constraint.move, model, state), motion_of(constraint.in, model, state))
+      .now;
 }
 
 Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis, const Model& model,
                          const State& state) noexcept {
-  return relative_coordinate(motion_of(move, model, state), motion_of(in, model, state), axis,
-                             only_orients(move, in));
+  AxisConstraint constraint;
+  constraint.move = move;
+  constraint.in = in;
+  constraint.axis = axis;
+  return coordinate_of(constraint, model, state);
 }
 
 ConstraintSet::ConstraintSet(int constraint_capacity, int row_capacity) {
+  if (constraint_capacity < 1 || row_capacity < 1) {
+    throw std::invalid_argument("constraint set: capacities must be at least 1");
+  }
   constraints_.reserve(static_cast<std::size_t>(constraint_capacity));
   coordinates_.reserve(static_cast<std::size_t>(constraint_capacity));
   rows_.reserve(static_cast<std::size_t>(row_capacity));
@@ -173,58 +154,87 @@ bool ConstraintSet::fill_one(int index, const Model& model, const State& state) 
   const AxisConstraint& constraint = constraints_[static_cast<std::size_t>(index)];
   const FrameMotion f = motion_of(constraint.move, model, state);
   const FrameMotion t = motion_of(constraint.in, model, state);
-  const bool own_axes = only_orients(constraint.move, constraint.in);
-  const Coordinate now = relative_coordinate(f, t, constraint.axis, own_axes);
+  const Measurement along = measure(constraint, f, t);
+  const Coordinate& now = along.now;
   coordinates_.push_back(now);
-  if (constraint.leaving && constraint.alpha <= 0.0) return true;
+  const bool gone = constraint.leaving && constraint.alpha <= 0.0;
+  const bool at_rest = constraint.measure == Measure::speed &&
+                       !(constraint.velocity && now.velocity >= 0.5 * constraint.velocity->high);
+  if (gone || at_rest) return true;
 
   Row row;
   row.constraint = index;
   row.level = constraint.level;
-  row.body = constraint.move.body;
-  row.a = unit_constraint_force(f, t, constraint.axis, motion_of_body(row.body, model, state).pose);
-  if (constraint.in.body >= 0 && !own_axes) {
-    row.reference_body = constraint.in.body;
-    row.a_reference =
-        unit_constraint_force(f, t, constraint.axis, motion_of_body(row.reference_body, model, state).pose);
+  row.weight = constraint.weight;
+  const auto unit_force = [&](int body) {
+    return on_body(along, f.pose.position, motion_of_body(body, model, state).pose);
+  };
+  const bool relative = constraint.in.body >= 0 && !only_orients(constraint.move, constraint.in);
+  if (constraint.move.body >= 0) {
+    row.body = constraint.move.body;
+    row.a = unit_force(row.body);
+    if (relative) {
+      row.reference_body = constraint.in.body;
+      row.a_reference = unit_force(row.reference_body);
+    }
+  } else if (relative) {  // F belongs to the world: only T's body can follow
+    row.body = constraint.in.body;
+    row.a = -unit_force(row.body);
+  } else {
+    return true;
   }
 
   // One-sided rows enter at once, with a longer horizon while they are new, and leave softly.
   const double h =
       constraint.leaving ? horizon : std::max(horizon, (1.0 - constraint.alpha) * constraint.blend);
-  const bool folds = constraint.driver && constraint.driver->quantity != Quantity::force;
-
-  if (constraint.driver && constraint.alpha > 0.0) {
-    const Driver& driver = *constraint.driver;
-    row.quantity = driver.quantity;
-    row.fade = constraint.alpha;
-    row.lo = driver.force.low;
-    row.hi = driver.force.high;
-    double b = driver_acceleration(driver, now, constraint.axis);
-    row.force = driver.target;
-    if (constraint.before) {
-      b = mix(driver_acceleration(*constraint.before, now, constraint.axis), b, constraint.progress);
-      row.force = mix(constraint.before->target, driver.target, constraint.progress);
-      row.lo = std::max(row.lo, constraint.before->force.low);
-      row.hi = std::min(row.hi, constraint.before->force.high);
-    }
-    if (folds) {
-      for (const Quantity quantity : ranges_in_rising_rank) {
-        const Range range = acceleration_range(constraint, quantity, now, h);
-        b = std::max(range.low, std::min(b, range.high));
-      }
-      row.kind = RowKind::driver;
-      row.b = b - now.acceleration_bias;
-    } else {
-      row.kind = RowKind::force;
-      row.b = 0.0;
-    }
-    if (!push(row)) return false;
-  }
+  if (constraint.driver && constraint.alpha > 0.0 && !push_driver(constraint, now, h, row)) return false;
+  const bool folds = constraint.driver && !constraint.driver->makes_force();
   if (folds) return true;
-
-  row.force = 0.0;
   row.fade = constraint.leaving ? constraint.alpha : 1.0;
+  if (constraint.force && !constraint.driver) {
+    Row sum = row;
+    sum.kind = RowKind::sum;
+    sum.quantity = Quantity::force;
+    sum.lo = constraint.force->low;
+    sum.hi = constraint.force->high;
+    if (!push(sum)) return false;
+  }
+  return push_ranges(constraint, now, h, row);
+}
+
+/// The row of the driver, the ranges of its axis folded into a motion driver.
+bool ConstraintSet::push_driver(const AxisConstraint& constraint, const Coordinate& now, double h,
+                                Row row) noexcept {
+  const Driver& driver = *constraint.driver;
+  const Driver& before = constraint.before ? *constraint.before : driver;
+  const double progress = constraint.before ? constraint.progress : 1.0;
+  row.quantity = driver.quantity;
+  row.fade = constraint.alpha;
+  row.lo = std::max(driver.force.low, before.force.low);
+  row.hi = std::min(driver.force.high, before.force.high);
+  if (constraint.force) {
+    row.lo = std::max(row.lo, constraint.force->low);
+    row.hi = std::min(row.hi, constraint.force->high);
+  }
+  if (driver.makes_force()) {
+    row.kind = RowKind::force;
+    row.force = mix(driver_force(before, now, constraint), driver_force(driver, now, constraint), progress);
+    return push(row);
+  }
+  double b = mix(driver_acceleration(before, now, constraint), driver_acceleration(driver, now, constraint),
+                 progress);
+  for (const Quantity quantity : ranges_in_rising_rank) {
+    const Range range = acceleration_range(constraint, quantity, now, h);
+    b = std::max(range.low, std::min(b, range.high));
+  }
+  row.kind = RowKind::driver;
+  row.b = b - now.acceleration_bias;
+  return push(row);
+}
+
+/// Two one-sided rows a range.
+bool ConstraintSet::push_ranges(const AxisConstraint& constraint, const Coordinate& now, double h,
+                                Row row) noexcept {
   for (const Quantity quantity : ranges_in_rising_rank) {
     const Range range = acceleration_range(constraint, quantity, now, h);
     row.quantity = quantity;
@@ -235,7 +245,7 @@ bool ConstraintSet::fill_one(int index, const Model& model, const State& state) 
       row.hi = 0.0;
       if (!push(row)) return false;
     }
-    if (std::isfinite(range.low)) {
+    if (std::isfinite(range.low) && constraint.measure != Measure::speed) {
       row.kind = RowKind::lower;
       row.b = range.low - now.acceleration_bias;
       row.lo = 0.0;

@@ -1,5 +1,6 @@
 #include "constraint/ground.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace zwang::solver {
@@ -64,6 +65,31 @@ GroundRow ground_row(int index, const Model& model, const Sweeps& sweeps) noexce
     index -= wheel.held_directions();
   }
   return {};
+}
+
+bool every_motion_turns_a_wheel(const Model& model) noexcept {
+  if (model.base_type() != BaseType::ground) return false;
+  // Gram matrix of the held directions on (x, y, rz), with lengths in units of the farthest wheel's distance.
+  Matrix3 gram = Matrix3::Zero();
+  double size = 0.0;
+  for (const Wheel& wheel : model.wheels()) {
+    size =
+        std::max(size, model.bodies()[static_cast<std::size_t>(wheel.body)].pose_in_parent.position.norm());
+  }
+  if (!(size > 0.0)) return false;
+  for (const Wheel& wheel : model.wheels()) {
+    const Body& body = model.bodies()[static_cast<std::size_t>(wheel.body)];
+    if (body.parent != 0) continue;
+    const Vector3 axis = body.pose_in_parent.rotation * body.joint.axis;
+    const Vector3& at = body.pose_in_parent.position;
+    for (int i = 0; i < wheel.held_directions(); ++i) {
+      const Vector3 u = held_direction(wheel, i, axis, Vector3::UnitZ());
+      const Vector3 row(u.x(), u.y(), (at.x() * u.y() - at.y() * u.x()) / size);
+      gram += row * row.transpose();
+    }
+  }
+  const double mean = gram.trace() / 3.0;
+  return gram.determinant() > 1e-4 * mean * mean * mean;
 }
 
 }  // namespace zwang::solver

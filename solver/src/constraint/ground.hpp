@@ -19,4 +19,8 @@ int ground_row_count(const Model& model) noexcept;
 /// Row `index` of the ground at the configuration and the twists in `sweeps`.
 GroundRow ground_row(int index, const Model& model, const Sweeps& sweeps) noexcept;
 
+/// Whether the base cannot move in the plane, at any configuration, without turning a wheel: wheels that are
+/// mounted on it directly hold all three of its directions. Then the joints' rows span every motion.
+bool every_motion_turns_a_wheel(const Model& model) noexcept;
+
 }  // namespace zwang::solver

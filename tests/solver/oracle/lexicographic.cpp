@@ -1,6 +1,7 @@
 #include "oracle/lexicographic.hpp"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
@@ -25,6 +26,12 @@ struct Held {
   Vector y;
   Real softness;
   Real e;
+};
+
+/// A bound on what is pressed along a row's axis, and what the levels above press there.
+struct Sum {
+  Index row;
+  Real above;
 };
 
 Vector projected_velocity(const solver::Model& model, const solver::State& state, bool project) {
@@ -68,6 +75,7 @@ class Levels {
     std::sort(levels.begin(), levels.end());
     levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
     for (const int level : levels) {
+      start_sums(level);
       push(level);
       move(level);
       hold(level);
@@ -80,6 +88,7 @@ class Levels {
   std::vector<Index> select(int level, bool force) const {
     std::vector<Index> out;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (rows_[i].kind == RowKind::sum) continue;
       if (rows_[i].level == level && (rows_[i].kind == RowKind::force) == force)
         out.push_back(static_cast<Index>(i));
     }
@@ -117,24 +126,38 @@ class Levels {
     return left.squaredNorm() < 1e-8L * y(i).squaredNorm();
   }
   Real alpha(Index i) const { return row(i).fade; }
-  Real softness(Index i) const { return Y_.row(i).squaredNorm() * (1 - alpha(i)) / alpha(i); }
+  Real fading_softness(Index i) const { return Y_.row(i).squaredNorm() * (1 - alpha(i)) / alpha(i); }
+  Real softness(Index i) const { return 1 / static_cast<Real>(row(i).weight) + fading_softness(i); }
   Real wrench(Index i) const { return alpha(i) * static_cast<Real>(row(i).force); }
 
-  /// Variables [own rows; held multipliers; torques; slacks of held one-sided rows]. Equations: the torques
-  /// make the motion c = own forces + held forces + push_; the held rows keep what they achieved.
+  /// The force that a contact which blocks the axis of row i, and nothing else, has to answer c with.
+  Real pressed(Index i, const Vector& c) const { return y(i).dot(c) / y(i).squaredNorm(); }
+  /// A sum counts what is added to the motion from its level on.
+  void start_sums(int level) {
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const auto i = static_cast<Index>(r);
+      if (row(i).kind != RowKind::sum || row(i).level != level || unreachable(i)) continue;
+      sums_.push_back({i, pressed(i, c_)});
+    }
+  }
+
+  /// Variables [own rows; held multipliers; torques; slacks of held one-sided rows; sums]. Equations: the
+  /// torques make the motion c = own forces + held forces + push_; the held rows keep what they achieved; the
+  /// sums are those of c.
   struct Layout {
-    Index own, held, torques, slacks;
+    Index own, held, torques, slacks, sums;
     Index mu() const { return own; }
     Index tau() const { return own + held; }
     Index slack() const { return own + held + torques; }
-    Index size() const { return slack() + slacks; }
+    Index sum() const { return slack() + slacks; }
+    Index size() const { return sum() + sums; }
   };
 
   QuadraticProgram pose(const Matrix& own, Layout& at) const {
     const Index m = c_.size();
-    at = {own.rows(), static_cast<Index>(held_.size()), p_.G.cols(), 0};
+    at = {own.rows(), static_cast<Index>(held_.size()), p_.G.cols(), 0, static_cast<Index>(sums_.size())};
     for (const Held& held : held_) at.slacks += one_sided(held.kind);
-    QuadraticProgram qp(at.size(), m + at.held);
+    QuadraticProgram qp(at.size(), m + at.held + at.sums);
     // c = own' own_x + Z' mu + push_
     Matrix toC = Matrix::Zero(m, at.size());
     toC.leftCols(at.own) = own.transpose();
@@ -156,6 +179,16 @@ class Levels {
     }
     qp.lo.segment(at.tau(), at.torques) = tau_lo_;
     qp.hi.segment(at.tau(), at.torques) = tau_hi_;
+    for (Index k = 0; k < at.sums; ++k) {
+      const Sum& sum = sums_[static_cast<std::size_t>(k)];
+      const Vector along = y(sum.row) / y(sum.row).squaredNorm();
+      const Index equation = m + at.held + k;
+      qp.E.row(equation) = along.transpose() * toC;
+      qp.E(equation, at.sum() + k) = -1;
+      qp.e[equation] = sum.above - along.dot(push_);
+      qp.lo[at.sum() + k] = static_cast<Real>(row(sum.row).lo) / alpha(sum.row);
+      qp.hi[at.sum() + k] = static_cast<Real>(row(sum.row).hi) / alpha(sum.row);
+    }
     return qp;
   }
 
@@ -273,9 +306,9 @@ class Levels {
   void hold(int level) {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const auto i = static_cast<Index>(r);
-      if (row(i).level != level || unreachable(i)) continue;
+      if (row(i).level != level || row(i).kind == RowKind::sum || unreachable(i)) continue;
       const RowKind kind = row(i).kind;
-      const Real R = softness(i);
+      const Real R = fading_softness(i);
       const Real nu = kind == RowKind::force ? Real(0) : result(i).nu;
       const Real achieved = y(i).dot(c_) + R * nu;
       Held held{one_sided(kind) ? kind : RowKind::driver, y(i), R, achieved};
@@ -305,6 +338,7 @@ class Levels {
       out_.rows[r].residual = y(i).dot(c_) - d_[i];
       out_.rows[r].acceleration = out_.rows[r].residual + static_cast<Real>(row(i).b);
     }
+    for (const Sum& sum : sums_) result(sum.row).nu = pressed(sum.row, c_) - sum.above;
     for (int k = 0; k < p_.model.body_count(); ++k) {
       out_.spatial_acceleration.push_back(p_.dynamics.spatial_acceleration(k, out_.vdot));
     }
@@ -319,6 +353,7 @@ class Levels {
   Vector c_;               ///< the motion so far
   Vector push_;            ///< B' of the force rows' wrenches so far
   std::vector<Held> held_;
+  std::vector<Sum> sums_;
   Vector tau_lo_, tau_hi_, feed_forward_;
   OracleSolution out_;
 };
@@ -359,6 +394,22 @@ ReducedProblem::ReducedProblem(const solver::Model& m, const solver::State& stat
   for (Index j = 0; j < joints; ++j) {
     if (!model.joint(static_cast<int>(j)).actuated) G.col(j).setZero();
   }
+}
+
+Real ground_condition(const solver::Model& model, const solver::State& state) {
+  const DenseDynamics dynamics(model, state);
+  const Matrix J = dynamics.ground().jacobian;
+  if (J.rows() == 0) return 1;
+  Matrix L = J * dynamics.M.inverse() * J.transpose();
+  const Vector scale = L.diagonal().cwiseSqrt().cwiseInverse();
+  L = (scale.asDiagonal() * L * scale.asDiagonal()).eval();
+  const Vector values = Eigen::SelfAdjointEigenSolver<Matrix>(L, Eigen::EigenvaluesOnly).eigenvalues();
+  const Real largest = values[values.size() - 1];
+  Real smallest = largest;
+  for (const Real value : values) {
+    if (value > 1e-10L * largest) smallest = std::min(smallest, value);
+  }
+  return largest / smallest;
 }
 
 OracleSolution solve(const solver::Model& model, const solver::State& state,

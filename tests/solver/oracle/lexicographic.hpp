@@ -44,6 +44,11 @@ struct ReducedProblem {
 /// B of the constrained inverse inertia: columns span the motions that `rows` leave, B' M B = 1.
 Matrix constrained_basis(const Matrix& M, const Matrix& rows);
 
+/// How far the ground amplifies rounding: the ratio of the largest eigenvalue of Jp M^-1 Jp', its diagonal
+/// made 1, to the smallest that is not 0. A base whose wheels nearly contradict each other has a large one. 1
+/// without a ground.
+Real ground_condition(const solver::Model& model, const solver::State& state);
+
 OracleSolution solve(const solver::Model& model, const solver::State& state,
                      const std::vector<solver::Row>& rows, bool project_velocity = true);
 

@@ -57,6 +57,10 @@ const char* to_string(Robot robot) {
       return "skid";
     case Robot::mecanum_arm:
       return "mecanum_arm";
+    case Robot::tricycle:
+      return "tricycle";
+    case Robot::swerve:
+      return "swerve";
   }
   return "?";
 }
@@ -142,6 +146,16 @@ void add_caster(ModelBuilder& builder, const std::string& name, const Vector3& a
   }
 }
 
+/// A driven wheel under a swivel with a motor of its own, the one axis above the other.
+void add_steered_wheel(ModelBuilder& builder, const std::string& name, const Vector3& at, double max_effort,
+                       Random& random) {
+  builder.add_link(name, "base", {Matrix3::Identity(), at},
+                   motor(name + "_steering", Vector3::UnitZ(), max_effort, random.uniform(0.0, 0.02)),
+                   random_inertia(random, random.uniform(0.5, 2.0)));
+  add_wheel(builder, name + "_wheel", name, Vector3::Zero(), 0.0, random.uniform(0.05, 0.1), true, max_effort,
+            random, {});
+}
+
 void add_mecanum(ModelBuilder& builder, double max_effort, Random& random) {
   const double lx = random.uniform(0.15, 0.4);
   const double ly = random.uniform(0.15, 0.4);
@@ -221,6 +235,20 @@ Model random_model(Robot robot, Random& random, double max_effort) {
       }
       return builder.build();
     }
+    case Robot::tricycle: {
+      ModelBuilder builder(BaseType::ground, "base", chassis(random));
+      add_steered_wheel(builder, "front", {0.4, 0.0, 0.0}, max_effort, random);
+      add_wheel(builder, "left", "base", {-0.1, 0.2, 0.0}, 0.0, 0.08, false, max_effort, random, {});
+      add_wheel(builder, "right", "base", {-0.1, -0.2, 0.0}, 0.0, 0.08, false, max_effort, random, {});
+      return builder.build();
+    }
+    case Robot::swerve: {  // two wheels always have a common centre; three at random angles lock the base
+      ModelBuilder builder(BaseType::ground, "base", chassis(random));
+      add_steered_wheel(builder, "front", {0.25, 0.1, 0.0}, max_effort, random);
+      add_steered_wheel(builder, "rear", {-0.25, -0.1, 0.0}, max_effort, random);
+      if (random.chance(0.3)) add_steered_wheel(builder, "side", {0.0, 0.3, 0.0}, max_effort, random);
+      return builder.build();
+    }
     case Robot::skid: {
       ModelBuilder builder(BaseType::ground, "base", chassis(random));
       for (const int x : {1, -1}) {
@@ -282,6 +310,7 @@ std::vector<Row> random_rows(const Model& model, const RowOptions& options, Rand
     if (!rows.empty() && random.chance(options.duplicate)) {
       row = rows[static_cast<std::size_t>(random.pick(0, static_cast<int>(rows.size()) - 1))];
       row.fade = 1.0;
+      row.weight = solver::infinity;
       if (random.chance(0.3)) row.b += random.uniform(-1.0, 1.0);
     } else {
       row.body = planar && random.chance(0.6) ? 0 : random.pick(first, bodies - 1);
@@ -310,6 +339,13 @@ std::vector<Row> random_rows(const Model& model, const RowOptions& options, Rand
       row.hi = std::max(0.0, row.force);
     } else {
       row.kind = RowKind::driver;
+      row.lo = -F * random.uniform(0.0, 1.0);
+      row.hi = F * random.uniform(0.0, 1.0);
+    }
+    if (options.weight > 0.0 && random.chance(options.weight))
+      row.weight = std::pow(10.0, random.uniform(-1.0, 3.0));
+    if (options.sum > 0.0 && random.chance(options.sum)) {
+      row.kind = RowKind::sum;
       row.lo = -F * random.uniform(0.0, 1.0);
       row.hi = F * random.uniform(0.0, 1.0);
     }

@@ -30,10 +30,22 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-enum class Robot { arm, tree, floating_tree, mecanum, omni, differential, kelo, skid, mecanum_arm };
-inline constexpr Robot all_robots[] = {Robot::arm,     Robot::tree, Robot::floating_tree,
-                                       Robot::mecanum, Robot::omni, Robot::differential,
-                                       Robot::kelo,    Robot::skid, Robot::mecanum_arm};
+enum class Robot {
+  arm,
+  tree,
+  floating_tree,
+  mecanum,
+  omni,
+  differential,
+  kelo,
+  skid,
+  mecanum_arm,
+  tricycle,
+  swerve
+};
+inline constexpr Robot all_robots[] = {
+    Robot::arm,  Robot::tree, Robot::floating_tree, Robot::mecanum,  Robot::omni,  Robot::differential,
+    Robot::kelo, Robot::skid, Robot::mecanum_arm,   Robot::tricycle, Robot::swerve};
 const char* to_string(Robot robot);
 
 solver::RigidInertia random_inertia(Random& random, double mass);
@@ -49,6 +61,8 @@ struct RowOptions {
   double fading = 0.15;
   double duplicate = 0.15;  ///< a copy of an earlier row, or a mixture of two; b is consistent or not
   double relative = 0.15;   ///< between two bodies
+  double weight = 0.1;      ///< soft
+  double sum = 0.1;         ///< bounds what the rows press with together
   double bound = 60.0;      ///< largest |nu| [N] or [N m]
   double demand = 3.0;      ///< largest |b| [m/s^2] or [rad/s^2]
 };

@@ -5,34 +5,65 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "zwang/lang/source.hpp"
+
 namespace zwang::runtime {
 
-/// One column of the CSV file; its header is `name [unit]`.
+/// One number of a record.
 struct Column {
   std::string name;
   std::string unit;                ///< empty for pure numbers and words
   std::vector<std::string> words;  ///< when not empty, the value is an index into it
+  lang::Span span = {};            ///< the words of the author that it comes from
 };
+
+/// What a log holds beside its records: enough to run the same thing again.
+struct LogContext {
+  std::vector<lang::Source> sources;         ///< every file that was read; a column's span counts them
+  std::map<std::string, std::string> facts;  ///< "seed": "0", "version": ...
+};
+
+/// A form of the log. All calls come from one thread, never from the control loop. Each returns what went
+/// wrong, or nothing; after the first complaint only `close` is called.
+class LogSink {
+ public:
+  virtual ~LogSink() = default;
+  virtual std::string open(const std::vector<Column>& columns) = 0;  ///< once, by Recorder's constructor
+  virtual std::string write(std::span<const double> values) = 0;     ///< one value a column; NaN: blank
+  virtual std::string flush() = 0;  ///< now and then, when there is nothing to write
+  virtual std::string close() = 0;
+};
+
+/// A line a record, `name [unit]` in the header. The bytes depend on the values alone: numbers have nine
+/// significant digits and a point whatever the locale.
+std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path);
+
+/// MCAP (https://mcap.dev): messages of the channel `/tick` with a JSON schema, numbers in full, in
+/// compressed chunks of at most 100 ms; the context's sources are its attachments. Cut anywhere, all whole
+/// chunks before the cut can be read. Wants a first column `time` in seconds.
+std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context);
 
 struct RecorderStatus {
   std::uint64_t recorded = 0;  ///< records accepted by `record`
-  std::uint64_t written = 0;   ///< records handed to the file without an error
+  std::uint64_t written = 0;   ///< records handed to every sink without an error
   std::uint64_t dropped = 0;   ///< records refused because the writer was behind
-  std::string error;           ///< what the file system said; empty when all is well
+  std::string error;           ///< what a sink said first; empty when all is well
   bool complete() const { return dropped == 0 && error.empty() && recorded == written; }
 };
 
-/// A value that is not a number is written as a blank. The bytes depend on the values alone: numbers have
-/// nine significant digits and a point whatever the locale, and no wall-clock time is in them.
 class Recorder {
  public:
-  /// Opens the file and starts the writer. A file that cannot be written is reported by `status`, not thrown.
-  /// Throws std::invalid_argument without columns or capacity.
+  /// Opens the sinks and starts the writer. A sink that cannot be opened, or throws, is reported by `status`,
+  /// not thrown; the others go on. Throws std::invalid_argument without sinks, columns or capacity.
+  Recorder(std::vector<std::unique_ptr<LogSink>> sinks, std::vector<Column> columns,
+           std::size_t capacity = 8192);
+  /// Into one CSV file.
   Recorder(const std::filesystem::path& path, std::vector<Column> columns, std::size_t capacity = 8192);
   ~Recorder();  ///< closes
   Recorder(const Recorder&) = delete;

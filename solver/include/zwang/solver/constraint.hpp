@@ -26,10 +26,21 @@ struct Range {
   double high = infinity;
 };
 
+/// What a statement measures between the frames `move` (F) and `in` (T).
+enum class Measure {
+  axis,       ///< the position or angle of F along or about one axis of T
+  direction,  ///< a weighted sum of all six: a slanted axis, the normal of an edge, a coupling of two axes
+  distance,   ///< from the origin of T to that of F
+  angle,      ///< between one axis of F and one of T, 0 to pi
+  speed,      ///< of F in the x-y plane of T; velocity ranges only, and no row below half of the highest
+};
+
 /// A frame fixed to a body, or to the world (body = -1).
 struct AttachedFrame {
   int body = -1;
-  Pose pose;  ///< in the body's frame, or in the world
+  Pose pose;           ///< in the body's frame, or in the world
+  MotionVector twist;  ///< of a frame in the world that moves (an observed object), in its own axes and at
+                       ///< its origin; its acceleration counts as 0. Ignored on a body.
 };
 
 /// The value that drives an axis. [SI: m, rad, m/s, ..., N, N m]
@@ -40,31 +51,50 @@ struct Driver {
   double target_acceleration = 0.0;  ///< ddp
   double time_constant = 0.5;        ///< tau [s]
   Range force;                       ///< bounds of the row's multiplier [N] or [N m]
+  /// A position driver with either of these is a spring: a force row with f = k (p - s) + d (dp - ds), inside
+  /// the range `force`. [N/m, N s/m] or [N m/rad, N m s/rad]
+  double stiffness = 0.0;
+  double damping = 0.0;
+
+  bool makes_force() const {
+    return quantity == Quantity::force ||
+           (quantity == Quantity::position && (stiffness > 0.0 || damping > 0.0));
+  }
 };
 
-/// What a task says about one axis of a frame: at most one driver, and any ranges.
+/// What a task says about one axis (or other measure) of a frame: at most one driver, and any ranges.
 struct AxisConstraint {
   AttachedFrame move;  ///< F
   AttachedFrame in;    ///< T; its axes carry the statement. On the same body as `move` they only orient.
-  Axis axis = Axis::x;
+  Measure measure = Measure::axis;
+  Axis axis = Axis::x;                   ///< of an angle: the one of F
+  Axis other_axis = Axis::x;             ///< of an angle: the one of T
+  std::array<double, 6> coefficients{};  ///< of a direction, by x y z rx ry rz
   std::optional<Driver> driver;
   std::optional<Range> position;      ///< [m] or [rad]
   std::optional<Range> velocity;      ///< [m/s] or [rad/s]
   std::optional<Range> acceleration;  ///< [m/s^2] or [rad/s^2]
-  double braking = 1.0;               ///< a_brk of a position range [m/s^2] or [rad/s^2]
+  /// [N] or [N m], 0 inside. Beside a motion driver it narrows the driver's. Without a driver it limits what
+  /// all rows of this level and below press with along the axis together: a row of the kind `sum`.
+  std::optional<Range> force;
+  /// w [kg] or [kg m^2]: motion rows become soft, the part w/(w + Lambda) of b is met, Lambda the effective
+  /// mass along the axis.
+  double weight = infinity;
+  double braking = 1.0;  ///< a_brk of a position range [m/s^2] or [rad/s^2]
   int level = 1;
 
-  /// Fading: 1 in force, 0 gone. Soft drivers get R = L_jj (1 - alpha)/alpha and bounds times alpha.
+  /// Fading: 1 in force, 0 gone. Drivers get R = L_jj (1 - alpha)/alpha and bounds times alpha.
   double alpha = 1.0;
-  bool leaving = false;  ///< one-sided rows enter at once and leave with R(alpha)
-  double blend = 0.0;    ///< [s] entering one-sided rows act with the horizon max(h, (1 - alpha) blend)
+  bool leaving =
+      false;  ///< one-sided rows and sums enter at once; they leave with R(alpha), or with bounds / alpha
+  double blend = 0.0;  ///< [s] entering one-sided rows act with the horizon max(h, (1 - alpha) blend)
   /// A driver that persists over a switch: b (or f) goes from `before`'s to `driver`'s as `progress` goes
   /// from 0 to 1.
   std::optional<Driver> before;
   double progress = 1.0;
 };
 
-/// The present motion along an axis. [m, m/s] or [rad, rad/s]
+/// The present motion along a measure. [m, m/s] or [rad, rad/s]
 struct Coordinate {
   double position = 0.0;           ///< s; for axes carried by the moved body 0
   double velocity = 0.0;           ///< ds
@@ -76,6 +106,7 @@ enum class RowKind {
   upper,   ///< a . Xdd <= b, nu <= 0
   lower,   ///< a . Xdd >= b, nu >= 0
   force,   ///< a wrench a phi f, phi in [0, 1]
+  sum,     ///< no force of its own: lo and hi bound what all rows of its level and below press with along a
 };
 
 struct Row {
@@ -91,12 +122,14 @@ struct Row {
   double force = 0.0;       ///< f of a force row [N] or [N m]
   double lo = -infinity;  ///< bounds of nu [N] or [N m]; an infinite bound stands for what the motors can do
   double hi = infinity;
-  double fade = 1.0;  ///< alpha: bounds and force times alpha, softness R = L_jj (1 - alpha)/alpha
+  double weight = infinity;  ///< w [kg] or [kg m^2] of a motion row, above 0; softness R = 1/w
+  double fade = 1.0;  ///< alpha: bounds and force times alpha, softness R = 1/w + L_jj (1 - alpha)/alpha; of
+                      ///< a sum, bounds divided by alpha
   int level = 1;
 };
 
 /// The constraints in force at one instant, and the coordinates and rows that `fill` computes from a state.
-/// Sized once: `fill` does not allocate, lock, throw or print.
+/// Sized once, std::invalid_argument for a size below 1: `fill` does not allocate, lock, throw or print.
 class ConstraintSet {
  public:
   explicit ConstraintSet(int constraint_capacity = 64, int row_capacity = 64);
@@ -115,6 +148,8 @@ class ConstraintSet {
 
  private:
   bool fill_one(int index, const Model& model, const State& state) noexcept;
+  bool push_driver(const AxisConstraint& constraint, const Coordinate& now, double horizon, Row row) noexcept;
+  bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, double horizon, Row row) noexcept;
   bool push(const Row& row) noexcept;
 
   std::vector<AxisConstraint> constraints_;
@@ -125,6 +160,9 @@ class ConstraintSet {
 /// The motion of `move` along `axis` of `in` at the state. Does not allocate, lock, throw or print.
 Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis, const Model& model,
                          const State& state) noexcept;
+
+/// The same of what a constraint measures.
+Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept;
 
 /// World pose and twist (in world axes, linear part of the frame's origin) of an attached frame.
 struct FrameMotion {

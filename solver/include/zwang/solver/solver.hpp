@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "zwang/solver/constraint.hpp"
@@ -23,7 +24,7 @@ const char* to_string(Status status) noexcept;
 
 enum class RowStatus {
   held,            ///< the acceleration meets b (or a one-sided row is met)
-  force_limited,   ///< nu at its bound, as intended
+  force_limited,   ///< nu at its bound, or a sum that it adds to, as intended
   torque_limited,  ///< a motor at its limit is what keeps the row from b, or phi from 1
   unreachable,     ///< nothing the robot can do moves this axis
   blocked,         ///< higher rows leave this axis no freedom
@@ -32,11 +33,12 @@ enum class RowStatus {
 const char* to_string(RowStatus status) noexcept;
 
 struct RowSolution {
-  double nu = 0.0;   ///< the row's constraint force on the robot [N] or [N m]; phi f of a force row
+  double nu = 0.0;   ///< the row's constraint force on the robot [N] or [N m]; phi f of a force row; of a sum
+                     ///< its value
   double phi = 0.0;  ///< of a force row, in [0, 1]
   double residual =
       0.0;  ///< s = a . Xdd - b [m/s^2] or [rad/s^2]; of a one-sided row only where b is violated
-  bool saturated = false;  ///< nu at a bound of its own; a force row: phi < 1
+  bool saturated = false;  ///< nu at its bound, or held back by a sum at its bound; a force row: phi < 1
   RowStatus status = RowStatus::held;
 };
 
@@ -67,6 +69,12 @@ class Solver {
   /// Does not allocate, lock, throw or print. On any status but `ok` and `iteration_limit` the solution is
   /// untouched.
   [[nodiscard]] Status solve(const State& state, const std::vector<Row>& rows, Solution& solution) noexcept;
+
+  /// The rows that keep row `row` of the last solved problem from what it asks, the strongest first, into
+  /// `out`: rows whose forces push it the other way, rows of higher levels that hold its axis, sums at their
+  /// bound. Returns how many; 0 for a row that got what it asked. Each has at least 1 % of the strongest
+  /// one's say. Does not allocate, lock, throw or print.
+  int opposing(int row, std::span<int> out) const noexcept;
 
   /// Takes out of the measured velocities what the ground does not allow (in the metric of kinetic energy).
   /// Do this first in every period: what is left is the robot's odometry, and slip noise never reaches the

@@ -1,0 +1,82 @@
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "output.hpp"
+#include "verbs.hpp"
+#include "zwang/runtime/log_reader.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct TaskBegin {
+  double time = 0.0;  ///< [s]
+  std::string task;
+};
+
+/// The word of the column `task`. A record is one flat object of ours, so that it need not be parsed whole.
+std::string_view task_of(std::string_view record) {
+  constexpr std::string_view key = R"("task":")";
+  const std::size_t begin = record.find(key);
+  if (begin == std::string_view::npos) return {};
+  record.remove_prefix(begin + key.size());
+  return record.substr(0, record.find('"'));
+}
+
+ordered_json as_json(const std::string& file, const runtime::LogContents& log,
+                     const std::vector<TaskBegin>& tasks) {
+  ordered_json files = ordered_json::array();
+  for (const lang::Source& s : log.context.sources)
+    files.push_back({{"name", s.path}, {"bytes", s.text.size()}});
+  ordered_json begins = ordered_json::array();
+  for (const TaskBegin& t : tasks) begins.push_back({{"time", t.time}, {"task", t.task}});
+  return {{"file", file},
+          {"whole", log.closed && log.damage.empty()},
+          {"damage", log.damage},
+          {"records", log.records},
+          {"begin", log.begin},
+          {"end", log.end},
+          {"facts", log.context.facts},
+          {"files", files},
+          {"tasks", begins}};
+}
+
+std::string as_text(const std::string& file, const runtime::LogContents& log,
+                    const std::vector<TaskBegin>& tasks) {
+  std::ostringstream out;
+  out << file << ": " << (log.closed && log.damage.empty() ? "whole" : "damaged") << ", " << log.records
+      << " records from " << with_unit(log.begin, "s") << " to " << with_unit(log.end, "s") << "\n";
+  for (const std::string& what : log.damage) out << "  " << what << "\n";
+  for (const auto& [name, value] : log.context.facts) out << "  " << padded(name, 20) << value << "\n";
+  for (const lang::Source& s : log.context.sources) {
+    out << "  " << padded("file", 20) << s.path << " (" << s.text.size() << " bytes)\n";
+  }
+  for (const TaskBegin& t : tasks) {
+    out << "  " << padded("from " + with_unit(t.time, "s"), 20) << "task `" << t.task << "`\n";
+  }
+  return out.str();
+}
+
+}  // namespace
+
+int info(const InfoArguments& arguments) {
+  require_file(arguments.file);
+  std::vector<TaskBegin> tasks;
+  const runtime::LogContents log =
+      runtime::read_log(arguments.file, [&tasks](double time, std::string_view record) {
+        const std::string_view task = task_of(record);
+        if (!task.empty() && (tasks.empty() || tasks.back().task != task)) {
+          tasks.push_back({time, std::string(task)});
+        }
+      });
+  print(
+      arguments.format == Format::json
+          ? as_json(arguments.file, log, tasks).dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+                "\n"
+          : as_text(arguments.file, log, tasks));
+  return log.closed && log.damage.empty() ? exit_good : exit_bad;
+}
+
+}  // namespace zwang::cli

@@ -1,0 +1,33 @@
+/// Reads the MCAP logs that `mcap_sink` writes, whole or damaged.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zwang/runtime/recorder.hpp"
+
+namespace zwang::runtime {
+
+struct LogContents {
+  LogContext context;
+  std::string schema;         ///< JSON schema of the records
+  std::uint64_t records = 0;  ///< that could be read
+  double begin = 0.0;         ///< [s] of the first record
+  double end = 0.0;           ///< [s] of the last one
+  bool closed = false;        ///< the log was ended properly
+  /// What could not be read, and where; empty when all is well.
+  std::vector<std::string> damage;
+};
+
+/// Calls `record` with the time [s] and the JSON text of every record that can be read, in the order of the
+/// file. A cut or changed file is read as far as it is whole, and `damage` tells the rest. Never throws on
+/// what is in the file, needs no more memory than a chunk; throws std::runtime_error when the file cannot be
+/// opened or is no MCAP file.
+LogContents read_log(const std::filesystem::path& path,
+                     const std::function<void(double time, std::string_view json)>& record);
+
+}  // namespace zwang::runtime

@@ -1,0 +1,33 @@
+#include "log/compression.hpp"
+
+#include <zlib.h>
+#include <zstd.h>
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr int level = 3;  // zstd's own default
+
+}  // namespace
+
+std::optional<std::string> compress(std::string_view bytes) {
+  std::string packed(ZSTD_compressBound(bytes.size()), '\0');
+  const std::size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), level);
+  if (ZSTD_isError(size) != 0) return std::nullopt;
+  packed.resize(size);
+  return packed;
+}
+
+std::optional<std::string> decompress(std::string_view bytes, std::size_t size) {
+  std::string whole(size, '\0');
+  if (ZSTD_decompress(whole.data(), size, bytes.data(), bytes.size()) != size) return std::nullopt;
+  return whole;
+}
+
+std::uint32_t crc32(std::string_view bytes, std::uint32_t crc) {
+  const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
+  return static_cast<std::uint32_t>(::crc32_z(crc, data, bytes.size()));
+}
+
+}  // namespace zwang::runtime

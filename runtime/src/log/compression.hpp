@@ -1,0 +1,18 @@
+/// zstd and CRC-32. The only file of the room that knows these libraries is compression.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace zwang::runtime {
+
+/// Nothing when the library refuses.
+std::optional<std::string> compress(std::string_view bytes);
+/// Nothing unless `bytes` are a whole frame of exactly `size` bytes.
+std::optional<std::string> decompress(std::string_view bytes, std::size_t size);
+/// CRC-32 as in zlib; `crc` is that of the bytes before.
+std::uint32_t crc32(std::string_view bytes, std::uint32_t crc = 0);
+
+}  // namespace zwang::runtime

@@ -1,0 +1,77 @@
+#include <charconv>
+#include <cmath>
+
+#include "log/log_file.hpp"
+#include "zwang/runtime/recorder.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr int significant_digits = 9;
+constexpr std::size_t longest_number = 32;
+
+void append_number(std::string& line, double value) {
+  char digits[longest_number];
+  // Negative zero would make two equal states differ in the log.
+  const auto end = std::to_chars(digits, digits + longest_number, value == 0.0 ? 0.0 : value,
+                                 std::chars_format::general, significant_digits);
+  line.append(digits, end.ptr);
+}
+
+void append_value(std::string& line, const Column& column, double value) {
+  if (std::isnan(value)) return;
+  if (column.words.empty()) {
+    append_number(line, value);
+    return;
+  }
+  const auto index = static_cast<std::size_t>(value);
+  if (value >= 0.0 && index < column.words.size()) line += column.words[index];
+}
+
+std::string header(const std::vector<Column>& columns) {
+  std::string line;
+  for (const Column& column : columns) {
+    if (!line.empty()) line += ',';
+    line += column.name;
+    if (!column.unit.empty()) line += " [" + column.unit + "]";
+  }
+  return line + "\n";
+}
+
+class CsvSink : public LogSink {
+ public:
+  explicit CsvSink(const std::filesystem::path& path) : file_(path) {}
+
+  std::string open(const std::vector<Column>& columns) override {
+    columns_ = columns;
+    const std::string error = file_.open();
+    return error.empty() ? file_.append(header(columns_)) : error;
+  }
+
+  std::string write(std::span<const double> values) override {
+    line_.clear();
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (i > 0) line_ += ',';
+      append_value(line_, columns_[i], values[i]);
+    }
+    line_ += '\n';
+    return file_.append(line_);
+  }
+
+  std::string flush() override { return file_.flush(); }
+  std::string close() override { return file_.close(); }
+
+ private:
+  LogFile file_;
+  std::vector<Column> columns_;
+  std::string line_;
+};
+
+}  // namespace
+
+std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path) {
+  return std::make_unique<CsvSink>(path);
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,199 @@
+#include <algorithm>
+#include <cmath>
+
+#include "log/compression.hpp"
+#include "log/log_file.hpp"
+#include "log/mcap_format.hpp"
+#include "log/tick_json.hpp"
+#include "zwang/runtime/recorder.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+using mcap::Content;
+using mcap::Opcode;
+
+constexpr std::uint64_t chunk_span = 100'000'000;         // [ns]
+constexpr std::size_t chunk_room = std::size_t{1} << 20;  // [bytes]
+constexpr std::uint16_t tick_id = 1;                      // of the schema and of the channel
+
+std::uint64_t nanoseconds(double seconds) {
+  return seconds > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds * 1e9)) : 0;
+}
+
+std::string media_type(const std::string& path) {
+  return path.ends_with(".urdf") ? "application/xml" : "application/yaml";
+}
+
+std::string map_of(const std::map<std::string, std::string>& facts) {
+  Content pairs;
+  for (const auto& [key, value] : facts) pairs.text(key).text(value);
+  return pairs.bytes();
+}
+
+/// The parts of the file follow one another as in the specification: header, data (schema, channel, facts,
+/// attachments, chunks), summary, footer.
+class McapSink : public LogSink {
+ public:
+  McapSink(const std::filesystem::path& path, LogContext context)
+      : file_(path), context_(std::move(context)) {}
+
+  std::string open(const std::vector<Column>& columns) override {
+    json_ = std::make_unique<TickJson>(columns);
+    std::string error = file_.open();
+    if (!error.empty()) return error;
+    schema_and_channel_ = schema_record(columns) + channel_record();
+    error = file_.append(std::string(mcap::magic) +
+                         mcap::record(Opcode::header, Content().text("").text("zwang").bytes()) +
+                         schema_and_channel_);
+    if (error.empty()) error = append_metadata();
+    for (const lang::Source& source : context_.sources) {
+      if (error.empty()) error = append_attachment(source);
+    }
+    return error.empty() ? file_.flush() : error;
+  }
+
+  std::string write(std::span<const double> values) override {
+    const std::uint64_t time = nanoseconds(values.front());
+    std::string error;
+    if (!chunk_times_.empty() &&
+        (time >= chunk_times_.front().time + chunk_span || chunk_.size() > chunk_room)) {
+      error = append_chunk();
+    }
+    const std::string& json = json_->of(values);
+    chunk_times_.push_back({time, chunk_.size()});
+    chunk_ += mcap::record(Opcode::message,
+                           Content().u16(tick_id).u32(sequence_++).u64(time).u64(time).raw(json).bytes());
+    return error;
+  }
+
+  std::string flush() override { return ""; }  // a chunk is on its way as soon as it is full
+
+  std::string close() override {
+    if (!file_.is_open()) return "";
+    std::string error = chunk_times_.empty() ? "" : append_chunk();
+    // Every chunk and attachment has a CRC of its own; 0 says that the data as a whole has none.
+    if (error.empty()) error = file_.append(mcap::record(Opcode::data_end, Content().u32(0).bytes()));
+    if (error.empty()) error = file_.append(summary());
+    const std::string closing = file_.close();
+    return error.empty() ? closing : error;
+  }
+
+ private:
+  struct Stamp {
+    std::uint64_t time = 0;    ///< [ns]
+    std::uint64_t offset = 0;  ///< [bytes] in the chunk
+  };
+
+  std::string schema_record(const std::vector<Column>& columns) const {
+    return mcap::record(Opcode::schema, Content()
+                                            .u16(tick_id)
+                                            .text("zwang.Tick")
+                                            .text("jsonschema")
+                                            .text(tick_schema(columns, context_.sources))
+                                            .bytes());
+  }
+
+  static std::string channel_record() {
+    return mcap::record(Opcode::channel,
+                        Content().u16(tick_id).u16(tick_id).text("/tick").text("json").text("").bytes());
+  }
+
+  std::string append_metadata() {
+    const std::string whole =
+        mcap::record(Opcode::metadata, Content().text("zwang").text(map_of(context_.facts)).bytes());
+    index_ += mcap::record(Opcode::metadata_index,
+                           Content().u64(file_.size()).u64(whole.size()).text("zwang").bytes());
+    return file_.append(whole);
+  }
+
+  std::string append_attachment(const lang::Source& source) {
+    const std::string type = media_type(source.path);
+    Content content;
+    content.u64(0).u64(0).text(source.path).text(type).u64(source.text.size()).raw(source.text);
+    content.u32(crc32(content.bytes()));
+    const std::string whole = mcap::record(Opcode::attachment, content.bytes());
+    index_ += mcap::record(Opcode::attachment_index, Content()
+                                                         .u64(file_.size())
+                                                         .u64(whole.size())
+                                                         .u64(0)
+                                                         .u64(0)
+                                                         .u64(source.text.size())
+                                                         .text(source.path)
+                                                         .text(type)
+                                                         .bytes());
+    return file_.append(whole);
+  }
+
+  std::string append_chunk() {
+    const std::optional<std::string> packed = compress(chunk_);
+    if (!packed) return "the log could not be compressed";
+    const auto [first, last] = std::minmax_element(chunk_times_.begin(), chunk_times_.end(),
+                                                   [](Stamp a, Stamp b) { return a.time < b.time; });
+    Content content;
+    content.u64(first->time).u64(last->time).u64(chunk_.size()).u32(crc32(chunk_)).text("zstd");
+    content.u64(packed->size()).raw(*packed);
+    const std::string whole = mcap::record(Opcode::chunk, content.bytes());
+    Content stamps;
+    for (const Stamp& stamp : chunk_times_) stamps.u64(stamp.time).u64(stamp.offset);
+    const std::string index =
+        mcap::record(Opcode::message_index, Content().u16(tick_id).text(stamps.bytes()).bytes());
+    const std::uint64_t start = file_.size();
+    chunk_index_ +=
+        mcap::record(Opcode::chunk_index, Content()
+                                              .u64(first->time)
+                                              .u64(last->time)
+                                              .u64(start)
+                                              .u64(whole.size())
+                                              .text(Content().u16(tick_id).u64(start + whole.size()).bytes())
+                                              .u64(index.size())
+                                              .text("zstd")
+                                              .u64(packed->size())
+                                              .u64(chunk_.size())
+                                              .bytes());
+    begin_ = std::min(begin_, first->time);
+    end_ = std::max(end_, last->time);
+    ++chunks_;
+    chunk_.clear();
+    chunk_times_.clear();
+    const std::string error = file_.append(whole + index);
+    return error.empty() ? file_.flush() : error;
+  }
+
+  std::string statistics() const {
+    Content content;
+    content.u64(sequence_).u16(1).u32(1).u32(static_cast<std::uint32_t>(context_.sources.size())).u32(1);
+    content.u32(chunks_).u64(sequence_ > 0 ? begin_ : 0).u64(end_);
+    content.text(Content().u16(tick_id).u64(sequence_).bytes());
+    return mcap::record(Opcode::statistics, content.bytes());
+  }
+
+  /// The summary, and the footer with the CRC of the summary and of its own fields before the CRC.
+  std::string summary() const {
+    std::string whole = schema_and_channel_ + statistics() + chunk_index_ + index_;
+    Content content;
+    content.u64(file_.size()).u64(0);
+    Content head;  // of the footer's record, whose length is known
+    head.raw(std::string(1, static_cast<char>(Opcode::footer))).u64(content.bytes().size() + 4);
+    content.u32(crc32(whole + head.bytes() + content.bytes()));
+    return whole + mcap::record(Opcode::footer, content.bytes()) + std::string(mcap::magic);
+  }
+
+  LogFile file_;
+  LogContext context_;
+  std::unique_ptr<TickJson> json_;
+  std::string schema_and_channel_, index_, chunk_index_;  // of the summary
+  std::string chunk_;
+  std::vector<Stamp> chunk_times_;
+  std::uint32_t sequence_ = 0, chunks_ = 0;
+  std::uint64_t begin_ = ~std::uint64_t{0}, end_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context) {
+  return std::make_unique<McapSink>(path, std::move(context));
+}
+
+}  // namespace zwang::runtime

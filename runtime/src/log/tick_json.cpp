@@ -1,0 +1,103 @@
+#include "log/tick_json.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr std::size_t longest_number = 32;
+
+std::string json_string(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (byte < 0x20) {
+      char escape[8];
+      std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(byte));
+      result += escape;
+    } else {
+      result += c;
+    }
+  }
+  result += '"';
+  return result;
+}
+
+std::string description(const Column& column, const std::vector<lang::Source>& sources) {
+  std::string text;
+  if (!column.unit.empty()) text.append("[").append(column.unit).append("]");
+  if (column.span.exists() && static_cast<std::size_t>(column.span.source) < sources.size()) {
+    if (!text.empty()) text += ' ';
+    text += sources[static_cast<std::size_t>(column.span.source)].path;
+    text.append(":").append(std::to_string(column.span.begin.line));
+  }
+  return text;
+}
+
+std::string property(const Column& column, const std::vector<lang::Source>& sources) {
+  std::string text = json_string(column.name);
+  if (column.words.empty()) {
+    text += R"(:{"type":["number","null"])";
+  } else {
+    text += R"(:{"type":"string","enum":[)";
+    for (std::size_t i = 0; i < column.words.size(); ++i) {
+      if (i > 0) text += ',';
+      text += json_string(column.words[i]);
+    }
+    text += ']';
+  }
+  const std::string words = description(column, sources);
+  if (!words.empty()) text.append(R"(,"description":)").append(json_string(words));
+  text += '}';
+  return text;
+}
+
+}  // namespace
+
+std::string tick_schema(const std::vector<Column>& columns, const std::vector<lang::Source>& sources) {
+  std::string text = R"({"type":"object","title":"zwang.Tick","properties":{)";
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (i > 0) text += ',';
+    text += property(columns[i], sources);
+  }
+  text += "}}";
+  return text;
+}
+
+TickJson::TickJson(const std::vector<Column>& columns) {
+  for (const Column& column : columns) {
+    keys_.push_back(json_string(column.name));
+    keys_.back() += ':';
+    words_.emplace_back();
+    for (const std::string& word : column.words) words_.back().push_back(json_string(word));
+  }
+}
+
+const std::string& TickJson::of(std::span<const double> values) {
+  line_.assign(1, '{');
+  for (std::size_t i = 0; i < keys_.size() && i < values.size(); ++i) {
+    const double value = values[i];
+    if (std::isnan(value)) continue;
+    if (line_.size() > 1) line_ += ',';
+    line_ += keys_[i];
+    if (!words_[i].empty()) {
+      const auto word = static_cast<std::size_t>(value);
+      line_ += value >= 0.0 && word < words_[i].size() ? words_[i][word] : "\"\"";
+    } else if (std::isinf(value)) {
+      line_ += "null";
+    } else {
+      char digits[longest_number];
+      line_.append(digits, std::to_chars(digits, digits + longest_number, value).ptr);
+    }
+  }
+  line_ += '}';
+  return line_;
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,162 @@
+// How the solution of BoundedProblem reads, row by row, and which rows hold another one back.
+#include <algorithm>
+#include <cmath>
+
+#include "base/bounded_problem.hpp"
+
+namespace zwang::solver {
+
+namespace {
+
+constexpr double bound_tolerance = 1e-9;     // relative: when a force counts as being at its bound
+constexpr double residual_tolerance = 1e-8;  // relative to 1 + |d|: when a row counts as met
+constexpr double least_opposition = 0.01;    // of the strongest one's, to be named
+
+/// The side of its box that nu is at: -1, 1, or 0 for neither.
+int side_of(double nu, double lo, double hi) {
+  double size = 1.0;
+  for (const double bound : {lo, hi}) {
+    if (std::isfinite(bound)) size = std::max(size, std::abs(bound));
+  }
+  const double width = bound_tolerance * size;
+  if (nu >= hi - width && hi > 0.0) return 1;
+  if (nu <= lo + width && lo < 0.0) return -1;
+  return 0;
+}
+
+}  // namespace
+
+void BoundedProblem::report() noexcept {
+  bool motor_at_limit = false;
+  for (int j = 0; j < motors_; ++j) {
+    const double width = bound_tolerance * (tau_hi_(j) - tau_lo_(j));
+    if (!std::isfinite(width)) continue;
+    motor_at_limit = motor_at_limit || tau_(j) <= tau_lo_(j) + width || tau_(j) >= tau_hi_(j) - width;
+  }
+  for (int i = 0; i < rows_; ++i) {
+    const RowKind kind = entry(i).kind;
+    solutions_[static_cast<std::size_t>(i)] = kind == RowKind::force ? report_force(i, motor_at_limit)
+                                              : kind == RowKind::sum ? report_sum(i)
+                                                                     : report_motion(i, motor_at_limit);
+  }
+}
+
+RowSolution BoundedProblem::report_force(int i, bool motor_at_limit) noexcept {
+  const Entry& e = entry(i);
+  RowSolution row;
+  row.phi = e.phi;
+  row.nu = e.phi * e.force;
+  row.saturated = e.phi < 1.0 - bound_tolerance;
+  if (e.out) {
+    row.status = e.status;
+  } else if (e.blocked) {
+    row.status = RowStatus::blocked;
+  } else if (row.saturated) {
+    const bool by_sum = !motor_at_limit || is_held_by_sum(i, e.force);
+    row.status = by_sum ? RowStatus::force_limited : RowStatus::torque_limited;
+  }
+  return row;
+}
+
+RowSolution BoundedProblem::report_sum(int i) noexcept {
+  const Entry& e = entry(i);
+  RowSolution row;
+  if (e.out) return row;
+  row.nu = sum_of(i, p_);
+  row.saturated = side_of(row.nu, e.lo, e.hi) != 0;
+  row.status = row.saturated ? RowStatus::force_limited : RowStatus::held;
+  return row;
+}
+
+RowSolution BoundedProblem::report_motion(int i, bool motor_at_limit) noexcept {
+  const Entry& e = entry(i);
+  RowSolution row;
+  const double s = along(i, p_) - d_(i);
+  row.nu = e.out ? 0.0 : e.nu;
+  row.residual = e.kind == RowKind::upper   ? std::max(s, 0.0)
+                 : e.kind == RowKind::lower ? std::min(s, 0.0)
+                                            : s;
+  row.saturated = !e.out && side_of(e.nu, e.lo, e.hi) != 0;
+  const bool met = std::abs(row.residual) <= residual_tolerance * (1.0 + std::abs(d_(i)));
+  if (met || e.out) {
+    row.status = met ? RowStatus::held : e.status;
+  } else if (!row.saturated && is_held_by_sum(i, -row.residual)) {
+    row.saturated = true;
+    row.status = RowStatus::force_limited;
+  } else if (is_soft(i) && !row.saturated) {
+    row.status = RowStatus::held;
+  } else if (row.saturated) {
+    row.status = is_one_sided(i) ? RowStatus::conflict : RowStatus::force_limited;
+  } else if (e.blocked) {
+    row.status = RowStatus::blocked;
+  } else {
+    row.status = motor_at_limit ? RowStatus::torque_limited : RowStatus::conflict;
+  }
+  return row;
+}
+
+bool BoundedProblem::is_sum_at_bound(int i, double direction) noexcept {
+  const Entry& e = entry(i);
+  if (e.kind != RowKind::sum || e.out) return false;
+  return side_of(sum_of(i, p_), e.lo, e.hi) * direction > 0.0;
+}
+
+/// Whether row i, which wants more (`wanted` > 0) or less force, would take a sum beyond its bound.
+bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
+  for (int k = 0; k < rows_; ++k) {
+    if (!sum_counts(k, entry(i).level)) continue;
+    const double share = dot(dimension_, &B_(k, 0), &B_(i, 0));
+    if (std::abs(share) <= residual_tolerance * entry(k).length * entry(i).length) continue;
+    if (is_sum_at_bound(k, wanted * share)) return true;
+  }
+  return false;
+}
+
+/// By how much row k keeps row i from `wanted` (a direction), of a `miss` in all: an acceleration.
+///   its force    B_i.B_k nu_k, against the direction
+///   a level above, frozen: the part of the miss along B_k
+///   a sum at its bound: the miss
+double BoundedProblem::opposition(int k, int i, double wanted, double miss) noexcept {
+  const Entry& e = entry(k);
+  if (k == i || e.out) return 0.0;
+  const double share = dot(dimension_, &B_(i, 0), &B_(k, 0));
+  if (std::abs(share) <= residual_tolerance * entry(i).length * e.length) return 0.0;
+  if (e.kind == RowKind::sum) {
+    return e.level <= entry(i).level && is_sum_at_bound(k, wanted * share) ? miss : 0.0;
+  }
+  const double force = e.kind == RowKind::force ? e.phi * e.force : e.nu;
+  const double pushed_back = -std::copysign(1.0, wanted) * share * force;
+  const bool frozen = e.level < entry(i).level && !is_one_sided(k);
+  const double cosine = share / (entry(i).length * e.length);
+  return std::max(pushed_back, frozen ? cosine * cosine * miss : 0.0);
+}
+
+/// The strongest first.
+int BoundedProblem::opposing(int i, std::span<int> out) noexcept {
+  if (i < 0 || i >= rows_ || entry(i).out) return 0;
+  const RowSolution& row = solutions_[static_cast<std::size_t>(i)];
+  const Entry& e = entry(i);
+  const bool is_force = e.kind == RowKind::force;
+  const double wanted = is_force ? e.force : -row.residual;
+  const double miss =
+      is_force ? (1.0 - e.phi) * std::abs(e.force) * e.length * e.length : std::abs(row.residual);
+  const bool met = is_force ? !row.saturated : miss <= residual_tolerance * (1.0 + std::abs(d_(i)));
+  if (met) return 0;
+  double strongest = 0.0;
+  for (int k = 0; k < rows_; ++k) strongest = std::max(strongest, opposition(k, i, wanted, miss));
+  int count = 0;
+  const auto size = static_cast<int>(out.size());
+  for (int k = 0; k < rows_; ++k) {
+    const double own = opposition(k, i, wanted, miss);
+    if (!(own > least_opposition * strongest)) continue;
+    int place = count;
+    while (place > 0 && opposition(out[static_cast<std::size_t>(place) - 1], i, wanted, miss) < own) --place;
+    if (place == size) continue;
+    count = std::min(count + 1, size);
+    std::move_backward(out.begin() + place, out.begin() + count - 1, out.begin() + count);
+    out[static_cast<std::size_t>(place)] = k;
+  }
+  return count;
+}
+
+}  // namespace zwang::solver

@@ -1,0 +1,147 @@
+#include "constraint/measure.hpp"
+
+#include <cmath>
+
+namespace zwang::solver {
+
+namespace {
+
+constexpr double degenerate = 1e-9;  // a distance, or the sine of an angle, that has no direction
+
+int direction_of(Axis axis) {
+  return static_cast<int>(axis) % 3;
+}
+
+/// The angle of the rotation R about its own axis `k` alone (the twist of a swing-twist decomposition).
+double twist_angle(const Matrix3& R, int k) {
+  const int i = (k + 1) % 3;
+  const int j = (k + 2) % 3;
+  return std::atan2(R(j, i) - R(i, j), R(i, i) + R(j, j));
+}
+
+/// The coordinate of F (motion `f`) along one axis of T (motion `t`), and its velocity products:
+///   translation  s = e.(p_F - p_T)   a = (p_F x e, e)    rotation  s = angle about e   a = (e, 0)
+///   ds = a.(V_k - V_c)               dds = a.(A_k - A_c) + gamma,   gamma = da/dt . (V_k - V_c)
+/// where e turns with T. With the origin of the coordinates at p_F and T on body c,
+///   translation  gamma = (v_F x e).(w_k - w_c) + (w_c x e).(v_F - v_c(p_F))
+///   rotation     gamma = (w_c x e).w_k
+/// Axes of the moved body itself give gamma = 0: the two products cancel.
+Measurement along_axis(const FrameMotion& f, const FrameMotion& t, Axis axis, bool own_axes) {
+  const int k = direction_of(axis);
+  const Vector3 e = t.pose.rotation.col(k);
+  Measurement result;
+  Coordinate& now = result.now;
+  (is_rotation(axis) ? result.moment : result.force) = e;
+  if (own_axes) {
+    now.velocity = e.dot(is_rotation(axis) ? f.angular : f.linear);
+    return result;
+  }
+  if (is_rotation(axis)) {
+    now.position = twist_angle(t.pose.rotation.transpose() * f.pose.rotation, k);
+    now.velocity = e.dot(f.angular - t.angular);
+    now.acceleration_bias = t.angular.cross(e).dot(f.angular);
+    return result;
+  }
+  const Vector3 offset = f.pose.position - t.pose.position;
+  const Vector3 v_c = t.linear + t.angular.cross(offset);
+  now.position = e.dot(offset);
+  now.velocity = e.dot(f.linear - v_c);
+  now.acceleration_bias =
+      f.linear.cross(e).dot(f.angular - t.angular) + t.angular.cross(e).dot(f.linear - v_c);
+  return result;
+}
+
+/// Everything about a direction is linear in the axes.
+Measurement along_direction(const FrameMotion& f, const FrameMotion& t,
+                            const std::array<double, 6>& coefficients, bool own_axes) {
+  Measurement result;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const double weight = coefficients[i];
+    if (weight == 0.0) continue;
+    const Measurement part = along_axis(f, t, static_cast<Axis>(i), own_axes);
+    result.now.position += weight * part.now.position;
+    result.now.velocity += weight * part.now.velocity;
+    result.now.acceleration_bias += weight * part.now.acceleration_bias;
+    result.moment += weight * part.moment;
+    result.force += weight * part.force;
+  }
+  return result;
+}
+
+/// s = |p_F - p_T| with e the unit vector from T to F. A point accelerates with A + w x v, so
+///   ds = e.(v_F - v_T)   gamma = e.(w_k x v_F - w_c x v_T) + |v_across|^2 / s
+/// The force along e acts on both bodies on the line that joins the points.
+Measurement along_distance(const FrameMotion& f, const FrameMotion& t) {
+  const Vector3 offset = f.pose.position - t.pose.position;
+  const double s = offset.norm();
+  const bool has_direction = s > degenerate;
+  const Vector3 e = has_direction ? Vector3(offset / s) : Vector3(t.pose.rotation.col(0));
+  const Vector3 relative = f.linear - t.linear;
+  Measurement result;
+  result.force = e;
+  result.now.position = s;
+  result.now.velocity = e.dot(relative);
+  result.now.acceleration_bias = e.dot(f.angular.cross(f.linear) - t.angular.cross(t.linear));
+  if (has_direction) {
+    result.now.acceleration_bias += (relative - result.now.velocity * e).squaredNorm() / s;
+  }
+  return result;
+}
+
+/// s between the axes u of F and w of T: n sin(s) = w x u, about which the angle grows.
+///   ds = n.(w_k - w_c)   gamma = dn/dt.(w_k - w_c),   dn/dt = (1 - n n') d(w x u)/dt / sin(s)
+/// Axes that are parallel have no n of their own: any one across them, without gamma.
+Measurement along_angle(const FrameMotion& f, const FrameMotion& t, Axis axis, Axis other_axis) {
+  const Vector3 u = f.pose.rotation.col(direction_of(axis));
+  const Vector3 w = t.pose.rotation.col(direction_of(other_axis));
+  const Vector3 product = w.cross(u);
+  const double sine = product.norm();
+  const bool has_direction = sine > degenerate;
+  const Vector3 n = has_direction ? Vector3(product / sine) : w.unitOrthogonal();
+  const Vector3 relative = f.angular - t.angular;
+  Measurement result;
+  result.moment = n;
+  result.now.position = std::atan2(sine, w.dot(u));
+  result.now.velocity = n.dot(relative);
+  if (has_direction) {
+    const Vector3 rate = t.angular.cross(w).cross(u) + w.cross(f.angular.cross(u));
+    result.now.acceleration_bias = (rate - n.dot(rate) * n).dot(relative) / sine;
+  }
+  return result;
+}
+
+/// ds = |v| in T's plane, and d|v|/dt = v.dv/dt / |v|: the direction of the present motion.
+Measurement along_motion(const FrameMotion& f, const FrameMotion& t, bool own_axes) {
+  const double vx = along_axis(f, t, Axis::x, own_axes).now.velocity;
+  const double vy = along_axis(f, t, Axis::y, own_axes).now.velocity;
+  const double speed = std::hypot(vx, vy);
+  if (!(speed > 0.0)) return {};
+  Measurement result = along_direction(f, t, {vx / speed, vy / speed, 0.0, 0.0, 0.0, 0.0}, own_axes);
+  result.now.position = 0.0;
+  return result;
+}
+
+}  // namespace
+
+bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noexcept {
+  return in.body >= 0 && in.body == move.body;
+}
+
+Measurement measure(const AxisConstraint& constraint, const FrameMotion& f, const FrameMotion& t) noexcept {
+  const bool own_axes = only_orients(constraint.move, constraint.in);
+  switch (constraint.measure) {
+    case Measure::axis:
+      return along_axis(f, t, constraint.axis, own_axes);
+    case Measure::direction:
+      return along_direction(f, t, constraint.coefficients, own_axes);
+    case Measure::distance:
+      return along_distance(f, t);
+    case Measure::angle:
+      return along_angle(f, t, constraint.axis, constraint.other_axis);
+    case Measure::speed:
+      return along_motion(f, t, own_axes);
+  }
+  return {};
+}
+
+}  // namespace zwang::solver

@@ -1,0 +1,218 @@
+// The MCAP log: every number comes back bit by bit, and whatever happens to the file, the reader gets what is
+// whole and says what is not.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "zwang/runtime/log_reader.hpp"
+#include "zwang/runtime/recorder.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+constexpr double period = 1e-3;
+constexpr std::size_t stride = 7;                  // [bytes], prime to the lengths of fields
+constexpr std::uint64_t records_in_a_chunk = 100;  // 100 ms
+
+struct Folder {
+  Folder() {
+    const char* name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    path = std::filesystem::temp_directory_path() /
+           ("zwang_mcap_" + std::string(name) + std::to_string(std::random_device{}()));
+    std::filesystem::create_directories(path);
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::filesystem::path path;
+};
+
+const std::vector<Column> columns = {
+    {"time", "s", {}}, {"task", "", {"press", "hold"}}, {"a \"b\"", "N", {}, {0, {7, 1}, {7, 5}}}};
+
+LogContext context() {
+  return {{{"task.yaml", "zwang: 1\n"}, {"robot.urdf", "<robot/>"}}, {{"seed", "42"}}};
+}
+
+std::filesystem::path write_log(const Folder& folder, const std::vector<std::vector<double>>& records) {
+  const std::filesystem::path path = folder.path / "log.mcap";
+  std::vector<std::unique_ptr<LogSink>> sinks;
+  sinks.push_back(mcap_sink(path, context()));
+  Recorder recorder(std::move(sinks), columns, 64);
+  for (const std::vector<double>& record : records) {
+    recorder.wait_for_room();
+    EXPECT_TRUE(recorder.record(record));
+  }
+  recorder.close();
+  EXPECT_TRUE(recorder.status().complete()) << recorder.status().error;
+  return path;
+}
+
+std::vector<std::vector<double>> ramp(int count) {
+  std::vector<std::vector<double>> records;
+  for (int i = 0; i < count; ++i) records.push_back({i * period, i < count / 2 ? 0.0 : 1.0, i * 0.1});
+  return records;
+}
+
+std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void put_bytes(const std::filesystem::path& path, std::string_view bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+LogContents read(const std::filesystem::path& path, std::vector<std::string>* lines = nullptr) {
+  return read_log(path, [lines](double, std::string_view json) {
+    if (lines != nullptr) lines->emplace_back(json);
+  });
+}
+
+TEST(McapLog, NumbersComeBackBitByBit) {
+  std::vector<double> awkward = {0.1,
+                                 1.0 / 3.0,
+                                 5e-324,
+                                 -std::numeric_limits<double>::max(),
+                                 123456789.123456789,
+                                 std::nextafter(1.0, 2.0)};
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 1000; ++i) awkward.push_back(std::bit_cast<double>(random()));
+  std::erase_if(awkward, [](double x) { return !std::isfinite(x); });
+  std::vector<std::vector<double>> records;
+  for (std::size_t i = 0; i < awkward.size(); ++i) records.push_back({double(i) * period, 0.0, awkward[i]});
+  const Folder folder;
+  std::vector<std::string> lines;
+  const LogContents log = read(write_log(folder, records), &lines);
+  ASSERT_EQ(lines.size(), awkward.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string key = R"("a \"b\"":)";
+    const std::size_t at = lines[i].find(key);
+    ASSERT_NE(at, std::string::npos) << lines[i];
+    double value = 0.0;
+    std::from_chars(lines[i].data() + at + key.size(), lines[i].data() + lines[i].size(), value);
+    EXPECT_EQ(std::memcmp(&value, &awkward[i], sizeof value), 0) << lines[i];
+  }
+  EXPECT_TRUE(log.closed);
+  EXPECT_TRUE(log.damage.empty());
+  EXPECT_DOUBLE_EQ(log.end, double(awkward.size() - 1) * period);
+}
+
+TEST(McapLog, HoldsTheFilesTheFactsAndTheLinesThatColumnsComeFrom) {
+  const Folder folder;
+  const LogContents log = read(write_log(folder, ramp(10)));
+  ASSERT_EQ(log.context.sources.size(), 2u);
+  EXPECT_EQ(log.context.sources[0].path, "task.yaml");
+  EXPECT_EQ(log.context.sources[0].text, "zwang: 1\n");
+  EXPECT_EQ(log.context.sources[1].text, "<robot/>");
+  EXPECT_EQ(log.context.facts, context().facts);
+  EXPECT_NE(log.schema.find("[N] task.yaml:7"), std::string::npos) << log.schema;
+}
+
+TEST(McapLog, BlanksAreLeftOutAndInfinitiesAreNull) {
+  const Folder folder;
+  std::vector<std::string> lines;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  read(write_log(folder, {{0.0, nan, nan}, {0.001, 1.0, inf}}), &lines);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0], R"({"time":0})");
+  EXPECT_EQ(lines[1], R"({"time":0.001,"task":"hold","a \"b\"":null})");
+}
+
+TEST(McapLog, TwoLogsOfTheSameNumbersAreTheSameBytes) {
+  const Folder one, two;
+  EXPECT_EQ(bytes_of(write_log(one, ramp(1000))), bytes_of(write_log(two, ramp(1000))));
+}
+
+TEST(McapLog, CutAtAnyByteLosesNoMoreThanAChunk) {
+  const Folder folder;
+  constexpr int count = 350;
+  const std::string whole = bytes_of(write_log(folder, ramp(count)));
+  const std::filesystem::path cut = folder.path / "cut.mcap";
+  std::uint64_t most = 0;
+  for (std::size_t size = 0; size < whole.size(); size += stride) {
+    put_bytes(cut, std::string_view(whole).substr(0, size));
+    if (size < 8) {
+      EXPECT_THROW(read(cut), std::runtime_error) << size;
+      continue;
+    }
+    const LogContents log = read(cut);
+    EXPECT_FALSE(log.closed) << size;
+    EXPECT_FALSE(log.damage.empty()) << size;
+    // What was whole before the cut stays readable.
+    EXPECT_GE(log.records, most) << size;
+    most = std::max(most, log.records);
+  }
+  EXPECT_GE(most + records_in_a_chunk, static_cast<std::uint64_t>(count));
+}
+
+TEST(McapLog, AFlippedBitIsToldAndLosesNoMoreThanAChunk) {
+  const Folder folder;
+  constexpr std::uint64_t count = 350;
+  const std::string whole = bytes_of(write_log(folder, ramp(static_cast<int>(count))));
+  const std::filesystem::path flipped = folder.path / "flipped.mcap";
+  // The heads of the first records byte by byte, the rest in strides that meet every field somewhere.
+  for (std::size_t i = 8; i < whole.size(); i += i < 400 ? 1 : stride) {
+    std::string changed = whole;
+    changed[i] = static_cast<char>(changed[i] ^ (1 << (i % 8)));
+    put_bytes(flipped, changed);
+    const LogContents log = read(flipped);
+    EXPECT_GE(log.records + records_in_a_chunk, count) << "byte " << i;
+    if (log.records < count) {
+      EXPECT_FALSE(log.damage.empty()) << "byte " << i;
+    }
+  }
+}
+
+TEST(McapLog, OtherFilesAreRefused) {
+  const Folder folder;
+  put_bytes(folder.path / "text", "time [s],task\n0,press\n");
+  EXPECT_THROW(read(folder.path / "text"), std::runtime_error);
+  EXPECT_THROW(read(folder.path / "nothing"), std::runtime_error);
+  EXPECT_THROW(read(folder.path), std::runtime_error);
+}
+
+TEST(McapLog, AFullDiskIsReported) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  std::vector<std::unique_ptr<LogSink>> sinks;
+  sinks.push_back(mcap_sink("/dev/full", context()));
+  Recorder recorder(std::move(sinks), columns, 64);
+  for (const std::vector<double>& record : ramp(1000)) {
+    recorder.wait_for_room();
+    recorder.record(record);
+  }
+  recorder.close();
+  EXPECT_NE(recorder.status().error.find("/dev/full"), std::string::npos);
+}
+
+/// A sink of an embedding program that does not know better.
+class ThrowingSink : public LogSink {
+ public:
+  std::string open(const std::vector<Column>&) override { return ""; }
+  std::string write(std::span<const double>) override { throw std::runtime_error("no signal"); }
+  std::string flush() override { return ""; }
+  std::string close() override { return ""; }
+};
+
+TEST(McapLog, ASinkThatThrowsIsReportedAndTheOthersGoOn) {
+  const Folder folder;
+  std::vector<std::unique_ptr<LogSink>> sinks;
+  sinks.push_back(std::make_unique<ThrowingSink>());
+  sinks.push_back(mcap_sink(folder.path / "log.mcap", context()));
+  Recorder recorder(std::move(sinks), columns, 64);
+  for (const std::vector<double>& record : ramp(10)) recorder.record(record);
+  recorder.close();
+  EXPECT_NE(recorder.status().error.find("no signal"), std::string::npos);
+  EXPECT_FALSE(recorder.status().complete());
+  EXPECT_EQ(read(folder.path / "log.mcap").records, 10u);
+}
+
+}  // namespace
+}  // namespace zwang::runtime

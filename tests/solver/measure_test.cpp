@@ -1,0 +1,284 @@
+// What a constraint measures, against finite differences along a motion of the robot: ds, and the velocity
+// products of dds = a.(A_k - A_c) + gamma. And the rows that regions, features and speed limits need.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "law_problem.hpp"
+#include "robots.hpp"
+
+namespace zwang::oracle {
+namespace {
+
+using solver::AttachedFrame;
+using solver::Axis;
+using solver::AxisConstraint;
+using solver::Measure;
+using solver::Quantity;
+using solver::Range;
+using solver::Row;
+using solver::RowKind;
+using solver::Vector3;
+
+/// A robot whose joints move with constant accelerations, and a frame in the world that moves on its own.
+class Moving {
+ public:
+  explicit Moving(std::uint64_t seed)
+      : random(seed), model(random_model(Robot::arm, random, no_limit)), start(model) {
+    for (Eigen::Index j = 0; j < start.q.size(); ++j) {
+      start.q[j] = random.uniform(-1.5, 1.5);
+      start.qd[j] = random.uniform(-1.0, 1.0);
+    }
+    qdd = Eigen::VectorXd::NullaryExpr(start.q.size(),
+                                       [this](Eigen::Index) { return random.uniform(-1.0, 1.0); });
+    hand = {model.body_count() - 1, {random.rotation(), random.vector(0.3)}};
+    elbow = {3, {random.rotation(), random.vector(0.3)}};
+    object = {-1, {random.rotation(), random.vector(0.5)}, {random.vector(0.6), random.vector(0.6)}};
+    fixed = {-1, {random.rotation(), random.vector(0.5)}};
+  }
+
+  solver::State at(double t) const {
+    solver::State state = start;
+    state.q += t * start.qd + 0.5 * t * t * qdd;
+    state.qd += t * qdd;
+    return state;
+  }
+  /// With constant spatial velocity about its own origin as it is now: A = 0.
+  AttachedFrame later(const AttachedFrame& frame, double t) const {
+    if (frame.body >= 0) return frame;
+    AttachedFrame moved = frame;
+    const Vector3 w = frame.pose.rotation * frame.twist.angular;
+    const Vector3 v = frame.pose.rotation * frame.twist.linear;
+    const double angle = w.norm();
+    // A screw: exp(t (w, v)) about the origin of the frame now, expanded to the order that counts here.
+    moved.pose.rotation =
+        angle > 0.0 ? Eigen::AngleAxisd(angle * t, w / angle).toRotationMatrix() * frame.pose.rotation
+                    : frame.pose.rotation;
+    moved.pose.position += t * v + 0.5 * t * t * w.cross(v) + t * t * t / 6.0 * w.cross(w.cross(v));
+    const Vector3 velocity = v + t * w.cross(v) + 0.5 * t * t * w.cross(w.cross(v));
+    moved.twist.linear = moved.pose.rotation.transpose() * velocity;
+    return moved;
+  }
+  solver::Coordinate coordinate(AxisConstraint c, double t) const {
+    c.move = later(c.move, t);
+    c.in = later(c.in, t);
+    return coordinate_of(c, model, at(t));
+  }
+
+  Random random;
+  solver::Model model;
+  solver::State start;
+  Eigen::VectorXd qdd;
+  AttachedFrame hand, elbow, object, fixed;
+};
+
+/// a . (A_k - A_c) of a row under the robot's motion.
+double spatial_acceleration_along(const Moving& robot, const Row& row) {
+  const DenseDynamics dense(robot.model, robot.start);
+  const Vector vdot = robot.qdd.cast<Real>();
+  const auto along = [&](int body, const solver::ForceVector& a) {
+    return static_cast<double>(a.vector().cast<Real>().dot(dense.spatial_acceleration(body, vdot)));
+  };
+  double sum = along(row.body, row.a);
+  if (row.reference_body >= 0) sum -= along(row.reference_body, row.a_reference);
+  return sum;
+}
+
+void expect_derivatives(const Moving& robot, AxisConstraint c, const std::string& what) {
+  const solver::Coordinate now = robot.coordinate(c, 0.0);
+  // Central differences of fourth order.
+  const auto derivative = [&](double solver::Coordinate::*quantity) {
+    constexpr double h = 2e-4;
+    const auto at = [&](double t) { return robot.coordinate(c, t).*quantity; };
+    return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
+  };
+  if (c.measure != Measure::speed) {
+    EXPECT_NEAR(derivative(&solver::Coordinate::position), now.velocity, 1e-8) << what;
+  }
+  const double dds = derivative(&solver::Coordinate::velocity);
+  c.driver = solver::Driver{.quantity = Quantity::acceleration, .target = 0.0};
+  if (c.measure == Measure::speed) {
+    c.driver.reset();
+    c.velocity = Range{-solver::infinity, 1e-3};
+  }
+  solver::ConstraintSet set(1, 2);
+  ASSERT_TRUE(set.add(c));
+  ASSERT_TRUE(set.fill(robot.model, robot.start));
+  ASSERT_EQ(set.rows().size(), 1u) << what;
+  EXPECT_NEAR(dds, spatial_acceleration_along(robot, set.rows()[0]) + now.acceleration_bias, 1e-7) << what;
+}
+
+TEST(Measures, HaveTheDerivativesThatTheirRowsSay) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Moving robot(seed);
+    const struct {
+      const char* name;
+      AttachedFrame move, in;
+    } pairs[] = {{"hand in a moving object", robot.hand, robot.object},
+                 {"hand in elbow", robot.hand, robot.elbow},
+                 {"hand in the world", robot.hand, robot.fixed},
+                 {"object in hand", robot.object, robot.hand},
+                 {"hand in own axes", robot.hand, {robot.hand.body, {}}}};
+    for (const auto& pair : pairs) {
+      const bool own = pair.in.body == pair.move.body;
+      AxisConstraint c;
+      c.move = pair.move;
+      c.in = pair.in;
+      const std::string where = std::string(pair.name) + ", seed " + std::to_string(seed) + ": ";
+      c.measure = Measure::speed;
+      expect_derivatives(robot, c, where + "speed");
+      if (own) continue;
+      c.measure = Measure::axis;
+      for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
+        c.axis = axis;
+        expect_derivatives(robot, c, where + "axis");
+      }
+      c.measure = Measure::direction;
+      c.coefficients = {0.6, -0.3, 0.2, 0.0, 0.0, 0.0};
+      expect_derivatives(robot, c, where + "direction");
+      c.measure = Measure::distance;
+      expect_derivatives(robot, c, where + "distance");
+      c.measure = Measure::angle;
+      c.axis = Axis::z;
+      c.other_axis = Axis::x;
+      expect_derivatives(robot, c, where + "angle");
+    }
+  }
+}
+
+TEST(Measures, WithoutADirectionStayFinite) {
+  const Moving robot(3);
+  AxisConstraint c;
+  c.move = robot.hand;
+  c.in = robot.hand;
+  for (const Measure measure : {Measure::distance, Measure::angle, Measure::speed}) {
+    c.measure = measure;
+    const solver::Coordinate now = coordinate_of(c, robot.model, solver::State(robot.model));
+    EXPECT_EQ(now.position, 0.0);
+    EXPECT_TRUE(std::isfinite(now.velocity));
+    EXPECT_TRUE(std::isfinite(now.acceleration_bias));
+  }
+}
+
+class PlanarRows : public testing::Test {
+ protected:
+  PlanarRows() {
+    state.base_pose.rotation = solver::rotation_from_rpy(0.0, 0.0, 0.7);
+    state.base_pose.position = {0.3, -0.2, 0.0};
+    base.move.body = 0;
+  }
+  const solver::Coordinate& only() const { return set.coordinates()[0]; }
+  solver::Model model = solver::test::mecanum({});
+  solver::State state{model};
+  solver::ConstraintSet set;
+  AxisConstraint base;
+};
+
+TEST_F(PlanarRows, TheSpeedHasOneRowAlongTheMotion) {
+  state.base_twist.linear = {0.3, 0.4, 0.0};
+  base.measure = Measure::speed;
+  base.velocity = Range{0.0, 0.6};
+  ASSERT_TRUE(set.add(base));
+  ASSERT_TRUE(set.fill(model, state));
+  // The lower end, 0, says nothing of a length.
+  ASSERT_EQ(set.rows().size(), 1u);
+  const Row& row = set.rows()[0];
+  EXPECT_EQ(row.kind, RowKind::upper);
+  EXPECT_NEAR((row.a.linear - Vector3(0.6, 0.8, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(only().velocity, 0.5, 1e-12);
+  EXPECT_NEAR(row.b + only().acceleration_bias, (0.6 - 0.5) / 0.010, 1e-9);
+  state.base_twist.linear *= 0.5;
+  ASSERT_TRUE(set.fill(model, state));
+  EXPECT_TRUE(set.rows().empty()) << "0.25 m/s is below half of the limit";
+}
+
+TEST_F(PlanarRows, ACornerOfTheFootprintAtAnEdge) {
+  // d = n.(p - e), kept at or above the margin: one lower row with the braking curve.
+  const double slope = std::numbers::pi / 6.0;
+  base.move.pose.position = {0.4, 0.25, 0.0};
+  base.in.pose.position = {2.0, 0.0, 0.0};
+  base.measure = Measure::direction;
+  base.coefficients = {-std::cos(slope), -std::sin(slope), 0, 0, 0, 0};
+  base.position = Range{0.1, solver::infinity};
+  base.braking = 0.5;
+  ASSERT_TRUE(set.add(base));
+  ASSERT_TRUE(set.fill(model, state));
+  ASSERT_EQ(set.rows().size(), 1u);
+  const Vector3 corner = state.base_pose * base.move.pose.position;
+  const double d = -std::cos(slope) * (corner.x() - 2.0) - std::sin(slope) * corner.y();
+  EXPECT_NEAR(only().position, d, 1e-12);
+  EXPECT_EQ(set.rows()[0].kind, RowKind::lower);
+  EXPECT_NEAR(set.rows()[0].b, -solver::braking_speed(d - 0.1, 0.5, 0.010) / 0.010, 1e-9);
+}
+
+TEST_F(PlanarRows, ACornerOfTheRegionAtAnEdgeOfTheFootprint) {
+  // F in the world, T on the base: the row acts on the base with the opposite force.
+  AxisConstraint c;
+  c.move.pose.position = {1.5, 0.4, 0.0};
+  c.in = {0, {solver::Matrix3::Identity(), {0.4, 0.0, 0.0}}};
+  c.position = Range{0.05, solver::infinity};
+  ASSERT_TRUE(set.add(c));
+  ASSERT_TRUE(set.fill(model, state));
+  ASSERT_EQ(set.rows().size(), 1u);
+  const Row& row = set.rows()[0];
+  EXPECT_EQ(row.body, 0);
+  EXPECT_EQ(row.reference_body, -1);
+  EXPECT_NEAR((row.a.linear - Vector3(-1.0, 0.0, 0.0)).norm(), 0.0, 1e-12);
+  // Two frames of the world concern no body.
+  set[0].in.body = -1;
+  ASSERT_TRUE(set.fill(model, state));
+  EXPECT_TRUE(set.rows().empty());
+}
+
+TEST_F(PlanarRows, AForceRangeWithoutADriverIsASum) {
+  base.force = Range{-40.0, 40.0};
+  base.level = 0;
+  ASSERT_TRUE(set.add(base));
+  ASSERT_TRUE(set.fill(model, state));
+  ASSERT_EQ(set.rows().size(), 1u);
+  EXPECT_EQ(set.rows()[0].kind, RowKind::sum);
+  EXPECT_EQ(set.rows()[0].hi, 40.0);
+  set[0].driver = solver::Driver{.target = 0.2, .force = {-60.0, 30.0}};
+  ASSERT_TRUE(set.fill(model, state));
+  ASSERT_EQ(set.rows().size(), 1u);
+  EXPECT_EQ(set.rows()[0].kind, RowKind::driver);
+  EXPECT_EQ(set.rows()[0].lo, -40.0);
+  EXPECT_EQ(set.rows()[0].hi, 30.0);
+}
+
+TEST_F(PlanarRows, AnAxisAndItsSumPressWithTheSumAtMost) {
+  AxisConstraint limit = base;
+  limit.force = Range{-40.0, 40.0};
+  limit.level = 0;
+  AxisConstraint drive = base;
+  drive.driver = solver::Driver{.target = 5.0, .force = {-60.0, 60.0}};
+  AxisConstraint push = base;
+  push.driver = solver::Driver{.quantity = Quantity::force, .target = 15.0};
+  for (const AxisConstraint& c : {limit, drive, push}) ASSERT_TRUE(set.add(c));
+  ASSERT_TRUE(set.fill(model, state));
+  solver::Solver solver(model);
+  solver::Solution solution(model);
+  ASSERT_EQ(solver.solve(state, set.rows(), solution), solver::Status::ok);
+  EXPECT_NEAR(solution.rows[0].nu, 40.0, 1e-9);
+  EXPECT_NEAR(solution.rows[1].nu, 25.0, 1e-9);
+  EXPECT_NEAR(solution.rows[2].nu, 15.0, 1e-9);
+}
+
+TEST_F(PlanarRows, ASpringIsAForceRow) {
+  base.driver = solver::Driver{.quantity = Quantity::position, .target = 0.5, .force = {-30.0, 30.0}};
+  base.driver->stiffness = 100.0;
+  base.driver->damping = 20.0;
+  state.base_twist.linear = {0.1, 0.0, 0.0};
+  ASSERT_TRUE(set.add(base));
+  ASSERT_TRUE(set.fill(model, state));
+  ASSERT_EQ(set.rows().size(), 1u);
+  EXPECT_EQ(set.rows()[0].kind, RowKind::force);
+  EXPECT_NEAR(set.rows()[0].force, 100.0 * (0.5 - 0.3) - 20.0 * 0.1 * std::cos(0.7), 1e-12);
+  set[0].driver->target = 3.0;
+  ASSERT_TRUE(set.fill(model, state));
+  EXPECT_EQ(set.rows()[0].force, 30.0);
+}
+
+}  // namespace
+}  // namespace zwang::oracle
