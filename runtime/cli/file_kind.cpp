@@ -67,6 +67,9 @@ std::optional<std::string> read_as(FileKind kind, const std::string& path, lang:
       return std::nullopt;
     case FileKind::scenario:
       if (const auto scenario = lang::load_scenario(path, diagnostics)) {
+        // What the expectations mean is known once the task is; that one is judged on its own.
+        lang::Diagnostics of_task;
+        if (!lang::load_run(path, 0, diagnostics, of_task)) return std::nullopt;
         return "scenario, " + count(scenario->cells.size(), "run");
       }
       return std::nullopt;

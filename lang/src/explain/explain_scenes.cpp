@@ -17,13 +17,56 @@ std::span<const Explanation> scenes() {
           .instead = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], fixed: true}"},
       Explanation{
           .code = "E902",
-          .title = "a fixed object with a mass",
-          .why = "What is fixed never moves, so its mass could have no effect; one of the two lines is a "
-                 "mistake.",
-          .fix = "Delete `mass` if it stands fast, `fixed` if it can be pushed.",
+          .title = "an object that nothing can push, with a mass",
+          .why =
+              "What is fixed, or follows a motion, is not moved by a push, so its mass could have no effect; "
+              "one of the two lines is a mistake.",
+          .fix = "Delete `mass` if it stands fast, `fixed` or `motion` if it can be pushed.",
           .part = ExcerptOf::scene,
           .example = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], fixed: true, mass: 3 kg}",
           .instead = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], mass: 3 kg}"},
+      Explanation{.code = "E903",
+                  .title = "an outcome that no run can have",
+                  .why =
+                      "A run ends as `done`, `failed`, `stopped`, `diverged`, `refused` or `unfinished`. A "
+                      "misspelt outcome would never come true.",
+                  .fix = "Write one of them, as in `- outcome: done`."},
+      Explanation{
+          .code = "E904",
+          .title = "an expectation that says nothing, or two things",
+          .why = "Each entry of `expect` is one claim with one margin: `outcome`, `diagnostic`, `at: end`, "
+                 "`within` or `always`. A scenario without any could not fail.",
+          .fix = "Give each claim an entry of its own."},
+      Explanation{.code = "E905",
+                  .title = "a matrix of no size, or of too great a size",
+                  .why =
+                      "Every value of every key of `matrix` is tried with all others. A key without values "
+                      "leaves nothing to run; a product of too many is a mistake more often than a wish.",
+                  .fix = "Give each key a value, or split the scenario."},
+      Explanation{
+          .code = "E906",
+          .title = "an interval that starts at something other than a time",
+          .why = "`within` counts from the time that `of` names, and that is one the plant measures.",
+          .fix = "Name a time, for example `of: truth.wall.touched`, or leave `of` out to count from the "
+                 "start."},
+      Explanation{
+          .code = "E907",
+          .title = "a fault that is none",
+          .why = "A fault is one thing that goes wrong at one time: of the samples, the clock, a wheel's "
+                 "torque, the floor, the payload or the plant.",
+          .fix = "Name one thing, and give each other one an entry of its own.",
+          .part = ExcerptOf::scene,
+          .example = "faults:\n  - {at: 2 s, samples: nan, clock: backwards}",
+          .instead = "faults:\n  - {at: 2 s, samples: nan}\n  - {at: 2 s, clock: backwards}"},
+      Explanation{
+          .code = "E908",
+          .title = "a script or a signal that cannot be played",
+          .why = "A script is a list of times that rise, each with a value. A signal has one source, and "
+                 "some of its samples must arrive.",
+          .fix = "Order the steps by time, one `[time, value]` each; keep one source a signal.",
+          .part = ExcerptOf::scene,
+          .example = "signals:\n  loaded: {script: [[5 s, true], [3 s, false]]}",
+          .instead = "signals:\n  loaded: {script: [[3 s, false], [5 s, true]]}"},
   };
   return entries;
 }

@@ -155,6 +155,10 @@ std::optional<Dock> parse_dock(const Node& node, const std::string& what, Diagno
 StateNoise parse_state_noise(const Node& node, Diagnostics& diagnostics) {
   StateNoise noise;
   if (node.is_scalar() && node.text == "perfect") return noise;
+  if (node.is_scalar() && node.text == "wheels") {
+    noise.wheels_only = true;
+    return noise;
+  }
   MapReader map(node, "`state`", diagnostics);
   if (!map.is_mapping()) return noise;
   noise.position = not_negative(map, "position", dimension::length, diagnostics);

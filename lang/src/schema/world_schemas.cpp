@@ -48,6 +48,18 @@ Json shape_sizes() {
                                {"height", reference("quantity")}})}};
 }
 
+Json motion_point() {
+  return object("", {{"time", reference("quantity"), true},
+                     {"at", reference("point"), true},
+                     {"yaw", reference("quantity")}});
+}
+
+Json dock() {
+  return object("a socket that a hook latches in", {{"at", reference("point", "in the object's axes"), true},
+                                                    {"reach", reference("quantity")},
+                                                    {"hook", word("a frame of the robot"), true}});
+}
+
 Json scene_object() {
   Json sizes = shape_sizes();
   return object("has one shape: box, cylinder or wall",
@@ -60,7 +72,42 @@ Json scene_object() {
                  {"fixed", Json{{"type", "boolean"}}},
                  {"stiffness", reference("quantity", "of a contact, as N/m")},
                  {"damping", reference("quantity", "of a contact, against the critical one")},
-                 {"friction", reference("quantity", "coefficient")}});
+                 {"friction", reference("quantity", "coefficient")},
+                 {"motion", list("what it follows, whatever stands in its way", motion_point())},
+                 {"dock", dock()}});
+}
+
+Json scene_signal() {
+  return object("has one source: script, pose_of, distance_to or latch",
+                {{"script", list("pairs of a time and a value", Json{{"type", "array"}})},
+                 {"pose_of", word("an object")},
+                 {"distance_to", word("an object")},
+                 {"latch", word("an object with a dock")},
+                 {"noise", reference("quantity", "standard deviation")},
+                 {"angle_noise", reference("quantity", "standard deviation")},
+                 {"delay", reference("quantity")},
+                 {"rate", reference("quantity")},
+                 {"dropouts", reference("quantity", "the part that never arrives")}});
+}
+
+Json base_state() {
+  return any_of({one_of_words("", {"perfect", "wheels"}),
+                 object("standard deviations", {{"position", reference("quantity")},
+                                                {"yaw", reference("quantity")},
+                                                {"velocity", reference("quantity")},
+                                                {"turn", reference("quantity")}})});
+}
+
+Json fault() {
+  return object("one thing that goes wrong", {{"at", reference("quantity", "when it begins"), true},
+                                              {"for", reference("quantity", "to the end when absent")},
+                                              {"samples", one_of_words("", {"lost", "nan", "frozen"})},
+                                              {"clock", one_of_words("", {"backwards"})},
+                                              {"wheel", word("a joint")},
+                                              {"torque", one_of_words("", {"lost", "stuck", "flipped"})},
+                                              {"floor_friction", reference("quantity")},
+                                              {"payload", reference("quantity")},
+                                              {"plant", one_of_words("", {"diverges"})}});
 }
 
 Json start_pose() {
@@ -69,10 +116,12 @@ Json start_pose() {
 
 Json expectation() {
   const Json condition = word("a condition; truth.* is what the plant measured");
-  return any_of({object("", {{"outcome", one_of_words("", {"done", "failed", "stopped"}), true}}),
-                 object("", {{"at", word("`end`, or a time"), true}, {"that", condition, true}}),
+  return any_of({object("", {{"outcome",
+                              one_of_words("", {"done", "failed", "stopped", "diverged", "refused"}), true}}),
+                 object("", {{"diagnostic", word("the code that the task is refused with"), true}}),
+                 object("", {{"at", one_of_words("", {"end"}), true}, {"that", condition, true}}),
                  object("", {{"within", reference("quantity"), true},
-                             {"of", word("what starts the time"), true},
+                             {"of", word("what starts the time; the run's start when absent")},
                              {"that", condition, true}}),
                  object("", {{"always", condition, true}})});
 }
@@ -108,14 +157,20 @@ Json scene_file() {
                 {version("zwang_scene"),
                  {"start", start_pose()},
                  {"floor", object("", {{"friction", reference("quantity")}})},
-                 {"objects", named("what the robot can meet", scene_object())}});
+                 {"objects", named("what the robot can meet", scene_object())},
+                 {"signals", named("where the task's signals come from", scene_signal())},
+                 {"state", base_state()},
+                 {"faults", list("what goes wrong, and when", fault())}});
 }
 
 Json scenario_file() {
   const Json one_or_more = any_of({word(""), list("", word(""))});
   return object("A claim about a task, and how to test it",
                 {version("zwang_scenario"),
+                 {"about", word("what it is for")},
                  {"task", word("the task file, seen from this one"), true},
+                 {"time_limit", reference("quantity", "a longer run is unfinished")},
+                 {"seed", Json{{"type", "integer"}, {"minimum", 0}}},
                  {"scene", word("in the place of the task's own")},
                  {"robot", word("in the place of the task's own")},
                  {"params", named("values for this scenario", reference("quantity"))},
@@ -123,7 +178,7 @@ Json scenario_file() {
                  {"start_yaw", reference("quantity")},
                  {"matrix", named("every combination is run: robot, start_at, start_yaw, params.NAME, faults",
                                   list("", Json::object()))},
-                 {"faults", list("what goes wrong, and when", Json{{"type", "object"}})},
+                 {"faults", named("sets of faults, for the matrix", list("", fault()))},
                  {"expect", list("what must come true", expectation()), true}});
 }
 

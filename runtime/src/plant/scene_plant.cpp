@@ -72,6 +72,7 @@ struct ScenePlant::Parts {
   Noise noise;
   Sensed actual;
   Eigen::VectorXd torque;  ///< what the motors make of the command
+  solver::Pose start;      ///< of the base
   double present_friction = scene.floor_friction;
   double present_payload = 0.0;
 };
@@ -79,6 +80,7 @@ struct ScenePlant::Parts {
 ScenePlant::ScenePlant(const lang::Program& program, const ScenePlantOptions& options)
     : parts_(std::make_unique<Parts>(program, options)) {
   static_cast<void>(parts_->simulation.sense(parts_->actual));
+  parts_->start = parts_->actual.state.base_pose;
 }
 
 ScenePlant::~ScenePlant() = default;
@@ -92,7 +94,13 @@ PlantStatus ScenePlant::sense(Sensed& sensed) noexcept {
   if (p.faults.active(FaultKind::samples_lost, p.actual.time)) return PlantStatus::unreachable;
   sensed.time = p.actual.time;
   sensed.state = p.actual.state;
-  p.add_noise(sensed.state);
+  sensed.base_measured = !p.scene.state.wheels_only;
+  if (sensed.base_measured) {
+    p.add_noise(sensed.state);
+  } else {
+    sensed.state.base_pose = p.start;
+    sensed.state.base_twist = {};
+  }
   p.signals.report(sensed.time, sensed.signals);
   p.faults.spoil(sensed);
   return PlantStatus::ok;

@@ -74,10 +74,11 @@ struct SceneSignal {
 
 /// Standard deviations of what the robot is told of itself; all 0: the plant's truth.
 struct StateNoise {
-  double position = 0.0;  ///< [m]
-  double yaw = 0.0;       ///< [rad]
-  double velocity = 0.0;  ///< [m/s]
-  double turn = 0.0;      ///< [rad/s]
+  double position = 0.0;     ///< [m]
+  double yaw = 0.0;          ///< [rad]
+  double velocity = 0.0;     ///< [m/s]
+  double turn = 0.0;         ///< [rad/s]
+  bool wheels_only = false;  ///< the base is not measured at all: only where it starts, and the joints, are
 };
 
 enum class FaultKind {
