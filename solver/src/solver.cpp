@@ -94,7 +94,7 @@ struct Solver::Workspace {
         capacity(ground + base + robot.joint_count() + options.row_capacity),
         sweeps(robot, capacity),
         whitened(capacity),
-        problem(options.row_capacity, robot.joint_count(), base + robot.joint_count()),
+        problem(options.row_capacity, robot.joint_count(), std::max(1, base + robot.joint_count())),
         ground_bias(Eigen::VectorXd::Zero(capacity)),
         forces(Eigen::VectorXd::Zero(capacity)),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
