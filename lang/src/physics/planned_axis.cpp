@@ -96,6 +96,9 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
   axis.in_world = axis.in.body < 0;
   axis.axis = *named;
   if (axis.move.body < 0 || !read_statements(context, text, axis)) return std::nullopt;
+  // A position in axes that ride along: E405 says so.
+  const bool rides_along = axis.in.body >= 0 && axis.in.body == axis.move.body;
+  if (rides_along && axis.driver == solver::Quantity::position && axis.target) return std::nullopt;
   const std::optional<ValueText>& tau = text.time_constant ? text.time_constant : group.time_constant;
   if (tau) axis.time_constant = known(context, *tau, dimension::time).value_or(0.0);
   axis.time_constant_span = tau ? tau->span : text.name.span;
