@@ -86,7 +86,7 @@ Word parse_name(const Node& node, const std::string& what, Diagnostics& diagnost
   Word word = parse_word(node, what, diagnostics);
   if (word.exists() && !is_identifier(word.text)) {
     diagnostics.add(wording::not_a_name(node.span, word.text));
-    return {};
+    return {{}, node.span};  // no name, but a place for what else is said of the thing
   }
   return word;
 }
