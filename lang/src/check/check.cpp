@@ -25,6 +25,15 @@ bool measures(const CheckContext& context, const Condition& condition) {
   return false;
 }
 
+/// Whether an exit under `always` leads to where nobody can tell: perhaps to the task that goes `back`.
+bool has_unknown_interruption(const CheckContext& context) {
+  const auto& exits = context.file.always_exits;
+  return std::any_of(exits.begin(), exits.end(), [&](const ExitText& exit) {
+    const std::string& target = exit.target.text;
+    return target != "done" && target != "failed" && !context.symbols.find_task(target);
+  });
+}
+
 /// `task` is the one that the target stands in; nullptr under `always`.
 void check_target(CheckContext& context, const Word& target, const TaskText* task) {
   if (!target.exists() || target.text == "done" || target.text == "failed") return;
@@ -32,7 +41,8 @@ void check_target(CheckContext& context, const Word& target, const TaskText* tas
     const std::vector<std::string> interrupting = interrupting_tasks(context);
     const bool can_go_back = task != nullptr && std::find(interrupting.begin(), interrupting.end(),
                                                           task->name.text) != interrupting.end();
-    if (!can_go_back) context.diagnostics.add(wording::back_without_interruption(target.span));
+    if (!can_go_back && !has_unknown_interruption(context))
+      context.diagnostics.add(wording::back_without_interruption(target.span));
     return;
   }
   if (context.symbols.find_task(target.text)) return;

@@ -59,6 +59,7 @@ void parse_always(const Node& node, TaskFile& file, Diagnostics& diagnostics) {
   MapReader map(node, "`always`", diagnostics);
   file.always_groups = parse_constraints(map, 0, diagnostics);
   if (const Node* exits = map.optional("exits")) file.always_exits = parse_exits(*exits, diagnostics);
+  if (map.has_misspelt({"exits"})) file.always_exits.push_back({.is_incomplete = true});
   map.finish();
 }
 
@@ -160,7 +161,8 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   if (const Node* node = map.optional("always")) parse_always(*node, file, diagnostics);
   if (const Node* start = map.required("start")) file.start = parse_word(*start, "`start`", diagnostics);
   if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, templates, file, diagnostics);
-  for (const char* section : {"params", "frames", "regions", "signals", "features", "templates", "always"}) {
+  for (const char* section :
+       {"params", "frames", "regions", "signals", "features", "templates", "always", "tasks"}) {
     const bool is_absent = document.root.find(section) == nullptr;
     file.is_incomplete = file.is_incomplete || (is_absent && map.has_misspelt({section}));
   }

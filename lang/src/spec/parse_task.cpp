@@ -105,7 +105,7 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
       group.axes.push_back(parse_axis(*entry.value.find(name), path, lowest_level, diagnostics));
     }
   }
-  group.is_incomplete = map.has_unread_keys();
+  group.is_incomplete = !map.is_mapping() || !group.name.exists() || map.has_unread_keys();
   map.finish();
   return group;
 }
@@ -248,7 +248,7 @@ TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnosti
   if (map.has_misspelt({"use"})) {
     for (const char* key : {"use", "with"}) map.optional(key);
   }
-  task.is_bad = task.is_bad || map.has_unread_keys();
+  task.is_bad = task.is_bad || !task.name.exists() || map.has_unread_keys();
   map.finish();
   return task;
 }

@@ -55,15 +55,15 @@ bool MapReader::has_unread_keys() const {
 void MapReader::finish() {
   if (!is_mapping()) return;
   if (!others_allowed_) {
+    std::vector<std::string> absent;
+    for (const std::string& key : known_) {
+      if (node_.find(key) == nullptr) absent.push_back(key);
+    }
     for (const Entry& entry : node_.entries) {
       if (entry.key.is_bad || std::find(known_.begin(), known_.end(), entry.key.text) != known_.end()) {
         continue;
       }
       if (split_reported_ && entry.value.kind == NodeKind::null) continue;
-      std::vector<std::string> absent;
-      for (const std::string& key : known_) {
-        if (node_.find(key) == nullptr) absent.push_back(key);
-      }
       const std::string meant = nearest(entry.key.text, absent);
       diagnostics_.add(wording::unknown_key(entry.key.span, entry.key.text, what_, meant, known_));
       // The misspelt key was the missing one: one cause, one message.
@@ -86,7 +86,7 @@ Word parse_name(const Node& node, const std::string& what, Diagnostics& diagnost
   Word word = parse_word(node, what, diagnostics);
   if (word.exists() && !is_identifier(word.text)) {
     diagnostics.add(wording::not_a_name(node.span, word.text));
-    return {};
+    return {{}, node.span};  // no name, but a place for what else is said of the thing
   }
   return word;
 }

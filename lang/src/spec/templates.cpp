@@ -44,6 +44,14 @@ bool is_name_part(char c) {
   return is_identifier(std::string{'_', c});
 }
 
+const Entry* misspelt_with(const Node& task) {
+  if (task.find("with") != nullptr) return nullptr;
+  for (const Entry& entry : task.entries) {
+    if (!nearest(entry.key.text, {"with"}).empty()) return &entry;
+  }
+  return nullptr;
+}
+
 int count_nodes(const Node& node) {
   int count = 1;
   for (const Node& item : node.items) count += count_nodes(item);
@@ -137,6 +145,11 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
     diagnostics_.add(wording::too_many_expanded_nodes(name.span, most_nodes));
     return std::nullopt;
   }
+  if (const Entry* with = misspelt_with(task)) {
+    diagnostics_.add(
+        wording::unknown_key(with->key.span, with->key.text, "a task that uses a template", "with", {}));
+    return std::nullopt;
+  }
   std::map<std::string, Node> values;
   if (used.is_bad || !fill_arguments(used, task, name.text, values)) return std::nullopt;
   Node body = *used.body;
@@ -156,28 +169,31 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
 bool Templates::fill_arguments(const Template& used, const Node& task, const std::string& name,
                                std::map<std::string, Node>& values) {
   const Entry* with = task.find("with");
-  const std::size_t errors = diagnostics_.all().size();
   if (with != nullptr && !require_mapping(with->value, "`with`", diagnostics_)) return false;
   std::vector<std::string> known;
   for (const auto& [argument, kind] : used.arguments) known.push_back(argument);
   bool is_misspelt = false;
+  bool is_good = true;
   for (const Entry& entry : with != nullptr ? with->value.entries : std::vector<Entry>{}) {
     const auto argument = used.arguments.find(entry.key.text);
     if (argument == used.arguments.end()) {
       const std::string meant = nearest(entry.key.text, known);
       is_misspelt = is_misspelt || !meant.empty();
       diagnostics_.add(wording::extra_argument(entry.key.span, name, entry.key.text, meant));
+      is_good = false;
     } else if (check_argument(argument->first, argument->second, entry.value)) {
       values[argument->first] = entry.value;
     } else {
       values[argument->first].is_bad = true;
+      is_good = false;
     }
   }
   for (const std::string& argument : known) {
     if (values.contains(argument) || is_misspelt) continue;
     diagnostics_.add(wording::missing_template_argument(task.find("use")->value.span, name, argument));
+    is_good = false;
   }
-  return diagnostics_.all().size() == errors;
+  return is_good;
 }
 
 bool Templates::check_argument(const std::string& name, const std::string& kind, const Node& value) {
