@@ -44,7 +44,7 @@ Workload mujoco_step() {
   if (!robot) std::abort();
   const runtime::MujocoPlant plant(*robot, lang::Scene{}, {.period = 1e-3});
   auto w = std::make_shared<Step>(plant.mjcf());
-  return {"mj_step, the plant's settings", "dynamics, contacts of the wheels, one Euler step",
+  return {"mj_step, set as the plant", "dynamics, contacts of the wheels, one Euler step",
           [w](std::size_t) { mj_step(w->model, w->data); }};
 }
 
