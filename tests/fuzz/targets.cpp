@@ -74,7 +74,8 @@ const Robot& small_robot() {
 }
 
 std::optional<Program> program_of(TaskFile file, Diagnostics& diagnostics) {
-  std::optional<CheckedFile> checked = check(std::move(file), small_robot(), std::nullopt, {}, diagnostics);
+  std::optional<CheckedFile> checked =
+      check(std::move(file), small_robot(), std::nullopt, {}, true, diagnostics);
   if (!checked) return std::nullopt;
   return lower(std::move(*checked));
 }

@@ -160,7 +160,8 @@ std::string text_of(const std::string& file) {
 
 Diagnostics said_about(const std::string& text) {
   const test::Folder folder;
-  for (const char* file : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "scenes/wall.yaml"}) {
+  for (const char* file : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "scenes/corridor.yaml",
+                           "scenes/dock.yaml", "scenes/obstacle.yaml", "scenes/wall.yaml"}) {
     folder.write(file, test::slurp(test::source_dir / "specs" / file));
   }
   Diagnostics diagnostics;
@@ -170,6 +171,10 @@ Diagnostics said_about(const std::string& text) {
 
 int line_of(const std::string& text, std::size_t at) {
   return 1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
+}
+
+void PrintTo(const Mistake& mistake, std::ostream* out) {
+  *out << mistake.file << ": " << mistake.name;
 }
 
 class MistakeOf : public testing::TestWithParam<Mistake> {};

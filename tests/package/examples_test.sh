@@ -22,7 +22,9 @@ step build "$cmake" --build "$place/build"
 ran=0
 for program in "$place"/build/[0-9]*/[0-9]*; do
   if [[ -f $program && -x $program ]]; then
-    step "run $(basename "$program")" "$program"
+    arguments=()
+    if [[ $program == */03_own_loop ]]; then arguments=("$source/specs/wall_align.yaml"); fi
+    step "run $(basename "$program")" "$program" "${arguments[@]}"
     ran=$((ran + 1))
   fi
 done

@@ -126,6 +126,11 @@ m (b^2 + c^2) / 12, and so on.)~",
     <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.001"/>
   </inertial>
 </link>)~"},
+      Explanation{
+          .code = "E809",
+          .title = "a posture outside the joint's limits",
+          .why = "`posture` is where the joints stand at the start; beyond its limits a joint cannot stand.",
+          .fix = "Choose a value between the joint's limits in the URDF, or correct these."},
   };
   return entries;
 }

@@ -27,9 +27,8 @@ std::span<const Explanation> scenes() {
           .instead = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], mass: 3 kg}"},
       Explanation{.code = "E903",
                   .title = "an outcome that no run can have",
-                  .why =
-                      "A run ends as `done`, `failed`, `stopped`, `diverged`, `refused` or `unfinished`. A "
-                      "misspelt outcome would never come true.",
+                  .why = "A run ends as `done`, `failed`, `stopped`, `diverged` or `refused`. A "
+                         "misspelt outcome would never come true.",
                   .fix = "Write one of them, as in `- outcome: done`."},
       Explanation{
           .code = "E904",
