@@ -135,8 +135,7 @@ std::vector<Mistake> mistakes() {
       {"swapped_range", "wall_align", "[-0.05 m/s, 0.08 m/s]", "[0.08 m/s, -0.05 m/s]", "E403", {}},
       {"swapped_range_of_a_parameter", "hospital", "[0.2 m/s, 0.8 m/s]", "[0.8 m/s, 0.2 m/s]", "E403", {}},
       {"two_drivers", "docking", "velocity: [-0.05 m/s, 0.05 m/s]", "velocity: 0.05 m/s", "E401", {}},
-      {"swapped_frames", "docking", "in: standoff", "in: hook", "E405",
-       "x:  {position: 0 m,   velocity: +-0.25"},
+      {"swapped_frames", "docking", "in: standoff", "in: hook", "E405", "velocity: +-0.25 m/s"},
       {"dead_guard", "docking", "reach < 3 cm, for: 0.2 s", "reach < -3 cm, for: 0.2 s", "E505", {}},
       {"release_on_the_wrong_side", "hospital", "release: 1.2 m", "release: 0.6 m", "E506", {}},
       {"back_from_a_task_of_its_own",
@@ -192,6 +191,7 @@ TEST_P(MistakeOf, is_found_in_its_place_and_told_once) {
   const Diagnostic& said = diagnostics.all()[0];
   EXPECT_EQ(said.code, mistake.code) << test::rendered(diagnostics);
   const std::size_t told = mistake.told_at.empty() ? at : bad.find(mistake.told_at);
+  ASSERT_NE(told, std::string::npos) << mistake.told_at;
   EXPECT_EQ(said.span.begin.line, line_of(bad, told)) << test::rendered(diagnostics);
 }
 

@@ -63,6 +63,21 @@ double Noise::normal() noexcept {
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * std::numbers::pi * uniform());
 }
 
+namespace {
+
+/// The robot's frame that latches in the object that is seen.
+std::optional<solver::AttachedFrame> hook_of(const std::vector<lang::SceneObject>& objects,
+                                             const SceneSignal& signal, const solver::Model& model) {
+  if (signal.object < 0) return std::nullopt;
+  const auto& dock = objects[static_cast<std::size_t>(signal.object)].dock;
+  const auto number = dock ? model.find_frame(dock->hook) : std::nullopt;
+  if (!number) return std::nullopt;
+  const solver::Frame& frame = model.frames()[static_cast<std::size_t>(*number)];
+  return solver::AttachedFrame{frame.body, frame.pose_in_body, {}};
+}
+
+}  // namespace
+
 SceneSignals::SceneSignals(const lang::Program& program, std::uint64_t seed) : model_(program.robot.model) {
   if (!program.scene) return;
   objects_ = program.scene->objects;
@@ -78,6 +93,7 @@ SceneSignals::SceneSignals(const lang::Program& program, std::uint64_t seed) : m
       source.index = static_cast<int>(i);
       source.type = declared.type;
       if (declared.type == SignalType::pose) source.in = attached_frame(program, declared.in);
+      if (signal.kind == SceneSignalKind::pose) source.hook = hook_of(objects_, signal, model_);
       source.on_way.resize(ring);
       source.noise = Noise(seed * 0x9E3779B97F4A7C15U + i + 1);
       if (signal.delay > 1.9)
@@ -140,9 +156,12 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
     case SceneSignalKind::pose: {
       const PlanarPose at = seen_pose(truth.objects[number], number);
       const solver::FrameMotion in = solver::motion_of(source.in, model_, state);
+      // Scenes are flat: a socket is as high as the hook that fits, anything else as high as who sees it.
+      const solver::Pose seen_from =
+          source.hook ? solver::motion_of(*source.hook, model_, state).pose : in.pose;
       solver::Pose seen;
       seen.position = {at.x + signal.noise * source.noise.normal(),
-                       at.y + signal.noise * source.noise.normal(), in.pose.position.z()};
+                       at.y + signal.noise * source.noise.normal(), seen_from.position.z()};
       seen.rotation =
           solver::rotation_from_rpy(0.0, 0.0, at.yaw + signal.angle_noise * source.noise.normal());
       sample.pose = in.pose.inverse() * seen;

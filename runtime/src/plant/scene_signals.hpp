@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -38,8 +39,9 @@ class SceneSignals {
     lang::SceneSignal signal;
     int index = 0;  ///< of the program's signal
     lang::SignalType type = lang::SignalType::boolean;
-    solver::AttachedFrame in;          ///< of a pose
-    std::vector<SignalSample> on_way;  ///< a ring of the last measurements
+    solver::AttachedFrame in;                   ///< of a pose
+    std::optional<solver::AttachedFrame> hook;  ///< of a pose: what latches in the object
+    std::vector<SignalSample> on_way;           ///< a ring of the last measurements
     std::size_t next = 0;
     double last_measured = -1.0;
     Noise noise{0};
