@@ -56,6 +56,14 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
 
 }  // namespace
 
+solver::State start_state(const Robot& robot, const std::optional<Scene>& scene) {
+  solver::State state = start_state(robot);
+  if (!scene || robot.model.has_fixed_base()) return state;
+  state.base_pose.position = {scene->start_at[0], scene->start_at[1], 0.0};
+  state.base_pose.rotation = solver::rotation_from_rpy(0.0, 0.0, scene->start_yaw);
+  return state;
+}
+
 std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
   std::optional<Program> program = load_phases(path, options, false, diagnostics);
   diagnostics.settle();

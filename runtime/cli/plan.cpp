@@ -50,14 +50,6 @@ const char* acceleration_unit(bool turns) {
   return turns ? "rad/s^2" : "m/s^2";
 }
 
-solver::State start_state(const lang::Program& program) {
-  solver::State state(program.robot.model);
-  if (!program.scene || program.robot.model.has_fixed_base()) return state;
-  state.base_pose.position = {program.scene->start_at[0], program.scene->start_at[1], 0.0};
-  state.base_pose.rotation = solver::rotation_from_rpy(0.0, 0.0, program.scene->start_yaw);
-  return state;
-}
-
 /// The program as if it began with this task, entered without a blend.
 lang::Program starting_with(const lang::Program& program, int task) {
   lang::Program one = program;
@@ -85,7 +77,9 @@ const lang::Span& span_of(const lang::AxisStatements& axis, solver::Quantity qua
 class Planner {
  public:
   Planner(const lang::Program& program, const lang::Diagnostics& diagnostics)
-      : program_(program), diagnostics_(diagnostics), state_(start_state(program)) {}
+      : program_(program),
+        diagnostics_(diagnostics),
+        state_(lang::start_state(program.robot, program.scene)) {}
 
   TaskPlan plan(int index) {
     TaskPlan plan;
@@ -364,7 +358,8 @@ int plan(const PlanArguments& arguments) {
   if (wanted.empty()) throw Impossible("no task named `" + *arguments.task + "` in " + arguments.file);
 
   Planner planner(*program, diagnostics);
-  const solver::BaseAnalysis base = solver::analyse_base(program->robot.model, start_state(*program));
+  const solver::BaseAnalysis base =
+      solver::analyse_base(program->robot.model, lang::start_state(program->robot, program->scene));
   ordered_json tasks = ordered_json::array();
   for (const int index : wanted) {
     const TaskPlan task = planner.plan(index);

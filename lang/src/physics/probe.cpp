@@ -27,14 +27,6 @@ bool is_wheel(const solver::Model& model, int joint) {
                      [&](const solver::Wheel& wheel) { return wheel.body == joint + 1; });
 }
 
-solver::State start_state(const solver::Model& model, const std::optional<Scene>& scene) {
-  solver::State state(model);
-  if (!scene || model.has_fixed_base()) return state;
-  state.base_pose.position = {scene->start_at[0], scene->start_at[1], 0.0};
-  state.base_pose.rotation = solver::rotation_from_rpy(0.0, 0.0, scene->start_yaw);
-  return state;
-}
-
 /// Joints anywhere within their limits (half a turn where they have none), any heading.
 solver::State general_state(const solver::Model& model, std::mt19937& generator) {
   solver::State state(model);
@@ -87,7 +79,7 @@ Probe::Probe(const Robot& robot, const std::optional<Scene>& scene)
   const solver::Model& model = robot.model;
   bool has_free_joints = false;
   for (int j = 0; j < model.joint_count(); ++j) has_free_joints = has_free_joints || !is_wheel(model, j);
-  states_.push_back(start_state(model, scene));
+  states_.push_back(start_state(robot, scene));
   std::mt19937 generator(20211);
   while (general_.size() < most_configurations) general_.push_back(general_state(model, generator));
   for (std::size_t i = 0; has_free_joints && i < general_.size(); ++i) {

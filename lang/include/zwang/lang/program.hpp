@@ -254,6 +254,9 @@ struct Program {
   }
 };
 
+/// How the robot stands before anything moves: its joints in their posture, the base where the scene has it.
+solver::State start_state(const Robot& robot, const std::optional<Scene>& scene);
+
 /// What the command line may put in the place of the file's own words.
 struct LoadOptions {
   std::optional<std::filesystem::path> robot;
