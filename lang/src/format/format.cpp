@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "diagnostic/wordings.hpp"
 #include "format/tokens.hpp"
 #include "tree/file.hpp"
 #include "tree/text.hpp"
@@ -195,6 +196,10 @@ bool means_the_same(const Document& before, const std::string& text) {
 std::optional<std::string> format_source(int source, Diagnostics& diagnostics) {
   const std::optional<Document> document = read(source, diagnostics);
   if (!document || diagnostics.has_errors()) return std::nullopt;
+  if (!document->root.is_mapping()) {
+    diagnostics.add(wording::expected_mapping(document->root.span, "a file"));
+    return std::nullopt;
+  }
   const std::vector<LineTokens> lines = tokens_of(*document, diagnostics.source(source).text);
   std::vector<LaidLine> laid = laid_out(lines);
   indent_comments(lines, laid);
