@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
 #include <stdexcept>
 
 namespace zwang::runtime {
@@ -117,6 +118,9 @@ bool guarded(void (*call)(const mjModel*, mjData*), const mjModel* model, mjData
 }
 
 ModelPointer compile(const std::string& mjcf) {
+  // MuJoCo's compiler keeps the last model for the whole process.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   const char* const file = "plant.xml";
   const auto files = std::make_unique<VirtualFiles>();  // two megabytes: not for the stack
   if (mj_makeEmptyFileVFS(&files->vfs, file, static_cast<int>(mjcf.size())) != 0) {
