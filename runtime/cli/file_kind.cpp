@@ -10,14 +10,6 @@
 
 namespace zwang::cli {
 
-namespace {
-
-std::string count(std::size_t n, const char* thing) {
-  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
-}
-
-}  // namespace
-
 const char* word_of(FileKind kind) {
   switch (kind) {
     case FileKind::task:

@@ -65,6 +65,10 @@ std::string padded_left(std::string_view text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ').append(text) : std::string(text);
 }
 
+std::string count(std::size_t n, std::string_view thing) {
+  return std::to_string(n) + " " + std::string(thing) + (n == 1 ? "" : "s");
+}
+
 std::string place(const lang::Diagnostics& diagnostics, const lang::Span& span) {
   if (!span.exists()) return "";
   const std::filesystem::path path = diagnostics.source(span.source).path;

@@ -29,6 +29,8 @@ std::string with_unit(double value, std::string_view si_unit, int digits = 4);
 std::string padded(std::string_view text, std::size_t width);       ///< to the left
 std::string padded_left(std::string_view text, std::size_t width);  ///< to the right
 
+std::string count(std::size_t n, std::string_view thing);  ///< `1 error`, `2 errors`
+
 /// `wall_align.yaml:27`; empty when the span does not exist.
 std::string place(const lang::Diagnostics& diagnostics, const lang::Span& span);
 

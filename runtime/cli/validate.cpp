@@ -8,7 +8,6 @@
 #include "output.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/program.hpp"
-#include "zwang/lang/scenario.hpp"
 
 namespace zwang::cli {
 
@@ -57,14 +56,10 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
   return files;
 }
 
-std::string count(int n, const char* thing) {
-  return std::to_string(n) + " " + thing + (n == 1 ? "" : "s");
-}
-
 std::string counts(const lang::Diagnostics& diagnostics) {
   const int warnings = diagnostics.count(lang::Severity::warning);
-  return count(diagnostics.error_count(), "error") +
-         (warnings > 0 ? ", " + count(warnings, "warning") : std::string());
+  return count(static_cast<std::size_t>(diagnostics.error_count()), "error") +
+         (warnings > 0 ? ", " + count(static_cast<std::size_t>(warnings), "warning") : std::string());
 }
 
 std::string human(const Checked& file, const ValidateArguments& arguments) {

@@ -48,14 +48,12 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   TrueFacts facts(program);
   Sensed sensed(program.robot.model, program.signals.size());
   PlantStatus status = PlantStatus::ok;
-  double share = 0.0;
   while (!runner.finished() && plant.truth().time < scenario.time_limit) {
     // A sample that does not arrive is the runtime's to deal with: it steps on what it has.
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
     const Eigen::VectorXd& tau = runner.step(sensed);
-    share = torque_share(program.robot.model, tau);
-    facts.update(plant.truth(), plant.true_state(), share);
+    facts.update(plant.truth(), plant.true_state(), torque_share(program.robot.model, tau));
     const bool in_task = runner.state() == RunState::running;
     for (ExpectationWatch& watch : watches) watch.look(facts, plant.truth().time, in_task);
     status = plant.apply(tau);
