@@ -21,13 +21,14 @@ constexpr double rank_tolerance = 1e-6;  // of singular values, relative to the 
 /// One pass of the sweeps over the ground, the freedoms of base and joints, and one row more.
 struct WhitenedRobot {
   WhitenedRobot(const Model& model, const State& state, const Row* row)
-      : ground(ground_row_count(model)),
+      : ground_rows(model),
+        ground(ground_rows.row_count()),
         base(model.has_fixed_base() ? 0 : 6),
         sweeps(model, ground + base + model.joint_count() + 1),
         rows(ground + base + model.joint_count() + 1) {
     outward_kinematics(model, state, Vector6::Zero(), sweeps);
     load_bodies_at_rest(sweeps);
-    add_ground_rows(model, sweeps, [](int, const GroundRow&) {});
+    add_ground_rows(ground_rows, sweeps, [](int, const GroundRow&) {});
     for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, Vector6::Unit(i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
     if (row != nullptr) add_row(*row, sweeps);
@@ -42,6 +43,7 @@ struct WhitenedRobot {
   Eigen::VectorXd base_freedom(int i) const { return rows.motion(ground + i).transpose(); }
   int last_row() const { return sweeps.columns.rows() - 1; }
 
+  Ground ground_rows;
   int ground, base;
   Sweeps sweeps;
   WhitenedRows rows;

@@ -26,7 +26,8 @@ struct PopovVereshchagin::Workspace {
   Workspace(const Model& robot, const Settings& options)
       : model(robot),
         settings(options),
-        ground(ground_row_count(robot)),
+        ground_rows(robot),
+        ground(ground_rows.row_count()),
         sweeps(robot, ground + options.row_capacity),
         whitened(ground + options.row_capacity),
         wanted(Eigen::VectorXd::Zero(ground + options.row_capacity)),
@@ -38,7 +39,7 @@ struct PopovVereshchagin::Workspace {
 
   /// `wanted`: b by row id.
   void add_rows(const std::vector<AccelerationRow>& rows) noexcept {
-    add_ground_rows(model, sweeps, [this](int id, const GroundRow& row) { wanted(id) = row.bias; });
+    add_ground_rows(ground_rows, sweeps, [this](int id, const GroundRow& row) { wanted(id) = row.bias; });
     for (const AccelerationRow& row : rows) wanted(add_row(row, sweeps)) = row.b;
   }
 
@@ -76,6 +77,7 @@ struct PopovVereshchagin::Workspace {
 
   Model model;
   Settings settings;
+  Ground ground_rows;
   int ground;
   int rank = 0;
   Sweeps sweeps;

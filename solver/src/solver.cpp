@@ -89,7 +89,8 @@ struct Solver::Workspace {
   Workspace(const Model& robot, const Settings& options)
       : model(robot),
         settings(options),
-        ground(ground_row_count(robot)),
+        ground_rows(robot),
+        ground(ground_rows.row_count()),
         base(base_freedoms(robot)),
         capacity(ground + base + robot.joint_count() + options.row_capacity),
         sweeps(robot, capacity),
@@ -110,7 +111,7 @@ struct Solver::Workspace {
   int first_task_row() const { return ground + base + model.joint_count(); }
 
   void add_rows(const std::vector<Row>& rows) noexcept {
-    add_ground_rows(model, sweeps, [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
+    add_ground_rows(ground_rows, sweeps, [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
     for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, base_freedom(model, i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
     for (const Row& row : rows) add_row(row, sweeps);
@@ -158,6 +159,7 @@ struct Solver::Workspace {
 
   Model model;
   Settings settings;
+  Ground ground_rows;
   int ground, base, capacity;
   Sweeps sweeps;
   WhitenedRows whitened;
@@ -236,7 +238,7 @@ Status Solver::project_velocity(State& state) noexcept {
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
-  add_ground_rows(w.model, w.sweeps, [&w](int id, const GroundRow& row) {
+  add_ground_rows(w.ground_rows, w.sweeps, [&w](int id, const GroundRow& row) {
     w.forces(id) = -row.a.dot(w.body_sweep(row.body).v);
   });
   load_bodies_at_rest(w.sweeps);
