@@ -111,7 +111,8 @@ struct Solver::Workspace {
   int first_task_row() const { return ground + base + model.joint_count(); }
 
   void add_rows(const std::vector<Row>& rows) noexcept {
-    add_ground_rows(ground_rows, sweeps, [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
+    add_ground_rows(ground_rows, sweeps,
+                    [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
     for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, base_freedom(model, i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
     for (const Row& row : rows) add_row(row, sweeps);
@@ -199,7 +200,7 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
 
   w.clamp_feed_forward(state);
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
-  load_bodies(state, w.gravity(state), w.sweeps);
+  load_bodies(w.model, state, w.gravity(state), w.sweeps);
   w.add_rows(rows);
   if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
   w.factorise();
@@ -212,7 +213,7 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
 
   solution.qdd = w.qdd;
   for (std::size_t i = 0; i < w.sweeps.bodies.size(); ++i) {
-    solution.acceleration[i] = w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a);
+    w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a, solution.acceleration[i]);
   }
   solution.tau.setZero();
   for (const int j : w.motors) {
@@ -250,7 +251,10 @@ Status Solver::project_velocity(State& state) noexcept {
   outward_accelerations(w.model, w.forces, w.sweeps, w.qdd);
   if (!w.qdd.allFinite()) return Status::degenerate_model;
   state.qd += w.qdd;
-  if (!w.model.has_fixed_base()) state.base_twist += w.body_sweep(0).from_base(w.body_sweep(0).a);
+  if (w.model.has_fixed_base()) return Status::ok;
+  MotionVector change;
+  w.body_sweep(0).from_base(w.body_sweep(0).a, change);
+  state.base_twist += change;
   return Status::ok;
 }
 
