@@ -96,6 +96,9 @@ void print_peers(const std::string& program) {
     compare(program, arm_zwang(rows), arm_kdl(rows), false,
             rows == 6 ? "times as fast; goal 6, stretch 8" : "times as fast");
   }
+#ifdef ZWANG_BENCH_PINOCCHIO
+  compare(program, arm_zwang(6), arm_pinocchio(), false, "times as fast; goal 2");
+#endif
   compare(program, base_full(), base_rows(), true, "of our own unbounded call; goal 2");
   compare(program, mobile_arm_full(), mobile_arm_rows(), true, "of our own unbounded call; goal 2");
 #ifdef ZWANG_BENCH_MUJOCO
@@ -109,23 +112,43 @@ void print_peers(const std::string& program) {
   }
 }
 
-/// Slope of log time over log links.
-void print_growth() {
-  std::printf("\nleast of %d rounds\nlinks (6 rows):  ", rounds);
-  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-  for (int links = 8; links <= 256; links *= 2) {
-    const double time = least_time(zwang::bench::chain(links, 6));
-    std::printf(" %d: %.0f ns ", links, time);
+/// Slope of log cost over log links.
+class Exponent {
+ public:
+  void add(double links, double cost) {
     const double x = std::log(links);
-    const double y = std::log(time);
-    n += 1.0;
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
+    const double y = std::log(cost);
+    n_ += 1.0;
+    sx_ += x;
+    sy_ += y;
+    sxx_ += x * x;
+    sxy_ += x * y;
   }
-  std::printf(" exponent %.2f (goal 1.0 +- 0.1)\nrows (24 links): ",
-              (n * sxy - sx * sy) / (n * sxx - sx * sx));
+  double value() const { return (n_ * sxy_ - sx_ * sy_) / (n_ * sxx_ - sx_ * sx_); }
+
+ private:
+  double n_ = 0.0, sx_ = 0.0, sy_ = 0.0, sxx_ = 0.0, sxy_ = 0.0;
+};
+
+void print_growth(const std::string& program) {
+  std::printf("\nleast of %d rounds\nlinks (6 rows):  ", rounds);
+  Exponent time, count;
+  std::string counts;
+  for (int links = 8; links <= 256; links *= 2) {
+    const Workload work = zwang::bench::chain(links, 6);
+    const double least = least_time(work);
+    std::printf(" %d: %.0f ns ", links, least);
+    time.add(links, least);
+    if (const std::optional<double> number = instructions(program, work.name)) {
+      count.add(links, *number);
+      char text[64];
+      std::snprintf(text, sizeof(text), " %d: %.0f ", links, *number);
+      counts += text;
+    }
+  }
+  std::printf(" exponent %.2f (goal 1.0 +- 0.1)\n", time.value());
+  if (!counts.empty()) std::printf("  instructions:  %s exponent %.2f\n", counts.c_str(), count.value());
+  std::printf("rows (24 links): ");
   for (const int rows : {1, 2, 3, 6, 12, 18, 24}) {
     std::printf(" %d: %.0f ns ", rows, least_time(zwang::bench::chain(24, rows)));
   }
@@ -159,6 +182,12 @@ int repeat(const std::string& name, int calls) {
     if (name == "arm, " + std::to_string(rows) + " rows") work = arm_zwang(rows);
     if (name == "KDL, " + std::to_string(rows) + " rows") work = arm_kdl(rows);
   }
+#ifdef ZWANG_BENCH_PINOCCHIO
+  makers.push_back(arm_pinocchio);
+#endif
+  for (int links = 8; links <= 256; links *= 2) {
+    if (name == std::to_string(links) + " links, 6 rows") work = chain(links, 6);
+  }
   for (const auto make : makers) {
     if (!work && make().name == name) work = make();
   }
@@ -177,7 +206,7 @@ int main(int count, char** arguments) {
   CPU_SET(static_cast<std::size_t>(sched_getcpu()), &core);
   sched_setaffinity(0, sizeof(core), &core);
   print_peers(arguments[0]);
-  print_growth();
+  print_growth(arguments[0]);
   std::printf("\n");
   print_worst_step(zwang::bench::arm_zwang(6));
   print_worst_step(zwang::bench::base_full());
