@@ -126,6 +126,29 @@ TEST(Scenario, mistakes_are_found_where_they_are_written) {
   }
 }
 
+/// Of so many keys with two values, and one with the given number.
+std::string with_matrix(int keys, int last) {
+  std::string text = "zwang_scenario: 1\ntask: wall_align.yaml\nexpect: [{outcome: done}]\nmatrix:\n";
+  for (int i = 0; i < keys; ++i) text += "  params.p" + std::to_string(i) + ": [1 m, 2 m]\n";
+  text += "  start_yaw: [";
+  for (int i = 0; i < last; ++i) text += (i > 0 ? ", " : "") + std::to_string(i) + " deg";
+  return text + "]\n";
+}
+
+TEST(Scenario, a_matrix_has_a_thousand_cells_and_no_more) {
+  Diagnostics good_ones, one_more, beyond_any_number;
+  const auto scenario = load_scenario(Shelf(with_matrix(3, 125)).path, good_ones);
+  ASSERT_TRUE(scenario) << rendered(good_ones);
+  EXPECT_EQ(scenario->cells.size(), 1000u);
+  EXPECT_FALSE(load_scenario(Shelf(with_matrix(3, 126)).path, one_more));
+  EXPECT_EQ(test::count(one_more, "E905"), 1) << rendered(one_more);
+  EXPECT_EQ(one_more.all()[0].span.begin.line, 8) << "the key that made them too many";
+  // 2^64 is 0 to a number of 64 bits.
+  EXPECT_FALSE(load_scenario(Shelf(with_matrix(64, 1)).path, beyond_any_number));
+  EXPECT_EQ(test::count(beyond_any_number, "E905"), 1) << rendered(beyond_any_number);
+  EXPECT_EQ(beyond_any_number.all()[0].span.begin.line, 14);
+}
+
 TEST(Scene, reads_what_unfolds_in_time) {
   const test::Folder folder;
   const auto path = folder.write("scene.yaml", R"(zwang_scene: 1

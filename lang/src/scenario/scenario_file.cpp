@@ -49,6 +49,7 @@ std::optional<MatrixValue> parse_matrix_value(const std::string& name, const Nod
 MatrixKey parse_matrix_key(const Entry& entry, Diagnostics& diagnostics) {
   MatrixKey key;
   key.name = entry.key.text;
+  key.span = entry.key.span;
   if (!require_sequence(entry.value, "`matrix." + key.name + "`", diagnostics)) return key;
   for (const Node& item : entry.value.items) {
     if (auto value = parse_matrix_value(key.name, item, diagnostics)) key.values.push_back(std::move(*value));
