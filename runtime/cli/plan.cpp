@@ -1,7 +1,6 @@
 // The rows of each task as the solver will get them at the start pose, and what the robot can make of them.
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -18,8 +17,6 @@
 namespace zwang::cli {
 
 namespace {
-
-using nlohmann::ordered_json;
 
 /// The program as if it began with this task, entered without a blend.
 lang::Program starting_with(const lang::Program& program, int task) {
@@ -268,22 +265,15 @@ int plan(const PlanArguments& arguments) {
   Planner planner(*program, diagnostics);
   const solver::BaseAnalysis base =
       solver::analyse_base(program->robot.model, lang::start_state(program->robot, program->scene));
-  ordered_json tasks = ordered_json::array();
-  for (const int index : wanted) {
-    const TaskPlan task = planner.plan(index);
-    if (arguments.format == Format::json) {
-      tasks.push_back(json(task, diagnostics));
-    } else {
-      print((index == wanted.front() ? "" : "\n") +
-            human(task, base.mobility, planner.configurations(), diagnostics));
-    }
-  }
+  std::vector<TaskPlan> plans;
+  for (const int index : wanted) plans.push_back(planner.plan(index));
   if (arguments.format == Format::json) {
-    const ordered_json whole = {{"ok", true},
-                                {"mobility", base.mobility},
-                                {"configurations", planner.configurations()},
-                                {"tasks", tasks}};
-    print(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    print(json(plans, base.mobility, planner.configurations(), diagnostics));
+    return exit_good;
+  }
+  for (const TaskPlan& task : plans) {
+    print((&task == plans.data() ? "" : "\n") +
+          human(task, base.mobility, planner.configurations(), diagnostics));
   }
   return exit_good;
 }

@@ -153,27 +153,7 @@ ordered_json json_of(const solver::ForceVector& a) {
   return {a.angular.x(), a.angular.y(), a.angular.z(), a.linear.x(), a.linear.y(), a.linear.z()};
 }
 
-}  // namespace
-
-std::string human(const TaskPlan& plan, int mobility, std::size_t configurations,
-                  const lang::Diagnostics& diagnostics) {
-  std::string text = plan.task + "\n";
-  if (!plan.refused.empty()) return text + "  no rows: " + plan.refused + "\n";
-  text += rows_table(plan) + dormant_text(plan) + "\n" + axes_table(plan);
-  if (configurations > 1) {
-    text +=
-        "  at the start; in brackets over " + std::to_string(configurations) + " settings of the joints\n";
-  }
-  text += "\n";
-  text += "  mobility " + std::to_string(mobility) + "; equality rows " + std::to_string(plan.equality_rows) +
-          ", their rank " + std::to_string(plan.rank) + "\n";
-  for (const lang::Diagnostic& note : plan.notes) {
-    text += "  " + note.code + " " + place(diagnostics, note.span) + ": " + note.message + "\n";
-  }
-  return text;
-}
-
-ordered_json json(const TaskPlan& plan, const lang::Diagnostics& diagnostics) {
+ordered_json json_of(const TaskPlan& plan, const lang::Diagnostics& diagnostics) {
   ordered_json rows = ordered_json::array();
   for (const PlannedRow& p : plan.rows) {
     const bool is_force = p.row.kind == solver::RowKind::force;
@@ -216,6 +196,35 @@ ordered_json json(const TaskPlan& plan, const lang::Diagnostics& diagnostics) {
       {"dormant", dormant}, {"unknown_signals", plan.unknown_signals}, {"axes", axes},      {"notes", notes}};
   if (!plan.refused.empty()) whole["refused"] = plan.refused;
   return whole;
+}
+
+}  // namespace
+
+std::string human(const TaskPlan& plan, int mobility, std::size_t configurations,
+                  const lang::Diagnostics& diagnostics) {
+  std::string text = plan.task + "\n";
+  if (!plan.refused.empty()) return text + "  no rows: " + plan.refused + "\n";
+  text += rows_table(plan) + dormant_text(plan) + "\n" + axes_table(plan);
+  if (configurations > 1) {
+    text +=
+        "  at the start; in brackets over " + std::to_string(configurations) + " settings of the joints\n";
+  }
+  text += "\n";
+  text += "  mobility " + std::to_string(mobility) + "; equality rows " + std::to_string(plan.equality_rows) +
+          ", their rank " + std::to_string(plan.rank) + "\n";
+  for (const lang::Diagnostic& note : plan.notes) {
+    text += "  " + note.code + " " + place(diagnostics, note.span) + ": " + note.message + "\n";
+  }
+  return text;
+}
+
+std::string json(const std::vector<TaskPlan>& plans, int mobility, std::size_t configurations,
+                 const lang::Diagnostics& diagnostics) {
+  ordered_json tasks = ordered_json::array();
+  for (const TaskPlan& plan : plans) tasks.push_back(json_of(plan, diagnostics));
+  const ordered_json whole = {
+      {"ok", true}, {"mobility", mobility}, {"configurations", configurations}, {"tasks", tasks}};
+  return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace zwang::cli

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,6 +61,8 @@ struct TaskPlan {
 /// `configurations`: over how many settings of the joints the spreads are.
 std::string human(const TaskPlan& plan, int mobility, std::size_t configurations,
                   const lang::Diagnostics& diagnostics);
-nlohmann::ordered_json json(const TaskPlan& plan, const lang::Diagnostics& diagnostics);
+/// All tasks as one JSON object.
+std::string json(const std::vector<TaskPlan>& plans, int mobility, std::size_t configurations,
+                 const lang::Diagnostics& diagnostics);
 
 }  // namespace zwang::cli
