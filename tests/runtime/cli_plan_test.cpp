@@ -195,7 +195,7 @@ TEST_F(CliPlan, a_bad_file_has_no_plan) {
   write("bad.yaml", "zwang: 1\nrobot: robots/mecanum_base.yaml\nstart: go\ntasks: {}\n");
   const Result result = zwang("plan bad.yaml");
   EXPECT_EQ(result.code, 1);
-  EXPECT_NE(result.out.find("E301"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("E104"), std::string::npos) << result.out;
 }
 
 TEST_F(CliPlan, inspect_tells_what_the_base_can_do) {
