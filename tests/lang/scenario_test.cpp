@@ -102,6 +102,7 @@ TEST(Scenario, mistakes_are_found_where_they_are_written) {
       {"at: end", "at: start", "E904", 13},
       {"outcome: done", "always: true < 1", "E301", 12},
       {"outcome: done", "{outcome: done, diagnostic: E404}", "E904", 12},
+      {"outcome: done", "diagnostic: E999", "E301", 12},
       {"start_yaw: [-5 deg, 5 deg]", "start_yaw: []", "E905", 6},
       {"of: truth.wall.touched", "of: truth.wall.force", "E906", 14},
       {"of: truth.wall.touched", "of: truth.wal.touched", "E301", 14},
@@ -195,6 +196,8 @@ signals:
       {"pose_of: cart", "pose_of: car", "E301", 6},
       {"pose_of: cart", "pose_of: cart, latch: cart", "E908", 6},
       {"dropouts: 5 %", "dropouts: 100 %", "E908", 6},
+      {"dropouts: 5 %", "rate: 0 Hz", "E105", 6},
+
       {"at: [2 m, 0 m], motion", "at: [2 m, 0 m], mass: 3 kg, motion", "E902", 3},
   };
   for (const Mistake& mistake : mistakes) {
@@ -206,6 +209,17 @@ signals:
     EXPECT_EQ(diagnostics.error_count(), 1) << rendered(diagnostics);
     EXPECT_EQ(diagnostics.sorted()[0].span.begin.line, mistake.line) << rendered(diagnostics);
   }
+}
+
+TEST(Scene, an_object_is_not_called_like_the_base_of_the_truth) {
+  const test::Folder folder;
+  Diagnostics diagnostics;
+  EXPECT_FALSE(load_scene(
+      folder.write("s.yaml", "zwang_scene: 1\nobjects:\n  base: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m]}\n"),
+      diagnostics));
+  ASSERT_EQ(diagnostics.all().size(), 1u) << rendered(diagnostics);
+  EXPECT_EQ(diagnostics.all()[0].code, "E305");
+  EXPECT_EQ(diagnostics.all()[0].span.begin.line, 3);
 }
 
 }  // namespace

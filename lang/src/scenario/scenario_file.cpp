@@ -5,6 +5,7 @@
 #include "diagnostic/wordings.hpp"
 #include "scene/faults.hpp"
 #include "spec/shape.hpp"
+#include "zwang/lang/explanation.hpp"
 
 namespace zwang::lang {
 
@@ -128,6 +129,8 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
   if (code != nullptr) {
     expected.kind = ExpectationKind::diagnostic;
     expected.word = parse_word(*code, "`diagnostic`", diagnostics);
+    if (expected.word.exists() && find_explanation(expected.word.text) == nullptr)
+      diagnostics.add(wording::unknown_name(code->span, "code", expected.word.text, ""));
   }
   if (at != nullptr) {
     expected.kind = ExpectationKind::at_end;

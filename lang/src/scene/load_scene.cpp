@@ -133,7 +133,11 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
   const Node* objects = map.optional("objects");
   if (objects != nullptr && require_mapping(*objects, "`objects`", diagnostics)) {
     for (const Entry& entry : objects->entries) {
-      if (!entry.key.is_bad) scene.objects.push_back(parse_object(entry, diagnostics));
+      if (entry.key.is_bad) continue;
+      // `truth.base.x` is the robot's.
+      if (entry.key.text == "base")
+        diagnostics.add(wording::name_taken(entry.key.span, "base", "the robot's base in `truth.base`"));
+      scene.objects.push_back(parse_object(entry, diagnostics));
     }
   }
   if (const Node* node = map.optional("signals")) {
