@@ -101,10 +101,12 @@ void print_peers(const std::string& program) {
 #ifdef ZWANG_BENCH_MUJOCO
   const Workload step = mujoco_step();
   compare(program, base_full(), step, true, "of a step; goal 0.35, stretch 0.25");
+  compare(program, base_with_rows(), step, true, "of a step");
   compare(program, base_tick(), step, true, "of a step");
 #endif
   std::printf("\na call of                  does\n");
-  for (const Workload& work : {arm_zwang(6), arm_kdl(6), base_rows(), base_full(), base_tick()}) {
+  for (const Workload& work :
+       {arm_zwang(6), arm_kdl(6), base_rows(), base_full(), base_with_rows(), base_tick()}) {
     std::printf("%-26s %s\n", work.name.c_str(), work.includes.c_str());
   }
 }
@@ -150,7 +152,8 @@ void print_worst_step(const Workload& work) {
 
 int repeat(const std::string& name, int calls) {
   using namespace zwang::bench;
-  std::vector<Workload (*)()> makers{base_full, base_rows, base_tick, mobile_arm_full, mobile_arm_rows};
+  std::vector<Workload (*)()> makers{base_full, base_with_rows,  base_rows,
+                                     base_tick, mobile_arm_full, mobile_arm_rows};
 #ifdef ZWANG_BENCH_MUJOCO
   makers.push_back(mujoco_step);
 #endif

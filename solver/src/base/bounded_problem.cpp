@@ -43,6 +43,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       tau_hi_(Vector::Zero(motors)),
       candidate_(Vector::Zero(motors)),
       motor_length_(Vector::Zero(motors)),
+      motor_extents_(static_cast<std::size_t>(motors)),
       p_(Vector::Zero(dimension)),
       fixed_(Vector::Zero(dimension)),
       work_(Vector::Zero(dimension)),
@@ -64,9 +65,10 @@ void BoundedProblem::resize(int rows, int motors, int dimension) noexcept {
   dimension_ = dimension;
 }
 
-void BoundedProblem::set_row(int i, const Row& row, double unconstrained) noexcept {
+void BoundedProblem::set_row(int i, const Row& row, double unconstrained, int twin) noexcept {
   Entry& e = entry(i);
   e = Entry{};
+  e.twin = twin;
   e.kind = row.kind;
   e.quantity = row.quantity;
   e.level = row.level;
@@ -132,12 +134,24 @@ void BoundedProblem::factorise_motors() noexcept {
   for (int k = 0; k < dimension_; ++k) std::fill_n(&gram_(k, 0), k + 1, 0.0);
   for (int j = 0; j < motors_; ++j) {
     const double* const T = &T_(j, 0);
-    for (int k = 0; k < dimension_; ++k) add_multiple(k + 1, T[k], T, &gram_(k, 0));
-    const double squared = dot(dimension_, T, T);
+    const int extent = extent_of(j);
+    motor_extents_[static_cast<std::size_t>(j)] = extent;
+    for (int k = 0; k < extent; ++k) add_multiple(k + 1, T[k], T, &gram_(k, 0));
+    const double squared = dot(extent, T, T);
     motor_length_(j) = std::sqrt(squared);
     trace += squared;
   }
   motors_reach_all_ = cholesky(gram_, dimension_, motor_rank_tolerance * trace);
+  motors_drive_all_ = motors_reach_all_;
+  for (int j = 0; j < motors_; ++j)
+    motors_drive_all_ = motors_drive_all_ && (tau_lo_(j) < 0.0 || tau_hi_(j) > 0.0);
+}
+
+/// T_j is 0 from here on: the whitened axes come from joints, one after the other.
+int BoundedProblem::extent_of(int motor) const noexcept {
+  int extent = dimension_;
+  while (extent > 0 && T_(motor, extent - 1) == 0.0) --extent;
+  return extent;
 }
 
 /// No multiplier is unbounded: what the motors can do along a row bounds it, one-sided rows by a multiple of
@@ -152,7 +166,13 @@ void BoundedProblem::bound_rows() noexcept {
   for (int i = 0; i < rows_; ++i) {
     Entry& e = entry(i);
     if (e.out || e.kind == RowKind::sum) continue;
-    double force = largest_force(i);
+    const bool is_bounded = e.kind == RowKind::force || (std::isfinite(e.lo) && std::isfinite(e.hi));
+    if (is_bounded && motors_drive_all_) {
+      e.lo *= e.fade;
+      e.hi *= e.fade;
+      continue;
+    }
+    double force = e.largest_force = largest_force(i);
     if (force == 0.0) {
       e.out = true;
       e.status = RowStatus::unreachable;
@@ -165,12 +185,15 @@ void BoundedProblem::bound_rows() noexcept {
   }
 }
 
-/// Upper bound of |nu| with B_i nu = T'tau: both sides times B_i.
+/// Upper bound of |nu| with B_i nu = T'tau: both sides times B_i. 0 where no motor drives the row.
 double BoundedProblem::largest_force(int i) noexcept {
+  if (entry(i).twin >= 0 && entry(entry(i).twin).largest_force >= 0.0)
+    return entry(entry(i).twin).largest_force;
   const double length = entry(i).length;
   double sum = 0.0;
   for (int j = 0; j < motors_; ++j) {
-    const double share = std::abs(dot(dimension_, &B_(i, 0), &T_(j, 0)));
+    const int extent = motor_extents_[static_cast<std::size_t>(j)];
+    const double share = std::abs(dot(extent, &B_(i, 0), &T_(j, 0)));
     if (share > driven_share * motor_length_(j) * length) sum += share * std::max(-tau_lo_(j), tau_hi_(j));
   }
   return length > 0.0 ? sum / (length * length) : 0.0;
@@ -184,6 +207,15 @@ void BoundedProblem::project_rows(int level) noexcept {
     if (e.out || !is_posed) continue;
     double* const V = &V_(i, 0);
     double* const P = &P_(i, 0);
+    e.projected_at = level;
+    if (e.twin >= 0 && entry(e.twin).projected_at == level) {
+      const Entry& twin = entry(e.twin);
+      std::copy_n(&V_(e.twin, 0), dimension_, V);
+      std::copy_n(&P_(e.twin, 0), dimension_, P);
+      e.reach = twin.reach;
+      if (e.level == level) e.blocked = twin.reach == 0.0;
+      continue;
+    }
     if (all_free_) {
       std::copy_n(&B_(i, 0), dimension_, V);
       std::copy_n(&B_(i, 0), dimension_, P);
