@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "estimate/friction.hpp"
+#include "estimate/weight.hpp"
 #include "run/limit_table.hpp"
 #include "run/log_layout.hpp"
 #include "run/shortfall.hpp"
@@ -46,6 +47,7 @@ struct Runner::Parts {
         sample(model, program.signals.size()),
         odometry(model, {}, {.period = settings.period}),
         friction(program.robot),
+        weight(model),
         guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
         statements(scheduler, program),
         limits(statements, program.robot),
@@ -74,6 +76,7 @@ struct Runner::Parts {
   bool reckoning = false;  ///< the base is not measured: `odometry` tells it
   double last_fix = -std::numeric_limits<double>::infinity();  ///< [s]
   FrictionFeedForward friction;
+  WeightFeedForward weight;
   SafetyGuard guard;
   StatementTable statements;
   LimitTable limits;
@@ -115,6 +118,7 @@ bool Runner::Parts::control() noexcept {
   std::copy(estimated.signals.begin(), estimated.signals.end(), sample.signals.begin());
   solver_status = solver.project_velocity(sample.state);
   if (solver_status != solver::Status::ok) return false;
+  weight.add_to(sample.state);
   scheduler.tick(sample);
   if (scheduler.transition()) {
     ++transition_count;

@@ -104,6 +104,7 @@ struct Scheduler::Parts final : Facts {
   std::vector<lang::FrameDeclaration> declarations;
   const std::vector<lang::Feature> features;
   const int base;  ///< frame
+  const std::vector<HeldJoint> held_joints;
   const TaskList tasks;
   FrameTable frames;
   SignalTable signals;

@@ -176,7 +176,8 @@ bool leads_back(const lang::Task& task, const std::vector<bool>& known) {
 
 }  // namespace
 
-TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDeclaration>& frames, int base)
+TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDeclaration>& frames, int base,
+                   const std::vector<HeldJoint>& joints)
     : tasks(program.tasks), program_tasks(static_cast<int>(program.tasks.size())) {
   require_index(program.start, tasks.size(), "the start task");
   for (lang::Task& task : tasks) {
@@ -185,6 +186,9 @@ TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDe
   }
   tasks.push_back(brake_task("done", program.robot, base));
   tasks.push_back(brake_task("failed", program.robot, base));
+  for (lang::Task& task : tasks) {
+    add_holds(task, program.always, joints, frames, program.robot.model);
+  }
   lang::Task always;
   always.name = "always";
   always.groups = program.always.groups;

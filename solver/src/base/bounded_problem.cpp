@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace zwang::solver {
 
 namespace {
 
 constexpr double unreachable_share = 1e-8;      // A Mc A' over A M^-1 A'
+constexpr int no_level = std::numeric_limits<int>::min();
 constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
 constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
 constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
@@ -105,13 +107,13 @@ bool BoundedProblem::solve(int max_iterations) noexcept {
   bool exact = true;
   factorise_motors();
   bound_rows();
-  for (int level = next_level(-1), below = 0; level >= 0; level = below) {
+  for (int level = next_level(no_level), below = 0; level != no_level; level = below) {
     below = next_level(level);
     project_rows(level);
     start_sums(level);
     exact = solve_forces(level, max_iterations) && exact;
     exact = solve_motion(level, max_iterations) && exact;
-    if (below >= 0) freeze(level);
+    if (below != no_level) freeze(level);
   }
   exact = least_torques(max_iterations) && exact;
   report();
@@ -119,10 +121,10 @@ bool BoundedProblem::solve(int max_iterations) noexcept {
 }
 
 int BoundedProblem::next_level(int after) const noexcept {
-  int next = -1;
+  int next = no_level;
   for (int i = 0; i < rows_; ++i) {
     const int level = entries_[static_cast<std::size_t>(i)].level;
-    if (level > after && (next < 0 || level < next)) next = level;
+    if (level > after && (next == no_level || level < next)) next = level;
   }
   return next;
 }
