@@ -56,11 +56,15 @@ Solution::Solution(const Model& model, int row_capacity)
   rows.reserve(static_cast<std::size_t>(row_capacity));
 }
 
+FreeMotions::FreeMotions(const Model& model)
+    : joint(Eigen::MatrixXd::Zero(model.joint_count(), model.joint_count() + 6)),
+      base(Eigen::MatrixXd::Zero(3, model.joint_count() + 6)) {}
+
 namespace {
 
 /// Rows on the base's own freedoms, needed where the joints' rows do not span every motion.
-int base_freedoms(const Model& model) {
-  if (every_motion_turns_a_wheel(model)) return 0;
+int base_freedoms(const Model& model, bool wanted) {
+  if (!wanted && every_motion_turns_a_wheel(model)) return 0;
   switch (model.base_type()) {
     case BaseType::fixed:
       return 0;
@@ -95,7 +99,7 @@ struct Solver::Workspace {
       : model(robot),
         settings(options),
         ground(ground_row_count(robot)),
-        base(base_freedoms(robot)),
+        base(base_freedoms(robot, options.base_motion)),
         capacity(ground + base + robot.joint_count() + options.row_capacity),
         sweeps(robot, capacity),
         whitened(capacity),
@@ -251,6 +255,21 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
 
 int Solver::opposing(int row, std::span<int> out) const noexcept {
   return workspace_->problem.opposing(row, out);
+}
+
+void Solver::free_motions(FreeMotions& out) const noexcept {
+  const Workspace& w = *workspace_;
+  out.count = w.whitened.mobility();
+  for (int j = 0; j < w.model.joint_count(); ++j) {
+    out.joint.row(j).head(out.count) = w.whitened.motion(w.first_joint_row() + j);
+  }
+  // From the order rz, x, y on the ground, or rx, ry, rz, x, y, z.
+  const bool on_ground = w.model.base_type() == BaseType::ground;
+  const int first_linear = on_ground ? 1 : 3, turn = on_ground ? 0 : 2;
+  if (w.base < 3) return;
+  out.base.row(0).head(out.count) = w.whitened.motion(w.ground + first_linear);
+  out.base.row(1).head(out.count) = w.whitened.motion(w.ground + first_linear + 1);
+  out.base.row(2).head(out.count) = w.whitened.motion(w.ground + turn);
 }
 
 Status Solver::project_velocity(State& state) noexcept {

@@ -2,6 +2,7 @@
 /// tick_rows.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -126,6 +127,8 @@ struct Scheduler::Parts final : Facts {
   std::vector<int> entries;  ///< of each task, since the start
   Interruption interruption;
   const solver::State* state = nullptr;  ///< of the present tick
+  /// x, y [N], rz [N m]; NaN: unknown.
+  solver::Vector3 estimated_force = solver::Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   std::optional<Transition> transition;
   Guards guards;
   Guards always_guards;

@@ -171,6 +171,10 @@ Outcome Scheduler::outcome() const noexcept {
 int Scheduler::task() const noexcept {
   return parts_->task;
 }
+void Scheduler::estimate_force(const solver::Vector3& force) noexcept {
+  parts_->estimated_force = force;
+}
+
 double Scheduler::elapsed() const noexcept {
   return parts_->elapsed();
 }

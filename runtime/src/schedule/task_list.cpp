@@ -84,6 +84,8 @@ class TaskCheck {
         return require_index(node.index, program_.signals.size(), "a condition's signal");
       case lang::Op::feature:
         return require_index(node.index, program_.features.size(), "a condition's feature");
+      case lang::Op::estimated_force:
+        return require_index(node.axis, 3, "an axis of the estimated force");
       case lang::Op::coordinate: {
         const std::vector<lang::Group>& groups = node.in_always ? program_.always.groups : task_.groups;
         require_index(node.index, groups.size(), "a condition's group");
