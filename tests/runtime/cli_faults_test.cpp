@@ -13,6 +13,7 @@
 namespace zwang {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::json;
 using test::read;
 using test::Result;
