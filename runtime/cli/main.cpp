@@ -201,6 +201,13 @@ int parse_and_do(int argc, char** argv) {
   info_verb->add_option("--format", to_tell.format, "human (default) or json: one object on stdout")
       ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
 
+  ReplayArguments to_replay;
+  CLI::App* replay_verb =
+      app.add_subcommand("replay", "Compute the torques of a logged run again and compare");
+  replay_verb->add_option("log", to_replay.file, "the .mcap file")->required();
+  replay_verb->add_option("--format", to_replay.format, "human (default) or json: one object on stdout")
+      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version
@@ -215,6 +222,7 @@ int parse_and_do(int argc, char** argv) {
   if (chosen) return chosen();
   if (test_verb->parsed()) return test(to_test);
   if (info_verb->parsed()) return info(to_tell);
+  if (replay_verb->parsed()) return replay(to_replay);
   to_run.parameters = parameters(parameter_texts);
   if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);

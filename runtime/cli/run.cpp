@@ -13,6 +13,7 @@
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
+#include "zwang/runtime/watchdog.hpp"
 
 namespace zwang::cli {
 
@@ -26,6 +27,7 @@ constexpr double period = 1e-3;  // [s]
 constexpr auto terminal_refresh = std::chrono::milliseconds(50);
 constexpr double line_every = 1.0;  // [s] of the run, where there is no terminal
 constexpr auto longest_signal_stop = std::chrono::milliseconds(300);
+constexpr double blocked_for = 0.19;  // [s] of real time without a tick: the thread is blocked
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -165,11 +167,15 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, runtime::Recor
   TruthWatch watch(plant.truth(), period);
   PlantStatus status = PlantStatus::ok;
   std::optional<Clock::time_point> give_up;
+  // The simulated robot waits while nobody steps it: it is enough to see the stop with the next step.
+  runtime::Watchdog watchdog(blocked_for, nullptr);
   while (!runner.finished()) {
     if (interrupted != 0 && !give_up) {
       give_up = Clock::now() + longest_signal_stop;
       runner.guard().stop(runtime::StopReason::requested);
     }
+    watchdog.feed();
+    if (watchdog.expired()) runner.guard().stop(runtime::StopReason::watchdog);
     if (give_up && Clock::now() > *give_up) break;
     // A sample that does not arrive is the guard's to count: it is shown the last one again.
     status = plant.sense(sensed);

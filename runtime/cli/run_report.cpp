@@ -71,6 +71,18 @@ std::string transitions_table(const runtime::Runner& runner, const lang::Diagnos
   return text;
 }
 
+std::string events_table(const runtime::Runner& runner) {
+  if (runner.events().empty()) return "";
+  Table table({true, false, false, true});
+  for (const runtime::Event& e : runner.events()) {
+    table.add({seconds(e.time), to_string(e.code), runner.event_signal(e), with_unit(e.value, "")});
+  }
+  std::string text = "events\n" + table.text();
+  const std::uint64_t more = runner.event_count() - runner.events().size();
+  if (more > 0) text += "  and " + std::to_string(more) + " more\n";
+  return text + "\n";
+}
+
 std::string limits_table(const runtime::Runner& runner, const lang::Diagnostics& diagnostics) {
   Table table({false, true, true, true, false});
   table.add({"", "worst", "limit", "margin", ""});
@@ -116,6 +128,17 @@ ordered_json json_transitions(const runtime::Runner& runner, const lang::Diagnos
         {"time", t.time}, {"from", nullptr}, {"to", task_name(scheduler, t.to)}, {"why", why}};
     if (t.from >= 0) one["from"] = task_name(scheduler, t.from);
     all.push_back(one);
+  }
+  return all;
+}
+
+ordered_json json_events(const runtime::Runner& runner) {
+  ordered_json all = ordered_json::array();
+  for (const runtime::Event& e : runner.events()) {
+    all.push_back({{"time", e.time},
+                   {"code", to_string(e.code)},
+                   {"signal", runner.event_signal(e)},
+                   {"value", number_or_null(e.value)}});
   }
   return all;
 }
@@ -182,8 +205,8 @@ std::string human_report(const RunReport& report, const runtime::Runner& runner,
                          const lang::Diagnostics& diagnostics) {
   std::string text = report.outcome + " after " + seconds(report.elapsed);
   if (!report.because.empty()) text += ": " + report.because;
-  text += "\n\n" + transitions_table(runner, diagnostics) + "\n" + limits_table(runner, diagnostics) + "\n" +
-          truth_table(report) + "\n";
+  text += "\n\n" + transitions_table(runner, diagnostics) + "\n" + events_table(runner) +
+          limits_table(runner, diagnostics) + "\n" + truth_table(report) + "\n";
   text += "log    " + report.log + ", " + std::to_string(report.records) + " records";
   if (!report.log_error.empty()) text += ", INCOMPLETE: " + report.log_error;
   text += "\nspeed  " + with_unit(report.elapsed / std::max(report.wall_time, 1e-9), "x real time", 3) + "\n";
@@ -217,6 +240,7 @@ std::string json_report(const RunReport& report, const runtime::Runner& runner,
   ordered_json whole = {{"outcome", report.outcome},
                         {"elapsed", report.elapsed},
                         {"transitions", json_transitions(runner, diagnostics)},
+                        {"events", json_events(runner)},
                         {"limits", limits},
                         {"asked", asked},
                         {"truth", truth},

@@ -96,6 +96,12 @@ struct RobotInitArguments {
 };
 int robot_init(const RobotInitArguments& arguments);
 
+struct ReplayArguments {
+  std::string file;
+  Format format = Format::human;
+};
+int replay(const ReplayArguments& arguments);
+
 struct InfoArguments {
   std::string file;
   Format format = Format::human;

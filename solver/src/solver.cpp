@@ -56,11 +56,15 @@ Solution::Solution(const Model& model, int row_capacity)
   rows.reserve(static_cast<std::size_t>(row_capacity));
 }
 
+FreeMotions::FreeMotions(const Model& model)
+    : joint(Eigen::MatrixXd::Zero(model.joint_count(), model.joint_count() + 6)),
+      base(Eigen::MatrixXd::Zero(3, model.joint_count() + 6)) {}
+
 namespace {
 
 /// Rows on the base's own freedoms, needed where the joints' rows do not span every motion.
-int base_freedoms(const Model& model) {
-  if (every_motion_turns_a_wheel(model)) return 0;
+int base_freedoms(const Model& model, bool wanted) {
+  if (!wanted && every_motion_turns_a_wheel(model)) return 0;
   switch (model.base_type()) {
     case BaseType::fixed:
       return 0;
@@ -77,6 +81,10 @@ Vector6 base_freedom(const Model& model, int index) {
   return Vector6::Unit(model.base_type() == BaseType::ground ? index + 2 : index);
 }
 
+bool is_same(const ForceVector& one, const ForceVector& other) {
+  return one.linear == other.linear && one.angular == other.angular;
+}
+
 bool is_valid(const Row& row) {
   return is_finite(row.a) && is_finite(row.a_reference) && std::isfinite(row.b) && std::isfinite(row.force) &&
          std::isfinite(row.fade) && row.weight > 0.0 && row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
@@ -84,13 +92,14 @@ bool is_valid(const Row& row) {
 
 }  // namespace
 
-/// Rows have ids in the order ground, base freedoms, joints, task.
+/// Rows have ids in the order ground, base freedoms, joints, task; rows of the task along the same axis share
+/// one.
 struct Solver::Workspace {
   Workspace(const Model& robot, const Settings& options)
       : model(robot),
         settings(options),
         ground(ground_row_count(robot)),
-        base(base_freedoms(robot)),
+        base(base_freedoms(robot, options.base_motion)),
         capacity(ground + base + robot.joint_count() + options.row_capacity),
         sweeps(robot, capacity),
         whitened(capacity),
@@ -99,6 +108,8 @@ struct Solver::Workspace {
         forces(Eigen::VectorXd::Zero(capacity)),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
         qdd(Eigen::VectorXd::Zero(robot.joint_count())) {
+    ids.reserve(static_cast<std::size_t>(options.row_capacity));
+    twins.reserve(static_cast<std::size_t>(options.row_capacity));
     for (int j = 0; j < robot.joint_count(); ++j) {
       if (robot.joint(j).actuated) motors.push_back(j);
     }
@@ -113,7 +124,23 @@ struct Solver::Workspace {
     add_ground_rows(model, sweeps, [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
     for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, base_freedom(model, i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
-    for (const Row& row : rows) add_row(row, sweeps);
+    twins.clear();
+    ids.clear();
+    for (const Row& row : rows) {
+      twins.push_back(twin_of(row, rows));
+      ids.push_back(twins.back() < 0 ? add_row(row, sweeps) : ids[static_cast<std::size_t>(twins.back())]);
+    }
+  }
+
+  /// The first row before `row` that acts along the same axis, as the two ends of a range do; -1 for none.
+  int twin_of(const Row& row, const std::vector<Row>& rows) const noexcept {
+    for (const Row* other = rows.data(); other != &row; ++other) {
+      if (other->body == row.body && other->reference_body == row.reference_body &&
+          is_same(other->a, row.a) &&
+          (row.reference_body < 0 || is_same(other->a_reference, row.a_reference)))
+        return static_cast<int>(other - rows.data());
+    }
+    return -1;
   }
 
   /// Feed-forward torque acts as far as the motor can make it.
@@ -134,11 +161,11 @@ struct Solver::Workspace {
     const int count = static_cast<int>(rows.size());
     problem.resize(count, static_cast<int>(motors.size()), whitened.mobility());
     for (int i = 0; i < count; ++i) {
-      const int id = first_task_row() + i;
+      const int id = ids[static_cast<std::size_t>(i)];
       const Row& row = rows[static_cast<std::size_t>(i)];
       problem.B(i) = whitened.motion(id);
       problem.d(i) = row.b - sweeps.columns.g(id) - whitened.held_acceleration(id);
-      problem.set_row(i, row, sweeps.columns.L(id, id));
+      problem.set_row(i, row, sweeps.columns.L(id, id), twins[static_cast<std::size_t>(i)]);
     }
     int motor = 0;
     for (const int j : motors) {
@@ -163,6 +190,8 @@ struct Solver::Workspace {
   WhitenedRows whitened;
   BoundedProblem problem;
   std::vector<int> motors;
+  std::vector<int> ids,
+      twins;  ///< by row of the task: its id in the sweeps, and an earlier row along the same axis
   Eigen::VectorXd ground_bias, forces, tau_ff, qdd;
 };
 
@@ -226,6 +255,21 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
 
 int Solver::opposing(int row, std::span<int> out) const noexcept {
   return workspace_->problem.opposing(row, out);
+}
+
+void Solver::free_motions(FreeMotions& out) const noexcept {
+  const Workspace& w = *workspace_;
+  out.count = w.whitened.mobility();
+  for (int j = 0; j < w.model.joint_count(); ++j) {
+    out.joint.row(j).head(out.count) = w.whitened.motion(w.first_joint_row() + j);
+  }
+  // From the order rz, x, y on the ground, or rx, ry, rz, x, y, z.
+  const bool on_ground = w.model.base_type() == BaseType::ground;
+  const int first_linear = on_ground ? 1 : 3, turn = on_ground ? 0 : 2;
+  if (w.base < 3) return;
+  out.base.row(0).head(out.count) = w.whitened.motion(w.ground + first_linear);
+  out.base.row(1).head(out.count) = w.whitened.motion(w.ground + first_linear + 1);
+  out.base.row(2).head(out.count) = w.whitened.motion(w.ground + turn);
 }
 
 Status Solver::project_velocity(State& state) noexcept {

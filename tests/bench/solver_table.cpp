@@ -1,9 +1,10 @@
 // What one call of the solver costs, beside its peers: `solver_table`, or `./dev bench`.
 //
-// Every ratio is taken inside one run: the two calls alternate, round by round, on one core, and the ratio is
-// the median of the rounds' ratios, so that what else the machine does falls on both. Outside the timed part:
-// building models, workspaces and states. Instruction counts (callgrind, where valgrind is installed) do not
-// depend on the machine's mood at all: two runs of different length, and their difference.
+// Google Benchmark times the calls: repetitions of all of them in a random order, on one core, so that what
+// else the machine does falls on all alike. A ratio is that of two medians of one run. Outside the timed
+// part: building models, workspaces and states. Instruction counts (callgrind, where valgrind is installed)
+// do not depend on the machine's mood at all: two runs of different length, and their difference.
+#include <benchmark/benchmark.h>
 #include <sched.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,7 +25,8 @@ namespace {
 using zwang::bench::Workload;
 using Clock = std::chrono::steady_clock;
 
-constexpr int rounds = 61;
+constexpr int repetitions = 25;
+constexpr double seconds_a_repetition = 0.01;
 
 double median(std::vector<double> numbers) {
   const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
@@ -31,19 +34,30 @@ double median(std::vector<double> numbers) {
   return *middle;
 }
 
-/// One round: all states, often enough for the clock. [ns] a call
-double time_round(const Workload& work) {
-  constexpr std::size_t calls = zwang::bench::state_count;
-  const auto start = Clock::now();
-  for (std::size_t i = 0; i < calls; ++i) work.call(i);
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count() / calls;
-}
+/// CPU times of the repetitions [ns a call], by benchmark.
+using Times = std::map<std::string, std::vector<double>>;
 
-/// The least of all rounds: for a law of growth, whatever else the machine does is an error that only adds.
-double least_time(const Workload& work) {
-  double least = time_round(work);
-  for (int r = 1; r < rounds; ++r) least = std::min(least, time_round(work));
-  return least;
+/// Keeps the times; the tables are printed when all are there.
+class Keeper : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type == Run::RT_Iteration)
+        times[run.run_name.function_name].push_back(run.GetAdjustedCPUTime());
+    }
+  }
+  Times times;
+};
+
+void add_benchmark(const Workload& work) {
+  benchmark::RegisterBenchmark(work.name.c_str(),
+                               [work](benchmark::State& state) {
+                                 std::size_t i = 0;
+                                 for (auto _ : state) work.call(i++);
+                               })
+      ->Repetitions(repetitions)
+      ->MinTime(seconds_a_repetition);
 }
 
 /// Instructions of a call; nothing without valgrind.
@@ -74,47 +88,77 @@ std::string count_of(const std::string& program, const Workload& work) {
 }
 
 /// `work` beside `peer`; the ratio is peer over work, or work over peer where the goal is a share.
-void compare(const std::string& program, const Workload& work, const Workload& peer, bool as_share,
-             const char* goal) {
-  std::vector<double> ours, theirs, ratios;
-  for (int r = 0; r < rounds; ++r) {
-    ours.push_back(time_round(work));
-    theirs.push_back(time_round(peer));
-    ratios.push_back(as_share ? ours.back() / theirs.back() : theirs.back() / ours.back());
+struct Comparison {
+  Workload work, peer;
+  bool as_share = false;
+  const char* goal = "";
+};
+
+std::vector<Comparison> comparisons() {
+  using namespace zwang::bench;
+  std::vector<Comparison> all;
+  for (const int rows : {1, 3, 6}) {
+    all.push_back({arm_zwang(rows), arm_kdl(rows), false,
+                   rows == 6 ? "times as fast; goal 6, stretch 8" : "times as fast"});
   }
-  std::printf("%-26s %8.0f ns %8s   %-31s %8.0f ns %8s   %6.2f  %s\n", work.name.c_str(), median(ours),
-              count_of(program, work).c_str(), peer.name.c_str(), median(theirs),
-              count_of(program, peer).c_str(), median(ratios), goal);
-  std::fflush(stdout);
+  all.push_back({base_full(), base_rows(), true, "of our own unbounded call; goal 2"});
+  all.push_back({mobile_arm_full(), mobile_arm_rows(), true, "of our own unbounded call; goal 2"});
+#ifdef ZWANG_BENCH_MUJOCO
+  all.push_back({base_full(), mujoco_step(), true, "of a step; goal 0.35, stretch 0.25"});
+  all.push_back({base_with_rows(), mujoco_step(), true, "of a step"});
+  all.push_back({base_tick(), mujoco_step(), true, "of a step"});
+#endif
+  return all;
 }
 
-void print_peers(const std::string& program) {
-  using namespace zwang::bench;
+void print_comparisons(const std::string& program, const std::vector<Comparison>& all, const Times& times) {
   std::printf("%-26s %11s %8s   %-31s %11s %8s   %6s\n", "zwang", "median", "instr", "beside", "median",
               "instr", "ratio");
-  for (const int rows : {1, 3, 6}) {
-    compare(program, arm_zwang(rows), arm_kdl(rows), false,
-            rows == 6 ? "times as fast; goal 6, stretch 8" : "times as fast");
+  for (const Comparison& c : all) {
+    const auto ours = times.find(c.work.name);
+    const auto theirs = times.find(c.peer.name);
+    if (ours == times.end() || theirs == times.end()) continue;  // left out by --benchmark_filter
+    const double a = median(ours->second);
+    const double b = median(theirs->second);
+    std::printf("%-26s %8.0f ns %8s   %-31s %8.0f ns %8s   %6.2f  %s\n", c.work.name.c_str(), a,
+                count_of(program, c.work).c_str(), c.peer.name.c_str(), b, count_of(program, c.peer).c_str(),
+                c.as_share ? a / b : b / a, c.goal);
+    std::fflush(stdout);
   }
-  compare(program, base_full(), base_rows(), true, "of our own unbounded call; goal 2");
-  compare(program, mobile_arm_full(), mobile_arm_rows(), true, "of our own unbounded call; goal 2");
-#ifdef ZWANG_BENCH_MUJOCO
-  const Workload step = mujoco_step();
-  compare(program, base_full(), step, true, "of a step; goal 0.35, stretch 0.25");
-  compare(program, base_tick(), step, true, "of a step");
-#endif
   std::printf("\na call of                  does\n");
-  for (const Workload& work : {arm_zwang(6), arm_kdl(6), base_rows(), base_full(), base_tick()}) {
-    std::printf("%-26s %s\n", work.name.c_str(), work.includes.c_str());
+  std::vector<std::string> said;
+  for (const Comparison& c : all) {
+    for (const Workload& work : {c.work, c.peer}) {
+      if (std::find(said.begin(), said.end(), work.name) != said.end()) continue;
+      said.push_back(work.name);
+      std::printf("%-26s %s\n", work.name.c_str(), work.includes.c_str());
+    }
   }
 }
 
-/// Slope of log time over log links.
-void print_growth() {
-  std::printf("\nleast of %d rounds\nlinks (6 rows):  ", rounds);
+constexpr int growing_links[] = {8, 16, 32, 64, 128, 256};
+constexpr int growing_rows[] = {1, 2, 3, 6, 12, 18, 24};
+
+void add_growth() {
+  for (const int links : growing_links) add_benchmark(zwang::bench::chain(links, 6));
+  for (const int rows : growing_rows) {
+    if (rows != 6) add_benchmark(zwang::bench::chain(24, rows));
+  }
+  add_benchmark(zwang::bench::chain(24, 6));
+}
+
+/// The least of the repetitions: for a law of growth, whatever else the machine does is an error that only
+/// adds. The exponent is the slope of log time over log links.
+void print_growth(const Times& times) {
+  const auto least = [&times](int links, int rows) {
+    const std::vector<double>& all = times.at(zwang::bench::chain(links, rows).name);
+    return *std::min_element(all.begin(), all.end());
+  };
+  if (times.count(zwang::bench::chain(growing_links[0], 6).name) == 0) return;
+  std::printf("\nleast of %d repetitions\nlinks (6 rows):  ", repetitions);
   double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
-  for (int links = 8; links <= 256; links *= 2) {
-    const double time = least_time(zwang::bench::chain(links, 6));
+  for (const int links : growing_links) {
+    const double time = least(links, 6);
     std::printf(" %d: %.0f ns ", links, time);
     const double x = std::log(links);
     const double y = std::log(time);
@@ -126,9 +170,7 @@ void print_growth() {
   }
   std::printf(" exponent %.2f (goal 1.0 +- 0.1)\nrows (24 links): ",
               (n * sxy - sx * sy) / (n * sxx - sx * sx));
-  for (const int rows : {1, 2, 3, 6, 12, 18, 24}) {
-    std::printf(" %d: %.0f ns ", rows, least_time(zwang::bench::chain(24, rows)));
-  }
+  for (const int rows : growing_rows) std::printf(" %d: %.0f ns ", rows, least(24, rows));
   std::printf("\n");
 }
 
@@ -150,7 +192,8 @@ void print_worst_step(const Workload& work) {
 
 int repeat(const std::string& name, int calls) {
   using namespace zwang::bench;
-  std::vector<Workload (*)()> makers{base_full, base_rows, base_tick, mobile_arm_full, mobile_arm_rows};
+  std::vector<Workload (*)()> makers{base_full, base_with_rows,  base_rows,
+                                     base_tick, mobile_arm_full, mobile_arm_rows};
 #ifdef ZWANG_BENCH_MUJOCO
   makers.push_back(mujoco_step);
 #endif
@@ -176,8 +219,28 @@ int main(int count, char** arguments) {
   CPU_ZERO(&core);
   CPU_SET(static_cast<std::size_t>(sched_getcpu()), &core);
   sched_setaffinity(0, sizeof(core), &core);
-  print_peers(arguments[0]);
-  print_growth();
+
+  char interleaved[] = "--benchmark_enable_random_interleaving=true";
+  std::vector<char*> options{arguments[0], interleaved};
+  options.insert(options.end(), arguments + 1, arguments + count);
+  int option_count = static_cast<int>(options.size());
+  benchmark::Initialize(&option_count, options.data());
+  if (benchmark::ReportUnrecognizedArguments(option_count, options.data())) return 2;
+
+  const std::vector<Comparison> all = comparisons();
+  std::vector<std::string> added;
+  for (const Comparison& c : all) {
+    for (const Workload& work : {c.work, c.peer}) {
+      if (std::find(added.begin(), added.end(), work.name) != added.end()) continue;
+      added.push_back(work.name);
+      add_benchmark(work);
+    }
+  }
+  add_growth();
+  Keeper keeper;
+  benchmark::RunSpecifiedBenchmarks(&keeper);
+  print_comparisons(arguments[0], all, keeper.times);
+  print_growth(keeper.times);
   std::printf("\n");
   print_worst_step(zwang::bench::arm_zwang(6));
   print_worst_step(zwang::bench::base_full());

@@ -39,6 +39,7 @@ Workload arm_zwang(int rows);
 Workload arm_kdl(int rows);  ///< kdl_arm.cpp
 Workload base_rows();
 Workload base_full();
+Workload base_with_rows();
 Workload base_tick();
 Workload mobile_arm_rows();
 Workload mobile_arm_full();

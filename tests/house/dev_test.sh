@@ -37,6 +37,7 @@ echo "cmake \$1" >>"$calls"
 echo "compiler's own chatter"
 [[ -z \$BUILD_FAILS ]]
 BODY
+unset ZWANG_SKIP_SETUP
 export ABSENT='' APT_FAILS='' SUDO_FAILS='' STALE='' BUILD_FAILS=''
 
 failed=0

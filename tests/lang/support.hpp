@@ -1,12 +1,12 @@
 /// What the tests of the front end share: texts as files, messages as text.
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 
+#include "../temporary_folder.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang::test {
@@ -30,29 +30,13 @@ inline int count(const Diagnostics& diagnostics, const std::string& code) {
   return found;
 }
 
-/// A folder of its own that is gone afterwards.
-class Folder {
+class Folder : public zwang::test::TemporaryFolder {
  public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "zwang_test_XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Folder() {
-    std::error_code error;
-    std::filesystem::remove_all(path_, error);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return path_ / name;
+    std::filesystem::create_directories((path() / name).parent_path());
+    std::ofstream(path() / name, std::ios::binary) << text;
+    return path() / name;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "../solver/malloc_counter.hpp"
+#include "../temporary_folder.hpp"
 #include "robots.hpp"
 #include "zwang/runtime/runner.hpp"
 
@@ -375,7 +376,8 @@ TEST(Docking, ALatchThatNeverClosesFailsAfterItsAttempts) {
 
 TEST(Tick, MakesNoHeapCallWithSignalsRegionsAndInterruptions) {
   if (!zwang::test::can_count_heap_calls()) GTEST_SKIP() << "a sanitizer owns malloc";
-  const auto path = std::filesystem::temp_directory_path() / "zwang_cases_heap.csv";
+  const zwang::test::TemporaryFolder folder;
+  const auto path = folder.path() / "heap.csv";
   long calls = 0;
   std::uint64_t ticks = 0;
   // A million ticks when asked for: round after round of the same task file.
@@ -396,7 +398,6 @@ TEST(Tick, MakesNoHeapCallWithSignalsRegionsAndInterruptions) {
     }
   }
   EXPECT_EQ(calls, 0);
-  std::filesystem::remove(path);
 }
 
 TEST(Switches, StepTheTorqueByNoMoreThanTheirShareOfWhatFades) {

@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "../temporary_folder.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/solver/base_analysis.hpp"
@@ -35,9 +36,9 @@ lang::Robot load(const fs::path& file) {
 
 /// The KELO base with its wheels 30 mm off the swivel axis instead of 10 mm.
 lang::Robot kelo_with_long_casters() {
-  const fs::path folder = fs::path(testing::TempDir()) / "kelo30";
-  fs::create_directories(folder);
-  fs::copy_file(robots / "kelo_base.yaml", folder / "kelo_base.yaml", fs::copy_options::overwrite_existing);
+  const zwang::test::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
+  fs::copy_file(robots / "kelo_base.yaml", folder / "kelo_base.yaml");
   std::ifstream in(robots / "kelo_base.urdf");
   std::stringstream text;
   text << in.rdbuf();

@@ -12,6 +12,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "../temporary_folder.hpp"
 #include "zwang/runtime/log_reader.hpp"
 #include "zwang/runtime/recorder.hpp"
 
@@ -23,14 +24,8 @@ constexpr std::size_t stride = 7;                  // [bytes], prime to the leng
 constexpr std::uint64_t records_in_a_chunk = 100;  // 100 ms
 
 struct Folder {
-  Folder() {
-    const char* name = testing::UnitTest::GetInstance()->current_test_info()->name();
-    path = std::filesystem::temp_directory_path() /
-           ("zwang_mcap_" + std::string(name) + std::to_string(std::random_device{}()));
-    std::filesystem::create_directories(path);
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
+  zwang::test::TemporaryFolder temporary;
+  std::filesystem::path path = temporary.path();
 };
 
 const std::vector<Column> columns = {

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <thread>
 
+#include "../temporary_folder.hpp"
+
 namespace zwang::runtime {
 namespace {
 
@@ -22,14 +24,8 @@ std::string read(const std::filesystem::path& path) {
 }
 
 struct Folder {
-  Folder() {
-    path = std::filesystem::temp_directory_path() /
-           ("zwang_recorder_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    std::filesystem::remove_all(path);
-    std::filesystem::create_directories(path);
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
+  zwang::test::TemporaryFolder temporary;
+  std::filesystem::path path = temporary.path();
 };
 
 const std::vector<Column> columns = {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "../solver/malloc_counter.hpp"
+#include "../temporary_folder.hpp"
 #include "robots.hpp"
 
 namespace zwang::runtime {
@@ -123,7 +124,8 @@ TEST(Runner, ReckonsTheBaseFromTheWheelsWhereItIsNotMeasured) {
 
 TEST(Runner, MakesNoHeapCallInAStep) {
   if (!zwang::test::can_count_heap_calls()) GTEST_SKIP() << "a sanitizer owns malloc";
-  const auto path = std::filesystem::temp_directory_path() / "zwang_heap_test.csv";
+  const zwang::test::TemporaryFolder folder;
+  const auto path = folder.path() / "heap.csv";
   long calls = 0;
   {
     Loop loop(errand());
@@ -147,7 +149,6 @@ TEST(Runner, MakesNoHeapCallInAStep) {
     calls += zwang::test::stop_counting_heap_calls();
   }
   EXPECT_EQ(calls, 0);
-  std::filesystem::remove(path);
 }
 
 TEST(Runner, ABadSampleStopsTheRunAndTheRestBrakes) {
@@ -184,7 +185,6 @@ std::string log_of_a_run(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream text;
   text << in.rdbuf();
-  std::filesystem::remove(path);
   return text.str();
 }
 
@@ -196,14 +196,15 @@ std::vector<std::string> cells(const std::string& line) {
 }
 
 TEST(Runner, TwoRunsHaveTheSameLogToTheByte) {
-  const auto folder = std::filesystem::temp_directory_path();
-  const std::string first = log_of_a_run(folder / "zwang_run_a.csv");
+  const zwang::test::TemporaryFolder folder;
+  const std::string first = log_of_a_run(folder.path() / "a.csv");
   EXPECT_GT(first.size(), 100'000u);
-  EXPECT_EQ(first, log_of_a_run(folder / "zwang_run_b.csv"));
+  EXPECT_EQ(first, log_of_a_run(folder.path() / "b.csv"));
 }
 
 TEST(Runner, TheLogHasOneRecordATickAndBlanksWhatIsNotInForce) {
-  std::istringstream log(log_of_a_run(std::filesystem::temp_directory_path() / "zwang_run_c.csv"));
+  const zwang::test::TemporaryFolder folder;
+  std::istringstream log(log_of_a_run(folder.path() / "run.csv"));
   std::string line;
   std::getline(log, line);
   const std::vector<std::string> names = cells(line);

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "../temporary_folder.hpp"
+
 namespace zwang::runtime {
 namespace {
 
@@ -14,12 +16,12 @@ namespace fs = std::filesystem;
 
 /// Runs the first cell of a scenario over the shipped wall alignment.
 CellResult run_scenario(const std::string& text) {
-  const fs::path folder = fs::path(testing::TempDir()) / "scenario_run";
+  const zwang::test::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "robots/skid_base.yaml",
                            "robots/skid_base.urdf", "scenes/wall.yaml", "wall_align.yaml"}) {
     fs::create_directories((folder / name).parent_path());
-    fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name,
-                  fs::copy_options::overwrite_existing);
+    fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name);
   }
   std::ofstream(folder / "scenario.yaml") << "zwang_scenario: 1\ntask: wall_align.yaml\n" << text;
   lang::Diagnostics of_scenario, of_task;

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <numbers>
 
+#include "../temporary_folder.hpp"
+
 namespace zwang::runtime {
 namespace {
 
@@ -33,11 +35,11 @@ tasks:
 )";
 
 lang::Program program_with(const std::string& scene) {
-  const fs::path folder = fs::path(testing::TempDir()) / "scene_plant";
+  const zwang::test::TemporaryFolder temporary;
+  const fs::path& folder = temporary.path();
   fs::create_directories(folder / "robots");
   for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf"}) {
-    fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name,
-                  fs::copy_options::overwrite_existing);
+    fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name);
   }
   std::ofstream(folder / "task.yaml") << task_text;
   std::ofstream(folder / "scene.yaml") << "zwang_scene: 1\n" << scene;

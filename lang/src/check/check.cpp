@@ -14,7 +14,8 @@ namespace {
 /// Bool signals and `elapsed` do not flicker; everything that is measured as a number does.
 bool measures(const CheckContext& context, const Condition& condition) {
   for (const ExpressionNode& node : condition.nodes) {
-    if (node.op == Op::coordinate || node.op == Op::speed || node.op == Op::moved || node.op == Op::feature) {
+    if (node.op == Op::coordinate || node.op == Op::speed || node.op == Op::moved || node.op == Op::feature ||
+        node.op == Op::estimated_force) {
       return true;
     }
     const bool is_number =

@@ -35,6 +35,9 @@ constexpr std::array coordinate_words{
     CoordinateWord{"saturated", CoordinateQuantity::saturated},
 };
 
+// In the order of the axis of Op::estimated_force.
+constexpr std::array estimated_forces{"estimated.force.x", "estimated.force.y", "estimated.force.rz"};
+
 Type type_of(CoordinateQuantity what, solver::Axis axis) {
   switch (what) {
     case CoordinateQuantity::position:
@@ -150,6 +153,12 @@ class ConditionCheck {
       if (symbol.is_bad) return bad_type;
       return quantity_type(symbol.feature.turns ? dimension::angle : dimension::length);
     }
+    for (int axis = 0; axis < 3 && !context_.of_truth; ++axis) {
+      if (node.word != estimated_forces[static_cast<std::size_t>(axis)]) continue;
+      lowered.op = Op::estimated_force;
+      lowered.axis = axis;
+      return quantity_type(axis < 2 ? dimension::force : dimension::torque);
+    }
     std::vector<std::string> parts = split(node.word);
     // Of a group on a feature, the group's name says it all: `near.velocity`.
     if (const GroupText* group = find_group(parts[0], lowered)) {
@@ -159,6 +168,7 @@ class ConditionCheck {
     }
     if (parts.size() == 3) return check_coordinate(node, parts, lowered);
     std::vector<std::string> known{"elapsed"};
+    if (!context_.of_truth) known.insert(known.end(), estimated_forces.begin(), estimated_forces.end());
     for (const std::string& name : context_.symbols.signal_names()) known.push_back(name);
     for (const std::string& name : context_.symbols.feature_names()) known.push_back(name);
     for (const GroupText& group : groups_) {

@@ -57,6 +57,8 @@ Interval interval_of(const CheckContext& context, const ExpressionNode& node, co
       return context.symbols.signals[static_cast<std::size_t>(node.index)].signal.type == SignalType::boolean
                  ? undecided
                  : Interval{};
+    case Op::estimated_force:
+      return {};
     case Op::valid:
       return undecided;
     case Op::feature:

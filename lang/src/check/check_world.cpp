@@ -89,6 +89,7 @@ void declare_signals(CheckContext& context) {
     if (text.unit) {
       symbol.dimension = text.unit->dimension;
       symbol.signal.unit_scale = text.unit->scale;
+      symbol.signal.measures_force = text.unit->dimension == dimension::force;
     }
     if (text.unit && symbol.signal.type != SignalType::number && !text.is_bad) {
       context.diagnostics.add(wording::unit_without_number(text.name.span, text.name.text));

@@ -14,6 +14,7 @@ struct CheckContext {
   Symbols& symbols;
   Diagnostics& diagnostics;
   bool with_notes = false;
+  bool of_truth = false;  ///< an expectation of a scenario: what the robot believes does not count
 };
 
 /// Whether the value is there and measures `expected`; writes E105, E201, E202, E301. Marks parameters used.

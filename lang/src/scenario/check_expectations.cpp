@@ -14,20 +14,22 @@ struct TruthQuantity {
 };
 
 // In the order of TruthOfBase and of TruthOfObject.
-constexpr TruthQuantity of_base[] = {{"x", dimension::length},
-                                     {"y", dimension::length},
-                                     {"yaw", dimension::angle},
-                                     {"speed", dimension::velocity},
-                                     {"turn", dimension::angular_velocity},
-                                     {"torque", dimension::none}};
+constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
+                                     {"truth.base.y", dimension::length},
+                                     {"truth.base.yaw", dimension::angle},
+                                     {"truth.base.speed", dimension::velocity},
+                                     {"truth.base.turn", dimension::angular_velocity},
+                                     {"truth.base.torque", dimension::none},
+                                     {"run.stopped", dimension::time},
+                                     {"run.slipped", dimension::time}};
 constexpr TruthQuantity of_object[] = {{"force", dimension::force},  {"peak", dimension::force},
                                        {"touched", dimension::time}, {"x", dimension::length},
                                        {"y", dimension::length},     {"yaw", dimension::angle}};
 static_assert(std::size(of_base) == truth_base_count && std::size(of_object) == truth_object_count);
 
-void declare(Symbols& symbols, const std::string& owner, const TruthQuantity& quantity) {
+void declare(Symbols& symbols, const std::string& prefix, const TruthQuantity& quantity) {
   SignalSymbol symbol;
-  symbol.signal.name = "truth." + owner + "." + quantity.name;
+  symbol.signal.name = prefix + quantity.name;
   symbol.signal.type = SignalType::number;
   symbol.dimension = quantity.dimension;
   symbols.signals.push_back(std::move(symbol));
@@ -35,9 +37,10 @@ void declare(Symbols& symbols, const std::string& owner, const TruthQuantity& qu
 
 Symbols truth_symbols(const Scene& scene) {
   Symbols symbols;
-  for (const TruthQuantity& quantity : of_base) declare(symbols, "base", quantity);
+  for (const TruthQuantity& quantity : of_base) declare(symbols, "", quantity);
   for (const SceneObject& object : scene.objects) {
-    for (const TruthQuantity& quantity : of_object) declare(symbols, object.name, quantity);
+    const std::string prefix = "truth." + object.name + ".";
+    for (const TruthQuantity& quantity : of_object) declare(symbols, prefix, quantity);
   }
   return symbols;
 }
@@ -101,6 +104,7 @@ std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& f
   const std::optional<Robot> robot;
   const LoadOptions options;
   CheckContext context{no_task, robot, options, symbols, diagnostics};
+  context.of_truth = true;
   std::vector<Expectation> expectations;
   for (const ExpectationText& text : file.expectations) {
     Expectation expected;

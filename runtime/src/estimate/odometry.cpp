@@ -18,10 +18,6 @@ Matrix3 turn(double angle) {
   return Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
 }
 
-double yaw_of(const Matrix3& R) {
-  return std::atan2(R(1, 0), R(0, 0));
-}
-
 /// The way along a constant planar twist for dt: the exponential of SE(2),
 ///   x = (sin a vx - (1 - cos a) vy) / w,   y = ((1 - cos a) vx + sin a vy) / w,   a = w dt,
 /// whose factors sin a / a and (1 - cos a) / a are smooth at 0.
@@ -95,7 +91,8 @@ bool Odometry::correct(double stamp, const Pose& measured) noexcept {
   const double since = std::max(0.0, stamp - last_correction_);
   last_correction_ = stamp;
   const double part = 1.0 - std::exp(-since / settings_.time_constant);
-  const double angle = std::remainder(yaw_of(measured.rotation) - yaw_of(then->pose.rotation), 2.0 * M_PI);
+  const double angle =
+      std::remainder(solver::yaw_of(measured.rotation) - solver::yaw_of(then->pose.rotation), 2.0 * M_PI);
   const Vector3 shift = (measured.position - then->pose.position).cwiseProduct(Vector3(1.0, 1.0, 0.0));
   // About the point where the base was then: turn by the angle's part, shift by the way's.
   const Vector3 pivot = then->pose.position;

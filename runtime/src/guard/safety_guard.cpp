@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "guard/arm_hold.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -28,30 +30,11 @@ bool plausible(double x) {
 }
 
 template <typename Values>
-bool all_plausible(const Values& values) {
+double first_implausible(const Values& values) {
   for (Eigen::Index i = 0; i < values.size(); ++i) {
-    if (!plausible(values.coeff(i))) return false;
+    if (!plausible(values.coeff(i))) return values.coeff(i);
   }
-  return true;
-}
-
-bool all_plausible(const solver::Matrix3& m) {
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    for (Eigen::Index j = 0; j < 3; ++j) {
-      if (!plausible(m(i, j))) return false;
-    }
-  }
-  return true;
-}
-
-bool all_plausible(const solver::State& state) {
-  if (!all_plausible(state.q) || !all_plausible(state.qd) || !all_plausible(state.tau_ff)) return false;
-  if (!all_plausible(state.base_pose.rotation) || !all_plausible(state.base_pose.position)) return false;
-  if (!all_plausible(state.base_twist.angular) || !all_plausible(state.base_twist.linear)) return false;
-  for (const solver::ForceVector& f : state.f_ext) {
-    if (!all_plausible(f.angular) || !all_plausible(f.linear)) return false;
-  }
-  return true;
+  return 0.0;
 }
 
 }  // namespace
@@ -86,6 +69,14 @@ const char* to_string(StopReason reason) noexcept {
       return "the robot does not answer";
     case StopReason::requested:
       return "requested";
+    case StopReason::watchdog:
+      return "the control thread was blocked";
+    case StopReason::torque_lost:
+      return "a motor's torque does not arrive";
+    case StopReason::torque_stuck:
+      return "a motor's torque does not follow its command";
+    case StopReason::torque_flipped:
+      return "a motor turns the wrong way";
   }
   return "?";
 }
@@ -112,7 +103,8 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
       stop_limit_(limit_),
       last_(limit_),
       next_(limit_),
-      last_q_(limit_) {
+      last_q_(limit_),
+      arm_(std::make_unique<ArmHold>(robot.model)) {
   if (!(settings.period > 0.0) || !(settings.max_step >= settings.period) || settings.max_lost_ticks < 1 ||
       !(settings.max_slew > 0.0)) {
     throw std::invalid_argument("safety guard: a setting is not positive, or max_step is below the period");
@@ -130,12 +122,48 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
   }
 }
 
+SafetyGuard::~SafetyGuard() = default;
+SafetyGuard::SafetyGuard(SafetyGuard&&) noexcept = default;
+SafetyGuard& SafetyGuard::operator=(SafetyGuard&&) noexcept = default;
+
+/// The first entry that no robot can have; code `none` when there is none.
+Event SafetyGuard::find_bad_entry(const Sensed& sensed) const noexcept {
+  using namespace event_signal;
+  const solver::State& s = sensed.state;
+  const auto joints = static_cast<int>(limit_.size());
+  const auto bad = [&](int signal, double value) {
+    return Event{EventCode::bad_sample, has_time_ ? last_time_ : 0.0, signal, value};
+  };
+  if (!plausible(sensed.time)) return bad(event_signal::time, sensed.time);
+  if (s.q.size() != joints || s.qd.size() != joints || s.tau_ff.size() != joints) {
+    return bad(-1, static_cast<double>(s.q.size()));
+  }
+  for (int j = 0; j < joints; ++j) {
+    if (!plausible(s.q(j))) return bad(of_joint(j, q), s.q(j));
+    if (!plausible(s.qd(j))) return bad(of_joint(j, qd), s.qd(j));
+    if (!plausible(s.tau_ff(j))) return bad(of_joint(j, tau_ff), s.tau_ff(j));
+  }
+  const auto has_bad = [](const auto& values) { return !plausible(first_implausible(values)); };
+  const auto of_matrix = s.base_pose.rotation.reshaped();
+  if (has_bad(of_matrix)) return bad(base_pose, first_implausible(of_matrix));
+  if (has_bad(s.base_pose.position)) return bad(base_pose, first_implausible(s.base_pose.position));
+  if (has_bad(s.base_twist.angular)) return bad(base_twist, first_implausible(s.base_twist.angular));
+  if (has_bad(s.base_twist.linear)) return bad(base_twist, first_implausible(s.base_twist.linear));
+  for (std::size_t body = 0; body < s.f_ext.size(); ++body) {
+    const solver::ForceVector& f = s.f_ext[body];
+    const int signal = f_ext(joints, static_cast<int>(body));
+    if (has_bad(f.angular)) return bad(signal, first_implausible(f.angular));
+    if (has_bad(f.linear)) return bad(signal, first_implausible(f.linear));
+  }
+  return {};
+}
+
 SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
   ++counters_.samples;
-  const bool sized = sensed.state.q.size() == limit_.size() && sensed.state.qd.size() == limit_.size();
-  if (!plausible(sensed.time) || !sized || !all_plausible(sensed.state)) {
+  if (const Event bad = find_bad_entry(sensed); bad.code != EventCode::none) {
     ++counters_.refused_values;
-    stop(StopReason::bad_sample);
+    refusal_ = bad;
+    stop(StopReason::bad_sample, bad.signal, bad.value);
     return SampleStatus::not_finite;
   }
   if (!has_time_) {
@@ -145,10 +173,13 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
     return SampleStatus::good;
   }
   const double step = sensed.time - last_time_;
-  if (step > (settings_.max_lost_ticks + clock_rounding) * settings_.period) stop(StopReason::lost_ticks);
+  if (step > (settings_.max_lost_ticks + clock_rounding) * settings_.period) {
+    stop(StopReason::lost_ticks, event_signal::time, step);
+  }
   if (step <= 0.0 || step > settings_.max_step) {
     ++counters_.refused_clock;
-    if (++lost_ticks_ >= settings_.max_lost_ticks) stop(StopReason::lost_ticks);
+    refusal_ = {EventCode::clock_refused, last_time_, event_signal::time, sensed.time};
+    if (++lost_ticks_ >= settings_.max_lost_ticks) stop(StopReason::lost_ticks, event_signal::time, step);
     // After a jump ahead the clock goes on from there; a clock that went back has to catch up first.
     if (step > settings_.max_step) last_time_ = sensed.time;
     return SampleStatus::bad_clock;
@@ -165,7 +196,9 @@ void SafetyGuard::watch_for_a_frozen_state(const solver::State& state) noexcept 
   const bool stands = state.q == last_q_ && state.base_pose.position == last_position_;
   frozen_ticks_ = moves && stands ? frozen_ticks_ + 1 : 0;
   if (frozen_ticks_ > 0) ++counters_.frozen;
-  if (frozen_ticks_ >= settings_.max_lost_ticks) stop(StopReason::frozen);
+  if (frozen_ticks_ >= settings_.max_lost_ticks) {
+    stop(StopReason::frozen, event_signal::base_pose, state.base_twist.linear.norm());
+  }
   last_q_ = state.q;
   last_position_ = state.base_pose.position;
 }
@@ -175,26 +208,40 @@ void SafetyGuard::brake(const Sensed& sensed) noexcept {
     const double damping = stop_limit_(j) / full_brake_speed;
     next_(j) = std::clamp(-damping * sensed.state.qd(j), -stop_limit_(j), stop_limit_(j));
   }
+  arm_->hold(sensed.state, next_);
+}
+
+void SafetyGuard::clamp_next() noexcept {
+  next_ = next_.cwiseMax(-limit_).cwiseMin(limit_);
 }
 
 GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wanted,
                                 Eigen::VectorXd& tau) noexcept {
   if (!stopped()) {
     // Finite comes before the clamp: clamping a NaN gives a bound, and so full torque.
-    if (wanted.size() != limit_.size() || !wanted.allFinite()) {
+    Eigen::Index bad = 0;
+    while (bad < wanted.size() && std::isfinite(wanted(bad))) ++bad;
+    if (wanted.size() != limit_.size()) {
       ++counters_.bad_torques;
-      stop(StopReason::bad_torque);
+      stop(StopReason::bad_torque, -1, static_cast<double>(wanted.size()));
+    } else if (bad < wanted.size()) {
+      ++counters_.bad_torques;
+      stop(StopReason::bad_torque, event_signal::of_joint(static_cast<int>(bad), event_signal::tau),
+           wanted(bad));
     }
   }
   if (stopped()) {
     // A brake that believes a speed of the past drives the robot backwards.
     if (frozen_ticks_ > believed_frozen_ticks) {
       next_.setZero();
+      arm_->hold_blind(next_);
     } else {
       brake(sensed);
     }
+    clamp_next();
     return send(tau, GuardStatus::stopped);
   }
+  arm_->take(sensed.state);
   GuardStatus status = GuardStatus::passed;
   for (Eigen::Index j = 0; j < next_.size(); ++j) {
     next_(j) = std::clamp(wanted(j), -limit_(j), limit_(j));
@@ -207,6 +254,8 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
 GuardStatus SafetyGuard::output_blind(Eigen::VectorXd& tau) noexcept {
   if (stopped()) {
     next_.setZero();
+    arm_->hold_blind(next_);
+    clamp_next();
     return send(tau, GuardStatus::stopped);
   }
   next_ = last_;
@@ -230,12 +279,15 @@ GuardStatus SafetyGuard::send(Eigen::VectorXd& tau, GuardStatus status) noexcept
   return status;
 }
 
-void SafetyGuard::stop(StopReason reason) noexcept {
-  if (!stopped()) reason_ = reason;
+void SafetyGuard::stop(StopReason reason, int signal, double value) noexcept {
+  if (stopped() || reason == StopReason::none) return;
+  reason_ = reason;
+  stop_event_ = {static_cast<EventCode>(reason), has_time_ ? last_time_ : 0.0, signal, value};
 }
 
 void SafetyGuard::reset() noexcept {
   reason_ = StopReason::none;
+  stop_event_ = {};
   has_time_ = false;
   lost_ticks_ = 0;
   frozen_ticks_ = 0;

@@ -41,7 +41,8 @@ struct Watchdog::Parts {
     std::unique_lock lock(mutex);
     const std::chrono::nanoseconds pause(limit / looks_per_limit + 1);
     while (!wake.wait_for(lock, pause, [this] { return is_over; })) {
-      if (now() - fed.load(std::memory_order_relaxed) <= limit) continue;
+      const bool in_time = now() - fed.load(std::memory_order_relaxed) <= limit;
+      if (in_time && !expired.load()) continue;
       expired.store(true);
       try {
         if (on_expiry) on_expiry();
@@ -66,7 +67,9 @@ Watchdog::Watchdog(double limit, std::function<void()> on_expiry)
 Watchdog::~Watchdog() = default;
 
 void Watchdog::feed() noexcept {
-  parts_->fed.store(now(), std::memory_order_relaxed);
+  const std::int64_t time = now();
+  const std::int64_t before = parts_->fed.exchange(time, std::memory_order_relaxed);
+  if (time - before > parts_->limit) parts_->expired.store(true);
 }
 
 bool Watchdog::expired() const noexcept {

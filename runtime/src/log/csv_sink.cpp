@@ -32,6 +32,7 @@ void append_value(std::string& line, const Column& column, double value) {
 std::string header(const std::vector<Column>& columns) {
   std::string line;
   for (const Column& column : columns) {
+    if (column.is_input) continue;
     if (!line.empty()) line += ',';
     line += column.name;
     if (!column.unit.empty()) line += " [" + column.unit + "]";
@@ -51,8 +52,11 @@ class CsvSink : public LogSink {
 
   std::string write(std::span<const double> values) override {
     line_.clear();
+    bool is_first = true;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (i > 0) line_ += ',';
+      if (columns_[i].is_input) continue;
+      if (!is_first) line_ += ',';
+      is_first = false;
       append_value(line_, columns_[i], values[i]);
     }
     line_ += '\n';

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "object_geometry.hpp"
+#include "outline.hpp"
 
 namespace zwang::runtime {
 
@@ -21,7 +22,6 @@ using solver::Pose;
 using solver::RigidInertia;
 using solver::Vector3;
 
-constexpr double corner_radius = 1e-6;       ///< [m]
 constexpr double contact_half_height = 1.0;  ///< [m] of the upright faces that meet in the bumper's plane
 constexpr double max_wheel_lift = 0.002;     ///< [m]
 constexpr double scripted_mass = 1e6;        ///< [kg] whatever meets it does not move it
@@ -85,58 +85,6 @@ Pose pose_in_base(const Model& model, int body) {
     pose = model.bodies()[static_cast<std::size_t>(i)].pose_in_parent * pose;
   }
   return pose;
-}
-
-double cross2(const Vector3& o, const Vector3& a, const Vector3& b) {
-  return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
-}
-
-/// Monotone chain; counter-clockwise, without points on straight stretches.
-std::vector<Vector3> convex_hull(std::vector<Vector3> points) {
-  for (Vector3& p : points) p.z() = 0.0;
-  const auto before = [](const Vector3& a, const Vector3& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  };
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return {};
-  std::vector<Vector3> hull;
-  const auto extend = [&hull](const Vector3& p, std::size_t kept) {
-    while (hull.size() >= kept + 2 && cross2(hull[hull.size() - 2], hull.back(), p) <= 1e-12) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Vector3& p : points) extend(p, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto p = points.rbegin() + 1; p != points.rend(); ++p) extend(*p, lower);
-  hull.pop_back();
-  if (hull.size() < 3) hull.clear();
-  return hull;
-}
-
-/// Centres of spheres tangent to both sides of each corner of a convex polygon, from inside.
-std::vector<Vector3> corner_centres(const std::vector<Vector3>& polygon) {
-  std::vector<Vector3> centres;
-  const std::size_t n = polygon.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vector3 to_next = (polygon[(i + 1) % n] - polygon[i]).normalized();
-    const Vector3 to_last = (polygon[(i + n - 1) % n] - polygon[i]).normalized();
-    const Vector3 inward = (to_next + to_last).normalized();
-    const double half_angle_sine = std::abs(to_next.cross(inward).z());
-    centres.push_back(polygon[i] + corner_radius / half_angle_sine * inward);
-  }
-  return centres;
-}
-
-std::vector<Vector3> rectangle(double half_x, double half_y) {
-  return {{-half_x, -half_y, 0.0}, {half_x, -half_y, 0.0}, {half_x, half_y, 0.0}, {-half_x, half_y, 0.0}};
-}
-
-bool is_rectangle(const std::vector<Vector3>& p) {
-  if (p.size() != 4) return false;
-  const Vector3 side = p[1] - p[0];
-  const Vector3 next = p[2] - p[1];
-  return (p[0] + p[2] - p[1] - p[3]).norm() < 1e-9 &&
-         std::abs(side.dot(next)) < 1e-9 * side.norm() * next.norm();
 }
 
 class MjcfWriter {
@@ -215,6 +163,10 @@ class MjcfWriter {
     if (wheel >= 0) {
       const auto w = static_cast<std::size_t>(wheel);
       text_ += sphere_geom(numbered("wheel", w), Vector3::Zero(), model_.wheels()[w].radius);
+    }
+    for (std::size_t t = 0; t < simulated_.tips.size(); ++t) {
+      if (simulated_.tips[t].body == index)
+        text_ += sphere_geom(numbered("tip", t), simulated_.tips[t].pose_in_body.position, corner_radius);
     }
     for (int child = index + 1; child < model_.body_count(); ++child) {
       if (model_.bodies()[static_cast<std::size_t>(child)].parent != index) continue;
@@ -328,6 +280,7 @@ class MjcfWriter {
     for (std::size_t k = 0; k < scene_.objects.size(); ++k) {
       if (!is_met(scene_.objects[k])) continue;
       if (!simulated_.outline.empty()) write_meeting_of_robot(k);
+      for (std::size_t t = 0; t < simulated_.tips.size(); ++t) write_meeting_of_tip(k, t);
       for (std::size_t other = 0; other < k; ++other) {
         if ((moves(k) || moves(other)) && is_met(scene_.objects[other])) write_meeting(k, other);
       }
@@ -369,6 +322,12 @@ class MjcfWriter {
       write_spring(face, numbered("bumper", c), object.friction);
     }
     for (std::size_t c = 0; c < 4; ++c) write_spring(edge_of(k, c), "bumper_prism", object.friction);
+  }
+
+  /// A round object is met in the bumper's plane only, where no arm reaches.
+  void write_meeting_of_tip(std::size_t k, std::size_t tip) {
+    if (scene_.objects[k].shape == ShapeKind::cylinder) return;
+    write_spring(numbered("object", k) + "_face", numbered("tip", tip), scene_.objects[k].friction);
   }
 
   void write_meeting(std::size_t k, std::size_t other) {
@@ -465,6 +424,27 @@ Vector3 point_below(const lang::Robot& robot, const std::string& support) {
   return link.pose_in_body.position;
 }
 
+/// Of each last link of an arm the frame that lies farthest out.
+std::vector<solver::Frame> find_tips(const Model& model) {
+  std::vector<solver::Frame> tips;
+  for (int b = 1; b < model.body_count(); ++b) {
+    const auto hangs_on_it = [b](const Body& body) { return body.parent == b; };
+    const auto rolls = [b](const solver::Wheel& wheel) { return wheel.body == b; };
+    if (!model.joint(b - 1).actuated ||
+        std::any_of(model.bodies().begin() + 1, model.bodies().end(), hangs_on_it) ||
+        std::any_of(model.wheels().begin(), model.wheels().end(), rolls))
+      continue;
+    const solver::Frame* farthest = nullptr;
+    for (const solver::Frame& frame : model.frames()) {
+      if (frame.body != b) continue;
+      if (farthest == nullptr || frame.pose_in_body.position.norm() > farthest->pose_in_body.position.norm())
+        farthest = &frame;
+    }
+    if (farthest != nullptr) tips.push_back(*farthest);
+  }
+  return tips;
+}
+
 }  // namespace
 
 const solver::Frame& hook_of(const Model& model, const SceneObject& object) {
@@ -475,6 +455,7 @@ const solver::Frame& hook_of(const Model& model, const SceneObject& object) {
 
 SimulatedRobot prepare_robot(const lang::Robot& robot) {
   SimulatedRobot simulated;
+  simulated.tips = find_tips(robot.model);
   simulated.spheres = replace_wheels_by_spheres(robot.model);
   simulated.outline = convex_hull(robot.footprint);
   if (robot.model.base_type() != solver::BaseType::ground) {

@@ -1,13 +1,13 @@
 /// The simulation as text: MuJoCo's XML, written from our own model. Nothing here knows the simulator.
 ///
 /// Names: `body_<i>`, `joint_<j>`, `motor_<j>` after the model's numbers, `wheel_<w>`, `floor`; of the
-/// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`; of the scene `object_<k>` (body) with
-/// geoms `object_<k>_face` and `object_<k>_edge_<c>`, `dock_<k>` (equality).
+/// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`; of its arms `tip_<t>`; of the scene
+/// `object_<k>` (body) with geoms `object_<k>_face` and `object_<k>_edge_<c>`, `dock_<k>` (equality).
 ///
 /// Robot and objects meet in one plane, at the height of the bumper: corners of the one against faces of the
-/// other, each pair one contact point. A corner is a sphere of 1 um tangent to both of its sides. Objects
-/// that move slide in the plane, on joints `object_<k>_x`, `_y`, `_turn`: their friction is in
-/// floor_friction.hpp.
+/// other, each pair one contact point. An arm meets faces with its tip, at any height. A corner is a sphere
+/// of 1 um tangent to both of its sides. Objects that move slide in the plane, on joints `object_<k>_x`,
+/// `_y`, `_turn`: their friction is in floor_friction.hpp.
 #pragma once
 
 #include <array>
@@ -26,6 +26,7 @@ struct SimulatedRobot {
   double ground = 0.0;                   ///< [m] height of the ground in the base frame
   std::vector<double> wheel_lift;        ///< [m] each wheel's move upwards that makes the base stand level
   std::vector<solver::Vector3> outline;  ///< convex hull of the footprint, counter-clockwise
+  std::vector<solver::Frame> tips;       ///< of arms: where they touch objects
   std::vector<solver::Vector3> skids;    ///< points under the base; empty when the wheels carry it
 };
 

@@ -5,13 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
 
-#include "contact_spring.hpp"
 #include "joint_friction.hpp"
 #include "mjcf.hpp"
 #include "side_friction.hpp"
@@ -45,31 +43,12 @@ std::string numbered(const char* name, int number) {
   return std::string(name) + '_' + std::to_string(number);
 }
 
-/// The outline's corners are the footprint's, in another order and without those in hollows.
-int nearest_corner(const std::vector<Vector3>& footprint, const Vector3& corner) {
-  const auto nearer = [&corner](const Vector3& a, const Vector3& b) {
-    return (a - corner).head<2>().norm() < (b - corner).head<2>().norm();
-  };
-  return static_cast<int>(std::min_element(footprint.begin(), footprint.end(), nearer) - footprint.begin());
-}
-
 bool is_finite(const mjtNum* numbers, int count) {
   return std::all_of(numbers, numbers + count, [](mjtNum x) { return std::isfinite(x); });
 }
 
 double yaw_of(const Matrix3& rotation) {
   return std::atan2(rotation(1, 0), rotation(0, 0));
-}
-
-/// The body's mass and inertia as MuJoCo has them must be the ones that were written.
-void require_equal(const mjModel& m, int id, const solver::RigidInertia& inertia, const std::string& name) {
-  const Matrix3 axes = matrix_of(m.body_iquat + 4 * id);
-  const Matrix3 at_com = axes * vector_of(m.body_inertia + 3 * id).asDiagonal() * axes.transpose();
-  const auto compiled =
-      solver::RigidInertia::from_com(m.body_mass[id], vector_of(m.body_ipos + 3 * id), at_com);
-  if ((compiled.matrix() - inertia.matrix()).norm() > 1e-9 * inertia.matrix().norm()) {
-    refuse("MuJoCo changed the inertia of `" + name + "`");
-  }
 }
 
 }  // namespace
@@ -83,14 +62,6 @@ struct MujocoPlant::Simulation {
     const RollingSphere* sphere = nullptr;  ///< set: a ball joint; q is integrated
     bool turns_wheel = false;
   };
-  /// Which object and whether the robot's outline a geom belongs to.
-  struct GeomOwner {
-    int object = -1;
-    bool robot = false;
-    int corner = -1;  ///< of the robot's footprint
-    int wheel = -1;
-  };
-
   Simulation(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options)
       : robot_model(robot.model),
         simulated(prepare_robot(robot)),
@@ -105,9 +76,12 @@ struct MujocoPlant::Simulation {
     data.reset(mj_makeData(model.get()));
     if (!data) refuse("MuJoCo has no memory for the simulation");
     find_addresses();
-    compare_inertia();
-    find_owners(scene, robot.footprint);
-    set_springs(scene);
+    require_as_written(*model, robot_model, simulated);
+    owners = find_owners(*model, simulated, robot.footprint);
+    set_springs(*model, owners, scene, robot_model.total_mass());
+    truth.corner_forces.assign(robot.footprint.size(), 0.0);
+    for (const lang::SceneObject& object : scene.objects)
+      truth.objects.push_back({object.name, 0.0, {}, 0.0});
     find_objects(scene);
     torque = Eigen::VectorXd::Zero(robot_model.joint_count());
     base_mass = model->body_mass[base_body];
@@ -146,55 +120,6 @@ struct MujocoPlant::Simulation {
     if (model->nv != freedoms) refuse("MuJoCo changed the number of freedoms");
     q = posture;
     qd.setZero(robot_model.joint_count());
-  }
-
-  void compare_inertia() const {
-    double mass = 0.0;
-    for (int i = 0; i < robot_model.body_count(); ++i) {
-      const solver::Body& body = robot_model.bodies()[static_cast<std::size_t>(i)];
-      const int id = id_of(mjOBJ_BODY, numbered("body", i));
-      mass += model->body_mass[id];
-      const bool is_sphere = i > 0 && joints[static_cast<std::size_t>(i) - 1].sphere != nullptr;
-      if (is_sphere || (i == 0 && !floats())) continue;  // a sphere's mass counts in the sum below
-      require_equal(*model, id, i == 0 ? simulated.spheres.base : body.inertia, body.name);
-    }
-    if (std::abs(mass - robot_model.total_mass()) > 1e-9 * mass) refuse("MuJoCo changed the robot's mass");
-  }
-
-  void find_owners(const lang::Scene& scene, const std::vector<Vector3>& footprint) {
-    owners.resize(static_cast<std::size_t>(model->ngeom));
-    for (int g = 0; g < model->ngeom; ++g) {
-      const char* name = mj_id2name(model.get(), mjOBJ_GEOM, g);
-      GeomOwner& owner = owners[static_cast<std::size_t>(g)];
-      if (std::strncmp(name, "object_", 7) == 0) owner.object = std::atoi(name + 7);
-      if (std::strncmp(name, "wheel_", 6) == 0) owner.wheel = std::atoi(name + 6);
-      owner.robot = std::strncmp(name, "bumper_", 7) == 0;
-      if (owner.robot && std::isdigit(static_cast<unsigned char>(name[7])) != 0) {
-        owner.corner =
-            nearest_corner(footprint, simulated.outline[static_cast<std::size_t>(std::atoi(name + 7))]);
-      }
-    }
-    truth.corner_forces.assign(footprint.size(), 0.0);
-    for (const lang::SceneObject& object : scene.objects)
-      truth.objects.push_back({object.name, 0.0, {}, 0.0});
-  }
-
-  /// MuJoCo's contact force f and relative acceleration a obey a + r f = -k x - b v with penetration x < 0
-  /// and r = A (1 - d)/d; A is its estimate of the inverse mass at the contact and d the impedance. So f = K
-  /// x + c v for k = K A (1 - d)/d, b = c A (1 - d)/d, apart from a/r, a mass of d/((1 - d) A) beside the
-  /// robot's. solref holds (-k d, -b d): MuJoCo divides it by d and d^2, and multiplies k by d.
-  void set_springs(const lang::Scene& scene) {
-    for (int p = 0; p < model->npair; ++p) {
-      const int one = model->pair_geom1[p];
-      const int other = model->pair_geom2[p];
-      if (owner_of(one).object < 0 && owner_of(other).object < 0) continue;  // wheels and skids on the floor
-      const ContactSpring spring =
-          contact_spring(scene, robot_model.total_mass(), owner_of(one).object, owner_of(other).object);
-      const double inverse_mass = model->body_invweight0[2 * model->geom_bodyid[one]] +
-                                  model->body_invweight0[2 * model->geom_bodyid[other]];
-      model->pair_solref[2 * p] = -spring.stiffness * (1.0 - spring_impedance) * inverse_mass;
-      model->pair_solref[2 * p + 1] = -spring.damping * (1.0 - spring_impedance) * inverse_mass;
-    }
   }
 
   void find_objects(const lang::Scene& scene) {

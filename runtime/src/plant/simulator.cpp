@@ -6,12 +6,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cmath>
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <stdexcept>
+
+#include "contact_spring.hpp"
 
 namespace zwang::runtime {
 
@@ -82,6 +86,37 @@ struct VirtualFiles {
   mjVFS vfs;
 };
 
+Eigen::Matrix3d matrix_of(const mjtNum* quaternion) {
+  return Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3]).toRotationMatrix();
+}
+
+Vector3 vector_of(const mjtNum* numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// The body's mass and inertia as MuJoCo has them must be the ones that were written.
+void require_equal(const mjModel& m, int id, const solver::RigidInertia& inertia, const std::string& name) {
+  const Eigen::Matrix3d axes = matrix_of(m.body_iquat + 4 * id);
+  const Eigen::Matrix3d at_com = axes * vector_of(m.body_inertia + 3 * id).asDiagonal() * axes.transpose();
+  const auto compiled =
+      solver::RigidInertia::from_com(m.body_mass[id], vector_of(m.body_ipos + 3 * id), at_com);
+  if ((compiled.matrix() - inertia.matrix()).norm() > 1e-9 * inertia.matrix().norm()) {
+    refuse("MuJoCo changed the inertia of `" + name + "`");
+  }
+}
+
+/// The outline's corners are the footprint's, in another order and without those in hollows.
+int nearest_corner(const std::vector<Vector3>& footprint, const Vector3& corner) {
+  const auto nearer = [&corner](const Vector3& a, const Vector3& b) {
+    return (a - corner).head<2>().norm() < (b - corner).head<2>().norm();
+  };
+  return static_cast<int>(std::min_element(footprint.begin(), footprint.end(), nearer) - footprint.begin());
+}
+
+const GeomOwner& owner_of(const std::vector<GeomOwner>& owners, int geom) {
+  return owners[static_cast<std::size_t>(geom)];
+}
+
 }  // namespace
 
 void ModelDeleter::operator()(mjModel_* model) const {
@@ -131,6 +166,58 @@ ModelPointer compile(const std::string& mjcf) {
   ModelPointer model(mj_loadXML(file, &files->vfs, error.data(), static_cast<int>(error.size())));
   if (!model || error[0] != '\0') refuse(std::string("MuJoCo refuses the simulation: ") + error.data());
   return model;
+}
+
+void require_as_written(const mjModel& model, const solver::Model& robot, const SimulatedRobot& simulated) {
+  double mass = 0.0;
+  for (int i = 0; i < robot.body_count(); ++i) {
+    const solver::Body& body = robot.bodies()[static_cast<std::size_t>(i)];
+    const int id = mj_name2id(&model, mjOBJ_BODY, ("body_" + std::to_string(i)).c_str());
+    mass += model.body_mass[id];
+    const auto& spheres = simulated.spheres.spheres;
+    const bool is_sphere = std::any_of(spheres.begin(), spheres.end(),
+                                       [i](const RollingSphere& sphere) { return sphere.body == i; });
+    if (is_sphere || (i == 0 && robot.has_fixed_base())) continue;  // a sphere's mass counts in the sum below
+    require_equal(model, id, i == 0 ? simulated.spheres.base : body.inertia, body.name);
+  }
+  if (std::abs(mass - robot.total_mass()) > 1e-9 * mass) refuse("MuJoCo changed the robot's mass");
+}
+
+std::vector<GeomOwner> find_owners(const mjModel& model, const SimulatedRobot& simulated,
+                                   const std::vector<Vector3>& footprint) {
+  std::vector<GeomOwner> owners(static_cast<std::size_t>(model.ngeom));
+  for (int g = 0; g < model.ngeom; ++g) {
+    const char* name = mj_id2name(&model, mjOBJ_GEOM, g);
+    GeomOwner& owner = owners[static_cast<std::size_t>(g)];
+    if (std::strncmp(name, "object_", 7) == 0) owner.object = std::atoi(name + 7);
+    if (std::strncmp(name, "wheel_", 6) == 0) owner.wheel = std::atoi(name + 6);
+    const bool of_outline = std::strncmp(name, "bumper_", 7) == 0;
+    owner.robot = of_outline || std::strncmp(name, "tip_", 4) == 0;
+    if (of_outline && std::isdigit(static_cast<unsigned char>(name[7])) != 0) {
+      owner.corner =
+          nearest_corner(footprint, simulated.outline[static_cast<std::size_t>(std::atoi(name + 7))]);
+    }
+  }
+  return owners;
+}
+
+/// MuJoCo's contact force f and relative acceleration a obey a + r f = -k x - b v with penetration x < 0
+/// and r = A (1 - d)/d; A is its estimate of the inverse mass at the contact and d the impedance. So f = K
+/// x + c v for k = K A (1 - d)/d, b = c A (1 - d)/d, apart from a/r, a mass of d/((1 - d) A) beside the
+/// robot's. solref holds (-k d, -b d): MuJoCo divides it by d and d^2, and multiplies k by d.
+void set_springs(mjModel& model, const std::vector<GeomOwner>& owners, const lang::Scene& scene,
+                 double robot_mass) {
+  for (int p = 0; p < model.npair; ++p) {
+    const int one = model.pair_geom1[p];
+    const int other = model.pair_geom2[p];
+    const int first = owner_of(owners, one).object, second = owner_of(owners, other).object;
+    if (first < 0 && second < 0) continue;  // wheels and skids on the floor
+    const ContactSpring spring = contact_spring(scene, robot_mass, first, second);
+    const double inverse_mass = model.body_invweight0[2 * model.geom_bodyid[one]] +
+                                model.body_invweight0[2 * model.geom_bodyid[other]];
+    model.pair_solref[2 * p] = -spring.stiffness * (1.0 - spring_impedance) * inverse_mass;
+    model.pair_solref[2 * p + 1] = -spring.damping * (1.0 - spring_impedance) * inverse_mass;
+  }
 }
 
 }  // namespace zwang::runtime

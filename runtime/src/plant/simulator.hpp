@@ -1,9 +1,12 @@
-/// MuJoCo as a process-wide library: its handlers, its collision functions, compiling a text, and calls that
-/// cannot end the process.
+/// MuJoCo as a process-wide library: its handlers, its collision functions, calls that cannot end the
+/// process; compiling a text, and what has to be asked of the model that comes of it.
 #pragma once
 
 #include <memory>
 #include <string>
+#include <vector>
+
+#include "mjcf.hpp"
 
 struct mjModel_;
 struct mjData_;
@@ -28,5 +31,24 @@ bool guarded(void (*call)(const mjModel_*, mjData_*), const mjModel_* model, mjD
 
 /// Throws std::invalid_argument when MuJoCo refuses the text.
 ModelPointer compile(const std::string& mjcf);
+
+/// Throws std::invalid_argument where MuJoCo's masses and inertias are not those that were written.
+void require_as_written(const mjModel_& model, const solver::Model& robot, const SimulatedRobot& simulated);
+
+/// Which object, or which part of the robot, a geom belongs to.
+struct GeomOwner {
+  int object = -1;
+  bool robot = false;  ///< its outline or a tip
+  int corner = -1;     ///< of the robot's footprint
+  int wheel = -1;
+};
+
+/// By geom. The corners of the outline are the footprint's.
+std::vector<GeomOwner> find_owners(const mjModel_& model, const SimulatedRobot& simulated,
+                                   const std::vector<solver::Vector3>& footprint);
+
+/// Gives every contact with an object the spring that the scene says.
+void set_springs(mjModel_& model, const std::vector<GeomOwner>& owners, const lang::Scene& scene,
+                 double robot_mass);
 
 }  // namespace zwang::runtime

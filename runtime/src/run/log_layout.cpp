@@ -30,6 +30,13 @@ enum Fixed {
   missed,
   missed_by,
   held_back_by,
+  event,
+  event_of,
+  event_value,
+  estimated_x,
+  estimated_y,
+  estimated_rz,
+  slip,
 };
 
 template <typename Enum>
@@ -48,7 +55,9 @@ std::vector<std::string> task_names(const Scheduler& scheduler) {
 }  // namespace
 
 LogLayout::LogLayout(const StatementTable& statements, const Scheduler& scheduler, const solver::Model& model,
-                     const std::vector<lang::Signal>& signals, const std::vector<Column>& extra) {
+                     const std::vector<lang::Signal>& signals, const std::vector<std::string>& event_signals,
+                     const std::vector<Column>& extra)
+    : inputs_(model, signals) {
   // In the order of `Fixed`.
   add("time", "s");
   add("task", "", task_names(scheduler));
@@ -71,6 +80,13 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
   add("missed", "", rows);
   add("missed.by", "");
   add("missed.held_back_by", "", rows);
+  add("event", "", words_up_to(EventCode::slip));
+  add("event.signal", "", event_signals);
+  add("event.value", "");
+  add("estimated.force.x", "N");
+  add("estimated.force.y", "N");
+  add("estimated.force.rz", "N m");
+  add("slip", "m/s");
   first_joint_ = static_cast<int>(columns_.size());
   for (int j = 0; j < model.joint_count(); ++j) {
     const solver::Joint& joint = model.joint(j);
@@ -87,6 +103,8 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
       guards_.back().push_back(add(t.name + ".exit" + std::to_string(i + 1) + ".true_for", "s"));
     }
   }
+  first_input_ = static_cast<int>(columns_.size());
+  columns_.insert(columns_.end(), inputs_.columns().begin(), inputs_.columns().end());
   first_extra_ = static_cast<int>(columns_.size());
   columns_.insert(columns_.end(), extra.begin(), extra.end());
   values_.resize(columns_.size(), blank);
@@ -162,17 +180,23 @@ void LogLayout::put(int column, double value) noexcept {
 
 std::span<const double> LogLayout::fill(const StatementTable& statements, const Tick& tick) noexcept {
   std::fill(values_.begin(), values_.end(), blank);
-  const solver::State& state = tick.sensed.state;
-  const solver::Matrix3& R = state.base_pose.rotation;
+  const solver::State& state = tick.known.state;
   put(time, tick.sensed.time);
+  inputs_.write(tick.sensed,
+                std::span(values_).subspan(static_cast<std::size_t>(first_input_), inputs_.columns().size()));
   if (tick.scheduler.task() >= 0) put(task, tick.scheduler.task());
   put(guard, static_cast<double>(tick.guard_status));
   put(base_x, state.base_pose.position.x());
   put(base_y, state.base_pose.position.y());
-  put(base_yaw, std::atan2(R(1, 0), R(0, 0)));
+  put(base_yaw, solver::yaw_of(state.base_pose.rotation));
   put(base_vx, state.base_twist.linear.x());
   put(base_vy, state.base_twist.linear.y());
   put(base_wz, state.base_twist.angular.z());
+  if (tick.event.code != EventCode::none) {
+    put(event, static_cast<double>(tick.event.code));
+    if (tick.event.signal >= 0) put(event_of, tick.event.signal);
+    put(event_value, tick.event.value);
+  }
   const Eigen::Index joints = std::min({state.q.size(), state.qd.size(), tick.tau.size()});
   for (int j = 0; j < static_cast<int>(joints); ++j) {
     put(first_joint_ + 3 * j, state.q(j));
@@ -182,6 +206,10 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
   if (tick.set != nullptr) {
     put(solver, static_cast<double>(tick.solver_status));
     put(iterations, tick.solution.iterations);
+    put(estimated_x, tick.estimated_force.x());
+    put(estimated_y, tick.estimated_force.y());
+    put(estimated_rz, tick.estimated_force.z());
+    put(slip, tick.slip);
     put_transition(tick.scheduler);
     put_signals(tick.scheduler);
     put_statements(statements, tick);
@@ -278,7 +306,6 @@ void LogLayout::put_signals(const Scheduler& scheduler) noexcept {
     put(c.known, scheduler.signal_known(signal) ? 1.0 : 0.0);
     const SignalSample& sample = scheduler.signal_sample(signal);
     if (!sample.valid) continue;
-    const solver::Matrix3& R = sample.pose.rotation;
     switch (c.type) {
       case lang::SignalType::boolean:
         put(c.value, sample.boolean ? 1.0 : 0.0);
@@ -289,7 +316,7 @@ void LogLayout::put_signals(const Scheduler& scheduler) noexcept {
       case lang::SignalType::pose:
         put(c.value, sample.pose.position.x());
         put(c.value + 1, sample.pose.position.y());
-        put(c.value + 2, std::atan2(R(1, 0), R(0, 0)));
+        put(c.value + 2, solver::yaw_of(sample.pose.rotation));
         break;
       case lang::SignalType::wrench:
         for (int k = 0; k < 3; ++k) {

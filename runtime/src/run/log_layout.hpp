@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "run/sensed_columns.hpp"
 #include "run/shortfall.hpp"
 #include "run/statement_table.hpp"
 #include "zwang/runtime/recorder.hpp"
@@ -14,7 +15,8 @@ namespace zwang::runtime {
 
 /// Everything that one record tells of.
 struct Tick {
-  const Sensed& sensed;
+  const Sensed& sensed;  ///< as it came
+  const Sensed& known;   ///< with the base as the wheels tell it
   const Scheduler& scheduler;
   const solver::ConstraintSet* set;  ///< null when the tick did not get to the solver
   const solver::Solution& solution;
@@ -23,12 +25,16 @@ struct Tick {
   const Eigen::VectorXd& tau;
   std::span<const double> extra;
   const Shortfall& shortfall;
+  const Event& event;
+  solver::Vector3 estimated_force;
+  double slip;
 };
 
 class LogLayout {
  public:
   LogLayout(const StatementTable& statements, const Scheduler& scheduler, const solver::Model& model,
-            const std::vector<lang::Signal>& signals, const std::vector<Column>& extra);
+            const std::vector<lang::Signal>& signals, const std::vector<std::string>& event_signals,
+            const std::vector<Column>& extra);
 
   const std::vector<Column>& columns() const noexcept { return columns_; }
   /// The record of a tick, one value a column; valid until the next call. Does not allocate.
@@ -57,6 +63,8 @@ class LogLayout {
   std::vector<StatementColumns> of_statement_;
   std::vector<SignalColumns> of_signal_;
   std::vector<std::vector<int>> guards_;  // by task, exit
+  SensedColumns inputs_;
+  int first_input_ = 0;
   int first_joint_ = 0;
   int first_extra_ = 0;
 };

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <limits>
 
+#include "estimate/disturbance.hpp"
 #include "estimate/friction.hpp"
+#include "estimate/weight.hpp"
+#include "guard/actuator_watch.hpp"
+#include "guard/slip_watch.hpp"
 #include "run/limit_table.hpp"
 #include "run/log_layout.hpp"
 #include "run/shortfall.hpp"
 #include "run/statement_table.hpp"
+#include "schedule/at_rest.hpp"
 #include "zwang/runtime/odometry.hpp"
 
 namespace zwang::runtime {
@@ -15,9 +20,9 @@ namespace zwang::runtime {
 namespace {
 
 constexpr std::size_t kept_transitions = 1024;
-constexpr double at_rest_speed = 0.01;               // [m/s]
-constexpr double at_rest_turn = 0.0174532925199433;  // [rad/s], 1 deg/s
-constexpr double longest_stop = 10.0;                // [s]
+constexpr std::size_t kept_events = 1024;
+constexpr double start_window = 0.05;  // [s] in which a force sensor that touches nothing is judged
+constexpr double quiet_sensor = 5.0;   // [N] that it may read then
 
 }  // namespace
 
@@ -35,24 +40,42 @@ const char* to_string(RunState state) noexcept {
   return "?";
 }
 
+namespace {
+
+std::vector<std::string> signal_names(const lang::Program& program) {
+  std::vector<std::string> names;
+  for (const lang::Signal& signal : program.signals) names.push_back("signal." + signal.name);
+  return names;
+}
+
+}  // namespace
+
 struct Runner::Parts {
   Parts(const lang::Program& program, const RunnerSettings& settings)
       : model(program.robot.model),
         period(settings.period),
         scheduler(program, settings.period),
-        solver(model, {.row_capacity = scheduler.row_capacity()}),
+        solver(model, {.row_capacity = scheduler.row_capacity(), .base_motion = true}),
         solution(model, scheduler.row_capacity()),
-        estimated(model, program.signals.size()),
+        estimated(model),
         sample(model, program.signals.size()),
         odometry(model, {}, {.period = settings.period}),
         friction(program.robot),
+        weight(model),
+        disturbance(program.robot),
+        actuators(program.robot, settings.period),
+        slip(model),
+        signals(program.signals),
+        signal_words(event_signals(model, signal_names(program))),
         guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
         statements(scheduler, program),
         limits(statements, program.robot),
-        layout(statements, scheduler, model, program.signals, settings.extra_columns),
+        layout(statements, scheduler, model, program.signals, signal_words, settings.extra_columns),
         wanted(Eigen::VectorXd::Zero(model.joint_count())),
         tau(Eigen::VectorXd::Zero(model.joint_count())) {
     transitions.reserve(kept_transitions);
+    events.reserve(kept_events);
+    is_judged.resize(program.signals.size(), false);
     for (const lang::Parameter& p : program.parameters) parameter_names.push_back(p.name);
   }
 
@@ -60,6 +83,10 @@ struct Runner::Parts {
   void estimate(const Sensed& sensed) noexcept;
   /// Everything between that and the guard. False when there are no torques to send.
   bool control() noexcept;
+  /// What motors and wheels made of the last command.
+  void compare() noexcept;
+  void judge_sensors(const Sensed& sensed) noexcept;
+  void tell(const Event& event) noexcept;
   void brake_protectively(bool good_sample) noexcept;
 
   const solver::Model model;
@@ -68,12 +95,24 @@ struct Runner::Parts {
   Scheduler scheduler;
   solver::Solver solver;
   solver::Solution solution;
-  Sensed estimated;  ///< the last good sample
-  Sensed sample;     ///< the same, its velocities as the ground allows them
+  Sensed estimated;  ///< the last good sample, but for its signals
+  Sensed sample;     ///< the same, its velocities as the ground allows them, and its signals
   Odometry odometry;
-  bool reckoning = false;  ///< the base is not measured: `odometry` tells it
+  std::optional<double> start;  ///< [s] of the first good sample
+  bool reckoning = false;       ///< the base is not measured: `odometry` tells it
   double last_fix = -std::numeric_limits<double>::infinity();  ///< [s]
   FrictionFeedForward friction;
+  WeightFeedForward weight;
+  DisturbanceObserver disturbance;
+  ActuatorWatch actuators;
+  SlipWatch slip;
+  const std::vector<lang::Signal> signals;
+  const std::vector<std::string> signal_words;  ///< of events
+  std::vector<bool> is_judged;                  ///< of each signal: it was looked at when the run began
+  std::vector<Event> events;
+  std::uint64_t event_count = 0;
+  bool stop_is_told = false;
+  Event event;  ///< of this tick; code `none` when there is none
   SafetyGuard guard;
   StatementTable statements;
   LimitTable limits;
@@ -93,9 +132,9 @@ struct Runner::Parts {
 void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   estimated.time = sensed.time;
   estimated.state = sensed.state;
-  // A snapshot may have fewer or more signals than the program; the estimate keeps its size.
-  std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), estimated.signals.size()),
-              estimated.signals.begin());
+  // A snapshot may have fewer or more signals than the program; the sample keeps its size.
+  std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), sample.signals.size()),
+              sample.signals.begin());
   if (sensed.base_measured) {
     reckoning = false;
     return;
@@ -112,9 +151,11 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
 bool Runner::Parts::control() noexcept {
   sample.time = estimated.time;
   sample.state = estimated.state;
-  std::copy(estimated.signals.begin(), estimated.signals.end(), sample.signals.begin());
   solver_status = solver.project_velocity(sample.state);
   if (solver_status != solver::Status::ok) return false;
+  compare();
+  if (guard.stopped()) return true;  // a motor is not to be trusted
+  weight.add_to(sample.state);
   scheduler.tick(sample);
   if (scheduler.transition()) {
     ++transition_count;
@@ -130,12 +171,50 @@ bool Runner::Parts::control() noexcept {
   return true;
 }
 
+void Runner::Parts::tell(const Event& told) noexcept {
+  ++event_count;
+  if (events.size() < events.capacity()) events.push_back(told);
+  const bool is_stop = told.code < EventCode::clock_refused;
+  if (event.code == EventCode::none || is_stop) event = told;
+}
+
+void Runner::Parts::compare() noexcept {
+  if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
+  if (!disturbance.compare(sample.state, sample.time)) {
+    actuators.reset();
+    return;
+  }
+  scheduler.estimate_force(disturbance.base_force());
+  // A wheel that slides gives the ground less than its motor gives the wheel.
+  if (slip.doubtful()) {
+    actuators.reset();
+  } else if (const auto fault = actuators.look(disturbance)) {
+    guard.stop(static_cast<StopReason>(fault->code), fault->signal, fault->value);
+  }
+}
+
+/// A force that is measured before anything moved is the sensor's own.
+void Runner::Parts::judge_sensors(const Sensed& sensed) noexcept {
+  if (!start) start = sensed.time;
+  if (sensed.time - *start > start_window) return;
+  const std::size_t count = std::min(signals.size(), sensed.signals.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const SignalSample& measured = sensed.signals[i];
+    if (is_judged[i] || !measured.valid) continue;
+    is_judged[i] = true;
+    double reads = 0.0;
+    if (signals[i].type == lang::SignalType::wrench) reads = measured.wrench.linear.norm();
+    if (signals[i].measures_force) reads = measured.number;
+    if (!(std::abs(reads) > quiet_sensor)) continue;
+    tell({EventCode::sensor_bias, sensed.time,
+          event_signal::measured(model.joint_count(), static_cast<int>(i)), reads});
+  }
+}
+
 void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   ++stopped_ticks;
-  const solver::MotionVector& twist = estimated.state.base_twist;
-  const bool at_rest =
-      good_sample && twist.linear.norm() < at_rest_speed && twist.angular.norm() < at_rest_turn;
-  stands = stands || at_rest || static_cast<double>(stopped_ticks) * period > longest_stop;
+  stands = stands || (good_sample && is_at_rest(estimated.state.base_twist)) ||
+           static_cast<double>(stopped_ticks) * period > longest_stop;
 }
 
 Runner::Runner(const lang::Program& program, const RunnerSettings& settings)
@@ -146,14 +225,31 @@ Runner& Runner::operator=(Runner&&) noexcept = default;
 
 const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double> extra) noexcept {
   Parts& p = *parts_;
-  const bool good = p.guard.admit(sensed) == SampleStatus::good;
+  p.event = {};
+  const SampleStatus status = p.guard.admit(sensed);
+  const bool good = status == SampleStatus::good;
   bool solved = false;
-  if (good) p.estimate(sensed);
+  if (status == SampleStatus::bad_clock) p.tell(p.guard.refusal());
+  if (good) {
+    p.estimate(sensed);
+    p.judge_sensors(sensed);
+  }
   if (good && !p.guard.stopped()) {
-    solved = p.control();
-    if (!solved) p.guard.stop(StopReason::solver);
+    const bool computed = p.control();
+    if (!computed) p.guard.stop(StopReason::solver, -1, static_cast<double>(p.solver_status));
+    solved = computed && !p.guard.stopped();
   }
   p.guard_status = good ? p.guard.output(p.estimated, p.wanted, p.tau) : p.guard.output_blind(p.tau);
+  if (solved && !p.guard.stopped()) {
+    p.disturbance.expect(p.solver, p.solution, p.sample.state, p.tau, p.sample.time);
+  } else if (good) {
+    p.disturbance.pause();
+  }
+  if (!p.guard.stopped()) p.stop_is_told = false;
+  if (p.guard.stopped() && !p.stop_is_told) {
+    p.stop_is_told = true;
+    p.tell(p.guard.stop_event());
+  }
   if (p.guard.stopped()) p.brake_protectively(good);
   if (solved) {
     p.shortfall =
@@ -161,15 +257,13 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
     p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau);
   }
   if (p.recorder != nullptr) {
-    const Tick tick{good ? p.estimated : sensed,
-                    p.scheduler,
-                    solved ? &p.scheduler.constraints() : nullptr,
-                    p.solution,
-                    p.solver_status,
-                    p.guard_status,
-                    p.tau,
-                    extra,
-                    p.shortfall};
+    const Tick tick{sensed,         good ? p.estimated : sensed,
+                    p.scheduler,    solved ? &p.scheduler.constraints() : nullptr,
+                    p.solution,     p.solver_status,
+                    p.guard_status, p.tau,
+                    extra,          p.shortfall,
+                    p.event,        p.disturbance.base_force(),
+                    p.slip.speed()};
     p.recorder->record(p.layout.fill(p.statements, tick));
   }
   return p.tau;
@@ -222,6 +316,19 @@ const std::vector<Transition>& Runner::transitions() const noexcept {
 }
 std::uint64_t Runner::transition_count() const noexcept {
   return parts_->transition_count;
+}
+const std::vector<Event>& Runner::events() const noexcept {
+  return parts_->events;
+}
+std::uint64_t Runner::event_count() const noexcept {
+  return parts_->event_count;
+}
+std::string Runner::event_signal(const Event& event) const {
+  const auto i = static_cast<std::size_t>(event.signal);
+  return event.signal >= 0 && i < parts_->signal_words.size() ? parts_->signal_words[i] : std::string();
+}
+solver::Vector3 Runner::estimated_force() const noexcept {
+  return parts_->disturbance.base_force();
 }
 std::optional<ShortfallReport> Runner::shortfall() const {
   const Shortfall& s = parts_->shortfall;

@@ -52,7 +52,13 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     // A sample that does not arrive is the runtime's to deal with: it steps on what it has.
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
+    const std::size_t told = runner.events().size();
+    const bool was_stopped = runner.guard().stopped();
     const Eigen::VectorXd& tau = runner.step(sensed);
+    if (runner.guard().stopped() && !was_stopped) facts.note_stop(plant.truth().time);
+    for (std::size_t i = told; i < runner.events().size(); ++i) {
+      if (runner.events()[i].code == EventCode::slip) facts.note_slip(plant.truth().time);
+    }
     facts.update(plant.truth(), plant.true_state(), torque_share(program.robot.model, tau));
     const bool in_task = runner.state() == RunState::running;
     for (ExpectationWatch& watch : watches) watch.look(facts, plant.truth().time, in_task);

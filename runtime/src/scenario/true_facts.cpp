@@ -38,6 +38,15 @@ void TrueFacts::update(const Truth& truth, const solver::State& state, double to
   }
 }
 
+void TrueFacts::note_stop(double time) noexcept {
+  values_[lang::run_stopped] = time;
+}
+
+void TrueFacts::note_slip(double time) noexcept {
+  double& slipped = values_[lang::run_slipped];
+  if (std::isnan(slipped)) slipped = time;
+}
+
 double TrueFacts::look_up(const lang::ExpressionNode& node) const noexcept {
   const auto index = static_cast<std::size_t>(node.index);
   switch (node.op) {

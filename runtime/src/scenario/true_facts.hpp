@@ -15,6 +15,9 @@ class TrueFacts {
 
   /// `torque_share`: of its limit, of the motor that is nearest to it.
   void update(const Truth& truth, const solver::State& state, double torque_share) noexcept;
+  /// When the protective stop latched, and when slip was told first [s].
+  void note_stop(double time) noexcept;
+  void note_slip(double time) noexcept;
   /// NaN where nobody knows: an object that was never touched, a frame that hangs on a signal.
   double look_up(const lang::ExpressionNode& node) const noexcept;
   double quantity(int index) const noexcept { return values_[static_cast<std::size_t>(index)]; }

@@ -31,7 +31,7 @@ double either(double a, double b) {
 }
 
 bool is_name(Op op) {
-  return op >= Op::parameter && op <= Op::feature;
+  return op >= Op::parameter && op <= Op::estimated_force;
 }
 
 double apply(Op op, double a, double b) {

@@ -2,6 +2,7 @@
 /// tick_rows.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -104,6 +105,7 @@ struct Scheduler::Parts final : Facts {
   std::vector<lang::FrameDeclaration> declarations;
   const std::vector<lang::Feature> features;
   const int base;  ///< frame
+  const std::vector<HeldJoint> held_joints;
   const TaskList tasks;
   FrameTable frames;
   SignalTable signals;
@@ -125,6 +127,8 @@ struct Scheduler::Parts final : Facts {
   std::vector<int> entries;  ///< of each task, since the start
   Interruption interruption;
   const solver::State* state = nullptr;  ///< of the present tick
+  /// x, y [N], rz [N m]; NaN: unknown.
+  solver::Vector3 estimated_force = solver::Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   std::optional<Transition> transition;
   Guards guards;
   Guards always_guards;

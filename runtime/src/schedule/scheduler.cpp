@@ -82,7 +82,8 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       declarations(given.frames),
       features(given.features),
       base(base_frame(declarations, given.robot)),
-      tasks(given, declarations, base),
+      held_joints(find_held_joints(declarations, given.robot.model)),
+      tasks(given, declarations, base, held_joints),
       frames(declarations, given.robot.model, given.signals.size()),
       signals(given, positive(control_period)),
       period(control_period),
@@ -170,6 +171,10 @@ Outcome Scheduler::outcome() const noexcept {
 int Scheduler::task() const noexcept {
   return parts_->task;
 }
+void Scheduler::estimate_force(const solver::Vector3& force) noexcept {
+  parts_->estimated_force = force;
+}
+
 double Scheduler::elapsed() const noexcept {
   return parts_->elapsed();
 }

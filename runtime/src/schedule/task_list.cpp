@@ -84,6 +84,8 @@ class TaskCheck {
         return require_index(node.index, program_.signals.size(), "a condition's signal");
       case lang::Op::feature:
         return require_index(node.index, program_.features.size(), "a condition's feature");
+      case lang::Op::estimated_force:
+        return require_index(node.axis, 3, "an axis of the estimated force");
       case lang::Op::coordinate: {
         const std::vector<lang::Group>& groups = node.in_always ? program_.always.groups : task_.groups;
         require_index(node.index, groups.size(), "a condition's group");
@@ -176,7 +178,8 @@ bool leads_back(const lang::Task& task, const std::vector<bool>& known) {
 
 }  // namespace
 
-TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDeclaration>& frames, int base)
+TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDeclaration>& frames, int base,
+                   const std::vector<HeldJoint>& joints)
     : tasks(program.tasks), program_tasks(static_cast<int>(program.tasks.size())) {
   require_index(program.start, tasks.size(), "the start task");
   for (lang::Task& task : tasks) {
@@ -185,6 +188,9 @@ TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDe
   }
   tasks.push_back(brake_task("done", program.robot, base));
   tasks.push_back(brake_task("failed", program.robot, base));
+  for (lang::Task& task : tasks) {
+    add_holds(task, program.always, joints, frames, program.robot.model);
+  }
   lang::Task always;
   always.name = "always";
   always.groups = program.always.groups;

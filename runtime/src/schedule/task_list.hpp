@@ -3,17 +3,19 @@
 
 #include <vector>
 
+#include "schedule/joint_holds.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::runtime {
 
-/// The program's tasks with the robot's limits, then `done`, `failed` and `always`. A group `inside` a region
-/// has one entry of `axes` that stands for its rows; one on a feature has the feature's frames as `move` and
-/// `in`, the one that the robot can move first.
+/// The program's tasks with the robot's limits and the joints to hold, then `done`, `failed` and `always`. A
+/// group `inside` a region has one entry of `axes` that stands for its rows; one on a feature has the
+/// feature's frames as `move` and `in`, the one that the robot can move first.
 struct TaskList {
   /// Throws std::invalid_argument on an index that is out of range. `frames` are the program's, with the
-  /// base's among them.
-  TaskList(const lang::Program& program, const std::vector<lang::FrameDeclaration>& frames, int base);
+  /// base's and those of `joints` among them.
+  TaskList(const lang::Program& program, const std::vector<lang::FrameDeclaration>& frames, int base,
+           const std::vector<HeldJoint>& joints);
 
   const lang::Task& operator[](int task) const noexcept { return tasks[static_cast<std::size_t>(task)]; }
   int done() const noexcept { return program_tasks; }

@@ -1,13 +1,10 @@
 // Steps 4 and 5 of the tick: guards, then at most one transition.
+#include "schedule/at_rest.hpp"
 #include "schedule/parts.hpp"
 
 namespace zwang::runtime {
 
 namespace {
-
-constexpr double at_rest_speed = 0.01;               // [m/s]
-constexpr double at_rest_turn = 0.0174532925199433;  // [rad/s], 1 deg/s
-constexpr double longest_stop = 10.0;                // [s]
 
 void mark(std::uint64_t& bits, std::size_t exit) {
   if (exit < 64) bits |= std::uint64_t{1} << exit;
@@ -84,10 +81,7 @@ std::optional<Scheduler::Parts::Choice> Scheduler::Parts::choose_while_stopping(
 
 void Scheduler::Parts::check_rest() noexcept {
   if (phase != Phase::stopping) return;
-  const solver::MotionVector& twist = state->base_twist;
-  const bool stands =
-      model.has_fixed_base() || (twist.linear.norm() < at_rest_speed && twist.angular.norm() < at_rest_turn);
-  if (stands) {
+  if (model.has_fixed_base() || is_at_rest(state->base_twist)) {
     phase = Phase::finished;
   } else if (elapsed() > longest_stop) {
     if (task == tasks.done()) {

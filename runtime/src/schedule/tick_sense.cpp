@@ -40,6 +40,8 @@ Fact Scheduler::Parts::look_up(const lang::ExpressionNode& node, int owner) cons
       return {signals.value(node.index), signals.stale(node.index)};
     case lang::Op::valid:
       return {signals.known(node.index) ? 1.0 : 0.0};
+    case lang::Op::estimated_force:
+      return {estimated_force(node.axis)};
     case lang::Op::coordinate:
       return coordinate(node, owner);
     case lang::Op::feature:

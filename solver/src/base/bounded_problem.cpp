@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace zwang::solver {
 
 namespace {
 
 constexpr double unreachable_share = 1e-8;      // A Mc A' over A M^-1 A'
+constexpr int no_level = std::numeric_limits<int>::min();
 constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
 constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
 constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
@@ -43,6 +45,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       tau_hi_(Vector::Zero(motors)),
       candidate_(Vector::Zero(motors)),
       motor_length_(Vector::Zero(motors)),
+      motor_extents_(static_cast<std::size_t>(motors)),
       p_(Vector::Zero(dimension)),
       fixed_(Vector::Zero(dimension)),
       work_(Vector::Zero(dimension)),
@@ -64,9 +67,10 @@ void BoundedProblem::resize(int rows, int motors, int dimension) noexcept {
   dimension_ = dimension;
 }
 
-void BoundedProblem::set_row(int i, const Row& row, double unconstrained) noexcept {
+void BoundedProblem::set_row(int i, const Row& row, double unconstrained, int twin) noexcept {
   Entry& e = entry(i);
   e = Entry{};
+  e.twin = twin;
   e.kind = row.kind;
   e.quantity = row.quantity;
   e.level = row.level;
@@ -103,13 +107,13 @@ bool BoundedProblem::solve(int max_iterations) noexcept {
   bool exact = true;
   factorise_motors();
   bound_rows();
-  for (int level = next_level(-1), below = 0; level >= 0; level = below) {
+  for (int level = next_level(no_level), below = 0; level != no_level; level = below) {
     below = next_level(level);
     project_rows(level);
     start_sums(level);
     exact = solve_forces(level, max_iterations) && exact;
     exact = solve_motion(level, max_iterations) && exact;
-    if (below >= 0) freeze(level);
+    if (below != no_level) freeze(level);
   }
   exact = least_torques(max_iterations) && exact;
   report();
@@ -117,10 +121,10 @@ bool BoundedProblem::solve(int max_iterations) noexcept {
 }
 
 int BoundedProblem::next_level(int after) const noexcept {
-  int next = -1;
+  int next = no_level;
   for (int i = 0; i < rows_; ++i) {
     const int level = entries_[static_cast<std::size_t>(i)].level;
-    if (level > after && (next < 0 || level < next)) next = level;
+    if (level > after && (next == no_level || level < next)) next = level;
   }
   return next;
 }
@@ -132,12 +136,24 @@ void BoundedProblem::factorise_motors() noexcept {
   for (int k = 0; k < dimension_; ++k) std::fill_n(&gram_(k, 0), k + 1, 0.0);
   for (int j = 0; j < motors_; ++j) {
     const double* const T = &T_(j, 0);
-    for (int k = 0; k < dimension_; ++k) add_multiple(k + 1, T[k], T, &gram_(k, 0));
-    const double squared = dot(dimension_, T, T);
+    const int extent = extent_of(j);
+    motor_extents_[static_cast<std::size_t>(j)] = extent;
+    for (int k = 0; k < extent; ++k) add_multiple(k + 1, T[k], T, &gram_(k, 0));
+    const double squared = dot(extent, T, T);
     motor_length_(j) = std::sqrt(squared);
     trace += squared;
   }
   motors_reach_all_ = cholesky(gram_, dimension_, motor_rank_tolerance * trace);
+  motors_drive_all_ = motors_reach_all_;
+  for (int j = 0; j < motors_; ++j)
+    motors_drive_all_ = motors_drive_all_ && (tau_lo_(j) < 0.0 || tau_hi_(j) > 0.0);
+}
+
+/// T_j is 0 from here on: the whitened axes come from joints, one after the other.
+int BoundedProblem::extent_of(int motor) const noexcept {
+  int extent = dimension_;
+  while (extent > 0 && T_(motor, extent - 1) == 0.0) --extent;
+  return extent;
 }
 
 /// No multiplier is unbounded: what the motors can do along a row bounds it, one-sided rows by a multiple of
@@ -152,7 +168,13 @@ void BoundedProblem::bound_rows() noexcept {
   for (int i = 0; i < rows_; ++i) {
     Entry& e = entry(i);
     if (e.out || e.kind == RowKind::sum) continue;
-    double force = largest_force(i);
+    const bool is_bounded = e.kind == RowKind::force || (std::isfinite(e.lo) && std::isfinite(e.hi));
+    if (is_bounded && motors_drive_all_) {
+      e.lo *= e.fade;
+      e.hi *= e.fade;
+      continue;
+    }
+    double force = e.largest_force = largest_force(i);
     if (force == 0.0) {
       e.out = true;
       e.status = RowStatus::unreachable;
@@ -165,12 +187,15 @@ void BoundedProblem::bound_rows() noexcept {
   }
 }
 
-/// Upper bound of |nu| with B_i nu = T'tau: both sides times B_i.
+/// Upper bound of |nu| with B_i nu = T'tau: both sides times B_i. 0 where no motor drives the row.
 double BoundedProblem::largest_force(int i) noexcept {
+  if (entry(i).twin >= 0 && entry(entry(i).twin).largest_force >= 0.0)
+    return entry(entry(i).twin).largest_force;
   const double length = entry(i).length;
   double sum = 0.0;
   for (int j = 0; j < motors_; ++j) {
-    const double share = std::abs(dot(dimension_, &B_(i, 0), &T_(j, 0)));
+    const int extent = motor_extents_[static_cast<std::size_t>(j)];
+    const double share = std::abs(dot(extent, &B_(i, 0), &T_(j, 0)));
     if (share > driven_share * motor_length_(j) * length) sum += share * std::max(-tau_lo_(j), tau_hi_(j));
   }
   return length > 0.0 ? sum / (length * length) : 0.0;
@@ -184,6 +209,15 @@ void BoundedProblem::project_rows(int level) noexcept {
     if (e.out || !is_posed) continue;
     double* const V = &V_(i, 0);
     double* const P = &P_(i, 0);
+    e.projected_at = level;
+    if (e.twin >= 0 && entry(e.twin).projected_at == level) {
+      const Entry& twin = entry(e.twin);
+      std::copy_n(&V_(e.twin, 0), dimension_, V);
+      std::copy_n(&P_(e.twin, 0), dimension_, P);
+      e.reach = twin.reach;
+      if (e.level == level) e.blocked = twin.reach == 0.0;
+      continue;
+    }
     if (all_free_) {
       std::copy_n(&B_(i, 0), dimension_, V);
       std::copy_n(&B_(i, 0), dimension_, P);

@@ -37,8 +37,9 @@ class BoundedProblem {
   auto B(int row) noexcept { return B_.row(row).head(dimension_); }
   auto T(int motor) noexcept { return T_.row(motor).head(dimension_); }
   double& d(int row) noexcept { return d_(row); }
-  /// After B(row): `unconstrained` is A_i M^-1 A_i', what the row would be without the ground.
-  void set_row(int row, const Row& source, double unconstrained) noexcept;
+  /// After B(row): `unconstrained` is A_i M^-1 A_i', what the row would be without the ground; `twin` an
+  /// earlier row with the same B, or -1.
+  void set_row(int row, const Row& source, double unconstrained, int twin) noexcept;
   void set_motor(int motor, double lowest, double highest) noexcept;
 
   /// False when an active set met its iteration cap; all results stay inside their bounds.
@@ -58,12 +59,15 @@ class BoundedProblem {
     double force = 0.0;         ///< f, fading included
     double fade = 1.0;
     double weight = infinity;
-    double length = 0.0;   ///< |B_i|
-    double reach = 0.0;    ///< |V_i|, at the present level
-    double above = 0.0;    ///< of a sum: B_S.p / |B_S|^2 of the levels above
-    double offset = 0.0;   ///< how far beyond b its own level left a violated one-sided row
-    bool blocked = false;  ///< the levels above leave it no freedom
-    bool out = false;      ///< unreachable: takes no part
+    double length = 0.0;          ///< |B_i|
+    double reach = 0.0;           ///< |V_i|, at the present level
+    double largest_force = -1.0;  ///< that the motors make along the row; negative before it is known
+    int twin = -1;                ///< an earlier row with the same B
+    int projected_at = -1;        ///< level of V_i and P_i
+    double above = 0.0;           ///< of a sum: B_S.p / |B_S|^2 of the levels above
+    double offset = 0.0;          ///< how far beyond b its own level left a violated one-sided row
+    bool blocked = false;         ///< the levels above leave it no freedom
+    bool out = false;             ///< unreachable: takes no part
     RowStatus status = RowStatus::held;
     double nu = 0.0, phi = 0.0;
   };
@@ -83,6 +87,7 @@ class BoundedProblem {
   Range bounds_at(int i, int level) const noexcept;
   double softness(int i) const noexcept;
   double held_softness(int i) const noexcept;
+  int extent_of(int motor) const noexcept;
   double largest_force(int row) noexcept;
   int next_level(int after) const noexcept;
 
@@ -132,8 +137,9 @@ class BoundedProblem {
   RowMajorMatrix P_;  ///< B K: the motion that a unit force along a row makes
   Vector d_, tau_, tau_lo_, tau_hi_, candidate_;
   Vector motor_length_;  ///< |T_j|
-  Vector p_;             ///< sum of the constraint forces so far
-  Vector fixed_;         ///< its part that the present stage cannot change
+  std::vector<int> motor_extents_;
+  Vector p_;      ///< sum of the constraint forces so far
+  Vector fixed_;  ///< its part that the present stage cannot change
   Vector work_, solved_;
   RowMajorMatrix F_;       ///< K = F F': motion by force, under what the levels above have frozen
   RowMajorMatrix frozen_;  ///< orthonormal rows: F times them is 0
@@ -141,6 +147,7 @@ class BoundedProblem {
   bool all_free_ = true;  ///< F is still 1
   RowMajorMatrix gram_;   ///< Cholesky factor of T'T
   bool motors_reach_all_ = false;
+  bool motors_drive_all_ = false;   ///< and each of them can push
   bool torques_are_least_ = false;  ///< tau_ are the least ones that make p_
   std::vector<Entry> entries_;
   std::vector<RowSolution> solutions_;

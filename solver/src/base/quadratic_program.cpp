@@ -35,6 +35,7 @@ QuadraticProgram::QuadraticProgram(int n, int d, int m)
       inverse_basis_(RowMajorMatrix::Zero(m, m)),
       follow_(RowMajorMatrix::Zero(n, m)),
       reduced_V_(RowMajorMatrix::Zero(n, d)),
+      hessian_(RowMajorMatrix::Zero(n, n)),
       factor_(RowMajorMatrix::Zero(n, n)),
       place_(index(n)),
       stuck_(index(n)) {
@@ -55,6 +56,8 @@ void QuadraticProgram::resize(int variables, int curvature_rows, int equality_ro
 }
 
 bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
+  largest_g_ = 0.0;
+  for (int k = 0; k < variables_; ++k) largest_g_ = std::max(largest_g_, std::abs(g_(k)));
   choose_basis();
   if (!factorise_basis()) return false;
   choose_superbasics();
@@ -82,7 +85,6 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
     curved_ ? newton_step() : flat_line();
     if (!curved_ && !goes_down()) {
       park(superbasics_.back());
-      reduce();
       at_minimum = superbasics_.empty();
       continue;
     }
@@ -92,7 +94,6 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
         infinite_step) {  // no bound on the way: the caller gave an infinite one to a row that cannot hold
       stuck_[index(superbasics_.back())] = 1;
       park(superbasics_.back());
-      reduce();
       continue;
     }
     for (const int k : basics_) z_(k) += length * direction_(k);
@@ -103,9 +104,10 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
       if (place_[index(blocking)] == Place::basic) {
         replace_basic(blocking);
         if (!factorise_basis()) return false;
+        reduce();
+      } else {
+        park(blocking);
       }
-      park(blocking);
-      reduce();
     }
     for (const int k : basics_) z_(k) = std::clamp(z_(k), lo_(k), hi_(k));
     for (const int k : superbasics_) z_(k) = std::clamp(z_(k), lo_(k), hi_(k));
@@ -215,14 +217,17 @@ void QuadraticProgram::compute_reduced_gradient() noexcept {
   for (int k = 0; k < variables_; ++k) {
     if (z_(k) != 0.0) add_multiple(curvature_rows_, z_(k), V(k), p);
   }
-  double scale = 0.0;
+  double scale = largest_g_;
   for (int k = 0; k < variables_; ++k) {
     const double pull = dot(curvature_rows_, V(k), p) + R_(k) * z_(k);
-    scale = std::max({scale, std::abs(pull), std::abs(g_(k))});
+    scale = std::max(scale, std::abs(pull));
     gradient_(k) = pull - g_(k);
   }
   tolerance_ = relative_gradient_tolerance * scale;
-
+  if (rank_ == 0) {
+    std::copy_n(gradient_.data(), variables_, reduced_.data());
+    return;
+  }
   std::fill_n(multipliers_.data(), rank_, 0.0);
   for (int k = 0; k < rank_; ++k) {
     add_multiple(rank_, gradient_(basics_[index(k)]), &inverse_basis_(k, 0), multipliers_.data());
@@ -273,16 +278,23 @@ QuadraticProgram::Curvature QuadraticProgram::add_superbasic(int s) noexcept {
   for (int t = 0; t <= s; ++t) {
     double h = dot(curvature_rows_, column, &reduced_V_(t, 0));
     for (int i = 0; i < rank_; ++i) h += R_(basics_[index(i)]) * follow[i] * follow_(t, i);
-    factor_(s, t) = h;
+    hessian_(s, t) = h;
   }
-  const double diagonal = factor_(s, s) += R_(variable);
+  hessian_(s, s) += R_(variable);
+  return factorise_row(s);
+}
+
+/// Row s of the reduced Hessian's factor.
+QuadraticProgram::Curvature QuadraticProgram::factorise_row(int s) noexcept {
+  std::copy_n(&hessian_(s, 0), s + 1, &factor_(s, 0));
+  const double diagonal = hessian_(s, s);
   const double pivot = eliminate_row(factor_, s);
   const double least = curvature_tolerance * std::max(diagonal, std::numeric_limits<double>::min());
   factor_(s, s) = std::sqrt(std::max(pivot, least));
   return {diagonal, pivot};
 }
 
-/// All rows anew. Without the variable that left, the others have curvature as before.
+/// All rows anew, over another basis.
 void QuadraticProgram::reduce() noexcept {
   for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) add_superbasic(s);
   curved_ = true;
@@ -365,12 +377,26 @@ void QuadraticProgram::replace_basic(int leaving) noexcept {
   const int entering = superbasics_[best];
   basics_[static_cast<std::size_t>(position)] = entering;
   place_[index(entering)] = Place::basic;
-  superbasics_[best] = leaving;  // park() takes it out
+  place_[index(leaving)] = Place::parked;
+  superbasics_.erase(superbasics_.begin() + static_cast<std::ptrdiff_t>(best));
 }
 
+/// A superbasic variable parks: without it the others have curvature as before. The rows of those that joined
+/// after it move up, and their part of the factor is made anew.
 void QuadraticProgram::park(int variable) noexcept {
   place_[index(variable)] = Place::parked;
-  superbasics_.erase(std::find(superbasics_.begin(), superbasics_.end(), variable));
+  const auto place = std::find(superbasics_.begin(), superbasics_.end(), variable);
+  const int gap = static_cast<int>(place - superbasics_.begin());
+  superbasics_.erase(place);
+  for (int s = gap; s < static_cast<int>(superbasics_.size()); ++s) {
+    std::copy_n(&reduced_V_(s + 1, 0), curvature_rows_, &reduced_V_(s, 0));
+    std::copy_n(&follow_(s + 1, 0), rank_, &follow_(s, 0));
+    const double* const below = &hessian_(s + 1, 0);
+    std::copy_n(below, gap, &hessian_(s, 0));
+    std::copy_n(below + gap + 1, s + 1 - gap, &hessian_(s, gap));
+    factorise_row(s);
+  }
+  curved_ = true;
 }
 
 }  // namespace zwang::solver

@@ -63,6 +63,7 @@ class QuadraticProgram {
     double left = 0.0;  ///< of it, what the superbasic variables before leave
   };
   Curvature add_superbasic(int s) noexcept;
+  Curvature factorise_row(int s) noexcept;
   void reduce() noexcept;
   void newton_step() noexcept;
   void flat_line() noexcept;
@@ -80,11 +81,13 @@ class QuadraticProgram {
   RowMajorMatrix inverse_basis_;  ///< rank x rank
   RowMajorMatrix follow_;         ///< how the basic variables follow, a row a superbasic one
   RowMajorMatrix reduced_V_;      ///< a row a superbasic variable
-  RowMajorMatrix factor_;         ///< Cholesky factor of the reduced Hessian
+  RowMajorMatrix hessian_;        ///< the reduced Hessian, lower triangle
+  RowMajorMatrix factor_;         ///< its Cholesky factor
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
   std::vector<Place> place_;
   std::vector<char> stuck_;
   std::vector<int> basics_, superbasics_, rows_;
+  double largest_g_ = 0.0;
   double tolerance_ = 0.0;
 };
 

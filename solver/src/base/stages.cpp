@@ -389,7 +389,7 @@ bool BoundedProblem::torques_for(const Vector& p) noexcept {
   solve_lower(gram_, dimension_, solved_.data());
   solve_upper(gram_, dimension_, solved_.data());
   for (int j = 0; j < motors_; ++j) {
-    const double torque = dot(dimension_, &T_(j, 0), solved_.data());
+    const double torque = dot(motor_extents_[static_cast<std::size_t>(j)], &T_(j, 0), solved_.data());
     const double slack = rounding * (tau_hi_(j) - tau_lo_(j));
     const double room = std::isfinite(slack) ? slack : 0.0;
     if (torque < tau_lo_(j) - room || torque > tau_hi_(j) + room) return false;

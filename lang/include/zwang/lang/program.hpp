@@ -61,9 +61,10 @@ enum class SignalType { boolean, number, pose, wrench };
 struct Signal {
   std::string name;
   SignalType type = SignalType::boolean;
-  double unit_scale = 1.0;  ///< SI value of one unit of a number signal
-  int in = 0;               ///< frame that a pose or a wrench is seen from
-  Value stale_after;        ///< [s] the age at which it counts as invalid
+  double unit_scale = 1.0;      ///< SI value of one unit of a number signal
+  bool measures_force = false;  ///< a number signal whose unit is that of a force
+  int in = 0;                   ///< frame that a pose or a wrench is seen from
+  Value stale_after;            ///< [s] the age at which it counts as invalid
   Span span;
 };
 
@@ -129,15 +130,16 @@ struct Group {
 };
 
 enum class Op {
-  constant,    ///< `number`
-  parameter,   ///< `index`
-  elapsed,     ///< [s] since the task was entered
-  coordinate,  ///< `index` group, `axis` index into Group::axes, `what`
-  speed,       ///< of the frame `index` [m/s]
-  moved,       ///< length of the path of the frame `index` since the task was entered [m]
-  signal,      ///< `index`: a number in SI, or true and false
-  valid,       ///< whether the signal `index` is fresh
-  feature,     ///< `index`
+  constant,         ///< `number`
+  parameter,        ///< `index`
+  elapsed,          ///< [s] since the task was entered
+  coordinate,       ///< `index` group, `axis` index into Group::axes, `what`
+  speed,            ///< of the frame `index` [m/s]
+  moved,            ///< length of the path of the frame `index` since the task was entered [m]
+  signal,           ///< `index`: a number in SI, or true and false
+  valid,            ///< whether the signal `index` is fresh
+  feature,          ///< `index`
+  estimated_force,  ///< on the base at its origin along its axis `axis`: 0 x, 1 y [N], 2 rz [N m]
   abs,
   negate,
   add,

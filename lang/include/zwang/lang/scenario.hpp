@@ -52,9 +52,20 @@ struct Expectation {
   Span span;
 };
 
-/// What the plant measures, as expectations call it. First come `truth_base_count` of the base, then
+/// What the plant measures, as expectations call it, and when the run told what. First come
+/// `truth_base_count` of the base, then
 /// `truth_object_count` of each object, in the order of these enumerations.
-enum TruthOfBase { truth_x, truth_y, truth_yaw, truth_speed, truth_turn, truth_torque, truth_base_count };
+enum TruthOfBase {
+  truth_x,
+  truth_y,
+  truth_yaw,
+  truth_speed,
+  truth_turn,
+  truth_torque,
+  run_stopped,  ///< [s] when the protective stop latched
+  run_slipped,  ///< [s] when slip was told first
+  truth_base_count
+};
 enum TruthOfObject {
   truth_force,
   truth_peak,

@@ -21,6 +21,7 @@ struct Column {
   std::string unit;                ///< empty for pure numbers and words
   std::vector<std::string> words;  ///< when not empty, the value is an index into it
   lang::Span span = {};            ///< the words of the author that it comes from
+  bool is_input = false;           ///< for a replay only: left out of the CSV
 };
 
 /// What a log holds beside its records: enough to run the same thing again.

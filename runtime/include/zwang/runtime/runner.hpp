@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "zwang/lang/program.hpp"
+#include "zwang/runtime/event.hpp"
 #include "zwang/runtime/plant.hpp"
 #include "zwang/runtime/recorder.hpp"
 #include "zwang/runtime/safety_guard.hpp"
@@ -85,6 +86,12 @@ class Runner {
 
   const std::vector<Transition>& transitions() const noexcept;  ///< the first 1024
   std::uint64_t transition_count() const noexcept;
+  const std::vector<Event>& events() const noexcept;  ///< the first 1024
+  std::uint64_t event_count() const noexcept;
+  std::string event_signal(const Event& event) const;  ///< its name, "front_left_wheel.tau". Allocates.
+  /// An estimate, from joints and torques alone, of what the world presses on the base with: x, y [N] and rz
+  /// [N m] at its origin, in its axes. Low-passed with 20 ms.
+  solver::Vector3 estimated_force() const noexcept;
   /// Every limit that was in force, in the order of the files. Allocates.
   std::vector<LimitReport> limits() const;
   /// The row that fell farthest short in the last step because of others, if any. Allocates.

@@ -4,9 +4,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "zwang/lang/robot.hpp"
+#include "zwang/runtime/event.hpp"
 #include "zwang/runtime/plant.hpp"
 
 namespace zwang::runtime {
@@ -18,7 +20,21 @@ enum class SampleStatus {
 };
 const char* to_string(SampleStatus status) noexcept;
 
-enum class StopReason { none, bad_sample, lost_ticks, frozen, bad_torque, solver, plant, requested };
+/// The same values as EventCode's.
+enum class StopReason {
+  none,
+  bad_sample,
+  lost_ticks,
+  frozen,
+  bad_torque,
+  solver,
+  plant,
+  requested,
+  watchdog,
+  torque_lost,
+  torque_stuck,
+  torque_flipped,
+};
 const char* to_string(StopReason reason) noexcept;
 
 enum class GuardStatus {
@@ -47,11 +63,16 @@ struct GuardCounters {
   std::uint64_t slewed = 0;
 };
 
+class ArmHold;
+
 /// Does not allocate, lock, throw or print after construction.
 class SafetyGuard {
  public:
   /// Throws std::invalid_argument on settings that are not positive.
   explicit SafetyGuard(const lang::Robot& robot, const GuardSettings& settings = {});
+  ~SafetyGuard();
+  SafetyGuard(SafetyGuard&&) noexcept;
+  SafetyGuard& operator=(SafetyGuard&&) noexcept;
 
   /// Every sample comes through here first. Numbers that are not finite latch the stop at once, and so do
   /// `max_lost_ticks` without a good sample, or with samples that say to move and stand where the last one
@@ -59,23 +80,31 @@ class SafetyGuard {
   SampleStatus admit(const Sensed& sensed) noexcept;
 
   /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew;
-  /// the brake's when the stop is latched, and none on a frozen sample. `tau` keeps its size. Call it when
-  /// `admit` said good.
+  /// the brake's when the stop is latched, and none on a frozen sample; an arm is held where it was. `tau`
+  /// keeps its size. Call it when `admit` said good.
   GuardStatus output(const Sensed& sensed, const Eigen::VectorXd& wanted, Eigen::VectorXd& tau) noexcept;
-  /// The torques to send when `admit` refused the sample: the last ones, or none when the stop is latched.
+  /// The torques to send when `admit` refused the sample: the last ones, or when the stop is latched none but
+  /// those that bear an arm.
   GuardStatus output_blind(Eigen::VectorXd& tau) noexcept;
 
-  /// Latches the protective stop. The first reason is kept.
-  void stop(StopReason reason) noexcept;
+  /// Latches the protective stop. The first reason is kept. What told it, and what that read, is for the
+  /// event.
+  void stop(StopReason reason, int signal = -1, double value = 0.0) noexcept;
   bool stopped() const noexcept { return reason_ != StopReason::none; }
   StopReason reason() const noexcept { return reason_; }
   /// Releases the stop; the clock starts anew.
   void reset() noexcept;
 
   const GuardCounters& counters() const noexcept { return counters_; }
+  /// What latched the stop; its code is `none` while nothing did.
+  const Event& stop_event() const noexcept { return stop_event_; }
+  /// What was wrong with the sample that `admit` refused last.
+  const Event& refusal() const noexcept { return refusal_; }
 
  private:
+  Event find_bad_entry(const Sensed& sensed) const noexcept;
   void brake(const Sensed& sensed) noexcept;
+  void clamp_next() noexcept;
   void watch_for_a_frozen_state(const solver::State& state) noexcept;
   GuardStatus send(Eigen::VectorXd& tau, GuardStatus status) noexcept;
 
@@ -86,11 +115,14 @@ class SafetyGuard {
   Eigen::VectorXd next_;
   Eigen::VectorXd last_q_;  ///< of the last good sample, as is the position
   solver::Vector3 last_position_ = solver::Vector3::Zero();
+  std::unique_ptr<ArmHold> arm_;
   int frozen_ticks_ = 0;
   double last_time_ = 0.0;
   bool has_time_ = false;
   int lost_ticks_ = 0;
   StopReason reason_ = StopReason::none;
+  Event stop_event_;
+  Event refusal_;
   GuardCounters counters_;
 };
 

@@ -94,6 +94,9 @@ class Scheduler {
   /// Frames, guards, at most one transition, `set`, `here`, and the constraints in force now. The sample must
   /// be finite and later than the last one.
   void tick(const Sensed& sensed) noexcept;
+  /// What the world presses on the base with, as the conditions of the next tick know it: x, y [N] and rz [N
+  /// m] at its origin and in its axes. NaN: unknown.
+  void estimate_force(const solver::Vector3& force) noexcept;
   /// What the solver made of the rows of `constraints()`: the guards of the next tick read it.
   void observe(const solver::Solution& solution) noexcept;
 

@@ -15,7 +15,8 @@ class Watchdog {
   Watchdog(double limit, std::function<void()> on_expiry);
   ~Watchdog();
 
-  /// Does not allocate, lock, throw or print.
+  /// Too late expires it as well: a thread that slept through the limit need not outrun the watchdog's. Does
+  /// not allocate, lock, throw or print.
   void feed() noexcept;
   /// Latched.
   bool expired() const noexcept;

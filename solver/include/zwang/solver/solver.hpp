@@ -53,9 +53,20 @@ struct Solution {
   int iterations = 0;                      ///< of the active set, all stages
 };
 
+/// The motions that the ground leaves, in coordinates y in which the robot is a unit mass: a generalised
+/// force p accelerates it with ydd = p, a motor's torque tau is the force p = T' tau.
+struct FreeMotions {
+  explicit FreeMotions(const Model& model);
+
+  int count = 0;          ///< the mobility; of each matrix the first columns
+  Eigen::MatrixXd joint;  ///< T: acceleration of the joints = T ydd
+  Eigen::MatrixXd base;   ///< B: of the base along its own x, y and about its own z = B ydd
+};
+
 struct Settings {
   int row_capacity = 64;
   int max_iterations = 400;  ///< hard cap of the active set, of each stage
+  bool base_motion = false;  ///< FreeMotions::base is wanted
 };
 
 /// Solves the bounded problem for one model. Throws std::invalid_argument from its constructor only.
@@ -75,6 +86,10 @@ class Solver {
   /// bound. Returns how many; 0 for a row that got what it asked. Each has at least 1 % of the strongest
   /// one's say. Does not allocate, lock, throw or print.
   int opposing(int row, std::span<int> out) const noexcept;
+
+  /// At the last solved problem; before the next `project_velocity`. `base` is 0 unless the settings ask for
+  /// it. Does not allocate, lock, throw or print.
+  void free_motions(FreeMotions& out) const noexcept;
 
   /// Takes out of the measured velocities what the ground does not allow (in the metric of kinetic energy).
   /// Do this first in every period: what is left is the robot's odometry, and slip noise never reaches the

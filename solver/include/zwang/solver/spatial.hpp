@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace zwang::solver {
 
@@ -34,6 +35,11 @@ struct Pose {
   Vector3 operator*(const Vector3& point) const { return rotation * point + position; }
   Pose inverse() const { return {rotation.transpose(), -(rotation.transpose() * position)}; }
 };
+
+/// Yaw of a rotation, about the fixed z. [rad]
+inline double yaw_of(const Matrix3& rotation) {
+  return std::atan2(rotation(1, 0), rotation(0, 0));
+}
 
 /// Rotation by roll, pitch, yaw about the fixed axes x, y, z, as in URDF: Rz(yaw) Ry(pitch) Rx(roll). [rad]
 inline Matrix3 rotation_from_rpy(double roll, double pitch, double yaw) {

@@ -1,0 +1,79 @@
+#include "zwang/runtime/replay.hpp"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "output.hpp"
+#include "verbs.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string exactly(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+double period_of(const runtime::LogContext& context) {
+  const auto period = context.facts.find("period [s]");
+  if (period == context.facts.end()) throw Impossible("the log does not say its control period");
+  return std::stod(period->second);
+}
+
+ordered_json as_json(const std::string& file, const runtime::ReplayResult& result, bool whole,
+                     const std::string& version) {
+  ordered_json first;
+  if (result.first) {
+    first = {{"time", result.first->time},
+             {"column", result.first->column},
+             {"logged", result.first->logged},
+             {"computed", result.first->computed}};
+  }
+  return {{"file", file},   {"records", result.records}, {"equal", result.equal}, {"first_difference", first},
+          {"whole", whole}, {"zwang", version}};
+}
+
+std::string as_text(const std::string& file, const runtime::ReplayResult& result, bool whole,
+                    const std::string& version) {
+  std::ostringstream out;
+  out << file << ": " << result.records << " records, " << result.equal
+      << " with the same torques to the last bit";
+  out << (whole ? "\n" : "; the log is damaged\n");
+  if (version != ZWANG_VERSION) out << "  logged by zwang " << version << ", replayed by " ZWANG_VERSION "\n";
+  if (const auto& d = result.first) {
+    out << "  first difference at " << with_unit(d->time, "s") << ": " << d->column << " was "
+        << exactly(d->logged) << ", is " << exactly(d->computed) << "\n";
+  }
+  return out.str();
+}
+
+}  // namespace
+
+int replay(const ReplayArguments& arguments) {
+  require_file(arguments.file);
+  const runtime::LogContents log = runtime::read_log(arguments.file, [](double, std::string_view) {});
+  lang::Diagnostics diagnostics;
+  const std::optional<lang::Program> program = runtime::logged_program(log.context, diagnostics);
+  if (!program) {
+    std::ostringstream text;
+    lang::render_human(diagnostics, text);
+    throw Impossible("the logged files do not load any more:\n" + text.str());
+  }
+  const runtime::ReplayResult result = runtime::replay(arguments.file, *program, period_of(log.context));
+  const bool whole = log.closed && log.damage.empty();
+  const auto version = log.context.facts.find("zwang");
+  const std::string by = version == log.context.facts.end() ? "?" : version->second;
+  print(arguments.format == Format::json
+            ? as_json(arguments.file, result, whole, by)
+                      .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+                  "\n"
+            : as_text(arguments.file, result, whole, by));
+  return whole && result.records > 0 && result.equal == result.records ? exit_good : exit_bad;
+}
+
+}  // namespace zwang::cli

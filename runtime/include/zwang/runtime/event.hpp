@@ -1,0 +1,60 @@
+/// What went wrong, or nearly: each with the time, the signal that told it, and what that read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "zwang/solver/model.hpp"
+
+namespace zwang::runtime {
+
+enum class EventCode {
+  // Those that latch the protective stop, in the order of StopReason.
+  none,
+  bad_sample,
+  lost_ticks,
+  frozen,
+  bad_torque,
+  solver,
+  plant,
+  requested,
+  watchdog,
+  torque_lost,
+  torque_stuck,
+  torque_flipped,
+  // Those that are only told.
+  clock_refused,
+  sensor_bias,  ///< a force is measured before anything has moved
+  slip,
+};
+const char* to_string(EventCode code) noexcept;
+
+struct Event {
+  EventCode code = EventCode::none;
+  double time = 0.0;   ///< [s] of the sample
+  int signal = -1;     ///< index into `event_signals`
+  double value = 0.0;  ///< what the signal read, or what is wrong with it; SI
+};
+
+/// What an event's `signal` can be: `time`, `base.pose`, `base.twist`, then q, qd, tau_ff and tau of each
+/// joint, the external wrench of each body, and what the task file measures.
+std::vector<std::string> event_signals(const solver::Model& model, const std::vector<std::string>& measured);
+
+/// Indices into `event_signals`.
+namespace event_signal {
+inline constexpr int time = 0;
+inline constexpr int base_pose = 1;
+inline constexpr int base_twist = 2;
+enum OfJoint { q, qd, tau_ff, tau, of_joint_count };
+inline constexpr int of_joint(int joint, OfJoint what) {
+  return base_twist + 1 + of_joint_count * joint + what;
+}
+inline constexpr int f_ext(int joints, int body) {
+  return of_joint(joints, q) + body;
+}
+inline constexpr int measured(int joints, int signal) {
+  return f_ext(joints, joints + 1) + signal;
+}
+}  // namespace event_signal
+
+}  // namespace zwang::runtime

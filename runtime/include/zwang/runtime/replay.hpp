@@ -1,0 +1,37 @@
+/// Computes the torques of a logged run again, from what the log says was sensed.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/log_reader.hpp"
+
+namespace zwang::runtime {
+
+/// The program of the run: the files, as the log holds them, and the parameters. On an error nullopt, and the
+/// diagnostics say why. Throws std::runtime_error when the log says too little. Writes the files to a
+/// temporary folder, which is gone when it returns.
+std::optional<lang::Program> logged_program(const LogContext& context, lang::Diagnostics& diagnostics);
+
+struct ReplayDifference {
+  double time = 0.0;  ///< [s]
+  std::string column;
+  double logged = 0.0;
+  double computed = 0.0;
+};
+
+struct ReplayResult {
+  std::uint64_t records = 0;  ///< that were compared
+  std::uint64_t equal = 0;    ///< of them: every torque to the last bit
+  std::optional<ReplayDifference> first;
+};
+
+/// Every torque that was sent, compared bit by bit. Stops that came from outside are taken from the log's
+/// events; parameters that a host set during the run are not in it. Throws std::runtime_error when the log
+/// cannot be opened, or does not hold what was sensed.
+ReplayResult replay(const std::filesystem::path& log, const lang::Program& program, double period);
+
+}  // namespace zwang::runtime

@@ -1,0 +1,146 @@
+#include "estimate/disturbance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimate/friction.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+/// Of the trace: what keeps a matrix that lacks a direction invertible, and the answer along it small.
+constexpr double damping = 1e-9;
+
+std::vector<bool> carries_wheel(const solver::Model& model) {
+  std::vector<bool> carries(model.bodies().size(), false);
+  for (const solver::Wheel& wheel : model.wheels()) {
+    for (int b = wheel.body; b >= 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) {
+      carries[static_cast<std::size_t>(b)] = true;
+    }
+  }
+  return carries;
+}
+
+}  // namespace
+
+DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
+    : friction_(robot.friction), motions_(robot.model) {
+  const solver::Model& model = robot.model;
+  const int joints = model.joint_count();
+  friction_.resize(static_cast<std::size_t>(joints));
+  const std::vector<bool> carries = carries_wheel(model);
+  for (int j = 0; j < joints; ++j) {
+    const bool slides = model.joint(j).type == solver::JointType::prismatic;
+    taper_.push_back(slides ? FrictionFeedForward::slide_taper : FrictionFeedForward::turn_taper);
+    const bool turns_wheel = std::any_of(model.wheels().begin(), model.wheels().end(),
+                                         [j](const solver::Wheel& wheel) { return wheel.body == j + 1; });
+    if (turns_wheel || model.joint(j).actuated) watched_.push_back(j);
+    if (model.joint(j).actuated && !carries[static_cast<std::size_t>(j) + 1]) arm_.push_back(j);
+  }
+  qd_ = expected_ = sent_ = torque_ = Eigen::VectorXd::Zero(joints);
+  excess_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(watched_.size()));
+  const int most = joints + 6;
+  p_ = right_ = w_ = Eigen::VectorXd::Zero(most);
+  gram_ = Eigen::MatrixXd::Zero(most, most);
+  C_ = Eigen::MatrixXd::Zero(3 + static_cast<Eigen::Index>(arm_.size()), most);
+}
+
+double DisturbanceObserver::friction(int joint, double rate) const noexcept {
+  const lang::JointFriction& f = friction_[static_cast<std::size_t>(joint)];
+  if (f.coulomb <= 0.0 && f.viscous <= 0.0) return 0.0;
+  return f.coulomb * rate / std::hypot(rate, taper_[static_cast<std::size_t>(joint)]) + f.viscous * rate;
+}
+
+void DisturbanceObserver::expect(const solver::Solver& solver, const solver::Solution& solution,
+                                 const solver::State& state, const Eigen::VectorXd& sent,
+                                 double time) noexcept {
+  solver.free_motions(motions_);
+  const int m = motions_.count;
+  sent_ = sent;
+  // p that the solver's torques lack of those that act
+  right_.head(m).setZero();
+  for (Eigen::Index j = 0; j < sent.size(); ++j) {
+    const double more = sent(j) - solution.tau(j) - friction(static_cast<int>(j), state.qd(j));
+    if (more != 0.0) right_.head(m) += more * motions_.joint.row(j).head(m).transpose();
+  }
+  for (const int j : watched_)
+    expected_(j) = solution.qdd(j) + motions_.joint.row(j).head(m).dot(right_.head(m));
+  qd_ = state.qd;
+  time_ = time;
+  expects_ = true;
+}
+
+bool DisturbanceObserver::compare(const solver::State& state, double time) noexcept {
+  const double dt = time - time_;
+  if (!expects_ || !(dt > 0.0) || dt > longest_step) return expects_ = false;
+  expects_ = false;
+  const double part = 1.0 - std::exp(-dt / quick);
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const int j = watched_[i];
+    const double e = (state.qd(j) - qd_(j)) / dt - expected_(j);
+    double& excess = excess_(static_cast<Eigen::Index>(i));
+    excess += part * (e - excess);
+    torque_(j) += part * (sent_(j) - torque_(j));
+  }
+  least_squares();
+  const solver::Vector3 w = on_base();
+  if (!w.allFinite()) return false;
+  filtered_ += (1.0 - std::exp(-dt / (time_constant - quick))) * (w - filtered_);
+  return true;
+}
+
+/// (T'T) p = T'e over the joints that are watched.
+void DisturbanceObserver::least_squares() noexcept {
+  const int m = motions_.count;
+  gram_.topLeftCorner(m, m).setZero();
+  right_.head(m).setZero();
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const auto row = motions_.joint.row(watched_[i]).head(m);
+    for (int a = 0; a < m; ++a) {
+      right_(a) += row(a) * excess_(static_cast<Eigen::Index>(i));
+      for (int b = 0; b <= a; ++b) gram_(a, b) += row(a) * row(b);
+    }
+  }
+  solve(m, right_, p_);
+}
+
+/// w = (C C')^-1 C p.
+solver::Vector3 DisturbanceObserver::on_base() noexcept {
+  const int m = motions_.count;
+  const int n = static_cast<int>(C_.rows());
+  C_.topLeftCorner(3, m) = motions_.base.leftCols(m);
+  for (std::size_t i = 0; i < arm_.size(); ++i) {
+    C_.row(3 + static_cast<Eigen::Index>(i)).head(m) = motions_.joint.row(arm_[i]).head(m);
+  }
+  for (int a = 0; a < n; ++a) {
+    right_(a) = C_.row(a).head(m).dot(p_.head(m));
+    for (int b = 0; b <= a; ++b) gram_(a, b) = C_.row(a).head(m).dot(C_.row(b).head(m));
+  }
+  solve(n, right_, w_);
+  return w_.head<3>();
+}
+
+/// By Cholesky, in place of `gram_`: small, and nothing to pivot for.
+void DisturbanceObserver::solve(int size, const Eigen::VectorXd& right, Eigen::VectorXd& out) noexcept {
+  double trace = 0.0;
+  for (int a = 0; a < size; ++a) trace += gram_(a, a);
+  for (int a = 0; a < size; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      double rest = gram_(a, b) + (a == b ? damping * trace : 0.0);
+      for (int c = 0; c < b; ++c) rest -= gram_(a, c) * gram_(b, c);
+      gram_(a, b) = a == b ? std::sqrt(rest) : rest / gram_(b, b);
+    }
+  }
+  for (int a = 0; a < size; ++a) {
+    double rest = right(a);
+    for (int c = 0; c < a; ++c) rest -= gram_(a, c) * out(c);
+    out(a) = rest / gram_(a, a);
+  }
+  for (int a = size - 1; a >= 0; --a) {
+    for (int c = a + 1; c < size; ++c) out(a) -= gram_(c, a) * out(c);
+    out(a) /= gram_(a, a);
+  }
+}
+
+}  // namespace zwang::runtime

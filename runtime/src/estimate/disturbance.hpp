@@ -1,0 +1,65 @@
+/// What the world does to the robot beyond what is commanded: a generalised-momentum observer.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+#include "zwang/solver/solver.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::runtime {
+
+/// In the coordinates y of solver::FreeMotions the robot is a unit mass, so that its generalised momentum is
+/// yd, and a force from outside is what is left of
+///   p = d(yd)/dt - ydd_model - T' (tau_sent - tau_model - friction).
+/// Joints are all that it looks at: e = T p + noise is the difference between the joints' acceleration and
+/// the model's, p the one of least squares. On the base and on the joints of an arm that is the force
+///   C' w = p,   C = [B; T_arm],
+/// low-passed with the observer's time constant: r' = (w - r) / T_r. A force at the gripper counts on the
+/// base, too. Where fewer motions are free than w has entries, what the ground bears stays 0. Does not
+/// allocate, lock, throw or print after construction.
+class DisturbanceObserver {
+ public:
+  explicit DisturbanceObserver(const lang::Robot& robot);
+
+  /// Forgets what was commanded: the next sample is compared with nothing.
+  void pause() noexcept { expects_ = false; }
+  /// What the model makes of the torques that were sent for the state.
+  void expect(const solver::Solver& solver, const solver::Solution& solution, const solver::State& state,
+              const Eigen::VectorXd& sent, double time) noexcept;
+  /// What came of it. False when there is nothing to compare with.
+  bool compare(const solver::State& state, double time) noexcept;
+
+  /// On the base at its origin, in its axes: x, y [N] and rz [N m]; low-passed.
+  const solver::Vector3& base_force() const noexcept { return filtered_; }
+  /// p of the last comparison, low-passed with `quick`; `motions().count` entries.
+  const Eigen::VectorXd& force() const noexcept { return p_; }
+  const solver::FreeMotions& motions() const noexcept { return motions_; }
+  /// Low-passed with `quick`, as p is: what the motors were told [N m] or [N].
+  const Eigen::VectorXd& torque() const noexcept { return torque_; }
+
+  static constexpr double time_constant = 0.02;  ///< [s] T_r
+  static constexpr double quick = 0.005;         ///< [s] before the faults of motors are looked for
+  static constexpr double longest_step = 0.005;  ///< [s] between samples that are compared
+
+ private:
+  double friction(int joint, double rate) const noexcept;
+  void least_squares() noexcept;
+  solver::Vector3 on_base() noexcept;
+  void solve(int size, const Eigen::VectorXd& right, Eigen::VectorXd& out) noexcept;
+
+  std::vector<lang::JointFriction> friction_;
+  std::vector<double> taper_;
+  std::vector<int> watched_;  ///< joints that turn a wheel or have a motor
+  std::vector<int> arm_;      ///< joints with a motor that carry no wheel
+  solver::FreeMotions motions_;
+  Eigen::VectorXd qd_, expected_, sent_, torque_, excess_, p_;
+  Eigen::MatrixXd C_, gram_;
+  Eigen::VectorXd right_, w_;
+  solver::Vector3 filtered_ = solver::Vector3::Zero();
+  double time_ = 0.0;
+  bool expects_ = false;
+};
+
+}  // namespace zwang::runtime

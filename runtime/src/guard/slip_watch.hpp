@@ -1,0 +1,49 @@
+/// Tells when wheels slide that should roll.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "zwang/runtime/event.hpp"
+#include "zwang/solver/model.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::runtime {
+
+/// What the ground does not allow of the measured velocities is slip: of a wheel, radius times the rate that
+/// projecting the velocities takes away from it, low-passed. Where the base is measured all wheels may slip
+/// at once; where it is reckoned from the wheels, only what they contradict each other by is seen. Does not
+/// allocate, lock, throw or print after construction.
+class SlipWatch {
+ public:
+  explicit SlipWatch(const solver::Model& model);
+
+  /// `measured` and `allowed` are the same sample before and after the projection. An event when slip begins,
+  /// and not again before it has ended.
+  std::optional<Event> look(const solver::State& measured, const solver::State& allowed,
+                            double time) noexcept;
+  bool slips() const noexcept { return slips_; }
+  /// Perhaps: half the speed that is told. What needs wheels that hold is not to be believed.
+  bool doubtful() const noexcept { return speed_ > 0.5 * threshold; }
+  double speed() const noexcept {
+    return std::max(0.0, speed_);
+  }  ///< [m/s] beyond `share`, of the worst wheel
+
+  static constexpr double threshold = 0.02;      ///< [m/s]
+  static constexpr double share = 0.1;           ///< and of the wheel's own speed at its rim
+  static constexpr double time_constant = 0.05;  ///< [s]
+
+ private:
+  struct Wheel {
+    int joint = 0;
+    double radius = 0.0;
+    double slip = 0.0;  ///< [m/s]
+  };
+  std::vector<Wheel> wheels_;
+  double speed_ = 0.0;
+  double last_time_ = 0.0;
+  bool slips_ = false;
+};
+
+}  // namespace zwang::runtime

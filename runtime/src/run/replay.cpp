@@ -1,0 +1,145 @@
+#include "zwang/runtime/replay.hpp"
+
+#include <unistd.h>
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "run/sensed_columns.hpp"
+#include "zwang/runtime/runner.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+/// A folder of one's own.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "zwang_replay_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("replay: cannot make a temporary folder");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  /// Where a file of the run stands here, whatever it was called there: `..` leads out of nothing.
+  fs::path of(const std::string& file) const {
+    const fs::path path(file);
+    if (path.is_absolute()) return (path_ / "absolute" / path.relative_path()).lexically_normal();
+    const fs::path inside = (path_ / "a/b/c/d/e/f/g/h" / path).lexically_normal();
+    const std::string top = path_.string() + "/";
+    if (inside.string().compare(0, top.size(), top) != 0)
+      throw std::runtime_error("replay: `" + file + "` leads too far up");
+    return inside;
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+double number_of(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw std::runtime_error("replay: `" + text + "` in the log is not a number");
+  return value;
+}
+
+double value_of(const json& record, const std::string& column) {
+  const auto found = record.find(column);
+  if (found == record.end()) return std::numeric_limits<double>::quiet_NaN();
+  return found->is_number() ? found->get<double>() : std::numeric_limits<double>::infinity();
+}
+
+/// A stop that the runner did not come to by itself.
+StopReason outside_stop(const json& record) {
+  const auto event = record.find("event");
+  if (event == record.end() || !event->is_string()) return StopReason::none;
+  for (const EventCode code : {EventCode::requested, EventCode::watchdog, EventCode::plant}) {
+    if (*event == to_string(code)) return static_cast<StopReason>(code);
+  }
+  return StopReason::none;
+}
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+}  // namespace
+
+std::optional<lang::Program> logged_program(const LogContext& context, lang::Diagnostics& diagnostics) {
+  const auto task = context.facts.find("task");
+  if (task == context.facts.end() || context.sources.empty())
+    throw std::runtime_error("replay: the log does not hold the files of the run");
+  const TemporaryFolder folder;
+  std::ofstream(folder.path() / ".zwang-root");
+  for (const lang::Source& source : context.sources) {
+    const fs::path path = folder.of(source.path);
+    fs::create_directories(path.parent_path());
+    std::ofstream out(path, std::ios::binary);
+    out << source.text;
+    if (!out) throw std::runtime_error("replay: cannot write " + path.string());
+  }
+  lang::LoadOptions options;
+  options.root = folder.path();
+  if (const auto robot = context.facts.find("robot"); robot != context.facts.end())
+    options.robot = folder.of(robot->second);
+  if (const auto scene = context.facts.find("scene"); scene != context.facts.end())
+    options.scene = folder.of(scene->second);
+  std::optional<lang::Program> program = lang::load(folder.of(task->second), options, diagnostics);
+  if (!program) return program;
+  for (lang::Parameter& parameter : program->parameters) {
+    const auto set = context.facts.find("params." + parameter.name);
+    if (set != context.facts.end()) parameter.value = number_of(set->second);
+  }
+  return program;
+}
+
+ReplayResult replay(const fs::path& log, const lang::Program& program, double period) {
+  const solver::Model& model = program.robot.model;
+  const SensedColumns inputs(model, program.signals);
+  Runner runner(program, {.period = period});
+  Sensed sensed(model, program.signals.size());
+  std::vector<double> values(inputs.columns().size());
+  std::vector<std::string> torques;
+  for (int j = 0; j < model.joint_count(); ++j) torques.push_back(model.joint(j).name + ".tau");
+  ReplayResult result;
+  const auto compare = [&](double time, std::string_view text) {
+    const json record = json::parse(text, nullptr, false);
+    if (!record.is_object()) throw std::runtime_error("replay: a record is no JSON object");
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(record, inputs.columns()[i].name);
+    inputs.read(values, sensed);
+    if (const StopReason reason = outside_stop(record); reason != StopReason::none)
+      runner.guard().stop(reason);
+    const Eigen::VectorXd& tau = runner.step(sensed);
+    bool equal = true;
+    for (std::size_t j = 0; j < torques.size(); ++j) {
+      const double logged = value_of(record, torques[j]);
+      const double computed = tau(static_cast<Eigen::Index>(j));
+      if (same_bits(logged, computed)) continue;
+      equal = false;
+      if (!result.first) result.first = ReplayDifference{time, torques[j], logged, computed};
+    }
+    ++result.records;
+    if (equal) ++result.equal;
+  };
+  const LogContents contents = read_log(log, compare);
+  if (contents.schema.find("\"sensed.time\"") == std::string::npos)
+    throw std::runtime_error("replay: the log does not hold what was sensed");
+  return result;
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,168 @@
+#include "run/sensed_columns.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace zwang::runtime {
+
+namespace {
+
+constexpr double blank = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_finite = std::numeric_limits<double>::infinity();
+
+constexpr std::initializer_list<const char*> pose_parts = {".xx", ".yx", ".zx", ".xy", ".yy", ".zy",
+                                                           ".xz", ".yz", ".zz", ".x",  ".y",  ".z"};
+constexpr std::initializer_list<const char*> vector_parts = {".rx", ".ry", ".rz", ".x", ".y", ".z"};
+
+/// Puts numbers into columns, one after the other.
+struct Writer {
+  void number(double x) noexcept {
+    double value = x;
+    if (x == 0.0 && !std::signbit(x)) value = blank;
+    if (!std::isfinite(x)) value = not_finite;
+    values[at++] = value;
+  }
+  void flag(bool x) noexcept { number(x ? 1.0 : 0.0); }
+  template <typename T, typename Visit>
+  void maybe(const std::optional<T>& x, std::size_t columns, const Visit& visit) noexcept {
+    flag(x.has_value());
+    if (x) return visit(*x);
+    for (std::size_t i = 0; i < columns; ++i) values[at++] = blank;
+  }
+  std::span<double> values;
+  std::size_t at = 0;
+};
+
+/// Takes them out again.
+struct Reader {
+  void number(double& x) noexcept {
+    const double value = values[at++];
+    x = std::isnan(value) ? 0.0 : std::isinf(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+  }
+  void flag(bool& x) noexcept {
+    double value = 0.0;
+    number(value);
+    x = value != 0.0;
+  }
+  template <typename T, typename Visit>
+  void maybe(std::optional<T>& x, std::size_t columns, const Visit& visit) noexcept {
+    bool has = false;
+    flag(has);
+    x.reset();
+    if (has) return visit(x.emplace());
+    at += columns;
+  }
+  std::span<const double> values;
+  std::size_t at = 0;
+};
+
+template <typename Visitor, typename Values>
+void visit_all(Visitor& v, Values& values) noexcept {
+  for (Eigen::Index i = 0; i < values.size(); ++i) v.number(values(i));
+}
+
+template <typename Visitor, typename Pose>
+void visit_pose(Visitor& v, Pose& pose) noexcept {
+  for (int column = 0; column < 3; ++column) {
+    for (int row = 0; row < 3; ++row) v.number(pose.rotation(row, column));
+  }
+  visit_all(v, pose.position);
+}
+
+template <typename Visitor, typename Vector>
+void visit_vector(Visitor& v, Vector& vector) noexcept {
+  visit_all(v, vector.angular);
+  visit_all(v, vector.linear);
+}
+
+template <typename Visitor, typename Sample>
+void visit_sample(Visitor& v, Sample& sample, lang::SignalType type) noexcept {
+  v.flag(sample.valid);
+  v.number(sample.stamp);
+  switch (type) {
+    case lang::SignalType::boolean:
+      return v.flag(sample.boolean);
+    case lang::SignalType::number:
+      return v.number(sample.number);
+    case lang::SignalType::pose:
+      visit_pose(v, sample.pose);
+      return v.maybe(sample.twist, vector_parts.size(), [&v](auto& twist) { visit_vector(v, twist); });
+    case lang::SignalType::wrench:
+      return visit_vector(v, sample.wrench);
+  }
+}
+
+/// The same order for both ways; `SensedColumns` names it.
+template <typename Visitor, typename Snapshot>
+void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>& types) noexcept {
+  v.number(s.time);
+  visit_all(v, s.state.q);
+  visit_all(v, s.state.qd);
+  visit_all(v, s.state.tau_ff);
+  visit_pose(v, s.state.base_pose);
+  visit_vector(v, s.state.base_twist);
+  for (auto& wrench : s.state.f_ext) visit_vector(v, wrench);
+  v.flag(s.base_measured);
+  v.maybe(s.base_fix, 1 + pose_parts.size(), [&v](auto& fix) {
+    v.number(fix.stamp);
+    visit_pose(v, fix.pose);
+  });
+  for (std::size_t i = 0; i < types.size() && i < s.signals.size(); ++i)
+    visit_sample(v, s.signals[i], types[i]);
+}
+
+}  // namespace
+
+SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang::Signal>& signals) {
+  name("sensed.time", {""});
+  for (const char* what : {".q", ".qd", ".tau_ff"}) {
+    for (int j = 0; j < model.joint_count(); ++j) name("sensed." + model.joint(j).name, {what});
+  }
+  name("sensed.base", pose_parts);
+  name("sensed.base.twist", vector_parts);
+  for (const solver::Body& body : model.bodies()) name("sensed." + body.name + ".f_ext", vector_parts);
+  name("sensed.base.measured", {""});
+  name("sensed.fix", {"", ".stamp"});
+  name("sensed.fix", pose_parts);
+  for (const lang::Signal& signal : signals) {
+    const std::string of = "sensed.signal." + signal.name;
+    types_.push_back(signal.type);
+    name(of, {".valid", ".stamp"});
+    if (signal.type == lang::SignalType::pose) {
+      name(of, pose_parts);
+      name(of + ".twist", {""});
+      name(of + ".twist", vector_parts);
+    } else if (signal.type == lang::SignalType::wrench) {
+      name(of, vector_parts);
+    } else {
+      name(of, {""});
+    }
+  }
+}
+
+void SensedColumns::name(const std::string& of, std::initializer_list<const char*> parts) {
+  for (const char* part : parts) {
+    Column column;
+    column.name = of + part;
+    column.is_input = true;
+    columns_.push_back(std::move(column));
+  }
+}
+
+void SensedColumns::write(const Sensed& sensed, std::span<double> values) const noexcept {
+  const bool sized = sensed.state.q.size() == sensed.state.qd.size() &&
+                     sensed.state.q.size() == sensed.state.tau_ff.size() &&
+                     static_cast<std::size_t>(sensed.state.q.size()) + 1 == sensed.state.f_ext.size();
+  for (double& value : values) value = blank;
+  if (!sized) return;
+  Writer writer{values};
+  visit_snapshot(writer, sensed, types_);
+}
+
+void SensedColumns::read(std::span<const double> values, Sensed& sensed) const noexcept {
+  Reader reader{values};
+  visit_snapshot(reader, sensed, types_);
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,33 @@
+/// A snapshot as columns of the log, with every digit: what a replay needs of a tick.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/plant.hpp"
+#include "zwang/runtime/recorder.hpp"
+
+namespace zwang::runtime {
+
+/// Most entries are 0 on most ticks: those are left blank. What is not finite is written as an infinity, and
+/// read back as NaN.
+class SensedColumns {
+ public:
+  SensedColumns(const solver::Model& model, const std::vector<lang::Signal>& signals);
+
+  const std::vector<Column>& columns() const noexcept { return columns_; }
+  /// As many values as columns. Does not allocate.
+  void write(const Sensed& sensed, std::span<double> values) const noexcept;
+  /// `sensed` as it was sized for the model and the signals.
+  void read(std::span<const double> values, Sensed& sensed) const noexcept;
+
+ private:
+  void name(const std::string& of, std::initializer_list<const char*> parts);
+
+  std::vector<lang::SignalType> types_;
+  std::vector<Column> columns_;
+};
+
+}  // namespace zwang::runtime

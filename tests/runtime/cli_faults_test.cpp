@@ -1,0 +1,157 @@
+// What happens to the program from outside while it runs a task, and what its log is good for afterwards.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "program.hpp"
+
+namespace zwang {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::read;
+using test::Result;
+using Clock = std::chrono::steady_clock;
+
+const std::string specs = std::string(ZWANG_SOURCE_DIR) + "/specs/";
+
+class FromOutside : public test::Program {
+ protected:
+  /// A task that never ends, under way.
+  pid_t start_endless() {
+    write("task.yaml", R"(zwang: 1
+robot: none.yaml
+start: stand
+tasks:
+  stand:
+    constraints: {still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
+    timeout: {after: 100000 s, goto: failed}
+)");
+    const pid_t child =
+        start({"run", (folder_ / "task.yaml").string(), "--robot", specs + "robots/mecanum_base.yaml",
+               "--scene", specs + "scenes/wall.yaml", "--log", "log", "--format", "json"});
+    for (int i = 0; i < 4000 && read(folder_ / "log/log.csv").size() < 100'000; ++i) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    return child;
+  }
+};
+
+TEST_F(FromOutside, ASignalEndsTheRunWithinHalfASecond) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const pid_t child = start_endless();
+    const auto begin = Clock::now();
+    kill(child, signal);
+    const Result r = finish(child);
+    const double took = std::chrono::duration<double>(Clock::now() - begin).count();
+    std::printf("signal %d: stopped, log closed and process gone after %.0f ms\n", signal, 1e3 * took);
+    EXPECT_LE(took, 0.5);
+    const json j = json::parse(r.out);
+    EXPECT_EQ(j["outcome"], "stopped");
+    EXPECT_TRUE(j["log_complete"]);
+    ASSERT_EQ(j["events"].size(), 1u);
+    EXPECT_EQ(j["events"][0]["code"], "requested");
+    const Result info = zwang({"info", "log/log.mcap"});
+    EXPECT_EQ(info.code, 0) << info.out;
+    fs::remove_all(folder_ / "log");
+  }
+}
+
+TEST_F(FromOutside, AThreadThatIsBlockedFor200MillisecondsStops) {
+  const pid_t child = start_endless();
+  kill(child, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  kill(child, SIGCONT);
+  const auto begin = Clock::now();
+  const Result r = finish(child);
+  std::printf("blocked for 200 ms: gone %.0f ms later\n",
+              1e3 * std::chrono::duration<double>(Clock::now() - begin).count());
+  EXPECT_EQ(r.code, 1);
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["outcome"], "stopped");
+  EXPECT_EQ(j["because"], "the control thread was blocked");
+  EXPECT_EQ(j["events"][0]["code"], "watchdog");
+}
+
+TEST_F(FromOutside, AKilledRunLosesAtMost100Milliseconds) {
+  const pid_t child = start_endless();
+  kill(child, SIGKILL);
+  finish(child);
+  const Result info = zwang({"info", "log/log.mcap", "--format", "json"});
+  EXPECT_EQ(info.code, 1);
+  EXPECT_GT(json::parse(info.out)["records"], 0);
+}
+
+TEST_F(FromOutside, AReplayComputesTheSameTorquesToTheLastBit) {
+  for (const std::string scene : {"scenes/wall.yaml", "scenes/wall_far_wheels_only.yaml"}) {
+    fs::remove_all(folder_ / "log");
+    ASSERT_EQ(zwang({"run", specs + "wall_align.yaml", "--scene", specs + scene, "-p", "push=25 N", "--log",
+                     "log", "--quiet"})
+                  .code,
+              0);
+    const Result again = zwang({"replay", "log/log.mcap", "--format", "json"});
+    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    const json j = json::parse(again.out);
+    EXPECT_GT(j["records"], 1000);
+    EXPECT_EQ(j["records"], j["equal"]);
+    EXPECT_TRUE(j["first_difference"].is_null()) << j["first_difference"];
+  }
+}
+
+TEST_F(FromOutside, AReplayOfARunThatWasStoppedIsTheSame) {
+  const pid_t child = start_endless();
+  kill(child, SIGINT);
+  finish(child);
+  const Result again = zwang({"replay", "log/log.mcap"});
+  EXPECT_EQ(again.code, 0) << again.out << again.err;
+  EXPECT_NE(again.out.find("with the same torques to the last bit"), std::string::npos) << again.out;
+}
+
+TEST_F(FromOutside, AReplayTellsTheFirstDifference) {
+  ASSERT_EQ(zwang({"run", specs + "wall_align.yaml", "--log", "log", "--quiet"}).code, 0);
+  // The facts of the log stand in it as they are: another push of the same length.
+  std::string bytes = read(folder_ / "log/log.mcap");
+  const std::string key = "params.push";
+  const std::size_t at = bytes.find(key);
+  ASSERT_NE(at, std::string::npos);
+  const std::size_t value = bytes.find("20", at + key.size());
+  ASSERT_LT(value, at + key.size() + 8);
+  bytes.replace(value, 2, "21");
+  std::ofstream(folder_ / "log/log.mcap", std::ios::binary) << bytes;
+  const Result again = zwang({"replay", "log/log.mcap", "--format", "json"});
+  EXPECT_EQ(again.code, 1) << again.err;
+  const json j = json::parse(again.out);
+  EXPECT_LT(j["equal"], j["records"]);
+  ASSERT_TRUE(j["first_difference"].is_object());
+  EXPECT_NE(j["first_difference"]["column"].get<std::string>().find(".tau"), std::string::npos);
+}
+
+TEST_F(FromOutside, TwoRunsWithOneSeedWriteTheSameMcap) {
+  for (const char* name : {"a", "b"}) {
+    ASSERT_EQ(zwang({"run", specs + "docking.yaml", "--seed", "7", "--log", name, "--quiet"}).code, 0);
+  }
+  const std::string log = read(folder_ / "a/log.mcap");
+  EXPECT_GT(log.size(), 100'000u);
+  EXPECT_TRUE(log == read(folder_ / "b/log.mcap"));
+}
+
+TEST_F(FromOutside, AFullDiskLeavesTheRunAloneAndTheExitStatusSaysSo) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  fs::create_directories(folder_ / "log");
+  fs::create_symlink("/dev/full", folder_ / "log/log.mcap");
+  const Result r = zwang({"run", specs + "wall_align.yaml", "--log", "log", "--format", "json"});
+  EXPECT_EQ(r.code, 2);
+  if (r.out.empty()) GTEST_SKIP() << "refused before it began: " << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["outcome"], "done");
+  EXPECT_FALSE(j["log_complete"]);
+}
+
+}  // namespace
+}  // namespace zwang

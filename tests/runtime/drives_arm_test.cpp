@@ -1,0 +1,140 @@
+// An arm that nobody commands, on the plant: it stays where it is, and the base under it keeps its newtons.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double degree = std::numbers::pi / 180.0;
+const fs::path specs = ZWANG_SOURCE_DIR "/specs";
+
+lang::Program load(const fs::path& task, const fs::path& scene) {
+  lang::Diagnostics diagnostics;
+  lang::LoadOptions options;
+  options.robot = specs / "robots/mecanum_arm_base.yaml";
+  options.scene = scene;
+  options.root = "/";
+  const auto program = lang::load(task, options, diagnostics);
+  std::ostringstream words;
+  lang::render_human(diagnostics, words);
+  if (!program) throw std::runtime_error(words.str());
+  return *program;
+}
+
+/// The largest way of an arm joint from where it stood at `since`. [rad]
+class ArmWatch {
+ public:
+  explicit ArmWatch(const lang::Program& program) : posture_(program.robot.posture) {
+    for (int j = 0; j < program.robot.model.joint_count(); ++j) {
+      if (program.robot.model.joint(j).name.rfind("arm_", 0) == 0) joints_.push_back(j);
+    }
+    EXPECT_EQ(joints_.size(), 7u);
+  }
+  void start(const solver::State& state) { posture_ = state.q; }
+  double way(const solver::State& state) const {
+    double most = 0.0;
+    for (const int j : joints_) most = std::max(most, std::abs(state.q(j) - posture_(j)));
+    return most;
+  }
+
+ private:
+  Eigen::VectorXd posture_;
+  std::vector<int> joints_;
+};
+
+// Under way a held arm moves only by what the plant's contacts and integration differ from the model. At the
+// wall it is worked out to accelerate with the base by 20 N / 54 kg, and does not: it bends by T^2 times that
+// over a link's pendulum length of 0.1 m or more, 0.0025 s^2 x 3.7 rad/s^2 = 0.53 deg. The base presses with
+// all 20 N: worked out for an arm that hangs loose, and falls, it would be 12 N.
+TEST(UnusedArm, StaysWhereItIsAndTheBaseKeepsItsNewtons) {
+  lang::Program program = load(specs / "wall_align.yaml", specs / "scenes/wall_far.yaml");
+  program.robot.posture.setZero();  // the arm points straight up, and would fall to any side
+  ScenePlant plant(program);
+  Runner runner(program);
+  Sensed sensed(program.robot.model, program.signals.size());
+  const ArmWatch arm(program);
+  double way = 0.0, at_end = 0.0, force = 0.0;
+  while (!runner.finished() && plant.truth().time < 30.0) {
+    ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+    at_end = arm.way(plant.true_state());
+    if (!plant.truth().objects[0].touched) way = std::max(way, at_end);
+    const Eigen::VectorXd& tau = runner.step(sensed);
+    if (runner.state() == RunState::running) force = plant.truth().objects[0].force;
+    ASSERT_EQ(plant.apply(tau), PlantStatus::ok);
+  }
+  std::printf(
+      "arm moved by %.3f deg before the wall, %.3f deg at the end, wall pressed with %.3f N, yaw %.4f deg\n",
+      way / degree, at_end / degree, force, plant.truth().yaw / degree);
+  EXPECT_EQ(runner.state(), RunState::done);
+  EXPECT_LT(way, 0.1 * degree);
+  EXPECT_LT(at_end, 0.53 * degree);
+  EXPECT_NEAR(force, 20.0, 0.1);
+  EXPECT_LT(std::abs(plant.truth().yaw), 0.1 * degree);
+}
+
+const char* const reach_text = R"(zwang: 1
+robot: robots/mecanum_arm_base.yaml
+start: reach
+tasks:
+  reach:
+    constraints:
+      stand: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+      lift: {move: tool, in: base_link, x: {position: here}, y: {position: here}, z: {velocity: 0.1 m/s},
+             rx: {velocity: 0 rad/s}, ry: {velocity: 0 rad/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: elapsed > 1 s, goto: drive}]
+  drive:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: 0.3 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: elapsed > 2 s, goto: done}]
+)";
+
+// Let go of while it moves at 0.1 m/s, the arm comes back to where it was then, and stays; it does not drop.
+// A position reaches 2 % of its way after 5.8 time constants.
+TEST(UnusedArm, IsTakenOverWhenATaskLetsGoOfIt) {
+  const fs::path file = fs::path(testing::TempDir()) / "reach.yaml";
+  std::string text = reach_text;
+  text.replace(text.find("robots/"), 7, (specs / "robots/").string());
+  std::ofstream(file) << text;
+  const lang::Program program = load(file, specs / "scenes/wall_far.yaml");
+  ScenePlant plant(program);
+  Runner runner(program);
+  Sensed sensed(program.robot.model, program.signals.size());
+  ArmWatch arm(program);
+  const auto frame = program.robot.model.find_frame("tool");
+  ASSERT_TRUE(frame);
+  const solver::Frame& tool = program.robot.model.frames()[static_cast<std::size_t>(*frame)];
+  const auto height = [&] {
+    return solver::motion_of({tool.body, tool.pose_in_body, {}}, program.robot.model, plant.true_state())
+        .pose.position.z();
+  };
+  double at_switch = 0.0, lowest = 1e9, highest = -1e9, way = 0.0;
+  while (!runner.finished() && plant.truth().time < 10.0) {
+    ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+    const double time = plant.truth().time;
+    if (time < 0.9995) at_switch = height();
+    if (std::abs(time - 2.0) < 1e-6) arm.start(plant.true_state());
+    if (time > 1.0) lowest = std::min(lowest, height()), highest = std::max(highest, height());
+    if (time > 2.0) way = std::max(way, arm.way(plant.true_state()));
+    ASSERT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+  }
+  std::printf("tool at %.4f m when let go of, then between %.4f m and %.4f m; joints later by %.3f deg\n",
+              at_switch, lowest, highest, way / degree);
+  EXPECT_EQ(runner.state(), RunState::done);
+  // It was lifted at 0.1 m/s, and a fall of 0.2 s would be 20 cm.
+  EXPECT_LT(highest, at_switch + 0.02);
+  EXPECT_GT(lowest, at_switch - 0.02);
+  EXPECT_LT(way, 0.5 * degree);
+}
+
+}  // namespace
+}  // namespace zwang::runtime
