@@ -139,7 +139,10 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
   if (const Node* node = map.optional("signals")) {
     scene.signals = parse_scene_signals(*node, scene.objects, diagnostics);
   }
-  if (const Node* node = map.optional("state")) scene.state = parse_state_noise(*node, diagnostics);
+  const Node* state = map.optional("state");
+  if (state != nullptr) scene.state = parse_state_noise(*state, diagnostics);
+  // The plant's truth only where the scene says so.
+  scene.state.wheels_only = scene.state.wheels_only || state == nullptr;
   if (const Node* node = map.optional("faults")) scene.faults = parse_faults(*node, diagnostics);
   map.finish();
   return scene;
