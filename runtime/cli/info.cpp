@@ -16,9 +16,13 @@ struct TaskBegin {
   std::string task;
 };
 
-/// The word of the column `task`. A record is one flat object of ours, so that it need not be parsed whole.
-std::string_view task_of(std::string_view record) {
-  constexpr std::string_view key = R"("task":")";
+struct ToldEvent {
+  double time = 0.0;  ///< [s]
+  std::string code, signal;
+};
+
+/// The word of a column. A record is one flat object of ours, so that it need not be parsed whole.
+std::string_view word_of(std::string_view record, std::string_view key) {
   const std::size_t begin = record.find(key);
   if (begin == std::string_view::npos) return {};
   record.remove_prefix(begin + key.size());
@@ -26,12 +30,15 @@ std::string_view task_of(std::string_view record) {
 }
 
 ordered_json as_json(const std::string& file, const runtime::LogContents& log,
-                     const std::vector<TaskBegin>& tasks) {
+                     const std::vector<TaskBegin>& tasks, const std::vector<ToldEvent>& events) {
   ordered_json files = ordered_json::array();
   for (const lang::Source& s : log.context.sources)
     files.push_back({{"name", s.path}, {"bytes", s.text.size()}});
   ordered_json begins = ordered_json::array();
   for (const TaskBegin& t : tasks) begins.push_back({{"time", t.time}, {"task", t.task}});
+  ordered_json told = ordered_json::array();
+  for (const ToldEvent& e : events)
+    told.push_back({{"time", e.time}, {"code", e.code}, {"signal", e.signal}});
   return {{"file", file},
           {"whole", log.closed && log.damage.empty()},
           {"damage", log.damage},
@@ -40,11 +47,12 @@ ordered_json as_json(const std::string& file, const runtime::LogContents& log,
           {"end", log.end},
           {"facts", log.context.facts},
           {"files", files},
-          {"tasks", begins}};
+          {"tasks", begins},
+          {"events", told}};
 }
 
 std::string as_text(const std::string& file, const runtime::LogContents& log,
-                    const std::vector<TaskBegin>& tasks) {
+                    const std::vector<TaskBegin>& tasks, const std::vector<ToldEvent>& events) {
   std::ostringstream out;
   out << file << ": " << (log.closed && log.damage.empty() ? "whole" : "damaged") << ", " << log.records
       << " records from " << with_unit(log.begin, "s") << " to " << with_unit(log.end, "s") << "\n";
@@ -56,6 +64,10 @@ std::string as_text(const std::string& file, const runtime::LogContents& log,
   for (const TaskBegin& t : tasks) {
     out << "  " << padded("from " + with_unit(t.time, "s"), 20) << "task `" << t.task << "`\n";
   }
+  for (const ToldEvent& e : events) {
+    out << "  " << padded("at " + with_unit(e.time, "s", 6), 20) << "event " << e.code
+        << (e.signal.empty() ? "" : ", " + e.signal) << "\n";
+  }
   return out.str();
 }
 
@@ -64,18 +76,23 @@ std::string as_text(const std::string& file, const runtime::LogContents& log,
 int info(const InfoArguments& arguments) {
   require_file(arguments.file);
   std::vector<TaskBegin> tasks;
+  std::vector<ToldEvent> events;
   const runtime::LogContents log =
-      runtime::read_log(arguments.file, [&tasks](double time, std::string_view record) {
-        const std::string_view task = task_of(record);
+      runtime::read_log(arguments.file, [&tasks, &events](double time, std::string_view record) {
+        const std::string_view task = word_of(record, R"("task":")");
+        const std::string_view event = word_of(record, R"("event":")");
+        if (!event.empty()) {
+          events.push_back({time, std::string(event), std::string(word_of(record, R"("event.signal":")"))});
+        }
         if (!task.empty() && (tasks.empty() || tasks.back().task != task)) {
           tasks.push_back({time, std::string(task)});
         }
       });
-  print(
-      arguments.format == Format::json
-          ? as_json(arguments.file, log, tasks).dump(2, ' ', false, ordered_json::error_handler_t::replace) +
-                "\n"
-          : as_text(arguments.file, log, tasks));
+  print(arguments.format == Format::json
+            ? as_json(arguments.file, log, tasks, events)
+                      .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+                  "\n"
+            : as_text(arguments.file, log, tasks, events));
   return log.closed && log.damage.empty() ? exit_good : exit_bad;
 }
 

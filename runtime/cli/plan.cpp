@@ -1,12 +1,14 @@
 // The rows of each task as the solver will get them at the start pose, and what the robot can make of them.
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
 #include "output.hpp"
+#include "plan_report.hpp"
 #include "verbs.hpp"
+#include "zwang/lang/configurations.hpp"
 #include "zwang/lang/notes.hpp"
 #include "zwang/runtime/scheduler.hpp"
 #include "zwang/solver/base_analysis.hpp"
@@ -15,40 +17,6 @@
 namespace zwang::cli {
 
 namespace {
-
-using nlohmann::ordered_json;
-
-struct PlannedRow {
-  solver::Row row;
-  std::string name;                ///< "contact.x"
-  std::string line;                ///< "wall_align.yaml:24"; empty where there is no text
-  std::optional<double> weight;    ///< [kg] or [kg m^2]
-  std::optional<double> fraction;  ///< of b that a soft row meets
-  bool turns = false;
-};
-
-struct PlannedAxis {
-  std::string name;
-  bool turns = false;
-  solver::AxisAnalysis analysis;
-};
-
-struct TaskPlan {
-  std::string task;
-  std::string refused;  ///< why there are no rows; empty otherwise
-  std::vector<PlannedRow> rows;
-  std::vector<PlannedAxis> axes;
-  int equality_rows = 0;
-  int rank = 0;  ///< of the equality rows, on the ground
-  std::vector<lang::Diagnostic> notes;
-};
-
-const char* force_unit(bool turns) {
-  return turns ? "N m" : "N";
-}
-const char* acceleration_unit(bool turns) {
-  return turns ? "rad/s^2" : "m/s^2";
-}
 
 /// The program as if it began with this task, entered without a blend.
 lang::Program starting_with(const lang::Program& program, int task) {
@@ -74,12 +42,48 @@ const lang::Span& span_of(const lang::AxisStatements& axis, solver::Quantity qua
   return span.exists() ? span : axis.span;
 }
 
+bool turns(const solver::AxisConstraint& constraint) {
+  return constraint.measure == solver::Measure::angle || constraint.axis >= solver::Axis::rx;
+}
+
+/// Of the frame and those it hangs on: the name of the pose signal among them.
+std::string signal_of(const lang::Program& program, int frame) {
+  while (frame > 0) {
+    const lang::FrameDeclaration& declared = program.frames[static_cast<std::size_t>(frame)];
+    if (declared.parent == lang::FrameParent::signal)
+      return program.signals[static_cast<std::size_t>(declared.parent_index)].name;
+    frame = declared.parent == lang::FrameParent::frame ? declared.parent_index : 0;
+  }
+  return "";
+}
+
+/// Signals that the group's frames and drivers hang on.
+std::set<std::string> signals_of(const lang::Program& program, const lang::Group& group) {
+  std::set<std::string> names{signal_of(program, group.move), signal_of(program, group.in)};
+  if (group.kind == lang::GroupKind::feature) {
+    const lang::Feature& feature = program.features[static_cast<std::size_t>(group.feature)];
+    names.insert(signal_of(program, feature.first));
+    names.insert(signal_of(program, feature.second));
+  }
+  if (group.kind == lang::GroupKind::inside)
+    names.insert(signal_of(program, program.regions[static_cast<std::size_t>(group.region)].parent));
+  for (const lang::AxisStatements& axis : group.axes) {
+    if (axis.target.signal >= 0)
+      names.insert(program.signals[static_cast<std::size_t>(axis.target.signal)].name);
+  }
+  names.erase("");
+  return names;
+}
+
 class Planner {
  public:
   Planner(const lang::Program& program, const lang::Diagnostics& diagnostics)
       : program_(program),
         diagnostics_(diagnostics),
-        state_(lang::start_state(program.robot, program.scene)) {}
+        states_(lang::configurations(program.robot, program.scene)),
+        state_(states_.front()) {}
+
+  std::size_t configurations() const { return states_.size(); }
 
   TaskPlan plan(int index) {
     TaskPlan plan;
@@ -96,7 +100,9 @@ class Planner {
       if (!set.fill(program_.robot.model, state_))
         throw std::invalid_argument("the rows exceed the capacity");
       for (const solver::Row& row : set.rows()) add_row(scheduler, set, row, plan);
+      merge_parts(scheduler, set, plan);
       count_rank(set, plan);
+      add_dormant(task, scheduler.parameters(), plan);
     } catch (const std::invalid_argument& reason) {
       plan.refused = reason.what();
     }
@@ -110,7 +116,7 @@ class Planner {
     const solver::AxisConstraint& constraint = set.constraints().at(index);
     PlannedRow planned;
     planned.row = row;
-    planned.turns = constraint.axis >= solver::Axis::rx;
+    planned.turns = turns(constraint);
     const lang::AxisStatements* axis = statements_of(scheduler, scheduler.in_force().at(index).origin);
     if (axis != nullptr) {
       planned.name = axis->name;
@@ -132,10 +138,62 @@ class Planner {
     for (const PlannedAxis& axis : plan.axes) {
       if (axis.name == name) return axis.analysis;
     }
-    plan.axes.push_back({name, constraint.axis >= solver::Axis::rx,
-                         solver::analyse_axis(program_.robot.model, state_, constraint.move, constraint.in,
-                                              constraint.axis)});
+    PlannedAxis axis;
+    axis.name = name;
+    axis.turns = turns(constraint);
+    axis.analysis = look(constraint, axis);
+    plan.axes.push_back(axis);
     return plan.axes.back().analysis;
+  }
+
+  /// Through the solver's analysis, in every configuration; returns that of the start pose.
+  solver::AxisAnalysis look(const solver::AxisConstraint& constraint, PlannedAxis& axis) const {
+    solver::AxisAnalysis start;
+    for (const solver::State& state : states_) {
+      const solver::AxisAnalysis one = solver::analyse_axis(program_.robot.model, state, constraint);
+      if (&state == &state_) start = one;
+      axis.mass.add(one.effective_mass);
+      axis.is_sometimes_held = axis.is_sometimes_held || !std::isfinite(one.effective_mass);
+      if (one.reachable) axis.force.add(one.largest_force);
+    }
+    return start;
+  }
+
+  /// A region has a row for each pair of features that is near: the figures are those of all of them.
+  void merge_parts(const runtime::Scheduler& scheduler, const solver::ConstraintSet& set,
+                   TaskPlan& plan) const {
+    for (std::size_t i = 0; i < set.constraints().size(); ++i) {
+      const runtime::Origin& origin = scheduler.in_force().at(i).origin;
+      const lang::AxisStatements* statements = statements_of(scheduler, origin);
+      if (statements == nullptr || origin.part < 1) continue;
+      for (PlannedAxis& axis : plan.axes) {
+        if (axis.name == statements->name) look(set.constraints()[i], axis);
+      }
+    }
+  }
+
+  /// What is written and has no row at the start pose, and what has another one until a signal comes.
+  void add_dormant(const lang::Task& task, const std::vector<double>& parameters, TaskPlan& plan) const {
+    std::set<std::string> unknown;
+    for (const auto* groups : {&program_.always.groups, &task.groups}) {
+      for (const lang::Group& group : *groups) {
+        unknown.merge(signals_of(program_, group));
+        const bool is_far = group.kind == lang::GroupKind::inside && !has_row(plan, group.name);
+        if (is_far) plan.dormant.push_back({group.name, "no edge is near", place(diagnostics_, group.span)});
+        for (const lang::AxisStatements& axis : group.axes) {
+          if (!axis.is_planar_speed || !axis.velocity || has_row(plan, axis.name)) continue;
+          const std::string half = with_unit(0.5 * axis.velocity->high.evaluate(parameters), "m/s", 3);
+          plan.dormant.push_back({axis.name, "no row below " + half,
+                                  place(diagnostics_, span_of(axis, solver::Quantity::velocity))});
+        }
+      }
+    }
+    plan.unknown_signals.assign(unknown.begin(), unknown.end());
+  }
+
+  static bool has_row(const TaskPlan& plan, const std::string& name) {
+    return std::any_of(plan.rows.begin(), plan.rows.end(),
+                       [&](const PlannedRow& row) { return row.name == name; });
   }
 
   void count_rank(const solver::ConstraintSet& set, TaskPlan& plan) {
@@ -173,162 +231,9 @@ class Planner {
 
   const lang::Program& program_;
   const lang::Diagnostics& diagnostics_;
-  solver::State state_;
+  std::vector<solver::State> states_;  ///< the start pose first
+  const solver::State& state_;
 };
-
-/// What the row does with its quantity.
-const char* word(solver::RowKind kind) {
-  if (kind == solver::RowKind::driver) return "drives";
-  if (kind == solver::RowKind::upper) return "at most";
-  if (kind == solver::RowKind::lower) return "at least";
-  return kind == solver::RowKind::force ? "presses" : "bounds the sum";
-}
-
-/// Rows that only carry or bound a force ask for no acceleration.
-bool asks_for_acceleration(solver::RowKind kind) {
-  return kind == solver::RowKind::driver || kind == solver::RowKind::upper || kind == solver::RowKind::lower;
-}
-
-const char* word(solver::Quantity quantity) {
-  constexpr std::array words{"position", "velocity", "acceleration", "force"};
-  return words[static_cast<std::size_t>(quantity)];
-}
-
-std::string number(double value) {
-  if (std::abs(value) < 5e-13) value = 0.0;
-  char text[40];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
-/// (moment | force) in the moved body's axes and about its origin.
-std::string column(const solver::ForceVector& a) {
-  std::string text = "(";
-  for (int i = 0; i < 3; ++i) text += number(a.angular[i]) + (i < 2 ? " " : " | ");
-  for (int i = 0; i < 3; ++i) text += number(a.linear[i]) + (i < 2 ? " " : ")");
-  return text;
-}
-
-std::string bounds(const PlannedRow& planned) {
-  const solver::Row& row = planned.row;
-  if (row.kind == solver::RowKind::force) return number(row.force) + " " + force_unit(planned.turns);
-  if (row.kind == solver::RowKind::upper) return "nu <= 0";
-  if (row.kind == solver::RowKind::lower) return "nu >= 0";
-  if (!std::isfinite(row.lo) && !std::isfinite(row.hi)) return "what the motors make";
-  return "[" + number(row.lo) + ", " + number(row.hi) + "] " + force_unit(planned.turns);
-}
-
-std::string demand(const PlannedRow& planned) {
-  if (!asks_for_acceleration(planned.row.kind)) return "-";
-  return number(planned.row.b) + " " + acceleration_unit(planned.turns);
-}
-
-std::string softness(const PlannedRow& planned) {
-  if (!planned.weight) return "";
-  return "weight " + number(*planned.weight) + (planned.turns ? " kg m^2" : " kg") + ": meets " +
-         number(100.0 * *planned.fraction) + " %  ";
-}
-
-/// Columns as wide as their widest cell.
-std::string table(const std::vector<std::vector<std::string>>& lines) {
-  std::vector<std::size_t> widths;
-  for (const auto& line : lines) {
-    widths.resize(std::max(widths.size(), line.size()));
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  }
-  std::string text;
-  for (const auto& line : lines) {
-    std::string row = " ";
-    for (std::size_t i = 0; i < line.size(); ++i) row += " " + padded(line[i], widths[i]) + " ";
-    text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
-  }
-  return text;
-}
-
-std::string rows_table(const TaskPlan& plan) {
-  std::vector<std::vector<std::string>> lines{
-      {"row", "level", "", "b", "nu", "A_N (moment | force)", "from"}};
-  for (const PlannedRow& planned : plan.rows) {
-    lines.push_back({planned.name, std::to_string(planned.row.level),
-                     std::string(word(planned.row.kind)) + " " + word(planned.row.quantity), demand(planned),
-                     softness(planned) + bounds(planned), column(planned.row.a), planned.line});
-  }
-  return table(lines);
-}
-
-std::string axes_table(const TaskPlan& plan) {
-  std::vector<std::vector<std::string>> lines{{"axis", "effective mass", "largest force"}};
-  for (const PlannedAxis& axis : plan.axes) {
-    const solver::AxisAnalysis& a = axis.analysis;
-    const std::string held = a.kappa > 0.0 && std::isfinite(a.effective_mass) ? "no motor along it" : "held";
-    lines.push_back({axis.name,
-                     std::isfinite(a.effective_mass)
-                         ? number(a.effective_mass) + (axis.turns ? " kg m^2" : " kg")
-                         : "held by the ground",
-                     !a.reachable                     ? held
-                     : std::isfinite(a.largest_force) ? number(a.largest_force) + " " + force_unit(axis.turns)
-                                                      : "no limit known"});
-  }
-  return table(lines);
-}
-
-std::string human(const TaskPlan& plan, int mobility, const lang::Diagnostics& diagnostics) {
-  std::string text = plan.task + "\n";
-  if (!plan.refused.empty()) return text + "  no rows: " + plan.refused + "\n";
-  text += rows_table(plan) + "\n" + axes_table(plan) + "\n";
-  text += "  mobility " + std::to_string(mobility) + "; equality rows " + std::to_string(plan.equality_rows) +
-          ", their rank " + std::to_string(plan.rank) + "\n";
-  for (const lang::Diagnostic& note : plan.notes) {
-    text += "  " + note.code + " " + place(diagnostics, note.span) + ": " + note.message + "\n";
-  }
-  return text;
-}
-
-ordered_json finite(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
-ordered_json json_of(const solver::ForceVector& a) {
-  return {a.angular.x(), a.angular.y(), a.angular.z(), a.linear.x(), a.linear.y(), a.linear.z()};
-}
-
-ordered_json json(const TaskPlan& plan, const lang::Diagnostics& diagnostics) {
-  ordered_json rows = ordered_json::array();
-  for (const PlannedRow& p : plan.rows) {
-    const bool is_force = p.row.kind == solver::RowKind::force;
-    rows.push_back({{"row", p.name},
-                    {"kind", word(p.row.kind)},
-                    {"quantity", word(p.row.quantity)},
-                    {"level", p.row.level},
-                    {"a", json_of(p.row.a)},
-                    {"body", p.row.body},
-                    {"reference_body", p.row.reference_body},
-                    {"b", asks_for_acceleration(p.row.kind) ? ordered_json(p.row.b) : ordered_json(nullptr)},
-                    {"force", is_force ? ordered_json(p.row.force) : ordered_json(nullptr)},
-                    {"lo", finite(p.row.lo)},
-                    {"hi", finite(p.row.hi)},
-                    {"weight", p.weight ? ordered_json(*p.weight) : ordered_json(nullptr)},
-                    {"fraction", p.fraction ? ordered_json(*p.fraction) : ordered_json(nullptr)},
-                    {"from", p.line}});
-    if (p.row.reference_body >= 0) rows.back()["a_reference"] = json_of(p.row.a_reference);
-  }
-  ordered_json axes = ordered_json::array();
-  for (const PlannedAxis& axis : plan.axes) {
-    axes.push_back({{"axis", axis.name},
-                    {"reachable", axis.analysis.reachable},
-                    {"effective_mass", finite(axis.analysis.effective_mass)},
-                    {"largest_force", finite(axis.analysis.largest_force)}});
-  }
-  ordered_json notes = ordered_json::array();
-  for (const lang::Diagnostic& d : plan.notes) {
-    notes.push_back({{"code", d.code}, {"where", place(diagnostics, d.span)}, {"message", d.message}});
-  }
-  ordered_json whole = {{"task", plan.task}, {"equality_rows", plan.equality_rows},
-                        {"rank", plan.rank}, {"rows", rows},
-                        {"axes", axes},      {"notes", notes}};
-  if (!plan.refused.empty()) whole["refused"] = plan.refused;
-  return whole;
-}
 
 }  // namespace
 
@@ -360,18 +265,15 @@ int plan(const PlanArguments& arguments) {
   Planner planner(*program, diagnostics);
   const solver::BaseAnalysis base =
       solver::analyse_base(program->robot.model, lang::start_state(program->robot, program->scene));
-  ordered_json tasks = ordered_json::array();
-  for (const int index : wanted) {
-    const TaskPlan task = planner.plan(index);
-    if (arguments.format == Format::json) {
-      tasks.push_back(json(task, diagnostics));
-    } else {
-      print((index == wanted.front() ? "" : "\n") + human(task, base.mobility, diagnostics));
-    }
-  }
+  std::vector<TaskPlan> plans;
+  for (const int index : wanted) plans.push_back(planner.plan(index));
   if (arguments.format == Format::json) {
-    const ordered_json whole = {{"ok", true}, {"mobility", base.mobility}, {"tasks", tasks}};
-    print(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    print(json(plans, base.mobility, planner.configurations(), diagnostics));
+    return exit_good;
+  }
+  for (const TaskPlan& task : plans) {
+    print((&task == plans.data() ? "" : "\n") +
+          human(task, base.mobility, planner.configurations(), diagnostics));
   }
   return exit_good;
 }

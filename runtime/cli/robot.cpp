@@ -10,6 +10,7 @@
 
 #include "output.hpp"
 #include "verbs.hpp"
+#include "zwang/lang/configurations.hpp"
 #include "zwang/lang/robot_draft.hpp"
 #include "zwang/solver/base_analysis.hpp"
 
@@ -67,18 +68,14 @@ struct Analysis {
   }
 };
 
-/// All joints at 0, then turned by unequal angles: what depends on swivels shows.
-Analysis analyse(const solver::Model& model) {
+/// At the start and with other joint angles: what depends on swivels shows.
+Analysis analyse(const lang::Robot& robot) {
   Analysis result;
-  for (int turn = 0; turn < 5; ++turn) {
-    solver::State state(model);
-    for (int j = 0; turn > 0 && j < model.joint_count(); ++j) {
-      const double angle = 0.7 * turn + 1.1 * turn * j;  // [rad], in no pattern that a base could share
-      state.q(j) =
-          std::clamp(std::remainder(angle, 6.283185307179586), model.joint(j).lower, model.joint(j).upper);
-    }
-    const solver::BaseAnalysis base = solver::analyse_base(model, state);
-    if (turn == 0) result.start = base;
+  bool is_start = true;
+  for (const solver::State& state : lang::configurations(robot, std::nullopt)) {
+    const solver::BaseAnalysis base = solver::analyse_base(robot.model, state);
+    if (is_start) result.start = base;
+    is_start = false;
     result.mobility = std::max(result.mobility, base.base_mobility);
     result.locked = result.locked || base.locked;
     for (std::size_t k = 0; k < base.axes.size(); ++k) {
@@ -211,7 +208,7 @@ std::string listed(const char* title, const std::vector<std::string>& lines) {
 }
 
 void show(const lang::Robot& robot, Format format) {
-  const Analysis analysis = analyse(robot.model);
+  const Analysis analysis = analyse(robot);
   if (format == Format::json) {
     ordered_json wheels = ordered_json::array();
     for (const solver::Wheel& wheel : robot.model.wheels()) wheels.push_back(wheel_json(robot, wheel));
@@ -249,7 +246,7 @@ void show(const lang::RobotDraft& draft, Format format) {
     }
     ordered_json assumed = ordered_json::array();
     for (const lang::AssumedRobot& a : draft.assumed) {
-      assumed.push_back({{"as", a.as}, {"analysis", json(analyse(a.robot.model))}});
+      assumed.push_back({{"as", a.as}, {"analysis", json(analyse(a.robot))}});
     }
     const ordered_json whole = {{"robot", draft.name},      {"base", draft.base},
                                 {"drive", draft.drive},     {"mass", draft.mass},
@@ -269,7 +266,7 @@ void show(const lang::RobotDraft& draft, Format format) {
   }
   for (const std::string& link : draft.supports) text += "  " + link + ": a support that holds nothing\n";
   for (const lang::AssumedRobot& a : draft.assumed) {
-    const Analysis analysis = analyse(a.robot.model);
+    const Analysis analysis = analyse(a.robot);
     text += "\nthe base, " + a.as + "\n" + axes_text(analysis) + verdicts(analysis);
   }
   text += "\n" + listed("assumed for these figures", draft.assumption_notes) +

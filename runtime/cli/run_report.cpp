@@ -53,6 +53,21 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// What would have switched too on that tick, in the words of the task file.
+std::vector<std::string> also_true(const runtime::Scheduler& scheduler, const Transition& t) {
+  std::vector<std::string> all;
+  const auto add = [&](int owner, std::uint64_t bits) {
+    const std::vector<lang::Exit>& exits = scheduler.tasks()[static_cast<std::size_t>(owner)].exits;
+    for (std::size_t i = 0; i < exits.size() && i < 64; ++i) {
+      if ((bits >> i & 1U) != 0U) all.push_back(exits[i].when.text);
+    }
+  };
+  add(scheduler.always_task(), t.also_always);
+  if (t.also_timeout) all.push_back("timeout");
+  if (t.from >= 0) add(t.from, t.also_true);
+  return all;
+}
+
 std::string transitions_table(const runtime::Runner& runner, const lang::Diagnostics& diagnostics) {
   const runtime::Scheduler& scheduler = runner.scheduler();
   Table table({true, false, false, false});
@@ -60,9 +75,7 @@ std::string transitions_table(const runtime::Runner& runner, const lang::Diagnos
     std::string why = scheduler.why(t);
     const std::string where = place(diagnostics, scheduler.where(t));
     if (!where.empty()) why += "  (" + where + ")";
-    for (std::size_t i = 0; i < 64; ++i) {
-      if ((t.also_true >> i & 1U) != 0U) why += ", also true: exit " + std::to_string(i + 1);
-    }
+    for (const std::string& words : also_true(scheduler, t)) why += ", also true: " + words;
     table.add({seconds(t.time), task_name(scheduler, t.from), "-> " + task_name(scheduler, t.to), why});
   }
   std::string text = "transitions\n" + table.text();
@@ -127,6 +140,7 @@ ordered_json json_transitions(const runtime::Runner& runner, const lang::Diagnos
     ordered_json one = {
         {"time", t.time}, {"from", nullptr}, {"to", task_name(scheduler, t.to)}, {"why", why}};
     if (t.from >= 0) one["from"] = task_name(scheduler, t.from);
+    one["also_true"] = also_true(scheduler, t);
     all.push_back(one);
   }
   return all;

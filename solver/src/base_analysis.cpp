@@ -21,13 +21,14 @@ constexpr double rank_tolerance = 1e-6;  // of singular values, relative to the 
 /// One pass of the sweeps over the ground, the freedoms of base and joints, and one row more.
 struct WhitenedRobot {
   WhitenedRobot(const Model& model, const State& state, const Row* row)
-      : ground(ground_row_count(model)),
+      : ground_rows(model),
+        ground(ground_rows.row_count()),
         base(model.has_fixed_base() ? 0 : 6),
         sweeps(model, ground + base + model.joint_count() + 1),
         rows(ground + base + model.joint_count() + 1) {
     outward_kinematics(model, state, Vector6::Zero(), sweeps);
     load_bodies_at_rest(sweeps);
-    add_ground_rows(model, sweeps, [](int, const GroundRow&) {});
+    add_ground_rows(ground_rows, sweeps, [](int, const GroundRow&) {});
     for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, Vector6::Unit(i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
     if (row != nullptr) add_row(*row, sweeps);
@@ -42,6 +43,7 @@ struct WhitenedRobot {
   Eigen::VectorXd base_freedom(int i) const { return rows.motion(ground + i).transpose(); }
   int last_row() const { return sweeps.columns.rows() - 1; }
 
+  Ground ground_rows;
   int ground, base;
   Sweeps sweeps;
   WhitenedRows rows;
@@ -80,15 +82,17 @@ Eigen::MatrixXd motor_directions(const Model& model, const WhitenedRobot& robot)
   return T.leftCols(motors);
 }
 
-Row row_along(const Model& model, const State& state, const AttachedFrame& move, const AttachedFrame& in,
-              Axis axis) {
+Row row_along(const Model& model, const State& state, const AxisConstraint& constraint) {
+  AxisConstraint measured;
+  measured.move = constraint.move;
+  measured.in = constraint.in;
+  measured.measure = constraint.measure;
+  measured.axis = constraint.axis;
+  measured.other_axis = constraint.other_axis;
+  measured.coefficients = constraint.coefficients;
+  measured.driver = Driver{.quantity = Quantity::force, .target = 1.0};
   ConstraintSet set(1, 1);
-  AxisConstraint constraint;
-  constraint.move = move;
-  constraint.in = in;
-  constraint.axis = axis;
-  constraint.driver = Driver{.quantity = Quantity::force, .target = 1.0};
-  if (!set.add(constraint) || !set.fill(model, state))
+  if (!set.add(measured) || !set.fill(model, state) || set.rows().empty())
     throw std::invalid_argument("analysis: no row for this axis");
   return set.rows().front();
 }
@@ -122,12 +126,11 @@ State at_rest(const State& state) {
 
 }  // namespace
 
-AxisAnalysis analyse_axis(const Model& model, const State& state, const AttachedFrame& move,
-                          const AttachedFrame& in, Axis axis) {
+AxisAnalysis analyse_axis(const Model& model, const State& state, const AxisConstraint& constraint) {
   if (!fits(state, model) || !is_finite(state))
     throw std::invalid_argument("analysis: the state does not fit the model");
   const State rest = at_rest(state);
-  const Row row = row_along(model, rest, move, in, axis);
+  const Row row = row_along(model, rest, constraint);
   const WhitenedRobot robot(model, rest, &row);
   const Eigen::VectorXd B = robot.rows.motion(robot.last_row()).transpose();
   AxisAnalysis result;
@@ -138,6 +141,15 @@ AxisAnalysis analyse_axis(const Model& model, const State& state, const Attached
   result.reachable = along.size() > 0 && along.lpNorm<Eigen::Infinity>() > rank_tolerance * B.norm();
   if (result.reachable) result.largest_force = largest_force(model, rest, row, result.effective_mass);
   return result;
+}
+
+AxisAnalysis analyse_axis(const Model& model, const State& state, const AttachedFrame& move,
+                          const AttachedFrame& in, Axis axis) {
+  AxisConstraint constraint;
+  constraint.move = move;
+  constraint.in = in;
+  constraint.axis = axis;
+  return analyse_axis(model, state, constraint);
 }
 
 BaseAnalysis analyse_base(const Model& model, const State& state) {

@@ -9,6 +9,11 @@ namespace zwang::solver {
 using Pair = Eigen::Map<Eigen::Array2d>;
 using ConstPair = Eigen::Map<const Eigen::Array2d>;
 
+/// More than `columns`, and an odd multiple of 8: lines of that length start on different sets of the cache.
+constexpr int spaced(int columns) {
+  return 8 * ((columns + 8) / 8 | 1);
+}
+
 /// x = 0, for `count` numbers.
 inline void set_zero(int count, double* x) {
   int k = 0;
@@ -16,11 +21,46 @@ inline void set_zero(int count, double* x) {
   if (k < count) x[k] = 0.0;
 }
 
+/// y = x, for `count` numbers.
+inline void copy(int count, const double* x, double* y) {
+  int k = 0;
+  for (; k + 2 <= count; k += 2) Pair(y + k) = ConstPair(x + k);
+  if (k < count) y[k] = x[k];
+}
+
 /// y += s x, for `count` numbers.
 inline void add_multiple(int count, double s, const double* x, double* y) {
   int k = 0;
   for (; k + 2 <= count; k += 2) Pair(y + k) += s * ConstPair(x + k);
   if (k < count) y[k] += s * x[k];
+}
+
+/// Two lines of numbers += upper x and lower x, in columns [first, last). Of an odd number of columns one
+/// more.
+inline void add_to_two_lines(double upper, double lower, const double* x, int first, int last, double* line,
+                             double* next) {
+  for (int l = first; l < last; l += 2) {
+    const Eigen::Array2d pair = ConstPair(x + l);
+    Pair(line + l) += upper * pair;
+    Pair(next + l) += lower * pair;
+  }
+}
+
+/// The same of one line.
+inline void add_to_line(double factor, const double* x, int first, int last, double* line) {
+  for (int l = first; l < last; l += 2) Pair(line + l) += factor * ConstPair(x + l);
+}
+
+/// matrix += s x x' in lines and columns [first, last), the lower triangle: two lines and two columns at a
+/// time. What that writes above the diagonal nobody reads. `stride`: from line to line.
+inline void add_square(int first, int last, double s, const double* x, double* matrix, Eigen::Index stride) {
+  double* line = matrix + first * stride;
+  int k = first;
+  for (; k + 2 <= last; k += 2) {
+    add_to_two_lines(s * x[k], s * x[k + 1], x, first, k + 2, line, line + stride);
+    line += 2 * stride;
+  }
+  if (k < last) add_to_line(s * x[k], x, first, last, line);
 }
 
 /// x . y, for `count` numbers.

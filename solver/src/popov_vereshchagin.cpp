@@ -7,6 +7,7 @@
 #include "base/whitened_rows.hpp"
 #include "constraint/add_rows.hpp"
 #include "input_check.hpp"
+#include "pairs.hpp"
 #include "sweep/sweeps.hpp"
 
 namespace zwang::solver {
@@ -21,12 +22,23 @@ ConstrainedMotion::ConstrainedMotion(const Model& model, int row_capacity)
   residual.setZero(row_capacity);
 }
 
+namespace {
+
+bool fits(const ConstrainedMotion& result, const Model& model) {
+  return result.qdd.size() == model.joint_count() && result.tau_control.size() == model.joint_count() &&
+         result.constraint_torque.size() == model.joint_count() &&
+         result.acceleration.size() == static_cast<std::size_t>(model.body_count());
+}
+
+}  // namespace
+
 /// Rows have ids in the order ground, given.
 struct PopovVereshchagin::Workspace {
   Workspace(const Model& robot, const Settings& options)
       : model(robot),
         settings(options),
-        ground(ground_row_count(robot)),
+        ground_rows(robot),
+        ground(ground_rows.row_count()),
         sweeps(robot, ground + options.row_capacity),
         whitened(ground + options.row_capacity),
         wanted(Eigen::VectorXd::Zero(ground + options.row_capacity)),
@@ -38,7 +50,7 @@ struct PopovVereshchagin::Workspace {
 
   /// `wanted`: b by row id.
   void add_rows(const std::vector<AccelerationRow>& rows) noexcept {
-    add_ground_rows(model, sweeps, [this](int id, const GroundRow& row) { wanted(id) = row.bias; });
+    add_ground_rows(ground_rows, sweeps, [this](int id, const GroundRow& row) { wanted(id) = row.bias; });
     for (const AccelerationRow& row : rows) wanted(add_row(row, sweeps)) = row.b;
   }
 
@@ -52,6 +64,10 @@ struct PopovVereshchagin::Workspace {
     if (settings.damping > 0.0) {
       sweeps.columns.L.diagonal().segment(ground, m - ground).array() += settings.damping * settings.damping;
       whitened.factorise(sweeps.columns.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
+    }
+    if (ground == 0) {
+      whitened.motion_multipliers(wanted, ground, m, nu);
+      return;
     }
     whitened.hold_ground(wanted);
     for (int i = ground; i < m; ++i) wanted(i) -= whitened.held_acceleration(i);
@@ -76,6 +92,7 @@ struct PopovVereshchagin::Workspace {
 
   Model model;
   Settings settings;
+  Ground ground_rows;
   int ground;
   int rank = 0;
   Sweeps sweeps;
@@ -87,12 +104,11 @@ struct PopovVereshchagin::Workspace {
 Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector<AccelerationRow>& rows,
                                            const Vector6& base_acceleration, const Vector3& gravity,
                                            ConstrainedMotion& result) noexcept {
-  if (!fits(state, model) || result.qdd.size() != model.joint_count() ||
-      result.acceleration.size() != static_cast<std::size_t>(model.body_count())) {
-    return Status::wrong_size;
-  }
+  if (!fits(state, model) || !fits(result, model)) return Status::wrong_size;
   const auto count = static_cast<Eigen::Index>(rows.size());
-  if (count > settings.row_capacity || count > result.nu.size()) return Status::capacity_exceeded;
+  if (count > settings.row_capacity || count > result.nu.size() || count > result.residual.size()) {
+    return Status::capacity_exceeded;
+  }
   if (!is_finite(state) || !base_acceleration.allFinite()) return Status::invalid_input;
   for (const AccelerationRow& row : rows) {
     if (!is_body(row.body, model) || (row.reference_body != -1 && !is_body(row.reference_body, model))) {
@@ -103,18 +119,18 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
   }
 
   outward_kinematics(model, state, base_acceleration, sweeps);
-  load_bodies(state, gravity, sweeps);
+  load_bodies(model, state, gravity, sweeps);
   add_rows(rows);
   if (!inward_inertia(model, state.tau_ff, sweeps)) return Status::degenerate_model;
   solve_base();
   outward_accelerations(model, nu, sweeps, qdd);
-  if (!qdd.allFinite() || !nu.head(sweeps.columns.rows()).allFinite()) return Status::degenerate_model;
+  if (finite_sum(qdd) + finite_sum(nu.head(sweeps.columns.rows())) != 0.0) return Status::degenerate_model;
 
-  result.qdd = qdd;
+  copy(model.joint_count(), qdd.data(), result.qdd.data());
+  copy(static_cast<int>(count), nu.data() + ground, result.nu.data());
   result.rank = rank;
-  result.nu.head(count) = nu.segment(ground, count);
   for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
-    result.acceleration[i] = sweeps.bodies[i].from_base(sweeps.bodies[i].a);
+    sweeps.bodies[i].from_base(sweeps.bodies[i].a, result.acceleration[i]);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const AccelerationRow& row = rows[i];
@@ -127,7 +143,7 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
     result.constraint_torque(static_cast<Eigen::Index>(i) - 1) = sweeps.bodies[i].constraint_force;
   }
-  result.tau_control = state.tau_ff;
+  copy(model.joint_count(), state.tau_ff.data(), result.tau_control.data());
   carry_wrenches(result);
   return Status::ok;
 }

@@ -98,7 +98,8 @@ struct Solver::Workspace {
   Workspace(const Model& robot, const Settings& options)
       : model(robot),
         settings(options),
-        ground(ground_row_count(robot)),
+        ground_rows(robot),
+        ground(ground_rows.row_count()),
         base(base_freedoms(robot, options.base_motion)),
         capacity(ground + base + robot.joint_count() + options.row_capacity),
         sweeps(robot, capacity),
@@ -121,7 +122,8 @@ struct Solver::Workspace {
   int first_task_row() const { return ground + base + model.joint_count(); }
 
   void add_rows(const std::vector<Row>& rows) noexcept {
-    add_ground_rows(model, sweeps, [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
+    add_ground_rows(ground_rows, sweeps,
+                    [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
     for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, base_freedom(model, i));
     for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
     twins.clear();
@@ -185,6 +187,7 @@ struct Solver::Workspace {
 
   Model model;
   Settings settings;
+  Ground ground_rows;
   int ground, base, capacity;
   Sweeps sweeps;
   WhitenedRows whitened;
@@ -226,7 +229,7 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
 
   w.clamp_feed_forward(state);
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
-  load_bodies(state, w.gravity(state), w.sweeps);
+  load_bodies(w.model, state, w.gravity(state), w.sweeps);
   w.add_rows(rows);
   if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
   w.factorise();
@@ -239,7 +242,7 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
 
   solution.qdd = w.qdd;
   for (std::size_t i = 0; i < w.sweeps.bodies.size(); ++i) {
-    solution.acceleration[i] = w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a);
+    w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a, solution.acceleration[i]);
   }
   solution.tau.setZero();
   for (const int j : w.motors) {
@@ -280,7 +283,7 @@ Status Solver::project_velocity(State& state) noexcept {
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
-  add_ground_rows(w.model, w.sweeps, [&w](int id, const GroundRow& row) {
+  add_ground_rows(w.ground_rows, w.sweeps, [&w](int id, const GroundRow& row) {
     w.forces(id) = -row.a.dot(w.body_sweep(row.body).v);
   });
   load_bodies_at_rest(w.sweeps);
@@ -292,7 +295,10 @@ Status Solver::project_velocity(State& state) noexcept {
   outward_accelerations(w.model, w.forces, w.sweeps, w.qdd);
   if (!w.qdd.allFinite()) return Status::degenerate_model;
   state.qd += w.qdd;
-  if (!w.model.has_fixed_base()) state.base_twist += w.body_sweep(0).from_base(w.body_sweep(0).a);
+  if (w.model.has_fixed_base()) return Status::ok;
+  MotionVector change;
+  w.body_sweep(0).from_base(w.body_sweep(0).a, change);
+  state.base_twist += change;
   return Status::ok;
 }
 

@@ -12,44 +12,22 @@ namespace {
 
 constexpr double smallest_pivot = 1e-9;  // of the largest
 
-/// Position, angular and linear velocity of a body against the base, in base coordinates.
-struct BodyAgainstBase {
-  Pose pose;
-  Vector3 angular = Vector3::Zero();
-  Vector3 linear = Vector3::Zero();
-};
-
-BodyAgainstBase against_base(int index, const Model& model, const State& state) noexcept {
-  if (index == 0) return {};
-  const Body& body = model.bodies()[static_cast<std::size_t>(index)];
-  const BodyAgainstBase parent = against_base(body.parent, model, state);
-  const Pose step = pose_in_parent(body, state.q(index - 1));
-  BodyAgainstBase motion{parent.pose * step, parent.angular, parent.linear};
-  motion.linear += parent.angular.cross(motion.pose.position - parent.pose.position);
-  const Vector3 rate = motion.pose.rotation * body.joint.axis * state.qd(index - 1);
-  (body.joint.type == JointType::prismatic ? motion.linear : motion.angular) += rate;
-  return motion;
-}
-
 /// u . (v + w z x P) = -u . s, with s the velocity that the joints alone give the contact point P: one line
 /// of J V = r, V = (vx, vy, l w). The length l makes its three columns alike.
-struct HeldDirection {
+struct ContactDirection {
   Vector3 u, P, slip_of_joints;
 };
 
 template <typename Visit>
-void for_each_held_direction(const Model& model, const State& state, const Visit& visit) noexcept {
-  for (const Wheel& wheel : model.wheels()) {
-    const BodyAgainstBase motion = against_base(wheel.body, model, state);
+void for_each_contact_direction(const Model& model, const State& state, const Visit& visit) noexcept {
+  for_each_held_direction(model, [&](const Wheel& wheel, const HeldDirection& direction) {
+    const BodyMotion motion = motion_of_body(wheel.body, model, state, BodyMotion{});
     const Vector3 axis =
         motion.pose.rotation * model.bodies()[static_cast<std::size_t>(wheel.body)].joint.axis;
     const Vector3 down = -wheel.radius * Vector3::UnitZ();
     const Vector3 slip = motion.linear + motion.angular.cross(down);
-    for (int i = 0; i < wheel.held_directions(); ++i) {
-      const Vector3 u = held_direction(wheel, i, axis, Vector3::UnitZ());
-      visit(HeldDirection{u, motion.pose.position + down, slip});
-    }
-  }
+    visit(ContactDirection{direction.along(axis), motion.pose.position + down, slip});
+  });
 }
 
 }  // namespace
@@ -57,7 +35,7 @@ void for_each_held_direction(const Model& model, const State& state, const Visit
 WheelTwist twist_from_wheels(const Model& model, const State& state) noexcept {
   int rows = 0;
   double square_distance = 0.0;
-  for_each_held_direction(model, state, [&](const HeldDirection& held) {
+  for_each_contact_direction(model, state, [&](const ContactDirection& held) {
     ++rows;
     square_distance += held.P.head<2>().squaredNorm();
   });
@@ -65,12 +43,12 @@ WheelTwist twist_from_wheels(const Model& model, const State& state) noexcept {
   if (rows == 0) return result;
   const double length = square_distance > 0.0 ? std::sqrt(square_distance / rows) : 1.0;
 
-  const auto line = [length](const HeldDirection& held) {
+  const auto line = [length](const ContactDirection& held) {
     return Vector3(held.u.x(), held.u.y(), Vector3::UnitZ().cross(held.P).dot(held.u) / length);
   };
   Matrix3 JtJ = Matrix3::Zero();
   Vector3 Jtr = Vector3::Zero();
-  for_each_held_direction(model, state, [&](const HeldDirection& held) {
+  for_each_contact_direction(model, state, [&](const ContactDirection& held) {
     JtJ += line(held) * line(held).transpose();
     Jtr -= line(held) * held.u.dot(held.slip_of_joints);
   });
@@ -83,7 +61,7 @@ WheelTwist twist_from_wheels(const Model& model, const State& state) noexcept {
     ++result.rank;
   }
   double square_slip = 0.0;
-  for_each_held_direction(model, state, [&](const HeldDirection& held) {
+  for_each_contact_direction(model, state, [&](const ContactDirection& held) {
     const double slip = line(held).dot(V) + held.u.dot(held.slip_of_joints);
     square_slip += slip * slip;
   });

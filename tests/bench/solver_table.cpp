@@ -101,6 +101,9 @@ std::vector<Comparison> comparisons() {
     all.push_back({arm_zwang(rows), arm_kdl(rows), false,
                    rows == 6 ? "times as fast; goal 6, stretch 8" : "times as fast"});
   }
+#ifdef ZWANG_BENCH_PINOCCHIO
+  all.push_back({arm_zwang(6), arm_pinocchio(), false, "times as fast; goal 2"});
+#endif
   all.push_back({base_full(), base_rows(), true, "of our own unbounded call; goal 2"});
   all.push_back({mobile_arm_full(), mobile_arm_rows(), true, "of our own unbounded call; goal 2"});
 #ifdef ZWANG_BENCH_MUJOCO
@@ -147,30 +150,52 @@ void add_growth() {
   add_benchmark(zwang::bench::chain(24, 6));
 }
 
+/// Slope of log cost over log links.
+class Exponent {
+ public:
+  void add(double links, double cost) {
+    const double x = std::log(links);
+    const double y = std::log(cost);
+    n_ += 1.0;
+    sx_ += x;
+    sy_ += y;
+    sxx_ += x * x;
+    sxy_ += x * y;
+  }
+  double value() const { return (n_ * sxy_ - sx_ * sy_) / (n_ * sxx_ - sx_ * sx_); }
+
+ private:
+  double n_ = 0.0, sx_ = 0.0, sy_ = 0.0, sxx_ = 0.0, sxy_ = 0.0;
+};
+
 /// The least of the repetitions: for a law of growth, whatever else the machine does is an error that only
-/// adds. The exponent is the slope of log time over log links.
-void print_growth(const Times& times) {
-  const auto least = [&times](int links, int rows) {
-    const std::vector<double>& all = times.at(zwang::bench::chain(links, rows).name);
+/// adds.
+void print_growth(const std::string& program, const Times& times) {
+  const auto least = [&times](const Workload& work) {
+    const std::vector<double>& all = times.at(work.name);
     return *std::min_element(all.begin(), all.end());
   };
   if (times.count(zwang::bench::chain(growing_links[0], 6).name) == 0) return;
   std::printf("\nleast of %d repetitions\nlinks (6 rows):  ", repetitions);
-  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+  Exponent by_time, by_count;
+  std::string counts;
   for (const int links : growing_links) {
-    const double time = least(links, 6);
-    std::printf(" %d: %.0f ns ", links, time);
-    const double x = std::log(links);
-    const double y = std::log(time);
-    n += 1.0;
-    sx += x;
-    sy += y;
-    sxx += x * x;
-    sxy += x * y;
+    const Workload work = zwang::bench::chain(links, 6);
+    std::printf(" %d: %.0f ns ", links, least(work));
+    by_time.add(links, least(work));
+    if (const std::optional<double> count = instructions(program, work.name)) {
+      by_count.add(links, *count);
+      char text[64];
+      std::snprintf(text, sizeof(text), " %d: %.0f ", links, *count);
+      counts += text;
+    }
   }
-  std::printf(" exponent %.2f (goal 1.0 +- 0.1)\nrows (24 links): ",
-              (n * sxy - sx * sy) / (n * sxx - sx * sx));
-  for (const int rows : growing_rows) std::printf(" %d: %.0f ns ", rows, least(24, rows));
+  std::printf(" exponent %.2f (goal 1.0 +- 0.1)\n", by_time.value());
+  if (!counts.empty()) std::printf("  instructions:  %s exponent %.2f\n", counts.c_str(), by_count.value());
+  std::printf("rows (24 links): ");
+  for (const int rows : growing_rows) {
+    std::printf(" %d: %.0f ns ", rows, least(zwang::bench::chain(24, rows)));
+  }
   std::printf("\n");
 }
 
@@ -201,6 +226,12 @@ int repeat(const std::string& name, int calls) {
   for (const int rows : {1, 3, 6}) {
     if (name == "arm, " + std::to_string(rows) + " rows") work = arm_zwang(rows);
     if (name == "KDL, " + std::to_string(rows) + " rows") work = arm_kdl(rows);
+  }
+#ifdef ZWANG_BENCH_PINOCCHIO
+  makers.push_back(arm_pinocchio);
+#endif
+  for (const int links : growing_links) {
+    if (name == chain(links, 6).name) work = chain(links, 6);
   }
   for (const auto make : makers) {
     if (!work && make().name == name) work = make();
@@ -240,7 +271,7 @@ int main(int count, char** arguments) {
   Keeper keeper;
   benchmark::RunSpecifiedBenchmarks(&keeper);
   print_comparisons(arguments[0], all, keeper.times);
-  print_growth(keeper.times);
+  print_growth(arguments[0], keeper.times);
   std::printf("\n");
   print_worst_step(zwang::bench::arm_zwang(6));
   print_worst_step(zwang::bench::base_full());

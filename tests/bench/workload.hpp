@@ -37,6 +37,7 @@ std::vector<solver::State> random_states(const solver::Model& model, unsigned se
 
 Workload arm_zwang(int rows);
 Workload arm_kdl(int rows);  ///< kdl_arm.cpp
+Workload arm_pinocchio();    ///< pinocchio_arm.cpp, where it is installed
 Workload base_rows();
 Workload base_full();
 Workload base_with_rows();

@@ -9,6 +9,7 @@
 #include "format/tokens.hpp"
 #include "lower/lower.hpp"
 #include "robot/load_robot.hpp"
+#include "scenario/scenario_file.hpp"
 #include "scene/load_scene.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
@@ -92,6 +93,20 @@ const TaskFile& host_of_conditions() {
   return host;
 }
 
+/// What scenarios expect something of.
+const Program& host_of_expectations() {
+  static const Program program = [] {
+    Diagnostics diagnostics;
+    LoadOptions options;
+    options.robot = root / "tests/conformance/robots/mini.yaml";
+    options.scene = root / "tests/conformance/scene_ok.yaml";
+    const auto loaded = load(root / "tests/fuzz/condition_host.yaml", options, diagnostics);
+    require(loaded.has_value(), "the host of the expectations is good");
+    return *loaded;
+  }();
+  return program;
+}
+
 std::optional<Robot> robot_of(std::string_view yaml, std::string_view xml, Diagnostics& diagnostics) {
   const std::optional<Document> document = read(add(yaml, diagnostics), diagnostics);
   if (!document) return std::nullopt;
@@ -153,9 +168,23 @@ void scene(std::string_view bytes) {
   judge(diagnostics, is_good);
 }
 
+void scenario(std::string_view bytes) {
+  if (!is_readable(bytes, yaml_size_limit)) return;
+  Diagnostics diagnostics;
+  const std::optional<Document> document = read(add(bytes, diagnostics), diagnostics);
+  const std::optional<ScenarioFile> file =
+      document ? parse_scenario_file(*document, diagnostics) : std::nullopt;
+  bool is_good = false;
+  if (file && !diagnostics.has_errors()) {
+    is_good = scenario_of(*file, root / "tests/conformance/input.yaml", diagnostics).has_value() &&
+              check_expectations(*file, host_of_expectations(), diagnostics).has_value();
+  }
+  judge(diagnostics, is_good);
+}
+
 const std::vector<Target>& targets() {
   static const std::vector<Target> all = {
-      {"task", task}, {"condition", condition}, {"robot", robot}, {"scene", scene}};
+      {"task", task}, {"condition", condition}, {"robot", robot}, {"scene", scene}, {"scenario", scenario}};
   return all;
 }
 

@@ -12,6 +12,9 @@ void condition(std::string_view bytes);  ///< a condition of a fixed task file
 /// A robot file, a line `=== URDF`, and the URDF; without the line a URDF alone.
 void robot(std::string_view bytes);
 void scene(std::string_view bytes);  ///< a scene file
+/// A scenario file beside those of tests/conformance: its matrix multiplied out, and its expectations of a
+/// fixed task.
+void scenario(std::string_view bytes);
 
 struct Target {
   std::string name;

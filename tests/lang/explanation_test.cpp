@@ -9,6 +9,7 @@
 #include <regex>
 #include <set>
 
+#include "limits.hpp"
 #include "support.hpp"
 #include "zwang/lang/notes.hpp"
 
@@ -99,6 +100,24 @@ TEST(Explanations, each_page_has_a_golden_text) {
     const std::string code = file.path().stem().string();
     if (code == "README") continue;
     EXPECT_GT(shown[code], 0) << "no golden text shows " << code;
+  }
+}
+
+/// What nearly shows it and must not: the mended example, a file at the limit, or one in tests/conformance
+/// that is good and bears the code in its name.
+TEST(Explanations, each_page_has_a_near_miss) {
+  std::string names;
+  for (const auto& file : fs::directory_iterator(test::source_dir / "tests/conformance")) {
+    if (file.path().extension() != ".expected" || test::slurp(file.path()) != "ok\n") continue;
+    names += file.path().stem().string() + "\n";
+  }
+  std::set<std::string> limits;
+  for (const test::Limit& limit : test::limits()) limits.insert(limit.code);
+  for (const Explanation& e : explanations()) {
+    const std::string code(e.code);
+    const bool has_one =
+        !e.instead.empty() || limits.contains(code) || names.find("ok_" + code) != std::string::npos;
+    EXPECT_TRUE(has_one) << "no near miss of " << code;
   }
 }
 

@@ -42,6 +42,10 @@ TEST(Format, leaves_values_as_they_are) {
                 "when: a  <  2 s   and b\nq: \"x  \\\" # y\"\n");
 }
 
+TEST(Format, keeps_blank_lines_inside_a_text) {
+  expect_layout("about: one\n\n\n\n    two\n\n\n\nb: 1\n", "about: one\n\n\n\n    two\n\nb: 1\n");
+}
+
 TEST(Format, keeps_comments_and_where_they_belong) {
   expect_layout(
       "# head\n\n\n\na:   # of a\n      # of b\n      b: 1\n      c: 22   # of c\n      d: 3 # of d\n      # "

@@ -149,6 +149,111 @@ TEST_F(Physics, a_boundary_brakes_with_its_share_of_the_acceleration) {
                said(axes(a * 1.001), "elapsed > 2 s", "base_link", "world"));
 }
 
+/// What is said about a group on a feature.
+class FeaturePhysics : public Physics {
+ protected:
+  Diagnostics said_of(const std::string& feature, const std::string& statements, const std::string& more = "",
+                      const std::string& robot = "mini") {
+    const std::string text = "zwang: 1\nrobot: robots/" + robot +
+                             ".yaml\nframes:\n  wall: {parent: world, at: [2 m, 0 m]}\n" + more +
+                             "features:\n  f: " + feature +
+                             "\nstart: go\ntasks:\n  go:\n    constraints:\n      go: {feature: f, " +
+                             statements + "}\n    timeout: {after: 9 s, goto: failed}\n";
+    Diagnostics diagnostics;
+    load_with_notes(folder_.write("task.yaml", text), {}, diagnostics);
+    return diagnostics;
+  }
+};
+
+TEST_F(FeaturePhysics, a_slanted_push_meets_the_mass_of_what_can_move) {
+  // s = 0.6 x + 0.8 y with y held: 1/m_s = 0.6^2 / m.
+  const double cap = mass / 0.36 * 0.3;
+  const auto said_about = [&](double f) {
+    return said_of("{direction: {move: base_link, in: base_link, x: 0.6, y: 0.8}}",
+                   "force: " + number(f, "N") + ", acceleration: +-0.3 m/s^2");
+  };
+  expect_number(only_outside("E601", said_about(cap * 0.999), said_about(cap * 1.001)), "caps it at 18.7 N");
+}
+
+TEST_F(FeaturePhysics, a_distance_is_asked_along_its_line_and_in_other_directions) {
+  // Straight ahead the whole base moves; where the wheels hold the line, nothing is said of it.
+  const auto push = [&](double f) {
+    return said_of("{distance: [base_link, wall]}", "force: " + number(-f, "N"));
+  };
+  expect_number(only_outside("W606", push(force * 0.999), push(force * 1.001)), "100 N at most");
+}
+
+TEST_F(FeaturePhysics, an_angle_is_a_turn) {
+  const auto turn = [&](double n) {
+    return said_of("{angle: [base_link.x, wall.y]}", "force: " + number(n, "N m"));
+  };
+  expect_number(only_outside("W606", turn(torque * 0.999), turn(torque * 1.001)), "20 N m at most");
+}
+
+TEST_F(FeaturePhysics, what_hangs_on_a_signal_may_lie_anywhere) {
+  const std::string seen = "  seen: {parent: partner}\nsignals:\n  partner: {type: pose, stale_after: 1 s}\n";
+  const auto push = [&](double f) {
+    return said_of("{distance: [base_link, seen]}", "force: " + number(-f, "N"), seen);
+  };
+  only_outside("W606", push(force * 0.999), push(force * 1.001));
+}
+
+TEST_F(FeaturePhysics, a_feature_counts_among_the_rows) {
+  const Diagnostics said_of_both = said_of(
+      "{distance: [nose, wall]}",
+      "velocity: 0.1 m/s}\n      two: {move: nose, in: world, x: {velocity: 0.1 m/s}, y: {velocity: 0.1 m/s}",
+      "  nose: {parent: base_link, at: [0.3 m, 0 m]}\n");
+  EXPECT_EQ(test::count(said_of_both, "E406"), 1) << test::rendered(said_of_both);
+}
+
+TEST_F(Physics, a_planar_speed_bounds_the_approach_as_a_range_does) {
+  const double tau = 0.5 / (std::numbers::e * 0.3);
+  const auto axes = [](double t) {
+    return "speed: {velocity: [0 m/s, 0.5 m/s]}, x: {position: 1 m, acceleration: +-0.3 m/s^2, "
+           "time_constant: " +
+           number(t, "s") + "}";
+  };
+  const auto about = [&](double t) { return said(axes(t), "elapsed > 2 s", "nose", "world"); };
+  only_outside("W604", about(tau * 1.001), about(tau * 0.999));
+}
+
+TEST_F(Physics, a_planar_speed_bounds_the_first_hit) {
+  const double F = 40.0;
+  const double v = std::sqrt(1.25 * F * F / (stiffness * mass));
+  const auto axes = [&](double speed) {
+    return "speed: {velocity: [0 m/s, " + number(speed, "m/s") + "]}, x: {force: 40 N}";
+  };
+  only_outside("N603", said(axes(v * 0.999)), said(axes(v * 1.001)));
+}
+
+/// tests/conformance/robots/casters: 20 kg on two units; of each the swivel weighs 1 kg and 2 g m^2, a wheel
+/// 0.5 kg, 0.6 g m^2 about its axle and 0.3 g m^2 about the vertical.
+TEST_F(Physics, a_push_over_casters_is_capped_between_two_masses) {
+  for (const char* name : {"casters.urdf", "casters.yaml"}) {
+    folder_.write(std::string("robots/") + name,
+                  test::slurp(test::source_dir / "tests/conformance/robots" / name));
+  }
+  const double R = 0.05, c = 0.02, half_span = 0.05, I = 0.6e-3;
+  // Swivels that trail only roll; across, the wheels' middle stands and the swivel turns about it with v/c.
+  const double trailing = 20.0 + 2.0 * (1.0 + 2.0 * (0.5 + I / (R * R)));
+  const double turning = 0.002 + 2.0 * (0.3e-3 + 0.5 * half_span * half_span);
+  const double across = 20.0 + 2.0 * (1.0 + turning / (c * c) + 2.0 * I * std::pow(half_span / (c * R), 2));
+  const auto about = [&](double f) {
+    Diagnostics diagnostics;
+    const std::string text =
+        "zwang: 1\nrobot: robots/casters.yaml\nstart: go\ntasks:\n  go:\n    constraints:\n      go: {move: "
+        "base_link, in: base_link, x: {force: " +
+        number(f, "N") + ", acceleration: +-0.3 m/s^2}}\n    timeout: {after: 9 s, goto: failed}\n";
+    load_with_notes(folder_.write("task.yaml", text), {}, diagnostics);
+    return diagnostics;
+  };
+  EXPECT_TRUE(about(0.3 * trailing * 0.999).all().empty()) << test::rendered(about(0.3 * trailing * 0.999));
+  only_outside("W601", about(0.3 * trailing * 0.999), about(0.3 * trailing * 1.001));
+  const std::string text = only_outside("E601", about(0.3 * across * 0.999), about(0.3 * across * 1.001));
+  expect_number(text, "16.1 N (53.5 kg x 0.3 m/s^2)");
+  EXPECT_NEAR(across, 53.5, 0.05);
+}
+
 TEST_F(Physics, one_cause_has_one_message) {
   const Diagnostics said_of = said("x: {force: 500 N, acceleration: +-0.3 m/s^2}, y: {velocity: 1 m/s}");
   EXPECT_EQ(said_of.all().size() - static_cast<std::size_t>(test::count(said_of, "W302")), 2U)

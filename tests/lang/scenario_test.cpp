@@ -102,6 +102,7 @@ TEST(Scenario, mistakes_are_found_where_they_are_written) {
       {"at: end", "at: start", "E904", 13},
       {"outcome: done", "always: true < 1", "E301", 12},
       {"outcome: done", "{outcome: done, diagnostic: E404}", "E904", 12},
+      {"outcome: done", "diagnostic: E999", "E301", 12},
       {"start_yaw: [-5 deg, 5 deg]", "start_yaw: []", "E905", 6},
       {"of: truth.wall.touched", "of: truth.wall.force", "E906", 14},
       {"of: truth.wall.touched", "of: truth.wal.touched", "E301", 14},
@@ -124,6 +125,29 @@ TEST(Scenario, mistakes_are_found_where_they_are_written) {
     EXPECT_EQ(of_scenario.error_count(), 1) << rendered(of_scenario);
     EXPECT_EQ(of_scenario.sorted()[0].span.begin.line, mistake.line) << rendered(of_scenario);
   }
+}
+
+/// Of so many keys with two values, and one with the given number.
+std::string with_matrix(int keys, int last) {
+  std::string text = "zwang_scenario: 1\ntask: wall_align.yaml\nexpect: [{outcome: done}]\nmatrix:\n";
+  for (int i = 0; i < keys; ++i) text += "  params.p" + std::to_string(i) + ": [1 m, 2 m]\n";
+  text += "  start_yaw: [";
+  for (int i = 0; i < last; ++i) text += (i > 0 ? ", " : "") + std::to_string(i) + " deg";
+  return text + "]\n";
+}
+
+TEST(Scenario, a_matrix_has_a_thousand_cells_and_no_more) {
+  Diagnostics good_ones, one_more, beyond_any_number;
+  const auto scenario = load_scenario(Shelf(with_matrix(3, 125)).path, good_ones);
+  ASSERT_TRUE(scenario) << rendered(good_ones);
+  EXPECT_EQ(scenario->cells.size(), 1000u);
+  EXPECT_FALSE(load_scenario(Shelf(with_matrix(3, 126)).path, one_more));
+  EXPECT_EQ(test::count(one_more, "E905"), 1) << rendered(one_more);
+  EXPECT_EQ(one_more.all()[0].span.begin.line, 8) << "the key that made them too many";
+  // 2^64 is 0 to a number of 64 bits.
+  EXPECT_FALSE(load_scenario(Shelf(with_matrix(64, 1)).path, beyond_any_number));
+  EXPECT_EQ(test::count(beyond_any_number, "E905"), 1) << rendered(beyond_any_number);
+  EXPECT_EQ(beyond_any_number.all()[0].span.begin.line, 14);
 }
 
 TEST(Scene, reads_what_unfolds_in_time) {
@@ -172,6 +196,8 @@ signals:
       {"pose_of: cart", "pose_of: car", "E301", 6},
       {"pose_of: cart", "pose_of: cart, latch: cart", "E908", 6},
       {"dropouts: 5 %", "dropouts: 100 %", "E908", 6},
+      {"dropouts: 5 %", "rate: 0 Hz", "E105", 6},
+
       {"at: [2 m, 0 m], motion", "at: [2 m, 0 m], mass: 3 kg, motion", "E902", 3},
   };
   for (const Mistake& mistake : mistakes) {
@@ -183,6 +209,17 @@ signals:
     EXPECT_EQ(diagnostics.error_count(), 1) << rendered(diagnostics);
     EXPECT_EQ(diagnostics.sorted()[0].span.begin.line, mistake.line) << rendered(diagnostics);
   }
+}
+
+TEST(Scene, an_object_is_not_called_like_the_base_of_the_truth) {
+  const test::Folder folder;
+  Diagnostics diagnostics;
+  EXPECT_FALSE(load_scene(
+      folder.write("s.yaml", "zwang_scene: 1\nobjects:\n  base: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m]}\n"),
+      diagnostics));
+  ASSERT_EQ(diagnostics.all().size(), 1u) << rendered(diagnostics);
+  EXPECT_EQ(diagnostics.all()[0].code, "E305");
+  EXPECT_EQ(diagnostics.all()[0].span.begin.line, 3);
 }
 
 }  // namespace

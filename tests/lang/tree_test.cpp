@@ -167,5 +167,16 @@ TEST(Read, a_scalar_of_many_lines_has_a_limit_too) {
   EXPECT_EQ(count(read_text("a:\n" + repeated(line, 5)).diagnostics, "E115"), 1);
 }
 
+TEST(Read, a_text_with_blank_lines_ends_where_it_ends) {
+  Diagnostics diagnostics;
+  const int source = diagnostics.add_source({"t.yaml", "a: one\n\n\n\n  two\nb: 1\n"});
+  const std::optional<Document> document = read(source, diagnostics);
+  ASSERT_TRUE(document) << test::rendered(diagnostics);
+  const Span& span = document->root.entries[0].value.span;
+  EXPECT_EQ(document->root.entries[0].value.text, "one\n\n\ntwo");
+  EXPECT_EQ(span.end.line, 5);
+  EXPECT_EQ(span.end.column, 6);
+}
+
 }  // namespace
 }  // namespace zwang::lang

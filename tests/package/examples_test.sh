@@ -23,7 +23,10 @@ ran=0
 for program in "$place"/build/[0-9]*/[0-9]*; do
   if [[ -f $program && -x $program ]]; then
     arguments=()
-    if [[ $program == */03_own_loop ]]; then arguments=("$source/specs/wall_align.yaml"); fi
+    case $program in
+      */03_own_loop | */04_own_plant) arguments=("$source/specs/wall_align.yaml") ;;
+      */05_live) arguments=("$source/specs/wall_align.yaml" "$source/specs/obstacle.yaml") ;;
+    esac
     step "run $(basename "$program")" "$program" "${arguments[@]}"
     ran=$((ran + 1))
   fi

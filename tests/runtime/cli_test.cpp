@@ -164,6 +164,17 @@ TEST_F(Cli, ATaskThatFailsEndsWithOne) {
   EXPECT_EQ(j["transitions"][1]["why"], "timeout after 0.2 s (task.yaml:8)");
 }
 
+TEST_F(Cli, WhatWouldHaveSwitchedTooIsSaid) {
+  const Result r = run_task(std::string(stand) +
+                            "    exits:\n      - {when: elapsed > 0.1 s, goto: done}\n"
+                            "      - {when: elapsed > 0.05 s and elapsed > 0.1 s, goto: failed}\n"
+                            "    timeout: {after: 5 s, goto: failed}\n");
+  EXPECT_EQ(r.code, 0) << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["transitions"][0]["also_true"], json::array());
+  EXPECT_EQ(j["transitions"][1]["also_true"], json::array({"elapsed > 0.05 s and elapsed > 0.1 s"}));
+}
+
 TEST_F(Cli, ASignalStopsTheRunAndClosesTheLog) {
   for (const int signal : {SIGINT, SIGTERM}) {
     write("task.yaml", "zwang: 1\nrobot: none.yaml\n" + std::string(stand) +

@@ -1,6 +1,7 @@
 // Runs that do not end: no allocation in a million ticks, and memory that stays flat for an hour. By default
 // a short piece of each; with ZWANG_LONG in the environment (`./dev test --long`) all of it.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -48,7 +49,8 @@ TEST(Long, NoTickAllocates) {
   const lang::Program program = patrol();
   ScenePlant plant(program);
   Runner runner(program, {.period = period});
-  const std::filesystem::path log = std::filesystem::temp_directory_path() / "zwang_long_test.mcap";
+  const std::filesystem::path log =
+      std::filesystem::temp_directory_path() / ("zwang_long_test_" + std::to_string(getpid()) + ".mcap");
   std::vector<std::unique_ptr<LogSink>> sinks;
   sinks.push_back(mcap_sink(log, {}));
   Recorder recorder(std::move(sinks), runner.columns());

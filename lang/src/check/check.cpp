@@ -143,6 +143,11 @@ bool check_value(CheckContext& context, const ValueText& value, const Dimension&
   }
   ParameterSymbol* symbol = context.symbols.find_parameter(value.name);
   if (symbol == nullptr) {
+    const auto& declared = context.file.parameters;
+    const bool is_declared_so = !is_identifier(value.name) &&
+                                std::any_of(declared.begin(), declared.end(),
+                                            [](const ParameterText& text) { return !text.name.exists(); });
+    if (is_declared_so) return false;
     context.diagnostics.add(wording::unknown_name(value.span, "parameter", value.name,
                                                   nearest(value.name, context.symbols.parameter_names())));
     return false;
@@ -234,7 +239,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   for (const ExitText& exit : file.always_exits) {
     checked.always_conditions.push_back(check_exit(context, exit, nullptr));
   }
-  if (file.start.exists() && !checked.symbols.find_task(file.start.text)) {
+  if (file.start.exists() && !file.tasks.empty() && !checked.symbols.find_task(file.start.text)) {
     diagnostics.add(wording::unknown_name(file.start.span, "task", file.start.text,
                                           nearest(file.start.text, checked.symbols.tasks)));
   }

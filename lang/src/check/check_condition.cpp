@@ -3,6 +3,7 @@
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 
 namespace zwang::lang {
 
@@ -158,7 +159,13 @@ class ConditionCheck {
       lowered.axis = axis;
       return quantity_type(axis < 2 ? dimension::force : dimension::torque);
     }
-    const std::vector<std::string> parts = split(node.word);
+    std::vector<std::string> parts = split(node.word);
+    // Of a group on a feature, the group's name says it all: `near.velocity`.
+    if (const GroupText* group = find_group(parts[0], lowered)) {
+      const bool is_feature = group->kind == GroupKind::feature;
+      if (is_feature && parts.size() == 3) parts.clear();
+      if (is_feature && parts.size() == 2) parts.insert(parts.begin(), parts[0]);
+    }
     if (parts.size() == 3) return check_coordinate(node, parts, lowered);
     std::vector<std::string> known{"elapsed"};
     if (!context_.of_truth) known.insert(known.end(), estimated_forces.begin(), estimated_forces.end());
@@ -167,7 +174,8 @@ class ConditionCheck {
     for (const GroupText& group : groups_) {
       for (const AxisText& axis : group.axes) {
         for (const CoordinateWord& word : coordinate_words) {
-          known.push_back(group.name.text + "." + axis.name.text + "." + std::string(word.word));
+          const std::string axis_of = group.kind == GroupKind::feature ? "" : "." + axis.name.text;
+          known.push_back(group.name.text + axis_of + "." + std::string(word.word));
         }
       }
     }
@@ -233,9 +241,17 @@ class ConditionCheck {
       known.emplace_back(word.word);
       if (word.word != parts[2]) continue;
       lowered.what = word.quantity;
-      return type_of(word.quantity, axis_named(parts[1]).value_or(solver::Axis::x));
+      return type_of(word.quantity, axis_measured(group, parts[1]));
     }
     return complain(wording::unknown_name(node.span, "quantity", parts[2], nearest(parts[2], known)));
+  }
+
+  /// The axis itself; of a feature any that measures alike.
+  solver::Axis axis_measured(const GroupText& group, const std::string& axis) const {
+    if (group.kind != GroupKind::feature) return axis_named(axis).value_or(solver::Axis::x);
+    const std::optional<int> index = context_.symbols.find_feature(group.feature.text);
+    const bool turns = index && context_.symbols.features[static_cast<std::size_t>(*index)].feature.turns;
+    return turns ? solver::Axis::rz : solver::Axis::x;
   }
 
   Type check_call(const ExpressionText& node, ExpressionNode& lowered) {
@@ -298,6 +314,9 @@ class ConditionCheck {
     const Type right = require_number(node.right);
     if (left.is_bad || right.is_bad) return bad_type;
     if (lowered.op == Op::multiply) return quantity_type(left.dimension * right.dimension);
+    const ExpressionText& below = node_at(node.right);
+    const bool is_zero = below.kind == ExpressionKind::quantity && below.quantity.value == 0.0;
+    if (lowered.op == Op::divide && is_zero) return complain(wording::divides_by_zero(below.span));
     if (lowered.op == Op::divide) return quantity_type(left.dimension / right.dimension);
     if (left.dimension != right.dimension) return complain_of_mismatch(node, left, right);
     const bool compares = lowered.op != Op::add && lowered.op != Op::subtract;

@@ -4,6 +4,7 @@
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 
 namespace zwang::lang {
 
@@ -39,6 +40,7 @@ class AxisCheck {
     check_force_range();
     if (text_.time_constant) check_time(context_, *text_.time_constant, path_ + ".time_constant", false);
     check_compliance();
+    check_speed();
     if (text_.weight) check_positive(*text_.weight, turns() ? dimension::inertia : dimension::mass, "weight");
   }
 
@@ -59,6 +61,15 @@ class AxisCheck {
     if (present_value(context_, value) <= 0.0) {
       context_.diagnostics.add(wording::not_positive(value.span, what, false));
     }
+  }
+
+  void check_speed() {
+    const std::optional<StatementText>& velocity = text_[Quantity::velocity];
+    if (!text_.is_speed() || is_feature_ || !velocity || !velocity->is_range) return;
+    const ValueText& low = velocity->low;
+    const bool is_known = low.kind == ValueKind::quantity && low.quantity.dimension == dimension::velocity;
+    if (is_known && low.quantity.value != 0.0)
+      context_.diagnostics.add(wording::speed_from_zero(velocity->span, path_ + ".velocity"));
   }
 
   /// `stiffness` and `damping` make a spring of a position driver, in the place of the time constant.
@@ -198,6 +209,20 @@ void check_positions(CheckContext& context, const GroupText& group, const std::o
   }
 }
 
+/// The group's weight is that of each axis that gives none: a mass, or on an axis that turns an inertia.
+void check_group_weight(CheckContext& context, const GroupText& group) {
+  if (!group.weight) return;
+  for (const AxisText& axis : group.axes) {
+    if (axis.weight || axis.is_free || axis.is_speed()) continue;
+    const bool turns = is_rotation(axis_named(axis.name.text).value_or(Axis::x));
+    const std::string what = group.name.text + ".weight, that of `" + axis.name.text + "`,";
+    if (!check_value(context, *group.weight, turns ? dimension::inertia : dimension::mass, what)) return;
+  }
+  if (present_value(context, *group.weight) <= 0.0) {
+    context.diagnostics.add(wording::not_positive(group.weight->span, group.name.text + ".weight", false));
+  }
+}
+
 void check_group(CheckContext& context, const GroupText& group) {
   if (group.kind == GroupKind::inside) return check_inside(context, group);
   if (group.kind == GroupKind::feature) return check_feature_group(context, group);
@@ -210,6 +235,7 @@ void check_group(CheckContext& context, const GroupText& group) {
   if (group.time_constant) {
     check_time(context, *group.time_constant, group.name.text + ".time_constant", false);
   }
+  check_group_weight(context, group);
   if (group.axes.empty() && !group.is_incomplete)
     context.diagnostics.add(wording::group_without_axes(group.name.span, group.name.text));
   for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, move, in).check();

@@ -202,9 +202,12 @@ class FrameOrder {
         loop.push_back(find_waiting(loop.back()->parent.text));
       }
       const bool is_in_loop = loop.back() == frame;
-      const bool is_first = is_in_loop && std::all_of(loop.begin(), loop.end(), [&](const FrameText* other) {
-                              return other->span.begin.line >= frame->span.begin.line;
-                            });
+      const bool is_first =
+          is_in_loop && std::all_of(loop.begin(), loop.end(), [&](const FrameText* other) {
+            const Position& first = frame->span.begin;
+            const Position& begin = other->span.begin;
+            return std::pair(begin.line, begin.column) >= std::pair(first.line, first.column);
+          });
       if (is_first) {
         std::vector<std::string> names;
         for (const FrameText* part : loop) names.push_back(part->name.text);

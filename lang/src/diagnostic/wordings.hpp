@@ -223,7 +223,7 @@ Diagnostic one_expectation(const Span& span);
 Diagnostic at_the_end_only(const Span& span);
 Diagnostic nothing_expected(const Span& span);
 Diagnostic empty_matrix_key(const Span& span, const std::string& key);
-Diagnostic too_many_cells(const Span& span, std::size_t count, std::size_t most);
+Diagnostic too_many_cells(const Span& span, std::size_t most);
 Diagnostic not_a_time(const Span& span, const std::string& name);
 
 }  // namespace zwang::lang::wording

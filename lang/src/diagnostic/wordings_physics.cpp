@@ -67,9 +67,10 @@ Diagnostic axis_held_by_wheels(const Span& span, const std::string& axis, const 
                frame_ahead.empty() ? "leave the axis out, or write it as a range" : ahead(frame_ahead));
 }
 
-Diagnostic no_motor_along(const Span& span, const std::string& axis) {
+Diagnostic no_motor_along(const Span& span, const std::string& axis, bool can_turn) {
   return error("E404", span, "no motor of this robot pushes along `" + axis + "`",
-               "leave the axis out, or write it as a range");
+               can_turn ? "turn the base with `rz` and drive ahead along its own `x`"
+                        : "leave the axis out, or write it as a range");
 }
 
 Diagnostic tied_axes(const Span& span, const std::string& axis, const std::string& move, int freedoms,
@@ -112,15 +113,14 @@ Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit) {
                 cap, limit);
 }
 
-Diagnostic cannot_press_everywhere(const Span& span, const Cap& cap, double least, const Span& limit) {
-  const Units u = units(cap.turns);
-  Cap worst = cap;
-  worst.most = least;
+Diagnostic cannot_press_everywhere(const Span& span, const Cap& least, const Span& limit) {
+  const Units u = units(least.turns);
   return capped(warning("W601", span,
-                        "`" + cap.axis + "` cannot press with " + figure(cap.wanted, u.force) +
+                        "`" + least.axis + "` cannot press with " + figure(least.wanted, u.force) +
                             " in every configuration: the acceleration limit caps it at " +
-                            figure(least, u.force) + " in some"),
-                worst, limit);
+                            figure(least.most, u.force) + " in some (" +
+                            product(least.mass, least.most / least.mass, u) + ")"),
+                least, limit);
 }
 
 Diagnostic cannot_press_at_range_end(const Span& span, const Cap& cap, const Span& limit) {
@@ -206,6 +206,14 @@ Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool tur
                      " (0.8 x " + product(mass, braking, u) + "), the motors make " + figure(force, u.force) +
                      ": it can be overrun",
                  "limit the acceleration to `+-" + at_most(enough, u.acceleration) + "`");
+}
+
+Diagnostic unasked(const Span& span, const std::string& task) {
+  return make("N608", Severity::note, span,
+              "from task `" + task +
+                  "` on nothing was asked about the robot's model: so many axes of such a robot would take "
+                  "too long",
+              "split the file");
 }
 
 }  // namespace zwang::lang::wording

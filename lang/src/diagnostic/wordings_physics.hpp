@@ -13,7 +13,8 @@ std::string figure(double value, const std::string& unit);
 Diagnostic held_axis(const Span& span, const std::string& axis);
 /// `frame_ahead`: a frame that could be driven along this axis, as it is written; empty when there is none.
 Diagnostic axis_held_by_wheels(const Span& span, const std::string& axis, const std::string& frame_ahead);
-Diagnostic no_motor_along(const Span& span, const std::string& axis);
+/// `can_turn`: what cannot go sideways can be turned and driven ahead.
+Diagnostic no_motor_along(const Span& span, const std::string& axis, bool can_turn);
 Diagnostic tied_axes(const Span& span, const std::string& axis, const std::string& move, int freedoms,
                      const std::string& frame_ahead);
 Diagnostic too_many_rows(const Span& span, int rows, int level, int freedoms, bool is_base,
@@ -31,7 +32,7 @@ struct Cap {
   double mass = 0.0;    ///< effective, at the start [kg] or [kg m^2]
 };
 Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit);
-Diagnostic cannot_press_everywhere(const Span& span, const Cap& cap, double least, const Span& limit);
+Diagnostic cannot_press_everywhere(const Span& span, const Cap& least, const Span& limit);
 Diagnostic cannot_press_at_range_end(const Span& span, const Cap& cap, const Span& limit);
 
 /// `time_constant`: with which the range would be reached [s]; 0 where the driver has none that matters.
@@ -67,5 +68,8 @@ Diagnostic beyond_the_motors(const Span& span, const std::string& axis, bool tur
                              double mass, double time_constant, bool always);
 Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool turns, double mass,
                              double braking, double force, double enough);
+
+/// From this task on nothing was asked of the robot's model.
+Diagnostic unasked(const Span& span, const std::string& task);
 
 }  // namespace zwang::lang::wording

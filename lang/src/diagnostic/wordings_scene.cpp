@@ -49,9 +49,9 @@ Diagnostic empty_matrix_key(const Span& span, const std::string& key) {
   return error("E905", span, "`matrix." + key + "` holds no value: the matrix would be empty");
 }
 
-Diagnostic too_many_cells(const Span& span, std::size_t count, std::size_t most) {
-  return error("E905", span,
-               "the matrix has " + std::to_string(count) + " cells, more than " + std::to_string(most));
+Diagnostic too_many_cells(const Span& span, std::size_t most) {
+  return error("E905", span, "with this key the matrix has more than " + std::to_string(most) + " cells",
+               "split it into several scenario files");
 }
 
 Diagnostic not_a_time(const Span& span, const std::string& name) {

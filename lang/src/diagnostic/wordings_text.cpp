@@ -32,6 +32,7 @@ constexpr std::array reasons{
     Reason{"end of sequence flow not found", "a `[` is not closed before this place", "close it with `]`"},
     Reason{"end of map not found", "this line does not fit the lines above it",
            "lines that belong together start in the same column"},
+    Reason{"no colon behind a key", "a `:` is missing behind this word", "write `key: value`"},
     Reason{"end of sequence not found", "this line does not fit the list above it",
            "items of a list start in the same column"},
     Reason{"unexpected character in block scalar", "a value that starts with | or > must be quoted", ""},

@@ -126,6 +126,14 @@ file's. Times the effective mass that is a force, and the motors make less: the 
           .part = ExcerptOf::group,
           .example = "in: world\nx: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-6 m/s^2}",
           .instead = "in: world\nx: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-5 m/s^2}"},
+      Explanation{
+          .code = "N608",
+          .title = "a file too large to be asked about the robot's model",
+          .why =
+              R"~(Each axis that a file moves is put to the robot's model, and that takes time: little on a base with
+four wheels, much on a robot with a hundred joints. Checking always ends within two seconds; past that nothing is said
+about what the robot can do.)~",
+          .fix = "Split the file: a task file is one action, and a mission is made of several above it."},
   };
   return entries;
 }

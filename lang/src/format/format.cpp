@@ -71,6 +71,7 @@ struct LaidLine {
   int indent = 0;
   std::string text;
   std::string comment;
+  bool continues = false;  ///< goes on with the line before it: blank lines between them are part of a text
 
   bool is_blank() const { return text.empty() && comment.empty(); }
   std::size_t width() const { return static_cast<std::size_t>(indent) + count_code_points(text); }
@@ -83,7 +84,7 @@ std::vector<LaidLine> laid_out(const std::vector<LineTokens>& lines) {
   const LineTokens* owner = nullptr;
   int shift = 0;
   for (const LineTokens& line : lines) {
-    LaidLine laid{line.indent, joined(line.tokens), line.comment};
+    LaidLine laid{line.indent, joined(line.tokens), line.comment, line.continues};
     if (!line.tokens.empty() && !line.continues) {
       laid.indent = indent_width * line.depth;
       owner = &line;
@@ -145,7 +146,10 @@ std::string written(const std::vector<LaidLine>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const LaidLine& line = lines[i];
     if (line.is_blank()) {
-      if (!was_blank) text += '\n';
+      const auto next = std::find_if(lines.begin() + static_cast<std::ptrdiff_t>(i), lines.end(),
+                                     [](const LaidLine& later) { return !later.is_blank(); });
+      const bool is_in_a_text = next != lines.end() && next->continues;
+      if (!was_blank || is_in_a_text) text += '\n';
       was_blank = true;
       continue;
     }

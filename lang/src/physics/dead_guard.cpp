@@ -36,7 +36,8 @@ std::optional<Demand> demand_of(const PlannedAxis& axis) {
 
 /// Where a guard of the task asks for `group.axis.saturated`.
 std::optional<Span> guard_on(const CheckContext& context, const TaskText& task, const PlannedAxis& axis) {
-  const std::string wanted = axis.group + "." + axis.text->name.text + ".saturated";
+  const std::string wanted =
+      axis.group + (axis.is_feature() ? "" : "." + axis.text->name.text) + ".saturated";
   const auto find = [&](const std::vector<ExitText>& exits) -> std::optional<Span> {
     for (const ExitText& exit : exits) {
       for (const ExpressionText& node : exit.when.nodes) {

@@ -7,6 +7,9 @@
 //   r_k   their rank as coordinates of free bodies
 //
 //   n > m  E406          r_k < n  W407          r < r_k = n  E404: the wheels tie them together
+//
+// On a base of two freedoms the last one is asked of x and y of a point first: three rows there are too many,
+// but fewer of them would not help.
 #include <algorithm>
 #include <map>
 
@@ -30,15 +33,20 @@ bool counts(const PlannedAxis& axis, const Probe& probe) {
          (!stands_still(axis) || axis.move.body != 0 || probe.base_mobility() == 3);
 }
 
-/// The first row that adds nothing to those before it; nullptr when all do.
+/// The first row that adds nothing to those before it; nullptr when all do. Rows that depend on each other
+/// still do with more of them: the first one is found by halving.
 template <typename Rank>
 const PlannedAxis* first_dependent(const Rows& rows, const Rank& rank) {
-  Rows so_far;
-  for (const PlannedAxis* row : rows) {
-    so_far.push_back(row);
-    if (rank(so_far) < static_cast<int>(so_far.size())) return row;
+  const auto are_dependent = [&](std::size_t count) {
+    return rank({rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count)}) < static_cast<int>(count);
+  };
+  if (!are_dependent(rows.size())) return nullptr;
+  std::size_t independent = 0, dependent = rows.size();
+  while (dependent - independent > 1) {
+    const std::size_t middle = (independent + dependent) / 2;
+    (are_dependent(middle) ? dependent : independent) = middle;
   }
-  return nullptr;
+  return rows[dependent - 1];
 }
 
 /// The earlier row that alone makes `row` redundant; nullptr when it takes several.
@@ -50,11 +58,29 @@ const PlannedAxis* twin_of(const PlannedAxis* row, const Rows& rows, Probe& prob
   return nullptr;
 }
 
+/// On a base of two freedoms x and y of one point may be tied, whatever else is driven: another point is
+/// wanted then, and not fewer rows.
+const PlannedAxis* tied_shift(const Rows& rows, Probe& probe) {
+  if (probe.base_mobility() != 2) return nullptr;
+  Rows shifts;
+  for (const PlannedAxis* row : rows) {
+    if (row->move.body == 0 && !row->turns()) shifts.push_back(row);
+  }
+  const auto grounded = [&](const Rows& some) { return probe.rank(some); };
+  const PlannedAxis* row = shifts.size() == 2 ? first_dependent(shifts, grounded) : nullptr;
+  return row != nullptr && probe.kinematic_rank(shifts) == 2 ? row : nullptr;
+}
+
 void ask_level(int level, const Rows& rows, Probe& probe, Remarks& remarks) {
   const auto n = static_cast<int>(rows.size());
   const bool is_base_only =
       std::all_of(rows.begin(), rows.end(), [](const PlannedAxis* row) { return row->move.body == 0; });
   const int freedoms = is_base_only ? probe.base_mobility() : probe.mobility();
+  const auto say_tied = [&](const PlannedAxis& row) {
+    remarks.add(wording::tied_axes(row.driver_span(), row.path, row.move_name, freedoms,
+                                   is_base_only ? probe.frame_ahead() : ""));
+  };
+  if (const PlannedAxis* row = tied_shift(rows, probe)) return say_tied(*row);
   if (n > freedoms) {
     const PlannedAxis& first_too_many = *rows[static_cast<std::size_t>(freedoms)];
     remarks.add(wording::too_many_rows(first_too_many.driver_span(), n, level, freedoms, is_base_only,
@@ -63,17 +89,14 @@ void ask_level(int level, const Rows& rows, Probe& probe, Remarks& remarks) {
   }
   if (n < 2) return;
   const auto kinematic = [&](const Rows& some) { return probe.kinematic_rank(some); };
-  if (const PlannedAxis* row = kinematic(rows) < n ? first_dependent(rows, kinematic) : nullptr) {
+  if (const PlannedAxis* row = first_dependent(rows, kinematic)) {
     const PlannedAxis* twin = twin_of(row, rows, probe);
     remarks.add(wording::redundant_row(row->driver_span(), row->path, twin != nullptr ? twin->path : "",
                                        twin != nullptr ? twin->driver_span() : Span{}));
     return;
   }
   const auto grounded = [&](const Rows& some) { return probe.rank(some); };
-  if (const PlannedAxis* row = grounded(rows) < n ? first_dependent(rows, grounded) : nullptr) {
-    remarks.add(wording::tied_axes(row->driver_span(), row->path, row->move_name, freedoms,
-                                   is_base_only ? probe.frame_ahead() : ""));
-  }
+  if (const PlannedAxis* row = first_dependent(rows, grounded)) say_tied(*row);
 }
 
 }  // namespace

@@ -18,14 +18,14 @@ namespace {
 
 constexpr double gentle = 2.5;  // of the force range
 
-/// How fast the axis may meet something that it does not know of. [m/s]
-double speed_of(const PlannedAxis& axis) {
+/// How fast the axis may meet something that it does not know of: 0 where nothing says it. [m/s]
+double speed_of(const PlannedTask& plan, const PlannedAxis& axis) {
   const std::optional<solver::Range>& range = axis[solver::Quantity::velocity];
-  if (axis.driver == solver::Quantity::velocity && axis.target) return std::abs(*axis.target);
-  if (!range) return 0.0;
-  if (axis.driver == solver::Quantity::force && axis.target)
-    return *axis.target < 0.0 ? -range->low : range->high;
-  return std::max(range->high, -range->low);
+  double most = plan.speed_limit(axis);
+  if (axis.driver == solver::Quantity::velocity && axis.target) return std::min(most, std::abs(*axis.target));
+  if (axis.driver == solver::Quantity::force && axis.target && range)
+    most = std::min(most, *axis.target < 0.0 ? -range->low : range->high);
+  return std::isfinite(most) ? most : 0.0;
 }
 
 double bound_of(const PlannedAxis& axis) {
@@ -42,7 +42,7 @@ void ask_impact(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     const AxisFigures* figures = probe.figures(axis);
     if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
     const double F = bound_of(axis);
-    const double v = speed_of(axis);
+    const double v = speed_of(plan, axis);
     const double K = probe.robot().bumper_stiffness;
     const double peak = F + std::sqrt(F * F + K * figures->mass * v * v);
     if (!(F > 0.0) || peak <= gentle * F) continue;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_physics.hpp"
 #include "physics/questions.hpp"
 
 namespace zwang::lang {
@@ -15,13 +16,15 @@ bool is_same_axis(const PlannedAxis& a, const PlannedAxis& b) {
     return f.body == g.body && f.pose.rotation.isApprox(g.pose.rotation) &&
            (f.pose.position - g.pose.position).norm() < 1e-9;
   };
-  return a.axis == b.axis && is_same(a.move, b.move) && is_same(a.in, b.in);
+  return a.measure == b.measure && a.axis == b.axis && a.other_axis == b.other_axis &&
+         a.coefficients == b.coefficients && is_same(a.move, b.move) && is_same(a.in, b.in);
 }
 
 /// A range on an axis of the base also bounds what frames on the base may do, however they are turned.
 bool bounds(const PlannedAxis& limit, const PlannedAxis& axis) {
   if (is_same_axis(limit, axis)) return true;
-  const bool is_other_axis = axis.in.body == limit.in.body && axis.axis != limit.axis &&
+  if (limit.is_feature()) return false;
+  const bool is_other_axis = !axis.is_feature() && axis.in.body == limit.in.body && axis.axis != limit.axis &&
                              axis.in.pose.rotation.isApprox(limit.in.pose.rotation);
   return limit.move.body == 0 && axis.move.body == 0 && limit.in.body == 0 && limit.turns() == axis.turns() &&
          !is_other_axis;
@@ -41,23 +44,34 @@ AccelerationLimit acceleration_limit(const PlannedTask& plan, const PlannedAxis&
   return limit;
 }
 
+namespace {
+
+void ask_task(const CheckContext& context, const TaskText& task, Probe& probe, Remarks& remarks) {
+  PlannedTask plan = plan_task(context, task);
+  ask_reach(plan, probe, remarks);
+  ask_freedoms(plan, probe, remarks);
+  ask_press(plan, probe, remarks);
+  ask_dead_guard(context, plan, probe, remarks);
+  ask_time_constant(plan, probe, remarks);
+  ask_wheel_torque(plan, probe, remarks);
+  ask_boundary(context, plan, probe, remarks);
+  if (!context.with_notes) return;
+  ask_impact(plan, probe, remarks);
+  ask_force_budget(plan, probe, remarks);
+}
+
+}  // namespace
+
 void check_physics(CheckContext& context, const std::optional<Scene>& scene) {
   if (!context.robot) return;
   try {
     Probe probe(*context.robot, scene);
     Remarks remarks(context.diagnostics);
     for (const TaskText& task : context.file.tasks) {
-      PlannedTask plan = plan_task(context, task);
-      ask_reach(plan, probe, remarks);
-      ask_freedoms(plan, probe, remarks);
-      ask_press(plan, probe, remarks);
-      ask_dead_guard(context, plan, probe, remarks);
-      ask_time_constant(plan, probe, remarks);
-      ask_wheel_torque(plan, probe, remarks);
-      ask_boundary(context, plan, probe, remarks);
-      if (!context.with_notes) continue;
-      ask_impact(plan, probe, remarks);
-      ask_force_budget(plan, probe, remarks);
+      if (!probe.is_exhausted()) ask_task(context, task, probe, remarks);
+      if (!probe.is_exhausted()) continue;
+      context.diagnostics.add(wording::unasked(task.name.span, task.name.text));
+      return;
     }
   } catch (const std::invalid_argument& error) {
     // The builder of the model took it, the sweeps cannot: nothing about motion can be said of this robot.

@@ -12,16 +12,22 @@ using solver::Quantity;
 constexpr std::array quantities{Quantity::position, Quantity::velocity, Quantity::acceleration,
                                 Quantity::force};
 
-/// Where a frame is fixed: the parents stand before it in the table, so the chain ends.
-solver::AttachedFrame attached(const Symbols& symbols, int index) {
+struct Place {
   solver::AttachedFrame frame{-1, {}};
+  bool is_known = true;  ///< false: it hangs on a signal
+};
+
+/// Where a frame is fixed: the parents stand before it in the table, so the chain ends.
+Place place_of(const Symbols& symbols, int index) {
+  Place place;
   while (index > 0) {
     const FrameDeclaration& declaration = symbols.frames[static_cast<std::size_t>(index)].declaration;
-    frame.pose = declaration.pose * frame.pose;
-    if (declaration.parent == FrameParent::body) frame.body = declaration.parent_index;
+    place.frame.pose = declaration.pose * place.frame.pose;
+    if (declaration.parent == FrameParent::body) place.frame.body = declaration.parent_index;
+    if (declaration.parent == FrameParent::signal) place.is_known = false;
     index = declaration.parent == FrameParent::frame ? declaration.parent_index : 0;
   }
-  return frame;
+  return place;
 }
 
 std::optional<int> good_frame(const Symbols& symbols, const Word& name) {
@@ -62,7 +68,7 @@ bool read_statements(const CheckContext& context, const AxisText& text, PlannedA
     const std::optional<StatementText>& statement = text[quantity];
     if (!statement) continue;
     const auto index = static_cast<std::size_t>(quantity);
-    const Dimension expected = dimension_of(axis.axis, quantity);
+    const Dimension expected = dimension_of(axis.turns() ? solver::Axis::rz : solver::Axis::x, quantity);
     axis.spans[index] = statement->span;
     if (statement->is_range) {
       const std::optional<double> low = known(context, statement->low, expected);
@@ -80,24 +86,69 @@ bool read_statements(const CheckContext& context, const AxisText& text, PlannedA
   return true;
 }
 
-std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupText& group,
-                                     const AxisText& text, bool in_always) {
+void stand_between(PlannedAxis& axis, const Place& move, const Place& in) {
+  axis.move = move.frame;
+  axis.in = in.frame;
+  axis.in_world = axis.in.body < 0;
+  axis.is_placed = move.is_known && in.is_known;
+}
+
+/// Of an axis of a group: false when its frames or its name cannot be read.
+bool measure_axis(const CheckContext& context, const GroupText& group, const AxisText& text,
+                  PlannedAxis& axis) {
   const std::optional<int> move = good_frame(context.symbols, group.move);
   const std::optional<int> in = good_frame(context.symbols, group.in);
   const std::optional<solver::Axis> named = axis_named(text.name.text);
-  if (!move || !in || !named || text.is_free) return std::nullopt;
+  if (!move || !in || !named) return false;
+  axis.move_name = group.move.text;
+  axis.axis = *named;
+  stand_between(axis, place_of(context.symbols, *move), place_of(context.symbols, *in));
+  return true;
+}
+
+/// What two frames measure between them they measure either way: the one on the robot moves.
+bool measure_feature(const CheckContext& context, const GroupText& group, PlannedAxis& axis) {
+  const std::optional<int> index = context.symbols.find_feature(group.feature.text);
+  if (!index || context.symbols.features[static_cast<std::size_t>(*index)].is_bad) return false;
+  const Feature& feature = context.symbols.features[static_cast<std::size_t>(*index)].feature;
+  Place move = place_of(context.symbols, feature.first);
+  Place in = place_of(context.symbols, feature.second);
+  if (feature.kind == FeatureKind::direction) {
+    axis.axis = feature.turns ? solver::Axis::rz : solver::Axis::x;
+    axis.measure = solver::Measure::direction;
+    axis.coefficients = feature.direction;
+  } else {
+    const bool is_turned = move.frame.body < 0;
+    if (is_turned) std::swap(move, in);
+    axis.measure = feature.kind == FeatureKind::angle ? solver::Measure::angle : solver::Measure::distance;
+    if (feature.kind == FeatureKind::angle) {
+      axis.axis = is_turned ? feature.second_axis : feature.first_axis;
+      axis.other_axis = is_turned ? feature.first_axis : feature.second_axis;
+    }
+  }
+  const bool points_nowhere =
+      feature.kind == FeatureKind::direction && feature.direction == std::array<double, 6>{};        // E411
+  const bool is_rigid = feature.kind != FeatureKind::direction && move.frame.body == in.frame.body;  // E412
+  if (points_nowhere || is_rigid) return false;
+  axis.move_name = group.feature.text;
+  stand_between(axis, move, in);
+  return true;
+}
+
+std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupText& group,
+                                     const AxisText& text, bool in_always) {
+  const bool is_feature = group.kind == GroupKind::feature;
   PlannedAxis axis;
-  axis.path = (in_always ? "always." : "") + group.name.text + "." + text.name.text;
+  if (text.is_free) return std::nullopt;
+  const bool is_measured =
+      is_feature ? measure_feature(context, group, axis) : measure_axis(context, group, text, axis);
+  if (!is_measured) return std::nullopt;
+  axis.path = (in_always ? "always." : "") + group.name.text + (is_feature ? "" : "." + text.name.text);
   axis.text = &text;
   if (!in_always) axis.group = group.name.text;
-  axis.move_name = group.move.text;
-  axis.move = attached(context.symbols, *move);
-  axis.in = attached(context.symbols, *in);
-  axis.in_world = axis.in.body < 0;
-  axis.axis = *named;
   if (axis.move.body < 0 || !read_statements(context, text, axis)) return std::nullopt;
   // A position in axes that ride along: E405 says so.
-  const bool rides_along = axis.in.body >= 0 && axis.in.body == axis.move.body;
+  const bool rides_along = !is_feature && axis.in.body >= 0 && axis.in.body == axis.move.body;
   if (rides_along && axis.driver == solver::Quantity::position && axis.target) return std::nullopt;
   const std::optional<ValueText>& tau = text.time_constant ? text.time_constant : group.time_constant;
   if (tau) axis.time_constant = known(context, *tau, dimension::time).value_or(0.0);
@@ -108,13 +159,28 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
   return axis;
 }
 
+void plan_speed(const CheckContext& context, const GroupText& group, const AxisText& text, bool in_always,
+                std::vector<PlannedSpeed>& speeds) {
+  const std::optional<int> move = good_frame(context.symbols, group.move);
+  const std::optional<StatementText>& velocity = text[Quantity::velocity];
+  if (!move || !velocity || !velocity->is_range) return;
+  const std::optional<double> most = known(context, velocity->high, dimension::velocity);
+  const int body = place_of(context.symbols, *move).frame.body;
+  if (!most || !(*most > 0.0) || body < 0) return;
+  speeds.push_back({(in_always ? "always." : "") + group.name.text + ".speed", body, *most});
+}
+
 void plan_groups(const CheckContext& context, const std::vector<GroupText>& groups, bool in_always,
-                 std::vector<PlannedAxis>& axes) {
+                 PlannedTask& plan) {
   for (const GroupText& group : groups) {
-    if (group.kind != GroupKind::axes) continue;
+    if (group.kind == GroupKind::inside) continue;
     for (const AxisText& text : group.axes) {
+      if (text.is_speed() && group.kind == GroupKind::axes) {
+        plan_speed(context, group, text, in_always, plan.speeds);
+        continue;
+      }
       std::optional<PlannedAxis> axis = plan_axis(context, group, text, in_always);
-      if (axis) axes.push_back(std::move(*axis));
+      if (axis) plan.axes.push_back(std::move(*axis));
     }
   }
 }
@@ -147,11 +213,21 @@ void add_robot_limits(const CheckContext& context, std::vector<PlannedAxis>& axe
 
 }  // namespace
 
+double PlannedTask::speed_limit(const PlannedAxis& axis) const {
+  const std::optional<solver::Range>& range = axis[solver::Quantity::velocity];
+  double most = range ? std::max(range->high, -range->low) : solver::infinity;
+  if (axis.turns()) return most;
+  for (const PlannedSpeed& speed : speeds) {
+    if (speed.body == axis.move.body) most = std::min(most, speed.most);
+  }
+  return most;
+}
+
 PlannedTask plan_task(const CheckContext& context, const TaskText& task) {
   PlannedTask plan;
   plan.task = &task;
-  plan_groups(context, context.file.always_groups, true, plan.axes);
-  plan_groups(context, task.groups, false, plan.axes);
+  plan_groups(context, context.file.always_groups, true, plan);
+  plan_groups(context, task.groups, false, plan);
   add_robot_limits(context, plan.axes);
   return plan;
 }

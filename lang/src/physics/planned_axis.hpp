@@ -11,15 +11,20 @@
 
 namespace zwang::lang {
 
-/// One axis that is in force in a task: of the task, of `always`, or a limit of the robot file. SI.
+/// One axis or feature that is in force in a task: of the task, of `always`, or a limit of the robot file.
+/// SI.
 struct PlannedAxis {
-  std::string path;                ///< "go.x", "always.manners.x", "limits.x"
+  std::string path;                ///< "go.x", "always.manners.x", "near", "limits.x"
   const AxisText* text = nullptr;  ///< nullptr: a limit of the robot file
   std::string group;               ///< name of its group; empty under `always`
   std::string move_name;           ///< of the moved frame
   solver::AttachedFrame move, in;
   bool in_world = false;  ///< `in` stands in the world: how it lies to the base changes while the base moves
-  solver::Axis axis = solver::Axis::x;
+  solver::Measure measure = solver::Measure::axis;
+  solver::Axis axis = solver::Axis::x;        ///< of an angle: the one of `move`; of other features any alike
+  solver::Axis other_axis = solver::Axis::x;  ///< of an angle: the one of `in`
+  std::array<double, 6> coefficients{};       ///< of a direction
+  bool is_placed = true;  ///< false: a frame hangs on a signal, so nobody knows yet where it is
   std::optional<solver::Quantity> driver;
   std::optional<double> target;  ///< at the start; none: `here`, or a signal's
   std::optional<double>
@@ -38,12 +43,25 @@ struct PlannedAxis {
   const Span& span(solver::Quantity q) const { return spans[static_cast<std::size_t>(q)]; }
   const Span& driver_span() const { return span(*driver); }
   bool drives_motion() const { return driver && *driver != solver::Quantity::force && !is_spring; }
-  bool turns() const { return is_rotation(axis); }
+  bool turns() const { return measure == solver::Measure::angle || is_rotation(axis); }
+  bool is_feature() const { return measure != solver::Measure::axis; }
+};
+
+/// `speed`: what bounds the planar velocity of a frame.
+struct PlannedSpeed {
+  std::string path;   ///< "always.manners.speed"
+  int body = 0;       ///< that carries the frame
+  double most = 0.0;  ///< [m/s]
 };
 
 struct PlannedTask {
   const TaskText* task = nullptr;
   std::vector<PlannedAxis> axes;  ///< of `always`, of the task, then the robot file's limits
+  std::vector<PlannedSpeed> speeds;
+
+  /// How fast the axis may go at most, by its own range and by what bounds the planar speed of what it moves.
+  /// Infinite where nothing does. [m/s] or [rad/s]
+  double speed_limit(const PlannedAxis& axis) const;
 };
 
 /// What can be read of the task; what is bad, and was complained of, is left out.

@@ -20,22 +20,26 @@ namespace {
 constexpr double tolerance = 1e-6;  // relative
 
 struct Pressing {
-  double least = solver::infinity;  ///< over the configurations [N] or [N m]
-  double most = 0.0;
-  bool by_motors = false;  ///< at the start it is the motors that give out: W606 says that
+  double least =
+      solver::infinity;    ///< over the configurations in which the motors do not give out [N] or [N m]
+  double most = 0.0;       ///< over all of them
+  bool by_motors = false;  ///< in all it is the motors that give out: W606 says that
 };
 
 Pressing pressing(const PlannedTask& plan, const PlannedAxis& axis, double force, Probe& probe) {
   Pressing result;
   const std::vector<double> pressed = probe.pressed(axis, force, plan.axes);
   const AxisFigures* figures = probe.figures(axis);
-  for (const double p : pressed) {
-    const double along = force < 0.0 ? -p : p;
-    result.least = std::min(result.least, along);
+  bool is_known = false;
+  for (std::size_t i = 0; i < pressed.size(); ++i) {
+    if (!std::isfinite(pressed[i])) continue;
+    is_known = true;
+    const double along = force < 0.0 ? -pressed[i] : pressed[i];
     result.most = std::max(result.most, along);
+    if (along < figures->forces[i] * (1.0 - 1e-3)) result.least = std::min(result.least, along);
   }
-  result.by_motors = figures != nullptr && result.most >= figures->most_force * (1.0 - 1e-3);
-  if (pressed.empty()) result.most = solver::infinity;
+  result.by_motors = !std::isfinite(result.least);
+  if (!is_known) result.most = solver::infinity;
   return result;
 }
 
@@ -51,13 +55,21 @@ void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     if (now.by_motors) continue;
     const AccelerationLimit limit = acceleration_limit(plan, axis, *axis.target < 0.0 ? -1.0 : 1.0, true);
     const Span limited = limit.from != nullptr ? limit.from->span(solver::Quantity::acceleration) : Span{};
-    const wording::Cap cap{axis.path, axis.turns(), wanted, now.most, figures->mass};
+    // Of the configuration that presses so, where they differ.
+    const auto mass_at = [&](double pressed) {
+      const double mass = pressed / limit.most;
+      const bool is_of_one =
+          mass >= figures->least_mass * (1.0 - 1e-3) && mass <= figures->most_mass * (1.0 + 1e-3);
+      return is_of_one ? mass : figures->mass;
+    };
+    const wording::Cap cap{axis.path, axis.turns(), wanted, now.most, mass_at(now.most)};
     if (now.most < wanted * (1.0 - tolerance)) {
       remarks.add(wording::cannot_press(axis.driver_span(), cap, limited));
       continue;
     }
     if (now.least < wanted * (1.0 - tolerance)) {
-      remarks.add(wording::cannot_press_everywhere(axis.driver_span(), cap, now.least, limited));
+      remarks.add(wording::cannot_press_everywhere(
+          axis.driver_span(), {axis.path, axis.turns(), wanted, now.least, mass_at(now.least)}, limited));
       continue;
     }
     const double farthest = axis.farthest_target.value_or(*axis.target);

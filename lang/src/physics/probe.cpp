@@ -4,54 +4,47 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "zwang/lang/configurations.hpp"
 #include "zwang/solver/base_analysis.hpp"
 
 namespace zwang::lang {
 
 namespace {
 
-constexpr std::size_t most_configurations = 4;  // besides the start pose
-constexpr std::size_t most_axes = 400;
 constexpr int most_rows = 64;
-
-/// In [0, 1), the same on every machine: the standard fixes the generator, not its distributions.
-double uniform(std::mt19937& generator) {
-  return static_cast<double>(generator()) / 4294967296.0;
-}
-
-bool is_wheel(const solver::Model& model, int joint) {
-  return std::any_of(model.wheels().begin(), model.wheels().end(),
-                     [&](const solver::Wheel& wheel) { return wheel.body == joint + 1; });
-}
-
-/// Joints anywhere within their limits (half a turn where they have none), any heading.
-solver::State general_state(const solver::Model& model, std::mt19937& generator) {
-  solver::State state(model);
-  for (int j = 0; j < model.joint_count(); ++j) {
-    const solver::Joint& joint = model.joint(j);
-    const double low = std::isfinite(joint.lower) ? joint.lower : -std::numbers::pi;
-    const double high = std::isfinite(joint.upper) ? joint.upper : std::numbers::pi;
-    state.q(j) = low + (high - low) * uniform(generator);
-  }
-  if (!model.has_fixed_base()) {
-    const double yaw = std::numbers::pi * (2.0 * uniform(generator) - 1.0);
-    state.base_pose.rotation = solver::rotation_from_rpy(0.0, 0.0, yaw);
-  }
-  return state;
-}
+/// In the units of `Probe::pay`; a unit takes about half a nanosecond.
+constexpr double budget = 2e9;
 
 /// A force driver along the axis, and nothing else.
 solver::AxisConstraint constraint_of(const PlannedAxis& axis, double force) {
   solver::AxisConstraint constraint;
   constraint.move = axis.move;
   constraint.in = axis.in;
+  constraint.measure = axis.measure;
   constraint.axis = axis.axis;
+  constraint.other_axis = axis.other_axis;
+  constraint.coefficients = axis.coefficients;
   constraint.level = axis.level;
   constraint.driver = solver::Driver{.quantity = solver::Quantity::force, .target = force};
   return constraint;
+}
+
+/// The same along a direction in the plane that makes this angle with the world's x.
+solver::AxisConstraint in_plane(solver::AxisConstraint constraint, double angle) {
+  constraint.measure = solver::Measure::direction;
+  constraint.in = {-1, {}};
+  constraint.coefficients = {std::cos(angle), std::sin(angle), 0.0, 0.0, 0.0, 0.0};
+  return constraint;
+}
+
+/// Two points that coincide, and two axes that are parallel, have no direction between them.
+bool has_direction(const solver::AxisConstraint& constraint, const solver::Model& model,
+                   const solver::State& state) {
+  const double s = solver::coordinate_of(constraint, model, state).position;
+  if (constraint.measure == solver::Measure::distance) return s > 1e-6;
+  return constraint.measure != solver::Measure::angle || std::sin(s) > 1e-6;
 }
 
 /// The motors have a force along the axis and make it alone: what only moves along with a turn is not pushed.
@@ -72,21 +65,16 @@ double along(const solver::Row& row, const solver::Solution& solution) {
 
 Probe::Probe(const Robot& robot, const std::optional<Scene>& scene)
     : robot_(robot),
+      states_(configurations(robot, scene)),
+      general_(general_states(robot.model)),
+      budget_(budget),
       solver_(robot.model, {.row_capacity = most_rows}),
       solution_(robot.model, most_rows),
       equalities_(robot.model, {.row_capacity = most_rows}),
       motion_(robot.model, most_rows) {
   const solver::Model& model = robot.model;
-  bool has_free_joints = false;
-  for (int j = 0; j < model.joint_count(); ++j) has_free_joints = has_free_joints || !is_wheel(model, j);
-  states_.push_back(start_state(robot, scene));
-  std::mt19937 generator(20211);
-  while (general_.size() < most_configurations) general_.push_back(general_state(model, generator));
-  for (std::size_t i = 0; has_free_joints && i < general_.size(); ++i) {
-    states_.push_back(general_[i]);
-    states_.back().base_pose = states_.front().base_pose;
-  }
   for (const solver::State& state : states_) {
+    if (!pay(1, 10.0)) break;
     const solver::BaseAnalysis base = solver::analyse_base(model, state);
     base_mobility_ = std::max(base_mobility_, base.base_mobility);
     mobility_ = std::max(mobility_, base.mobility);
@@ -101,9 +89,24 @@ std::string Probe::frame_ahead() const {
   return "`nose: {parent: " + robot_.base_frame + ", at: [" + at + ", 0 m]}`";
 }
 
+bool Probe::turns_and_drives() {
+  PlannedAxis own;
+  own.move = own.in = {0, {}};
+  const AxisFigures* ahead = figures(own);
+  own.axis = solver::Axis::rz;
+  const AxisFigures* turning = figures(own);
+  return ahead != nullptr && turning != nullptr && ahead->is_reachable && turning->is_reachable;
+}
+
 solver::Vector3 Probe::direction(const PlannedAxis& axis) const {
-  const solver::Pose in = solver::motion_of(axis.in, robot_.model, states_[0]).pose;
-  return in.rotation.col(static_cast<int>(axis.axis) % 3);
+  if (!axis.is_feature()) {
+    const solver::Pose in = solver::motion_of(axis.in, robot_.model, states_[0]).pose;
+    return in.rotation.col(static_cast<int>(axis.axis) % 3);
+  }
+  const solver::Row row = row_along(axis, states_[0]);
+  const solver::Pose body = solver::motion_of({row.body, {}}, robot_.model, states_[0]).pose;
+  const solver::Vector3 along = body.rotation * (axis.turns() ? row.a.angular : row.a.linear);
+  return along.norm() > 0.0 ? solver::Vector3(along.normalized()) : along;
 }
 
 bool Probe::is_out_of_plane(const PlannedAxis& axis) const {
@@ -112,41 +115,68 @@ bool Probe::is_out_of_plane(const PlannedAxis& axis) const {
   return is_on_base && (axis.turns() ? up < 1e-6 : up > 1.0 - 1e-6);
 }
 
-/// A row along the axis depends on the point that moves (unless it turns) and on where the axes point.
+/// A row along the axis depends on the point that moves (unless it turns) and on where the axes point; a
+/// distance on the other point, too.
 Probe::Key Probe::key_of(const PlannedAxis& axis) {
   Key key{};
   std::size_t n = 0;
   const auto put = [&](const auto& numbers) {
-    for (const double number : numbers.reshaped()) key[n++] = std::round(number * 1e9) * 1e-9 + 0.0;
+    for (const double number : numbers) key[n++] = std::round(number * 1e9) * 1e-9 + 0.0;
   };
-  put(axis.move.pose.rotation);
+  put(axis.move.pose.rotation.reshaped());
   put(axis.turns() ? solver::Vector3::Zero().eval() : axis.move.pose.position);
-  put(axis.in.pose.rotation);
-  key[n++] = axis.move.body;
-  key[n++] = axis.in.body;
-  key[n++] = static_cast<double>(axis.axis);
+  put(axis.in.pose.rotation.reshaped());
+  put(axis.measure == solver::Measure::distance ? axis.in.pose.position : solver::Vector3::Zero().eval());
+  put(axis.coefficients);
+  put(std::array{double(axis.move.body), double(axis.in.body), double(axis.is_placed), double(axis.measure),
+                 double(axis.axis), double(axis.other_axis)});
   return key;
 }
 
-solver::Row Probe::row_along(const PlannedAxis& axis, const solver::State& state) {
+solver::Row Probe::row_along(const PlannedAxis& axis, const solver::State& state) const {
   solver::ConstraintSet set(1, 1);
   set.add(constraint_of(axis, 1.0));
   set.fill(robot_.model, state);
   return set.rows().at(0);
 }
 
-const AxisFigures* Probe::figures(const PlannedAxis& axis) {
-  const auto [entry, is_new] = figures_.try_emplace(key_of(axis));
-  AxisFigures& result = entry->second;
-  if (!is_new) return &result;
-  if (figures_.size() > most_axes) {
-    figures_.erase(entry);
-    return nullptr;
+bool Probe::pay(std::size_t rows, double passes) {
+  const solver::Model& model = robot_.model;
+  // The sweeps carry n columns over the bodies; what they leave is factorised.
+  const auto n = static_cast<double>(9 + 2 * model.wheels().size() +
+                                     static_cast<std::size_t>(model.joint_count()) + rows);
+  budget_ -= passes * (n * n * n + 60.0 * n * static_cast<double>(model.body_count()));
+  return budget_ > 0.0;
+}
+
+std::vector<Probe::Sample> Probe::samples_of(const PlannedAxis& axis) const {
+  const solver::AxisConstraint constraint = constraint_of(axis, 1.0);
+  const bool is_open = axis.measure == solver::Measure::distance && axis.in_world;
+  // Axes that a signal will turn are looked at as if they lay like the world's.
+  const bool is_known = axis.is_placed || !(is_open || axis.measure == solver::Measure::angle);
+  std::vector<Sample> samples;
+  for (const solver::State& state : states_) {
+    if (is_known && has_direction(constraint, robot_.model, state)) samples.push_back({&state, constraint});
+    if (!is_open) continue;
+    const double heading = std::atan2(state.base_pose.rotation(1, 0), state.base_pose.rotation(0, 0));
+    for (const double part : {0.0, 0.25, 0.5, 0.75}) {
+      samples.push_back({&state, in_plane(constraint, heading + part * std::numbers::pi)});
+    }
   }
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    const solver::AxisAnalysis one =
-        solver::analyse_axis(robot_.model, states_[i], axis.move, axis.in, axis.axis);
-    if (i == 0) {
+  // Axes that are parallel at the start, or hang on a signal.
+  for (std::size_t i = 0; i < general_.size() && samples.empty(); ++i) {
+    if (has_direction(constraint, robot_.model, general_[i])) samples.push_back({&general_[i], constraint});
+  }
+  return samples;
+}
+
+void Probe::measure(const PlannedAxis& axis, AxisFigures& result) {
+  const auto look = [&](const Sample& sample) {
+    return solver::analyse_axis(robot_.model, *sample.state, sample.constraint);
+  };
+  for (const Sample& sample : samples_of(axis)) {
+    const solver::AxisAnalysis one = look(sample);
+    if (result.masses.empty()) {
       result.mass = result.least_mass = result.most_mass = one.effective_mass;
       result.force = result.least_force = result.most_force = one.largest_force;
     }
@@ -162,12 +192,21 @@ const AxisFigures* Probe::figures(const PlannedAxis& axis) {
     result.most_force = std::max(result.most_force, one.largest_force);
   }
   for (std::size_t i = 0; axis.in_world && !result.is_reachable && i < general_.size(); ++i) {
-    const solver::AxisAnalysis one =
-        solver::analyse_axis(robot_.model, general_[i], axis.move, axis.in, axis.axis);
+    const solver::AxisAnalysis one = look({&general_[i], constraint_of(axis, 1.0)});
     result.is_reachable = is_pushed(one);
     result.is_held = result.is_held && !std::isfinite(one.effective_mass);
   }
-  return &result;
+}
+
+const AxisFigures* Probe::figures(const PlannedAxis& axis) {
+  const auto [entry, is_new] = figures_.try_emplace(key_of(axis));
+  if (!is_new) return &entry->second;
+  if (!pay(1, 2.0 * static_cast<double>(samples_of(axis).size() + (axis.in_world ? general_.size() : 0)))) {
+    figures_.erase(entry);
+    return nullptr;
+  }
+  measure(axis, entry->second);
+  return &entry->second;
 }
 
 /// That of [ground; rows], less that of the ground alone.
@@ -184,7 +223,9 @@ int Probe::rank_at(const std::vector<const PlannedAxis*>& axes, const solver::St
 }
 
 int Probe::rank(const std::vector<const PlannedAxis*>& axes) {
-  if (axes.size() > static_cast<std::size_t>(most_rows)) return static_cast<int>(axes.size());
+  const bool is_asked = axes.size() <= static_cast<std::size_t>(most_rows) &&
+                        pay(axes.size(), 2.0 * static_cast<double>(general_.size()));
+  if (!is_asked) return static_cast<int>(axes.size());
   int rank = 0;
   for (std::size_t i = 0; i < general_.size() && rank < static_cast<int>(axes.size()); ++i) {
     rank = std::max(rank, rank_at(axes, general_[i]));
@@ -193,6 +234,9 @@ int Probe::rank(const std::vector<const PlannedAxis*>& axes) {
 }
 
 int Probe::kinematic_rank(const std::vector<const PlannedAxis*>& axes) {
+  const auto count = static_cast<double>(axes.size());
+  budget_ -= 12.0 * robot_.model.body_count() * count * count;
+  if (is_exhausted()) return static_cast<int>(axes.size());
   const solver::State& state = general_[0];
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(6 * robot_.model.body_count(), static_cast<int>(axes.size()));
   for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -224,19 +268,28 @@ std::vector<double> Probe::pressed(const PlannedAxis& axis, double force,
   solver::ConstraintSet set(room, 2 * room);
   set.add(constraint_of(axis, force));
   for (const PlannedAxis& limit : limits) {
-    if (!limit[solver::Quantity::acceleration]) continue;
+    // The axis's own range goes with the direction that it is looked at in.
+    if (!limit[solver::Quantity::acceleration] || &limit == &axis) continue;
     solver::AxisConstraint constraint = constraint_of(limit, 0.0);
     constraint.driver.reset();
     constraint.acceleration = limit[solver::Quantity::acceleration];
     set.add(constraint);
   }
+  const std::vector<Sample> samples = samples_of(axis);
   std::vector<double> result;
-  for (std::size_t i = 0; i < figures->masses.size(); ++i) {
-    const bool is_solved = set.fill(robot_.model, states_[i]) &&
-                           set.rows().size() <= static_cast<std::size_t>(most_rows) &&
-                           solver_.solve(states_[i], set.rows(), solution_) == solver::Status::ok;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
     const double mass = figures->masses[i];
-    if (is_solved && std::isfinite(mass)) result.push_back(mass * along(set.rows()[0], solution_));
+    result.push_back(std::nan(""));
+    if (!std::isfinite(mass)) continue;
+    solver::AxisConstraint& pushing = set[0];
+    pushing = samples[i].constraint;
+    pushing.driver->target = force;
+    pushing.acceleration = axis[solver::Quantity::acceleration];
+    const solver::State& state = *samples[i].state;
+    const bool is_solved =
+        set.fill(robot_.model, state) && set.rows().size() <= static_cast<std::size_t>(most_rows) &&
+        pay(set.rows().size(), 10.0) && solver_.solve(state, set.rows(), solution_) == solver::Status::ok;
+    if (is_solved) result.back() = mass * along(set.rows()[0], solution_);
   }
   return result;
 }

@@ -26,44 +26,61 @@ struct AxisFigures {
   std::vector<double> masses, forces;  ///< of each configuration
 };
 
-/// Everything is computed at rest. Configurations: the start pose (the scene's, joints at 0), then, of a
-/// robot with swivels or arms, some more with other joint angles, always the same ones. What can be reached
-/// at all is also tried at other headings.
+/// Everything is computed at rest, in `configurations()`. What can be reached at all is also tried at other
+/// headings. A distance to something beside the robot is looked at in several directions, since nobody knows
+/// from where the robot will come.
+///
+/// A file may be hostile, and validating it must end: every look costs, and past the budget nothing is
+/// answered any more.
 class Probe {
  public:
   /// Throws std::invalid_argument on a model that dynamics cannot use.
   Probe(const Robot& robot, const std::optional<Scene>& scene);
 
-  /// nullptr past the most axes that are looked at (a file may be hostile).
+  /// nullptr past the budget.
   const AxisFigures* figures(const PlannedAxis& axis);
   /// How many of the rows along the axes are independent, on the ground and in general position.
   int rank(const std::vector<const PlannedAxis*>& axes);
   /// The same without the ground and the joints: of the bodies' own coordinates.
   int kinematic_rank(const std::vector<const PlannedAxis*>& axes);
   /// What a force driver presses with against something that blocks its axis, after the acceleration ranges
-  /// among `limits` took their part; a number for each configuration. [N] or [N m]
+  /// among `limits` took their part; a number for each mass among the figures, not a number where there is
+  /// none. [N] or [N m]
   std::vector<double> pressed(const PlannedAxis& axis, double force, const std::vector<PlannedAxis>& limits);
 
+  bool is_exhausted() const { return budget_ <= 0.0; }
   int base_mobility() const { return base_mobility_; }
   int mobility() const { return mobility_; }
   const Robot& robot() const { return robot_; }
   /// On a base of two freedoms a frame whose x and y it can both drive, as it is written; empty on others.
   std::string frame_ahead() const;
-  /// The axis in the world, at the start pose.
+  /// Whether the motors move the base along its own x and turn it.
+  bool turns_and_drives();
+  /// The axis in the world, at the start pose; of a feature the direction of its force or moment.
   solver::Vector3 direction(const PlannedAxis& axis) const;
   /// Whether the axis points up or turns the base over: what the ground itself holds.
   bool is_out_of_plane(const PlannedAxis& axis) const;
 
  private:
-  using Key = std::array<double, 27>;
+  /// Where an axis is looked at.
+  struct Sample {
+    const solver::State* state;
+    solver::AxisConstraint constraint;
+  };
+  using Key = std::array<double, 38>;
   static Key key_of(const PlannedAxis& axis);
-  solver::Row row_along(const PlannedAxis& axis, const solver::State& state);
+  std::vector<Sample> samples_of(const PlannedAxis& axis) const;
+  void measure(const PlannedAxis& axis, AxisFigures& figures);
+  solver::Row row_along(const PlannedAxis& axis, const solver::State& state) const;
   int rank_at(const std::vector<const PlannedAxis*>& axes, const solver::State& state);
+  /// What a pass of the sweeps over the ground and `rows` more costs. False past the budget.
+  bool pay(std::size_t rows, double passes);
 
   const Robot& robot_;
   std::vector<solver::State> states_;   ///< the configurations, the start pose first
   std::vector<solver::State> general_;  ///< any joint angles, any heading
   int base_mobility_ = 0, mobility_ = 0;
+  double budget_;
   std::map<Key, AxisFigures> figures_;
   solver::Solver solver_;
   solver::Solution solution_;

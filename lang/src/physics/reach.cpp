@@ -31,11 +31,11 @@ void ask_reach(PlannedTask& plan, Probe& probe, Remarks& remarks) {
     if (figures == nullptr || figures->is_reachable) return false;
     const Span span = (*axis.text)[*axis.driver]->key_span;
     const std::string& word = axis.text->name.text;
-    const bool is_sideways = axis.move.body == 0 && !axis.turns();
+    const bool is_sideways = axis.move.body == 0 && !axis.turns() && !axis.is_feature();
     if (probe.is_out_of_plane(axis)) {
       remarks.add(wording::held_axis(span, word));
     } else if (!figures->is_held) {
-      remarks.add(wording::no_motor_along(span, word));
+      remarks.add(wording::no_motor_along(span, word, is_sideways && probe.turns_and_drives()));
     } else {
       remarks.add(wording::axis_held_by_wheels(span, word, is_sideways ? probe.frame_ahead() : ""));
     }

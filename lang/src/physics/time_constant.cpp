@@ -1,7 +1,7 @@
 // W604: a time constant that is too short.
 //
-// A critically damped approach that comes in at the velocity range's v brakes hardest one time constant after
-// the range let go, with
+// A critically damped approach that comes in at the velocity range's v (or that of the planar speed) brakes
+// hardest one time constant after the range let go, with
 //
 //   a = v / (e tau)        e = 2.718...
 //
@@ -32,12 +32,10 @@ void ask_tick(const PlannedAxis& axis, Remarks& remarks) {
 }
 
 void ask_braking(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe, Remarks& remarks) {
-  const std::optional<solver::Range>& range = axis[solver::Quantity::velocity];
+  const double v = plan.speed_limit(axis);
+  if (axis.driver != solver::Quantity::position || !std::isfinite(v)) return;
   const AxisFigures* figures = probe.figures(axis);
-  if (axis.driver != solver::Quantity::position || !range || figures == nullptr ||
-      !std::isfinite(figures->mass))
-    return;
-  const double v = std::max(range->high, -range->low);
+  if (figures == nullptr || !std::isfinite(figures->mass)) return;
   const double peak = v / (std::numbers::e * axis.time_constant);
   const AccelerationLimit forward = acceleration_limit(plan, axis, 1.0, true);
   const AccelerationLimit backward = acceleration_limit(plan, axis, -1.0, true);

@@ -7,6 +7,7 @@
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "tree/file.hpp"
@@ -279,6 +280,10 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   const int errors_before = diagnostics.error_count();
   const std::optional<int> source = read_file(path, yaml_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
+  if (diagnostics.source(*source).text.starts_with("<")) {
+    diagnostics.add(wording::urdf_for_robot_file({*source, {1, 1}, {1, 2}}));
+    return std::nullopt;
+  }
   const std::optional<Document> document = read(*source, diagnostics);
   if (!document) return std::nullopt;
   const std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);

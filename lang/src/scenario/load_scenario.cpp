@@ -65,10 +65,12 @@ std::vector<ScenarioCell> multiply(const ScenarioFile& file, const fs::path& pat
   ScenarioCell first;
   for (const MatrixKey& key : file.fixed) maker.put(key.name, key.values.front(), first);
   std::vector<ScenarioCell> cells{first};
+  // Stops at the first key that makes them too many: the product of a hostile file need not fit a number.
   std::size_t count = 1;
-  for (const MatrixKey& key : file.matrix) count *= std::max<std::size_t>(1, key.values.size());
-  if (count > most_cells) {
-    diagnostics.add(wording::too_many_cells(file.task.span, count, most_cells));
+  for (const MatrixKey& key : file.matrix) {
+    count *= std::max<std::size_t>(1, key.values.size());
+    if (count <= most_cells) continue;
+    diagnostics.add(wording::too_many_cells(key.span, most_cells));
     return {};
   }
   for (const MatrixKey& key : file.matrix) {
@@ -90,23 +92,6 @@ std::vector<ScenarioCell> multiply(const ScenarioFile& file, const fs::path& pat
   return cells;
 }
 
-std::optional<Scenario> scenario_of(const ScenarioFile& file, const fs::path& path,
-                                    Diagnostics& diagnostics) {
-  Scenario scenario;
-  scenario.path = path.string();
-  scenario.about = file.about;
-  scenario.time_limit = file.time_limit;
-  scenario.seed = file.seed;
-  if (file.task.exists()) {
-    const auto task = resolve_path(file.task.text, path, root_of(path), file.task.span, diagnostics);
-    // Read here so that a task file that is not there is the scenario's mistake, where it is named.
-    if (task && read_file(*task, yaml_size_limit, file.task.span, diagnostics)) scenario.task = *task;
-  }
-  scenario.cells = multiply(file, path, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  return scenario;
-}
-
 /// Of a task that was refused: nobody can say what the conditions mean, and nobody needs to.
 std::vector<Expectation> expectations_of_words(const ScenarioFile& file) {
   std::vector<Expectation> expectations;
@@ -124,6 +109,23 @@ std::vector<Expectation> expectations_of_words(const ScenarioFile& file) {
 }
 
 }  // namespace
+
+std::optional<Scenario> scenario_of(const ScenarioFile& file, const fs::path& path,
+                                    Diagnostics& diagnostics) {
+  Scenario scenario;
+  scenario.path = path.string();
+  scenario.about = file.about;
+  scenario.time_limit = file.time_limit;
+  scenario.seed = file.seed;
+  if (file.task.exists()) {
+    const auto task = resolve_path(file.task.text, path, root_of(path), file.task.span, diagnostics);
+    // Read here so that a task file that is not there is the scenario's mistake, where it is named.
+    if (task && read_file(*task, yaml_size_limit, file.task.span, diagnostics)) scenario.task = *task;
+  }
+  scenario.cells = multiply(file, path, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return scenario;
+}
 
 std::optional<Scenario> load_scenario(const fs::path& path, Diagnostics& diagnostics) {
   const std::optional<ScenarioFile> file = read_scenario(path, diagnostics);

@@ -5,6 +5,7 @@
 #include "diagnostic/wordings.hpp"
 #include "scene/faults.hpp"
 #include "spec/shape.hpp"
+#include "zwang/lang/explanation.hpp"
 
 namespace zwang::lang {
 
@@ -49,6 +50,7 @@ std::optional<MatrixValue> parse_matrix_value(const std::string& name, const Nod
 MatrixKey parse_matrix_key(const Entry& entry, Diagnostics& diagnostics) {
   MatrixKey key;
   key.name = entry.key.text;
+  key.span = entry.key.span;
   if (!require_sequence(entry.value, "`matrix." + key.name + "`", diagnostics)) return key;
   for (const Node& item : entry.value.items) {
     if (auto value = parse_matrix_value(key.name, item, diagnostics)) key.values.push_back(std::move(*value));
@@ -127,6 +129,8 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
   if (code != nullptr) {
     expected.kind = ExpectationKind::diagnostic;
     expected.word = parse_word(*code, "`diagnostic`", diagnostics);
+    if (expected.word.exists() && find_explanation(expected.word.text) == nullptr)
+      diagnostics.add(wording::unknown_name(code->span, "code", expected.word.text, ""));
   }
   if (at != nullptr) {
     expected.kind = ExpectationKind::at_end;

@@ -23,6 +23,7 @@ struct MatrixValue {
 struct MatrixKey {
   std::string name;  ///< robot, scene, start_at, start_yaw, params.NAME, faults
   std::vector<MatrixValue> values;
+  Span span{};  ///< of the key
 };
 
 struct FaultSet {
@@ -54,6 +55,10 @@ inline constexpr std::size_t most_cells = 1000;
 
 /// The shape of a scenario file. nullopt when it is not one at all.
 std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagnostics& diagnostics);
+
+/// The matrix multiplied out; paths are seen from `path`. nullopt on an error.
+std::optional<Scenario> scenario_of(const ScenarioFile& file, const std::filesystem::path& path,
+                                    Diagnostics& diagnostics);
 
 /// Names and dimensions of what is expected. nullopt on an error.
 std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& file, const Program& program,

@@ -133,13 +133,20 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
   const Node* objects = map.optional("objects");
   if (objects != nullptr && require_mapping(*objects, "`objects`", diagnostics)) {
     for (const Entry& entry : objects->entries) {
-      if (!entry.key.is_bad) scene.objects.push_back(parse_object(entry, diagnostics));
+      if (entry.key.is_bad) continue;
+      // `truth.base.x` is the robot's.
+      if (entry.key.text == "base")
+        diagnostics.add(wording::name_taken(entry.key.span, "base", "the robot's base in `truth.base`"));
+      scene.objects.push_back(parse_object(entry, diagnostics));
     }
   }
   if (const Node* node = map.optional("signals")) {
     scene.signals = parse_scene_signals(*node, scene.objects, diagnostics);
   }
-  if (const Node* node = map.optional("state")) scene.state = parse_state_noise(*node, diagnostics);
+  const Node* state = map.optional("state");
+  if (state != nullptr) scene.state = parse_state_noise(*state, diagnostics);
+  // The plant's truth only where the scene says so.
+  scene.state.wheels_only = scene.state.wheels_only || state == nullptr;
   if (const Node* node = map.optional("faults")) scene.faults = parse_faults(*node, diagnostics);
   map.finish();
   return scene;

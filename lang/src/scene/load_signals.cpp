@@ -89,8 +89,12 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<SceneObject>& obj
   signal.noise = not_negative(map, "noise", dimension::length, diagnostics);
   signal.angle_noise = not_negative(map, "angle_noise", dimension::angle, diagnostics);
   signal.delay = not_negative(map, "delay", dimension::time, diagnostics);
-  const double rate = not_negative(map, "rate", dimension::frequency, diagnostics);
-  if (rate > 0.0) signal.period = 1.0 / rate;
+  if (const Node* node = map.optional("rate")) {
+    const std::string what = map.what() + "'s `rate`";
+    const std::optional<double> rate = parse_plain(*node, dimension::frequency, what, diagnostics);
+    if (rate && *rate <= 0.0) diagnostics.add(wording::not_positive(node->span, what, false));
+    if (rate && *rate > 0.0) signal.period = 1.0 / *rate;
+  }
   signal.dropouts = not_negative(map, "dropouts", dimension::none, diagnostics);
   if (signal.dropouts >= 1.0) diagnostics.add(wording::all_dropped(map.optional("dropouts")->span));
   map.finish();

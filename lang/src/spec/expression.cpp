@@ -5,6 +5,7 @@
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "spec/value.hpp"
 #include "tree/read.hpp"
 #include "tree/text.hpp"
@@ -69,9 +70,17 @@ class ConditionParser {
     if (std::string_view("<>").find(rest[0]) != std::string_view::npos) {
       stop(wording::chained_comparison(span(at_, at_ + 1)));
     }
+    stop_at_capitals();
     std::size_t end = at_ + 1;
     while (end < text_.size() && (is_continuation_byte(text_[end]) || is_word_part(text_[end]))) ++end;
     stop(wording::unexpected_in_condition(span(at_, end), text_.substr(at_, end - at_)));
+  }
+
+  void stop_at_capitals() {
+    const std::string word(peek_word());
+    const std::string meant = lower_case(word);
+    if (meant != word && (meant == "and" || meant == "or" || meant == "not"))
+      stop(wording::word_in_capitals(span(at_, at_ + word.size()), word, meant));
   }
 
   void skip_spaces() {
@@ -196,6 +205,7 @@ class ConditionParser {
     if (accept('$')) return parse_parameter(begin);
     if (number_length(std::string_view(text_).substr(at_)) > 0) return parse_number();
     if (text_[at_] == '!') stop(wording::symbol_for_word(span(at_, at_ + 1), "!", "not"));
+    stop_at_capitals();
     const std::string_view word = peek_word();
     if (word.empty() || word == "and" || word == "or" || word == "not") {
       const std::size_t length = std::max<std::size_t>(word.size(), 1);

@@ -54,12 +54,14 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
   }
   MapReader map(entry.value, "axis `" + path + "`", diagnostics);
   if (axis.is_speed()) {
-    if (const Node* node = map.required("velocity")) {
+    parse_manner(map, path, axis.time_constant, axis.weight, axis.level, lowest_level, diagnostics);
+    // Another quantity in its place is an unknown key, and told as such.
+    const bool is_another = entry.value.find("velocity") == nullptr && map.has_unread_keys();
+    if (const Node* node = is_another ? map.optional("velocity") : map.required("velocity")) {
       StatementText range = parse_range(*node, path + ".velocity", diagnostics);
       range.key_span = entry.value.find("velocity")->key.span;
       axis.statements[static_cast<std::size_t>(Quantity::velocity)] = std::move(range);
     }
-    parse_manner(map, path, axis.time_constant, axis.weight, axis.level, lowest_level, diagnostics);
   } else {
     parse_statements(map, path, axis, lowest_level, diagnostics);
   }

@@ -1,6 +1,7 @@
 #include "spec/value.hpp"
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -15,12 +16,24 @@ bool starts_a_number(std::string_view text) {
 ValueText parse_parameter(std::string_view text, double sign, ValueText value, Diagnostics& diagnostics) {
   value.name = std::string(text.substr(1));
   value.sign = sign;
-  if (is_identifier(value.name)) {
+  // A name that no parameter can have may be that of one that was declared so, and complained of there.
+  const bool is_odd = !value.name.empty() && value.name.find_first_of(" $*/+-()") == std::string::npos;
+  if (is_identifier(value.name) || is_odd) {
     value.kind = ValueKind::parameter;
   } else {
     diagnostics.add(wording::not_a_value(value.span, std::string(text)));
   }
   return value;
+}
+
+/// Whether the text is a quantity in letters that a word processor makes of it; complains of that.
+bool is_spelt_oddly(const std::string& text, const Span& span, Diagnostics& diagnostics) {
+  const std::string plain = wording::plainly_written(text);
+  if (plain == text) return false;
+  const std::string_view magnitude = std::string_view(plain).substr(plain.starts_with("+-") ? 2 : 0);
+  if (parse_quantity(magnitude).error != QuantityError::none) return false;
+  diagnostics.add(wording::odd_letters(span, text, plain));
+  return true;
 }
 
 ValueText parse_value_text(const std::string& text, const Span& span, Diagnostics& diagnostics) {
@@ -33,6 +46,8 @@ ValueText parse_value_text(const std::string& text, const Span& span, Diagnostic
   } else if (is_identifier(text)) {
     value.kind = ValueKind::name;
     value.name = text;
+  } else if (is_spelt_oddly(text, span, diagnostics)) {
+    return value;
   } else if (!starts_a_number(text)) {
     diagnostics.add(wording::not_a_value(span, text));
   } else {

@@ -182,8 +182,17 @@ class TreeBuilder final : public YAML::EventHandler {
     }
   }
 
+  /// The last line of a block may lack its colon: yaml-cpp makes a key without a value of it.
+  void require_colon(const Node& key) {
+    const std::size_t next = text_.find_first_not_of(' ', index_.offset(key.span.end));
+    if (next != std::string_view::npos && text_[next] == ':') return;
+    diagnostics_.add(wording::unreadable_yaml(key.span, "no colon behind a key"));
+    throw Abandoned{};
+  }
+
   void check_key(Node& key, const Node& mapping) {
     if (key.is_bad) return;
+    if (key.is_scalar() && !mapping.is_flow) require_colon(key);
     if (!key.is_scalar()) {
       key.is_bad = true;
       diagnostics_.add(wording::complex_key(key.span));

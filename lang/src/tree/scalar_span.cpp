@@ -39,6 +39,8 @@ std::vector<std::size_t> offsets_of_scalar(std::string_view text, std::size_t be
       // Several spaces of one line stay several in the value; only a line end folds to one.
       const std::string_view gap = text.substr(offsets.back(), at - offsets.back());
       if (gap.find('\n') == std::string_view::npos) at = offsets.back() + 1;
+    } else if (c == '\n' && !is_quoted) {
+      offsets.push_back(at);  // of several blank lines: the first line end took all of the gap
     } else {
       const bool is_escape = is_quoted && text[at] != c;
       offsets.push_back(at);

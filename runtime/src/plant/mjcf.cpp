@@ -23,7 +23,6 @@ using solver::RigidInertia;
 using solver::Vector3;
 
 constexpr double contact_half_height = 1.0;  ///< [m] of the upright faces that meet in the bumper's plane
-constexpr double max_wheel_lift = 0.002;     ///< [m]
 constexpr double scripted_mass = 1e6;        ///< [kg] whatever meets it does not move it
 constexpr double no_friction = 1e-5;         ///< the least that MuJoCo takes
 
@@ -76,15 +75,6 @@ std::string inertial(const RigidInertia& inertia) {
 std::string sphere_geom(const std::string& name, const Vector3& at, double radius) {
   return "<geom" + attribute("name", name) + attribute("type", "sphere") + attribute("pos", list_of(at)) +
          attribute("size", text_of(radius)) + "/>\n";
-}
-
-/// Base frame pose of a body at q = 0.
-Pose pose_in_base(const Model& model, int body) {
-  Pose pose;
-  for (int i = body; i > 0; i = model.bodies()[static_cast<std::size_t>(i)].parent) {
-    pose = model.bodies()[static_cast<std::size_t>(i)].pose_in_parent * pose;
-  }
-  return pose;
 }
 
 class MjcfWriter {
@@ -145,6 +135,7 @@ class MjcfWriter {
       pose.position +=
           in_base.transpose() * Vector3(0.0, 0.0, simulated_.wheel_lift[static_cast<std::size_t>(wheel)]);
     }
+    if (has_rollers(wheel)) inertia = simulated_.rollers[static_cast<std::size_t>(wheel)].hub;
     if (sphere != nullptr) {
       pose.rotation = Matrix3::Identity();
       inertia = RigidInertia::from_com(sphere->mass, Vector3::Zero(), sphere->inertia * Matrix3::Identity());
@@ -160,7 +151,9 @@ class MjcfWriter {
     }
     if (inertia.mass > 0.0) text_ += inertial(inertia);
     if (index == 0) write_outline();
-    if (wheel >= 0) {
+    if (has_rollers(wheel)) {
+      write_rollers(static_cast<std::size_t>(wheel));
+    } else if (wheel >= 0) {
       const auto w = static_cast<std::size_t>(wheel);
       text_ += sphere_geom(numbered("wheel", w), Vector3::Zero(), model_.wheels()[w].radius);
     }
@@ -174,6 +167,24 @@ class MjcfWriter {
       write_body(child);
     }
     text_ += "</body>\n";
+  }
+
+  bool has_rollers(int wheel) const {
+    return wheel >= 0 && !simulated_.rollers.empty() &&
+           !simulated_.rollers[static_cast<std::size_t>(wheel)].rollers.empty();
+  }
+
+  void write_rollers(std::size_t w) {
+    const std::vector<Roller>& rollers = simulated_.rollers[w].rollers;
+    for (std::size_t i = 0; i < rollers.size(); ++i) {
+      const std::string name = numbered(numbered("roller", w).c_str(), i);
+      text_ +=
+          "<body" + attribute("name", name) + attribute("pos", list_of(rollers[i].pose.position)) +
+          attribute("quat", quaternion_of(rollers[i].pose.rotation)) + "><joint" + attribute("name", name) +
+          " type=\"hinge\" axis=\"0 0 1\"/>\n" + inertial(rollers[i].inertia) + "<geom" +
+          attribute("name", numbered(numbered("wheel", w).c_str(), i)) + " type=\"ellipsoid\"" +
+          attribute("size", list_of(rollers[i].radius, rollers[i].radius, rollers[i].half)) + "/></body>\n";
+    }
   }
 
   void write_joint(const Body& body, std::size_t number, bool ball) {
@@ -268,10 +279,11 @@ class MjcfWriter {
   void write_pairs() {
     text_ += "<contact>\n";
     for (std::size_t w = 0; w < model_.wheels().size(); ++w) {
-      text_ += "<pair" + attribute("geom1", "floor") + attribute("geom2", numbered("wheel", w)) +
-               " condim=\"3\" " + stiff() +
-               attribute("friction", list_of(scene_.floor_friction, sideways_friction(w), 0.0, 0.0, 0.0)) +
-               "/>\n";
+      const std::string wheel = numbered("wheel", w);
+      if (!has_rollers(static_cast<int>(w))) write_rolling(w, wheel);
+      for (std::size_t i = 0; has_rollers(static_cast<int>(w)) && i < roller_count; ++i) {
+        write_rolling(w, numbered(wheel.c_str(), i));
+      }
     }
     for (std::size_t c = 0; c < simulated_.skids.size(); ++c) {
       text_ += "<pair" + attribute("geom1", "floor") + attribute("geom2", numbered("skid", c)) +
@@ -286,6 +298,12 @@ class MjcfWriter {
       }
     }
     text_ += "</contact>\n";
+  }
+
+  void write_rolling(std::size_t w, const std::string& geom) {
+    text_ += "<pair" + attribute("geom1", "floor") + attribute("geom2", geom) + " condim=\"3\" " + stiff() +
+             attribute("friction", list_of(scene_.floor_friction, sideways_friction(w), 0.0, 0.0, 0.0)) +
+             "/>\n";
   }
 
   /// Of a contact's second direction, across the wheel's rolling. Skidding wheels: side_friction.hpp.
@@ -396,81 +414,7 @@ class MjcfWriter {
   std::string text_;
 };
 
-/// The ground as the wheels' lowest points have it, on the average; small differences are levelled out.
-void level_wheels(const Model& model, SimulatedRobot& simulated) {
-  std::vector<double> lowest;
-  for (const solver::Wheel& wheel : model.wheels()) {
-    if (!wheel.roller_angle && !wheel.holds_rolling) {
-      refuse("a wheel that does not hold rolling cannot be simulated");
-    }
-    lowest.push_back(pose_in_base(model, wheel.body).position.z() - wheel.radius);
-  }
-  if (lowest.empty()) refuse("a base on the ground needs wheels");
-  for (const double z : lowest) simulated.ground += z / static_cast<double>(lowest.size());
-  for (const double z : lowest) {
-    simulated.wheel_lift.push_back(simulated.ground - z);
-    if (std::abs(simulated.ground - z) > max_wheel_lift) {
-      refuse("the wheels do not stand on one level: their lowest points differ by millimetres");
-    }
-  }
-}
-
-/// A support stands on the ground straight below its link's origin.
-Vector3 point_below(const lang::Robot& robot, const std::string& support) {
-  const auto frame = robot.model.find_frame(support);
-  if (!frame) refuse("the model has no link `" + support + "` to support the base");
-  const solver::Frame& link = robot.model.frames()[static_cast<std::size_t>(*frame)];
-  if (link.body != 0) refuse("the support `" + support + "` is not fixed to the base");
-  return link.pose_in_body.position;
-}
-
-/// Of each last link of an arm the frame that lies farthest out.
-std::vector<solver::Frame> find_tips(const Model& model) {
-  std::vector<solver::Frame> tips;
-  for (int b = 1; b < model.body_count(); ++b) {
-    const auto hangs_on_it = [b](const Body& body) { return body.parent == b; };
-    const auto rolls = [b](const solver::Wheel& wheel) { return wheel.body == b; };
-    if (!model.joint(b - 1).actuated ||
-        std::any_of(model.bodies().begin() + 1, model.bodies().end(), hangs_on_it) ||
-        std::any_of(model.wheels().begin(), model.wheels().end(), rolls))
-      continue;
-    const solver::Frame* farthest = nullptr;
-    for (const solver::Frame& frame : model.frames()) {
-      if (frame.body != b) continue;
-      if (farthest == nullptr || frame.pose_in_body.position.norm() > farthest->pose_in_body.position.norm())
-        farthest = &frame;
-    }
-    if (farthest != nullptr) tips.push_back(*farthest);
-  }
-  return tips;
-}
-
 }  // namespace
-
-const solver::Frame& hook_of(const Model& model, const SceneObject& object) {
-  const auto frame = model.find_frame(object.dock->hook);
-  if (!frame) refuse("the robot has no frame `" + object.dock->hook + "` to latch in `" + object.name + "`");
-  return model.frames()[static_cast<std::size_t>(*frame)];
-}
-
-SimulatedRobot prepare_robot(const lang::Robot& robot) {
-  SimulatedRobot simulated;
-  simulated.tips = find_tips(robot.model);
-  simulated.spheres = replace_wheels_by_spheres(robot.model);
-  simulated.outline = convex_hull(robot.footprint);
-  if (robot.model.base_type() != solver::BaseType::ground) {
-    simulated.wheel_lift.assign(robot.model.wheels().size(), 0.0);
-    return simulated;
-  }
-  level_wheels(robot.model, simulated);
-  for (const std::string& support : robot.supports) simulated.skids.push_back(point_below(robot, support));
-  if (robot.supports.empty() && robot.model.wheels().size() < 3) {
-    if (simulated.outline.empty()) refuse("a base on two wheels needs a footprint for its supports");
-    simulated.skids = simulated.outline;
-  }
-  for (Vector3& skid : simulated.skids) skid.z() = simulated.ground;
-  return simulated;
-}
 
 std::string write_mjcf(const lang::Robot& robot, const SimulatedRobot& simulated, const lang::Scene& scene,
                        double period) {

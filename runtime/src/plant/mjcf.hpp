@@ -1,6 +1,7 @@
 /// The simulation as text: MuJoCo's XML, written from our own model. Nothing here knows the simulator.
 ///
-/// Names: `body_<i>`, `joint_<j>`, `motor_<j>` after the model's numbers, `wheel_<w>`, `floor`; of the
+/// Names: `body_<i>`, `joint_<j>`, `motor_<j>` after the model's numbers, `wheel_<w>` (with rollers
+/// `wheel_<w>_<i>`, on bodies and joints `roller_<w>_<i>`), `floor`; of the
 /// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`; of its arms `tip_<t>`; of the scene
 /// `object_<k>` (body) with geoms `object_<k>_face` and `object_<k>_edge_<c>`, `dock_<k>` (equality).
 ///
@@ -14,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "rollers.hpp"
 #include "rolling_spheres.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/scene.hpp"
@@ -23,6 +25,7 @@ namespace zwang::runtime {
 /// What the text is written from, worked out once.
 struct SimulatedRobot {
   SphereBase spheres;
+  std::vector<RollerWheel> rollers;      ///< by wheel, where they are built as they are; else empty
   double ground = 0.0;                   ///< [m] height of the ground in the base frame
   std::vector<double> wheel_lift;        ///< [m] each wheel's move upwards that makes the base stand level
   std::vector<solver::Vector3> outline;  ///< convex hull of the footprint, counter-clockwise
@@ -31,7 +34,10 @@ struct SimulatedRobot {
 };
 
 /// Throws std::invalid_argument when the robot cannot be simulated.
-SimulatedRobot prepare_robot(const lang::Robot& robot);
+SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers = false);
+
+/// X_BaseBody of a body where all joints are at 0.
+solver::Pose pose_in_base(const solver::Model& model, int body);
 
 /// The frame that latches in the object's dock. Throws std::invalid_argument when the robot has none.
 const solver::Frame& hook_of(const solver::Model& model, const lang::SceneObject& object);

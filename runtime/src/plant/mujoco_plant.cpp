@@ -64,7 +64,7 @@ struct MujocoPlant::Simulation {
   };
   Simulation(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options)
       : robot_model(robot.model),
-        simulated(prepare_robot(robot)),
+        simulated(prepare_robot(robot, options.real_rollers)),
         posture(lang::start_state(robot).q),
         side_friction(robot.model, scene.floor_friction),
         joint_friction(robot),
@@ -113,6 +113,7 @@ struct MujocoPlant::Simulation {
       freedoms += address.sphere != nullptr ? 3 : 1;
       joints.push_back(address);
     }
+    for (const RollerWheel& wheel : simulated.rollers) freedoms += static_cast<int>(wheel.rollers.size());
     for (int j = 0; j < model->njnt; ++j) {
       const char* name = mj_id2name(model.get(), mjOBJ_JOINT, j);
       if (std::strncmp(name, "object_", 7) == 0) freedoms += 1;

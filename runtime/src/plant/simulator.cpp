@@ -113,6 +113,14 @@ int nearest_corner(const std::vector<Vector3>& footprint, const Vector3& corner)
   return static_cast<int>(std::min_element(footprint.begin(), footprint.end(), nearer) - footprint.begin());
 }
 
+/// The rollers of the wheel that this body is, where it has any.
+const RollerWheel* rollers_of(const solver::Model& robot, const SimulatedRobot& simulated, int body) {
+  for (std::size_t w = 0; w < simulated.rollers.size(); ++w) {
+    if (robot.wheels()[w].body == body && !simulated.rollers[w].rollers.empty()) return &simulated.rollers[w];
+  }
+  return nullptr;
+}
+
 const GeomOwner& owner_of(const std::vector<GeomOwner>& owners, int geom) {
   return owners[static_cast<std::size_t>(geom)];
 }
@@ -177,6 +185,12 @@ void require_as_written(const mjModel& model, const solver::Model& robot, const 
     const auto& spheres = simulated.spheres.spheres;
     const bool is_sphere = std::any_of(spheres.begin(), spheres.end(),
                                        [i](const RollingSphere& sphere) { return sphere.body == i; });
+    const RollerWheel* rollers = rollers_of(robot, simulated, i);
+    if (rollers != nullptr) {
+      for (const Roller& roller : rollers->rollers) mass += roller.inertia.mass;
+      require_equal(model, id, rollers->hub, body.name);
+      continue;
+    }
     if (is_sphere || (i == 0 && robot.has_fixed_base())) continue;  // a sphere's mass counts in the sum below
     require_equal(model, id, i == 0 ? simulated.spheres.base : body.inertia, body.name);
   }

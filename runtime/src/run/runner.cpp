@@ -71,6 +71,7 @@ struct Runner::Parts {
         statements(scheduler, program),
         limits(statements, program.robot),
         layout(statements, scheduler, model, program.signals, signal_words, settings.extra_columns),
+        handed_over(Eigen::VectorXd::Zero(model.joint_count())),
         wanted(Eigen::VectorXd::Zero(model.joint_count())),
         tau(Eigen::VectorXd::Zero(model.joint_count())) {
     transitions.reserve(kept_transitions);
@@ -85,6 +86,9 @@ struct Runner::Parts {
   bool control() noexcept;
   /// What motors and wheels made of the last command.
   void compare() noexcept;
+  /// After a swap of programs: what was sent last fades out of the torques.
+  void hand_over() noexcept;
+  bool has_the_joints_of(const Parts& other) const noexcept;
   void judge_sensors(const Sensed& sensed) noexcept;
   void tell(const Event& event) noexcept;
   void brake_protectively(bool good_sample) noexcept;
@@ -118,8 +122,10 @@ struct Runner::Parts {
   LimitTable limits;
   LogLayout layout;
   Recorder* recorder = nullptr;
-  Eigen::VectorXd wanted;  ///< the solution's torques and the friction's
-  Eigen::VectorXd tau;     ///< sent
+  Eigen::VectorXd handed_over;        ///< what the torques differ by at a swap of programs
+  double handed_over_for = handover;  ///< [s] since then
+  Eigen::VectorXd wanted;             ///< the solution's torques and the friction's
+  Eigen::VectorXd tau;                ///< sent
   solver::Status solver_status = solver::Status::ok;
   GuardStatus guard_status = GuardStatus::passed;
   std::vector<Transition> transitions;
@@ -168,6 +174,21 @@ bool Runner::Parts::control() noexcept {
   scheduler.observe(solution);
   wanted = solution.tau;
   friction.add_to(wanted, sample.state);
+  if (handed_over_for < handover) hand_over();
+  return true;
+}
+
+void Runner::Parts::hand_over() noexcept {
+  if (handed_over_for <= 0.0) handed_over = tau - wanted;
+  wanted += (1.0 - handed_over_for / handover) * handed_over;
+  handed_over_for += period;
+}
+
+bool Runner::Parts::has_the_joints_of(const Parts& other) const noexcept {
+  if (model.joint_count() != other.model.joint_count() || period != other.period) return false;
+  for (int j = 0; j < model.joint_count(); ++j) {
+    if (model.joint(j).name != other.model.joint(j).name) return false;
+  }
   return true;
 }
 
@@ -267,6 +288,27 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
     p.recorder->record(p.layout.fill(p.statements, tick));
   }
   return p.tau;
+}
+
+bool Runner::swap_program(Runner& next) noexcept {
+  if (parts_->guard.stopped() || !next.parts_->has_the_joints_of(*parts_)) return false;
+  std::swap(parts_, next.parts_);
+  Parts& now = *parts_;
+  Parts& before = *next.parts_;
+  std::swap(now.guard, before.guard);
+  std::swap(now.odometry, before.odometry);
+  std::swap(now.slip, before.slip);
+  now.reckoning = before.reckoning;
+  now.last_fix = before.last_fix;
+  now.start = before.start;
+  now.events.swap(before.events);
+  std::swap(now.event_count, before.event_count);
+  now.disturbance.pause();
+  now.actuators.reset();
+  now.tau = before.tau;
+  now.handed_over_for = 0.0;
+  now.recorder = nullptr;
+  return true;
 }
 
 RunState Runner::state() const noexcept {

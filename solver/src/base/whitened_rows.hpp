@@ -1,7 +1,8 @@
 /// One factorisation of the Delassus matrix L for rows in the order ground, joints, task: L = W W'.
 ///
-/// Cholesky with pivoting inside each block. The first columns of W span what the ground holds, the next ones
-/// the motions that it leaves: their number is the mobility. So for any two rows i, k beyond the ground
+/// Cholesky with pivoting inside each block; a row is taken as it comes while the ones before leave a tenth
+/// of it. The first columns of W span what the ground holds, the next ones the motions that it leaves: their
+/// number is the mobility. So for any two rows i, k beyond the ground
 ///
 ///   A_i Mc A_k' = B_i . B_k,   Mc = M^-1 - M^-1 Jp' (Jp M^-1 Jp')^+ Jp M^-1,   B_i = the last columns of row
 ///   i of W
@@ -9,6 +10,9 @@
 /// and a generalised force f along them becomes p = sum B_i f_i: forces and accelerations of the constrained
 /// robot live in one small space with the identity as its inertia. Redundant ground rows (two wheels on one
 /// axle) are passed over.
+///
+/// W stands where L was copied to, its lines in the order of elimination: line k < rank() is the row that was
+/// the k-th pivot, so the pivots' lines are a lower triangle.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,18 +35,18 @@ class WhitenedRows {
 
   int mobility() const noexcept { return rank_ - ground_rank_; }
   int ground_rank() const noexcept { return ground_rank_; }
+  int rank() const noexcept { return rank_; }
   /// B_i, of a row beyond the ground.
-  auto motion(int row) const noexcept { return W_.row(row).segment(ground_rank_, mobility()); }
+  auto motion(int row) const noexcept { return W_.row(line_of(row)).segment(ground_rank_, mobility()); }
   /// A_i Mc A_i' over A_i M^-1 A_i': how much of a row the ground leaves.
   double free_share(int row, const RowMajorMatrix& L) const noexcept;
 
   /// Rows [ground, rows), which factorise() took as its second block: nu of least norm among those that bring
   /// their accelerations, rhs = b - g - held_acceleration by row, nearest to 0.
   void motion_multipliers(const Eigen::VectorXd& rhs, int ground, int rows, Eigen::VectorXd& nu) noexcept;
-  int rank() const noexcept { return rank_; }
 
   /// What holding the ground rows at `bias` (desired minus free acceleration, by row) adds to the
-  /// acceleration of rows.
+  /// acceleration of a row beyond the ground.
   void hold_ground(const Eigen::VectorXd& bias) noexcept;
   double held_acceleration(int row) const noexcept { return held_acceleration_(row); }
   /// Ground multipliers for the forces `f` on the rows beyond (the ones of hold_ground included). Zero on
@@ -50,19 +54,24 @@ class WhitenedRows {
   void ground_multipliers(const Eigen::VectorXd& forces, int ground, int rows, Eigen::VectorXd& nu) noexcept;
 
  private:
-  int next_pivot(int first, int last, double tolerance) const noexcept;
-  void eliminate(const RowMajorMatrix& L, int first, int last, double tolerance) noexcept;
+  int line_of(int row) const noexcept { return line_of_[static_cast<std::size_t>(row)]; }
+  int row_at(int line) const noexcept { return row_at_[static_cast<std::size_t>(line)]; }
+  const double* line(int k) const noexcept { return &W_(k, 0); }
+  int next_pivot(int last, double tolerance) const noexcept;
+  void eliminate(int last, int candidates, double tolerance) noexcept;
+  void exchange(int c, int k) noexcept;
   void least_squares(const Eigen::VectorXd& rhs, int ground, int rows, Eigen::VectorXd& nu) noexcept;
 
-  Eigen::MatrixXd W_;  ///< with a line to spare
+  RowMajorMatrix W_;  ///< columns from rank() on: what the ones before leave of L; a line to spare
   RowMajorMatrix gram_;
-  Eigen::VectorXd left_;  ///< diagonal of L minus what W explains so far; 0 at a pivot
-  Eigen::VectorXd inverse_diagonal_;
-  Eigen::VectorXd inverse_root_;       ///< 1 over the pivot of a column of W
-  Eigen::VectorXd held_;               ///< what the held ground adds, by column of W
-  Eigen::VectorXd held_acceleration_;  ///< W held, by row
+  Eigen::VectorXd left_;               ///< by line: the diagonal of what is left of L
+  Eigen::VectorXd inverse_diagonal_;   ///< by line: 1 / L_ii, 0 on a row that is no candidate
+  Eigen::VectorXd column_;             ///< the one that is being eliminated, by line
+  Eigen::VectorXd inverse_root_;       ///< by column of W: 1 over its pivot
+  Eigen::VectorXd held_;               ///< by column of W: what the held ground adds
+  Eigen::VectorXd held_acceleration_;  ///< by row
   Eigen::VectorXd substitution_;
-  std::vector<int> pivots_;
+  std::vector<int> line_of_, row_at_;
   int rows_ = 0;
   int ground_rank_ = 0;
   int rank_ = 0;

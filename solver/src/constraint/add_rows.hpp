@@ -9,11 +9,11 @@ namespace zwang::solver {
 /// The rows of the ground, which come first, at the configuration and the twists in `sweeps`. Each is handed
 /// to `take(id, row)`, too.
 template <class Take>
-void add_ground_rows(const Model& model, Sweeps& sweeps, Take take) noexcept {
+void add_ground_rows(const Ground& ground, Sweeps& sweeps, Take take) noexcept {
   sweeps.columns.clear();
-  const int count = ground_row_count(model);
+  const int count = ground.row_count();
   for (int i = 0; i < count; ++i) {
-    const GroundRow row = ground_row(i, model, sweeps);
+    const GroundRow row = ground.row(i, sweeps);
     take(sweeps.columns.add_row(row.body, row.a), row);
   }
 }

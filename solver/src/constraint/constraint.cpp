@@ -78,6 +78,10 @@ Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, co
 /// Later ones win where ranges contradict.
 constexpr std::array ranges_in_rising_rank{Quantity::position, Quantity::velocity, Quantity::acceleration};
 
+FrameMotion motion_in_world(const AttachedFrame& frame) {
+  return {frame.pose, frame.pose.rotation * frame.twist.angular, frame.pose.rotation * frame.twist.linear};
+}
+
 double mix(double before, double now, double progress) {
   return before + progress * (now - before);
 }
@@ -94,10 +98,8 @@ double braking_speed(double distance, double braking, double h) noexcept {
 }
 
 FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept {
-  if (frame.body < 0) {
-    return {frame.pose, frame.pose.rotation * frame.twist.angular, frame.pose.rotation * frame.twist.linear};
-  }
-  return motion_of_body(frame.body, model, state).at(frame.pose);
+  if (frame.body < 0) return motion_in_world(frame);
+  return motion_of_body(frame.body, model, state, motion_of_base(model, state)).at(frame.pose);
 }
 
 Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept {
@@ -120,6 +122,7 @@ ConstraintSet::ConstraintSet(int constraint_capacity, int row_capacity) {
   }
   constraints_.reserve(static_cast<std::size_t>(constraint_capacity));
   coordinates_.reserve(static_cast<std::size_t>(constraint_capacity));
+  known_.reserve(2 * static_cast<std::size_t>(constraint_capacity));
   rows_.reserve(static_cast<std::size_t>(row_capacity));
 }
 
@@ -144,16 +147,40 @@ bool ConstraintSet::push(const Row& row) noexcept {
 bool ConstraintSet::fill(const Model& model, const State& state) noexcept {
   coordinates_.clear();
   rows_.clear();
+  known_.clear();
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     if (!fill_one(static_cast<int>(i), model, state)) return false;
   }
   return true;
 }
 
+/// Constraints share bodies, and bodies their carriers: a chain is walked once.
+FrameMotion ConstraintSet::body_motion(int body, const Model& model, const State& state) noexcept {
+  for (const KnownMotion& known : known_) {
+    if (known.body == body) return known.motion;
+  }
+  FrameMotion motion;
+  if (body == 0) {
+    motion = motion_of_base(model, state);
+  } else {
+    const Body& link = model.bodies()[static_cast<std::size_t>(body)];
+    const BodyMotion parent{body_motion(link.parent, model, state)};
+    motion = motion_on_parent(link, state.q(body - 1), state.qd(body - 1), parent);
+  }
+  if (known_.size() < known_.capacity()) known_.push_back({body, motion});
+  return motion;
+}
+
+FrameMotion ConstraintSet::frame_motion(const AttachedFrame& frame, const Model& model,
+                                        const State& state) noexcept {
+  if (frame.body < 0) return motion_in_world(frame);
+  return BodyMotion{body_motion(frame.body, model, state)}.at(frame.pose);
+}
+
 bool ConstraintSet::fill_one(int index, const Model& model, const State& state) noexcept {
   const AxisConstraint& constraint = constraints_[static_cast<std::size_t>(index)];
-  const FrameMotion f = motion_of(constraint.move, model, state);
-  const FrameMotion t = motion_of(constraint.in, model, state);
+  const FrameMotion f = frame_motion(constraint.move, model, state);
+  const FrameMotion t = frame_motion(constraint.in, model, state);
   const Measurement along = measure(constraint, f, t);
   const Coordinate& now = along.now;
   coordinates_.push_back(now);
@@ -167,7 +194,7 @@ bool ConstraintSet::fill_one(int index, const Model& model, const State& state) 
   row.level = constraint.level;
   row.weight = constraint.weight;
   const auto unit_force = [&](int body) {
-    return on_body(along, f.pose.position, motion_of_body(body, model, state).pose);
+    return on_body(along, f.pose.position, body_motion(body, model, state).pose);
   };
   const bool relative = constraint.in.body >= 0 && !only_orients(constraint.move, constraint.in);
   if (constraint.move.body >= 0) {

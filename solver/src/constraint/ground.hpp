@@ -2,10 +2,43 @@
 /// slip.
 #pragma once
 
+#include <cmath>
+#include <vector>
+
 #include "sweep/sweeps.hpp"
 #include "zwang/solver/model.hpp"
 
 namespace zwang::solver {
+
+/// A direction in the plane of the ground in which a wheel does not slip, as parts of its rolling and its
+/// sideways direction.
+struct HeldDirection {
+  double rolling = 0.0;
+  double sideways = 0.0;
+
+  /// As a unit vector for a wheel that turns about `axis`, in axes with z along the ground's normal:
+  /// sideways = axis in the plane, rolling = axis x z.
+  Vector3 along(const Vector3& axis) const noexcept {
+    const double square = axis.x() * axis.x() + axis.y() * axis.y();
+    const double scale = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
+    return {scale * (sideways * axis.x() + rolling * axis.y()),
+            scale * (sideways * axis.y() - rolling * axis.x()), 0.0};
+  }
+};
+
+/// Every direction that a wheel holds: `visit(wheel, direction)`. The one of a roller's axis is turned by the
+/// roller angle from sideways, away from rolling.
+template <class Visit>
+void for_each_held_direction(const Model& model, const Visit& visit) {
+  for (const Wheel& wheel : model.wheels()) {
+    if (wheel.roller_angle) {
+      visit(wheel, HeldDirection{-std::sin(*wheel.roller_angle), std::cos(*wheel.roller_angle)});
+      continue;
+    }
+    if (wheel.holds_rolling) visit(wheel, HeldDirection{1.0, 0.0});
+    if (wheel.holds_sideways) visit(wheel, HeldDirection{0.0, 1.0});
+  }
+}
 
 /// a . A = bias on the spatial acceleration A of `body`, in the base's axes and at its origin.
 struct GroundRow {
@@ -14,14 +47,27 @@ struct GroundRow {
   double bias = 0.0;  ///< minus the velocity products
 };
 
-/// Held direction number `index` of a wheel, a unit vector in the plane of the ground. `axis` is the wheel's
-/// own; all in the same axes.
-Vector3 held_direction(const Wheel& wheel, int index, const Vector3& axis, const Vector3& normal) noexcept;
+/// The rows of the ground of a model: base first, then wheel by wheel.
+class Ground {
+ public:
+  explicit Ground(const Model& model);
 
-int ground_row_count(const Model& model) noexcept;
+  int row_count() const noexcept { return base_rows_ + static_cast<int>(held_.size()); }
+  /// Row `index` at the configuration and the twists in `sweeps`.
+  GroundRow row(int index, const Sweeps& sweeps) const noexcept;
 
-/// Row `index` of the ground at the configuration and the twists in `sweeps`.
-GroundRow ground_row(int index, const Model& model, const Sweeps& sweeps) noexcept;
+ private:
+  struct Held {
+    std::size_t body = 0;
+    std::size_t carrier = 0;  ///< the body that the wheel turns on
+    double radius = 0.0;
+    HeldDirection direction;
+  };
+  GroundRow wheel_row(const Held& held, const Sweeps& sweeps) const noexcept;
+
+  int base_rows_ = 0;
+  std::vector<Held> held_;
+};
 
 /// Whether the base cannot move in the plane, at any configuration, without turning a wheel: wheels that are
 /// mounted on it directly hold all three of its directions. Then the joints' rows span every motion.

@@ -14,9 +14,13 @@ struct BodyMotion : FrameMotion {
   }
 };
 
-BodyMotion motion_of_body(int body, const Model& model, const State& state) noexcept;
+/// In the world.
+BodyMotion motion_of_base(const Model& model, const State& state) noexcept;
 
-/// X_PB(q): the body's frame in its parent's.
-Pose pose_in_parent(const Body& body, double q) noexcept;
+/// A body's from its parent's, `q` and `qd` of the joint between them.
+BodyMotion motion_on_parent(const Body& body, double q, double qd, const BodyMotion& parent) noexcept;
+
+/// While the base moves as given: with BodyMotion{} against the base, in its axes.
+BodyMotion motion_of_body(int body, const Model& model, const State& state, const BodyMotion& base) noexcept;
 
 }  // namespace zwang::solver

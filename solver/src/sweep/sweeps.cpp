@@ -6,13 +6,16 @@ namespace zwang::solver {
 
 namespace {
 
-/// Turns R about its own column k: R Rot(e_k, q).
-void turn_about_column(int k, double cosine, double sine, Matrix3& R) {
-  const int i = (k + 1) % 3;
-  const int j = (k + 2) % 3;
-  const Vector3 column = R.col(i);
-  R.col(i) = cosine * column + sine * R.col(j);
-  R.col(j) = cosine * R.col(j) - sine * column;
+/// R = from Rot(e_k, q): turned about its own column k.
+void turn_about_column(const Matrix3& from, int k, double cosine, double sine, Matrix3& R) {
+  constexpr int after[] = {1, 2, 0};
+  const int i = after[k];
+  const int j = after[i];
+  const Vector3 u = from.col(i);
+  const Vector3 v = from.col(j);
+  R.col(k) = from.col(k);
+  R.col(i) = cosine * u + sine * v;
+  R.col(j) = cosine * v - sine * u;
 }
 
 /// Turns R about an axis given in its own coordinates, by Rodrigues' formula on each column.
@@ -26,26 +29,23 @@ void turn_about_axis(const Vector3& axis_in_base, double cosine, double sine, Ma
 
 /// Pose and joint motion of body i from its parent's.
 void place(const Body& body, double q, const BodySweep& parent, BodySweep& sweep) {
-  if (sweep.turned_in_parent) {
-    sweep.R.noalias() = parent.R * body.pose_in_parent.rotation;
-  } else {
-    sweep.R = parent.R;
-  }
+  if (sweep.turned_in_parent) sweep.R.noalias() = parent.R * body.pose_in_parent.rotation;
+  const Matrix3& R = sweep.turned_in_parent ? sweep.R : parent.R;  // at q = 0
   sweep.p = parent.p;
   sweep.p.noalias() += parent.R * body.pose_in_parent.position;
   const int k = sweep.axis_column;
-  const Vector3 axis = k >= 0 ? Vector3(sweep.R.col(k)) : Vector3(sweep.R * body.joint.axis);
+  const Vector3 axis = k >= 0 ? Vector3(R.col(k)) : Vector3(R * body.joint.axis);
   if (body.joint.type == JointType::prismatic) {
+    sweep.R = R;
     sweep.p += q * axis;
     sweep.S << Vector3::Zero(), axis;
     return;
   }
-  const double cosine = std::cos(q);
-  const double sine = std::sin(q);
   if (k >= 0) {
-    turn_about_column(k, cosine, sine, sweep.R);
+    turn_about_column(R, k, sweep.cosine, sweep.sine, sweep.R);
   } else {
-    turn_about_axis(axis, cosine, sine, sweep.R);
+    sweep.R = R;
+    turn_about_axis(axis, sweep.cosine, sweep.sine, sweep.R);
   }
   sweep.S << axis, sweep.p.cross(axis);
 }
@@ -63,9 +63,20 @@ void move(double qd, const BodySweep& parent, BodySweep& sweep) {
   sweep.c.tail<3>() = parent.c.tail<3>() + w.cross(joint_v) + v.cross(joint_w);
 }
 
-/// The inertia about the centre of mass in the base's axes: J = R J_B R'.
+/// The inertia about the centre of mass in the base's axes: J = R J_B R'. With the principal moments x, y, z
+/// about the body's own axes, the columns of R, that is  z 1 + (x - z) R_x R_x' + (y - z) R_y R_y'.
 void turn_inertia(BodySweep& sweep) {
   const Matrix3& R = sweep.R;
+  if (sweep.has_principal_axes) {
+    const Vector3 x = R.col(0);
+    const Vector3 y = R.col(1);
+    const double z = sweep.inertia_in_body(2, 2);
+    const Vector3 scaled_x = (sweep.inertia_in_body(0, 0) - z) * x;
+    const Vector3 scaled_y = (sweep.inertia_in_body(1, 1) - z) * y;
+    sweep.J.noalias() = scaled_x * x.transpose() + scaled_y * y.transpose();
+    sweep.J.diagonal().array() += z;
+    return;
+  }
   const Matrix3 half = R * sweep.inertia_in_body;
   const double xx = half.row(0).dot(R.row(0));
   const double yx = half.row(1).dot(R.row(0));
@@ -138,6 +149,7 @@ Sweeps::Sweeps(const Model& model, int row_capacity)
     if (sweep.mass > 0.0) sweep.com_in_body = body.inertia.first_moment / sweep.mass;
     const Matrix3 com = skew(sweep.com_in_body);
     sweep.inertia_in_body = body.inertia.rotational + sweep.mass * com * com;
+    sweep.has_principal_axes = sweep.inertia_in_body.isDiagonal(1e-14);
     sweep.turned_in_parent = body.pose_in_parent.rotation != Matrix3::Identity();
     for (int k = 0; k < 3; ++k) {
       if (body.joint.axis == Vector3::Unit(k)) sweep.axis_column = k;
@@ -159,6 +171,12 @@ void outward_kinematics(const Model& model, const State& state, const Vector6& b
   } else {
     base.v = state.base_twist.vector();
   }
+  // Ahead of the walk, where each body would wait for them: these do not wait for one another.
+  for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+    const double q = state.q(static_cast<Eigen::Index>(i) - 1);
+    sweeps.bodies[i].cosine = std::cos(q);
+    sweeps.bodies[i].sine = std::sin(q);
+  }
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
     const Body& body = model.bodies()[i];
     const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
@@ -172,8 +190,8 @@ void outward_kinematics(const Model& model, const State& state, const Vector6& b
   }
 }
 
-void load_bodies(const State& state, const Vector3& gravity, Sweeps& sweeps) noexcept {
-  for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
+void load_bodies(const Model& model, const State& state, const Vector3& gravity, Sweeps& sweeps) noexcept {
+  for (std::size_t i = model.has_fixed_base() ? 1 : 0; i < sweeps.bodies.size(); ++i) {
     write_inertia(sweeps.bodies[i]);
     write_bias(gravity, state.f_ext[i], sweeps.bodies[i]);
   }
@@ -190,6 +208,7 @@ void load_bodies_at_rest(Sweeps& sweeps) noexcept {
 
 bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept {
   sweeps.columns.arrange(sweeps.bodies);
+  const bool base_moves = !model.has_fixed_base();
   for (std::size_t i = sweeps.bodies.size() - 1; i > 0; --i) {
     const Body& body = model.bodies()[i];
     BodySweep& sweep = sweeps.bodies[i];
@@ -201,11 +220,13 @@ bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& swee
     sweep.D_inverse = 1.0 / D;
     sweep.u = tau(static_cast<Eigen::Index>(i) - 1) - sweep.S.dot(sweep.pA);
     const Vector6 UD = sweep.U * sweep.D_inverse;
-    for (int k = 0; k < 6; ++k) parent.IA.col(k) += sweep.IA.col(k) - UD * sweep.U(k);
-    parent.pA += sweep.pA + UD * sweep.u;
+    if (base_moves || body.parent > 0) {
+      for (int k = 0; k < 6; ++k) parent.IA.col(k) += sweep.IA.col(k) - UD * sweep.U(k);
+      parent.pA += sweep.pA + UD * sweep.u;
+    }
     sweeps.columns.carry(i, sweep, UD);
   }
-  if (model.has_fixed_base()) {
+  if (!base_moves) {
     sweeps.columns.finish();
     return true;
   }
@@ -223,7 +244,7 @@ void outward_accelerations(const Model& model, const Eigen::VectorXd& nu, Sweeps
   if (!model.has_fixed_base()) {
     // IA_0 da_0 = A_0 nu - pA_0
     const Matrix6& F = sweeps.base_inverse_factor;
-    base.da = F.transpose() * (sweeps.columns.base_force() - F * base.pA);
+    base.da = F.transpose() * (sweeps.columns.base_force(nu) - F * base.pA);
   }
   base.a = base.c + base.da;
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {

@@ -53,11 +53,14 @@ struct BodySweep {
   // What stays: of the model.
   double mass = 0.0;
   Vector3 com_in_body;
-  Matrix3 inertia_in_body;  ///< about the centre of mass
+  Matrix3 inertia_in_body;          ///< about the centre of mass
+  bool has_principal_axes = false;  ///< inertia_in_body is diagonal
   int axis_column = -1;  ///< the body's own axis that the joint turns about or slides along; -1: some other
   bool turned_in_parent = false;  ///< at q = 0
 
   // Kinematics.
+  double cosine = 1.0;  ///< of the joint's angle
+  double sine = 0.0;
   Matrix3 R;    ///< axes of the body in the base's
   Vector3 p;    ///< [m] origin of the body from the base's
   Vector3 com;  ///< [m] centre of mass from the base's origin
@@ -84,11 +87,13 @@ struct BodySweep {
     result << R * f.angular + p.cross(force), force;
     return result;
   }
-  /// A motion in the base's coordinates, written in the body's.
-  MotionVector from_base(const Vector6& m) const {
+  /// A motion in the base's coordinates, written in the body's. (To where it belongs: a copy would wait for
+  /// it.)
+  void from_base(const Vector6& m, MotionVector& result) const {
     const Vector3 angular = m.head<3>();
-    const Vector3 linear = m.tail<3>();
-    return {R.transpose() * angular, R.transpose() * (linear + angular.cross(p))};
+    const Vector3 linear = m.tail<3>() + angular.cross(p);
+    result.angular.noalias() = R.transpose() * angular;
+    result.linear.noalias() = R.transpose() * linear;
   }
 };
 
@@ -104,8 +109,8 @@ struct Sweeps {
 /// Phase 1: where the bodies are and how they move. `base_acceleration` counts on a fixed base only.
 void outward_kinematics(const Model& model, const State& state, const Vector6& base_acceleration,
                         Sweeps& sweeps) noexcept;
-/// Puts the bodies' inertias into IA, and into pA what their motion, gravity and the world do to them.
-void load_bodies(const State& state, const Vector3& gravity, Sweeps& sweeps) noexcept;
+/// Puts the moving bodies' inertias into IA, and into pA what their motion, gravity and the world do to them.
+void load_bodies(const Model& model, const State& state, const Vector3& gravity, Sweeps& sweeps) noexcept;
 /// The same for a robot that rests in free space where it is, and answers to multipliers only.
 void load_bodies_at_rest(Sweeps& sweeps) noexcept;
 /// Phase 2, with the base's inertia factorised at the end. False where an inertia cannot be inverted.

@@ -38,6 +38,9 @@ struct MujocoPlantOptions {
   double period = 1e-3;                           ///< [s] control period and simulation step
   std::optional<std::array<double, 2>> start_at;  ///< overrides the scene's
   std::optional<double> start_yaw;
+  /// Mecanum and omni wheels with eighteen rollers each, as they are built, in the place of smooth ones:
+  /// slower, and with their ripple.
+  bool real_rollers = false;
 };
 
 /// Wheels that hold one direction are spheres that act exactly as the model's wheels do; other wheels are

@@ -72,6 +72,14 @@ class Runner {
   /// is unknown and a value outside the parameter's range. Does not allocate.
   bool set_parameter(const std::string& name, double value) noexcept;
 
+  /// From the next step on the program of `next` runs, from its start task, on the same robot: build it on
+  /// another thread, from a file that may have changed, and swap between two steps. Guard, estimates and
+  /// events stay; what the torques differ by fades within `handover`; the recorder is let go, as columns may
+  /// differ. `next` gets the old program. False, and nothing happens, when the joints are not the same, or
+  /// the protective stop is latched. Does not allocate, lock, throw or print.
+  bool swap_program(Runner& next) noexcept;
+  static constexpr double handover = 0.2;  ///< [s]
+
   /// The columns of a log of this run. A recorder made with them may be attached before the first step; it
   /// must outlive the runner.
   std::vector<Column> columns() const;

@@ -40,6 +40,9 @@ struct BaseAnalysis {
 /// Allocates; not for the control loop. Throws std::invalid_argument on a state that does not fit the model.
 BaseAnalysis analyse_base(const Model& model, const State& state);
 
+/// The same for whatever a constraint measures between its frames; its statements do not matter. A planar
+/// speed has no direction at rest: analyse the directions that it may take.
+AxisAnalysis analyse_axis(const Model& model, const State& state, const AxisConstraint& constraint);
 /// The same for one axis of any frame on the robot.
 AxisAnalysis analyse_axis(const Model& model, const State& state, const AttachedFrame& move,
                           const AttachedFrame& in, Axis axis);

@@ -128,6 +128,13 @@ struct Row {
   int level = 1;
 };
 
+/// World pose and twist (in world axes, linear part of the frame's origin) of an attached frame.
+struct FrameMotion {
+  Pose pose;                          ///< X_WF
+  Vector3 angular = Vector3::Zero();  ///< [rad/s]
+  Vector3 linear = Vector3::Zero();   ///< [m/s]
+};
+
 /// The constraints in force at one instant, and the coordinates and rows that `fill` computes from a state.
 /// Sized once, std::invalid_argument for a size below 1: `fill` does not allocate, lock, throw or print.
 class ConstraintSet {
@@ -151,10 +158,17 @@ class ConstraintSet {
   bool push_driver(const AxisConstraint& constraint, const Coordinate& now, double horizon, Row row) noexcept;
   bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, double horizon, Row row) noexcept;
   bool push(const Row& row) noexcept;
+  FrameMotion body_motion(int body, const Model& model, const State& state) noexcept;
+  FrameMotion frame_motion(const AttachedFrame& frame, const Model& model, const State& state) noexcept;
 
   std::vector<AxisConstraint> constraints_;
   std::vector<Coordinate> coordinates_;
   std::vector<Row> rows_;
+  struct KnownMotion {
+    int body = 0;
+    FrameMotion motion;
+  };
+  std::vector<KnownMotion> known_;  ///< of bodies, at the state that is being filled in
 };
 
 /// The motion of `move` along `axis` of `in` at the state. Does not allocate, lock, throw or print.
@@ -164,12 +178,7 @@ Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axi
 /// The same of what a constraint measures.
 Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept;
 
-/// World pose and twist (in world axes, linear part of the frame's origin) of an attached frame.
-struct FrameMotion {
-  Pose pose;                          ///< X_WF
-  Vector3 angular = Vector3::Zero();  ///< [rad/s]
-  Vector3 linear = Vector3::Zero();   ///< [m/s]
-};
+/// Its motion at the state. Does not allocate, lock, throw or print.
 FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept;
 
 /// The braking curve of position limits and boundaries: the fastest approach speed at distance d that stops

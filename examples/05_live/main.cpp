@@ -1,0 +1,59 @@
+// What a host may do while a task runs: set parameters, swap the program, look at events, leave a log, stop.
+//
+//   05_live TASK.yaml OTHER_TASK.yaml        specs/wall_align.yaml specs/obstacle.yaml
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <optional>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/mujoco_plant.hpp"
+#include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/watchdog.hpp"
+
+namespace {
+
+using namespace zwang;
+
+std::optional<lang::Program> load(const char* path) {
+  lang::Diagnostics diagnostics;
+  auto program = lang::load(path, {}, diagnostics);
+  lang::render_human(diagnostics, std::cerr);
+  return program;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc != 3) {
+    std::cerr << "usage: 05_live TASK.yaml OTHER_TASK.yaml\n";
+    return 2;
+  }
+  const auto program = load(argv[1]), other = load(argv[2]);
+  if (!program || !program->scene || !other) return 2;
+  runtime::MujocoPlant plant(program->robot, *program->scene);
+  runtime::Runner runner(*program), next(*other);  // both are ready before the loop begins
+  runtime::Sensed sensed(program->robot.model, program->signals.size());
+  // On a robot it would cut the motors' current: the thread that should do it is the one that is blocked.
+  runtime::Watchdog watchdog(1.0, [] { std::fputs("the loop is blocked\n", stderr); });
+  while (!runner.finished()) {
+    watchdog.feed();
+    if (plant.sense(sensed) != runtime::PlantStatus::ok) return 1;
+    const long tick = std::lround(sensed.time * 1e3);
+    if (tick == 500) std::printf("push 30 N: %s\n", runner.set_parameter("push", 30.0) ? "taken" : "refused");
+    if (tick == 600)
+      std::printf("push 300 N: %s\n", runner.set_parameter("push", 300.0) ? "taken" : "refused");
+    if (tick == 1000) std::printf("the other task: %s\n", runner.swap_program(next) ? "runs" : "refused");
+    if (tick == 2000) runner.guard().stop(runtime::StopReason::requested);
+    if (plant.apply(runner.step(sensed)) != runtime::PlantStatus::ok) return 1;
+  }
+  for (const runtime::Event& event : runner.events()) {
+    std::printf("%.3f s: %s\n", event.time, runtime::to_string(event.code));
+  }
+  std::printf("%.2f s: %s\n", sensed.time, runtime::to_string(runner.state()));
+  return runner.state() == runtime::RunState::stopped ? 0 : 1;
+} catch (const std::exception& e) {
+  std::cerr << e.what() << '\n';
+  return 2;
+}

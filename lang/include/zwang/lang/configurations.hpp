@@ -1,0 +1,22 @@
+/// Joint angles and headings at which a robot is looked at where a figure depends on them: always the same
+/// ones.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/scene.hpp"
+
+namespace zwang::lang {
+
+/// The start pose alone for a robot that has wheels and no other joints. Else also, with the base where it
+/// starts: all other joints turned alike by 45, 90 and 135 deg (where the mass of casters and swivels has its
+/// extremes), and three of `general_states`.
+std::vector<solver::State> configurations(const Robot& robot, const std::optional<Scene>& scene);
+
+/// Four states in general position: joints anywhere within their limits, the base anywhere within 3 m of the
+/// origin, at any heading.
+std::vector<solver::State> general_states(const solver::Model& model);
+
+}  // namespace zwang::lang

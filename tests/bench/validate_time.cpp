@@ -1,0 +1,97 @@
+// How long `zwang validate` takes as a whole process, beside one that links the same libraries and reads the
+// same file with yaml-cpp. Both take turns in one run, and of each the fastest counts: what else the machine
+// does only adds. The bounds are 2 for a task file of some 60 lines and 10 for one of 256 KiB.
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// [s] of a process from its start to its end; it must succeed.
+double time_of(std::vector<std::string> words) {
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const auto begin = std::chrono::steady_clock::now();
+  const pid_t child = fork();
+  if (child == 0) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    std::fprintf(stderr, "%s failed\n", words[0].c_str());
+    std::exit(2);
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+bool compare(const std::string& what, const fs::path& file, int turns, double bound) {
+  double validate = 1e9, read = 1e9;
+  for (int i = 0; i < turns; ++i) {
+    read = std::min(read, time_of({ZWANG_READ_YAML, file.string()}));
+    validate = std::min(validate, time_of({ZWANG_PROGRAM, "validate", file.string()}));
+  }
+  const bool is_good = validate <= bound * read;
+  std::printf("%-22s validate %7.2f ms, yaml-cpp alone %7.2f ms, ratio %5.2f of %g%s\n", what.c_str(),
+              1e3 * validate, 1e3 * read, validate / read, bound, is_good ? "" : ": TOO SLOW");
+  return is_good;
+}
+
+std::string slurp(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The task file with as many more tasks like its own as 256 KiB and 20 000 nodes hold, and comments up to
+/// the size.
+std::string large(const std::string& head) {
+  std::string text = head;
+  for (int i = 0; i < 240; ++i) {
+    const std::string next = i == 239 ? "done" : "more" + std::to_string(i + 1);
+    text += "  more" + std::to_string(i) +
+            ":\n    constraints:\n      go: {move: base_link, in: base_link, x: {velocity: 0.1 m/s, "
+            "acceleration: +-0.3 "
+            "m/s^2}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}\n    exits:\n      - {when: "
+            "abs(go.x.velocity) < 5 mm/s "
+            "and moved(base_link) > 2 cm, for: 0.2 s, goto: failed}\n    timeout: {after: 20 s, goto: " +
+            next + "}\n";
+  }
+  constexpr std::size_t size = 256 * 1024;
+  while (text.size() + 200 < size) text += "# " + std::string(97, '-') + "\n";
+  return text;
+}
+
+}  // namespace
+
+int main() {
+  const fs::path specs = fs::path(ZWANG_SOURCE_DIR) / "specs";
+  const fs::path folder = fs::temp_directory_path() / ("zwang_validate_time_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  fs::copy(specs, folder, fs::copy_options::recursive);
+  // The second task of the file leads on to those that are added.
+  std::string head = slurp(specs / "wall_align.yaml");
+  const std::string last = "{when: elapsed > 2 s, goto: done}";
+  head.replace(head.find(last), last.size(), "{when: elapsed > 2 s, goto: more0}");
+  std::ofstream(folder / "large.yaml") << large(head);
+  const bool is_small_good = compare("70 lines", folder / "obstacle.yaml", 60, 2.0);
+  const bool is_large_good = compare("256 KiB, 242 tasks", folder / "large.yaml", 20, 10.0);
+  fs::remove_all(folder);
+  return is_small_good && is_large_good ? 0 : 1;
+}
