@@ -90,7 +90,7 @@ TEST_F(FromOutside, AKilledRunLosesAtMost100Milliseconds) {
 }
 
 TEST_F(FromOutside, AReplayComputesTheSameTorquesToTheLastBit) {
-  for (const std::string scene : {"scenes/wall.yaml", "scenes/wall_far_wheels_only.yaml"}) {
+  for (const std::string scene : {"scenes/wall_far_measured.yaml", "scenes/wall_far.yaml"}) {
     fs::remove_all(folder_ / "log");
     ASSERT_EQ(zwang({"run", specs + "wall_align.yaml", "--scene", specs + scene, "-p", "push=25 N", "--log",
                      "log", "--quiet"})
