@@ -161,21 +161,25 @@ class Live {
 
 /// The run itself; what it leaves is in the arguments and in the report.
 void control(runtime::ScenePlant& plant, runtime::Runner& runner, runtime::Recorder& recorder,
-             const lang::Program& program, Live& live, RunReport& report) {
+             const lang::Program& program, bool with_watchdog, Live& live, RunReport& report) {
   runtime::Sensed sensed(program.robot.model, program.signals.size());
   std::vector<double> truth(3 + program.scene->objects.size());
   TruthWatch watch(plant.truth(), period);
   PlantStatus status = PlantStatus::ok;
   std::optional<Clock::time_point> give_up;
-  // The simulated robot waits while nobody steps it: it is enough to see the stop with the next step.
-  runtime::Watchdog watchdog(blocked_for, nullptr);
+  // The simulated robot waits while nobody steps it: it is enough to see the stop with the next step. Only on
+  // request, as the pace of the machine must not decide how a simulated run ends.
+  std::optional<runtime::Watchdog> watchdog;
+  if (with_watchdog) watchdog.emplace(blocked_for, nullptr);
   while (!runner.finished()) {
     if (interrupted != 0 && !give_up) {
       give_up = Clock::now() + longest_signal_stop;
       runner.guard().stop(runtime::StopReason::requested);
     }
-    watchdog.feed();
-    if (watchdog.expired()) runner.guard().stop(runtime::StopReason::watchdog);
+    if (watchdog) {
+      watchdog->feed();
+      if (watchdog->expired()) runner.guard().stop(runtime::StopReason::watchdog);
+    }
     if (give_up && Clock::now() > *give_up) break;
     // A sample that does not arrive is the guard's to count: it is shown the last one again.
     status = plant.sense(sensed);
@@ -251,7 +255,7 @@ int run(const RunArguments& arguments) {
   report.log = (folder / "log.csv").string();
   catch_signals();
   const auto begin = Clock::now();
-  control(plant, runner, recorder, *program, live, report);
+  control(plant, runner, recorder, *program, arguments.watchdog, live, report);
   report.wall_time = std::chrono::duration<double>(Clock::now() - begin).count();
   recorder.close();
   live.end();

@@ -70,6 +70,7 @@ struct RunArguments {
   std::map<std::string, std::string> parameters;
   std::uint64_t seed = 0;
   bool quiet = false;
+  bool watchdog = false;
   Format format = Format::human;
   std::optional<double> start_yaw;                ///< [rad]
   std::optional<std::array<double, 2>> start_at;  ///< [m]

@@ -25,7 +25,7 @@ const std::string specs = std::string(ZWANG_SOURCE_DIR) + "/specs/";
 class FromOutside : public test::Program {
  protected:
   /// A task that never ends, under way.
-  pid_t start_endless() {
+  pid_t start_endless(const std::vector<std::string>& options = {}) {
     write("task.yaml", R"(zwang: 1
 robot: none.yaml
 start: stand
@@ -34,9 +34,13 @@ tasks:
     constraints: {still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
     timeout: {after: 100000 s, goto: failed}
 )");
-    const pid_t child =
-        start({"run", (folder_ / "task.yaml").string(), "--robot", specs + "robots/mecanum_base.yaml",
-               "--scene", specs + "scenes/wall.yaml", "--log", "log", "--format", "json"});
+    std::vector<std::string> words{"run",      (folder_ / "task.yaml").string(),
+                                   "--robot",  specs + "robots/mecanum_base.yaml",
+                                   "--scene",  specs + "scenes/wall.yaml",
+                                   "--log",    "log",
+                                   "--format", "json"};
+    words.insert(words.end(), options.begin(), options.end());
+    const pid_t child = start(words);
     for (int i = 0; i < 4000 && read(folder_ / "log/log.csv").size() < 100'000; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
@@ -65,7 +69,7 @@ TEST_F(FromOutside, ASignalEndsTheRunWithinHalfASecond) {
 }
 
 TEST_F(FromOutside, AThreadThatIsBlockedFor200MillisecondsStops) {
-  const pid_t child = start_endless();
+  const pid_t child = start_endless({"--watchdog"});
   kill(child, SIGSTOP);
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   kill(child, SIGCONT);
