@@ -60,7 +60,8 @@ void add_validate(CLI::App& app, std::function<int()>& chosen) {
                                                                      {"sarif", ReportFormat::sarif}};
   const auto arguments = std::make_shared<ValidateArguments>();
   const auto deny = std::make_shared<std::string>();
-  CLI::App* verb = app.add_subcommand("validate", "Check task, robot, scene and scenario files without running them");
+  CLI::App* verb =
+      app.add_subcommand("validate", "Check task, robot, scene and scenario files without running them");
   verb->add_option("files", arguments->files,
                    "files, whose first key tells what they are, or folders of such files")
       ->required();
