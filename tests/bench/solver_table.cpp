@@ -171,19 +171,19 @@ class Exponent {
 /// The least of the repetitions: for a law of growth, whatever else the machine does is an error that only
 /// adds.
 void print_growth(const std::string& program, const Times& times) {
-  const auto least = [&times](const Workload& work) {
-    const std::vector<double>& all = times.at(work.name);
+  const auto least = [&times](const std::string& name) {
+    const std::vector<double>& all = times.at(name);
     return *std::min_element(all.begin(), all.end());
   };
-  if (times.count(zwang::bench::chain(growing_links[0], 6).name) == 0) return;
+  if (times.count(zwang::bench::chain_name(growing_links[0], 6)) == 0) return;
   std::printf("\nleast of %d repetitions\nlinks (6 rows):  ", repetitions);
   Exponent by_time, by_count;
   std::string counts;
   for (const int links : growing_links) {
-    const Workload work = zwang::bench::chain(links, 6);
-    std::printf(" %d: %.0f ns ", links, least(work));
-    by_time.add(links, least(work));
-    if (const std::optional<double> count = instructions(program, work.name)) {
+    const std::string name = zwang::bench::chain_name(links, 6);
+    std::printf(" %d: %.0f ns ", links, least(name));
+    by_time.add(links, least(name));
+    if (const std::optional<double> count = instructions(program, name)) {
       by_count.add(links, *count);
       char text[64];
       std::snprintf(text, sizeof(text), " %d: %.0f ", links, *count);
@@ -194,7 +194,7 @@ void print_growth(const std::string& program, const Times& times) {
   if (!counts.empty()) std::printf("  instructions:  %s exponent %.2f\n", counts.c_str(), by_count.value());
   std::printf("rows (24 links): ");
   for (const int rows : growing_rows) {
-    std::printf(" %d: %.0f ns ", rows, least(zwang::bench::chain(24, rows)));
+    std::printf(" %d: %.0f ns ", rows, least(zwang::bench::chain_name(24, rows)));
   }
   std::printf("\n");
 }
@@ -231,7 +231,7 @@ int repeat(const std::string& name, int calls) {
   makers.push_back(arm_pinocchio);
 #endif
   for (const int links : growing_links) {
-    if (name == chain(links, 6).name) work = chain(links, 6);
+    if (name == chain_name(links, 6)) work = chain(links, 6);
   }
   for (const auto make : makers) {
     if (!work && make().name == name) work = make();

@@ -198,13 +198,17 @@ Workload mobile_arm_rows() {
   return unbounded("base + arm, 16 rows", w);
 }
 
+std::string chain_name(int links, int rows) {
+  return std::to_string(links) + " links, " + std::to_string(rows) + " rows";
+}
+
 Workload chain(int links, int rows) {
   ModelBuilder builder(BaseType::fixed, "base", {});
   Arm::add_to(builder, "base", links);
   auto w = std::make_shared<Unbounded>(builder.build(), 3);
   for (int k = 0; k < rows; ++k) add_rows(links - k / 6 * (links / 4), {k % 6}, w->rows);
   // One state: many states of a long chain would measure the cache.
-  return {std::to_string(links) + " links, " + std::to_string(rows) + " rows", unbounded_call,
+  return {chain_name(links, rows), unbounded_call,
           [w](std::size_t) { demand(w->solver.solve(w->states[0], w->rows, w->motion) == Status::ok); }};
 }
 

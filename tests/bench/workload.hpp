@@ -44,6 +44,7 @@ Workload base_with_rows();
 Workload base_tick();
 Workload mobile_arm_rows();
 Workload mobile_arm_full();
+std::string chain_name(int links, int rows);
 Workload chain(int links, int rows);
 
 /// mj_step of a four-wheeled mecanum base with the settings of the simulated plant (mujoco_step.cpp).

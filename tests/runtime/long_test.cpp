@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "../solver/malloc_counter.hpp"
+#include "../temporary_folder.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -49,8 +50,8 @@ TEST(Long, NoTickAllocates) {
   const lang::Program program = patrol();
   ScenePlant plant(program);
   Runner runner(program, {.period = period});
-  const std::filesystem::path log =
-      std::filesystem::temp_directory_path() / ("zwang_long_test_" + std::to_string(getpid()) + ".mcap");
+  const zwang::test::TemporaryFolder folder;
+  const std::filesystem::path log = folder.path() / "log.mcap";
   std::vector<std::unique_ptr<LogSink>> sinks;
   sinks.push_back(mcap_sink(log, {}));
   Recorder recorder(std::move(sinks), runner.columns());
@@ -66,7 +67,6 @@ TEST(Long, NoTickAllocates) {
     ASSERT_EQ(plant.apply(tau), PlantStatus::ok);
   }
   recorder.close();
-  std::filesystem::remove(log);
   std::printf("%ld ticks, %ld heap calls, %llu switches\n", ticks, calls,
               static_cast<unsigned long long>(runner.transition_count()));
   EXPECT_EQ(calls, 0);

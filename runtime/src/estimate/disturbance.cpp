@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimate/friction.hpp"
+#include "wheels.hpp"
 
 namespace zwang::runtime {
 
@@ -12,16 +13,6 @@ namespace {
 /// Of the trace: what keeps a matrix that lacks a direction invertible, and the answer along it small.
 constexpr double damping = 1e-9;
 
-std::vector<bool> carries_wheel(const solver::Model& model) {
-  std::vector<bool> carries(model.bodies().size(), false);
-  for (const solver::Wheel& wheel : model.wheels()) {
-    for (int b = wheel.body; b >= 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) {
-      carries[static_cast<std::size_t>(b)] = true;
-    }
-  }
-  return carries;
-}
-
 }  // namespace
 
 DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
@@ -29,14 +20,11 @@ DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
   const solver::Model& model = robot.model;
   const int joints = model.joint_count();
   friction_.resize(static_cast<std::size_t>(joints));
-  const std::vector<bool> carries = carries_wheel(model);
   for (int j = 0; j < joints; ++j) {
     const bool slides = model.joint(j).type == solver::JointType::prismatic;
     taper_.push_back(slides ? FrictionFeedForward::slide_taper : FrictionFeedForward::turn_taper);
-    const bool turns_wheel = std::any_of(model.wheels().begin(), model.wheels().end(),
-                                         [j](const solver::Wheel& wheel) { return wheel.body == j + 1; });
-    if (turns_wheel || model.joint(j).actuated) watched_.push_back(j);
-    if (model.joint(j).actuated && !carries[static_cast<std::size_t>(j) + 1]) arm_.push_back(j);
+    if (turns_wheel(model, j + 1) || model.joint(j).actuated) watched_.push_back(j);
+    if (model.joint(j).actuated && !carries_wheel(model, j + 1)) arm_.push_back(j);
   }
   qd_ = expected_ = sent_ = torque_ = Eigen::VectorXd::Zero(joints);
   excess_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(watched_.size()));

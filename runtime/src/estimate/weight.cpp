@@ -5,7 +5,6 @@
 namespace zwang::runtime {
 
 using solver::JointType;
-using solver::Matrix3;
 using solver::Pose;
 using solver::Vector3;
 

@@ -1,5 +1,7 @@
 #include "guard/arm_hold.hpp"
 
+#include "wheels.hpp"
+
 namespace zwang::runtime {
 
 using solver::Body;
@@ -9,16 +11,6 @@ using solver::Pose;
 using solver::Vector3;
 
 namespace {
-
-std::vector<bool> bodies_that_carry_wheels(const solver::Model& model) {
-  std::vector<bool> carries(model.bodies().size(), false);
-  for (const solver::Wheel& wheel : model.wheels()) {
-    for (int b = wheel.body; b >= 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) {
-      carries[static_cast<std::size_t>(b)] = true;
-    }
-  }
-  return carries;
-}
 
 Pose moved(const Body& body, double q) noexcept {
   const solver::Joint& joint = body.joint;
@@ -35,9 +27,8 @@ Pose moved(const Body& body, double q) noexcept {
 
 ArmHold::ArmHold(const solver::Model& model)
     : model_(model), poses_(model.bodies().size()), subtrees_(model.bodies().size()) {
-  const std::vector<bool> carries = bodies_that_carry_wheels(model);
   for (int j = 0; j < model.joint_count(); ++j) {
-    if (model.joint(j).actuated && !carries[static_cast<std::size_t>(j) + 1]) joints_.push_back({.joint = j});
+    if (model.joint(j).actuated && !carries_wheel(model, j + 1)) joints_.push_back({.joint = j});
   }
 }
 

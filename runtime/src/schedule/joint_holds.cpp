@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "wheels.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -18,11 +20,6 @@ constexpr int hold_level = -1;
 /// Short, as what presses against the world bends a held joint by T^2 times the acceleration that does not
 /// come about. [s]
 constexpr double hold_time_constant = 0.05;
-
-bool turns_wheel(const solver::Model& model, int body) {
-  return std::any_of(model.wheels().begin(), model.wheels().end(),
-                     [body](const solver::Wheel& wheel) { return wheel.body == body; });
-}
 
 /// The body that a frame rides on; -1: none of the robot's.
 int body_of(const std::vector<lang::FrameDeclaration>& frames, int frame) {
