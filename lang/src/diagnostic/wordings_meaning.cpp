@@ -292,8 +292,7 @@ Diagnostic signal_without_age(const Span& span, const std::string& name) {
 }
 
 Diagnostic decided_condition(const Span& span, bool is_always) {
-  return error("E505", span,
-               is_always ? "this condition is always true" : "this condition can never be true",
+  return error("E505", span, is_always ? "this condition is always true" : "this condition can never be true",
                "compare with a value that what is measured can pass");
 }
 
