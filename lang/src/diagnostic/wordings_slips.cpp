@@ -129,6 +129,16 @@ Diagnostic word_for_a_name(const Span& span, const std::string& word) {
                "choose another name");
 }
 
+Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& measured,
+                                  const Span& declared) {
+  const std::string gives = measured.empty() ? "truth values or numbers" : measured;
+  return with_related(error("E701", span,
+                            "for signal `" + name + "` the scene gives " + gives +
+                                ", and the task file declares it as something else",
+                            "give it another source, or declare it as what it is"),
+                      declared, "`" + name + "` is declared here");
+}
+
 Diagnostic urdf_for_robot_file(const Span& span) {
   return error("E103", span, "this is a URDF, not a robot file",
                "`zwang robot init` writes the robot file that goes with it");

@@ -35,6 +35,9 @@ Diagnostic footprint_is_no_frame(const Span& span);
 Diagnostic unknown_truth(const Span& span, const std::string& name, const std::string& meant);
 /// `not` as the name of a signal.
 Diagnostic word_for_a_name(const Span& span, const std::string& word);
+/// The scene measures something else for it than the task file takes it for.
+Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& measured,
+                                  const Span& declared);
 Diagnostic urdf_for_robot_file(const Span& span);
 
 }  // namespace zwang::lang::wording

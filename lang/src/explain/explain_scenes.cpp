@@ -7,6 +7,14 @@ namespace zwang::lang::catalogue {
 std::span<const Explanation> scenes() {
   static constexpr std::array entries{
       Explanation{
+          .code = "E701",
+          .title = "a signal that is measured as something else",
+          .why =
+              "A task file says what a signal is, a scene or a robot what it reads. A pose in the place of "
+              "a number, or a distance in the place of a truth value, means that one of the two names "
+              "the wrong thing; the task would never get a sample that it can use.",
+          .fix = "Give the signal another source in the scene, or declare it as what it is."},
+      Explanation{
           .code = "E901",
           .title = "an object without a shape, or with two",
           .why = "What the robot can meet has one shape: a `box`, a `cylinder` or a `wall`.",
