@@ -139,6 +139,11 @@ Diagnostic signal_of_another_type(const Span& span, const std::string& name, con
                       declared, "`" + name + "` is declared here");
 }
 
+Diagnostic directive(const Span& span) {
+  return error("E100", span, "a line cannot begin with `%`: YAML keeps that for instructions to its reader",
+               "delete the line, or indent it");
+}
+
 Diagnostic urdf_for_robot_file(const Span& span) {
   return error("E103", span, "this is a URDF, not a robot file",
                "`zwang robot init` writes the robot file that goes with it");

@@ -38,6 +38,8 @@ Diagnostic word_for_a_name(const Span& span, const std::string& word);
 /// The scene measures something else for it than the task file takes it for.
 Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& measured,
                                   const Span& declared);
+/// A line that begins with `%`.
+Diagnostic directive(const Span& span);
 Diagnostic urdf_for_robot_file(const Span& span);
 
 }  // namespace zwang::lang::wording

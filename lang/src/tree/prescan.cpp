@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -116,6 +117,12 @@ bool prescan_yaml(int source, std::string_view text, Diagnostics& diagnostics,
     if (line.size() > longest_line) {
       diagnostics.add(wording::line_too_long(span(0, 1), longest_line));
       return false;
+    }
+    // yaml-cpp passes over such lines wherever they stand, with all that they say.
+    if (line.starts_with('%')) {
+      diagnostics.add(wording::directive(span(0, 1)));
+      is_good = false;
+      continue;
     }
     const LineScan scan = scan_line(line);
     if (scan.comment) {
