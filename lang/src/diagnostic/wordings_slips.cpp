@@ -94,8 +94,8 @@ Diagnostic axis_of_a_feature(const Span& span, const std::string& group, const s
       path);
 }
 
-Diagnostic crossing_region(const Span& span, const std::string& what) {
-  return error("E410", span, "two edges of " + what + " cross",
+Diagnostic crossing_edges(const char* code, const Span& span, const std::string& what) {
+  return error(code, span, "two edges of " + what + " cross",
                "give the corners in the order in which one would walk around");
 }
 

@@ -27,7 +27,8 @@ Diagnostic free_in_brackets(const Span& span);
 Diagnostic decimal_comma(const Span& span, const std::string& number);
 /// `near.x.velocity` for `near.velocity`.
 Diagnostic axis_of_a_feature(const Span& span, const std::string& group, const std::string& quantity);
-Diagnostic crossing_region(const Span& span, const std::string& what);
+/// Of a region (E410) or a footprint (E807).
+Diagnostic crossing_edges(const char* code, const Span& span, const std::string& what);
 Diagnostic unknown_signal_type(const Span& span, const std::string& text, const std::string& meant);
 Diagnostic bare_attempts(const Span& span, const std::string& text);
 Diagnostic footprint_is_no_frame(const Span& span);

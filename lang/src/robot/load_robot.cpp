@@ -10,6 +10,7 @@
 #include "diagnostic/wordings_slips.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
+#include "spec/polygon.hpp"
 #include "tree/file.hpp"
 
 namespace zwang::lang {
@@ -160,6 +161,8 @@ class RobotBuilder {
     is_clockwise_ = area < 0.0;
     if (corners.size() >= 3 && std::abs(area) < 1e-6) {
       diagnostics_.add(wording::flat_polygon(file_.footprint_span, "footprint"));
+    } else if (crosses_itself(corners)) {
+      diagnostics_.add(wording::crossing_edges("E807", file_.footprint_span, "the footprint"));
     }
   }
 

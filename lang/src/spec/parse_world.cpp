@@ -6,6 +6,7 @@
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/parse_task.hpp"
+#include "spec/polygon.hpp"
 
 namespace zwang::lang {
 
@@ -46,29 +47,6 @@ SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   return signal;
 }
 
-using Point = std::array<double, 2>;
-
-/// Twice the area of the triangle a, b, c: on which side of a to b the third one lies. [m^2]
-double side(const Point& a, const Point& b, const Point& c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-/// Whether two edges that share no corner have a point of their insides in common.
-bool crosses_itself(const std::vector<Point>& corners) {
-  const std::size_t n = corners.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const Point& a = corners[i];
-    const Point& b = corners[(i + 1) % n];
-    for (std::size_t j = i + 2; j < n; ++j) {
-      if ((j + 1) % n == i) continue;
-      const Point& c = corners[j];
-      const Point& d = corners[(j + 1) % n];
-      if (side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0) return true;
-    }
-  }
-  return false;
-}
-
 RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
   RegionText region;
   region.name = parse_name(entry.key, "a region's name", diagnostics);
@@ -96,7 +74,7 @@ RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
     if (p.size() == polygon->items.size() && (p.size() < 3 || std::abs(area) < 1e-6)) {
       diagnostics.add(wording::flat_region(polygon->span, what));
     } else if (p.size() == polygon->items.size() && crosses_itself(p)) {
-      diagnostics.add(wording::crossing_region(polygon->span, what));
+      diagnostics.add(wording::crossing_edges("E410", polygon->span, what));
     }
     if (area < 0.0) std::reverse(region.polygon.begin(), region.polygon.end());
   } else if (circle != nullptr) {
