@@ -3,12 +3,13 @@
 //   solve for the free variables, the others at their bounds;  who is beyond a bound parks there, who is
 //   parked and wants away joins;  all at once, until nobody moves
 //
-// Mostly two or three rounds, where an active set takes a step for every variable. Rounds that do not lower
-// the number of those that move are allowed a few times in a row; then only the last one moves (Murty 1974),
-// which ends for sure where H is definite. Variables that add no curvature to the free ones stay where they
-// are; if one of them wants away there is more than one way, and the active set decides.
+// Mostly two to four rounds, where an active set takes a step for every variable. Rounds that do not lower
+// the number of those that move are allowed a few times in a row; then only the last one moves (Murty 1974).
+// Of variables without curvature of their own, as two limits along one axis, one is free at a time; the other
+// changes places with it where they contradict. The active set takes over where this does not settle.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/quadratic_program.hpp"
 #include "pairs.hpp"
@@ -16,8 +17,10 @@
 namespace zwang::solver {
 
 namespace {
-constexpr int patience = 3;  // rounds in a row that may not lower the number of those that move
-}
+constexpr int patience = 3;         // rounds in a row that may not lower the number of those that move
+constexpr double flat_rate = 1e-9;  // of a variable that follows a flat one: below, it does not
+constexpr double infinite_step = std::numeric_limits<double>::infinity();
+}  // namespace
 
 /// H = V'V + R, both triangles.
 void QuadraticProgram::form_hessian() noexcept {
@@ -60,28 +63,33 @@ void QuadraticProgram::factorise_free() noexcept {
   }
 }
 
-/// One Newton step of the free variables: z -= H_FF^-1 reduced.
-void QuadraticProgram::step_free() noexcept {
+/// x := H_FF^-1 x
+void QuadraticProgram::divide_by_free(double* x) const noexcept {
   const auto n = static_cast<int>(superbasics_.size());
-  double* const x = step_.data();
   for (int s = 0; s < n; ++s) {
-    double rest = -reduced_(superbasics_[index(s)]);
+    double rest = x[s];
     const double* const line = &factor_(s, 0);
     for (int t = 0; t < s; ++t) rest -= line[t] * x[t];
     x[s] = rest * inverse_root_(s);
   }
   for (int s = n - 1; s >= 0; --s) {
-    const double value = x[s] * inverse_root_(s);
-    add_multiple(s, -value, &factor_(s, 0), x);
-    z_(superbasics_[index(s)]) += value;
+    x[s] *= inverse_root_(s);
+    add_multiple(s, -x[s], &factor_(s, 0), x);
   }
+}
+
+/// One Newton step of the free variables: z -= H_FF^-1 reduced.
+void QuadraticProgram::step_free() noexcept {
+  const auto n = static_cast<int>(superbasics_.size());
+  for (int s = 0; s < n; ++s) step_(s) = reduced_(superbasics_[index(s)]);
+  divide_by_free(step_.data());
+  for (int s = 0; s < n; ++s) z_(superbasics_[index(s)]) -= step_(s);
 }
 
 /// A free variable beyond a bound, or a parked one that wants away from its own.
 bool QuadraticProgram::is_out_of_place(int k) const noexcept {
   if (place_[index(k)] == Place::superbasic) return z_(k) < lo_(k) || z_(k) > hi_(k);
-  if (std::abs(reduced_(k)) <= tolerance_) return false;
-  return reduced_(k) < 0.0 ? z_(k) < hi_(k) : z_(k) > lo_(k);
+  return std::abs(reduced_(k)) > tolerance_ && has_room(k);
 }
 
 /// True when it found the solution; else z is where it was.
@@ -99,7 +107,11 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   int tries = patience;
   for (int round = 0; round < max_rounds; ++round) {
     ++iterations;
-    if (!solve_free()) break;
+    solve_free();
+    const int flat = flat_one_that_wants_away();
+    if (flat >= 0 && !slide(flat)) break;
+    park_flat_ones();
+    if (flat >= 0) continue;
     rows_.clear();  // those that are out of place
     for (int k = 0; k < variables_; ++k) {
       if (is_out_of_place(k)) rows_.push_back(k);
@@ -119,28 +131,72 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   return false;
 }
 
-/// To the minimum over the free variables. Those without curvature of their own park where they are; false
-/// when one of them wants away.
-bool QuadraticProgram::solve_free() noexcept {
+/// To the minimum over the free variables.
+void QuadraticProgram::solve_free() noexcept {
   factorise_free();
   for (int refinement = 0; refinement <= max_refinements; ++refinement) {
     step_free();
     compute_gradient();
-    if (slope_of_curved() <= slope_tolerance * tolerance_) break;
+    if (slope_of_curved() <= slope_tolerance * tolerance_) return;
   }
+}
+
+/// The place among the free ones of the first without curvature of its own that is not content; -1 for none.
+int QuadraticProgram::flat_one_that_wants_away() const noexcept {
+  for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) {
+    const int k = superbasics_[index(s)];
+    if (inverse_root_(s) == 0.0 && std::abs(reduced_(k)) > tolerance_ && has_room(k)) return s;
+  }
+  return -1;
+}
+
+/// Whether a variable can go the way that its gradient points down.
+bool QuadraticProgram::has_room(int k) const noexcept {
+  return reduced_(k) < 0.0 ? z_(k) < hi_(k) : z_(k) > lo_(k);
+}
+
+/// A flat variable moves the way down and the others follow so that their gradient stays, until the first one
+/// meets its bound, as where two limits contradict each other. If that is another one, the flat one takes its
+/// place. False when none does.
+bool QuadraticProgram::slide(int flat) noexcept {
+  const int entering = superbasics_[index(flat)];
+  const auto n = static_cast<int>(superbasics_.size());
+  for (int s = 0; s < n; ++s) step_(s) = hessian_(superbasics_[index(s)], entering);
+  divide_by_free(step_.data());
+  const double way = reduced_(entering) > 0.0 ? 1.0 : -1.0;
+  for (int s = 0; s < n; ++s) step_(s) *= way;
+  step_(flat) = -way;
+  int blocking = -1;
+  double length = infinite_step;
+  for (int s = 0; s < n; ++s) {
+    const int k = superbasics_[index(s)];
+    if (std::abs(step_(s)) <= flat_rate) continue;
+    const double room = std::max(0.0, step_(s) > 0.0 ? hi_(k) - z_(k) : z_(k) - lo_(k));
+    if (room < length * std::abs(step_(s))) {
+      length = room / std::abs(step_(s));
+      blocking = s;
+    }
+  }
+  if (blocking < 0) return false;
+  for (int s = 0; s < n; ++s) z_(superbasics_[index(s)]) += length * step_(s);
+  const int parking = superbasics_[index(blocking)];
+  z_(parking) = step_(blocking) > 0.0 ? hi_(parking) : lo_(parking);
+  if (blocking != flat) inverse_root_(flat) = 1.0;  // it stays
+  inverse_root_(blocking) = 0.0;
+  return true;
+}
+
+void QuadraticProgram::park_flat_ones() noexcept {
   int curved = 0;
   for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) {
     const int k = superbasics_[index(s)];
-    superbasics_[index(curved)] = k;
-    if (inverse_root_(s) > 0.0) {
-      ++curved;
-      continue;
+    if (inverse_root_(s) == 0.0) {
+      place_[index(k)] = Place::parked;
+    } else {
+      superbasics_[index(curved++)] = k;
     }
-    place_[index(k)] = Place::parked;
-    if (is_out_of_place(k)) return false;
   }
   superbasics_.resize(index(curved));
-  return true;
 }
 
 /// Of the rows_. Who wants away most joins first: of two limits along one axis the nearer one pushes.

@@ -66,7 +66,12 @@ class QuadraticProgram {
   void factorise_free() noexcept;
   void step_free() noexcept;
   bool is_out_of_place(int variable) const noexcept;
-  bool solve_free() noexcept;
+  void divide_by_free(double* x) const noexcept;
+  void solve_free() noexcept;
+  int flat_one_that_wants_away() const noexcept;
+  bool has_room(int variable) const noexcept;
+  bool slide(int flat) noexcept;
+  void park_flat_ones() noexcept;
   void change_places() noexcept;
   double slope_of_curved() const noexcept;
 
