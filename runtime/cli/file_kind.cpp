@@ -4,11 +4,23 @@
 #include <sstream>
 
 #include "output.hpp"
+#include "verbs.hpp"
 #include "zwang/lang/notes.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
 
 namespace zwang::cli {
+
+lang::LoadOptions TaskOverrides::load_options() const {
+  lang::LoadOptions options;
+  for (const auto& file : {robot, scene}) {
+    if (file) require_file(*file);
+  }
+  if (robot) options.robot = *robot;
+  if (scene) options.scene = *scene;
+  options.parameters = parameters;
+  return options;
+}
 
 const char* word_of(FileKind kind) {
   switch (kind) {
@@ -44,7 +56,7 @@ std::optional<FileKind> kind_by_key(const std::string& path) {
 }
 
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,
-                                   bool with_notes) {
+                                   const lang::LoadOptions& options, bool with_notes) {
   switch (kind) {
     case FileKind::robot:
       if (const auto robot = lang::load_robot(path, diagnostics)) {
@@ -68,8 +80,7 @@ std::optional<std::string> read_as(FileKind kind, const std::string& path, lang:
     case FileKind::task:
       break;
   }
-  if (const auto program =
-          with_notes ? lang::load_with_notes(path, {}, diagnostics) : lang::load(path, {}, diagnostics)) {
+  if (const auto program = (with_notes ? lang::load_with_notes : lang::load)(path, options, diagnostics)) {
     return count(program->tasks.size(), "task") + ", robot `" + program->robot.name + "`" +
            (program->scene ? ", with a scene" : "");
   }

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "zwang/lang/diagnostic.hpp"
+#include "zwang/lang/program.hpp"
 
 namespace zwang::cli {
 
@@ -13,8 +13,9 @@ enum class FileKind { task, robot, scene, scenario };
 const char* word_of(FileKind kind);
 /// By the file's first key. nullopt when it is none of zwang's.
 std::optional<FileKind> kind_by_key(const std::string& path);
-/// What was read, in a few words; nothing when it is bad. `with_notes`: notes are looked for, too.
+/// What was read, in a few words; nothing when it is bad. `options` are a task file's. `with_notes`: notes
+/// are looked for, too.
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,
-                                   bool with_notes = false);
+                                   const lang::LoadOptions& options = {}, bool with_notes = false);
 
 }  // namespace zwang::cli

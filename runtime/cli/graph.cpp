@@ -198,7 +198,8 @@ std::string mermaid(const Graph& graph) {
 int graph(const GraphArguments& arguments) {
   require_file(arguments.file);
   lang::Diagnostics diagnostics;
-  const std::optional<Program> program = lang::load(arguments.file, {}, diagnostics);
+  const std::optional<Program> program =
+      lang::load(arguments.file, arguments.overrides.load_options(), diagnostics);
   if (!program) {
     std::ostringstream text;
     lang::render_human(diagnostics, text);

@@ -52,6 +52,16 @@ std::map<std::string, std::string> parameters(const std::vector<std::string>& te
   return values;
 }
 
+/// What every verb that reads a task file may put in the place of its words.
+void add_overrides(CLI::App& verb, TaskOverrides& overrides) {
+  verb.add_option("--robot", overrides.robot, "robot file, in the place of the task's own");
+  verb.add_option("--scene", overrides.scene, "scene file, in the place of the task's own");
+  const auto texts = std::make_shared<std::vector<std::string>>();
+  verb.add_option("-p,--param", *texts, "set a parameter: name=value, as push=30N; may be repeated")
+      ->allow_extra_args(false);
+  verb.parse_complete_callback([texts, &overrides] { overrides.parameters = parameters(*texts); });
+}
+
 /// Each verb adds its options and, when it is the one, says what to do.
 void add_validate(CLI::App& app, std::function<int()>& chosen) {
   static const std::map<std::string, ReportFormat> report_formats = {{"human", ReportFormat::human},
@@ -71,6 +81,7 @@ void add_validate(CLI::App& app, std::function<int()>& chosen) {
   verb->add_option("--deny", *deny, "warnings: refuse files with warnings, too")
       ->check(CLI::IsMember({"warnings"}));
   verb->add_flag("--notes", arguments->notes, "show notes as well");
+  add_overrides(*verb, arguments->overrides);
   verb->callback([=, &chosen] {
     arguments->deny_warnings = !deny->empty();
     chosen = [=] { return validate(*arguments); };
@@ -113,6 +124,7 @@ void add_graph(CLI::App& app, std::function<int()>& chosen) {
   const auto arguments = std::make_shared<GraphArguments>();
   CLI::App* verb = app.add_subcommand("graph", "Draw the tasks of a file and the ways between them");
   verb->add_option("file", arguments->file, "the task file")->required();
+  add_overrides(*verb, arguments->overrides);
   verb->add_option("--format", arguments->format, "dot (default, for Graphviz) or mermaid")
       ->transform(CLI::CheckedTransformer(graph_formats, CLI::ignore_case));
   verb->callback([=, &chosen] { chosen = [=] { return graph(*arguments); }; });
@@ -120,20 +132,13 @@ void add_graph(CLI::App& app, std::function<int()>& chosen) {
 
 void add_plan(CLI::App& app, std::function<int()>& chosen) {
   const auto arguments = std::make_shared<PlanArguments>();
-  const auto texts = std::make_shared<std::vector<std::string>>();
   CLI::App* verb = app.add_subcommand("plan", "Show the rows of each task and what the robot makes of them");
   verb->add_option("file", arguments->file, "the task file")->required();
   verb->add_option("--task", arguments->task, "this task only");
-  verb->add_option("--robot", arguments->robot, "robot file, in the place of the task's own");
-  verb->add_option("--scene", arguments->scene, "scene file, in the place of the task's own");
-  verb->add_option("-p,--param", *texts, "set a parameter: name=value; may be repeated")
-      ->allow_extra_args(false);
+  add_overrides(*verb, arguments->overrides);
   verb->add_option("--format", arguments->format, "human (default) or json: one object on stdout")
       ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
-  verb->callback([=, &chosen] {
-    arguments->parameters = parameters(*texts);
-    chosen = [=] { return plan(*arguments); };
-  });
+  verb->callback([=, &chosen] { chosen = [=] { return plan(*arguments); }; });
 }
 
 void add_robot(CLI::App& app, std::function<int()>& chosen) {
@@ -167,7 +172,6 @@ int parse_and_do(int argc, char** argv) {
   add_robot(app, chosen);
 
   RunArguments to_run;
-  std::vector<std::string> parameter_texts;
   std::optional<std::string> yaw_text, at_text, seed_text;
   TestArguments to_test;
   CLI::App* test_verb = app.add_subcommand("test", "Run scenario files and judge what they expect");
@@ -181,11 +185,7 @@ int parse_and_do(int argc, char** argv) {
 
   CLI::App* run_verb = app.add_subcommand("run", "Run a task on the simulated robot");
   run_verb->add_option("file", to_run.file, "the task file")->required();
-  run_verb->add_option("--robot", to_run.robot, "robot file, in the place of the task's own");
-  run_verb->add_option("--scene", to_run.scene, "scene file, in the place of the task's own");
-  run_verb
-      ->add_option("-p,--param", parameter_texts, "set a parameter: name=value, as push=30N; may be repeated")
-      ->allow_extra_args(false);
+  add_overrides(*run_verb, to_run.overrides);
   run_verb->add_option("--log", to_run.log, "folder for the log (default runs/<task>-NNN)");
   run_verb->add_option("--seed", seed_text, "seed of everything random in the run (default 0)");
   run_verb->add_option("--start-yaw", yaw_text,
@@ -226,7 +226,6 @@ int parse_and_do(int argc, char** argv) {
   if (test_verb->parsed()) return test(to_test);
   if (info_verb->parsed()) return info(to_tell);
   if (replay_verb->parsed()) return replay(to_replay);
-  to_run.parameters = parameters(parameter_texts);
   if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);
   if (at_text) to_run.start_at = point(*at_text);

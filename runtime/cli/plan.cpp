@@ -83,7 +83,9 @@ class Planner {
         states_(lang::configurations(program.robot, program.scene)),
         state_(states_.front()) {}
 
-  std::size_t configurations() const { return states_.size(); }
+  Configurations configurations() const {
+    return {states_.size(), lang::describe_configurations(program_.robot)};
+  }
 
   TaskPlan plan(int index) {
     TaskPlan plan;
@@ -150,7 +152,8 @@ class Planner {
   solver::AxisAnalysis look(const solver::AxisConstraint& constraint, PlannedAxis& axis) const {
     solver::AxisAnalysis start;
     for (const solver::State& state : states_) {
-      const solver::AxisAnalysis one = solver::analyse_axis(program_.robot.model, state, constraint);
+      const solver::AxisAnalysis one =
+          lang::usable(solver::analyse_axis(program_.robot.model, state, constraint));
       if (&state == &state_) start = one;
       axis.mass.add(one.effective_mass);
       axis.is_sometimes_held = axis.is_sometimes_held || !std::isfinite(one.effective_mass);
@@ -239,12 +242,9 @@ class Planner {
 
 int plan(const PlanArguments& arguments) {
   require_file(arguments.file);
-  lang::LoadOptions options;
-  options.robot = arguments.robot;
-  options.scene = arguments.scene;
-  options.parameters = arguments.parameters;
   lang::Diagnostics diagnostics;
-  const std::optional<lang::Program> program = lang::load_with_notes(arguments.file, options, diagnostics);
+  const std::optional<lang::Program> program =
+      lang::load_with_notes(arguments.file, arguments.overrides.load_options(), diagnostics);
   if (!program) {
     std::ostringstream text;
     if (arguments.format == Format::json) {

@@ -200,14 +200,14 @@ ordered_json json_of(const TaskPlan& plan, const lang::Diagnostics& diagnostics)
 
 }  // namespace
 
-std::string human(const TaskPlan& plan, int mobility, std::size_t configurations,
+std::string human(const TaskPlan& plan, int mobility, const Configurations& configurations,
                   const lang::Diagnostics& diagnostics) {
   std::string text = plan.task + "\n";
   if (!plan.refused.empty()) return text + "  no rows: " + plan.refused + "\n";
   text += rows_table(plan) + dormant_text(plan) + "\n" + axes_table(plan);
-  if (configurations > 1) {
-    text +=
-        "  at the start; in brackets over " + std::to_string(configurations) + " settings of the joints\n";
+  if (configurations.count > 1) {
+    text += "  at the start; in brackets from least to most over " + std::to_string(configurations.count) +
+            " configurations:\n  " + configurations.words + "\n";
   }
   text += "\n";
   text += "  mobility " + std::to_string(mobility) + "; equality rows " + std::to_string(plan.equality_rows) +
@@ -218,12 +218,15 @@ std::string human(const TaskPlan& plan, int mobility, std::size_t configurations
   return text;
 }
 
-std::string json(const std::vector<TaskPlan>& plans, int mobility, std::size_t configurations,
+std::string json(const std::vector<TaskPlan>& plans, int mobility, const Configurations& configurations,
                  const lang::Diagnostics& diagnostics) {
   ordered_json tasks = ordered_json::array();
   for (const TaskPlan& plan : plans) tasks.push_back(json_of(plan, diagnostics));
-  const ordered_json whole = {
-      {"ok", true}, {"mobility", mobility}, {"configurations", configurations}, {"tasks", tasks}};
+  const ordered_json whole = {{"ok", true},
+                              {"mobility", mobility},
+                              {"configurations", configurations.count},
+                              {"looked_at", configurations.words},
+                              {"tasks", tasks}};
   return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

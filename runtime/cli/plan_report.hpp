@@ -58,11 +58,16 @@ struct TaskPlan {
   std::vector<lang::Diagnostic> notes;
 };
 
-/// `configurations`: over how many settings of the joints the spreads are.
-std::string human(const TaskPlan& plan, int mobility, std::size_t configurations,
+/// What the spreads are over.
+struct Configurations {
+  std::size_t count = 1;
+  std::string words;
+};
+
+std::string human(const TaskPlan& plan, int mobility, const Configurations& configurations,
                   const lang::Diagnostics& diagnostics);
 /// All tasks as one JSON object.
-std::string json(const std::vector<TaskPlan>& plans, int mobility, std::size_t configurations,
+std::string json(const std::vector<TaskPlan>& plans, int mobility, const Configurations& configurations,
                  const lang::Diagnostics& diagnostics);
 
 }  // namespace zwang::cli

@@ -51,6 +51,8 @@ struct Spread {
 };
 
 struct AxisSpread {
+  bool held = true;           ///< in every configuration: it cannot move
+  bool held_in_some = false;  ///< configurations, which do not count among the figures
   bool reachable = false;
   Spread mass, force;
 };
@@ -59,6 +61,8 @@ struct Analysis {
   solver::BaseAnalysis start;
   int mobility = 0;
   bool locked = false;  ///< at some angles of the swivels
+  std::size_t configurations = 0;
+  std::string looked_at;  ///< the configurations, in words
   std::array<AxisSpread, 3> axes;
 
   /// The motors make every wrench along the freedoms of the base.
@@ -72,19 +76,25 @@ struct Analysis {
 Analysis analyse(const lang::Robot& robot) {
   Analysis result;
   bool is_start = true;
-  for (const solver::State& state : lang::configurations(robot, std::nullopt)) {
+  const std::vector<solver::State> states = lang::configurations(robot, std::nullopt);
+  result.configurations = states.size();
+  result.looked_at = lang::describe_configurations(robot);
+  for (const solver::State& state : states) {
     const solver::BaseAnalysis base = solver::analyse_base(robot.model, state);
     if (is_start) result.start = base;
     is_start = false;
     result.mobility = std::max(result.mobility, base.base_mobility);
     result.locked = result.locked || base.locked;
     for (std::size_t k = 0; k < base.axes.size(); ++k) {
-      // What moves along with a turn only is not pushed.
-      const bool is_pushed = base.axes[k].reachable && base.axes[k].largest_force > 0.0;
-      result.axes[k].reachable = result.axes[k].reachable || is_pushed;
-      if (!is_pushed) continue;
-      result.axes[k].mass.add(base.axes[k].effective_mass);
-      result.axes[k].force.add(base.axes[k].largest_force);
+      const solver::AxisAnalysis axis = lang::usable(base.axes[k]);
+      AxisSpread& spread = result.axes[k];
+      const bool is_held = !std::isfinite(axis.effective_mass);
+      spread.held = spread.held && is_held;
+      spread.held_in_some = spread.held_in_some || is_held;
+      spread.reachable = spread.reachable || axis.reachable;
+      if (!axis.reachable) continue;
+      spread.mass.add(axis.effective_mass);
+      spread.force.add(axis.largest_force);
     }
   }
   return result;
@@ -98,13 +108,14 @@ std::string axes_text(const Analysis& a) {
     const bool turns = k == 2;
     text += "  " + padded(axis_words[k], 4);
     if (!a.axes[k].reachable) {
-      text += "not reachable: the wheels hold it, or no motor pushes along it\n";
+      text += a.axes[k].held ? "cannot move: the wheels hold it\n" : "no motor pushes along it\n";
       continue;
     }
     text += "effective mass " + a.axes[k].mass.text(turns ? "kg m^2" : "kg") + ", largest force " +
             (a.axes[k].force.exists() ? a.axes[k].force.text(turns ? "N m" : "N") : "without a known limit") +
-            "\n";
+            (a.axes[k].held_in_some ? "; in some configurations held by the wheels\n" : "\n");
   }
+  if (a.configurations > 1) text += "  least to most over " + a.looked_at + "\n";
   return text;
 }
 
@@ -142,7 +153,9 @@ ordered_json json(const Analysis& a) {
     return s.exists() ? ordered_json({s.least, s.most}) : ordered_json(nullptr);
   };
   for (std::size_t k = 0; k < axis_words.size(); ++k) {
-    axes[axis_words[k]] = {{"reachable", a.axes[k].reachable},
+    axes[axis_words[k]] = {{"held", a.axes[k].held},
+                           {"held_in_some", a.axes[k].held_in_some},
+                           {"reachable", a.axes[k].reachable},
                            {"effective_mass", spread(a.axes[k].mass)},
                            {"largest_force", spread(a.axes[k].force)}};
   }
@@ -153,6 +166,7 @@ ordered_json json(const Analysis& a) {
           {"internal_forces", a.start.internal_forces},
           {"mirrored_rollers", a.start.mirrored_rollers && !a.axes[2].reachable},
           {"locked", a.locked},
+          {"looked_at", a.looked_at},
           {"axes", axes}};
 }
 

@@ -43,17 +43,7 @@ void catch_signals() {
 
 std::optional<lang::Program> load(const RunArguments& arguments, lang::Diagnostics& diagnostics) {
   require_file(arguments.file);
-  lang::LoadOptions options;
-  if (arguments.robot) {
-    require_file(*arguments.robot);
-    options.robot = *arguments.robot;
-  }
-  if (arguments.scene) {
-    require_file(*arguments.scene);
-    options.scene = *arguments.scene;
-  }
-  options.parameters = arguments.parameters;
-  return lang::load(arguments.file, options, diagnostics);
+  return lang::load(arguments.file, arguments.overrides.load_options(), diagnostics);
 }
 
 void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Format format) {
@@ -103,8 +93,8 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Progra
   std::map<std::string, std::string>& facts = context.facts;
   facts["zwang"] = ZWANG_VERSION;
   facts["task"] = arguments.file;
-  if (arguments.robot) facts["robot"] = *arguments.robot;
-  if (arguments.scene) facts["scene"] = *arguments.scene;
+  if (arguments.overrides.robot) facts["robot"] = *arguments.overrides.robot;
+  if (arguments.overrides.scene) facts["scene"] = *arguments.overrides.scene;
   facts["seed"] = std::to_string(arguments.seed);
   facts["period [s]"] = exactly(period);
   if (arguments.start_yaw) facts["start_yaw [rad]"] = exactly(*arguments.start_yaw);

@@ -56,6 +56,19 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
   return files;
 }
 
+/// What is none of zwang's is read as a task file, whose reader says what is wrong.
+FileKind kind_of(const std::string& path) {
+  return kind_by_key(path).value_or(FileKind::task);
+}
+
+/// `-p`, `--robot` and `--scene` speak of task files only.
+void require_task_for(const TaskOverrides& overrides, const std::vector<std::string>& paths) {
+  const bool is_for_some = std::any_of(
+      paths.begin(), paths.end(), [](const std::string& path) { return kind_of(path) == FileKind::task; });
+  if (overrides.any() && !is_for_some)
+    throw Impossible("-p, --robot and --scene are for task files, and there is none among these");
+}
+
 std::string counts(const lang::Diagnostics& diagnostics) {
   const int warnings = diagnostics.count(lang::Severity::warning);
   return count(static_cast<std::size_t>(diagnostics.error_count()), "error") +
@@ -101,14 +114,15 @@ std::string sarif(const std::list<Checked>& checked, const ValidateArguments& ar
 
 int validate(const ValidateArguments& arguments) {
   const std::vector<std::string> paths = files_of(arguments.files);
+  require_task_for(arguments.overrides, paths);
+  const lang::LoadOptions options = arguments.overrides.load_options();
   std::list<Checked> checked;
   bool is_good = true;
   for (const std::string& path : paths) {
     Checked& file = checked.emplace_back();
     file.path = path;
-    // What is none of them is read as a task file, whose reader says what is wrong.
-    file.kind = kind_by_key(path).value_or(FileKind::task);
-    file.summary = read_as(file.kind, path, file.diagnostics, arguments.notes);
+    file.kind = kind_of(path);
+    file.summary = read_as(file.kind, path, file.diagnostics, options, arguments.notes);
     const bool is_denied = arguments.deny_warnings && file.diagnostics.count(lang::Severity::warning) > 0;
     file.is_good = file.summary && !file.diagnostics.has_errors() && !is_denied;
     is_good = is_good && file.is_good;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/lang/program.hpp"
 #include "zwang/lang/schema.hpp"
 
 namespace zwang::cli {
@@ -23,8 +24,18 @@ enum class Format { human, json };
 /// How what was found is written: for people, one line each, or for programs.
 enum class ReportFormat { human, one_line, json, sarif };
 
+/// What stands in the place of a task file's own words.
+struct TaskOverrides {
+  std::optional<std::string> robot, scene;
+  std::map<std::string, std::string> parameters;  ///< name -> quantity as text
+
+  bool any() const { return robot || scene || !parameters.empty(); }
+  lang::LoadOptions load_options() const;
+};
+
 struct ValidateArguments {
   std::vector<std::string> files;  ///< or folders
+  TaskOverrides overrides;         ///< for the task files among them
   ReportFormat format = ReportFormat::human;
   bool deny_warnings = false;
   bool notes = false;
@@ -53,9 +64,11 @@ enum class GraphFormat { dot, mermaid };
 
 struct GraphArguments {
   std::string file;
+  TaskOverrides overrides;
   GraphFormat format = GraphFormat::dot;
 };
 int graph(const GraphArguments& arguments);
+
 struct TestArguments {
   std::vector<std::string> paths;    ///< scenario files, or folders that are searched for them
   int jobs = 0;                      ///< threads; 0: as many as there are cores
@@ -66,8 +79,8 @@ int test(const TestArguments& arguments);
 
 struct RunArguments {
   std::string file;
-  std::optional<std::string> robot, scene, log;
-  std::map<std::string, std::string> parameters;
+  TaskOverrides overrides;
+  std::optional<std::string> log;
   std::uint64_t seed = 0;
   bool quiet = false;
   bool watchdog = false;
@@ -79,8 +92,8 @@ int run(const RunArguments& arguments);
 
 struct PlanArguments {
   std::string file;
-  std::optional<std::string> task, robot, scene;
-  std::map<std::string, std::string> parameters;
+  TaskOverrides overrides;
+  std::optional<std::string> task;
   Format format = Format::human;
 };
 int plan(const PlanArguments& arguments);

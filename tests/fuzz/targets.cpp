@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "check/check.hpp"
+#include "check/context.hpp"
 #include "format/tokens.hpp"
 #include "lower/lower.hpp"
 #include "robot/load_robot.hpp"
@@ -81,15 +82,34 @@ std::optional<Program> program_of(TaskFile file, Diagnostics& diagnostics) {
   return lower(std::move(*checked));
 }
 
-const TaskFile& host_of_conditions() {
-  static const TaskFile host = [] {
-    Diagnostics diagnostics;
+/// A file whose names conditions speak of, checked once: an input pays for its own condition only.
+struct ConditionHost {
+  Diagnostics diagnostics;
+  TaskFile file;
+  std::optional<Robot> robot = small_robot();
+  LoadOptions options;
+  Symbols symbols;
+
+  ConditionHost() {
     const auto source = read_file(root / "tests/fuzz/condition_host.yaml", yaml_size_limit, {}, diagnostics);
     const auto document = source ? read(*source, diagnostics) : std::nullopt;
-    const auto file = document ? parse(*document, diagnostics) : std::nullopt;
-    require(file && !diagnostics.has_errors(), "the host of the conditions is good");
-    return *file;
-  }();
+    const auto parsed = document ? parse(*document, diagnostics) : std::nullopt;
+    require(parsed.has_value(), "the host of the conditions is good");
+    file = *parsed;
+    CheckContext context = context_for(diagnostics);
+    check_parameters(context);
+    declare_signals(context);
+    check_frames(context);
+    check_world(context);
+    check_groups(context, file.tasks[0].groups);
+    require(!diagnostics.has_errors(), "the host of the conditions is good");
+  }
+
+  CheckContext context_for(Diagnostics& into) { return {file, robot, options, symbols, into}; }
+};
+
+ConditionHost& host_of_conditions() {
+  static ConditionHost host;
   return host;
 }
 
@@ -131,19 +151,21 @@ void task(std::string_view bytes) {
 
 void condition(std::string_view bytes) {
   if (bytes.size() > longest_scalar) return;
+  ConditionHost& host = host_of_conditions();
   Diagnostics diagnostics;
   Node node;
   node.kind = NodeKind::scalar;
   node.text = std::string(bytes);
-  const int source = add(bytes, diagnostics);
-  node.span = {source, {1, 1}, {1, 1}};
-  TaskFile file = host_of_conditions();
-  // The host's own places: the source that they count in is not among these.
-  file.tasks[0].exits[0].when = parse_condition(node, diagnostics);
-  const bool is_parsed = !file.tasks[0].exits[0].when.is_bad;
-  require(is_parsed == !diagnostics.has_errors(), "a condition is read or complained of");
-  const std::optional<Program> program = program_of(std::move(file), diagnostics);
-  require(program.has_value() == !diagnostics.has_errors(), "a condition is good or complained of");
+  node.span = {add(bytes, diagnostics), {1, 1}, {1, 1}};
+  const ConditionText text = parse_condition(node, diagnostics);
+  require(text.is_bad == diagnostics.has_errors(), "a condition is read or complained of");
+  if (!text.is_bad) {
+    CheckContext context = host.context_for(diagnostics);
+    const auto checked = check_condition(context, text, host.file.tasks[0].groups);
+    require(checked.has_value() == !diagnostics.has_errors(), "a condition is good or complained of");
+    if (checked) check_is_open(context, *checked);
+  }
+  judge(diagnostics, !diagnostics.has_errors());
 }
 
 void robot(std::string_view bytes) {

@@ -146,6 +146,8 @@ TEST_F(RealDraft, of_a_urdf_without_inertias_names_the_links) {
     for (const std::string& line : draft->missing)
       is_named = is_named || line.find(link) != std::string::npos;
     EXPECT_TRUE(is_named) << name;
+    EXPECT_NE(draft->text.find("these links, which move"), std::string::npos) << name;
+    EXPECT_NE(draft->text.find(link), std::string::npos) << name;
     // What no robot file can mend is told at its place in the URDF.
     EXPECT_NE(said_of(filled(draft->text)).find(".urdf:"), std::string::npos) << name;
   }

@@ -206,6 +206,20 @@ TEST(Roots, keep_reading_below_them) {
   EXPECT_EQ(errors(below), 0);
 }
 
+TEST(Roots, tell_what_is_not_there_from_what_is_outside) {
+  const test::Folder folder;
+  folder.write(".zwang-root", "");
+  folder.write("tasks/go.yaml", test::replaced(test::slurp(source_dir / "specs/wall_align.yaml"),
+                                               "robots/mecanum_base", "../gone"));
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  Diagnostics diagnostics;
+  EXPECT_FALSE(load("tasks/go.yaml", {}, diagnostics));
+  std::filesystem::current_path(before);
+  EXPECT_NE(rendered(diagnostics).find("cannot read `gone.yaml`"), std::string::npos)
+      << rendered(diagnostics);
+}
+
 TEST(Json, gives_ranges_and_replacements) {
   Diagnostics diagnostics;
   const test::Folder folder;

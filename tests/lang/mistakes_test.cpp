@@ -190,6 +190,13 @@ TEST_P(MistakeOf, is_found_in_its_place_and_told_once) {
   ASSERT_EQ(diagnostics.all().size(), 1u) << test::rendered(diagnostics);
   const Diagnostic& said = diagnostics.all()[0];
   EXPECT_EQ(said.code, mistake.code) << test::rendered(diagnostics);
+  // It names the fix: what to write, what is near, or (of a dimension or a range) what belongs there.
+  const bool is_told_what_belongs = said.message.find(" but ") != std::string::npos ||
+                                    said.message.find(" from ") != std::string::npos ||
+                                    said.message.find(" within ") != std::string::npos ||
+                                    said.message.find(" must ") != std::string::npos ||
+                                    said.message.find(" compared with ") != std::string::npos;
+  EXPECT_TRUE(!said.help.empty() || is_told_what_belongs) << test::rendered(diagnostics);
   const std::size_t told = mistake.told_at.empty() ? at : bad.find(mistake.told_at);
   ASSERT_NE(told, std::string::npos) << mistake.told_at;
   EXPECT_EQ(said.span.begin.line, line_of(bad, told)) << test::rendered(diagnostics);

@@ -7,6 +7,7 @@
 
 #include "support.hpp"
 #include "zwang/lang/notes.hpp"
+#include "zwang/solver/base_analysis.hpp"
 
 namespace zwang::lang {
 namespace {
@@ -183,6 +184,53 @@ TEST_F(FeaturePhysics, a_distance_is_asked_along_its_line_and_in_other_direction
   expect_number(only_outside("W606", push(force * 0.999), push(force * 1.001)), "100 N at most");
 }
 
+/// The point p of the base goes along e with e' W e per newton, W = [1/m + py^2/I, -px py/I; ., px^2/I]: over
+/// all directions the mass lies between the inverses of W's eigenvalues.
+TEST_F(FeaturePhysics, a_distance_meets_every_mass_that_a_direction_has) {
+  const double px = 0.3, py = 0.2;
+  const double xx = 1.0 / mass + py * py / inertia, yy = px * px / inertia, xy = -px * py / inertia;
+  const double spread = std::sqrt((xx - yy) * (xx - yy) + 4.0 * xy * xy);
+  const double least = 2.0 / (xx + yy + spread), most = 2.0 / (xx + yy - spread);
+  const auto push = [&](double f) {
+    return said_of("{distance: [nose, wall]}", "force: " + number(-f, "N") + ", acceleration: +-0.3 m/s^2",
+                   "  nose: {parent: base_link, at: [0.3 m, 0.2 m]}\n");
+  };
+  only_outside("W601", push(0.3 * least * 0.999), push(0.3 * least * 1.001));
+  only_outside("E601", push(0.3 * most * 0.999), push(0.3 * most * 1.001));
+}
+
+TEST_F(FeaturePhysics, towards_what_the_wheels_hold_any_force_can_be_pressed) {
+  const auto push = [&](double f) {
+    return said_of("{distance: [base_link, wall]}",
+                   "force: " + number(-f, "N") + ", acceleration: +-0.3 m/s^2");
+  };
+  // Sideways the mass is beyond all bounds: never is too much to say.
+  EXPECT_EQ(test::count(push(90.0), "E601"), 0);
+  only_outside("W601", push(0.3 * mass * 0.999), push(0.3 * mass * 1.001));
+}
+
+/// A box of accelerations allows most along the diagonal to its corner: hypot(ax, ay).
+TEST_F(FeaturePhysics, a_distance_is_looked_at_where_two_ranges_bind) {
+  for (const char* name : {"mecanum_base.urdf", "mecanum_base.yaml"}) {
+    folder_.write(std::string("robots/") + name, test::slurp(test::source_dir / "specs/robots" / name));
+  }
+  Diagnostics of_robot;
+  const auto robot = load_robot(test::source_dir / "specs/robots/mecanum_base.yaml", of_robot);
+  ASSERT_TRUE(robot.has_value());
+  const auto base = solver::analyse_base(robot->model, start_state(*robot));
+  const double m = base.axes[0].effective_mass;
+  ASSERT_NEAR(base.axes[1].effective_mass, m, 1e-9 * m);
+  const double cap = m * std::hypot(0.2, 0.35);
+  const auto push = [&](double f) {
+    return said_of("{distance: [base_link, wall]}",
+                   "force: " + number(-f, "N") +
+                       "}\n      base: {move: base_link, in: base_link, x: {acceleration: +-0.2 m/s^2}, "
+                       "y: {acceleration: +-0.35 m/s^2}",
+                   "", "mecanum_base");
+  };
+  only_outside("E601", push(cap * 0.999), push(cap * 1.001));
+}
+
 TEST_F(FeaturePhysics, an_angle_is_a_turn) {
   const auto turn = [&](double n) {
     return said_of("{angle: [base_link.x, wall.y]}", "force: " + number(n, "N m"));
@@ -204,6 +252,20 @@ TEST_F(FeaturePhysics, a_feature_counts_among_the_rows) {
       "velocity: 0.1 m/s}\n      two: {move: nose, in: world, x: {velocity: 0.1 m/s}, y: {velocity: 0.1 m/s}",
       "  nose: {parent: base_link, at: [0.3 m, 0 m]}\n");
   EXPECT_EQ(test::count(said_of_both, "E406"), 1) << test::rendered(said_of_both);
+}
+
+/// A point r ahead of the axle goes sideways with I / r^2 when the base turns: tons, a few millimetres ahead.
+TEST_F(Physics, what_moves_by_millimetres_of_lever_counts_as_held) {
+  const auto about = [&](const std::string& at) {
+    const std::string text = "zwang: 1\nrobot: robots/mini.yaml\nframes:\n  hub: {parent: base_link, at: [" +
+                             at +
+                             ", 0 m]}\nstart: go\ntasks:\n  go:\n    constraints:\n      go: {move: hub, in: "
+                             "base_link, y: {velocity: 1 mm/s}}\n    timeout: {after: 9 s, goto: failed}\n";
+    Diagnostics diagnostics;
+    load(folder_.write("task.yaml", text), {}, diagnostics);
+    return diagnostics;
+  };
+  only_outside("E404", about("10 mm"), about("4 mm"));
 }
 
 TEST_F(Physics, a_planar_speed_bounds_the_approach_as_a_range_does) {

@@ -89,7 +89,7 @@ std::vector<Oddity> oddities() {
        .top = feature},
       {"measured_by_an_axis_that_is_none",
        "velocity: 0.1 m/s}\n      near: {feature: gap, velocity: +-0.1 m/s", "near.near.velocity < 1 m/s",
-       "E301", when_line + 5, when_column, "did you mean `near.velocity`?", feature},
+       "E301", when_line + 5, when_column, "write `near.velocity`", feature},
       {"measured_as_a_length", "velocity: 0.1 m/s}\n      near: {feature: gap, velocity: +-0.1 m/s",
        "near.velocity < 1 m", "E202", when_line + 5, when_column, "", feature},
   };

@@ -225,6 +225,20 @@ TEST_F(CliPlan, inspect_finds_rollers_that_were_read_from_above) {
   EXPECT_EQ(analysis.at("mirrored_rollers"), !analysis.at("axes").at("rz").at("reachable").get<bool>());
 }
 
+/// Its wheels stand 1.3 mm ahead of its origin: turning moves that sideways, with a thousand tons of mass.
+TEST_F(CliPlan, inspect_says_what_cannot_move) {
+  const std::string fetch = ZWANG_SOURCE_DIR "/../shared/robots/fetch.urdf";
+  if (!std::filesystem::exists(fetch)) GTEST_SKIP() << fetch << " is not here";
+  const Result result = zwang("robot inspect " + fetch);
+  EXPECT_NE(result.out.find("  y   cannot move: the wheels hold it\n"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("turned from there by 45, 90 and 135 deg"), std::string::npos) << result.out;
+  const json analysis = zwang_json("robot inspect " + fetch).at("assumed").at(0).at("analysis");
+  EXPECT_EQ(analysis.at("axes").at("y").at("held"), true);
+  EXPECT_TRUE(analysis.at("axes").at("y").at("effective_mass").is_null());
+  EXPECT_EQ(analysis.at("axes").at("x").at("held"), false);
+  EXPECT_EQ(analysis.at("exact"), true);
+}
+
 TEST_F(CliPlan, init_writes_a_file_that_is_refused_until_it_is_filled) {
   const Result made = zwang("robot init robots/mecanum_base.urdf -o robots/mine.yaml");
   EXPECT_EQ(made.code, 0) << made.out;

@@ -68,6 +68,32 @@ TEST_F(Verbs, DeniedWarningsRefuseTheFile) {
   EXPECT_EQ(zwang({"validate", file, "--deny", "everything"}).code, 2);
 }
 
+TEST_F(Verbs, ValidateTakesWhatRunAndPlanTake) {
+  const std::string file = (specs / "wall_align.yaml").string();
+  EXPECT_EQ(zwang({"validate", file, "-p", "push=30 N"}).code, 0);
+  Result r = zwang({"validate", file, "-p", "push=200 N"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_TRUE(contains(r.out, "error E204: ")) << r.out;
+  // The same words, in the same place.
+  const Result of_plan = zwang({"plan", file, "-p", "push=200 N"});
+  EXPECT_EQ(of_plan.code, 1);
+  EXPECT_EQ(r.out, of_plan.out + file + ": 1 error\n");
+  r = zwang({"validate", file, "-p", "psuh=30 N"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_TRUE(contains(r.out, "did you mean `push`?")) << r.out;
+
+  const std::string skid = (specs / "robots/skid_base.yaml").string();
+  r = zwang({"validate", file, "--robot", (specs / "robots/omni_base.yaml").string()});
+  EXPECT_EQ(r.code, 0);
+  EXPECT_TRUE(contains(r.out, "omni")) << r.out;
+  EXPECT_EQ(zwang({"graph", file, "--robot", skid, "-p", "push=200 N"}).code, 1);
+  EXPECT_EQ(zwang({"validate", file, "--robot", "no_such.yaml"}).code, 2);
+  EXPECT_EQ(zwang({"plan", file, "--robot", "no_such.yaml"}).code, 2);
+  r = zwang({"validate", skid, "-p", "push=30 N"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_TRUE(contains(r.err, "for task files")) << r.err;
+}
+
 TEST_F(Verbs, AnAllowedWarningIsNotDenied) {
   const std::string file = task("allowed.yaml", read(conformance / "ok_allowed.yaml"));
   const Result r = zwang({"validate", file, "--deny", "warnings"});

@@ -5,6 +5,7 @@
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "physics/physics.hpp"
 
 namespace zwang::lang {
@@ -86,6 +87,18 @@ std::vector<Condition> check_task(CheckContext& context, const TaskText& task) {
   return conditions;
 }
 
+/// A word that drives and is no signal: perhaps `here`, or a parameter without its `$`.
+void complain_of_driver_name(CheckContext& context, const ValueText& value, const std::string& what) {
+  if (context.symbols.find_parameter(value.name) != nullptr) {
+    context.diagnostics.add(wording::parameter_without_dollar(value.span, value.name));
+    return;
+  }
+  std::vector<std::string> known = context.symbols.signal_names();
+  if (what.ends_with(".position")) known.push_back("here");
+  context.diagnostics.add(
+      wording::unknown_name(value.span, "number signal", value.name, nearest(value.name, known)));
+}
+
 }  // namespace
 
 bool check_driver_value(CheckContext& context, const ValueText& value, const Dimension& expected,
@@ -94,8 +107,7 @@ bool check_driver_value(CheckContext& context, const ValueText& value, const Dim
       value.kind == ValueKind::name ? context.symbols.find_signal(value.name) : std::nullopt;
   if (value.kind != ValueKind::name) return check_value(context, value, expected, what);
   if (!index) {
-    context.diagnostics.add(wording::unknown_name(value.span, "number signal", value.name,
-                                                  nearest(value.name, context.symbols.signal_names())));
+    complain_of_driver_name(context, value, what);
     return false;
   }
   SignalSymbol& symbol = context.symbols.signals[static_cast<std::size_t>(*index)];
@@ -180,6 +192,10 @@ void check_time(CheckContext& context, const ValueText& value, const std::string
 std::optional<int> check_frame(CheckContext& context, const Word& name) {
   if (!name.exists()) return std::nullopt;
   const std::optional<int> index = context.symbols.find_frame(name.text);
+  if (!index && name.text == "footprint") {
+    context.diagnostics.add(wording::footprint_is_no_frame(name.span));
+    return std::nullopt;
+  }
   if (!index) {
     if (context.symbols.has_robot) {
       context.diagnostics.add(wording::unknown_name(name.span, "frame", name.text,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "check/context.hpp"
@@ -160,13 +161,19 @@ class ConditionCheck {
       return quantity_type(axis < 2 ? dimension::force : dimension::torque);
     }
     std::vector<std::string> parts = split(node.word);
+    if (context_.of_truth && parts.size() > 1) {
+      return complain(
+          wording::unknown_truth(node.span, node.word, nearest(node.word, context_.symbols.signal_names())));
+    }
     // Of a group on a feature, the group's name says it all: `near.velocity`.
     if (const GroupText* group = find_group(parts[0], lowered)) {
       const bool is_feature = group->kind == GroupKind::feature;
-      if (is_feature && parts.size() == 3) parts.clear();
+      if (is_feature && parts.size() == 3)
+        return complain(wording::axis_of_a_feature(node.span, parts[0], parts[2]));
       if (is_feature && parts.size() == 2) parts.insert(parts.begin(), parts[0]);
     }
     if (parts.size() == 3) return check_coordinate(node, parts, lowered);
+    if (has_unread_name()) return bad_type;
     std::vector<std::string> known{"elapsed"};
     if (!context_.of_truth) known.insert(known.end(), estimated_forces.begin(), estimated_forces.end());
     for (const std::string& name : context_.symbols.signal_names()) known.push_back(name);
@@ -214,6 +221,14 @@ class ConditionCheck {
       }
     }
     return false;
+  }
+
+  /// A signal or feature whose name could not be read may be the one that is meant; it was complained of.
+  bool has_unread_name() const {
+    const auto is_unread = [](const auto& text) { return !text.name.exists(); };
+    const auto& file = context_.file;
+    return std::any_of(file.signals.begin(), file.signals.end(), is_unread) ||
+           std::any_of(file.features.begin(), file.features.end(), is_unread);
   }
 
   Type check_coordinate(const ExpressionText& node, const std::vector<std::string>& parts,
@@ -272,6 +287,10 @@ class ConditionCheck {
     }
     const std::optional<int> frame = check_frame(context_, {node.argument, node.span});
     if (!frame) return bad_type;
+    if (context_.symbols.stands_in_world(*frame)) {
+      const std::string base = context_.robot ? context_.robot->base_frame : "base_link";
+      return complain(wording::motionless(node.span, node.word, node.argument, base));
+    }
     lowered.op = node.word == "speed" ? Op::speed : Op::moved;
     lowered.index = *frame;
     return quantity_type(node.word == "speed" ? dimension::velocity : dimension::length);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
@@ -21,6 +22,16 @@ std::string written(const ValueText& value) {
   return value.quantity.number + " " + value.quantity.unit;
 }
 
+/// The value at the start, where it can be read and measures what is expected.
+std::optional<double> known_value(const CheckContext& context, const ValueText& value,
+                                  const Dimension& expected) {
+  if (value.kind == ValueKind::quantity && value.quantity.dimension == expected) return value.quantity.value;
+  if (value.kind != ValueKind::parameter) return std::nullopt;
+  const ParameterSymbol* symbol = context.symbols.find_parameter(value.name);
+  if (symbol == nullptr || symbol->is_bad || symbol->dimension != expected) return std::nullopt;
+  return present_value(context, value);
+}
+
 /// One axis of one group.
 class AxisCheck {
  public:
@@ -29,14 +40,16 @@ class AxisCheck {
       : context_(context),
         text_(text),
         path_(group.kind == GroupKind::feature ? group.name.text : group.name.text + "." + text.name.text),
-        axis_(axis_of(context, group, text)),
-        is_feature_(group.kind == GroupKind::feature),
+        feature_(feature_of(context, group)),
+        axis_(feature_ == nullptr ? axis_named(text.name.text).value_or(Axis::x)
+                                  : (feature_->turns ? Axis::rz : Axis::x)),
         move_(move),
         in_(in) {}
 
   void check() {
     for (const Quantity quantity : quantities) check_statement(quantity);
     check_single_driver();
+    check_place_on_feature();
     check_force_range();
     if (text_.time_constant) check_time(context_, *text_.time_constant, path_ + ".time_constant", false);
     check_compliance();
@@ -45,12 +58,10 @@ class AxisCheck {
   }
 
  private:
-  /// The axis whose dimensions the statements have: of a feature any that measures alike.
-  static Axis axis_of(const CheckContext& context, const GroupText& group, const AxisText& text) {
-    if (group.kind != GroupKind::feature) return axis_named(text.name.text).value_or(Axis::x);
+  static const Feature* feature_of(const CheckContext& context, const GroupText& group) {
+    if (group.kind != GroupKind::feature) return nullptr;
     const std::optional<int> index = context.symbols.find_feature(group.feature.text);
-    return index && context.symbols.features[static_cast<std::size_t>(*index)].feature.turns ? Axis::rz
-                                                                                             : Axis::x;
+    return index ? &context.symbols.features[static_cast<std::size_t>(*index)].feature : nullptr;
   }
 
   bool turns() const { return is_rotation(axis_); }
@@ -65,7 +76,7 @@ class AxisCheck {
 
   void check_speed() {
     const std::optional<StatementText>& velocity = text_[Quantity::velocity];
-    if (!text_.is_speed() || is_feature_ || !velocity || !velocity->is_range) return;
+    if (!text_.is_speed() || feature_ != nullptr || !velocity || !velocity->is_range) return;
     const ValueText& low = velocity->low;
     const bool is_known = low.kind == ValueKind::quantity && low.quantity.dimension == dimension::velocity;
     if (is_known && low.quantity.value != 0.0)
@@ -110,6 +121,22 @@ class AxisCheck {
     check_driver_value(context_, statement->value, expected, what);
   }
 
+  /// A distance is never negative, an angle between two axes never more than half a turn.
+  void check_place_on_feature() {
+    const std::optional<StatementText>& position = text_[Quantity::position];
+    if (feature_ == nullptr || !position || feature_->kind == FeatureKind::direction) return;
+    const bool is_distance = feature_->kind == FeatureKind::distance;
+    const Dimension expected = is_distance ? dimension::length : dimension::angle;
+    const ValueText& low = position->is_range ? position->low : position->value;
+    const ValueText& high = position->is_range ? position->high : position->value;
+    const auto value_of = [&](const ValueText& value) { return known_value(context_, value, expected); };
+    const bool is_below = value_of(high).value_or(0.0) < 0.0;
+    const bool is_above = !is_distance && value_of(low).value_or(0.0) > std::numbers::pi;
+    if (!is_below && !is_above) return;
+    context_.diagnostics.add(is_distance ? wording::beyond_a_distance(position->span, path_)
+                                         : wording::beyond_an_angle(position->span, path_));
+  }
+
   const FrameSymbol* symbol(const std::optional<int>& frame) const {
     return frame ? &context_.symbols.frames[static_cast<std::size_t>(*frame)] : nullptr;
   }
@@ -150,8 +177,8 @@ class AxisCheck {
   CheckContext& context_;
   const AxisText& text_;
   std::string path_;
-  Axis axis_;
-  bool is_feature_;
+  const Feature* feature_;  ///< nullptr: the axis is one of a frame
+  Axis axis_;               ///< whose dimensions the statements have: of a feature any that measures alike
   std::optional<int> move_, in_;
 };
 
@@ -202,6 +229,9 @@ void check_positions(CheckContext& context, const GroupText& group, const std::o
   for (const AxisText& axis : group.axes) {
     const std::optional<StatementText>& position = axis[Quantity::position];
     if (!position || (!position->is_range && position->value.kind == ValueKind::here)) continue;
+    const bool is_unknown = !position->is_range && position->value.kind == ValueKind::name &&
+                            !context.symbols.find_signal(position->value.name);
+    if (is_unknown) continue;
     context.diagnostics.add(wording::position_in_own_axes(position->key_span,
                                                           group.name.text + "." + axis.name.text,
                                                           in.declaration.name, move.declaration.name));

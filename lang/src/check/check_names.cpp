@@ -166,7 +166,7 @@ class FrameOrder {
       context_.symbols.frames.push_back(std::move(symbol));
       return;
     }
-    const std::optional<int> parent = check_frame(context_, frame.parent);
+    const std::optional<int> parent = find_parent(frame.parent);
     symbol.is_bad = !parent;
     if (parent) {
       symbol.body = context_.symbols.frames[static_cast<std::size_t>(*parent)].body;
@@ -174,6 +174,19 @@ class FrameOrder {
       symbol.declaration.parent_index = *parent == 0 ? -1 : *parent;
     }
     context_.symbols.frames.push_back(std::move(symbol));
+  }
+
+  /// What it may hang on are pose signals, too.
+  std::optional<int> find_parent(const Word& name) {
+    const Symbols& symbols = context_.symbols;
+    if (!name.exists() || symbols.find_frame(name.text) || !symbols.has_robot)
+      return check_frame(context_, name);
+    std::vector<std::string> known = symbols.frame_names();
+    for (const SignalSymbol& signal : symbols.signals) {
+      if (signal.signal.type == SignalType::pose) known.push_back(signal.signal.name);
+    }
+    context_.diagnostics.add(wording::unknown_name(name.span, "frame", name.text, nearest(name.text, known)));
+    return std::nullopt;
   }
 
   /// A pose signal is a place in the world that moves when a new sample comes.

@@ -1,6 +1,7 @@
 // Conditions that are decided before the run, and thresholds with two sides.
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 #include "check/context.hpp"
 #include "diagnostic/wordings.hpp"
@@ -40,6 +41,11 @@ Interval parameter_interval(const CheckContext& context, int index) {
   return {};
 }
 
+Interval feature_interval(const Feature& feature) {
+  if (feature.kind == FeatureKind::direction) return {};
+  return {0.0, feature.kind == FeatureKind::distance ? infinity : std::numbers::pi};
+}
+
 Interval interval_of(const CheckContext& context, const ExpressionNode& node, const Interval& a,
                      const Interval& b) {
   switch (node.op) {
@@ -62,10 +68,7 @@ Interval interval_of(const CheckContext& context, const ExpressionNode& node, co
     case Op::valid:
       return undecided;
     case Op::feature:
-      return context.symbols.features[static_cast<std::size_t>(node.index)].feature.kind ==
-                     FeatureKind::distance
-                 ? Interval{0.0, infinity}
-                 : Interval{};
+      return feature_interval(context.symbols.features[static_cast<std::size_t>(node.index)].feature);
     case Op::abs:
       return {a.low > 0.0 ? a.low : a.high < 0.0 ? -a.high : 0.0, std::max(-a.low, a.high)};
     case Op::negate:

@@ -1,6 +1,7 @@
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 
 namespace zwang::lang {
 
@@ -70,6 +71,15 @@ void check_feature(CheckContext& context, const FeatureText& text) {
   context.symbols.features.push_back(std::move(symbol));
 }
 
+/// Words that conditions read as something else, so that nothing could ever ask for it.
+void check_is_no_word(CheckContext& context, const Word& name) {
+  const std::string& text = name.text;
+  if (text == "elapsed")
+    context.diagnostics.add(wording::name_taken(name.span, text, "the time since the task was entered"));
+  if (text == "and" || text == "or" || text == "not" || text == "here")
+    context.diagnostics.add(wording::word_for_a_name(name.span, text));
+}
+
 /// `group.x.position`-like names win over nothing: a signal and a feature of one name cannot be told apart.
 void check_distinct(CheckContext& context, const Word& name) {
   if (context.symbols.find_signal(name.text)) {
@@ -102,6 +112,8 @@ void check_world(CheckContext& context) {
   for (std::size_t i = 0; i < context.file.signals.size(); ++i) {
     check_signal(context, context.file.signals[i], context.symbols.signals[i]);
   }
+  for (const SignalText& text : context.file.signals) check_is_no_word(context, text.name);
+  for (const FeatureText& text : context.file.features) check_is_no_word(context, text.name);
   for (const RegionText& text : context.file.regions) check_region(context, text);
   for (const FeatureText& text : context.file.features) {
     check_distinct(context, text.name);

@@ -27,6 +27,18 @@ const auto region_name = [](const RegionSymbol& s) { return s.region.name; };
 
 }  // namespace
 
+bool Symbols::stands_in_world(int frame) const {
+  while (frame > 0) {
+    const FrameSymbol& symbol = frames[static_cast<std::size_t>(frame)];
+    const FrameDeclaration& declaration = symbol.declaration;
+    const bool is_carried = symbol.is_bad || symbol.body >= 0 || declaration.parent == FrameParent::body ||
+                            declaration.parent == FrameParent::signal;
+    if (is_carried) return false;
+    frame = declaration.parent == FrameParent::frame ? declaration.parent_index : 0;
+  }
+  return true;
+}
+
 std::optional<int> Symbols::find_signal(const std::string& name) const {
   return index_of(signals, name, signal_name);
 }

@@ -55,6 +55,8 @@ struct Symbols {
 
   ParameterSymbol* find_parameter(const std::string& name);
   std::optional<int> find_frame(const std::string& name) const;
+  /// Whether nothing ever carries the frame along: neither the robot nor the samples of a signal.
+  bool stands_in_world(int frame) const;
   std::optional<int> find_task(const std::string& name) const;
   std::optional<int> find_signal(const std::string& name) const;
   std::optional<int> find_feature(const std::string& name) const;

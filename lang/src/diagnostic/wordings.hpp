@@ -31,6 +31,7 @@ Diagnostic block_scalar(const Span& span);
 Diagnostic complex_key(const Span& span);
 Diagnostic alias(const Span& span);
 Diagnostic anchor(const Span& span);
+Diagnostic exclamation_for_not(const Span& span);
 Diagnostic tag(const Span& span);
 Diagnostic merge_key(const Span& span);
 Diagnostic duplicate_key(const Span& span, const std::string& key, const Span& first);
@@ -149,6 +150,12 @@ Diagnostic beyond_always(const Span& span, const std::string& axis, const std::s
 Diagnostic incomplete_spring(const Span& span, const std::string& axis);
 Diagnostic spring_with_time_constant(const Span& span, const std::string& axis);
 Diagnostic immovable(const Span& span, const std::string& frame);
+/// `function` asks how a frame moves that nothing moves; `base` is a name to ask about instead.
+Diagnostic motionless(const Span& span, const std::string& function, const std::string& frame,
+                      const std::string& base);
+/// A place on a feature that it never comes to.
+Diagnostic beyond_a_distance(const Span& span, const std::string& axis);
+Diagnostic beyond_an_angle(const Span& span, const std::string& axis);
 Diagnostic group_without_axes(const Span& span, const std::string& group);
 
 // --- Order: W501 to E508 (meaning.cpp) ---
@@ -214,6 +221,10 @@ Diagnostic one_fault(const Span& span);
 Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
                          const std::vector<std::string>& known);
 Diagnostic script_step(const Span& span);
+Diagnostic mixed_script(const Span& span, const std::string& what, bool starts_with_number,
+                        const Span& first);
+Diagnostic empty_script(const Span& span, const std::string& what);
+Diagnostic empty_motion(const Span& span, const std::string& what);
 Diagnostic times_not_rising(const Span& span, const std::string& what);
 Diagnostic one_signal_source(const Span& span, const std::string& signal);
 Diagnostic all_dropped(const Span& span);

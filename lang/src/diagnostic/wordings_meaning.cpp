@@ -248,6 +248,24 @@ Diagnostic immovable(const Span& span, const std::string& frame) {
                "move a frame of the robot, `in` this one");
 }
 
+Diagnostic motionless(const Span& span, const std::string& function, const std::string& frame,
+                      const std::string& base) {
+  return error("E409", span,
+               "`" + frame + "` stands in the world: `" + function + "(" + frame + ")` is always 0",
+               "ask about a frame of the robot, for example `" + function + "(" + base + ")`");
+}
+
+Diagnostic beyond_a_distance(const Span& span, const std::string& axis) {
+  return error("E413", span, "a distance is never negative: `" + axis + "` cannot be there",
+               "write 0 or more; for a side to be on, use a `direction`");
+}
+
+Diagnostic beyond_an_angle(const Span& span, const std::string& axis) {
+  return error("E413", span,
+               "an angle between two axes lies from 0 to 180 deg: `" + axis + "` cannot be there",
+               "for a heading with a sign, use `rz` of a group");
+}
+
 Diagnostic group_without_axes(const Span& span, const std::string& group) {
   return error("E103", span, "constraint group `" + group + "` says nothing about any axis",
                "name x, y, z, rx, ry or rz");
@@ -274,8 +292,8 @@ Diagnostic signal_without_age(const Span& span, const std::string& name) {
 }
 
 Diagnostic decided_condition(const Span& span, bool is_always) {
-  return error("E505", span,
-               is_always ? "this condition is always true" : "this condition can never be true");
+  return error("E505", span, is_always ? "this condition is always true" : "this condition can never be true",
+               "compare with a value that what is measured can pass");
 }
 
 Diagnostic release_without_threshold(const Span& span) {
@@ -295,7 +313,8 @@ Diagnostic hidden_exit(const Span& span, const Span& first) {
 }
 
 Diagnostic back_without_interruption(const Span& span) {
-  return error("E508", span, "`back` leads nowhere: no exit under `always` interrupts to this task");
+  return error("E508", span, "`back` leads nowhere: no exit under `always` interrupts to this task",
+               "name the task to go to");
 }
 
 }  // namespace zwang::lang::wording

@@ -76,7 +76,11 @@ Diagnostic posture_outside(const Span& span, const std::string& what, const Span
 }
 
 Diagnostic impossible_model(const Span& span, const std::string& reason) {
-  return error("E808", span, "this robot cannot move as described: " + reason);
+  const std::string_view origin = "model: ";
+  return error("E808", span,
+               "this robot cannot move as described: " +
+                   (reason.starts_with(origin) ? reason.substr(origin.size()) : reason),
+               "give every link that moves a mass above 0 and the inertia of a real body");
 }
 
 Diagnostic xml_too_deep(const Span& span, int limit) {

@@ -73,6 +73,25 @@ Diagnostic script_step(const Span& span) {
   return error("E908", span, "a step of a script is a time and a value", "write for example `[5 s, true]`");
 }
 
+Diagnostic mixed_script(const Span& span, const std::string& what, bool starts_with_number,
+                        const Span& first) {
+  const char* kinds = starts_with_number ? "a truth value among numbers" : "a number among truth values";
+  return with_related(error("E908", span, what + " has " + kinds,
+                            "a bool signal is true or false, a number signal a number; `lost` is neither"),
+                      first, "it begins with this");
+}
+
+Diagnostic empty_script(const Span& span, const std::string& what) {
+  return with_replacement(
+      error("E908", span, what + " has no step", "write `[[0 s, lost]]` for a signal that never comes"),
+      "[[0 s, lost]]");
+}
+
+Diagnostic empty_motion(const Span& span, const std::string& what) {
+  return error("E908", span, what + " names no point",
+               "write for example `[{time: 1 s, at: [2 m, 0 m]}]`, or delete the line");
+}
+
 Diagnostic times_not_rising(const Span& span, const std::string& what) {
   return error("E908", span, "the times of " + what + " must rise");
 }

@@ -67,6 +67,68 @@ Diagnostic speed_from_zero(const Span& span, const std::string& what) {
                "write `[0 m/s, ..]`");
 }
 
+Diagnostic parameter_without_dollar(const Span& span, const std::string& name) {
+  return with_replacement(
+      error("E301", span, "`" + name + "` is a parameter, and lacks its `$`", "write `$" + name + "`"),
+      "$" + name);
+}
+
+Diagnostic silent_axis(const Span& span, const std::string& axis) {
+  return error("E103", span, "axis `" + axis + "` says nothing",
+               "write `free`, or for example `{velocity: 0 m/s}`");
+}
+
+Diagnostic free_in_brackets(const Span& span) {
+  return with_replacement(error("E104", span, "`free` stands alone", "write `free` without brackets"),
+                          "free");
+}
+
+Diagnostic decimal_comma(const Span& span, const std::string& number) {
+  return error("E104", span, "a comma cuts this number in two", "write `" + number + "`, with a point");
+}
+
+Diagnostic axis_of_a_feature(const Span& span, const std::string& group, const std::string& quantity) {
+  const std::string path = group + "." + quantity;
+  return with_replacement(
+      error("E301", span, "group `" + group + "` is on a feature, which has no axes", "write `" + path + "`"),
+      path);
+}
+
+Diagnostic crossing_region(const Span& span, const std::string& what) {
+  return error("E410", span, "two edges of " + what + " cross",
+               "give the corners in the order in which one would walk around");
+}
+
+Diagnostic unknown_signal_type(const Span& span, const std::string& text, const std::string& meant) {
+  return with_suggestion(
+      error("E301", span, "no type of signal named " + in_ticks(text), "write bool, number, pose or wrench"),
+      meant);
+}
+
+Diagnostic bare_attempts(const Span& span, const std::string& text) {
+  return error("E104", span, "`attempts` must say where it leads",
+               "write `attempts: {max: " + escaped(text) + ", goto: failed}`");
+}
+
+Diagnostic footprint_is_no_frame(const Span& span) {
+  return error("E301", span, "`footprint` is no frame: it has no axes to move along",
+               "move a frame of the robot, or keep the footprint `inside` a region");
+}
+
+Diagnostic unknown_truth(const Span& span, const std::string& name, const std::string& meant) {
+  return with_suggestion(
+      error(
+          "E301", span, "the plant does not measure " + in_ticks(name),
+          "it measures x, y, yaw, speed, turn and torque of `truth.base`, and force, peak, touched, x, y and "
+          "yaw of `truth.OBJECT`, each object of the scene"),
+      meant);
+}
+
+Diagnostic word_for_a_name(const Span& span, const std::string& word) {
+  return error("E305", span, "`" + word + "` is a word of the language: nothing can have it as a name",
+               "choose another name");
+}
+
 Diagnostic urdf_for_robot_file(const Span& span) {
   return error("E103", span, "this is a URDF, not a robot file",
                "`zwang robot init` writes the robot file that goes with it");

@@ -18,6 +18,23 @@ Diagnostic word_in_capitals(const Span& span, const std::string& text, const std
 Diagnostic divides_by_zero(const Span& span);
 /// A range of speeds begins at 0.
 Diagnostic speed_from_zero(const Span& span, const std::string& what);
+/// `push` for `$push`.
+Diagnostic parameter_without_dollar(const Span& span, const std::string& name);
+Diagnostic silent_axis(const Span& span, const std::string& axis);
+/// `{free}` for `free`.
+Diagnostic free_in_brackets(const Span& span);
+/// `0,08 m/s` in a list, where a comma ends an item.
+Diagnostic decimal_comma(const Span& span, const std::string& number);
+/// `near.x.velocity` for `near.velocity`.
+Diagnostic axis_of_a_feature(const Span& span, const std::string& group, const std::string& quantity);
+Diagnostic crossing_region(const Span& span, const std::string& what);
+Diagnostic unknown_signal_type(const Span& span, const std::string& text, const std::string& meant);
+Diagnostic bare_attempts(const Span& span, const std::string& text);
+Diagnostic footprint_is_no_frame(const Span& span);
+/// A name in an expectation that is none of the plant's.
+Diagnostic unknown_truth(const Span& span, const std::string& name, const std::string& meant);
+/// `not` as the name of a signal.
+Diagnostic word_for_a_name(const Span& span, const std::string& word);
 Diagnostic urdf_for_robot_file(const Span& span);
 
 }  // namespace zwang::lang::wording

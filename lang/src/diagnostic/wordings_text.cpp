@@ -133,6 +133,10 @@ Diagnostic tag(const Span& span) {
   return error("E106", span, "YAML tags (`!name`) are not part of zwang", "quote text that starts with `!`");
 }
 
+Diagnostic exclamation_for_not(const Span& span) {
+  return error("E106", span, "a condition cannot begin with `!`: YAML reads it as a tag", "write `not (..)`");
+}
+
 Diagnostic merge_key(const Span& span) {
   return error("E106", span, "YAML merge keys (`<<`) are not part of zwang", "use `templates:` and `use:`");
 }
@@ -190,7 +194,7 @@ Diagnostic unknown_key(const Span& span, const std::string& key, const std::stri
 }
 
 Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key) {
-  return error("E103", span, what + " does not say `" + key + "`");
+  return error("E103", span, what + " does not say `" + key + "`", "add `" + key + ": ..`");
 }
 
 Diagnostic expected_mapping(const Span& span, const std::string& what) {
@@ -241,7 +245,8 @@ Diagnostic wrong_count(const Span& span, const std::string& what, std::size_t fe
 }
 
 Diagnostic range_ends(const Span& span, std::size_t found) {
-  return error("E104", span, "a range has exactly two ends, [low, high]; this has " + std::to_string(found));
+  return error("E104", span, "a range has exactly two ends; this has " + std::to_string(found),
+               "write `[low, high]`, with a comma between them");
 }
 
 Diagnostic range_where_value(const Span& span, const std::string& what) {

@@ -128,8 +128,10 @@ range from 5 N up would forbid just that. That zero is always allowed is what ma
           .title = "a frame that nothing can move",
           .why =
               R"~(`move` names what the robot moves: one of its links, or a frame that is carried by one. This frame
-stands in the world.)~",
-          .fix = "Swap the two: move a frame of the robot, `in` this one.",
+stands in the world. For the same reason `speed` and `moved` of it are always 0, and a condition that asks for
+them is decided before the run.)~",
+          .fix = "Swap the two: move a frame of the robot, `in` this one. In a condition, name a frame of "
+                 "the robot.",
           .part = ExcerptOf::group,
           .example = "move: world\nin: base_link",
           .instead = "move: base_link\nin: world"},
@@ -192,6 +194,30 @@ tasks:
   go:
     constraints:
       near: {feature: gap, velocity: -0.1 m/s}
+    timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "E413",
+          .title = "a place that a feature never comes to",
+          .why =
+              R"~(A distance is 0 or more, and the angle between two axes lies from 0 to half a turn: neither says on
+which side something is. A target or a range beyond that is never reached.)~",
+          .fix = "Give a place within. Where the side matters, use an axis of a frame, or a `direction`: "
+                 "both have a "
+                 "sign.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(features:
+  gap: {distance: [bumper, world]}
+tasks:
+  go:
+    constraints:
+      near: {feature: gap, position: -0.2 m}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(features:
+  gap: {distance: [bumper, world]}
+tasks:
+  go:
+    constraints:
+      near: {feature: gap, position: 0.2 m}
     timeout: {after: 10 s, goto: failed})~"},
   };
   return entries;

@@ -59,10 +59,13 @@ std::span<const Explanation> scenes() {
           .instead = "faults:\n  - {at: 2 s, samples: nan}\n  - {at: 2 s, clock: backwards}"},
       Explanation{
           .code = "E908",
-          .title = "a script or a signal that cannot be played",
-          .why = "A script is a list of times that rise, each with a value. A signal has one source, and "
-                 "some of its samples must arrive.",
-          .fix = "Order the steps by time, one `[time, value]` each; keep one source a signal.",
+          .title = "a script, a motion or a signal that cannot be played",
+          .why =
+              "A script is a list of times that rise, each with a value: true and false, or numbers of one "
+              "kind, as the signal of the task file is. A motion goes through one point at least. A signal "
+              "has one source, and some of its samples must arrive.",
+          .fix = "Order the steps by time, one `[time, value]` each and all values alike; keep one source a "
+                 "signal.",
           .part = ExcerptOf::scene,
           .example = "signals:\n  loaded: {script: [[5 s, true], [3 s, false]]}",
           .instead = "signals:\n  loaded: {script: [[3 s, false], [5 s, true]]}"},

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "zwang/lang/program.hpp"
+#include "zwang/solver/wheels.hpp"
 
 namespace zwang::lang {
 
@@ -17,11 +18,6 @@ constexpr double farthest = 3.0;  // [m]
 /// In [0, 1), the same on every machine: the standard fixes the generator, not its distributions.
 double uniform(std::mt19937& generator) {
   return static_cast<double>(generator()) / 4294967296.0;
-}
-
-bool is_wheel(const solver::Model& model, int joint) {
-  return std::any_of(model.wheels().begin(), model.wheels().end(),
-                     [&](const solver::Wheel& wheel) { return wheel.body == joint + 1; });
 }
 
 solver::State general_state(const solver::Model& model, std::mt19937& generator) {
@@ -39,10 +35,17 @@ solver::State general_state(const solver::Model& model, std::mt19937& generator)
   return state;
 }
 
+bool has_joints_beside_wheels(const solver::Model& model) {
+  for (int j = 0; j < model.joint_count(); ++j) {
+    if (!solver::turns_wheel(model, j + 1)) return true;
+  }
+  return false;
+}
+
 solver::State turned_alike(const solver::Model& model, const solver::State& start, double angle) {
   solver::State state = start;
   for (int j = 0; j < model.joint_count(); ++j) {
-    if (is_wheel(model, j)) continue;
+    if (solver::turns_wheel(model, j + 1)) continue;
     state.q(j) = std::clamp(start.q(j) + angle, model.joint(j).lower, model.joint(j).upper);
   }
   return state;
@@ -65,9 +68,7 @@ std::vector<solver::State> general_states(const solver::Model& model) {
 std::vector<solver::State> configurations(const Robot& robot, const std::optional<Scene>& scene) {
   const solver::Model& model = robot.model;
   std::vector<solver::State> states{start_state(robot, scene)};
-  bool has_other_joints = false;
-  for (int j = 0; j < model.joint_count(); ++j) has_other_joints = has_other_joints || !is_wheel(model, j);
-  if (!has_other_joints) return states;
+  if (!has_joints_beside_wheels(model)) return states;
   for (const double part : {0.25, 0.5, 0.75}) {
     states.push_back(turned_alike(model, states.front(), part * std::numbers::pi));
   }
@@ -78,6 +79,23 @@ std::vector<solver::State> configurations(const Robot& robot, const std::optiona
     states.push_back(std::move(state));
   }
   return states;
+}
+
+std::string describe_configurations(const Robot& robot) {
+  if (!has_joints_beside_wheels(robot.model)) return "the start pose alone: no joint but the wheels turns";
+  return "the start pose, all joints but the wheels turned from there by 45, 90 and 135 deg, and three "
+         "settings "
+         "in no pattern";
+}
+
+solver::AxisAnalysis usable(solver::AxisAnalysis axis) {
+  constexpr double held_below = 1e-3;  // of the axis
+  if (axis.kappa < held_below) {
+    axis.effective_mass = solver::infinity;
+    axis.reachable = false;
+  }
+  axis.reachable = axis.reachable && axis.largest_force > 0.0;
+  return axis;
 }
 
 }  // namespace zwang::lang

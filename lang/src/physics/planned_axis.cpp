@@ -211,6 +211,35 @@ void add_robot_limits(const CheckContext& context, std::vector<PlannedAxis>& axe
   }
 }
 
+/// The range on the base's own axis that is left of all that are in force.
+std::optional<solver::Range> base_range(const std::vector<PlannedAxis>& axes, solver::Axis which) {
+  std::optional<solver::Range> left;
+  for (const PlannedAxis& axis : axes) {
+    const std::optional<solver::Range>& range = axis[Quantity::acceleration];
+    const bool is_it =
+        range && !axis.is_feature() && axis.axis == which && is_base(axis.move) && is_base(axis.in);
+    if (!is_it) continue;
+    if (!left) left = range;
+    left->low = std::max(left->low, range->low);
+    left->high = std::min(left->high, range->high);
+  }
+  return left;
+}
+
+/// Between two bounds the acceleration allowed along a direction e is least_i a_i / |e_i|: it is largest
+/// where the bound passes from one axis to the other, at the corners of the box of ranges.
+void find_corners(std::vector<PlannedAxis>& axes) {
+  const std::optional<solver::Range> x = base_range(axes, solver::Axis::x);
+  const std::optional<solver::Range> y = base_range(axes, solver::Axis::y);
+  if (!x || !y) return;
+  for (PlannedAxis& axis : axes) {
+    if (!axis.is_open()) continue;
+    for (const double ax : {x->low, x->high}) {
+      for (const double ay : {y->low, y->high}) axis.corners[axis.corner_count++] = std::atan2(ay, ax);
+    }
+  }
+}
+
 }  // namespace
 
 double PlannedTask::speed_limit(const PlannedAxis& axis) const {
@@ -229,6 +258,7 @@ PlannedTask plan_task(const CheckContext& context, const TaskText& task) {
   plan_groups(context, context.file.always_groups, true, plan);
   plan_groups(context, task.groups, false, plan);
   add_robot_limits(context, plan.axes);
+  find_corners(plan.axes);
   return plan;
 }
 

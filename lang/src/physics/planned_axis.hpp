@@ -33,6 +33,10 @@ struct PlannedAxis {
   std::array<Span, 4> spans;                           ///< of the statements' values
   double time_constant = 0.5;                          ///< [s]
   Span time_constant_span;  ///< where it may be written: its value, else the axis's key
+  /// Of a distance to something beside the robot: angles from the base's x of directions in which two of its
+  /// acceleration ranges bind at once. Their number is `corner_count`. [rad]
+  std::array<double, 4> corners{};
+  std::size_t corner_count = 0;
   int level = 1;
   bool is_soft = false;    ///< has a weight
   bool is_spring = false;  ///< has stiffness and damping: pushes, and holds no motion
@@ -45,6 +49,8 @@ struct PlannedAxis {
   bool drives_motion() const { return driver && *driver != solver::Quantity::force && !is_spring; }
   bool turns() const { return measure == solver::Measure::angle || is_rotation(axis); }
   bool is_feature() const { return measure != solver::Measure::axis; }
+  /// A distance to something beside the robot: nobody knows from where the robot will come.
+  bool is_open() const { return measure == solver::Measure::distance && in_world; }
 };
 
 /// `speed`: what bounds the planar velocity of a frame.

@@ -28,18 +28,16 @@ struct Pressing {
 
 Pressing pressing(const PlannedTask& plan, const PlannedAxis& axis, double force, Probe& probe) {
   Pressing result;
-  const std::vector<double> pressed = probe.pressed(axis, force, plan.axes);
-  const AxisFigures* figures = probe.figures(axis);
-  bool is_known = false;
-  for (std::size_t i = 0; i < pressed.size(); ++i) {
-    if (!std::isfinite(pressed[i])) continue;
-    is_known = true;
-    const double along = force < 0.0 ? -pressed[i] : pressed[i];
+  const std::vector<Pressed> all = probe.pressed(axis, force, plan.axes);
+  for (const Pressed& one : all) {
+    const double along = force < 0.0 ? -one.force : one.force;
     result.most = std::max(result.most, along);
-    if (along < figures->forces[i] * (1.0 - 1e-3)) result.least = std::min(result.least, along);
+    if (along < one.motors * (1.0 - 1e-3)) result.least = std::min(result.least, along);
   }
   result.by_motors = !std::isfinite(result.least);
-  if (!is_known) result.most = solver::infinity;
+  // Towards a side that the wheels hold the mass grows without bound, and m a_max with it.
+  const AxisFigures* figures = probe.figures(axis);
+  if (all.empty() || (figures != nullptr && figures->is_held_from_some_side)) result.most = solver::infinity;
   return result;
 }
 

@@ -47,11 +47,6 @@ bool has_direction(const solver::AxisConstraint& constraint, const solver::Model
   return constraint.measure != solver::Measure::angle || std::sin(s) > 1e-6;
 }
 
-/// The motors have a force along the axis and make it alone: what only moves along with a turn is not pushed.
-bool is_pushed(const solver::AxisAnalysis& axis) {
-  return axis.reachable && axis.largest_force > 0.0;
-}
-
 double along(const solver::Row& row, const solver::Solution& solution) {
   const auto of = [&](int body) -> const solver::MotionVector& {
     return solution.acceleration[static_cast<std::size_t>(body)];
@@ -128,6 +123,7 @@ Probe::Key Probe::key_of(const PlannedAxis& axis) {
   put(axis.in.pose.rotation.reshaped());
   put(axis.measure == solver::Measure::distance ? axis.in.pose.position : solver::Vector3::Zero().eval());
   put(axis.coefficients);
+  put(axis.corners);
   put(std::array{double(axis.move.body), double(axis.in.body), double(axis.is_placed), double(axis.measure),
                  double(axis.axis), double(axis.other_axis)});
   return key;
@@ -149,64 +145,100 @@ bool Probe::pay(std::size_t rows, double passes) {
   return budget_ > 0.0;
 }
 
-std::vector<Probe::Sample> Probe::samples_of(const PlannedAxis& axis) const {
-  const solver::AxisConstraint constraint = constraint_of(axis, 1.0);
-  const bool is_open = axis.measure == solver::Measure::distance && axis.in_world;
-  // Axes that a signal will turn are looked at as if they lay like the world's.
-  const bool is_known = axis.is_placed || !(is_open || axis.measure == solver::Measure::angle);
-  std::vector<Sample> samples;
-  for (const solver::State& state : states_) {
-    if (is_known && has_direction(constraint, robot_.model, state)) samples.push_back({&state, constraint});
-    if (!is_open) continue;
-    const double heading = std::atan2(state.base_pose.rotation(1, 0), state.base_pose.rotation(0, 0));
-    for (const double part : {0.0, 0.25, 0.5, 0.75}) {
-      samples.push_back({&state, in_plane(constraint, heading + part * std::numbers::pi)});
-    }
-  }
-  // Axes that are parallel at the start, or hang on a signal.
-  for (std::size_t i = 0; i < general_.size() && samples.empty(); ++i) {
-    if (has_direction(constraint, robot_.model, general_[i])) samples.push_back({&general_[i], constraint});
-  }
-  return samples;
+bool Probe::look(const solver::AxisConstraint& constraint, const solver::State& state,
+                 std::vector<Look>& all) {
+  if (!pay(1, 2.0)) return false;
+  all.push_back({&state, constraint, solver::analyse_axis(robot_.model, state, constraint)});
+  return true;
 }
 
-void Probe::measure(const PlannedAxis& axis, AxisFigures& result) {
-  const auto look = [&](const Sample& sample) {
-    return solver::analyse_axis(robot_.model, *sample.state, sample.constraint);
+/// Along the direction e in the plane the inverse of the effective mass is the quadratic form e' W e, with
+/// W = A Mc A' of the point's x and y. Three looks give W, and its eigenvectors point along
+///
+///   1/2 atan2(2 W_xy, W_xx - W_yy)        and square to that
+bool Probe::look_around(const PlannedAxis& axis, const solver::State& state, std::vector<Look>& all) {
+  const solver::AxisConstraint constraint = constraint_of(axis, 1.0);
+  const double heading = std::atan2(state.base_pose.rotation(1, 0), state.base_pose.rotation(0, 0));
+  const auto look_along = [&](double angle) {
+    return look(in_plane(constraint, heading + angle), state, all);
   };
-  for (const Sample& sample : samples_of(axis)) {
-    const solver::AxisAnalysis one = look(sample);
-    if (result.masses.empty()) {
+  const std::size_t first = all.size();
+  for (const double part : {0.0, 0.25, 0.5, 0.75}) {
+    if (!look_along(part * std::numbers::pi)) return false;
+  }
+  const auto inverse_mass = [&](std::size_t i) { return 1.0 / all[first + i].analysis.effective_mass; };
+  const double xx = inverse_mass(0), yy = inverse_mass(2);
+  const double xy = inverse_mass(1) - 0.5 * (xx + yy);
+  if (std::abs(xy) > 1e-6 * (xx + yy)) {
+    const double angle = 0.5 * std::atan2(2.0 * xy, xx - yy);
+    if (!look_along(angle) || !look_along(angle + 0.5 * std::numbers::pi)) return false;
+  }
+  for (std::size_t i = 0; i < axis.corner_count; ++i) {
+    if (!look_along(axis.corners[i])) return false;
+  }
+  return true;
+}
+
+bool Probe::look_everywhere(const PlannedAxis& axis, Looks& looks) {
+  const solver::AxisConstraint constraint = constraint_of(axis, 1.0);
+  // Axes that a signal will turn are looked at as if they lay like the world's.
+  const bool is_known = axis.is_placed || !(axis.is_open() || axis.measure == solver::Measure::angle);
+  for (const solver::State& state : states_) {
+    const bool has_one = is_known && has_direction(constraint, robot_.model, state);
+    if (has_one && !look(constraint, state, looks.all)) return false;
+    if (axis.is_open() && !look_around(axis, state, looks.all)) return false;
+  }
+  // Axes that are parallel at the start, or hang on a signal.
+  for (std::size_t i = 0; i < general_.size() && looks.all.empty(); ++i) {
+    const bool has_one = has_direction(constraint, robot_.model, general_[i]);
+    if (has_one && !look(constraint, general_[i], looks.all)) return false;
+  }
+  looks.figures = summary(axis, looks.all);
+  std::vector<Look> elsewhere;
+  for (std::size_t i = 0; axis.in_world && !looks.figures.is_reachable && i < general_.size(); ++i) {
+    if (!look(constraint, general_[i], elsewhere)) return false;
+    const solver::AxisAnalysis one = usable(elsewhere.back().analysis);
+    looks.figures.is_reachable = one.reachable;
+    looks.figures.is_held = looks.figures.is_held && !std::isfinite(one.effective_mass);
+  }
+  return true;
+}
+
+AxisFigures Probe::summary(const PlannedAxis& axis, const std::vector<Look>& all) {
+  AxisFigures result;
+  for (const Look& look : all) {
+    const solver::AxisAnalysis one = usable(look.analysis);
+    const bool is_first = result.masses.empty();
+    if (is_first) {
       result.mass = result.least_mass = result.most_mass = one.effective_mass;
-      result.force = result.least_force = result.most_force = one.largest_force;
+      result.force = one.largest_force;
     }
-    result.is_reachable = result.is_reachable || is_pushed(one);
+    result.is_reachable = result.is_reachable || one.reachable;
     result.masses.push_back(one.effective_mass);
     result.forces.push_back(one.largest_force);
-    if (!std::isfinite(one.effective_mass)) continue;
+    if (!std::isfinite(one.effective_mass)) {
+      result.is_held_from_some_side = axis.is_open();
+      continue;
+    }
     result.is_held = false;
-    const bool is_first = !std::isfinite(result.most_mass);
     result.least_mass = std::min(result.least_mass, one.effective_mass);
-    result.most_mass = is_first ? one.effective_mass : std::max(result.most_mass, one.effective_mass);
-    result.least_force = is_first ? one.largest_force : std::min(result.least_force, one.largest_force);
-    result.most_force = std::max(result.most_force, one.largest_force);
+    result.most_mass =
+        std::isfinite(result.most_mass) ? std::max(result.most_mass, one.effective_mass) : one.effective_mass;
   }
-  for (std::size_t i = 0; axis.in_world && !result.is_reachable && i < general_.size(); ++i) {
-    const solver::AxisAnalysis one = look({&general_[i], constraint_of(axis, 1.0)});
-    result.is_reachable = is_pushed(one);
-    result.is_held = result.is_held && !std::isfinite(one.effective_mass);
-  }
+  return result;
+}
+
+const Probe::Looks* Probe::looks(const PlannedAxis& axis) {
+  const auto [entry, is_new] = looks_.try_emplace(key_of(axis));
+  if (!is_new) return &entry->second;
+  if (look_everywhere(axis, entry->second)) return &entry->second;
+  looks_.erase(entry);
+  return nullptr;
 }
 
 const AxisFigures* Probe::figures(const PlannedAxis& axis) {
-  const auto [entry, is_new] = figures_.try_emplace(key_of(axis));
-  if (!is_new) return &entry->second;
-  if (!pay(1, 2.0 * static_cast<double>(samples_of(axis).size() + (axis.in_world ? general_.size() : 0)))) {
-    figures_.erase(entry);
-    return nullptr;
-  }
-  measure(axis, entry->second);
-  return &entry->second;
+  const Looks* looks = this->looks(axis);
+  return looks != nullptr ? &looks->figures : nullptr;
 }
 
 /// That of [ground; rows], less that of the ground alone.
@@ -260,10 +292,10 @@ int Probe::kinematic_rank(const std::vector<const PlannedAxis*>& axes) {
 
 /// The robot does what the rows say, as if nothing were in its way. Blocked, it meets the force that takes
 /// the acceleration along the axis away again: effective mass times that acceleration.
-std::vector<double> Probe::pressed(const PlannedAxis& axis, double force,
-                                   const std::vector<PlannedAxis>& limits) {
-  const AxisFigures* figures = this->figures(axis);
-  if (figures == nullptr) return {};
+std::vector<Pressed> Probe::pressed(const PlannedAxis& axis, double force,
+                                    const std::vector<PlannedAxis>& limits) {
+  const Looks* looks = this->looks(axis);
+  if (looks == nullptr) return {};
   const auto room = static_cast<int>(limits.size()) + 1;
   solver::ConstraintSet set(room, 2 * room);
   set.add(constraint_of(axis, force));
@@ -275,21 +307,28 @@ std::vector<double> Probe::pressed(const PlannedAxis& axis, double force,
     constraint.acceleration = limit[solver::Quantity::acceleration];
     set.add(constraint);
   }
-  const std::vector<Sample> samples = samples_of(axis);
-  std::vector<double> result;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double mass = figures->masses[i];
-    result.push_back(std::nan(""));
-    if (!std::isfinite(mass)) continue;
-    solver::AxisConstraint& pushing = set[0];
-    pushing = samples[i].constraint;
-    pushing.driver->target = force;
-    pushing.acceleration = axis[solver::Quantity::acceleration];
-    const solver::State& state = *samples[i].state;
-    const bool is_solved =
-        set.fill(robot_.model, state) && set.rows().size() <= static_cast<std::size_t>(most_rows) &&
-        pay(set.rows().size(), 10.0) && solver_.solve(state, set.rows(), solution_) == solver::Status::ok;
-    if (is_solved) result.back() = mass * along(set.rows()[0], solution_);
+  std::vector<Pressed> result;
+  for (const Look& look : looks->all) {
+    const solver::AxisAnalysis one = usable(look.analysis);
+    if (!std::isfinite(one.effective_mass)) continue;
+    // Ranges need not be symmetric: what lies ahead may as well lie behind.
+    for (const double side : axis.is_open() ? std::vector{1.0, -1.0} : std::vector{1.0}) {
+      solver::AxisConstraint& pushing = set[0];
+      pushing = look.constraint;
+      pushing.level = axis.level;
+      pushing.driver->target = force;
+      pushing.acceleration = axis[solver::Quantity::acceleration];
+      if (side < 0.0) {
+        if (pushing.measure != solver::Measure::direction) continue;
+        for (double& coefficient : pushing.coefficients) coefficient = -coefficient;
+      }
+      const solver::State& state = *look.state;
+      const bool is_solved =
+          set.fill(robot_.model, state) && set.rows().size() <= static_cast<std::size_t>(most_rows) &&
+          pay(set.rows().size(), 10.0) && solver_.solve(state, set.rows(), solution_) == solver::Status::ok;
+      if (is_solved)
+        result.push_back({one.effective_mass * along(set.rows()[0], solution_), one.largest_force});
+    }
   }
   return result;
 }

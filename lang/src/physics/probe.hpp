@@ -9,6 +9,7 @@
 #include "physics/planned_axis.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/scene.hpp"
+#include "zwang/solver/base_analysis.hpp"
 #include "zwang/solver/popov_vereshchagin.hpp"
 #include "zwang/solver/solver.hpp"
 
@@ -19,16 +20,27 @@ namespace zwang::lang {
 struct AxisFigures {
   bool is_held = true;        ///< in every configuration the ground leaves nothing of it
   bool is_reachable = false;  ///< in some configuration, at some heading, the motors have a force along it
-  double mass = 0.0;          ///< at the start; there infinite where the ground holds the axis
+  /// A distance that the wheels hold from some side: towards it the mass grows without bound.
+  bool is_held_from_some_side = false;
+  double mass = 0.0;  ///< at the start; there infinite where the ground holds the axis
   double least_mass = 0.0, most_mass = 0.0;
-  double force = 0.0;  ///< largest that the motors make, at the start
-  double least_force = 0.0, most_force = 0.0;
-  std::vector<double> masses, forces;  ///< of each configuration
+  double force = 0.0;                  ///< largest that the motors make, at the start
+  std::vector<double> masses, forces;  ///< of each configuration and direction
+};
+
+/// What a force driver presses with in one configuration, and what the motors make there. [N] or [N m]
+struct Pressed {
+  double force = 0.0;
+  double motors = 0.0;
 };
 
 /// Everything is computed at rest, in `configurations()`. What can be reached at all is also tried at other
-/// headings. A distance to something beside the robot is looked at in several directions, since nobody knows
-/// from where the robot will come.
+/// headings.
+///
+/// Nobody knows from where the robot comes to something beside it, so a distance to that is looked at in the
+/// base's x, y and both diagonals, in the two directions in which its mass is least and most, and where two
+/// acceleration ranges bind at once. So the masses between `least_mass` and `most_mass` are those of all
+/// directions; forces are those of the directions named.
 ///
 /// A file may be hostile, and validating it must end: every look costs, and past the budget nothing is
 /// answered any more.
@@ -44,9 +56,8 @@ class Probe {
   /// The same without the ground and the joints: of the bodies' own coordinates.
   int kinematic_rank(const std::vector<const PlannedAxis*>& axes);
   /// What a force driver presses with against something that blocks its axis, after the acceleration ranges
-  /// among `limits` took their part; a number for each mass among the figures, not a number where there is
-  /// none. [N] or [N m]
-  std::vector<double> pressed(const PlannedAxis& axis, double force, const std::vector<PlannedAxis>& limits);
+  /// among `limits` took their part: an entry for each configuration and direction in which it can be told.
+  std::vector<Pressed> pressed(const PlannedAxis& axis, double force, const std::vector<PlannedAxis>& limits);
 
   bool is_exhausted() const { return budget_ <= 0.0; }
   int base_mobility() const { return base_mobility_; }
@@ -62,15 +73,25 @@ class Probe {
   bool is_out_of_plane(const PlannedAxis& axis) const;
 
  private:
-  /// Where an axis is looked at.
-  struct Sample {
+  /// An axis in one configuration, seen in one direction.
+  struct Look {
     const solver::State* state;
     solver::AxisConstraint constraint;
+    solver::AxisAnalysis analysis;
   };
-  using Key = std::array<double, 38>;
+  struct Looks {
+    std::vector<Look> all;
+    AxisFigures figures;
+  };
+  using Key = std::array<double, 42>;
   static Key key_of(const PlannedAxis& axis);
-  std::vector<Sample> samples_of(const PlannedAxis& axis) const;
-  void measure(const PlannedAxis& axis, AxisFigures& figures);
+  /// The axis in every configuration; nullptr past the budget.
+  const Looks* looks(const PlannedAxis& axis);
+  /// False past the budget.
+  bool look(const solver::AxisConstraint& constraint, const solver::State& state, std::vector<Look>& all);
+  bool look_around(const PlannedAxis& axis, const solver::State& state, std::vector<Look>& all);
+  bool look_everywhere(const PlannedAxis& axis, Looks& looks);
+  static AxisFigures summary(const PlannedAxis& axis, const std::vector<Look>& all);
   solver::Row row_along(const PlannedAxis& axis, const solver::State& state) const;
   int rank_at(const std::vector<const PlannedAxis*>& axes, const solver::State& state);
   /// What a pass of the sweeps over the ground and `rows` more costs. False past the budget.
@@ -81,7 +102,7 @@ class Probe {
   std::vector<solver::State> general_;  ///< any joint angles, any heading
   int base_mobility_ = 0, mobility_ = 0;
   double budget_;
-  std::map<Key, AxisFigures> figures_;
+  std::map<Key, Looks> looks_;
   solver::Solver solver_;
   solver::Solution solution_;
   solver::PopovVereshchagin equalities_;

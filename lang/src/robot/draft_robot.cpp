@@ -263,11 +263,22 @@ class Drafter {
     return text;
   }
 
+  /// A comment that names what only the URDF can be given.
+  std::string weightless() const {
+    const std::vector<std::string> links = without_inertia(urdf_);
+    if (links.empty()) return "";
+    std::string text =
+        "# It is refused, too, until the URDF gives these links, which move, the mass and inertia of a "
+        "body:\n";
+    for (const std::string& link : links) text += "#   " + link + "\n";
+    return text;
+  }
+
   std::string text(const Filling& filling) const {
     const auto [x, y] = reach();
     std::string text = "# The robot file of `" + urdf_.name +
-                       "`, drafted from its URDF. It is refused until every " + fill_in +
-                       " is replaced.\nzwang_robot: 1\nurdf: " + named_as_ + "\nbase: " + found_.base +
+                       "`, drafted from its URDF. It is refused until every " + fill_in + " is replaced.\n" +
+                       weightless() + "zwang_robot: 1\nurdf: " + named_as_ + "\nbase: " + found_.base +
                        "   # the link that floats\n\n";
     if (any([](const DraftWheel& w) { return !w.radius; })) {
       text += "# radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.\n";

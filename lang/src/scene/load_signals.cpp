@@ -16,11 +16,32 @@ double not_negative(MapReader& map, const char* key, const Dimension& expected, 
   return value;
 }
 
+/// What one step of a script says.
+struct StepValue {
+  ScriptStep step;
+  std::optional<Dimension> dimension;  ///< of a number; none: true or false
+};
+
+/// nullopt where it cannot be read, and was complained of.
+std::optional<StepValue> parse_step_value(const Node& node, const Node& step, double time,
+                                          const std::string& what, Diagnostics& diagnostics) {
+  if (node.text == "true" || node.text == "false" || node.text == "lost")
+    return StepValue{{time, node.text == "true" ? 1.0 : 0.0, node.text != "lost"}, std::nullopt};
+  const ValueText number = parse_value(node, what, diagnostics);
+  if (number.kind == ValueKind::quantity)
+    return StepValue{{time, number.quantity.value, true}, number.quantity.dimension};
+  if (number.kind != ValueKind::bad) diagnostics.add(wording::script_step(step.span));
+  return std::nullopt;
+}
+
 /// `[[0 s, false], [5 s, true]]`: what the signal is from each time on.
 void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostics) {
   const std::string what = "signal `" + signal.name + "`'s script";
   if (!require_sequence(node, what, diagnostics)) return;
+  if (node.items.empty()) diagnostics.add(wording::empty_script(node.span, what));
   double last = -1.0;
+  std::optional<StepValue> first;  // that says what the signal measures
+  Span first_span;
   for (const Node& step : node.items) {
     if (!step.is_sequence() || step.items.size() != 2) {
       diagnostics.add(wording::script_step(step.span));
@@ -31,18 +52,20 @@ void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostic
     if (*time <= last) diagnostics.add(wording::times_not_rising(step.items[0].span, what));
     last = *time;
     const Node& value = step.items[1];
-    const bool is_word = value.text == "true" || value.text == "false" || value.text == "lost";
-    ScriptStep parsed{*time, value.text == "true" ? 1.0 : 0.0, value.text != "lost"};
-    if (!is_word) {
-      const ValueText number = parse_value(value, what, diagnostics);
-      if (number.kind == ValueKind::bad) continue;
-      if (number.kind != ValueKind::quantity) {
-        diagnostics.add(wording::script_step(step.span));
-        continue;
-      }
-      parsed.value = number.quantity.value;
+    const auto parsed = parse_step_value(value, step, *time, what, diagnostics);
+    if (!parsed) continue;
+    signal.script.push_back(parsed->step);
+    if (!parsed->step.valid) continue;
+    if (!first) {
+      first = parsed;
+      first_span = value.span;
+    } else if (first->dimension.has_value() != parsed->dimension.has_value()) {
+      diagnostics.add(wording::mixed_script(value.span, what, first->dimension.has_value(), first_span));
+      return;
+    } else if (first->dimension != parsed->dimension) {
+      diagnostics.add(wording::wrong_dimension(value.span, what, *first->dimension, *parsed->dimension));
+      return;
     }
-    signal.script.push_back(parsed);
   }
 }
 
@@ -116,6 +139,7 @@ std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector
 std::vector<Waypoint> parse_motion(const Node& node, const std::string& what, Diagnostics& diagnostics) {
   std::vector<Waypoint> points;
   if (!require_sequence(node, what, diagnostics)) return points;
+  if (node.items.empty()) diagnostics.add(wording::empty_motion(node.span, what));
   double last = -1.0;
   for (const Node& item : node.items) {
     MapReader map(item, what, diagnostics);

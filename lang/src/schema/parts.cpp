@@ -51,6 +51,11 @@ Json list(const char* description, Json each) {
   return schema;
 }
 
+Json filled(Json schema) {
+  schema[schema["type"] == "object" ? "minProperties" : "minItems"] = 1;
+  return schema;
+}
+
 Json tuple(const char* description, Json each, int fewest, int most) {
   Json schema = list(description, std::move(each));
   schema["minItems"] = fewest;

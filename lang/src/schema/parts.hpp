@@ -22,6 +22,8 @@ Json object(const char* description, std::vector<Property> properties);
 /// A map whose keys are the author's names.
 Json named(const char* description, Json each);
 Json list(const char* description, Json each);
+/// The list or the mapping, which may not be empty.
+Json filled(Json schema);
 /// Exactly so many of them.
 Json tuple(const char* description, Json each, int fewest, int most);
 Json any_of(std::vector<Json> choices);

@@ -40,7 +40,7 @@ std::vector<Property> statements() {
 
 Json axis() {
   return any_of({one_of_words("says nothing, and lets conditions measure the axis", {"free"}),
-                 object("a single value drives, a range limits", statements())});
+                 filled(object("a single value drives, a range limits", statements()))});
 }
 
 Json group() {

@@ -73,13 +73,13 @@ Json scene_object() {
                  {"stiffness", reference("quantity", "of a contact, as N/m")},
                  {"damping", reference("quantity", "of a contact, against the critical one")},
                  {"friction", reference("quantity", "coefficient")},
-                 {"motion", list("what it follows, whatever stands in its way", motion_point())},
+                 {"motion", filled(list("what it follows, whatever stands in its way", motion_point()))},
                  {"dock", dock()}});
 }
 
 Json scene_signal() {
   return object("has one source: script, pose_of, distance_to or latch",
-                {{"script", list("pairs of a time and a value", Json{{"type", "array"}})},
+                {{"script", filled(list("pairs of a time and a value", Json{{"type", "array"}}))},
                  {"pose_of", word("an object")},
                  {"distance_to", word("an object")},
                  {"latch", word("an object with a dock")},

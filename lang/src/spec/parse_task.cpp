@@ -1,6 +1,7 @@
 #include "spec/parse_task.hpp"
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -50,6 +51,17 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
   if (entry.value.is_scalar() && !entry.value.is_bad) {
     axis.is_free = entry.value.text == "free";
     if (!axis.is_free) diagnostics.add(wording::bare_axis(entry.value.span, path, entry.value.text));
+    return axis;
+  }
+  const bool is_empty =
+      entry.value.kind == NodeKind::null || (entry.value.is_mapping() && entry.value.entries.empty());
+  if (is_empty && !entry.value.is_bad) {
+    diagnostics.add(wording::silent_axis(entry.key.span, path));
+    return axis;
+  }
+  if (entry.value.find("free") != nullptr && entry.value.entries.size() == 1) {
+    diagnostics.add(wording::free_in_brackets(entry.value.span));
+    axis.is_free = true;
     return axis;
   }
   MapReader map(entry.value, "axis `" + path + "`", diagnostics);
@@ -234,7 +246,10 @@ TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnosti
   task.groups = parse_constraints(map, 1, diagnostics);
   if (const Node* node = map.optional("exits")) task.exits = parse_exits(*node, diagnostics);
   if (const Node* node = map.optional("timeout")) task.timeout = parse_timeout(*node, diagnostics);
-  if (const Node* node = map.optional("attempts")) {
+  const Node* attempts_node = map.optional("attempts");
+  if (attempts_node != nullptr && attempts_node->is_scalar() && !attempts_node->is_bad) {
+    diagnostics.add(wording::bare_attempts(attempts_node->span, attempts_node->text));
+  } else if (const Node* node = attempts_node) {
     MapReader attempts(*node, "`attempts`", diagnostics);
     AttemptsText text;
     text.span = node->span;

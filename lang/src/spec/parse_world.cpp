@@ -1,8 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "spec/parse_task.hpp"
 
 namespace zwang::lang {
@@ -19,8 +21,7 @@ SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
     signal.type = parse_word(*type, what + "'s `type`", diagnostics);
     const bool is_known = std::find(types.begin(), types.end(), signal.type.text) != types.end();
     if (signal.type.exists() && !is_known) {
-      diagnostics.add(
-          wording::unknown_name(type->span, "type of signal", type->text, nearest(type->text, types)));
+      diagnostics.add(wording::unknown_signal_type(type->span, type->text, nearest(type->text, types)));
       signal.type = {};
     }
   }
@@ -43,6 +44,29 @@ SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   signal.is_bad = signal.is_bad || !signal.type.exists();
   map.finish();
   return signal;
+}
+
+using Point = std::array<double, 2>;
+
+/// Twice the area of the triangle a, b, c: on which side of a to b the third one lies. [m^2]
+double side(const Point& a, const Point& b, const Point& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/// Whether two edges that share no corner have a point of their insides in common.
+bool crosses_itself(const std::vector<Point>& corners) {
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point& a = corners[i];
+    const Point& b = corners[(i + 1) % n];
+    for (std::size_t j = i + 2; j < n; ++j) {
+      if ((j + 1) % n == i) continue;
+      const Point& c = corners[j];
+      const Point& d = corners[(j + 1) % n];
+      if (side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0) return true;
+    }
+  }
+  return false;
 }
 
 RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
@@ -71,6 +95,8 @@ RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
     }
     if (p.size() == polygon->items.size() && (p.size() < 3 || std::abs(area) < 1e-6)) {
       diagnostics.add(wording::flat_region(polygon->span, what));
+    } else if (p.size() == polygon->items.size() && crosses_itself(p)) {
+      diagnostics.add(wording::crossing_region(polygon->span, what));
     }
     if (area < 0.0) std::reverse(region.polygon.begin(), region.polygon.end());
   } else if (circle != nullptr) {

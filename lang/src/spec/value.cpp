@@ -1,5 +1,7 @@
 #include "spec/value.hpp"
 
+#include <algorithm>
+
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "tree/text.hpp"
@@ -78,6 +80,21 @@ ValueText negated(ValueText value) {
   return value;
 }
 
+/// `0,08 m/s` comes as two items of a list, `0` and `08 m/s`: what was meant; empty where it is something
+/// else.
+std::string number_with_comma(const Node& list) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  for (std::size_t i = 0; i + 1 < list.items.size(); ++i) {
+    const std::string whole = trimmed(list.items[i].text), rest = trimmed(list.items[i + 1].text);
+    const std::size_t sign = whole.starts_with('-') || whole.starts_with('+') ? 1 : 0;
+    const bool is_whole =
+        whole.size() > sign &&
+        std::all_of(whole.begin() + static_cast<std::ptrdiff_t>(sign), whole.end(), is_digit);
+    if (is_whole && !rest.empty() && is_digit(rest[0])) return whole + "." + rest;
+  }
+  return "";
+}
+
 }  // namespace
 
 bool is_identifier(std::string_view text) {
@@ -112,7 +129,9 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
   if (node.is_sequence() && !node.is_bad) {
     statement.is_range = true;
     if (node.items.size() != 2) {
-      diagnostics.add(wording::range_ends(node.span, node.items.size()));
+      const std::string meant = number_with_comma(node);
+      diagnostics.add(meant.empty() ? wording::range_ends(node.span, node.items.size())
+                                    : wording::decimal_comma(node.span, meant));
       return statement;
     }
     statement.low = parse_value(node.items[0], what, diagnostics);

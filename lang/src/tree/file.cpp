@@ -99,7 +99,10 @@ std::optional<std::filesystem::path> resolve_path(const std::string& written,
   }
   std::error_code error;
   const std::filesystem::path path = (base.parent_path() / written).lexically_normal();
-  const std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
+  // Absolute first: of a path that begins with something that is not there the library gives back a relative
+  // one.
+  const std::filesystem::path real =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(path), error);
   if (error) {
     diagnostics.add(wording::unreadable_file(cause, written, error.message()));
     return std::nullopt;

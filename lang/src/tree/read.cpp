@@ -124,8 +124,16 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void refuse_tag(Node& node, const std::string& tag, const YAML::Mark& mark) {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    diagnostics_.add(wording::tag(word_at(mark)));
+    diagnostics_.add(is_condition_next() ? wording::exclamation_for_not(word_at(mark))
+                                         : wording::tag(word_at(mark)));
     node.is_bad = true;
+  }
+
+  /// Whether the value that begins now is a condition: in other languages `!` negates it.
+  bool is_condition_next() const {
+    if (levels_.empty() || !levels_.back().key) return false;
+    const std::string& key = levels_.back().key->text;
+    return key == "when" || key == "require" || key == "that";
   }
 
   void refuse_anchor(Node& node, YAML::anchor_t anchor, const YAML::Mark& mark) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "estimate/friction.hpp"
-#include "wheels.hpp"
+#include "zwang/solver/wheels.hpp"
 
 namespace zwang::runtime {
 

@@ -1,6 +1,6 @@
 #include "guard/arm_hold.hpp"
 
-#include "wheels.hpp"
+#include "zwang/solver/wheels.hpp"
 
 namespace zwang::runtime {
 

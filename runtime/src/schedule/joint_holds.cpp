@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "wheels.hpp"
+#include "zwang/solver/wheels.hpp"
 
 namespace zwang::runtime {
 

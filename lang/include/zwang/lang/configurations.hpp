@@ -3,10 +3,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/scene.hpp"
+#include "zwang/solver/base_analysis.hpp"
 
 namespace zwang::lang {
 
@@ -14,6 +16,15 @@ namespace zwang::lang {
 /// starts: all other joints turned alike by 45, 90 and 135 deg (where the mass of casters and swivels has its
 /// extremes), and three of `general_states`.
 std::vector<solver::State> configurations(const Robot& robot, const std::optional<Scene>& scene);
+
+/// What `configurations` looks at, in words: for reports that give figures over them.
+std::string describe_configurations(const Robot& robot);
+
+/// The solver's figures of an axis as a task can use them. Where the ground leaves less than a thousandth of
+/// the axis it is held: on wheels that stand a millimetre behind the origin, the origin does go sideways when
+/// the base spins, with tons of effective mass. What only moves along with a turn, and cannot be pushed
+/// alone, is not reachable.
+solver::AxisAnalysis usable(solver::AxisAnalysis axis);
 
 /// Four states in general position: joints anywhere within their limits, the base anywhere within 3 m of the
 /// origin, at any heading.
