@@ -25,7 +25,7 @@ struct WhitenedRobot {
         ground(ground_rows.row_count()),
         base(model.has_fixed_base() ? 0 : 6),
         sweeps(model, ground + base + model.joint_count() + 1),
-        rows(ground + base + model.joint_count() + 1) {
+        rows(sweeps.columns) {
     outward_kinematics(model, state, Vector6::Zero(), sweeps);
     load_bodies_at_rest(sweeps);
     add_ground_rows(ground_rows, sweeps, [](int, const GroundRow&) {});
@@ -36,7 +36,7 @@ struct WhitenedRobot {
     if (!inward_inertia(model, no_torque, sweeps)) {
       throw std::invalid_argument("analysis: an inertia of the model cannot be inverted");
     }
-    rows.factorise(sweeps.columns.L, ground, base + model.joint_count(), sweeps.columns.rows());
+    rows.factorise(sweeps.columns, ground);
   }
 
   Eigen::VectorXd joint(int j) const { return rows.motion(ground + base + j).transpose(); }
@@ -62,7 +62,7 @@ int base_mobility(const WhitenedRobot& robot) {
   Eigen::MatrixXd planar(robot.rows.mobility(), 3);
   for (int i = 0; i < 3; ++i) {
     const int row = robot.ground + 2 + i;  // rz, x and y of the six freedoms
-    planar.col(i) = robot.base_freedom(i + 2) / std::sqrt(robot.sweeps.columns.L(row, row));
+    planar.col(i) = robot.base_freedom(i + 2) / std::sqrt(robot.rows.free_square(row));
   }
   if (planar.size() == 0) return 0;
   const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(planar).singularValues();
@@ -134,7 +134,7 @@ AxisAnalysis analyse_axis(const Model& model, const State& state, const AxisCons
   const WhitenedRobot robot(model, rest, &row);
   const Eigen::VectorXd B = robot.rows.motion(robot.last_row()).transpose();
   AxisAnalysis result;
-  result.kappa = robot.rows.free_share(robot.last_row(), robot.sweeps.columns.L);
+  result.kappa = robot.rows.free_share(robot.last_row());
   result.effective_mass = result.kappa > unreachable_share ? 1.0 / B.squaredNorm() : infinity;
   if (result.kappa <= unreachable_share) return result;
   const Eigen::VectorXd along = motor_directions(model, robot).transpose() * B;

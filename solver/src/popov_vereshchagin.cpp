@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/pivoted_cholesky.hpp"
 #include "base/whitened_rows.hpp"
 #include "constraint/add_rows.hpp"
 #include "input_check.hpp"
@@ -40,9 +41,12 @@ struct PopovVereshchagin::Workspace {
         ground_rows(robot),
         ground(ground_rows.row_count()),
         sweeps(robot, ground + options.row_capacity),
-        whitened(ground + options.row_capacity),
+        whitened(sweeps.columns),
+        given(options.row_capacity),
         wanted(Eigen::VectorXd::Zero(ground + options.row_capacity)),
         nu(Eigen::VectorXd::Zero(ground + options.row_capacity)),
+        p(Eigen::VectorXd::Zero(sweeps.columns.dimensions())),
+        force(Eigen::VectorXd::Zero(sweeps.columns.dimensions() + 1)),
         qdd(Eigen::VectorXd::Zero(robot.joint_count())),
         wrenches(static_cast<std::size_t>(robot.body_count()), Vector6::Zero()) {}
 
@@ -58,21 +62,32 @@ struct PopovVereshchagin::Workspace {
   /// The rank is that of L, damped or not.
   void solve_base() noexcept {
     const int m = sweeps.columns.rows();
+    whitened.factorise(sweeps.columns, ground);
+    const int r = whitened.mobility();
     wanted.head(m) -= sweeps.columns.g.head(m);
-    whitened.factorise(sweeps.columns.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
-    rank = whitened.rank();
-    if (settings.damping > 0.0) {
-      sweeps.columns.L.diagonal().segment(ground, m - ground).array() += settings.damping * settings.damping;
-      whitened.factorise(sweeps.columns.L, ground, m - ground, m, WhitenedRows::ground_tolerance);
-    }
-    if (ground == 0) {
-      whitened.motion_multipliers(wanted, ground, m, nu);
-      return;
-    }
     whitened.hold_ground(wanted);
     for (int i = ground; i < m; ++i) wanted(i) -= whitened.held_acceleration(i);
-    whitened.motion_multipliers(wanted, ground, m, nu);
-    whitened.ground_multipliers(nu, ground, m, nu);
+    factorise_given(0.0);
+    rank = sweeps.columns.held_dimensions() + whitened.ground_rank() + given.rank();
+    if (settings.damping > 0.0) factorise_given(settings.damping * settings.damping);
+    given.solve(wanted.data() + ground, nu.data());
+    set_zero(r, p.data());
+    for (int i = ground; i < m; ++i) add_multiple(r, nu(i - ground), whitened.B(i), p.data());
+    whitened.forces(p.data(), force);
+  }
+
+  /// L of the given rows where the ground is held: B B'.
+  void factorise_given(double damping) noexcept {
+    const int count = sweeps.columns.rows() - ground;
+    const int r = whitened.mobility();
+    given.resize(count);
+    for (int i = 0; i < count; ++i) {
+      const double* const B = whitened.B(ground + i);
+      for (int k = 0; k <= i; ++k) given.L(i, k) = dot(r, B, whitened.B(ground + k));
+      given.L(i, i) += damping;
+      given.size(i) = whitened.free_square(ground + i) + damping;
+    }
+    given.factorise(WhitenedRows::ground_tolerance);
   }
 
   /// J'A nu: every row's wrench carried rigidly inward to each joint. In the base's coordinates that is a
@@ -97,7 +112,11 @@ struct PopovVereshchagin::Workspace {
   int rank = 0;
   Sweeps sweeps;
   WhitenedRows whitened;
-  Eigen::VectorXd wanted, nu, qdd;
+  PivotedCholesky given;
+  Eigen::VectorXd wanted;    ///< by row id
+  Eigen::VectorXd nu;        ///< by given row
+  Eigen::VectorXd p, force;  ///< of the given rows on the motions; with the ground's answer, by dimension
+  Eigen::VectorXd qdd;
   std::vector<Vector6, Eigen::aligned_allocator<Vector6>> wrenches;
 };
 
@@ -123,11 +142,11 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
   add_rows(rows);
   if (!inward_inertia(model, state.tau_ff, sweeps)) return Status::degenerate_model;
   solve_base();
-  outward_accelerations(model, nu, sweeps, qdd);
-  if (finite_sum(qdd) + finite_sum(nu.head(sweeps.columns.rows())) != 0.0) return Status::degenerate_model;
+  outward_accelerations(model, force, sweeps, qdd);
+  if (finite_sum(qdd) + finite_sum(nu.head(count)) != 0.0) return Status::degenerate_model;
 
   copy(model.joint_count(), qdd.data(), result.qdd.data());
-  copy(static_cast<int>(count), nu.data() + ground, result.nu.data());
+  copy(static_cast<int>(count), nu.data(), result.nu.data());
   result.rank = rank;
   for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
     sweeps.bodies[i].from_base(sweeps.bodies[i].a, result.acceleration[i]);
@@ -141,7 +160,8 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
     result.residual(static_cast<Eigen::Index>(i)) = acceleration - row.b;
   }
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
-    result.constraint_torque(static_cast<Eigen::Index>(i) - 1) = sweeps.bodies[i].constraint_force;
+    result.constraint_torque(static_cast<Eigen::Index>(i) - 1) =
+        sweeps.bodies[i].root_D * force(sweeps.columns.dimension_of(i));
   }
   copy(model.joint_count(), state.tau_ff.data(), result.tau_control.data());
   carry_wrenches(result);

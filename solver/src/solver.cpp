@@ -62,9 +62,9 @@ FreeMotions::FreeMotions(const Model& model)
 
 namespace {
 
-/// Rows on the base's own freedoms, needed where the joints' rows do not span every motion.
+/// Rows on the base's own freedoms.
 int base_freedoms(const Model& model, bool wanted) {
-  if (!wanted && every_motion_turns_a_wheel(model)) return 0;
+  if (!wanted) return 0;
   switch (model.base_type()) {
     case BaseType::fixed:
       return 0;
@@ -103,10 +103,12 @@ struct Solver::Workspace {
         base(base_freedoms(robot, options.base_motion)),
         capacity(ground + base + robot.joint_count() + options.row_capacity),
         sweeps(robot, capacity),
-        whitened(capacity),
-        problem(options.row_capacity, robot.joint_count(), std::max(1, base + robot.joint_count())),
+        whitened(sweeps.columns),
+        problem(options.row_capacity, robot.joint_count(),
+                std::max(1, sweeps.columns.dimensions() - sweeps.columns.held_dimensions())),
         ground_bias(Eigen::VectorXd::Zero(capacity)),
-        forces(Eigen::VectorXd::Zero(capacity)),
+        p(Eigen::VectorXd::Zero(sweeps.columns.dimensions())),
+        forces(Eigen::VectorXd::Zero(sweeps.columns.dimensions() + 1)),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
         qdd(Eigen::VectorXd::Zero(robot.joint_count())) {
     ids.reserve(static_cast<std::size_t>(options.row_capacity));
@@ -153,10 +155,10 @@ struct Solver::Workspace {
     }
   }
 
-  void factorise() noexcept {
-    whitened.factorise(sweeps.columns.L, ground, first_task_row() - ground, sweeps.columns.rows());
-    for (int i = 0; i < ground; ++i) forces(i) = ground_bias(i) - sweeps.columns.g(i);
-    whitened.hold_ground(forces);
+  void take_ground() noexcept {
+    whitened.factorise(sweeps.columns, ground);
+    ground_bias.head(ground) -= sweeps.columns.g.head(ground);
+    whitened.hold_ground(ground_bias);
   }
 
   void pose_problem(const std::vector<Row>& rows) noexcept {
@@ -165,24 +167,22 @@ struct Solver::Workspace {
     for (int i = 0; i < count; ++i) {
       const int id = ids[static_cast<std::size_t>(i)];
       const Row& row = rows[static_cast<std::size_t>(i)];
-      problem.B(i) = whitened.motion(id);
+      copy(whitened.mobility(), whitened.B(id), problem.B(i));
       problem.d(i) = row.b - sweeps.columns.g(id) - whitened.held_acceleration(id);
-      problem.set_row(i, row, sweeps.columns.L(id, id), twins[static_cast<std::size_t>(i)]);
+      problem.set_row(i, row, whitened.free_square(id), twins[static_cast<std::size_t>(i)]);
     }
     int motor = 0;
     for (const int j : motors) {
-      problem.T(motor) = whitened.motion(first_joint_row() + j);
+      copy(whitened.mobility(), whitened.B(first_joint_row() + j), problem.T(motor));
       const double limit = model.joint(j).max_effort;
       problem.set_motor(motor++, -limit - tau_ff(j), limit - tau_ff(j));
     }
   }
 
-  /// Torques by joint into `forces`, and the ground's answer to them.
+  /// The torques and the ground's answer to them.
   void collect_forces() noexcept {
-    forces.head(sweeps.columns.rows()).setZero();
-    int motor = 0;
-    for (const int j : motors) forces(first_joint_row() + j) = problem.tau(motor++);
-    whitened.ground_multipliers(forces, ground, first_task_row(), forces);
+    problem.sum_torques(p.data());
+    whitened.forces(p.data(), forces);
   }
 
   Model model;
@@ -195,7 +195,9 @@ struct Solver::Workspace {
   std::vector<int> motors;
   std::vector<int> ids,
       twins;  ///< by row of the task: its id in the sweeps, and an earlier row along the same axis
-  Eigen::VectorXd ground_bias, forces, tau_ff, qdd;
+  Eigen::VectorXd ground_bias;  ///< by row of the ground
+  Eigen::VectorXd p, forces;    ///< of the torques on the motions; with the ground's answer, by dimension
+  Eigen::VectorXd tau_ff, qdd;
 };
 
 Solver::Solver(const Model& model, const Settings& settings) {
@@ -232,22 +234,22 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   load_bodies(w.model, state, w.gravity(state), w.sweeps);
   w.add_rows(rows);
   if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
-  w.factorise();
+  w.take_ground();
   w.pose_problem(rows);
   const bool exact = w.problem.solve(w.settings.max_iterations);
   w.collect_forces();
   outward_accelerations(w.model, w.forces, w.sweeps, w.qdd);
-  if (!w.qdd.allFinite() || !w.forces.head(w.sweeps.columns.rows()).allFinite())
-    return Status::degenerate_model;
+  if (finite_sum(w.qdd) + finite_sum(w.forces) != 0.0) return Status::degenerate_model;
 
   solution.qdd = w.qdd;
   for (std::size_t i = 0; i < w.sweeps.bodies.size(); ++i) {
     w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a, solution.acceleration[i]);
   }
   solution.tau.setZero();
+  int motor = 0;
   for (const int j : w.motors) {
     const double limit = w.model.joint(j).max_effort;  // not even by a rounding beyond
-    solution.tau(j) = std::clamp(w.tau_ff(j) + w.forces(w.first_joint_row() + j), -limit, limit);
+    solution.tau(j) = std::clamp(w.tau_ff(j) + w.problem.tau(motor++), -limit, limit);
   }
   solution.rows.clear();
   for (std::size_t i = 0; i < rows.size(); ++i) solution.rows.push_back(w.problem.row(static_cast<int>(i)));
@@ -279,19 +281,21 @@ Status Solver::project_velocity(State& state) noexcept {
   Workspace& w = *workspace_;
   if (!fits(state, w.model)) return Status::wrong_size;
   if (!is_finite(state)) return Status::invalid_input;
-  if (w.ground == 0) return Status::ok;
+  if (w.ground == 0 && w.sweeps.columns.held_dimensions() == 0) return Status::ok;
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
   add_ground_rows(w.ground_rows, w.sweeps, [&w](int id, const GroundRow& row) {
-    w.forces(id) = -row.a.dot(w.body_sweep(row.body).v);
+    w.ground_bias(id) = -row.a.dot(w.body_sweep(row.body).v);
   });
+  const Vector6 twist = w.body_sweep(0).v;
   load_bodies_at_rest(w.sweeps);
   w.tau_ff.setZero();
   if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
-  w.whitened.factorise(w.sweeps.columns.L, w.ground, 0, w.sweeps.columns.rows());
-  w.whitened.hold_ground(w.forces);
-  w.whitened.ground_multipliers(w.forces, w.ground, w.ground, w.forces);
+  w.whitened.factorise(w.sweeps.columns, w.ground);
+  w.whitened.hold_ground(w.ground_bias, held_base_force(w.sweeps, -twist));
+  w.p.setZero();
+  w.whitened.forces(w.p.data(), w.forces);
   outward_accelerations(w.model, w.forces, w.sweeps, w.qdd);
   if (!w.qdd.allFinite()) return Status::degenerate_model;
   state.qd += w.qdd;

@@ -12,62 +12,75 @@ namespace {
 
 constexpr double smallest_pivot = 1e-9;  // of the largest
 
-/// u . (v + w z x P) = -u . s, with s the velocity that the joints alone give the contact point P: one line
-/// of J V = r, V = (vx, vy, l w). The length l makes its three columns alike.
-struct ContactDirection {
-  Vector3 u, P, slip_of_joints;
-};
-
-template <typename Visit>
-void for_each_contact_direction(const Model& model, const State& state, const Visit& visit) noexcept {
-  for_each_held_direction(model, [&](const Wheel& wheel, const HeldDirection& direction) {
-    const BodyMotion motion = motion_of_body(wheel.body, model, state, BodyMotion{});
-    const Vector3 axis =
-        motion.pose.rotation * model.bodies()[static_cast<std::size_t>(wheel.body)].joint.axis;
-    const Vector3 down = -wheel.radius * Vector3::UnitZ();
-    const Vector3 slip = motion.linear + motion.angular.cross(down);
-    visit(ContactDirection{direction.along(axis), motion.pose.position + down, slip});
-  });
-}
-
 }  // namespace
 
-WheelTwist twist_from_wheels(const Model& model, const State& state) noexcept {
-  int rows = 0;
-  double square_distance = 0.0;
-  for_each_contact_direction(model, state, [&](const ContactDirection& held) {
-    ++rows;
-    square_distance += held.P.head<2>().squaredNorm();
+WheelOdometry::WheelOdometry(const Model& model) : model_(model) {
+  for_each_held_direction(model, [this](const Wheel& wheel, const HeldDirection& direction) {
+    const Body& body = model_.bodies()[static_cast<std::size_t>(wheel.body)];
+    held_.push_back({body.parent, wheel.body - 1, body.pose_in_parent.position,
+                     body.pose_in_parent.rotation * body.joint.axis, wheel.radius, direction.rolling,
+                     direction.sideways});
+    is_rigid_ = is_rigid_ && body.parent == 0;
   });
-  WheelTwist result;
-  if (rows == 0) return result;
-  const double length = square_distance > 0.0 ? std::sqrt(square_distance / rows) : 1.0;
+  if (is_rigid_) rigid_normal_ = normal(State(model));
+}
 
-  const auto line = [length](const ContactDirection& held) {
-    return Vector3(held.u.x(), held.u.y(), Vector3::UnitZ().cross(held.P).dot(held.u) / length);
-  };
+WheelOdometry::Line WheelOdometry::line(const Held& held, const State& state) const noexcept {
+  FrameMotion carrier;  // against the base
+  if (held.carrier != 0) carrier = motion_of_body(held.carrier, model_, state, FrameMotion{});
+  const Vector3 axis = carrier.pose.rotation * held.axis;
+  const Vector3 u = HeldDirection{held.rolling, held.sideways}.along(axis);
+  const Vector3 centre = carrier.pose.rotation * held.centre;
+  const Vector3 down = -held.radius * Vector3::UnitZ();
+  const Vector3 P = carrier.pose.position + centre + down;
+  const Vector3 slip = carrier.linear + carrier.angular.cross(Vector3(centre + down)) +
+                       state.qd(held.joint) * axis.cross(down);
+  return {{u.x(), u.y(), P.x() * u.y() - P.y() * u.x()}, u.dot(slip), P.head<2>().squaredNorm()};
+}
+
+WheelOdometry::Normal WheelOdometry::normal(const State& state) const noexcept {
+  Normal result;
   Matrix3 JtJ = Matrix3::Zero();
-  Vector3 Jtr = Vector3::Zero();
-  for_each_contact_direction(model, state, [&](const ContactDirection& held) {
-    JtJ += line(held) * line(held).transpose();
-    Jtr -= line(held) * held.u.dot(held.slip_of_joints);
-  });
-  const Eigen::SelfAdjointEigenSolver<Matrix3> modes(JtJ);
-  Vector3 V = Vector3::Zero();
+  double square_distance = 0.0;
+  for (const Held& held : held_) {
+    const Line l = line(held, state);
+    JtJ += l.direction * l.direction.transpose();
+    square_distance += l.square_distance;
+  }
+  if (square_distance > 0.0) result.length = std::sqrt(square_distance / static_cast<double>(held_.size()));
+  const Vector3 scale(1.0, 1.0, 1.0 / result.length);
+  const Eigen::SelfAdjointEigenSolver<Matrix3> modes(Matrix3(scale.asDiagonal() * JtJ * scale.asDiagonal()));
   for (int i = 0; i < 3; ++i) {
-    if (modes.eigenvalues()(i) <= smallest_pivot * modes.eigenvalues()(2)) continue;
+    const double value = modes.eigenvalues()(i);
+    if (value <= smallest_pivot * modes.eigenvalues()(2)) continue;
     const Vector3 mode = modes.eigenvectors().col(i);
-    V += mode * (mode.dot(Jtr) / modes.eigenvalues()(i));
+    result.pseudo_inverse += mode * mode.transpose() / value;
     ++result.rank;
   }
+  return result;
+}
+
+WheelTwist WheelOdometry::twist(const State& state) const noexcept {
+  WheelTwist result;
+  if (held_.empty()) return result;
+  const Normal now = is_rigid_ ? rigid_normal_ : normal(state);
+  const Vector3 scale(1.0, 1.0, 1.0 / now.length);
+  Vector3 Jtr = Vector3::Zero();
+  for (const Held& held : held_) {
+    const Line l = line(held, state);
+    Jtr -= l.direction.cwiseProduct(scale) * l.slip_of_joints;
+  }
+  const Vector3 V = (now.pseudo_inverse * Jtr).cwiseProduct(scale);  // (vx, vy, w)
   double square_slip = 0.0;
-  for_each_contact_direction(model, state, [&](const ContactDirection& held) {
-    const double slip = line(held).dot(V) + held.u.dot(held.slip_of_joints);
+  for (const Held& held : held_) {
+    const Line l = line(held, state);
+    const double slip = l.direction.dot(V) + l.slip_of_joints;
     square_slip += slip * slip;
-  });
-  result.slip = std::sqrt(square_slip / rows);
+  }
+  result.rank = now.rank;
+  result.slip = std::sqrt(square_slip / static_cast<double>(held_.size()));
   result.twist.linear = {V.x(), V.y(), 0.0};
-  result.twist.angular = {0.0, 0.0, V.z() / length};
+  result.twist.angular = {0.0, 0.0, V.z()};
   return result;
 }
 

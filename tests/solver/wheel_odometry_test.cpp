@@ -46,7 +46,7 @@ TEST(WheelOdometry, MecanumWheelRatesGiveTheTwist) {
       state.qd(static_cast<int>(i)) =
           (ux * (V.vx - V.wz * places[i].y) + uy * (V.vy + V.wz * places[i].x)) / (radius * ux);
     }
-    expect_twist(twist_from_wheels(model, state), V, 3);
+    expect_twist(WheelOdometry(model).twist(state), V, 3);
   }
 }
 
@@ -57,7 +57,7 @@ TEST(WheelOdometry, DifferentialWheelRatesGiveTheTwist) {
     const Planar V{motion.vx, 0.0, motion.wz};
     State state(model);
     state.qd << (V.vx - b * V.wz) / radius, (V.vx + b * V.wz) / radius;
-    expect_twist(twist_from_wheels(model, state), V, 3);
+    expect_twist(WheelOdometry(model).twist(state), V, 3);
   }
 }
 
@@ -85,7 +85,7 @@ TEST(WheelOdometry, ActiveCasterRatesGiveTheTwistAtAnySwivelAngle) {
       state.qd(3 * i + 1) = (e - s / (2 * c) * n).dot(v) / radius;
       state.qd(3 * i + 2) = (e + s / (2 * c) * n).dot(v) / radius;
     }
-    expect_twist(twist_from_wheels(model, state), V, 3);
+    expect_twist(WheelOdometry(model).twist(state), V, 3);
   }
 }
 
@@ -95,7 +95,7 @@ TEST(WheelOdometry, WhatNoWheelTellsStaysZero) {
   const Model model = base_on(places);
   State state(model);
   state.qd << 3.0, 3.0;
-  expect_twist(twist_from_wheels(model, state), {0.3, 0.0, 0.0}, 2);
+  expect_twist(WheelOdometry(model).twist(state), {0.3, 0.0, 0.0}, 2);
 }
 
 TEST(WheelOdometry, ContradictingWheelsShowAsSlip) {
@@ -106,7 +106,7 @@ TEST(WheelOdometry, ContradictingWheelsShowAsSlip) {
   const Model model = base_on(places);
   State state(model);
   state.qd << 3.0, 1.0, 1.0, 3.0;
-  const WheelTwist found = twist_from_wheels(model, state);
+  const WheelTwist found = WheelOdometry(model).twist(state);
   EXPECT_NEAR(found.slip, 0.1, 1e-12);
   EXPECT_NEAR(found.twist.linear.x() - 0.2 * found.twist.angular.z(), 0.2, 1e-12);
 }

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "zwang/solver/wheel_odometry.hpp"
-
 namespace zwang::runtime {
 
 namespace {
@@ -38,7 +36,7 @@ bool finite(const Pose& pose) {
 }  // namespace
 
 Odometry::Odometry(const solver::Model& model, const Pose& start, const OdometrySettings& settings)
-    : model_(model), settings_(settings), pose_(start) {
+    : wheels_(model), settings_(settings), pose_(start) {
   const bool good = settings.memory > 0.0 && settings.period > 0.0 && settings.time_constant > 0.0;
   if (!good || !(settings.memory / settings.period < 1e6)) {
     throw std::invalid_argument("odometry: a setting that is not positive, or a memory of too many periods");
@@ -55,16 +53,16 @@ void Odometry::start_at(const Pose& start) noexcept {
 }
 
 void Odometry::update(double time, solver::State& state) noexcept {
-  const solver::WheelTwist wheels = solver::twist_from_wheels(model_, state);
-  slip_ = wheels.slip;
+  const solver::WheelTwist seen = wheels_.twist(state);
+  slip_ = seen.slip;
   if (started_) {
     const Past& last = past_[(updates_ - 1) % past_.size()];
     // The mean of both ends is exact to the second order in the period.
-    const solver::MotionVector mean = (twist_ + wheels.twist) * 0.5;
+    const solver::MotionVector mean = (twist_ + seen.twist) * 0.5;
     pose_ = pose_ * way_along(mean, std::max(0.0, time - last.time));
   }
   started_ = true;
-  twist_ = wheels.twist;
+  twist_ = seen.twist;
   past_[updates_++ % past_.size()] = {time, pose_};
   state.base_pose = pose_;
   state.base_twist = twist_;

@@ -55,9 +55,9 @@ std::vector<std::string> task_names(const Scheduler& scheduler) {
 }  // namespace
 
 LogLayout::LogLayout(const StatementTable& statements, const Scheduler& scheduler, const solver::Model& model,
-                     const std::vector<lang::Signal>& signals, const std::vector<std::string>& event_signals,
+                     const lang::Program& program, const std::vector<std::string>& event_signals,
                      const std::vector<Column>& extra)
-    : inputs_(model, signals) {
+    : inputs_(model, program.signals, program.parameters) {
   // In the order of `Fixed`.
   add("time", "s");
   add("task", "", task_names(scheduler));
@@ -95,7 +95,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
     add(joint.name + ".qd", slides ? "m/s" : "rad/s");
     add(joint.name + ".tau", slides ? "N" : "N m");
   }
-  for (const lang::Signal& signal : signals) add_signal(signal);
+  for (const lang::Signal& signal : program.signals) add_signal(signal);
   for (const Statement& s : statements.all()) add_statement(s);
   for (const lang::Task& t : scheduler.tasks()) {
     guards_.emplace_back();
@@ -182,7 +182,7 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
   std::fill(values_.begin(), values_.end(), blank);
   const solver::State& state = tick.known.state;
   put(time, tick.sensed.time);
-  inputs_.write(tick.sensed,
+  inputs_.write(tick.sensed, tick.parameters,
                 std::span(values_).subspan(static_cast<std::size_t>(first_input_), inputs_.columns().size()));
   if (tick.scheduler.task() >= 0) put(task, tick.scheduler.task());
   put(guard, static_cast<double>(tick.guard_status));

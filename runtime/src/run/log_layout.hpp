@@ -15,8 +15,9 @@ namespace zwang::runtime {
 
 /// Everything that one record tells of.
 struct Tick {
-  const Sensed& sensed;  ///< as it came
-  const Sensed& known;   ///< with the base as the wheels tell it
+  const Sensed& sensed;                ///< as it came
+  std::span<const double> parameters;  ///< as they stood then
+  const Sensed& known;                 ///< with the base as the wheels tell it
   const Scheduler& scheduler;
   const solver::ConstraintSet* set;  ///< null when the tick did not get to the solver
   const solver::Solution& solution;
@@ -33,7 +34,7 @@ struct Tick {
 class LogLayout {
  public:
   LogLayout(const StatementTable& statements, const Scheduler& scheduler, const solver::Model& model,
-            const std::vector<lang::Signal>& signals, const std::vector<std::string>& event_signals,
+            const lang::Program& program, const std::vector<std::string>& event_signals,
             const std::vector<Column>& extra);
 
   const std::vector<Column>& columns() const noexcept { return columns_; }

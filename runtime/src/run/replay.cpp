@@ -110,9 +110,10 @@ std::optional<lang::Program> logged_program(const LogContext& context, lang::Dia
 
 ReplayResult replay(const fs::path& log, const lang::Program& program, double period) {
   const solver::Model& model = program.robot.model;
-  const SensedColumns inputs(model, program.signals);
+  const SensedColumns inputs(model, program.signals, program.parameters);
   Runner runner(program, {.period = period});
   Sensed sensed(model, program.signals.size());
+  std::vector<double> parameters(program.parameters.size());
   std::vector<double> values(inputs.columns().size());
   std::vector<std::string> torques;
   for (int j = 0; j < model.joint_count(); ++j) torques.push_back(model.joint(j).name + ".tau");
@@ -121,7 +122,11 @@ ReplayResult replay(const fs::path& log, const lang::Program& program, double pe
     const json record = json::parse(text, nullptr, false);
     if (!record.is_object()) throw std::runtime_error("replay: a record is no JSON object");
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(record, inputs.columns()[i].name);
-    inputs.read(values, sensed);
+    inputs.read(values, sensed, parameters);
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      if (!std::isnan(parameters[i]) && parameters[i] != runner.scheduler().parameters()[i])
+        runner.set_parameter(program.parameters[i].name, parameters[i]);
+    }
     if (const StopReason reason = outside_stop(record); reason != StopReason::none)
       runner.guard().stop(reason);
     const Eigen::VectorXd& tau = runner.step(sensed);

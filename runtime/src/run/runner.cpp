@@ -70,7 +70,8 @@ struct Runner::Parts {
         guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
         statements(scheduler, program),
         limits(statements, program.robot),
-        layout(statements, scheduler, model, program.signals, signal_words, settings.extra_columns),
+        layout(statements, scheduler, model, program, signal_words, settings.extra_columns),
+        given_parameters(scheduler.parameters()),
         handed_over(Eigen::VectorXd::Zero(model.joint_count())),
         wanted(Eigen::VectorXd::Zero(model.joint_count())),
         tau(Eigen::VectorXd::Zero(model.joint_count())) {
@@ -92,6 +93,8 @@ struct Runner::Parts {
   void judge_sensors(const Sensed& sensed) noexcept;
   void tell(const Event& event) noexcept;
   void brake_protectively(bool good_sample) noexcept;
+  /// Of the last tick that was solved.
+  Shortfall find_shortfall() const noexcept;
 
   const solver::Model model;
   std::vector<std::string> parameter_names;
@@ -99,8 +102,9 @@ struct Runner::Parts {
   Scheduler scheduler;
   solver::Solver solver;
   solver::Solution solution;
-  Sensed estimated;  ///< the last good sample, but for its signals
-  Sensed sample;     ///< the same, its velocities as the ground allows them, and its signals
+  bool is_solution_of_rows = false;  ///< `solution` answers the constraints that the scheduler holds
+  Sensed estimated;                  ///< the last good sample, but for its signals
+  Sensed sample;                     ///< the same, its velocities as the ground allows them, and its signals
   Odometry odometry;
   std::optional<double> start;  ///< [s] of the first good sample
   bool reckoning = false;       ///< the base is not measured: `odometry` tells it
@@ -121,6 +125,7 @@ struct Runner::Parts {
   StatementTable statements;
   LimitTable limits;
   LogLayout layout;
+  std::vector<double> given_parameters;  ///< as they stood when the tick began
   Recorder* recorder = nullptr;
   Eigen::VectorXd handed_over;        ///< what the torques differ by at a swap of programs
   double handed_over_for = handover;  ///< [s] since then
@@ -130,7 +135,6 @@ struct Runner::Parts {
   GuardStatus guard_status = GuardStatus::passed;
   std::vector<Transition> transitions;
   std::uint64_t transition_count = 0;
-  Shortfall shortfall;
   std::uint64_t stopped_ticks = 0;
   bool stands = false;  ///< after a protective stop
 };
@@ -162,15 +166,17 @@ bool Runner::Parts::control() noexcept {
   compare();
   if (guard.stopped()) return true;  // a motor is not to be trusted
   weight.add_to(sample.state);
+  is_solution_of_rows = false;
   scheduler.tick(sample);
   if (scheduler.transition()) {
     ++transition_count;
     if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
   }
-  solver_status = scheduler.constraints().fill(model, sample.state)
+  solver_status = scheduler.fill_constraints()
                       ? solver.solve(sample.state, scheduler.constraints().rows(), solution)
                       : solver::Status::capacity_exceeded;
   if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
+  is_solution_of_rows = true;
   scheduler.observe(solution);
   wanted = solution.tau;
   friction.add_to(wanted, sample.state);
@@ -232,6 +238,11 @@ void Runner::Parts::judge_sensors(const Sensed& sensed) noexcept {
   }
 }
 
+Shortfall Runner::Parts::find_shortfall() const noexcept {
+  if (!is_solution_of_rows) return {};
+  return runtime::find_shortfall(statements, scheduler.constraints(), scheduler.in_force(), solver, solution);
+}
+
 void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   ++stopped_ticks;
   stands = stands || (good_sample && is_at_rest(estimated.state.base_twist)) ||
@@ -247,6 +258,7 @@ Runner& Runner::operator=(Runner&&) noexcept = default;
 const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double> extra) noexcept {
   Parts& p = *parts_;
   p.event = {};
+  p.given_parameters = p.scheduler.parameters();
   const SampleStatus status = p.guard.admit(sensed);
   const bool good = status == SampleStatus::good;
   bool solved = false;
@@ -273,17 +285,23 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   }
   if (p.guard.stopped()) p.brake_protectively(good);
   if (solved) {
-    p.shortfall =
-        find_shortfall(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solver, p.solution);
     p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau);
   }
   if (p.recorder != nullptr) {
-    const Tick tick{sensed,         good ? p.estimated : sensed,
-                    p.scheduler,    solved ? &p.scheduler.constraints() : nullptr,
-                    p.solution,     p.solver_status,
-                    p.guard_status, p.tau,
-                    extra,          p.shortfall,
-                    p.event,        p.disturbance.base_force(),
+    const Shortfall shortfall = p.find_shortfall();
+    const Tick tick{sensed,
+                    p.given_parameters,
+                    good ? p.estimated : sensed,
+                    p.scheduler,
+                    solved ? &p.scheduler.constraints() : nullptr,
+                    p.solution,
+                    p.solver_status,
+                    p.guard_status,
+                    p.tau,
+                    extra,
+                    shortfall,
+                    p.event,
+                    p.disturbance.base_force(),
                     p.slip.speed()};
     p.recorder->record(p.layout.fill(p.statements, tick));
   }
@@ -373,7 +391,7 @@ solver::Vector3 Runner::estimated_force() const noexcept {
   return parts_->disturbance.base_force();
 }
 std::optional<ShortfallReport> Runner::shortfall() const {
-  const Shortfall& s = parts_->shortfall;
+  const Shortfall s = parts_->find_shortfall();
   if (s.missed < 0) return std::nullopt;
   const auto name = [&](int statement, const Origin& origin) {
     const std::string part = parts_->scheduler.part_name(origin);

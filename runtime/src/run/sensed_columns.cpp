@@ -1,5 +1,6 @@
 #include "run/sensed_columns.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -114,7 +115,8 @@ void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>
 
 }  // namespace
 
-SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang::Signal>& signals) {
+SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang::Signal>& signals,
+                             const std::vector<lang::Parameter>& parameters) {
   name("sensed.time", {""});
   for (const char* what : {".q", ".qd", ".tau_ff"}) {
     for (int j = 0; j < model.joint_count(); ++j) name("sensed." + model.joint(j).name, {what});
@@ -139,6 +141,8 @@ SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang:
       name(of, {""});
     }
   }
+  first_parameter_ = columns_.size();
+  for (const lang::Parameter& parameter : parameters) name("params." + parameter.name, {""});
 }
 
 void SensedColumns::name(const std::string& of, std::initializer_list<const char*> parts) {
@@ -150,19 +154,25 @@ void SensedColumns::name(const std::string& of, std::initializer_list<const char
   }
 }
 
-void SensedColumns::write(const Sensed& sensed, std::span<double> values) const noexcept {
+void SensedColumns::write(const Sensed& sensed, std::span<const double> parameters,
+                          std::span<double> values) const noexcept {
   const bool sized = sensed.state.q.size() == sensed.state.qd.size() &&
                      sensed.state.q.size() == sensed.state.tau_ff.size() &&
                      static_cast<std::size_t>(sensed.state.q.size()) + 1 == sensed.state.f_ext.size();
   for (double& value : values) value = blank;
+  std::copy(parameters.begin(), parameters.end(),
+            values.begin() + static_cast<std::ptrdiff_t>(first_parameter_));
   if (!sized) return;
   Writer writer{values};
   visit_snapshot(writer, sensed, types_);
 }
 
-void SensedColumns::read(std::span<const double> values, Sensed& sensed) const noexcept {
+void SensedColumns::read(std::span<const double> values, Sensed& sensed,
+                         std::span<double> parameters) const noexcept {
   Reader reader{values};
   visit_snapshot(reader, sensed, types_);
+  std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first_parameter_), parameters.size(),
+              parameters.begin());
 }
 
 }  // namespace zwang::runtime

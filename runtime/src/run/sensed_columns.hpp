@@ -1,4 +1,5 @@
-/// A snapshot as columns of the log, with every digit: what a replay needs of a tick.
+/// What comes into a tick from outside as columns of the log, with every digit: the snapshot and the
+/// parameters.
 #pragma once
 
 #include <span>
@@ -15,18 +16,22 @@ namespace zwang::runtime {
 /// read back as NaN.
 class SensedColumns {
  public:
-  SensedColumns(const solver::Model& model, const std::vector<lang::Signal>& signals);
+  SensedColumns(const solver::Model& model, const std::vector<lang::Signal>& signals,
+                const std::vector<lang::Parameter>& parameters);
 
   const std::vector<Column>& columns() const noexcept { return columns_; }
-  /// As many values as columns. Does not allocate.
-  void write(const Sensed& sensed, std::span<double> values) const noexcept;
-  /// `sensed` as it was sized for the model and the signals.
-  void read(std::span<const double> values, Sensed& sensed) const noexcept;
+  /// As many values as columns. Does not allocate. `parameters` as they stood when the tick began.
+  void write(const Sensed& sensed, std::span<const double> parameters,
+             std::span<double> values) const noexcept;
+  /// `sensed` as it was sized for the model and the signals, `parameters` for the parameters; NaN for one
+  /// that the log does not have.
+  void read(std::span<const double> values, Sensed& sensed, std::span<double> parameters) const noexcept;
 
  private:
   void name(const std::string& of, std::initializer_list<const char*> parts);
 
   std::vector<lang::SignalType> types_;
+  std::size_t first_parameter_ = 0;
   std::vector<Column> columns_;
 };
 

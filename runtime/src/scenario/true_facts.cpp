@@ -14,7 +14,9 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 TrueFacts::TrueFacts(const lang::Program& program)
     : program_(program),
       frames_(program.frames, program.robot.model, program.signals.size()),
-      values_(lang::truth_names(program.scene.value_or(lang::Scene{})).size(), unknown) {}
+      values_(lang::truth_names(program.scene.value_or(lang::Scene{})).size(), unknown) {
+  for (std::size_t i = 0; i < program.frames.size(); ++i) frames_.follow(static_cast<int>(i));
+}
 
 void TrueFacts::update(const Truth& truth, const solver::State& state, double torque_share) noexcept {
   frames_.update(program_.robot.model, state);

@@ -254,19 +254,20 @@ Range Blend::loosened(const Range& from, const Range& to, double progress, doubl
   return now;
 }
 
-AxisConstraint Blend::present(const Part& part, const AxisConstraint* wanted,
-                              double progress) const noexcept {
+/// What the part puts in force at `progress`: of what it becomes, or of what leaves.
+void Blend::update(Part& part, const AxisConstraint* wanted, double progress) const noexcept {
+  AxisConstraint& c = part.present;
   if (wanted == nullptr) {
-    AxisConstraint c = part.old;
+    c = part.old;
     c.leaving = true;
     c.alpha = lerp(part.alpha_from, 0.0, progress);
-    return c;
+    return;
   }
-  AxisConstraint c = *wanted;
+  c = *wanted;
   keep_only(c, part.drives, part.ranges);
   c.alpha = lerp(part.alpha_from, 1.0, progress);
   c.blend = part.entering ? duration_ : 0.0;
-  if (!part.persists) return c;
+  if (!part.persists) return;
   const auto loosen = [&](std::optional<Range>& to, const std::optional<Range>& from) {
     if (to && from) to = loosened(*from, *to, progress, force_scale_);
   };
@@ -281,7 +282,6 @@ AxisConstraint Blend::present(const Part& part, const AxisConstraint* wanted,
     c.before->force = {};  // the driver's bounds already are on their way from the old ones
   }
   c.progress = progress;
-  return c;
 }
 
 void Blend::put(const std::vector<Wanted>& wanted, double progress, solver::ConstraintSet& set,
@@ -294,7 +294,7 @@ void Blend::put(const std::vector<Wanted>& wanted, double progress, solver::Cons
         part.wanted < 0 ? nullptr : &wanted[static_cast<std::size_t>(part.wanted)].constraint;
     part.far = target != nullptr && wanted[static_cast<std::size_t>(part.wanted)].far;
     if (part.far) continue;
-    part.present = present(part, target, progress);
+    update(part, target, progress);
     if (!(part.present.alpha > 0.0) || in_force.size() == in_force.capacity()) continue;
     if (set.add(part.present)) in_force.push_back({part.origin, part.wanted >= 0, part.drives});
   }

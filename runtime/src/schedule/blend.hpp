@@ -77,8 +77,7 @@ class Blend {
   static bool is_match(const Part& part, const Wanted& wanted) noexcept;
   int match(const Wanted& wanted) const noexcept;
   void make_room() noexcept;
-  solver::AxisConstraint present(const Part& part, const solver::AxisConstraint* wanted,
-                                 double progress) const noexcept;
+  void update(Part& part, const solver::AxisConstraint* wanted, double progress) const noexcept;
   solver::Range loosened(const solver::Range& from, const solver::Range& to, double progress,
                          double scale) const noexcept;
 

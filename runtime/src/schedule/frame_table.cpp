@@ -12,7 +12,7 @@ solver::AttachedFrame carried(const solver::AttachedFrame& parent, const solver:
 
 FrameTable::FrameTable(const std::vector<lang::FrameDeclaration>& declarations, const solver::Model& model,
                        std::size_t signal_count)
-    : signals_(signal_count) {
+    : motions_(static_cast<std::size_t>(model.body_count())), signals_(signal_count) {
   for (const lang::FrameDeclaration& d : declarations) {
     const int limit = d.parent == lang::FrameParent::body     ? model.body_count()
                       : d.parent == lang::FrameParent::frame  ? static_cast<int>(entries_.size())
@@ -50,35 +50,30 @@ void FrameTable::attach(Entry& entry) const noexcept {
 }
 
 void FrameTable::update(const solver::Model& model, const solver::State& state) noexcept {
+  motions_.start(model, state);
   for (Entry& entry : entries_) {
-    entry.motion = solver::motion_of(entry.attached, model, state);
-    entry.path += (entry.motion.pose.position - entry.path_end).norm();
-    entry.path_end = entry.motion.pose.position;
+    if (!entry.is_followed) continue;
+    const solver::Vector3 place = motions_.of(entry.attached).pose.position;
+    entry.path += (place - entry.path_end).norm();
+    entry.path_end = place;
   }
 }
 
 /// A jump that is no motion adds nothing to the path.
-void FrameTable::move_quietly(Entry& entry, const solver::FrameMotion& motion) const noexcept {
-  entry.motion = motion;
-  entry.path_end = motion.pose.position;
-}
-
 void FrameTable::feed(int signal, const solver::AttachedFrame& seen) noexcept {
   signals_[static_cast<std::size_t>(signal)] = seen;
   for (Entry& entry : entries_) {
     if (entry.signal != signal) continue;
     attach(entry);
-    const solver::Matrix3& R = entry.attached.pose.rotation;
-    move_quietly(entry,
-                 {entry.attached.pose, R * entry.attached.twist.angular, R * entry.attached.twist.linear});
+    entry.path_end = entry.attached.pose.position;
   }
 }
 
-void FrameTable::set(int frame, int source, const solver::Model& model, const solver::State& state) noexcept {
+void FrameTable::set(int frame, int source) noexcept {
   Entry& target = entries_[static_cast<std::size_t>(frame)];
   solver::Pose parent_pose;
   if (target.parent == lang::FrameParent::body) {
-    parent_pose = solver::motion_of({target.parent_index, {}, {}}, model, state).pose;
+    parent_pose = motions_.of(target.parent_index).pose;
   } else if (target.parent == lang::FrameParent::frame) {
     parent_pose = pose(target.parent_index);
   } else if (target.parent == lang::FrameParent::signal) {
@@ -94,15 +89,12 @@ void FrameTable::set(int frame, int source, const solver::Model& model, const so
       entry.settings_above = above;
     }
     attach(entry);
-    move_quietly(entry, solver::motion_of(entry.attached, model, state));
+    entry.path_end = motions_.of(entry.attached).pose.position;
   }
 }
 
 void FrameTable::start_paths() noexcept {
-  for (Entry& entry : entries_) {
-    entry.path = 0.0;
-    entry.path_end = entry.motion.pose.position;
-  }
+  for (Entry& entry : entries_) entry.path = 0.0;
 }
 
 void FrameTable::keep_paths() noexcept {
@@ -110,10 +102,7 @@ void FrameTable::keep_paths() noexcept {
 }
 
 void FrameTable::resume_paths() noexcept {
-  for (Entry& entry : entries_) {
-    entry.path = entry.kept_path;
-    entry.path_end = entry.motion.pose.position;
-  }
+  for (Entry& entry : entries_) entry.path = entry.kept_path;
 }
 
 }  // namespace zwang::runtime

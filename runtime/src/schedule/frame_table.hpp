@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "zwang/lang/program.hpp"
-#include "zwang/solver/constraint.hpp"
+#include "zwang/solver/frame.hpp"
 
 namespace zwang::runtime {
 
@@ -18,12 +18,14 @@ class FrameTable {
   FrameTable(const std::vector<lang::FrameDeclaration>& declarations, const solver::Model& model,
              std::size_t signal_count);
 
-  /// Takes over the present motion, and lengthens the paths.
+  /// `moved` is asked of this frame: its path is measured.
+  void follow(int frame) noexcept { entries_[static_cast<std::size_t>(frame)].is_followed = true; }
+  /// Takes over the present state, which must stay as it is until the next one, and lengthens the paths.
   void update(const solver::Model& model, const solver::State& state) noexcept;
   /// Moves the frames that hang on a pose signal to where `seen`, a frame in the world, has them.
   void feed(int signal, const solver::AttachedFrame& seen) noexcept;
   /// Gives a frame the pose that `source` has now; its parent stays. Frames that hang on it come along.
-  void set(int frame, int source, const solver::Model& model, const solver::State& state) noexcept;
+  void set(int frame, int source) noexcept;
   /// Paths are measured from here.
   void start_paths() noexcept;
   /// For an interruption: keeps the paths' lengths, and goes on from them.
@@ -31,9 +33,11 @@ class FrameTable {
   void resume_paths() noexcept;
 
   const solver::AttachedFrame& attached(int frame) const noexcept { return entry(frame).attached; }
-  const solver::Pose& pose(int frame) const noexcept { return entry(frame).motion.pose; }
-  double speed(int frame) const noexcept { return entry(frame).motion.linear.norm(); }  ///< [m/s]
-  double moved(int frame) const noexcept { return entry(frame).path; }                  ///< [m]
+  solver::Pose pose(int frame) const noexcept { return motions_.of(attached(frame)).pose; }
+  double speed(int frame) const noexcept { return motions_.of(attached(frame)).linear.norm(); }  ///< [m/s]
+  double moved(int frame) const noexcept { return entry(frame).path; }                           ///< [m]
+  /// Of the bodies, at the present state.
+  solver::BodyMotions& motions() const noexcept { return motions_; }
   /// The pose signal that the frame hangs on, over any number of frames; -1: none.
   int signal_of(int frame) const noexcept { return entry(frame).signal; }
   /// Counts how often the frame was set, itself or one that it hangs on.
@@ -45,7 +49,7 @@ class FrameTable {
     int parent_index = -1;
     solver::Pose pose_in_parent;
     solver::AttachedFrame attached;
-    solver::FrameMotion motion;
+    bool is_followed = false;
     int signal = -1;
     int settings = 0;
     int settings_above = 0;  ///< of the parent, when last looked at
@@ -55,8 +59,8 @@ class FrameTable {
   };
   const Entry& entry(int frame) const noexcept { return entries_[static_cast<std::size_t>(frame)]; }
   void attach(Entry& entry) const noexcept;
-  void move_quietly(Entry& entry, const solver::FrameMotion& motion) const noexcept;
 
+  mutable solver::BodyMotions motions_;
   std::vector<Entry> entries_;
   std::vector<solver::AttachedFrame> signals_;
 };

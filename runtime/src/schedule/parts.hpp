@@ -35,6 +35,7 @@ struct Interruption {
 
 struct Scheduler::Parts final : Facts {
   Parts(const lang::Program& given, double control_period);
+  void follow_paths(const lang::Condition& condition) noexcept;
 
   // Steps 1 to 3: the snapshot, stale signals, frames, and what conditions ask about.
   void sense(const Sensed& sensed) noexcept;
@@ -76,7 +77,8 @@ struct Scheduler::Parts final : Facts {
   void start_blend() noexcept;
   void put_constraints() noexcept;
   void want() noexcept;
-  Wanted wanted_of(const ActiveAxis& a) const noexcept;
+  Wanted& next_wanted() noexcept;
+  void want_axis(const ActiveAxis& a) noexcept;
   solver::Driver driver_of(const ActiveAxis& a) const noexcept;
   bool is_lost(const ActiveAxis& a) const noexcept;
   void want_fence(const ActiveAxis& a, RegionFence& fence) noexcept;
@@ -96,6 +98,7 @@ struct Scheduler::Parts final : Facts {
     return group(a.origin).axes[static_cast<std::size_t>(a.origin.axis)];
   }
   const ActiveAxis* find(const Origin& origin) const noexcept;
+  ActiveAxis* find(const Origin& origin) noexcept;
 
   const solver::Model model;
   const lang::Stop stop;
@@ -136,6 +139,7 @@ struct Scheduler::Parts final : Facts {
   std::size_t always_axes = 0;
   std::vector<double> scratch;
   std::vector<Wanted> wanted;
+  std::size_t wanted_count = 0;  ///< so many of this tick stand in `wanted`
   std::vector<InForce> in_force;
   std::optional<Blend> blend;
   std::optional<solver::ConstraintSet> set;

@@ -96,6 +96,8 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       always_guards(tasks.most_exits, control_period, Unknown::fires_when_stale) {
   std::size_t most_pairs = 0;
   for (const lang::Task& t : tasks.tasks) {
+    if (t.require) follow_paths(*t.require);
+    for (const lang::Exit& exit : t.exits) follow_paths(exit.when);
     fence_of.emplace_back();
     for (const lang::Group& g : t.groups) {
       const bool can_move = frames.attached(g.move).body >= 0;
@@ -121,6 +123,12 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   blend.emplace(most_wanted, 3 * tasks.most_rows, force_scale, force_scale * radius);
   in_force.reserve(blend->capacity());
   set.emplace(static_cast<int>(blend->capacity()), 4 * tasks.most_rows);
+}
+
+void Scheduler::Parts::follow_paths(const lang::Condition& condition) noexcept {
+  for (const lang::ExpressionNode& node : condition.nodes) {
+    if (node.op == lang::Op::moved) frames.follow(node.index);
+  }
 }
 
 Scheduler::Scheduler(const lang::Program& program, double period) {
@@ -153,7 +161,14 @@ void Scheduler::observe(const solver::Solution& solution) noexcept {
   parts_->read(solution);
 }
 
+bool Scheduler::fill_constraints() noexcept {
+  return parts_->set->fill(parts_->frames.motions());
+}
+
 solver::ConstraintSet& Scheduler::constraints() noexcept {
+  return *parts_->set;
+}
+const solver::ConstraintSet& Scheduler::constraints() const noexcept {
   return *parts_->set;
 }
 const std::vector<InForce>& Scheduler::in_force() const noexcept {

@@ -23,10 +23,6 @@ bool says_something(const AxisStatements& axis) {
   return axis.driver || axis.position || axis.velocity || axis.acceleration || axis.force;
 }
 
-bool of_one_axis(const Origin& a, const Origin& b) {
-  return a.task == b.task && a.group == b.group && a.axis == b.axis;
-}
-
 constexpr double least_braking = 1e-3;  // [m/s^2] or [rad/s^2]
 // Nearer than what can brake in time by this much speed, a pair of features is near.
 constexpr double near_speed = 0.3;    // [m/s]
@@ -51,9 +47,10 @@ void Scheduler::Parts::find_braking() noexcept {
   for (const ActiveAxis& a : axes) {
     const AxisStatements& s = statements(a);
     const lang::Group& g = group(a.origin);
+    if (!(s.acceleration || (s.force && !s.driver))) continue;
     const bool on_base = g.kind == lang::GroupKind::axes && !s.is_planar_speed &&
                          is_base(declarations, g.move) && is_base(declarations, g.in);
-    if (!on_base || !(s.acceleration || (s.force && !s.driver))) continue;
+    if (!on_base) continue;
     if (s.axis != Axis::x && s.axis != Axis::y && s.axis != Axis::rz) continue;
     const int i = is_rotation(s.axis) ? 2 : static_cast<int>(s.axis);
     if (s.acceleration) {
@@ -87,7 +84,7 @@ double Scheduler::Parts::braking_of(const solver::AxisConstraint& c, const AxisS
   const bool turns = is_rotation(s.axis);
   double most = turns ? braking(2) : braking.head<2>().minCoeff();
   if (!turns && c.measure == solver::Measure::axis) {
-    const solver::Matrix3 R = solver::motion_of(c.in, model, *state).pose.rotation;
+    const solver::Matrix3 R = frames.motions().of(c.in).pose.rotation;
     most = braking_along(R.col(static_cast<int>(s.axis)));
   }
   if (c.acceleration) most = std::min(-c.acceleration->low, c.acceleration->high);
@@ -122,14 +119,14 @@ solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
   return driver;
 }
 
-Wanted Scheduler::Parts::wanted_of(const ActiveAxis& a) const noexcept {
+void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
   const AxisStatements& s = statements(a);
   const lang::Group& g = group(a.origin);
-  Wanted w;
+  Wanted& w = next_wanted();
   w.origin = a.origin;
   w.always = a.origin.task == tasks.always();
   w.move = {g.move, frames.settings_of(g.move)};
-  if (!a.entry_axes) w.in = {g.in, frames.settings_of(g.in)};
+  w.in = a.entry_axes ? FrameKey{} : FrameKey{g.in, frames.settings_of(g.in)};
   solver::AxisConstraint& c = w.constraint;
   c = measured(g, s, &a);
   c.level = s.level;
@@ -144,7 +141,6 @@ Wanted Scheduler::Parts::wanted_of(const ActiveAxis& a) const noexcept {
   const bool stands_by_driver = s.driver && *s.driver != Quantity::force;
   if (blind && (s.position || s.velocity) && !stands_by_driver) c.velocity = Range{0.0, 0.0};
   if (c.position) c.braking = braking_of(c, s);
-  return w;
 }
 
 /// The nearest of the pairs of features that what is in force now could not keep apart much faster.
@@ -152,13 +148,12 @@ void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexc
   const lang::Group& g = group(a.origin);
   const solver::AttachedFrame& move = frames.attached(g.move);
   const solver::AttachedFrame& in = frames.attached(g.in);
-  fence.update(move, solver::motion_of(move, model, *state), in, solver::motion_of(in, model, *state),
-               g.margin.evaluate(parameters));
+  fence.update(move, frames.motions().of(move), in, frames.motions().of(in), g.margin.evaluate(parameters));
   std::array<std::size_t, RegionFence::most_near> nearest{};
   std::size_t count = 0;
-  const std::size_t first = wanted.size();
+  const std::size_t first = wanted_count;
   for (std::size_t i = 0; i < fence.pair_count(); ++i) {
-    Wanted w;
+    Wanted& w = next_wanted();
     w.origin = a.origin;
     w.origin.part = static_cast<int>(i);
     w.always = a.origin.task == tasks.always();
@@ -187,15 +182,20 @@ void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexc
       w.constraint.level = g.level;
       w.far = false;
     }
-    wanted.push_back(w);
   }
   for (std::size_t i = 0; i < count; ++i) wanted[first + nearest[i]].far = false;
+}
+
+/// The place of the next constraint, with what the last tick left in it.
+Wanted& Scheduler::Parts::next_wanted() noexcept {
+  if (wanted_count == wanted.size()) wanted.emplace_back();
+  return wanted[wanted_count++];
 }
 
 /// The constraints of `always` and of the active task, with the present values of the parameters. As many,
 /// and in the same order, until the next switch.
 void Scheduler::Parts::want() noexcept {
-  wanted.clear();
+  wanted_count = 0;
   find_braking();
   for (const ActiveAxis& a : axes) {
     const int fence =
@@ -203,7 +203,7 @@ void Scheduler::Parts::want() noexcept {
     if (fence >= 0) {
       want_fence(a, fences[static_cast<std::size_t>(fence)]);
     } else if (says_something(statements(a))) {
-      wanted.push_back(wanted_of(a));
+      want_axis(a);
     }
   }
 }
@@ -216,6 +216,7 @@ bool Scheduler::Parts::is_lost(const ActiveAxis& a) const noexcept {
 
 void Scheduler::Parts::start_blend() noexcept {
   for (ActiveAxis& a : axes) a.lost = is_lost(a);
+  wanted.clear();
   want();
   switched = now;
   blend_time = active().blend.evaluate(parameters);
@@ -248,20 +249,22 @@ void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
     if (!statements(a).driver) a.reading = {};
   }
   const std::size_t count = std::min(rows.size(), solution.rows.size());
+  int last = -1;  // the rows of a constraint stand together
+  ActiveAxis* axis = nullptr;
   for (std::size_t i = 0; i < count; ++i) {
     const int c = rows[i].constraint;
     if (c < 0 || static_cast<std::size_t>(c) >= in_force.size()) continue;
     const InForce& source = in_force[static_cast<std::size_t>(c)];
     if (!source.active) continue;
-    const bool is_driver = rows[i].kind == solver::RowKind::driver || rows[i].kind == solver::RowKind::force;
-    for (ActiveAxis& a : axes) {
-      if (!of_one_axis(a.origin, source.origin)) continue;
-      if (is_driver) {
-        a.reading = {solution.rows[i].nu, solution.rows[i].residual, solution.rows[i].saturated};
-      } else if (!statements(a).driver &&
-                 std::abs(solution.rows[i].residual) > std::abs(a.reading.residual)) {
-        a.reading.residual = solution.rows[i].residual;
-      }
+    if (c != last) axis = find(source.origin);
+    last = c;
+    if (axis == nullptr) continue;
+    AxisReading& reading = axis->reading;
+    if (rows[i].kind == solver::RowKind::driver || rows[i].kind == solver::RowKind::force) {
+      reading = {solution.rows[i].nu, solution.rows[i].residual, solution.rows[i].saturated};
+    } else if (!statements(*axis).driver &&
+               std::abs(solution.rows[i].residual) > std::abs(reading.residual)) {
+      reading.residual = solution.rows[i].residual;
     }
   }
 }

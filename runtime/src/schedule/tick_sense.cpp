@@ -100,7 +100,7 @@ Fact Scheduler::Parts::feature(const lang::Feature& feature) const noexcept {
   c.move = frames.attached(feature.first);
   c.in = frames.attached(feature.second);
   set_measure(c, feature);
-  return {solver::coordinate_of(c, model, *state).position};
+  return {solver::coordinate_of(c, frames.motions()).position};
 }
 
 /// What the axis measures, between which frames, and nothing else of its constraint.
@@ -124,7 +124,7 @@ solver::AxisConstraint Scheduler::Parts::measured(const lang::Group& group, cons
 
 solver::Coordinate Scheduler::Parts::coordinate_of(const lang::Group& group, const lang::AxisStatements& axis,
                                                    const ActiveAxis* active_axis) const noexcept {
-  return solver::coordinate_of(measured(group, axis, active_axis), model, *state);
+  return solver::coordinate_of(measured(group, axis, active_axis), frames.motions());
 }
 
 const ActiveAxis* Scheduler::Parts::find(const Origin& origin) const noexcept {
@@ -134,6 +134,10 @@ const ActiveAxis* Scheduler::Parts::find(const Origin& origin) const noexcept {
     }
   }
   return nullptr;
+}
+
+ActiveAxis* Scheduler::Parts::find(const Origin& origin) noexcept {
+  return const_cast<ActiveAxis*>(std::as_const(*this).find(origin));
 }
 
 }  // namespace zwang::runtime

@@ -7,7 +7,7 @@ void Scheduler::Parts::apply(const std::vector<lang::SetAction>& actions) noexce
   for (const lang::SetAction& action : actions) {
     if (action.sets_frame) {
       // An unknown pose is none to copy.
-      if (is_known(action.source)) frames.set(action.index, action.source, model, *state);
+      if (is_known(action.source)) frames.set(action.index, action.source);
     } else {
       parameters[static_cast<std::size_t>(action.index)] = action.value.evaluate(parameters);
     }

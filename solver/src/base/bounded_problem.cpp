@@ -46,19 +46,22 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       candidate_(Vector::Zero(motors)),
       motor_length_(Vector::Zero(motors)),
       motor_extents_(static_cast<std::size_t>(motors)),
+      last_of_(static_cast<std::size_t>(dimension)),
       p_(Vector::Zero(dimension)),
       fixed_(Vector::Zero(dimension)),
       work_(Vector::Zero(dimension)),
       solved_(Vector::Zero(dimension)),
       F_(RowMajorMatrix::Zero(dimension, dimension)),
       frozen_(RowMajorMatrix::Zero(dimension, dimension)),
-      gram_(RowMajorMatrix::Zero(dimension, dimension)),
+      gram_(RowMajorMatrix::Zero(dimension, spaced(dimension))),
       entries_(static_cast<std::size_t>(rows)),
       solutions_(static_cast<std::size_t>(rows)),
       program_(2 * rows + motors, dimension, dimension + rows) {
   posed_.reserve(static_cast<std::size_t>(rows));
   units_.reserve(static_cast<std::size_t>(rows));
   tied_.reserve(static_cast<std::size_t>(rows));
+  soles_.reserve(static_cast<std::size_t>(motors));
+  shared_motors_.reserve(static_cast<std::size_t>(motors));
 }
 
 void BoundedProblem::resize(int rows, int motors, int dimension) noexcept {
@@ -96,6 +99,12 @@ void BoundedProblem::set_motor(int j, double lowest, double highest) noexcept {
   tau_hi_(j) = highest;
 }
 
+void BoundedProblem::sum_torques(double* p) const noexcept {
+  std::fill_n(p, dimension_, 0.0);
+  for (int j = 0; j < motors_; ++j)
+    add_multiple(motor_extents_[static_cast<std::size_t>(j)], tau_(j), &T_(j, 0), p);
+}
+
 /// The levels as a table of contents.
 bool BoundedProblem::solve(int max_iterations) noexcept {
   iterations_ = 0;
@@ -129,21 +138,42 @@ int BoundedProblem::next_level(int after) const noexcept {
   return next;
 }
 
-/// T'T, whose inverse gives the torques of least norm. Without full rank the motors do not reach every
-/// motion.
+/// Torques of least norm for p = T'tau. T is nearly a triangle: the dimensions of joints that carry no wheels
+/// come one after the other, and the last motor of an arm alone drives the last of them, so its torque is
+/// known, then the next one's. What is left, wheels mostly, shares: by T'T. Without full rank the motors do
+/// not reach every motion.
 void BoundedProblem::factorise_motors() noexcept {
+  constexpr int none = -1, several = -2;
+  std::fill_n(last_of_.begin(), dimension_, none);
   double trace = 0.0;
-  for (int k = 0; k < dimension_; ++k) std::fill_n(&gram_(k, 0), k + 1, 0.0);
   for (int j = 0; j < motors_; ++j) {
-    const double* const T = &T_(j, 0);
     const int extent = extent_of(j);
     motor_extents_[static_cast<std::size_t>(j)] = extent;
-    for (int k = 0; k < extent; ++k) add_multiple(k + 1, T[k], T, &gram_(k, 0));
-    const double squared = dot(extent, T, T);
+    const double squared = dot(extent, &T_(j, 0), &T_(j, 0));
     motor_length_(j) = std::sqrt(squared);
     trace += squared;
+    if (extent == 0) continue;
+    int& last = last_of_[static_cast<std::size_t>(extent - 1)];
+    last = last == none ? j : several;
   }
-  motors_reach_all_ = cholesky(gram_, dimension_, motor_rank_tolerance * trace);
+  const double least = motor_rank_tolerance * trace;
+  soles_.clear();
+  int open = dimension_;
+  for (; open > 0; --open) {
+    const int j = last_of_[static_cast<std::size_t>(open - 1)];
+    if (j < 0 || !(T_(j, open - 1) * T_(j, open - 1) > least)) break;
+    soles_.push_back({j, 1.0 / T_(j, open - 1)});
+  }
+  shared_dimensions_ = open;
+  shared_motors_.clear();
+  for (int k = 0; k < open; ++k) set_zero(k + 1, &gram_(k, 0));
+  for (int j = 0; j < motors_; ++j) {
+    const int extent = motor_extents_[static_cast<std::size_t>(j)];
+    if (extent > open) continue;
+    shared_motors_.push_back(j);
+    add_square(0, extent, 1.0, &T_(j, 0), gram_.data(), gram_.outerStride());
+  }
+  motors_reach_all_ = cholesky(gram_, open, least);
   motors_drive_all_ = motors_reach_all_;
   for (int j = 0; j < motors_; ++j)
     motors_drive_all_ = motors_drive_all_ && (tau_lo_(j) < 0.0 || tau_hi_(j) > 0.0);

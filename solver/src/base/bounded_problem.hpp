@@ -34,8 +34,8 @@ class BoundedProblem {
   BoundedProblem(int row_capacity, int motor_capacity, int dimension_capacity);
 
   void resize(int rows, int motors, int dimension) noexcept;
-  auto B(int row) noexcept { return B_.row(row).head(dimension_); }
-  auto T(int motor) noexcept { return T_.row(motor).head(dimension_); }
+  double* B(int row) noexcept { return &B_(row, 0); }
+  double* T(int motor) noexcept { return &T_(motor, 0); }
   double& d(int row) noexcept { return d_(row); }
   /// After B(row): `unconstrained` is A_i M^-1 A_i', what the row would be without the ground; `twin` an
   /// earlier row with the same B, or -1.
@@ -47,6 +47,8 @@ class BoundedProblem {
 
   const RowSolution& row(int i) const noexcept { return solutions_[static_cast<std::size_t>(i)]; }
   double tau(int motor) const noexcept { return tau_(motor); }
+  /// p = T'tau
+  void sum_torques(double* p) const noexcept;
   int iterations() const noexcept { return iterations_; }
   int opposing(int row, std::span<int> out) noexcept;
 
@@ -130,6 +132,7 @@ class BoundedProblem {
   void take_multipliers(int level) noexcept;
   void take_motors(int first) noexcept;
   bool torques_for(const Vector& p) noexcept;
+  bool take_torque(int motor, double torque) noexcept;
 
   int rows_ = 0, motors_ = 0, dimension_ = 0, iterations_ = 0;
   RowMajorMatrix B_, T_;
@@ -138,14 +141,23 @@ class BoundedProblem {
   Vector d_, tau_, tau_lo_, tau_hi_, candidate_;
   Vector motor_length_;  ///< |T_j|
   std::vector<int> motor_extents_;
-  Vector p_;      ///< sum of the constraint forces so far
-  Vector fixed_;  ///< its part that the present stage cannot change
+  /// A motor that alone drives a dimension, the last one of those still open.
+  struct Sole {
+    int motor = -1;
+    double inverse = 0.0;  ///< 1 / T there
+  };
+  std::vector<Sole> soles_;
+  std::vector<int> shared_motors_;  ///< the others
+  int shared_dimensions_ = 0;       ///< which these drive
+  std::vector<int> last_of_;        ///< by dimension: the motor whose last number stands there
+  Vector p_;                        ///< sum of the constraint forces so far
+  Vector fixed_;                    ///< its part that the present stage cannot change
   Vector work_, solved_;
   RowMajorMatrix F_;       ///< K = F F': motion by force, under what the levels above have frozen
   RowMajorMatrix frozen_;  ///< orthonormal rows: F times them is 0
   int frozen_count_ = 0;
   bool all_free_ = true;  ///< F is still 1
-  RowMajorMatrix gram_;   ///< Cholesky factor of T'T
+  RowMajorMatrix gram_;   ///< Cholesky factor of T'T, of the shared motors
   bool motors_reach_all_ = false;
   bool motors_drive_all_ = false;   ///< and each of them can push
   bool torques_are_least_ = false;  ///< tau_ are the least ones that make p_

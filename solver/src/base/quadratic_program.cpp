@@ -7,13 +7,10 @@
 namespace zwang::solver {
 
 namespace {
-constexpr double relative_gradient_tolerance = 1e-12;
 constexpr double curvature_tolerance = 1e-12;  // of a reduced Hessian's pivot, relative to its diagonal
-constexpr double ample_curvature = 1e-6;       // the same, of a variable that is superbasic from the start
 constexpr double rank_tolerance = 1e-9;        // of E's columns, which are of length 1
-constexpr double slope_tolerance = 1e3;        // times the gradient tolerance
 constexpr double least_pivot = 1e-11;          // of a basic variable's rate, relative to the largest
-constexpr int max_refinements = 4;
+constexpr double rounding = 1e-13;             // of a sum, relative to the sum of its terms' sizes
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
@@ -37,11 +34,12 @@ QuadraticProgram::QuadraticProgram(int n, int d, int m)
       reduced_V_(RowMajorMatrix::Zero(n, d)),
       hessian_(RowMajorMatrix::Zero(n, n)),
       factor_(RowMajorMatrix::Zero(n, n)),
+      inverse_root_(Eigen::VectorXd::Zero(n)),
       place_(index(n)),
       stuck_(index(n)) {
   basics_.reserve(index(std::max(n, m)));
   superbasics_.reserve(index(std::max(n, m)));
-  rows_.reserve(index(m));
+  rows_.reserve(index(std::max(n, m)));
 }
 
 void QuadraticProgram::resize(int variables, int curvature_rows, int equality_rows) noexcept {
@@ -58,6 +56,8 @@ void QuadraticProgram::resize(int variables, int curvature_rows, int equality_ro
 bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
   largest_g_ = 0.0;
   for (int k = 0; k < variables_; ++k) largest_g_ = std::max(largest_g_, std::abs(g_(k)));
+  constexpr int rounds = 20;
+  if (equality_rows_ == 0 && pivot_blocks(std::min(max_iterations, rounds), iterations)) return true;
   choose_basis();
   if (!factorise_basis()) return false;
   choose_superbasics();
@@ -234,8 +234,15 @@ void QuadraticProgram::compute_reduced_gradient() noexcept {
   }
   for (int k = 0; k < variables_; ++k) {
     double value = gradient_(k);
-    for (int i = 0; i < rank_; ++i) value -= E_(k, rows_[index(i)]) * multipliers_(i);
-    reduced_(k) = place_[index(k)] == Place::basic ? 0.0 : value;
+    double size = std::abs(value);
+    for (int i = 0; i < rank_; ++i) {
+      const double term = E_(k, rows_[index(i)]) * multipliers_(i);
+      value -= term;
+      size += std::abs(term);
+    }
+    // Where the basis is nearly singular, rounding can be more than the tolerance.
+    const bool is_nothing = place_[index(k)] == Place::basic || std::abs(value) <= rounding * size;
+    reduced_(k) = is_nothing ? 0.0 : value;
   }
 }
 
@@ -271,7 +278,13 @@ QuadraticProgram::Curvature QuadraticProgram::add_superbasic(int s) noexcept {
   std::copy_n(V(variable), curvature_rows_, column);
   for (int i = 0; i < rank_; ++i) {
     double value = 0.0;
-    for (int k = 0; k < rank_; ++k) value += inverse_basis_(i, k) * E_(variable, rows_[index(k)]);
+    double size = 0.0;
+    for (int k = 0; k < rank_; ++k) {
+      const double term = inverse_basis_(i, k) * E_(variable, rows_[index(k)]);
+      value += term;
+      size += std::abs(term);
+    }
+    if (std::abs(value) <= rounding * size) value = 0.0;
     follow[i] = value;
     add_multiple(curvature_rows_, -value, V(basics_[index(i)]), column);
   }

@@ -12,6 +12,8 @@
 ///   falls block   a variable that meets a bound on the way parks there; if it was basic, a superbasic one
 ///   takes its place
 ///
+/// Without equations, blocks of variables are tried first (block_pivoting.cpp).
+///
 /// Singular H and dependent rows need no regularisation: a variable joins only while it adds curvature or a
 /// way down, and a way down without curvature ends at a bound. So the superbasic set always has a positive
 /// definite reduced Hessian.
@@ -52,6 +54,27 @@ class QuadraticProgram {
   enum class Place : char { parked, basic, superbasic };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+  static constexpr double relative_gradient_tolerance = 1e-12;
+  static constexpr double slope_tolerance = 1e3;  ///< times the gradient tolerance
+  static constexpr double ample_curvature =
+      1e-6;  ///< a pivot's share of the diagonal, of a variable that starts free
+  static constexpr int max_refinements = 4;
+
+  bool pivot_blocks(int max_rounds, int& iterations) noexcept;
+  void form_hessian() noexcept;
+  void compute_gradient() noexcept;
+  void factorise_free() noexcept;
+  void step_free() noexcept;
+  bool is_out_of_place(int variable) const noexcept;
+  void divide_by_free(double* x) const noexcept;
+  void solve_free() noexcept;
+  int flat_one_that_wants_away() const noexcept;
+  bool has_room(int variable) const noexcept;
+  bool slide(int flat) noexcept;
+  void park_flat_ones() noexcept;
+  void change_places() noexcept;
+  double slope_of_curved() const noexcept;
+
   void choose_basis() noexcept;
   void choose_superbasics() noexcept;
   bool factorise_basis() noexcept;
@@ -83,6 +106,7 @@ class QuadraticProgram {
   RowMajorMatrix reduced_V_;      ///< a row a superbasic variable
   RowMajorMatrix hessian_;        ///< the reduced Hessian, lower triangle
   RowMajorMatrix factor_;         ///< its Cholesky factor
+  Eigen::VectorXd inverse_root_;  ///< of the blocks' factor: 1 over its diagonal
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
   std::vector<Place> place_;
   std::vector<char> stuck_;

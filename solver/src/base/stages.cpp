@@ -381,20 +381,32 @@ bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
   return exact;
 }
 
-/// Least-norm torques for p into candidate_, tau = T (T'T)^-1 p; false when the motors do not reach p or a
-/// limit is in the way.
+/// Least-norm torques for p into candidate_: those of the sole motors one after the other, then tau = T
+/// (T'T)^-1 p. False when the motors do not reach p or a limit is in the way.
 bool BoundedProblem::torques_for(const Vector& p) noexcept {
   if (!motors_reach_all_) return false;
   copy(p, solved_);
-  solve_lower(gram_, dimension_, solved_.data());
-  solve_upper(gram_, dimension_, solved_.data());
-  for (int j = 0; j < motors_; ++j) {
-    const double torque = dot(motor_extents_[static_cast<std::size_t>(j)], &T_(j, 0), solved_.data());
-    const double slack = rounding * (tau_hi_(j) - tau_lo_(j));
-    const double room = std::isfinite(slack) ? slack : 0.0;
-    if (torque < tau_lo_(j) - room || torque > tau_hi_(j) + room) return false;
-    candidate_(j) = std::clamp(torque, tau_lo_(j), tau_hi_(j));
+  double* const rest = solved_.data();
+  int open = dimension_;
+  for (const Sole& sole : soles_) {
+    const double torque = rest[--open] * sole.inverse;
+    if (!take_torque(sole.motor, torque)) return false;
+    add_multiple(open, -torque, &T_(sole.motor, 0), rest);
   }
+  solve_lower(gram_, shared_dimensions_, rest);
+  solve_upper(gram_, shared_dimensions_, rest);
+  for (const int j : shared_motors_) {
+    if (!take_torque(j, dot(motor_extents_[static_cast<std::size_t>(j)], &T_(j, 0), rest))) return false;
+  }
+  return true;
+}
+
+/// Into candidate_; false beyond a limit.
+bool BoundedProblem::take_torque(int motor, double torque) noexcept {
+  const double slack = rounding * (tau_hi_(motor) - tau_lo_(motor));
+  const double room = std::isfinite(slack) ? slack : 0.0;
+  if (torque < tau_lo_(motor) - room || torque > tau_hi_(motor) + room) return false;
+  candidate_(motor) = std::clamp(torque, tau_lo_(motor), tau_hi_(motor));
   return true;
 }
 

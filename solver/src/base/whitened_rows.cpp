@@ -1,188 +1,118 @@
 #include "base/whitened_rows.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "base/cholesky.hpp"
 #include "pairs.hpp"
 
 namespace zwang::solver {
 
-namespace {
+WhitenedRows::WhitenedRows(const Columns& columns)
+    : reflections_(RowMajorMatrix::Zero(columns.ground_end(), spaced(columns.ground_end()))),
+      scale_(Eigen::VectorXd::Zero(columns.ground_end())),
+      left_(Eigen::VectorXd::Zero(columns.g.size())),
+      size_(Eigen::VectorXd::Zero(columns.g.size())),
+      held_force_(Eigen::VectorXd::Zero(columns.dimensions())),
+      pivots_(static_cast<std::size_t>(columns.g.size())),
+      dimensions_(columns.dimensions()),
+      ground_end_(columns.ground_end()),
+      base_(columns.held_dimensions()) {}
 
-/// y_k = (rhs(k) - sum over c < k of G_kc y_c) / G_kk for the pivots' lower triangle at `first`, one by one:
-/// a pair with the y that was stored a moment ago would wait for it.
-template <class Rhs>
-void substitute(const RowMajorMatrix& W, int first, int count, const double* inverse_root, Rhs rhs,
-                double* y) noexcept {
-  for (int k = 0; k < count; ++k) {
-    const double* const line = &W(first + k, first);
-    double rest = rhs(k);
-    for (int c = 0; c < k; ++c) rest -= line[c] * y[c];
-    y[k] = rest * inverse_root[k];
-  }
-}
-
-/// x := G'^-1 (y), y := 0 on the way, for the pivots' lower triangle at `first` with the diagonal's inverse
-/// at hand; `take(k, x_k)` from the last to the first.
-template <class Take>
-void substitute_back(const RowMajorMatrix& W, int first, int count, const double* inverse_root, double* y,
-                     Take take) noexcept {
-  for (int k = count - 1; k >= 0; --k) {
-    const double x = y[k] * inverse_root[k];
-    add_multiple(k, -x, &W(first + k, first), y);
-    take(k, x);
-  }
-}
-
-}  // namespace
-
-WhitenedRows::WhitenedRows(int row_capacity)
-    : W_(RowMajorMatrix::Zero(row_capacity + 1, spaced(row_capacity))),
-      gram_(RowMajorMatrix::Zero(row_capacity, row_capacity)),
-      left_(Eigen::VectorXd::Zero(row_capacity + 1)),
-      inverse_diagonal_(Eigen::VectorXd::Zero(row_capacity)),
-      column_(Eigen::VectorXd::Zero(row_capacity + 1)),
-      inverse_root_(Eigen::VectorXd::Zero(row_capacity)),
-      held_(Eigen::VectorXd::Zero(row_capacity)),
-      held_acceleration_(Eigen::VectorXd::Zero(row_capacity)),
-      substitution_(Eigen::VectorXd::Zero(row_capacity)),
-      line_of_(static_cast<std::size_t>(row_capacity)),
-      row_at_(static_cast<std::size_t>(row_capacity)) {}
-
-void WhitenedRows::factorise(const RowMajorMatrix& L, int ground, int joints, int rows,
-                             double tolerance) noexcept {
-  rows_ = rows;
+void WhitenedRows::factorise(Columns& columns, int ground) noexcept {
+  W_ = &columns.W;
   rank_ = 0;
-  for (int i = 0; i < rows; ++i) {
-    copy(i, &L(i, 0), &W_(i, 0));
-    left_(i) = L(i, i);
-    inverse_diagonal_(i) = L(i, i) > 0.0 ? 1.0 / L(i, i) : 0.0;
-    row_at_[static_cast<std::size_t>(i)] = i;
+  for (int i = 0; i < ground; ++i) {
+    pivots_[static_cast<std::size_t>(i)] = i;
+    size_(i) = dot(ground_end_, line(i), line(i));
+    left_(i) = dot(ground_end_ - base_, line(i) + base_, line(i) + base_);
   }
-  set_zero(rows, &W_(rows, 0));
-  column_(rows) = 0.0;
-  const int candidates = ground + joints;
-  eliminate(ground, candidates, ground_tolerance);
-  ground_rank_ = rank_;
-  for (int k = rank_; k < ground; ++k) inverse_diagonal_(k) = 0.0;
-  eliminate(candidates, candidates, tolerance);
-  for (int k = ground_rank_; k < rank_; ++k) set_zero(rank_ - k - 1, &W_(k, k) + 1);
-  for (int k = 0; k < rows; ++k) line_of_[static_cast<std::size_t>(row_at(k))] = k;
+  while (base_ + rank_ < ground_end_) {
+    const int k = next_pivot(ground);
+    if (k < 0) break;
+    std::swap(pivots_[static_cast<std::size_t>(rank_)], pivots_[static_cast<std::size_t>(k)]);
+    reflect(columns, pivots_[static_cast<std::size_t>(rank_)], base_ + rank_, ground);
+    ++rank_;
+  }
+  held_ = base_ + rank_;
 }
 
-/// The next line of [rank, last) if the columns so far leave an ample share of it; else the one of which they
-/// leave the largest, and -1 when none has one.
-int WhitenedRows::next_pivot(int last, double tolerance) const noexcept {
+/// The next row if the pivots so far leave an ample share of it; else the one of which they leave the
+/// largest, and -1 when none has one.
+int WhitenedRows::next_pivot(int ground) const noexcept {
   constexpr double ample = 0.1;
   int pivot = -1;
-  double best = tolerance;
-  for (int k = rank_; k < last; ++k) {
-    const double share = left_(k) * inverse_diagonal_(k);
-    if (share > best) {
-      best = share;
-      pivot = k;
-    }
-    if (k == rank_ && share > ample) return k;
+  double best = ground_tolerance;
+  for (int k = rank_; k < ground; ++k) {
+    const int row = pivots_[static_cast<std::size_t>(k)];
+    if (!(left_(row) > best * size_(row))) continue;
+    best = left_(row) / size_(row);
+    pivot = k;
+    if (k == rank_ && best > ample) return k;
   }
   return pivot;
 }
 
-/// Takes the pivots out of [rank, last): each time a column of W and, for the lines that may still become
-/// pivots, what that column leaves of L, two lines at a time (there is one to spare):
-///   w = L_p / root(L_pp)        L -= w w'
-void WhitenedRows::eliminate(int last, int candidates, double tolerance) noexcept {
-  double* const w = column_.data();
-  double* const left = left_.data();
-  const Eigen::Index stride = W_.outerStride();
-  for (int pivot = next_pivot(last, tolerance); pivot >= 0; pivot = next_pivot(last, tolerance)) {
-    if (pivot != rank_) exchange(rank_, pivot);
-    const int c = rank_++;
-    const double root = std::sqrt(left[c]);
-    const double inverse_root = root * (1.0 / left[c]);  // the two do not wait for one another
-    inverse_root_(c) = inverse_root;
-    W_(c, c) = root;
-    double* line = &W_(c + 1, c);
-    for (int k = c + 1; k < rows_; k += 2) {
-      double* const next = line + stride;
-      const Eigen::Array2d value = inverse_root * Eigen::Array2d(*line, *next);
-      *line = value(0);
-      *next = value(1);
-      Pair(w + k) = value;
-      Pair(left + k) -= value * value;
-      line = next + stride;
-    }
-    add_square(c + 1, candidates, -1.0, w, W_.data(), stride);
-    for (int k = candidates; k < rows_; k += 2) {
-      add_to_two_lines(-w[k], -w[k + 1], w, c + 1, candidates, &W_(k, 0), &W_(k + 1, 0));
-    }
+/// Turns the axes from `first` to the ground's end so that x, the pivot's line there, lies on the first of
+/// them:
+///   v = x + sign(x_0) |x| e_0        y -= (v.y) 2 / v.v  v        for the lines y of the other rows
+/// v has zeros around it, so that every loop goes over whole pairs.
+void WhitenedRows::reflect(Columns& columns, int pivot, int first, int ground) noexcept {
+  double* const v = &reflections_(rank_, 0);
+  double* const x = &columns.W(pivot, 0);
+  set_zero(first, v);
+  for (int k = first; k < ground_end_; ++k) {
+    v[k] = x[k];
+    x[k] = 0.0;
   }
+  const double length = std::sqrt(dot(ground_end_ - first, v + first, v + first));
+  x[first] = v[first] > 0.0 ? -length : length;
+  scale_(rank_) = 1.0 / (length * (length + std::abs(v[first])));
+  v[first] -= x[first];
+  for (int k = rank_ + 1; k < ground; ++k) {
+    const int row = pivots_[static_cast<std::size_t>(k)];
+    double* const y = &columns.W(row, 0);
+    turn(rank_, y);
+    left_(row) -= y[first] * y[first];
+  }
+  for (int row = ground; row < columns.rows(); ++row) turn(rank_, &columns.W(row, 0));
 }
 
-/// Exchanges two lines and the columns that belong to them in what is left of L; c < k.
-void WhitenedRows::exchange(int c, int k) noexcept {
-  std::swap(row_at_[static_cast<std::size_t>(c)], row_at_[static_cast<std::size_t>(k)]);
-  std::swap(left_(c), left_(k));
-  std::swap(inverse_diagonal_(c), inverse_diagonal_(k));
-  for (int i = 0; i < c; ++i) std::swap(W_(c, i), W_(k, i));
-  for (int i = c + 1; i < k; ++i) std::swap(W_(i, c), W_(k, i));
-  for (int i = k + 1; i < rows_; ++i) std::swap(W_(i, c), W_(i, k));
+/// Line y, or any vector by dimension, under a reflection.
+void WhitenedRows::turn(int reflection, double* y) const noexcept {
+  const double* const v = &reflections_(reflection, 0);
+  const int first = (base_ + reflection) & ~1;
+  Eigen::Array2d sum = Eigen::Array2d::Zero();
+  for (int k = first; k < ground_end_; k += 2) sum += ConstPair(v + k) * ConstPair(y + k);
+  const Eigen::Array2d factor = Eigen::Array2d::Constant(-scale_(reflection) * (sum(0) + sum(1)));
+  for (int k = first; k < ground_end_; k += 2) Pair(y + k) += factor * ConstPair(v + k);
 }
 
-double WhitenedRows::free_share(int row, const RowMajorMatrix& L) const noexcept {
-  return L(row, row) > 0.0 ? motion(row).squaredNorm() / L(row, row) : 0.0;
-}
-
-void WhitenedRows::motion_multipliers(const Eigen::VectorXd& rhs, int ground, int rows,
-                                      Eigen::VectorXd& nu) noexcept {
-  const int r = mobility();
-  const int g = ground_rank_;
-  if (r < rows - ground) {
-    least_squares(rhs, ground, rows, nu);
-    return;
-  }
-  double* const y = substitution_.data();
-  substitute(
-      W_, g, r, inverse_root_.data() + g, [&](int c) { return rhs(row_at(g + c)); }, y);
-  substitute_back(W_, g, r, inverse_root_.data() + g, y, [&](int c, double x) { nu(row_at(g + c)) = x; });
-}
-
-/// The rows' L is B B' with B of full column rank: its pseudo-inverse is B (B'B)^-2 B'.
-void WhitenedRows::least_squares(const Eigen::VectorXd& rhs, int ground, int rows,
-                                 Eigen::VectorXd& nu) noexcept {
-  const int r = mobility();
-  double* const y = substitution_.data();
-  for (int k = 0; k < r; ++k) set_zero(k + 1, &gram_(k, 0));
-  set_zero(r, y);
-  for (int i = ground; i < rows; ++i) {
-    const double* const B = line(line_of(i)) + ground_rank_;
-    for (int k = 0; k < r; ++k) add_multiple(k + 1, B[k], B, &gram_(k, 0));
-    add_multiple(r, rhs(i), B, y);
-  }
-  cholesky(gram_, r, 0.0);
-  for (int pass = 0; pass < 2; ++pass) {
-    solve_lower(gram_, r, y);
-    solve_upper(gram_, r, y);
-  }
-  for (int i = ground; i < rows; ++i) nu(i) = dot(r, line(line_of(i)) + ground_rank_, y);
+double WhitenedRows::free_share(int row) const noexcept {
+  const double square = free_square(row);
+  return square > 0.0 ? motion(row).squaredNorm() / square : 0.0;
 }
 
 void WhitenedRows::hold_ground(const Eigen::VectorXd& bias) noexcept {
-  const int g = ground_rank_;
-  substitute(
-      W_, 0, g, inverse_root_.data(), [&](int c) { return bias(row_at(c)); }, held_.data());
-  for (int k = g; k < rows_; ++k) held_acceleration_(row_at(k)) = dot(g, line(k), held_.data());
+  hold_ground(bias, Vector3::Zero());
 }
 
-void WhitenedRows::ground_multipliers(const Eigen::VectorXd& forces, int ground, int rows,
-                                      Eigen::VectorXd& nu) noexcept {
-  const int g = ground_rank_;
-  double* const y = substitution_.data();
-  copy(g, held_.data(), y);
-  for (int i = ground; i < rows; ++i) add_multiple(g, -forces(i), line(line_of(i)), y);
-  nu.head(ground).setZero();
-  substitute_back(W_, 0, g, inverse_root_.data(), y, [&](int c, double x) { nu(row_at(c)) = x; });
+void WhitenedRows::hold_ground(const Eigen::VectorXd& bias, const Vector3& base_force) noexcept {
+  double* const y = held_force_.data();
+  for (int c = 0; c < base_; ++c) y[c] = base_force(c);
+  for (int c = base_; c < held_; ++c) {
+    const int row = pivots_[static_cast<std::size_t>(c - base_)];
+    double rest = bias(row);
+    for (int k = 0; k < c; ++k) rest -= line(row)[k] * y[k];
+    y[c] = rest / line(row)[c];
+  }
+}
+
+/// The reflections backward. (`force` has a number to spare.)
+void WhitenedRows::forces(const double* p, Eigen::VectorXd& force) const noexcept {
+  double* const x = force.data();
+  copy(held_, held_force_.data(), x);
+  copy(mobility(), p, x + held_);
+  for (int k = rank_ - 1; k >= 0; --k) turn(k, x);
 }
 
 }  // namespace zwang::solver

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "constraint/kinematics.hpp"
 #include "constraint/measure.hpp"
 
 namespace zwang::solver {
@@ -78,10 +77,6 @@ Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, co
 /// Later ones win where ranges contradict.
 constexpr std::array ranges_in_rising_rank{Quantity::position, Quantity::velocity, Quantity::acceleration};
 
-FrameMotion motion_in_world(const AttachedFrame& frame) {
-  return {frame.pose, frame.pose.rotation * frame.twist.angular, frame.pose.rotation * frame.twist.linear};
-}
-
 double mix(double before, double now, double progress) {
   return before + progress * (now - before);
 }
@@ -97,14 +92,13 @@ double braking_speed(double distance, double braking, double h) noexcept {
   return std::copysign(speed, distance);
 }
 
-FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept {
-  if (frame.body < 0) return motion_in_world(frame);
-  return motion_of_body(frame.body, model, state, motion_of_base(model, state)).at(frame.pose);
-}
-
 Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept {
   return measure(constraint, motion_of(constraint.move, model, state), motion_of(constraint.in, model, state))
       .now;
+}
+
+Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept {
+  return measure(constraint, motions.of(constraint.move), motions.of(constraint.in)).now;
 }
 
 Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis, const Model& model,
@@ -116,13 +110,13 @@ Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axi
   return coordinate_of(constraint, model, state);
 }
 
-ConstraintSet::ConstraintSet(int constraint_capacity, int row_capacity) {
+ConstraintSet::ConstraintSet(int constraint_capacity, int row_capacity)
+    : motions_(2 * static_cast<std::size_t>(std::max(constraint_capacity, 0))) {
   if (constraint_capacity < 1 || row_capacity < 1) {
     throw std::invalid_argument("constraint set: capacities must be at least 1");
   }
   constraints_.reserve(static_cast<std::size_t>(constraint_capacity));
   coordinates_.reserve(static_cast<std::size_t>(constraint_capacity));
-  known_.reserve(2 * static_cast<std::size_t>(constraint_capacity));
   rows_.reserve(static_cast<std::size_t>(row_capacity));
 }
 
@@ -145,42 +139,23 @@ bool ConstraintSet::push(const Row& row) noexcept {
 }
 
 bool ConstraintSet::fill(const Model& model, const State& state) noexcept {
+  motions_.start(model, state);
+  return fill(motions_);
+}
+
+bool ConstraintSet::fill(BodyMotions& motions) noexcept {
   coordinates_.clear();
   rows_.clear();
-  known_.clear();
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
-    if (!fill_one(static_cast<int>(i), model, state)) return false;
+    if (!fill_one(static_cast<int>(i), motions)) return false;
   }
   return true;
 }
 
-/// Constraints share bodies, and bodies their carriers: a chain is walked once.
-FrameMotion ConstraintSet::body_motion(int body, const Model& model, const State& state) noexcept {
-  for (const KnownMotion& known : known_) {
-    if (known.body == body) return known.motion;
-  }
-  FrameMotion motion;
-  if (body == 0) {
-    motion = motion_of_base(model, state);
-  } else {
-    const Body& link = model.bodies()[static_cast<std::size_t>(body)];
-    const BodyMotion parent{body_motion(link.parent, model, state)};
-    motion = motion_on_parent(link, state.q(body - 1), state.qd(body - 1), parent);
-  }
-  if (known_.size() < known_.capacity()) known_.push_back({body, motion});
-  return motion;
-}
-
-FrameMotion ConstraintSet::frame_motion(const AttachedFrame& frame, const Model& model,
-                                        const State& state) noexcept {
-  if (frame.body < 0) return motion_in_world(frame);
-  return BodyMotion{body_motion(frame.body, model, state)}.at(frame.pose);
-}
-
-bool ConstraintSet::fill_one(int index, const Model& model, const State& state) noexcept {
+bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
   const AxisConstraint& constraint = constraints_[static_cast<std::size_t>(index)];
-  const FrameMotion f = frame_motion(constraint.move, model, state);
-  const FrameMotion t = frame_motion(constraint.in, model, state);
+  const FrameMotion f = motions.of(constraint.move);
+  const FrameMotion t = motions.of(constraint.in);
   const Measurement along = measure(constraint, f, t);
   const Coordinate& now = along.now;
   coordinates_.push_back(now);
@@ -193,9 +168,7 @@ bool ConstraintSet::fill_one(int index, const Model& model, const State& state) 
   row.constraint = index;
   row.level = constraint.level;
   row.weight = constraint.weight;
-  const auto unit_force = [&](int body) {
-    return on_body(along, f.pose.position, body_motion(body, model, state).pose);
-  };
+  const auto unit_force = [&](int body) { return on_body(along, f.pose.position, motions.of(body).pose); };
   const bool relative = constraint.in.body >= 0 && !only_orients(constraint.move, constraint.in);
   if (constraint.move.body >= 0) {
     row.body = constraint.move.body;

@@ -47,12 +47,13 @@ struct GroundRow {
   double bias = 0.0;  ///< minus the velocity products
 };
 
-/// The rows of the ground of a model: base first, then wheel by wheel.
+/// The rows of the ground of a model, wheel by wheel. (The base's own height, roll and pitch need none: they
+/// are no freedoms of it.)
 class Ground {
  public:
   explicit Ground(const Model& model);
 
-  int row_count() const noexcept { return base_rows_ + static_cast<int>(held_.size()); }
+  int row_count() const noexcept { return static_cast<int>(held_.size()); }
   /// Row `index` at the configuration and the twists in `sweeps`.
   GroundRow row(int index, const Sweeps& sweeps) const noexcept;
 
@@ -63,14 +64,8 @@ class Ground {
     double radius = 0.0;
     HeldDirection direction;
   };
-  GroundRow wheel_row(const Held& held, const Sweeps& sweeps) const noexcept;
 
-  int base_rows_ = 0;
   std::vector<Held> held_;
 };
-
-/// Whether the base cannot move in the plane, at any configuration, without turning a wheel: wheels that are
-/// mounted on it directly hold all three of its directions. Then the joints' rows span every motion.
-bool every_motion_turns_a_wheel(const Model& model) noexcept;
 
 }  // namespace zwang::solver

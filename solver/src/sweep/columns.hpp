@@ -1,11 +1,17 @@
-/// The rows' part of the sweeps: the columns of A on their way inward, and the L and g that they leave
+/// The rows' part of the sweeps: the columns of A on their way inward, and the W and g that they leave
 /// behind.
+///
+/// L is a sum of squares, (9) and (12): each joint adds (S'A)' D^-1 (S'A), the base A_0' IA_0^-1 A_0. So the
+/// sweep itself factorises it,
+///
+///   L = W W',   W = [ F A_0,  D^-1/2 S'A of every joint ],   IA_0^-1 = F'F
+///
+/// one line a row, one dimension a freedom of the robot, and L itself is never formed.
 ///
 /// A row that acts on one body has one column, a row between two bodies has two. Columns are kept in the
 /// order of a walk through the tree that finishes a branch before it starts the next, so those that a joint
-/// carries (the rows at its body and beyond) are neighbours, and each line of (8) to (10) is one loop over
-/// numbers that lie side by side. `finish` sorts what they leave into rows. The order depends on the bodies
-/// on which the rows act and is worked out again only when these change.
+/// carries (the rows at its body and beyond) are neighbours. The order depends on the bodies on which the
+/// rows act and is worked out again only when these change.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,10 +29,16 @@ class Columns {
  public:
   Columns(const Model& model, int row_capacity);
 
-  RowMajorMatrix L;   ///< rows() x rows(), the lower triangle
+  RowMajorMatrix W;   ///< rows() x dimensions()
   Eigen::VectorXd g;  ///< by row
 
   int rows() const noexcept { return rows_; }
+  int dimensions() const noexcept { return dimensions_; }
+  /// Of the base's own dimensions, which come first, how many the ground holds: 3 under wheels.
+  int held_dimensions() const noexcept { return held_; }
+  /// Rows of the ground are 0 from here on: after the base come the joints that carry wheels.
+  int ground_end() const noexcept { return ground_end_; }
+  int dimension_of(std::size_t body) const noexcept { return dimension_of_[body]; }
 
   void clear() noexcept;
   /// Adds a row that acts on the body with the constraint force `a` (base coordinates); returns its id.
@@ -40,27 +52,17 @@ class Columns {
   void arrange(const std::vector<BodySweep>& bodies) noexcept;
   /// Takes the columns of body i through its joint: (8), (9) and (10). `UD` is U D^-1.
   void carry(std::size_t i, const BodySweep& sweep, const Vector6& UD) noexcept;
-  /// The base does not move: what is left is L and g.
-  void finish() noexcept;
-  /// A floating base, (12), with IA_0^-1 = F'F: L += (F A)'(F A), g -= (F A)'(F pA).
+  /// A floating base, (12), with IA_0^-1 = F'F, the dimensions of W in F's lines; those that the ground holds
+  /// do not follow pA.
   void finish(const Matrix6& F, const Vector6& pA) noexcept;
 
-  /// Takes the multipliers, by row, for the functions below.
-  void set_multipliers(const Eigen::VectorXd& nu) noexcept;
-  /// (S'A) nu at the joint of body i.
-  double joint_force(std::size_t i) const noexcept {
-    const Range& range = ranges_[i];
-    const double* const SA = &SA_(static_cast<Eigen::Index>(i), 0);
-    return dot(range.last - range.first, SA + range.first, nu_.data() + range.first);
-  }
-  /// F A nu at a floating base.
-  Vector6 base_force(const Eigen::VectorXd& nu) const noexcept;
-  /// Adds the constraint forces of the rows from `first` on to the bodies on which they act.
+  /// Adds the constraint forces of the rows from `first` on, nu(0) the one of `first`, to the bodies on which
+  /// they act.
   template <class Wrenches>
   void add_wrenches(int first, const Eigen::VectorXd& nu, Wrenches& wrenches) const noexcept {
     for (int k = 0; k < count_; ++k) {
       const Column& column = columns_[index(k)];
-      if (column.row >= first) wrenches[index(column.body)] += own_.col(k) * nu(column.row);
+      if (column.row >= first) wrenches[index(column.body)] += own_.col(k) * nu(column.row - first);
     }
   }
 
@@ -80,29 +82,23 @@ class Columns {
   };
   static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
   void add(int body, int row, bool of_joint, const Vector6& a) noexcept;
+  void number_dimensions(const Model& model);
   void lay_out() noexcept;
-  void sort_into_rows() noexcept;
 
   int rows_ = 0;
   int count_ = 0;
+  int dimensions_ = 0, held_ = 0, ground_end_ = 0;
+  std::vector<int> dimension_of_;  ///< by body, of its joint
   std::vector<Column> columns_;
   Eigen::Matrix<double, 6, Eigen::Dynamic> own_;  ///< as added, in the base's axes and at its origin
-  bool has_fixed_base_;
   std::vector<int> parents_, walk_;
-  std::vector<int> branches_;  ///< bodies that hang on the base
 
   // Of the bodies on which the rows act.
   int laid_out_ = 0;  ///< columns that stand in the present order
   std::vector<Range> ranges_;
   std::vector<int> row_of_;  ///< by place
-  bool is_sorted_ = true;  ///< L gets its numbers where they are made: on a fixed base with place k for row k
 
-  // By place.
-  Eigen::Matrix<double, 6, Eigen::Dynamic> A_;
-  RowMajorMatrix SA_;  ///< S'A: a line for each body
-  RowMajorMatrix L_;   ///< where L is not sorted
-  Eigen::VectorXd g_, nu_;
-  RowMajorMatrix FA_;  ///< F A_0 at a floating base, its columns by row
+  Eigen::Matrix<double, 6, Eigen::Dynamic> A_;  ///< by place
 };
 
 }  // namespace zwang::solver

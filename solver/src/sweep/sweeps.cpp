@@ -116,26 +116,45 @@ void write_bias(const Vector3& gravity, const ForceVector& f_ext, BodySweep& swe
   if (!f_ext.is_zero()) sweep.pA -= sweep.to_base(f_ext);
 }
 
-/// Inverse of the lower Cholesky factor of a symmetric positive definite 6 x 6; false when it is not.
-bool invert_factor(const Matrix6& inertia, Matrix6& inverse) {
-  Matrix6 factor = inertia;
+/// F with inertia^-1 = F'F, the inverse of the Cholesky factor G over the freedoms in `order`; line k of it
+/// is line (k + shift) % 6 of F. False when the inertia is not positive definite.
+bool invert_factor(const Matrix6& inertia, const int (&order)[6], int shift, Matrix6& F) {
+  double G[6][6];  // 1 / G_kk on the diagonal
   for (int k = 0; k < 6; ++k) {
-    const double pivot = inertia(k, k) - factor.row(k).head(k).squaredNorm();
-    if (!(pivot > 1e-14 * inertia(k, k))) return false;
-    factor(k, k) = std::sqrt(pivot);
-    for (int i = k + 1; i < 6; ++i) {
-      factor(i, k) = (inertia(i, k) - factor.row(i).head(k).dot(factor.row(k).head(k))) / factor(k, k);
+    double pivot = inertia(order[k], order[k]);
+    for (int c = 0; c < k; ++c) {
+      double rest = inertia(order[k], order[c]);
+      for (int l = 0; l < c; ++l) rest -= G[k][l] * G[c][l];
+      G[k][c] = rest * G[c][c];
+      pivot -= G[k][c] * G[k][c];
     }
+    if (!(pivot > 1e-14 * inertia(order[k], order[k]))) return false;
+    G[k][k] = 1.0 / std::sqrt(pivot);
   }
-  inverse.setZero();
+  F.setZero();
   for (int c = 0; c < 6; ++c) {
-    inverse(c, c) = 1.0 / factor(c, c);
+    double inverse[6];
+    inverse[c] = G[c][c];
     for (int i = c + 1; i < 6; ++i) {
-      inverse(i, c) = -factor.row(i).segment(c, i - c).dot(inverse.col(c).segment(c, i - c)) / factor(i, i);
+      double rest = 0.0;
+      for (int l = c; l < i; ++l) rest += G[i][l] * inverse[l];
+      inverse[i] = -rest * G[i][i];
     }
+    for (int i = c; i < 6; ++i) F((i + shift) % 6, order[c]) = inverse[i];
   }
   return true;
 }
+
+/// IA_0 da_0 = A_0 nu - pA_0, where the base is free:  da_0 = F'(F A_0 nu - F pA_0)
+Vector6 base_acceleration(const Eigen::VectorXd& force, const Sweeps& sweeps) {
+  const Matrix6& F = sweeps.base_inverse_factor;
+  Vector6 answer = F * sweeps.bodies.front().pA;
+  answer.head(sweeps.columns.held_dimensions()).setZero();
+  return F.transpose() * (force.head<6>() - answer);
+}
+
+constexpr int all_freedoms[6] = {0, 1, 2, 3, 4, 5};
+constexpr int planar_first[6] = {2, 3, 4, 5, 0, 1};  // rz, x, y; z, rx, ry
 
 }  // namespace
 
@@ -218,6 +237,8 @@ bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& swee
     const double D = body.joint.rotor_inertia + sweep.S.dot(sweep.U);
     if (!(D > 0.0)) return false;
     sweep.D_inverse = 1.0 / D;
+    sweep.root_D = std::sqrt(D);
+    sweep.root_D_inverse = sweep.root_D * sweep.D_inverse;  // neither waits for the other
     sweep.u = tau(static_cast<Eigen::Index>(i) - 1) - sweep.S.dot(sweep.pA);
     const Vector6 UD = sweep.U * sweep.D_inverse;
     if (base_moves || body.parent > 0) {
@@ -226,36 +247,44 @@ bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& swee
     }
     sweeps.columns.carry(i, sweep, UD);
   }
-  if (!base_moves) {
-    sweeps.columns.finish();
-    return true;
-  }
+  if (!base_moves) return true;
   const BodySweep& base = sweeps.bodies.front();
-  if (!invert_factor(base.IA, sweeps.base_inverse_factor)) return false;
+  const int held = sweeps.columns.held_dimensions();
+  if (!invert_factor(base.IA, held > 0 ? planar_first : all_freedoms, held, sweeps.base_inverse_factor))
+    return false;
   sweeps.columns.finish(sweeps.base_inverse_factor, base.pA);
   return true;
 }
 
-void outward_accelerations(const Model& model, const Eigen::VectorXd& nu, Sweeps& sweeps,
+void outward_accelerations(const Model& model, const Eigen::VectorXd& force, Sweeps& sweeps,
                            Eigen::VectorXd& qdd) noexcept {
-  sweeps.columns.set_multipliers(nu);
   BodySweep& base = sweeps.bodies.front();
   base.da.setZero();
-  if (!model.has_fixed_base()) {
-    // IA_0 da_0 = A_0 nu - pA_0
-    const Matrix6& F = sweeps.base_inverse_factor;
-    base.da = F.transpose() * (sweeps.columns.base_force(nu) - F * base.pA);
-  }
+  if (!model.has_fixed_base()) base.da = base_acceleration(force, sweeps);
   base.a = base.c + base.da;
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
     BodySweep& sweep = sweeps.bodies[i];
     const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(model.bodies()[i].parent)];
-    sweep.constraint_force = sweeps.columns.joint_force(i);
-    const double acceleration = sweep.D_inverse * (sweep.u - sweep.U.dot(parent.da) + sweep.constraint_force);
+    // (S'A) nu = D^1/2 force
+    const double acceleration = sweep.D_inverse * (sweep.u - sweep.U.dot(parent.da)) +
+                                sweep.root_D_inverse * force(sweeps.columns.dimension_of(i));
     qdd(static_cast<Eigen::Index>(i) - 1) = acceleration;
     sweep.da = parent.da + sweep.S * acceleration;
     sweep.a = sweep.c + sweep.da;
   }
+}
+
+/// F_hh' z = a_h, with F_hh a lower triangle over z, rx, ry.
+Vector3 held_base_force(const Sweeps& sweeps, const Vector6& a) noexcept {
+  const Matrix6& F = sweeps.base_inverse_factor;
+  Vector3 force = Vector3::Zero();
+  for (int k = sweeps.columns.held_dimensions() - 1; k >= 0; --k) {
+    const int freedom = planar_first[3 + k];
+    double rest = a(freedom);
+    for (int l = k + 1; l < 3; ++l) rest -= F(l, freedom) * force(l);
+    force(k) = rest / F(k, freedom);
+  }
+  return force;
 }
 
 }  // namespace zwang::solver

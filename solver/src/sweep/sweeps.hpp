@@ -31,8 +31,9 @@
 ///   L_p  += L + (S'A)' D^-1 (S'A)        line 19, with our sign
 ///
 /// A branch carries the rows of its own links only. A row on a joint's own axis has A = 0 and S'A = 1 there.
-/// At a floating base L = L_0 + A_0' IA_0^-1 A_0 and g = g_0 - A_0' IA_0^-1 pA_0. Gravity acts as a force
-/// inside pA, so all accelerations are true ones.
+/// At a floating base L = L_0 + A_0' IA_0^-1 A_0 and g = g_0 - A_0' IA_0^-1 pA_0; on the ground the base
+/// moves in rz, x and y only. L is kept as its factor W, L = W W'. Gravity acts as a force inside pA, so all
+/// accelerations are true ones.
 ///
 /// Coordinates: everything is written in the axes of the base and at its origin, in the inertial frame that
 /// coincides with the base at this instant. So nothing is transformed from link to link (the X of the
@@ -75,10 +76,11 @@ struct BodySweep {
   Vector6 pA;  ///< articulated bias force
   Vector6 U;
   double D_inverse = 0.0;
+  double root_D = 0.0;
+  double root_D_inverse = 0.0;
   double u = 0.0;
-  Vector6 da;                     ///< what joints and base add to c
-  Vector6 a;                      ///< spatial acceleration: c + da
-  double constraint_force = 0.0;  ///< (S'A) nu
+  Vector6 da;  ///< what joints and base add to c
+  Vector6 a;   ///< spatial acceleration: c + da
 
   /// A wrench in the body's coordinates, written in the base's.
   Vector6 to_base(const ForceVector& f) const {
@@ -103,7 +105,9 @@ struct Sweeps {
 
   std::vector<BodySweep> bodies;
   Columns columns;
-  Matrix6 base_inverse_factor;  ///< F, the inverse of IA_0's Cholesky factor: IA_0^-1 = F'F
+  /// F, the inverse of a Cholesky factor: IA_0^-1 = F'F. Its lines are the base's dimensions; under wheels z,
+  /// rx and ry come last in the factor, so that the lines of the others, which are free, are 0 there.
+  Matrix6 base_inverse_factor;
 };
 
 /// Phase 1: where the bodies are and how they move. `base_acceleration` counts on a fixed base only.
@@ -115,8 +119,12 @@ void load_bodies(const Model& model, const State& state, const Vector3& gravity,
 void load_bodies_at_rest(Sweeps& sweeps) noexcept;
 /// Phase 2, with the base's inertia factorised at the end. False where an inertia cannot be inverted.
 bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept;
-/// Phase 4. `nu` by row id; writes `a` of every body and qdd.
-void outward_accelerations(const Model& model, const Eigen::VectorXd& nu, Sweeps& sweeps,
+/// Phase 4. `force` = W'nu, the constraint forces by dimension; writes `a` of every body and qdd.
+void outward_accelerations(const Model& model, const Eigen::VectorXd& force, Sweeps& sweeps,
                            Eigen::VectorXd& qdd) noexcept;
+
+/// The constraint forces, by the base's dimensions that the ground holds, which bring the base's acceleration
+/// there, z, rx and ry, to that of `a` when nothing else acts.
+Vector3 held_base_force(const Sweeps& sweeps, const Vector6& a) noexcept;
 
 }  // namespace zwang::solver

@@ -5,6 +5,7 @@
 
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
+#include "zwang/solver/wheel_odometry.hpp"
 
 namespace zwang::runtime {
 
@@ -43,7 +44,7 @@ class Odometry {
   };
   const Past* at(double stamp) const noexcept;
 
-  solver::Model model_;
+  solver::WheelOdometry wheels_;
   OdometrySettings settings_;
   solver::Pose pose_;
   solver::MotionVector twist_;

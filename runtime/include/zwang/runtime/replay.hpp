@@ -30,7 +30,7 @@ struct ReplayResult {
 };
 
 /// Every torque that was sent, compared bit by bit. Stops that came from outside are taken from the log's
-/// events; parameters that a host set during the run are not in it. Throws std::runtime_error when the log
+/// events, parameters that a host set during the run from its columns. Throws std::runtime_error when the log
 /// cannot be opened, or does not hold what was sensed.
 ReplayResult replay(const std::filesystem::path& log, const lang::Program& program, double period);
 

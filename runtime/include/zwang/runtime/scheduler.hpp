@@ -101,6 +101,10 @@ class Scheduler {
   void observe(const solver::Solution& solution) noexcept;
 
   solver::ConstraintSet& constraints() noexcept;
+  const solver::ConstraintSet& constraints() const noexcept;
+  /// Computes their coordinates and rows at the state of the last tick, which must still be there. False when
+  /// the rows exceed the capacity.
+  bool fill_constraints() noexcept;
   /// Parallel to constraints().constraints().
   const std::vector<InForce>& in_force() const noexcept;
   const std::optional<Transition>& transition() const noexcept;  ///< of this tick

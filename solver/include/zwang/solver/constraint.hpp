@@ -9,8 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "zwang/solver/model.hpp"
-#include "zwang/solver/state.hpp"
+#include "zwang/solver/frame.hpp"
 
 namespace zwang::solver {
 
@@ -33,14 +32,6 @@ enum class Measure {
   distance,   ///< from the origin of T to that of F
   angle,      ///< between one axis of F and one of T, 0 to pi
   speed,      ///< of F in the x-y plane of T; velocity ranges only, and no row below half of the highest
-};
-
-/// A frame fixed to a body, or to the world (body = -1).
-struct AttachedFrame {
-  int body = -1;
-  Pose pose;           ///< in the body's frame, or in the world
-  MotionVector twist;  ///< of a frame in the world that moves (an observed object), in its own axes and at
-                       ///< its origin; its acceleration counts as 0. Ignored on a body.
 };
 
 /// The value that drives an axis. [SI: m, rad, m/s, ..., N, N m]
@@ -128,13 +119,6 @@ struct Row {
   int level = 1;
 };
 
-/// World pose and twist (in world axes, linear part of the frame's origin) of an attached frame.
-struct FrameMotion {
-  Pose pose;                          ///< X_WF
-  Vector3 angular = Vector3::Zero();  ///< [rad/s]
-  Vector3 linear = Vector3::Zero();   ///< [m/s]
-};
-
 /// The constraints in force at one instant, and the coordinates and rows that `fill` computes from a state.
 /// Sized once, std::invalid_argument for a size below 1: `fill` does not allocate, lock, throw or print.
 class ConstraintSet {
@@ -148,27 +132,23 @@ class ConstraintSet {
 
   /// Computes every coordinate and row. False when the rows exceed the capacity.
   bool fill(const Model& model, const State& state) noexcept;
+  /// The same at the state that `motions` knows the bodies of.
+  bool fill(BodyMotions& motions) noexcept;
   const std::vector<Coordinate>& coordinates() const noexcept { return coordinates_; }
   const std::vector<Row>& rows() const noexcept { return rows_; }
 
   static constexpr double horizon = 0.010;  ///< h [s], within which limits act
 
  private:
-  bool fill_one(int index, const Model& model, const State& state) noexcept;
+  bool fill_one(int index, BodyMotions& motions) noexcept;
   bool push_driver(const AxisConstraint& constraint, const Coordinate& now, double horizon, Row row) noexcept;
   bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, double horizon, Row row) noexcept;
   bool push(const Row& row) noexcept;
-  FrameMotion body_motion(int body, const Model& model, const State& state) noexcept;
-  FrameMotion frame_motion(const AttachedFrame& frame, const Model& model, const State& state) noexcept;
 
   std::vector<AxisConstraint> constraints_;
   std::vector<Coordinate> coordinates_;
   std::vector<Row> rows_;
-  struct KnownMotion {
-    int body = 0;
-    FrameMotion motion;
-  };
-  std::vector<KnownMotion> known_;  ///< of bodies, at the state that is being filled in
+  BodyMotions motions_;
 };
 
 /// The motion of `move` along `axis` of `in` at the state. Does not allocate, lock, throw or print.
@@ -177,9 +157,7 @@ Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axi
 
 /// The same of what a constraint measures.
 Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept;
-
-/// Its motion at the state. Does not allocate, lock, throw or print.
-FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept;
+Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept;
 
 /// The braking curve of position limits and boundaries: the fastest approach speed at distance d that stops
 /// at 0 without decelerating harder than `braking`: v = d/T for d < d0, else sqrt(2 a (d - d0/2)); odd in d.

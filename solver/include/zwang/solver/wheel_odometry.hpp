@@ -1,6 +1,9 @@
 /// What the wheels say of the motion of the base.
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
 
@@ -13,9 +16,45 @@ struct WheelTwist {
   double slip = 0.0;  ///< [m/s] root mean square of what the held directions contradict each other by
 };
 
-/// The planar twist (vx, vy, wz) that makes the slip along all held directions of all wheels smallest in
-/// the sum of squares; the one of least norm where the wheels leave it open. Reads q and qd of the state
-/// only. Does not allocate, lock, throw or print.
-WheelTwist twist_from_wheels(const Model& model, const State& state) noexcept;
+/// The planar twist (vx, vy, wz) that makes the slip along all held directions of all wheels smallest in the
+/// sum of squares; the one of least norm where the wheels leave it open. With u a held direction at the
+/// contact point P, and s the velocity that the joints alone give that point:
+///   u . (v + w z x P) = -u . s,   a line of J V = r with V = (vx, vy, l w),
+/// where the length l makes its three columns alike, and V = (J'J)^+ J'r.
+class WheelOdometry {
+ public:
+  explicit WheelOdometry(const Model& model);
+
+  /// Reads q and qd of the state only. Does not allocate, lock, throw or print.
+  WheelTwist twist(const State& state) const noexcept;
+
+ private:
+  /// A held direction of a wheel, at rest in the body that the wheel turns on.
+  struct Held {
+    int carrier = 0;
+    int joint = 0;  ///< the wheel's
+    Vector3 centre, axis;
+    double radius = 0.0;
+    double rolling = 0.0, sideways = 0.0;  ///< the direction's parts
+  };
+  struct Line {
+    Vector3 direction;  ///< (u_x, u_y, (z x P) . u), lengths in m
+    double slip_of_joints = 0.0;
+    double square_distance = 0.0;  ///< of P from the base's origin
+  };
+  /// (J'J)^+ and what goes with it.
+  struct Normal {
+    Matrix3 pseudo_inverse = Matrix3::Zero();
+    int rank = 0;
+    double length = 1.0;  ///< l [m]
+  };
+  Line line(const Held& held, const State& state) const noexcept;
+  Normal normal(const State& state) const noexcept;
+
+  Model model_;
+  std::vector<Held> held_;
+  bool is_rigid_ = true;  ///< all wheels turn on the base itself: J never changes
+  Normal rigid_normal_;
+};
 
 }  // namespace zwang::solver

@@ -1,0 +1,61 @@
+/// Frames on the robot's bodies and in the world, and how they move.
+#pragma once
+
+#include <vector>
+
+#include "zwang/solver/model.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::solver {
+
+/// A frame fixed to a body, or to the world (body = -1).
+struct AttachedFrame {
+  int body = -1;
+  Pose pose;           ///< in the body's frame, or in the world
+  MotionVector twist;  ///< of a frame in the world that moves (an observed object), in its own axes and at
+                       ///< its origin; its acceleration counts as 0. Ignored on a body.
+};
+
+/// Pose and twist of a frame in the world: X_WF, and in world axes the twist with the linear part of the
+/// frame's origin.
+struct FrameMotion {
+  Pose pose;
+  Vector3 angular = Vector3::Zero();  ///< [rad/s]
+  Vector3 linear = Vector3::Zero();   ///< [m/s]
+
+  /// Of a frame that this one carries at X_FG.
+  FrameMotion at(const Pose& pose_in_frame) const {
+    const Vector3 arm = pose.rotation * pose_in_frame.position;
+    return {
+        {pose.rotation * pose_in_frame.rotation, pose.position + arm}, angular, linear + angular.cross(arm)};
+  }
+};
+
+/// The motion of bodies at one state, each worked out when it is first asked for: bodies share their
+/// carriers, and those who ask share bodies. After construction nothing allocates, locks, throws or prints.
+class BodyMotions {
+ public:
+  /// Remembers `capacity` bodies; more are worked out anew each time.
+  explicit BodyMotions(std::size_t capacity);
+
+  /// Forgets what it knew. Model and state must live, unchanged, as long as they are asked about.
+  void start(const Model& model, const State& state) noexcept;
+  /// To be read before the next question.
+  const FrameMotion& of(int body) noexcept;
+  FrameMotion of(const AttachedFrame& frame) noexcept;
+
+ private:
+  struct Known {
+    int body = 0;
+    FrameMotion motion;
+  };
+  const Model* model_ = nullptr;
+  const State* state_ = nullptr;
+  std::vector<Known> known_;
+  Known forgotten_;  ///< the last that found no room
+};
+
+/// Of a single frame. Does not allocate, lock, throw or print.
+FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept;
+
+}  // namespace zwang::solver

@@ -1,0 +1,230 @@
+// QuadraticProgram without equations: block principal pivoting (Kostreva 1978; Judice and Pires 1994).
+//
+//   solve for the free variables, the others at their bounds;  who is beyond a bound parks there, who is
+//   parked and wants away joins;  all at once, until nobody moves
+//
+// Mostly two to four rounds, where an active set takes a step for every variable. Rounds that do not lower
+// the number of those that move are allowed a few times in a row; then only the last one moves (Murty 1974).
+// Of variables without curvature of their own, as two limits along one axis, one is free at a time; the other
+// changes places with it where they contradict. The active set takes over where this does not settle.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/quadratic_program.hpp"
+#include "pairs.hpp"
+
+namespace zwang::solver {
+
+namespace {
+constexpr int patience = 3;         // rounds in a row that may not lower the number of those that move
+constexpr double flat_rate = 1e-9;  // of a variable that follows a flat one: below, it does not
+constexpr double infinite_step = std::numeric_limits<double>::infinity();
+}  // namespace
+
+/// H = V'V + R, both triangles.
+void QuadraticProgram::form_hessian() noexcept {
+  for (int k = 0; k < variables_; ++k) {
+    for (int l = 0; l < k; ++l) hessian_(k, l) = hessian_(l, k) = dot(curvature_rows_, V(k), V(l));
+    hessian_(k, k) = dot(curvature_rows_, V(k), V(k)) + R_(k);
+  }
+}
+
+/// reduced_ = H z - g, and the size of what is rounding in it.
+void QuadraticProgram::compute_gradient() noexcept {
+  double scale = largest_g_;
+  for (int k = 0; k < variables_; ++k) {
+    const double pull = dot(variables_, &hessian_(k, 0), z_.data());
+    scale = std::max(scale, std::abs(pull));
+    reduced_(k) = pull - g_(k);
+  }
+  tolerance_ = relative_gradient_tolerance * scale;
+}
+
+/// Cholesky's factor of the free variables' part of H, column by column: what a column leaves of the others
+/// is taken off at once. inverse_root_ is 0 for a variable without curvature of its own, which stays where it
+/// is.
+void QuadraticProgram::factorise_free() noexcept {
+  const auto n = static_cast<int>(superbasics_.size());
+  for (int s = 0; s < n; ++s) {
+    const double* const line = &hessian_(superbasics_[index(s)], 0);
+    for (int t = 0; t <= s; ++t) factor_(s, t) = line[superbasics_[index(t)]];
+  }
+  const Eigen::Index stride = factor_.outerStride();
+  double* const w = work_.data();
+  for (int c = 0; c < n; ++c) {
+    const int variable = superbasics_[index(c)];
+    const double pivot = factor_(c, c);
+    const bool is_curved = pivot > ample_curvature * hessian_(variable, variable);
+    const double inverse = is_curved ? 1.0 / std::sqrt(pivot) : 0.0;
+    inverse_root_(c) = inverse;
+    for (int s = c + 1; s < n; ++s) factor_(s, c) = w[s] = inverse * factor_(s, c);
+    add_square(c + 1, n, -1.0, w, factor_.data(), stride);
+  }
+}
+
+/// x := H_FF^-1 x
+void QuadraticProgram::divide_by_free(double* x) const noexcept {
+  const auto n = static_cast<int>(superbasics_.size());
+  for (int s = 0; s < n; ++s) {
+    double rest = x[s];
+    const double* const line = &factor_(s, 0);
+    for (int t = 0; t < s; ++t) rest -= line[t] * x[t];
+    x[s] = rest * inverse_root_(s);
+  }
+  for (int s = n - 1; s >= 0; --s) {
+    x[s] *= inverse_root_(s);
+    add_multiple(s, -x[s], &factor_(s, 0), x);
+  }
+}
+
+/// One Newton step of the free variables: z -= H_FF^-1 reduced.
+void QuadraticProgram::step_free() noexcept {
+  const auto n = static_cast<int>(superbasics_.size());
+  for (int s = 0; s < n; ++s) step_(s) = reduced_(superbasics_[index(s)]);
+  divide_by_free(step_.data());
+  for (int s = 0; s < n; ++s) z_(superbasics_[index(s)]) -= step_(s);
+}
+
+/// A free variable beyond a bound, or a parked one that wants away from its own.
+bool QuadraticProgram::is_out_of_place(int k) const noexcept {
+  if (place_[index(k)] == Place::superbasic) return z_(k) < lo_(k) || z_(k) > hi_(k);
+  return std::abs(reduced_(k)) > tolerance_ && has_room(k);
+}
+
+/// True when it found the solution; else z is where it was.
+bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
+  std::copy_n(z_.data(), variables_, direction_.data());
+  form_hessian();
+  superbasics_.clear();
+  for (int k = 0; k < variables_; ++k) {
+    const bool is_inside = z_(k) > lo_(k) && z_(k) < hi_(k);
+    place_[index(k)] = is_inside ? Place::superbasic : Place::parked;
+    if (is_inside) superbasics_.push_back(k);
+  }
+  compute_gradient();
+  int fewest = variables_ + 1;
+  int tries = patience;
+  for (int round = 0; round < max_rounds; ++round) {
+    ++iterations;
+    solve_free();
+    const int flat = flat_one_that_wants_away();
+    if (flat >= 0 && !slide(flat)) break;
+    park_flat_ones();
+    if (flat >= 0) continue;
+    rows_.clear();  // those that are out of place
+    for (int k = 0; k < variables_; ++k) {
+      if (is_out_of_place(k)) rows_.push_back(k);
+    }
+    if (rows_.empty()) return true;
+    const auto moving = static_cast<int>(rows_.size());
+    if (moving < fewest) {
+      fewest = moving;
+      tries = patience;
+    } else if (--tries < 0) {
+      rows_.front() = rows_.back();
+      rows_.resize(1);
+    }
+    change_places();
+  }
+  std::copy_n(direction_.data(), variables_, z_.data());
+  return false;
+}
+
+/// To the minimum over the free variables.
+void QuadraticProgram::solve_free() noexcept {
+  factorise_free();
+  for (int refinement = 0; refinement <= max_refinements; ++refinement) {
+    step_free();
+    compute_gradient();
+    if (slope_of_curved() <= slope_tolerance * tolerance_) return;
+  }
+}
+
+/// The place among the free ones of the first without curvature of its own that is not content; -1 for none.
+int QuadraticProgram::flat_one_that_wants_away() const noexcept {
+  for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) {
+    const int k = superbasics_[index(s)];
+    if (inverse_root_(s) == 0.0 && std::abs(reduced_(k)) > tolerance_ && has_room(k)) return s;
+  }
+  return -1;
+}
+
+/// Whether a variable can go the way that its gradient points down.
+bool QuadraticProgram::has_room(int k) const noexcept {
+  return reduced_(k) < 0.0 ? z_(k) < hi_(k) : z_(k) > lo_(k);
+}
+
+/// A flat variable moves the way down and the others follow so that their gradient stays, until the first one
+/// meets its bound, as where two limits contradict each other. If that is another one, the flat one takes its
+/// place. False when none does.
+bool QuadraticProgram::slide(int flat) noexcept {
+  const int entering = superbasics_[index(flat)];
+  const auto n = static_cast<int>(superbasics_.size());
+  for (int s = 0; s < n; ++s) step_(s) = hessian_(superbasics_[index(s)], entering);
+  divide_by_free(step_.data());
+  const double way = reduced_(entering) > 0.0 ? 1.0 : -1.0;
+  for (int s = 0; s < n; ++s) step_(s) *= way;
+  step_(flat) = -way;
+  int blocking = -1;
+  double length = infinite_step;
+  for (int s = 0; s < n; ++s) {
+    const int k = superbasics_[index(s)];
+    if (std::abs(step_(s)) <= flat_rate) continue;
+    const double room = std::max(0.0, step_(s) > 0.0 ? hi_(k) - z_(k) : z_(k) - lo_(k));
+    if (room < length * std::abs(step_(s))) {
+      length = room / std::abs(step_(s));
+      blocking = s;
+    }
+  }
+  if (blocking < 0) return false;
+  for (int s = 0; s < n; ++s) z_(superbasics_[index(s)]) += length * step_(s);
+  const int parking = superbasics_[index(blocking)];
+  z_(parking) = step_(blocking) > 0.0 ? hi_(parking) : lo_(parking);
+  if (blocking != flat) inverse_root_(flat) = 1.0;  // it stays
+  inverse_root_(blocking) = 0.0;
+  return true;
+}
+
+void QuadraticProgram::park_flat_ones() noexcept {
+  int curved = 0;
+  for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) {
+    const int k = superbasics_[index(s)];
+    if (inverse_root_(s) == 0.0) {
+      place_[index(k)] = Place::parked;
+    } else {
+      superbasics_[index(curved++)] = k;
+    }
+  }
+  superbasics_.resize(index(curved));
+}
+
+/// Of the rows_. Who wants away most joins first: of two limits along one axis the nearer one pushes.
+void QuadraticProgram::change_places() noexcept {
+  std::sort(rows_.begin(), rows_.end(), [this](int k, int l) {
+    const double one = std::abs(reduced_(k)), other = std::abs(reduced_(l));
+    return one > other || (one == other && k < l);
+  });
+  const auto leaves = [this](int k) { return std::find(rows_.begin(), rows_.end(), k) != rows_.end(); };
+  superbasics_.erase(std::remove_if(superbasics_.begin(), superbasics_.end(), leaves), superbasics_.end());
+  for (const int k : rows_) {
+    if (place_[index(k)] == Place::parked) {
+      place_[index(k)] = Place::superbasic;
+      superbasics_.push_back(k);
+    } else {
+      place_[index(k)] = Place::parked;
+      z_(k) = std::clamp(z_(k), lo_(k), hi_(k));
+    }
+  }
+  compute_gradient();
+}
+
+double QuadraticProgram::slope_of_curved() const noexcept {
+  double slope = 0.0;
+  for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) {
+    if (inverse_root_(s) > 0.0) slope = std::max(slope, std::abs(reduced_(superbasics_[index(s)])));
+  }
+  return slope;
+}
+
+}  // namespace zwang::solver

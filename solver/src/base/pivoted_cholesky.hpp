@@ -1,0 +1,51 @@
+/// L nu = rhs for a symmetric positive semidefinite L of any rank: Cholesky with pivoting, L = W W'. A row is
+/// taken as it comes while the ones before leave a tenth of it.
+///
+/// W stands where L was, its lines in the order of elimination: line k < rank() is the row that was the k-th
+/// pivot, so the pivots' lines are a lower triangle.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "pairs.hpp"
+#include "sweep/columns.hpp"
+
+namespace zwang::solver {
+
+class PivotedCholesky {
+ public:
+  explicit PivotedCholesky(int row_capacity);
+
+  void resize(int rows) noexcept { rows_ = rows; }
+  double& L(int row, int column) noexcept { return W_(row, column); }  ///< to be set: the lower triangle
+  /// What a row is measured by, at least L_ii.
+  double& size(int row) noexcept { return size_(row); }
+  /// A row counts as dependent when the ones before leave less than `tolerance` of its size.
+  void factorise(double tolerance) noexcept;
+  int rank() const noexcept { return rank_; }
+
+  /// The nu of least norm among those that come nearest to rhs.
+  void solve(const double* rhs, double* nu) noexcept;
+
+ private:
+  int row_at(int line) const noexcept { return row_at_[static_cast<std::size_t>(line)]; }
+  int next_pivot(double tolerance) const noexcept;
+  void eliminate(double tolerance) noexcept;
+  void exchange(int c, int k) noexcept;
+  void least_squares(const double* rhs, double* nu) noexcept;
+
+  RowMajorMatrix W_;  ///< columns from rank() on: what the ones before leave of L; a line to spare
+  RowMajorMatrix gram_;
+  Eigen::VectorXd size_;              ///< by row
+  Eigen::VectorXd left_;              ///< by line: the diagonal of what is left of L
+  Eigen::VectorXd inverse_diagonal_;  ///< by line: 1 / size, 0 on a row that is no candidate
+  Eigen::VectorXd column_;            ///< the one that is being eliminated, by line
+  Eigen::VectorXd inverse_root_;      ///< by column of W: 1 over its pivot
+  Eigen::VectorXd substitution_;
+  std::vector<int> row_at_;
+  int rows_ = 0;
+  int rank_ = 0;
+};
+
+}  // namespace zwang::solver

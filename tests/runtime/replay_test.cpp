@@ -1,0 +1,62 @@
+// A logged run, computed again from what its log says came from outside.
+#include "zwang/runtime/replay.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../temporary_folder.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/recorder.hpp"
+#include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+constexpr double period = 1e-3;
+constexpr int ticks = 3000;
+constexpr int change_at = 10;  // tick, long before the cruising speed hides how hard it is pushed
+
+lang::Program wall_alignment() {
+  lang::Diagnostics diagnostics;
+  auto program = lang::load(ZWANG_SOURCE_DIR "/specs/wall_align.yaml", {}, diagnostics);
+  if (!program) throw std::runtime_error("specs/wall_align.yaml does not load");
+  return *program;
+}
+
+/// [m] where the base came to; the host sets `push` on the way, unless it is not positive.
+solver::Vector3 run(const lang::Program& program, double push, const std::filesystem::path& log) {
+  ScenePlant plant(program);
+  Runner runner(program, {.period = period});
+  std::vector<std::unique_ptr<LogSink>> sinks;
+  sinks.push_back(mcap_sink(log, {}));
+  Recorder recorder(std::move(sinks), runner.columns());
+  runner.record_to(&recorder);
+  Sensed sensed(program.robot.model, program.signals.size());
+  for (int i = 0; i < ticks; ++i) {
+    if (i == change_at && push > 0.0) {
+      EXPECT_TRUE(runner.set_parameter("push", push));
+    }
+    recorder.wait_for_room();
+    EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
+    EXPECT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+  }
+  recorder.close();
+  EXPECT_TRUE(recorder.status().complete()) << recorder.status().error;
+  return {plant.truth().x, plant.truth().y, 0.0};
+}
+
+TEST(Replay, KnowsTheParametersThatAHostSetDuringTheRun) {
+  const test::TemporaryFolder folder;
+  const lang::Program program = wall_alignment();
+  const solver::Vector3 left_alone = run(program, 0.0, folder.path() / "left_alone.mcap");
+  const solver::Vector3 changed = run(program, 35.0, folder.path() / "changed.mcap");
+  EXPECT_GT((changed - left_alone).norm(), 0.001) << "a harder push gains speed sooner";
+  for (const char* name : {"left_alone.mcap", "changed.mcap"}) {
+    const ReplayResult result = replay(folder.path() / name, program, period);
+    EXPECT_EQ(result.records, ticks);
+    EXPECT_EQ(result.equal, result.records) << name;
+  }
+}
+
+}  // namespace
+}  // namespace zwang::runtime
