@@ -17,16 +17,24 @@
 namespace zwang::solver {
 
 namespace {
-constexpr int patience = 3;         // rounds in a row that may not lower the number of those that move
-constexpr double flat_rate = 1e-9;  // of a variable that follows a flat one: below, it does not
+constexpr int patience = 3;              // rounds in a row that may not lower the number of those that move
+constexpr double flat_rate = 1e-9;       // of a variable that follows a flat one: below, it does not
+constexpr double rounding_share = 0.01;  // of the gradient's tolerance: the slope after a good step
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
-/// H = V'V + R, both triangles.
+/// H = V'V + R, both triangles. A row of the base has nothing where only the joints of an arm move: its
+/// column of V ends early.
 void QuadraticProgram::form_hessian() noexcept {
+  rows_.clear();  // how far the columns go
   for (int k = 0; k < variables_; ++k) {
-    for (int l = 0; l < k; ++l) hessian_(k, l) = hessian_(l, k) = dot(curvature_rows_, V(k), V(l));
-    hessian_(k, k) = dot(curvature_rows_, V(k), V(k)) + R_(k);
+    int extent = curvature_rows_;
+    while (extent > 0 && V(k)[extent - 1] == 0.0) --extent;
+    rows_.push_back(extent);
+    for (int l = 0; l < k; ++l) {
+      hessian_(k, l) = hessian_(l, k) = dot(std::min(extent, rows_[index(l)]), V(k), V(l));
+    }
+    hessian_(k, k) = dot(extent, V(k), V(k)) + R_(k);
   }
 }
 
@@ -101,8 +109,11 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
     const bool is_inside = z_(k) > lo_(k) && z_(k) < hi_(k);
     place_[index(k)] = is_inside ? Place::superbasic : Place::parked;
     if (is_inside) superbasics_.push_back(k);
+    reduced_(k) = -g_(k);
   }
-  compute_gradient();
+  for (int k = 0; k < variables_; ++k) {
+    if (z_(k) != 0.0) add_multiple(variables_, z_(k), &hessian_(k, 0), reduced_.data());
+  }
   int fewest = variables_ + 1;
   int tries = patience;
   for (int round = 0; round < max_rounds; ++round) {
@@ -137,7 +148,7 @@ void QuadraticProgram::solve_free() noexcept {
   for (int refinement = 0; refinement <= max_refinements; ++refinement) {
     step_free();
     compute_gradient();
-    if (slope_of_curved() <= slope_tolerance * tolerance_) return;
+    if (slope_of_curved() <= rounding_share * tolerance_) return;
   }
 }
 
@@ -157,9 +168,12 @@ bool QuadraticProgram::has_room(int k) const noexcept {
 
 /// A flat variable moves the way down and the others follow so that their gradient stays, until the first one
 /// meets its bound, as where two limits contradict each other. If that is another one, the flat one takes its
-/// place. False when none does.
+/// place. False when none does, and where a little curvature or a slope near nothing asks for smaller steps.
 bool QuadraticProgram::slide(int flat) noexcept {
   const int entering = superbasics_[index(flat)];
+  const double left = factor_(flat, flat);  // of its curvature
+  if (left > curvature_tolerance * hessian_(entering, entering)) return false;
+  if (std::abs(reduced_(entering)) <= slope_tolerance * tolerance_) return false;
   const auto n = static_cast<int>(superbasics_.size());
   for (int s = 0; s < n; ++s) step_(s) = hessian_(superbasics_[index(s)], entering);
   divide_by_free(step_.data());
@@ -183,6 +197,7 @@ bool QuadraticProgram::slide(int flat) noexcept {
   z_(parking) = step_(blocking) > 0.0 ? hi_(parking) : lo_(parking);
   if (blocking != flat) inverse_root_(flat) = 1.0;  // it stays
   inverse_root_(blocking) = 0.0;
+  compute_gradient();
   return true;
 }
 
@@ -213,10 +228,11 @@ void QuadraticProgram::change_places() noexcept {
       superbasics_.push_back(k);
     } else {
       place_[index(k)] = Place::parked;
-      z_(k) = std::clamp(z_(k), lo_(k), hi_(k));
+      const double bound = std::clamp(z_(k), lo_(k), hi_(k));
+      add_multiple(variables_, bound - z_(k), &hessian_(k, 0), reduced_.data());
+      z_(k) = bound;
     }
   }
-  compute_gradient();
 }
 
 double QuadraticProgram::slope_of_curved() const noexcept {

@@ -7,10 +7,9 @@
 namespace zwang::solver {
 
 namespace {
-constexpr double curvature_tolerance = 1e-12;  // of a reduced Hessian's pivot, relative to its diagonal
-constexpr double rank_tolerance = 1e-9;        // of E's columns, which are of length 1
-constexpr double least_pivot = 1e-11;          // of a basic variable's rate, relative to the largest
-constexpr double rounding = 1e-13;             // of a sum, relative to the sum of its terms' sizes
+constexpr double rank_tolerance = 1e-9;  // of E's columns, which are of length 1
+constexpr double least_pivot = 1e-11;    // of a basic variable's rate, relative to the largest
+constexpr double rounding = 1e-13;       // of a sum, relative to the sum of its terms' sizes
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 

@@ -58,6 +58,7 @@ class QuadraticProgram {
   static constexpr double slope_tolerance = 1e3;  ///< times the gradient tolerance
   static constexpr double ample_curvature =
       1e-6;  ///< a pivot's share of the diagonal, of a variable that starts free
+  static constexpr double curvature_tolerance = 1e-12;  ///< the same share, below which there is none
   static constexpr int max_refinements = 4;
 
   bool pivot_blocks(int max_rounds, int& iterations) noexcept;
