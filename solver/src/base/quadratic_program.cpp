@@ -34,11 +34,13 @@ QuadraticProgram::QuadraticProgram(int n, int d, int m)
       hessian_(RowMajorMatrix::Zero(n, n)),
       factor_(RowMajorMatrix::Zero(n, n)),
       inverse_root_(Eigen::VectorXd::Zero(n)),
+      image_(Eigen::VectorXd::Zero(d)),
       place_(index(n)),
       stuck_(index(n)) {
   basics_.reserve(index(std::max(n, m)));
   superbasics_.reserve(index(std::max(n, m)));
   rows_.reserve(index(std::max(n, m)));
+  extents_.reserve(index(n));
 }
 
 void QuadraticProgram::resize(int variables, int curvature_rows, int equality_rows) noexcept {
