@@ -79,13 +79,14 @@ struct PopovVereshchagin::Workspace {
   /// L of the given rows where the ground is held: B B'.
   void factorise_given(double damping) noexcept {
     const int count = sweeps.columns.rows() - ground;
-    const int r = whitened.mobility();
+    const int r = (whitened.mobility() + 1) & ~1;  // lines have a 0 to spare
+    const bool is_held = whitened.mobility() < sweeps.columns.dimensions();
     given.resize(count);
     for (int i = 0; i < count; ++i) {
       const double* const B = whitened.B(ground + i);
       for (int k = 0; k <= i; ++k) given.L(i, k) = dot(r, B, whitened.B(ground + k));
+      given.size(i) = (is_held ? whitened.free_square(ground + i) : given.L(i, i)) + damping;
       given.L(i, i) += damping;
-      given.size(i) = whitened.free_square(ground + i) + damping;
     }
     given.factorise(WhitenedRows::ground_tolerance);
   }

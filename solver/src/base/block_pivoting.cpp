@@ -17,24 +17,38 @@
 namespace zwang::solver {
 
 namespace {
-constexpr int patience = 3;         // rounds in a row that may not lower the number of those that move
-constexpr double flat_rate = 1e-9;  // of a variable that follows a flat one: below, it does not
+constexpr int patience = 3;              // rounds in a row that may not lower the number of those that move
+constexpr double flat_rate = 1e-9;       // of a variable that follows a flat one: below, it does not
+constexpr double rounding_share = 0.01;  // of the gradient's tolerance: the slope after a good step
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
-/// H = V'V + R, both triangles.
-void QuadraticProgram::form_hessian() noexcept {
+/// A row of the base has nothing where only the joints of an arm move: its column of V ends early.
+void QuadraticProgram::measure_columns() noexcept {
+  extents_.clear();
   for (int k = 0; k < variables_; ++k) {
-    for (int l = 0; l < k; ++l) hessian_(k, l) = hessian_(l, k) = dot(curvature_rows_, V(k), V(l));
-    hessian_(k, k) = dot(curvature_rows_, V(k), V(k)) + R_(k);
+    int extent = curvature_rows_;
+    while (extent > 0 && V(k)[extent - 1] == 0.0) --extent;
+    extents_.push_back(extent);
   }
 }
 
-/// reduced_ = H z - g, and the size of what is rounding in it.
+/// An entry of H = V'V + R.
+double QuadraticProgram::hessian(int k, int l) noexcept {
+  const double product = dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
+  return k == l ? product + R_(k) : product;
+}
+
+/// reduced_ = V'(V z) + R z - g, and the size of what is rounding in it.
 void QuadraticProgram::compute_gradient() noexcept {
+  double* const image = image_.data();
+  set_zero(curvature_rows_, image);
+  for (int k = 0; k < variables_; ++k) {
+    if (z_(k) != 0.0) add_multiple(extents_[index(k)], z_(k), V(k), image);
+  }
   double scale = largest_g_;
   for (int k = 0; k < variables_; ++k) {
-    const double pull = dot(variables_, &hessian_(k, 0), z_.data());
+    const double pull = dot(extents_[index(k)], V(k), image) + R_(k) * z_(k);
     scale = std::max(scale, std::abs(pull));
     reduced_(k) = pull - g_(k);
   }
@@ -47,15 +61,14 @@ void QuadraticProgram::compute_gradient() noexcept {
 void QuadraticProgram::factorise_free() noexcept {
   const auto n = static_cast<int>(superbasics_.size());
   for (int s = 0; s < n; ++s) {
-    const double* const line = &hessian_(superbasics_[index(s)], 0);
-    for (int t = 0; t <= s; ++t) factor_(s, t) = line[superbasics_[index(t)]];
+    for (int t = 0; t <= s; ++t) factor_(s, t) = hessian(superbasics_[index(s)], superbasics_[index(t)]);
+    step_(s) = factor_(s, s);
   }
   const Eigen::Index stride = factor_.outerStride();
   double* const w = work_.data();
   for (int c = 0; c < n; ++c) {
-    const int variable = superbasics_[index(c)];
     const double pivot = factor_(c, c);
-    const bool is_curved = pivot > ample_curvature * hessian_(variable, variable);
+    const bool is_curved = pivot > ample_curvature * step_(c);
     const double inverse = is_curved ? 1.0 / std::sqrt(pivot) : 0.0;
     inverse_root_(c) = inverse;
     for (int s = c + 1; s < n; ++s) factor_(s, c) = w[s] = inverse * factor_(s, c);
@@ -95,7 +108,7 @@ bool QuadraticProgram::is_out_of_place(int k) const noexcept {
 /// True when it found the solution; else z is where it was.
 bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   std::copy_n(z_.data(), variables_, direction_.data());
-  form_hessian();
+  measure_columns();
   superbasics_.clear();
   for (int k = 0; k < variables_; ++k) {
     const bool is_inside = z_(k) > lo_(k) && z_(k) < hi_(k);
@@ -137,7 +150,7 @@ void QuadraticProgram::solve_free() noexcept {
   for (int refinement = 0; refinement <= max_refinements; ++refinement) {
     step_free();
     compute_gradient();
-    if (slope_of_curved() <= slope_tolerance * tolerance_) return;
+    if (slope_of_curved() <= rounding_share * tolerance_) return;
   }
 }
 
@@ -157,11 +170,14 @@ bool QuadraticProgram::has_room(int k) const noexcept {
 
 /// A flat variable moves the way down and the others follow so that their gradient stays, until the first one
 /// meets its bound, as where two limits contradict each other. If that is another one, the flat one takes its
-/// place. False when none does.
+/// place. False when none does, and where a little curvature or a slope near nothing asks for smaller steps.
 bool QuadraticProgram::slide(int flat) noexcept {
   const int entering = superbasics_[index(flat)];
+  const double left = factor_(flat, flat);  // of its curvature
+  if (left > curvature_tolerance * hessian(entering, entering)) return false;
+  if (std::abs(reduced_(entering)) <= slope_tolerance * tolerance_) return false;
   const auto n = static_cast<int>(superbasics_.size());
-  for (int s = 0; s < n; ++s) step_(s) = hessian_(superbasics_[index(s)], entering);
+  for (int s = 0; s < n; ++s) step_(s) = hessian(superbasics_[index(s)], entering);
   divide_by_free(step_.data());
   const double way = reduced_(entering) > 0.0 ? 1.0 : -1.0;
   for (int s = 0; s < n; ++s) step_(s) *= way;
@@ -183,6 +199,7 @@ bool QuadraticProgram::slide(int flat) noexcept {
   z_(parking) = step_(blocking) > 0.0 ? hi_(parking) : lo_(parking);
   if (blocking != flat) inverse_root_(flat) = 1.0;  // it stays
   inverse_root_(blocking) = 0.0;
+  compute_gradient();
   return true;
 }
 

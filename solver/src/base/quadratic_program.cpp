@@ -7,10 +7,9 @@
 namespace zwang::solver {
 
 namespace {
-constexpr double curvature_tolerance = 1e-12;  // of a reduced Hessian's pivot, relative to its diagonal
-constexpr double rank_tolerance = 1e-9;        // of E's columns, which are of length 1
-constexpr double least_pivot = 1e-11;          // of a basic variable's rate, relative to the largest
-constexpr double rounding = 1e-13;             // of a sum, relative to the sum of its terms' sizes
+constexpr double rank_tolerance = 1e-9;  // of E's columns, which are of length 1
+constexpr double least_pivot = 1e-11;    // of a basic variable's rate, relative to the largest
+constexpr double rounding = 1e-13;       // of a sum, relative to the sum of its terms' sizes
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
@@ -35,11 +34,13 @@ QuadraticProgram::QuadraticProgram(int n, int d, int m)
       hessian_(RowMajorMatrix::Zero(n, n)),
       factor_(RowMajorMatrix::Zero(n, n)),
       inverse_root_(Eigen::VectorXd::Zero(n)),
+      image_(Eigen::VectorXd::Zero(d)),
       place_(index(n)),
       stuck_(index(n)) {
   basics_.reserve(index(std::max(n, m)));
   superbasics_.reserve(index(std::max(n, m)));
   rows_.reserve(index(std::max(n, m)));
+  extents_.reserve(index(n));
 }
 
 void QuadraticProgram::resize(int variables, int curvature_rows, int equality_rows) noexcept {

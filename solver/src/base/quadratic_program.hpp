@@ -58,10 +58,12 @@ class QuadraticProgram {
   static constexpr double slope_tolerance = 1e3;  ///< times the gradient tolerance
   static constexpr double ample_curvature =
       1e-6;  ///< a pivot's share of the diagonal, of a variable that starts free
+  static constexpr double curvature_tolerance = 1e-12;  ///< the same share, below which there is none
   static constexpr int max_refinements = 4;
 
   bool pivot_blocks(int max_rounds, int& iterations) noexcept;
-  void form_hessian() noexcept;
+  void measure_columns() noexcept;
+  double hessian(int k, int l) noexcept;
   void compute_gradient() noexcept;
   void factorise_free() noexcept;
   void step_free() noexcept;
@@ -108,6 +110,8 @@ class QuadraticProgram {
   RowMajorMatrix factor_;         ///< its Cholesky factor
   Eigen::VectorXd inverse_root_;  ///< of the blocks' factor: 1 over its diagonal
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
+  Eigen::VectorXd image_;         ///< V z
+  std::vector<int> extents_;      ///< of the columns of V: the rest is 0
   std::vector<Place> place_;
   std::vector<char> stuck_;
   std::vector<int> basics_, superbasics_, rows_;

@@ -23,8 +23,8 @@ void WhitenedRows::factorise(Columns& columns, int ground) noexcept {
   rank_ = 0;
   for (int i = 0; i < ground; ++i) {
     pivots_[static_cast<std::size_t>(i)] = i;
-    size_(i) = dot(ground_end_, line(i), line(i));
     left_(i) = dot(ground_end_ - base_, line(i) + base_, line(i) + base_);
+    size_(i) = left_(i) + dot(base_, line(i), line(i));
   }
   while (base_ + rank_ < ground_end_) {
     const int k = next_pivot(ground);
@@ -74,7 +74,9 @@ void WhitenedRows::reflect(Columns& columns, int pivot, int first, int ground) n
     turn(rank_, y);
     left_(row) -= y[first] * y[first];
   }
-  for (int row = ground; row < columns.rows(); ++row) turn(rank_, &columns.W(row, 0));
+  int row = ground;
+  for (; row + 2 <= columns.rows(); row += 2) turn_two(rank_, &columns.W(row, 0), &columns.W(row + 1, 0));
+  if (row < columns.rows()) turn(rank_, &columns.W(row, 0));
 }
 
 /// Line y, or any vector by dimension, under a reflection.
@@ -83,8 +85,22 @@ void WhitenedRows::turn(int reflection, double* y) const noexcept {
   const int first = (base_ + reflection) & ~1;
   Eigen::Array2d sum = Eigen::Array2d::Zero();
   for (int k = first; k < ground_end_; k += 2) sum += ConstPair(v + k) * ConstPair(y + k);
-  const Eigen::Array2d factor = Eigen::Array2d::Constant(-scale_(reflection) * (sum(0) + sum(1)));
-  for (int k = first; k < ground_end_; k += 2) Pair(y + k) += factor * ConstPair(v + k);
+  add_to_line(-scale_(reflection) * (sum(0) + sum(1)), v, first, ground_end_, y);
+}
+
+/// The same of two.
+void WhitenedRows::turn_two(int reflection, double* one, double* other) const noexcept {
+  const double* const v = &reflections_(reflection, 0);
+  const double scale = -scale_(reflection);
+  const int first = (base_ + reflection) & ~1;
+  Eigen::Array2d sum = Eigen::Array2d::Zero(), other_sum = Eigen::Array2d::Zero();
+  for (int k = first; k < ground_end_; k += 2) {
+    const Eigen::Array2d pair = ConstPair(v + k);
+    sum += pair * ConstPair(one + k);
+    other_sum += pair * ConstPair(other + k);
+  }
+  add_to_two_lines(scale * (sum(0) + sum(1)), scale * (other_sum(0) + other_sum(1)), v, first, ground_end_,
+                   one, other);
 }
 
 double WhitenedRows::free_share(int row) const noexcept {

@@ -58,6 +58,7 @@ class WhitenedRows {
   int next_pivot(int ground) const noexcept;
   void reflect(Columns& columns, int row, int first, int ground) noexcept;
   void turn(int reflection, double* y) const noexcept;
+  void turn_two(int reflection, double* one, double* other) const noexcept;
 
   const RowMajorMatrix* W_ = nullptr;
   RowMajorMatrix reflections_;  ///< by pivot: v, of  1 - scale v v'

@@ -121,25 +121,27 @@ void Columns::arrange(const std::vector<BodySweep>& bodies) noexcept {
 void Columns::carry(std::size_t i, const BodySweep& sweep, const Vector6& UD) noexcept {
   const Range& range = ranges_[i];
   if (range.first == range.last) return;
-  double* const A = A_.data();
-  double* const axis = W.data() + dimension_of_[i];
-  const Eigen::Index stride = W.outerStride();
-  const Vector6 S = sweep.S;
-  const Vector6 factor = UD;
   const double root = sweep.root_D_inverse;
   const double free_acceleration = sweep.u * sweep.D_inverse;
-  for (int k = range.first; k < range.last; ++k) {
+  double* const axis = W.data() + dimension_of_[i];
+  const Eigen::Index stride = W.outerStride();
+  Eigen::Array2d S[3], factor[3];
+  for (int r = 0; r < 3; ++r) {
+    S[r] = ConstPair(sweep.S.data() + 2 * r);
+    factor[r] = ConstPair(UD.data() + 2 * r);
+  }
+  double* A = A_.data() + 6 * range.first;
+  for (int k = range.first; k < range.last; ++k, A += 6) {
     const int row = row_of_[index(k)];
-    Eigen::Map<Vector6, Eigen::Aligned16> column(A + 6 * k);
-    const Vector6 before = column;
-    const double along = S.dot(before);
-    column = before - factor * along;
+    const Eigen::Array2d sum = S[0] * ConstPair(A) + S[1] * ConstPair(A + 2) + S[2] * ConstPair(A + 4);
+    const double along = sum(0) + sum(1);
+    for (int r = 0; r < 3; ++r) Pair(A + 2 * r) -= along * factor[r];
     axis[row * stride] += root * along;
     g(row) += free_acceleration * along;
   }
   if (range.joint >= 0) {
     const int row = row_of_[index(range.joint)];
-    A_.col(range.joint) = -factor;
+    A_.col(range.joint) = -UD;
     axis[row * stride] = root;
     g(row) = free_acceleration;
   }
@@ -148,12 +150,21 @@ void Columns::carry(std::size_t i, const BodySweep& sweep, const Vector6& UD) no
 void Columns::finish(const Matrix6& F, const Vector6& pA) noexcept {
   Vector6 Fp = F * pA;
   Fp.head(held_).setZero();
-  for (int k = 0; k < count_; ++k) {
-    const Vector6 FA = F * A_.col(k);
+  const double* A = A_.data();
+  for (int k = 0; k < count_; ++k, A += 6) {
+    Eigen::Array2d FA[3];
+    for (int r = 0; r < 3; ++r) FA[r] = A[0] * ConstPair(F.data() + 2 * r);
+    for (int c = 1; c < 6; ++c) {
+      for (int r = 0; r < 3; ++r) FA[r] += A[c] * ConstPair(F.data() + 6 * c + 2 * r);
+    }
     const int row = row_of_[index(k)];
-    Eigen::Map<Vector6> base(&W(row, 0));
-    base += FA;
-    g(row) -= FA.dot(Fp);
+    double* const base = &W(row, 0);
+    Eigen::Array2d along = Eigen::Array2d::Zero();
+    for (int r = 0; r < 3; ++r) {
+      Pair(base + 2 * r) += FA[r];
+      along += FA[r] * ConstPair(Fp.data() + 2 * r);
+    }
+    g(row) -= along(0) + along(1);
   }
 }
 
