@@ -36,7 +36,7 @@ double nonzero(double length) {
 
 BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
     : B_(RowMajorMatrix::Zero(rows, dimension)),
-      T_(RowMajorMatrix::Zero(motors, dimension)),
+      T_(RowMajorMatrix::Zero(motors, spaced(dimension))),
       V_(RowMajorMatrix::Zero(rows, dimension)),
       P_(RowMajorMatrix::Zero(rows, dimension)),
       d_(Vector::Zero(rows)),
