@@ -1,7 +1,10 @@
+#include <algorithm>
+
 #include "check/check.hpp"
 #include "diagnostic/wordings.hpp"
 #include "lower/lower.hpp"
 #include "robot/load_robot.hpp"
+#include "scene/load_robots.hpp"
 #include "scene/load_scene.hpp"
 #include "spec/task_file.hpp"
 #include "tree/file.hpp"
@@ -16,8 +19,8 @@ namespace fs = std::filesystem;
 
 /// The robot that the command line names, else the file's.
 std::optional<Robot> load_robot_of(const TaskFile& file, const fs::path& path, const fs::path& root,
-                                   const LoadOptions& options, Diagnostics& diagnostics) {
-  if (options.robot) return load_robot_below(*options.robot, root_of(*options.robot), {}, diagnostics);
+                                   const LoadOptions& options, const Span& cause, Diagnostics& diagnostics) {
+  if (options.robot) return load_robot_below(*options.robot, root_of(*options.robot), cause, diagnostics);
   if (!file.robot.exists()) return std::nullopt;
   const auto robot = resolve_path(file.robot.text, path, root, file.robot.span, diagnostics);
   if (!robot) return std::nullopt;
@@ -33,17 +36,32 @@ std::optional<Scene> load_scene_of(const TaskFile& file, const fs::path& path, c
   return load_scene_from(*scene, file.scene.span, diagnostics);
 }
 
+void check_rollers(const Scene& scene, const Robot& robot, Diagnostics& diagnostics) {
+  const auto& wheels = robot.model.wheels();
+  const auto rolls = [](const solver::Wheel& wheel) { return wheel.roller_angle.has_value(); };
+  if (scene.real_rollers && std::none_of(wheels.begin(), wheels.end(), rolls))
+    diagnostics.add(wording::no_rollers(scene.real_rollers_span, robot.name));
+}
+
+/// A robot of a scene names a task file, and the place of its start is all that the physics asks of a scene.
+struct Invitation {
+  Span task, robot;            ///< where they are named
+  std::optional<Scene> scene;  ///< in the place of any that the task file names
+};
+
 std::optional<Program> load_phases(const fs::path& path, const LoadOptions& options, bool with_notes,
-                                   Diagnostics& diagnostics) {
+                                   Diagnostics& diagnostics, const Invitation& invited = {}) {
   const fs::path root = options.root.value_or(root_of(path));
-  const std::optional<int> source = read_file(path, yaml_size_limit, {}, diagnostics);
+  const std::optional<int> source = read_file(path, yaml_size_limit, invited.task, diagnostics);
   if (!source) return std::nullopt;
   const std::optional<Document> document = read(*source, diagnostics);
   if (!document) return std::nullopt;
   std::optional<TaskFile> file = parse(*document, diagnostics);
   if (!file) return std::nullopt;
-  std::optional<Robot> robot = load_robot_of(*file, path, root, options, diagnostics);
-  std::optional<Scene> scene = load_scene_of(*file, path, root, options, diagnostics);
+  std::optional<Robot> robot = load_robot_of(*file, path, root, options, invited.robot, diagnostics);
+  std::optional<Scene> scene =
+      invited.scene ? invited.scene : load_scene_of(*file, path, root, options, diagnostics);
+  if (scene && robot) check_rollers(*scene, *robot, diagnostics);
   // Names of a section that could not be read would all be called unknown.
   if (file->is_incomplete) return std::nullopt;
   std::optional<CheckedFile> checked =
@@ -54,7 +72,33 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
   return program;
 }
 
+Invitation invitation_of(const SceneRobot& robot, const Scene& scene) {
+  Scene own;
+  own.start_at = robot.at;
+  own.start_yaw = robot.yaw;
+  own.floor_friction = scene.floor_friction;
+  return {robot.task_span, robot.robot_span, std::move(own)};
+}
+
 }  // namespace
+
+bool load_robots_of(Scene& scene, const fs::path& path, Diagnostics& diagnostics) {
+  const fs::path root = root_of(path);
+  for (SceneRobot& robot : scene.robots) {
+    // Robots may share files: where one is wrong, it is wrong for all, and said already.
+    if (diagnostics.has_errors()) return false;
+    LoadOptions options;
+    options.root = root;
+    if (!robot.robot.empty())
+      options.robot = resolve_path(robot.robot, path, root, robot.robot_span, diagnostics);
+    const auto task = resolve_path(robot.task, path, root, robot.task_span, diagnostics);
+    if (!task || (!robot.robot.empty() && !options.robot)) continue;
+    if (options.robot) robot.robot_path = options.robot->string();
+    if (auto program = load_phases(*task, options, false, diagnostics, invitation_of(robot, scene)))
+      robot.program = std::make_shared<const Program>(std::move(*program));
+  }
+  return !diagnostics.has_errors();
+}
 
 solver::State start_state(const Robot& robot, const std::optional<Scene>& scene) {
   solver::State state = start_state(robot);

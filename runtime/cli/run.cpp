@@ -85,6 +85,35 @@ std::string exactly(double value) {
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
+/// Of one of the scene's robots: its task file alone says what it does.
+runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene& scene,
+                               const lang::SceneRobot& robot, const lang::Diagnostics& diagnostics) {
+  runtime::LogContext context;
+  context.sources = diagnostics.sources();
+  context.facts["zwang"] = ZWANG_VERSION;
+  context.facts["task"] = robot.program->path;
+  context.facts["scene"] = scene.path;
+  if (!robot.robot_path.empty()) context.facts["robot"] = robot.robot_path;
+  context.facts["partner"] = robot.name;
+  context.facts["seed"] = std::to_string(arguments.seed);
+  context.facts["period [s]"] = exactly(period);
+  for (const lang::Parameter& p : robot.program->parameters)
+    context.facts["params." + p.name] = exactly(p.value);
+  return context;
+}
+
+/// A log of `runner` in the folder, as MCAP and as CSV.
+std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const fs::path& folder,
+                                          const std::string& name, runtime::LogContext context) {
+  std::vector<std::unique_ptr<runtime::LogSink>> sinks;
+  sinks.push_back(runtime::mcap_sink(folder / (name + ".mcap"), std::move(context)));
+  sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
+  auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
+  if (!recorder->status().error.empty()) throw Impossible(recorder->status().error);
+  runner.record_to(recorder.get());
+  return recorder;
+}
+
 /// The files that were read and everything that the command line changed: the same run again needs no more.
 runtime::LogContext context_of(const RunArguments& arguments, const lang::Program& program,
                                const lang::Diagnostics& diagnostics) {
@@ -109,6 +138,7 @@ std::vector<runtime::Column> truth_columns(const lang::Scene& scene) {
   std::vector<runtime::Column> columns = {
       {"truth.base.x", "m", {}}, {"truth.base.y", "m", {}}, {"truth.base.yaw", "rad", {}}};
   for (const lang::SceneObject& o : scene.objects) columns.push_back({"truth." + o.name + ".force", "N", {}});
+  for (const lang::SceneRobot& r : scene.robots) columns.push_back({"truth." + r.name + ".force", "N", {}});
   return columns;
 }
 
@@ -149,11 +179,13 @@ class Live {
   Clock::time_point last_;
 };
 
+using Recorders = std::vector<std::unique_ptr<runtime::Recorder>>;
+
 /// The run itself; what it leaves is in the arguments and in the report.
-void control(runtime::ScenePlant& plant, runtime::Runner& runner, runtime::Recorder& recorder,
+void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorders& recorders,
              const lang::Program& program, bool with_watchdog, Live& live, RunReport& report) {
   runtime::Sensed sensed(program.robot.model, program.signals.size());
-  std::vector<double> truth(3 + program.scene->objects.size());
+  std::vector<double> truth(3 + program.scene->objects.size() + program.scene->robots.size());
   TruthWatch watch(plant.truth(), period);
   PlantStatus status = PlantStatus::ok;
   std::optional<Clock::time_point> give_up;
@@ -175,7 +207,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, runtime::Recor
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
     put_truth(plant.truth(), truth);
-    recorder.wait_for_room();
+    for (const auto& recorder : recorders) recorder->wait_for_room();
     const Eigen::VectorXd& tau = runner.step(sensed, truth);
     const bool in_task = runner.state() == runtime::RunState::running;
     if (in_task && runner.scheduler().transition()) report.asked = asked_forces(runner.scheduler());
@@ -192,6 +224,8 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, runtime::Recor
   }
   report.elapsed = sensed.time;
   report.objects = watch.objects(plant.truth());
+  for (const runtime::ScenePartner& partner : plant.partners())
+    report.partners.push_back(partner_report(partner));
   report.x = plant.truth().x;
   report.y = plant.truth().y;
   report.yaw = plant.truth().yaw;
@@ -230,12 +264,13 @@ int run(const RunArguments& arguments) {
   runtime::Runner runner(*program, settings);
 
   const fs::path folder = make_folder(arguments);
-  std::vector<std::unique_ptr<runtime::LogSink>> sinks;
-  sinks.push_back(runtime::mcap_sink(folder / "log.mcap", context_of(arguments, *program, diagnostics)));
-  sinks.push_back(runtime::csv_sink(folder / "log.csv"));
-  runtime::Recorder recorder(std::move(sinks), runner.columns());
-  if (!recorder.status().error.empty()) throw Impossible(recorder.status().error);
-  runner.record_to(&recorder);
+  Recorders recorders;
+  recorders.push_back(record(runner, folder, "log", context_of(arguments, *program, diagnostics)));
+  for (std::size_t i = 0; i < plant.partners().size(); ++i) {
+    const lang::SceneRobot& robot = program->scene->robots[i];
+    recorders.push_back(record(plant.partners()[i].runner, folder, "log-" + robot.name,
+                               context_of(arguments, *program->scene, robot, diagnostics)));
+  }
 
   const bool talks = !arguments.quiet && arguments.format == Format::human;
   if (talks) print(headline(arguments, *program));
@@ -245,16 +280,18 @@ int run(const RunArguments& arguments) {
   report.log = (folder / "log.csv").string();
   catch_signals();
   const auto begin = Clock::now();
-  control(plant, runner, recorder, *program, arguments.watchdog, live, report);
+  control(plant, runner, recorders, *program, arguments.watchdog, live, report);
   report.wall_time = std::chrono::duration<double>(Clock::now() - begin).count();
-  recorder.close();
+  for (const auto& recorder : recorders) recorder->close();
   live.end();
 
-  const runtime::RecorderStatus log = recorder.status();
-  report.records = log.written;
-  report.log_error = log.error;
-  if (log.error.empty() && !log.complete())
-    report.log_error = std::to_string(log.dropped) + " records were dropped";
+  report.records = recorders.front()->status().written;
+  for (const auto& recorder : recorders) {
+    const runtime::RecorderStatus log = recorder->status();
+    if (report.log_error.empty()) report.log_error = log.error;
+    if (report.log_error.empty() && !log.complete())
+      report.log_error = std::to_string(log.dropped) + " records were dropped";
+  }
   print(arguments.format == Format::json ? json_report(report, runner, diagnostics)
                                          : human_report(report, runner, diagnostics));
   if (!report.log_error.empty()) {

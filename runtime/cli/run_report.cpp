@@ -121,6 +121,12 @@ std::string truth_table(const RunReport& report) {
   for (const AskedForce& a : report.asked) {
     table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
   }
+  for (const PartnerReport& p : report.partners) {
+    std::string text = p.outcome;
+    if (!p.task.empty()) text += " in `" + p.task + "`";
+    if (!p.because.empty()) text += ": " + p.because;
+    table.add({p.name, text});
+  }
   table.add({"base", "x " + with_unit(report.x, "m") + ", y " + with_unit(report.y, "m") + ", yaw " +
                          with_unit(report.yaw, "rad")});
   return text + table.text();
@@ -189,6 +195,19 @@ std::vector<ObjectReport> TruthWatch::objects(const runtime::Truth& truth) const
                        forces.empty() ? 0.0 : sum / static_cast<double>(forces.size()), o.peak_force});
   }
   return reports;
+}
+
+PartnerReport partner_report(const runtime::ScenePartner& partner) {
+  const runtime::Runner& runner = partner.runner;
+  PartnerReport report;
+  report.name = partner.name;
+  report.outcome = to_string(runner.state());
+  if (runner.state() == runtime::RunState::running) {
+    report.outcome = "unfinished";
+    report.task = task_name(runner.scheduler(), runner.scheduler().task());
+  }
+  if (runner.state() == runtime::RunState::stopped) report.because = to_string(runner.guard().reason());
+  return report;
 }
 
 std::string live_line(const runtime::Runner& runner, double time) {
@@ -263,6 +282,8 @@ std::string json_report(const RunReport& report, const runtime::Runner& runner,
                         {"log_complete", report.log_error.empty()},
                         {"wall_time", report.wall_time}};
   if (!report.because.empty()) whole["because"] = report.because;
+  for (const PartnerReport& p : report.partners)
+    whole["robots"][p.name] = {{"outcome", p.outcome}, {"because", p.because}, {"task", p.task}};
   return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -9,6 +9,7 @@
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::cli {
 
@@ -46,8 +47,17 @@ class TruthWatch {
   std::size_t looks_ = 0;
 };
 
+/// Another robot of the scene, when the run ended.
+struct PartnerReport {
+  std::string name;
+  std::string outcome;  ///< done, failed, stopped, or unfinished
+  std::string because;  ///< of a stop
+  std::string task;     ///< that was active; empty when none was
+};
+PartnerReport partner_report(const runtime::ScenePartner& partner);
+
 struct RunReport {
-  std::string outcome;     ///< done, failed, stopped, diverged
+  std::string outcome;     ///< done, failed, stopped, diverged; the first robot's
   std::string because;     ///< of a stop; empty otherwise
   double elapsed = 0.0;    ///< [s]
   double wall_time = 0.0;  ///< [s] that it took
@@ -57,6 +67,7 @@ struct RunReport {
   std::string log_error;  ///< empty when the log is complete
   std::vector<AskedForce> asked;
   std::vector<ObjectReport> objects;
+  std::vector<PartnerReport> partners;
   double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the base, as the plant has it
 };
 

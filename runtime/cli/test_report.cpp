@@ -37,6 +37,10 @@ std::string margin_text(const ExpectationResult& result) {
 std::string outcome_text(const CellResult& cell) {
   std::string text = cell.outcome;
   if (!cell.because.empty()) text += " (" + cell.because + ")";
+  for (const runtime::PartnerResult& partner : cell.partners) {
+    text += ", " + partner.name + " " + partner.outcome;
+    if (!partner.because.empty()) text += " (" + partner.because + ")";
+  }
   return text;
 }
 
@@ -129,9 +133,15 @@ nlohmann::ordered_json json_of(const CellResult& cell) {
     one["time"] = result.time;
     expectations.push_back(std::move(one));
   }
-  return {{"name", cell.name},           {"passed", cell.passed},       {"outcome", cell.outcome},
-          {"because", cell.because},     {"simulated", cell.simulated}, {"wall", cell.wall},
-          {"expectations", expectations}};
+  nlohmann::ordered_json robots = nlohmann::ordered_json::object();
+  for (const runtime::PartnerResult& partner : cell.partners)
+    robots[partner.name] = {{"outcome", partner.outcome}, {"because", partner.because}};
+  nlohmann::ordered_json json = {{"name", cell.name},           {"passed", cell.passed},
+                                 {"outcome", cell.outcome},     {"because", cell.because},
+                                 {"simulated", cell.simulated}, {"wall", cell.wall},
+                                 {"expectations", expectations}};
+  if (!cell.partners.empty()) json["robots"] = robots;
+  return json;
 }
 
 }  // namespace

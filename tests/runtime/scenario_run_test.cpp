@@ -19,7 +19,8 @@ CellResult run_scenario(const std::string& text) {
   const zwang::test::TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
   for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "robots/skid_base.yaml",
-                           "robots/skid_base.urdf", "scenes/wall.yaml", "wall_align.yaml"}) {
+                           "robots/skid_base.urdf", "scenes/wall.yaml", "wall_align.yaml",
+                           "scenes/dock_live.yaml", "partners/hold_place.yaml"}) {
     fs::create_directories((folder / name).parent_path());
     fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name);
   }
@@ -77,6 +78,29 @@ TEST(ScenarioRun, ARefusedTaskHasItsCodes) {
       run_scenario("params: {push: 200 N}\nexpect: [{outcome: done}, {diagnostic: E404}]\n");
   EXPECT_FALSE(missed.expectations[0].held);
   EXPECT_FALSE(missed.expectations[1].held);
+}
+
+/// The shipped scene with a robot that holds its place, 1.8 m behind one that runs into nothing.
+TEST(ScenarioRun, TheOutcomeOfAPartnerIsJudgedAsItsOwn) {
+  const CellResult result = run_scenario(R"(scene: scenes/dock_live.yaml
+time_limit: 0.5 s
+expect:
+  - outcome: unfinished
+  - {outcome: unfinished, of: partner}
+  - {outcome: done, of: partner}
+  - {always: abs(truth.partner.x + 1.8 m) < 5 mm and truth.partner.speed < 1 cm/s}
+  - {always: truth.partner.stopped < 1 s}
+  - {at: end, that: truth.partner.torque < 0.5}
+)");
+  ASSERT_EQ(result.expectations.size(), 6u);
+  EXPECT_TRUE(result.expectations[0].held);
+  EXPECT_TRUE(result.expectations[1].held);
+  EXPECT_FALSE(result.expectations[2].held);
+  EXPECT_TRUE(result.expectations[3].held);
+  EXPECT_FALSE(result.expectations[4].held) << "it never stopped";
+  EXPECT_TRUE(result.expectations[5].held);
+  ASSERT_EQ(result.partners.size(), 1u);
+  EXPECT_EQ(result.partners[0].name, "partner");
 }
 
 TEST(ScenarioRun, ARunThatGoesOnForTooLongIsUnfinished) {

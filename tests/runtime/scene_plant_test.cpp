@@ -160,6 +160,36 @@ TEST(ScenePlant, DelayAndRateAreKept) {
   for (std::size_t i = 1; i < stamps.size(); ++i) EXPECT_NEAR(stamps[i] - stamps[i - 1], 0.05, 1e-9);
 }
 
+// Ten times a second somebody says where the base is, 50 ms later, a centimetre wrong; it stands at the
+// origin.
+TEST(ScenePlant, AFixOfTheBaseIsMeasuredAsTheSceneSays) {
+  const lang::Program program = program_with("state: {fix: {noise: 1 cm, delay: 50 ms, rate: 10 Hz}}\n");
+  ScenePlant plant(program);
+  double last_stamp = -1.0;
+  int count = 0;
+  double sum = 0.0, squares = 0.0;
+  follow(plant, program, 40.0, idle, [&](const Sensed& sensed, PlantStatus) {
+    ASSERT_FALSE(sensed.base_measured);
+    if (sensed.time < 0.05 - 1e-9) {
+      ASSERT_FALSE(sensed.base_fix);
+      return;
+    }
+    ASSERT_TRUE(sensed.base_fix);
+    ASSERT_LE(sensed.base_fix->stamp, sensed.time - 0.05 + 1e-9);
+    if (sensed.base_fix->stamp == last_stamp) return;
+    if (last_stamp >= 0.0) {
+      ASSERT_NEAR(sensed.base_fix->stamp - last_stamp, 0.1, 1e-9);
+    }
+    last_stamp = sensed.base_fix->stamp;
+    ++count;
+    sum += sensed.base_fix->pose.position.x();
+    squares += sensed.base_fix->pose.position.x() * sensed.base_fix->pose.position.x();
+  });
+  ASSERT_EQ(count, 400);
+  EXPECT_NEAR(sum / count, 0.0, 4.0 * 0.01 / std::sqrt(count));
+  EXPECT_NEAR(std::sqrt(squares / count), 0.01, 0.01 * 4.0 / std::sqrt(2.0 * count));
+}
+
 struct Statistics {
   double mean = 0.0, deviation = 0.0, share_valid = 0.0;
   std::vector<double> values;

@@ -228,6 +228,11 @@ Diagnostic empty_motion(const Span& span, const std::string& what);
 Diagnostic times_not_rising(const Span& span, const std::string& what);
 Diagnostic one_signal_source(const Span& span, const std::string& signal);
 Diagnostic all_dropped(const Span& span);
+Diagnostic nothing_latches(const Span& span, const std::string& name);
+Diagnostic delayed_too_long(const Span& span, const std::string& what, double most);
+Diagnostic fix_of_measured(const Span& span, const std::string& key, const Span& measured);
+Diagnostic too_many_robots(const Span& span, std::size_t most);
+Diagnostic no_rollers(const Span& span, const std::string& robot);
 
 Diagnostic unknown_outcome(const Span& span, const std::string& text, const std::vector<std::string>& known);
 Diagnostic one_expectation(const Span& span);

@@ -1,6 +1,7 @@
 #include "diagnostic/make.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "spec/units.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang::wording {
@@ -27,7 +28,12 @@ Diagnostic scripted_with_mass(const Span& span, const std::string& what, const S
 }
 
 Diagnostic unknown_outcome(const Span& span, const std::string& text, const std::vector<std::string>& known) {
-  return unknown_word("E903", span, in_ticks(text) + " is not how a run can end", text, known);
+  std::vector<std::string> likely = known;
+  // Nobody who writes `finished` means the opposite.
+  std::erase(likely, "unfinished");
+  return with_suggestion(
+      error("E903", span, in_ticks(text) + " is not how a run can end", "write one of " + list_of(known)),
+      nearest(text, likely));
 }
 
 Diagnostic one_expectation(const Span& span) {
@@ -103,6 +109,32 @@ Diagnostic one_signal_source(const Span& span, const std::string& signal) {
 
 Diagnostic all_dropped(const Span& span) {
   return error("E908", span, "`dropouts` must stay below 100 %: nothing would ever arrive");
+}
+
+Diagnostic nothing_latches(const Span& span, const std::string& name) {
+  return error("E908", span, in_ticks(name) + " has no dock that a hook could latch in", "give it a `dock`");
+}
+
+Diagnostic delayed_too_long(const Span& span, const std::string& what, double most) {
+  return error("E908", span,
+               what + " is delayed for longer than anybody remembers, " + format_number(most) + " s");
+}
+
+Diagnostic fix_of_measured(const Span& span, const std::string& key, const Span& measured) {
+  return with_related(
+      error("E909", span, "`state` is told by the wheels and corrected, or measured with noise: not both",
+            "keep one of them"),
+      measured, in_ticks(key) + " is given here");
+}
+
+Diagnostic too_many_robots(const Span& span, std::size_t most) {
+  return error("E910", span,
+               "a scene holds at most " + std::to_string(most) + " robots beside the first one");
+}
+
+Diagnostic no_rollers(const Span& span, const std::string& robot) {
+  return error("E911", span, "no wheel of " + in_ticks(robot) + " has rollers that could be real",
+               "delete `real_rollers`, or take a robot on mecanum or omni wheels");
 }
 
 }  // namespace zwang::lang::wording

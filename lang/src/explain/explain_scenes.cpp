@@ -35,8 +35,8 @@ std::span<const Explanation> scenes() {
           .instead = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], mass: 3 kg}"},
       Explanation{.code = "E903",
                   .title = "an outcome that no run can have",
-                  .why = "A run ends as `done`, `failed`, `stopped`, `diverged` or `refused`. A "
-                         "misspelt outcome would never come true.",
+                  .why = "A run ends as `done`, `failed`, `stopped`, `diverged`, `refused` or, at its "
+                         "time limit, `unfinished`. A misspelt outcome would never come true.",
                   .fix = "Write one of them, as in `- outcome: done`."},
       Explanation{
           .code = "E904",
@@ -71,12 +71,34 @@ std::span<const Explanation> scenes() {
           .why =
               "A script is a list of times that rise, each with a value: true and false, or numbers of one "
               "kind, as the signal of the task file is. A motion goes through one point at least. A signal "
-              "has one source, and some of its samples must arrive.",
+              "has one source that can give it, and some of its samples must arrive in time.",
           .fix = "Order the steps by time, one `[time, value]` each and all values alike; keep one source a "
                  "signal.",
           .part = ExcerptOf::scene,
           .example = "signals:\n  loaded: {script: [[5 s, true], [3 s, false]]}",
           .instead = "signals:\n  loaded: {script: [[3 s, false], [5 s, true]]}"},
+      Explanation{
+          .code = "E909",
+          .title = "a base that is measured, and is not",
+          .why = "`state` says how the robot knows where it is: measured on every tick, with some noise, or "
+                 "reckoned from its wheels and corrected now and then by a `fix`. It cannot be both.",
+          .fix = "Keep the `fix`, or the noise.",
+          .part = ExcerptOf::scene,
+          .example = "state: {position: 2 mm, fix: {noise: 1 cm, rate: 10 Hz}}",
+          .instead = "state: {fix: {noise: 1 cm, rate: 10 Hz}}"},
+      Explanation{.code = "E910",
+                  .title = "too many robots",
+                  .why =
+                      "Every robot of a scene is simulated and controlled in the same tick as the first one, "
+                      "and reading a scene reads all of their files: there is a limit to that.",
+                  .fix = "Leave some out."},
+      Explanation{
+          .code = "E911",
+          .title = "real rollers on wheels that have none",
+          .why =
+              "`real_rollers` builds mecanum and omni wheels roller by roller. A robot without such wheels "
+              "would be the same with and without it, and a comparison would show nothing.",
+          .fix = "Delete `real_rollers`, or take a robot whose wheels have a `roller`."},
   };
   return entries;
 }

@@ -25,7 +25,12 @@ constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
 constexpr TruthQuantity of_object[] = {{"force", dimension::force},  {"peak", dimension::force},
                                        {"touched", dimension::time}, {"x", dimension::length},
                                        {"y", dimension::length},     {"yaw", dimension::angle}};
-static_assert(std::size(of_base) == truth_base_count && std::size(of_object) == truth_object_count);
+constexpr TruthQuantity of_robot[] = {{"speed", dimension::velocity},
+                                      {"turn", dimension::angular_velocity},
+                                      {"torque", dimension::none},
+                                      {"stopped", dimension::time}};
+static_assert(std::size(of_base) == truth_base_count && std::size(of_object) == truth_object_count &&
+              std::size(of_object) + std::size(of_robot) == truth_robot_count);
 
 void declare(Symbols& symbols, const std::string& prefix, const TruthQuantity& quantity) {
   SignalSymbol symbol;
@@ -41,6 +46,11 @@ Symbols truth_symbols(const Scene& scene) {
   for (const SceneObject& object : scene.objects) {
     const std::string prefix = "truth." + object.name + ".";
     for (const TruthQuantity& quantity : of_object) declare(symbols, prefix, quantity);
+  }
+  for (const SceneRobot& robot : scene.robots) {
+    const std::string prefix = "truth." + robot.name + ".";
+    for (const TruthQuantity& quantity : of_object) declare(symbols, prefix, quantity);
+    for (const TruthQuantity& quantity : of_robot) declare(symbols, prefix, quantity);
   }
   return symbols;
 }
@@ -73,10 +83,22 @@ int find_time(const Word& name, const Symbols& symbols, Diagnostics& diagnostics
   return *index;
 }
 
+/// Whose outcome is meant.
+int find_robot(const Word& name, const Scene& scene, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+    if (scene.robots[i].name == name.text) return static_cast<int>(i);
+    names.push_back(scene.robots[i].name);
+  }
+  diagnostics.add(
+      wording::unknown_name(name.span, "robot in the scene", name.text, nearest(name.text, names)));
+  return -1;
+}
+
 std::string text_of(const ExpectationText& text) {
   switch (text.kind) {
     case ExpectationKind::outcome:
-      return "outcome: " + text.word.text;
+      return "outcome: " + text.word.text + (text.of.exists() ? " of " + text.of.text : std::string());
     case ExpectationKind::diagnostic:
       return "diagnostic: " + text.word.text;
     case ExpectationKind::at_end:
@@ -115,7 +137,11 @@ std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& f
     expected.span = text.span;
     const bool has_condition =
         text.kind != ExpectationKind::outcome && text.kind != ExpectationKind::diagnostic;
-    if (text.of.exists()) expected.of = find_time(text.of, symbols, diagnostics);
+    if (text.of.exists() && text.kind == ExpectationKind::outcome) {
+      expected.of_robot = find_robot(text.of, program.scene.value_or(Scene{}), diagnostics);
+    } else if (text.of.exists()) {
+      expected.of = find_time(text.of, symbols, diagnostics);
+    }
     if (has_condition && !text.that.is_bad) {
       if (auto that = check_condition(context, text.that, {})) expected.that = std::move(*that);
     }

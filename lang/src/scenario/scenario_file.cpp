@@ -11,7 +11,7 @@ namespace zwang::lang {
 
 namespace {
 
-const std::vector<std::string> outcomes{"done", "failed", "stopped", "diverged", "refused"};
+const std::vector<std::string> outcomes{"done", "failed", "stopped", "diverged", "refused", "unfinished"};
 
 bool is_parameter(const std::string& key) {
   return key.rfind("params.", 0) == 0 && key.size() > 7;
@@ -125,6 +125,7 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
     if (expected.word.exists() &&
         std::find(outcomes.begin(), outcomes.end(), expected.word.text) == outcomes.end())
       diagnostics.add(wording::unknown_outcome(outcome->span, expected.word.text, outcomes));
+    if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
   }
   if (code != nullptr) {
     expected.kind = ExpectationKind::diagnostic;

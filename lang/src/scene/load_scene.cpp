@@ -2,6 +2,7 @@
 
 #include "diagnostic/wordings.hpp"
 #include "scene/faults.hpp"
+#include "scene/load_robots.hpp"
 #include "scene/load_signals.hpp"
 #include "spec/shape.hpp"
 #include "tree/file.hpp"
@@ -71,6 +72,21 @@ void parse_shape(MapReader& map, SceneObject& object, Diagnostics& diagnostics) 
   }
 }
 
+/// How it feels to touch an object or a robot.
+template <typename Touched>
+void parse_contact(MapReader& map, Touched& touched, Diagnostics& diagnostics) {
+  if (const Node* node = map.optional("stiffness")) {
+    touched.stiffness =
+        plain(*node, dimension::stiffness, map.what() + "'s `stiffness`", 1e5, false, diagnostics);
+  }
+  if (const Node* node = map.optional("damping")) {
+    touched.damping = plain(*node, dimension::none, map.what() + "'s `damping`", 0.3, true, diagnostics);
+  }
+  if (const Node* node = map.optional("friction")) {
+    touched.friction = plain(*node, dimension::none, map.what() + "'s `friction`", 0.0, true, diagnostics);
+  }
+}
+
 SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   SceneObject object;
   object.name = parse_name(entry.key, "an object's name", diagnostics).text;
@@ -91,15 +107,7 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   const bool is_fixed =
       fixed != nullptr && parse_boolean(*fixed, what + "'s `fixed`", diagnostics).value_or(false);
   if (is_fixed && mass != nullptr) diagnostics.add(wording::fixed_with_mass(fixed->span, what, mass->span));
-  if (const Node* node = map.optional("stiffness")) {
-    object.stiffness = plain(*node, dimension::stiffness, what + "'s `stiffness`", 1e5, false, diagnostics);
-  }
-  if (const Node* node = map.optional("damping")) {
-    object.damping = plain(*node, dimension::none, what + "'s `damping`", 0.3, true, diagnostics);
-  }
-  if (const Node* node = map.optional("friction")) {
-    object.friction = plain(*node, dimension::none, what + "'s `friction`", 0.0, true, diagnostics);
-  }
+  parse_contact(map, object, diagnostics);
   if (const Node* node = map.optional("motion")) {
     object.motion = parse_motion(*node, what + "'s `motion`", diagnostics);
     if (mass != nullptr) diagnostics.add(wording::scripted_with_mass(node->span, what, mass->span));
@@ -109,6 +117,69 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   }
   map.finish();
   return object;
+}
+
+/// The robot's own signals may speak of robots that come later: `seen` are all.
+SceneRobot parse_robot(const Entry& entry, const std::vector<Seen>& seen, Diagnostics& diagnostics) {
+  SceneRobot robot;
+  robot.name = parse_name(entry.key, "a robot's name", diagnostics).text;
+  robot.span = entry.key.span;
+  const std::string what = "robot `" + entry.key.text + "`";
+  MapReader map(entry.value, what, diagnostics);
+  if (!map.is_mapping()) return robot;
+  if (const Node* task = map.required("task")) {
+    robot.task = parse_word(*task, what + "'s `task`", diagnostics).text;
+    robot.task_span = task->span;
+  }
+  if (const Node* file = map.optional("robot")) {
+    robot.robot = parse_word(*file, what + "'s `robot`", diagnostics).text;
+    robot.robot_span = file->span;
+  }
+  if (const Node* at = map.required("at")) parse_place(*at, what + "'s `at`", robot.at, diagnostics);
+  if (const Node* yaw = map.optional("yaw"))
+    robot.yaw = parse_plain(*yaw, dimension::angle, what + "'s `yaw`", diagnostics).value_or(0.0);
+  parse_contact(map, robot, diagnostics);
+  if (const Node* node = map.optional("dock"))
+    robot.dock = parse_dock(*node, what + "'s `dock`", diagnostics);
+  if (const Node* node = map.optional("signals"))
+    robot.signals = parse_scene_signals(*node, seen, diagnostics);
+  const Node* state = map.optional("state");
+  if (state != nullptr) robot.state = parse_state_noise(*state, diagnostics);
+  robot.state.wheels_only = robot.state.wheels_only || state == nullptr;
+  map.finish();
+  return robot;
+}
+
+/// `truth.base` is the first robot's, and what has a name is seen by it.
+void take_name(const Node& key, std::vector<Seen>& seen, bool has_dock, Diagnostics& diagnostics) {
+  for (const Seen& other : seen) {
+    if (other.name != key.text) continue;
+    const std::string owner =
+        key.text == "base" ? "the robot's base in `truth.base`" : "an object of the scene";
+    diagnostics.add(wording::name_taken(key.span, key.text, owner));
+  }
+  seen.push_back({key.text, has_dock});
+}
+
+bool has_dock(const Node& robot) {
+  for (const Entry& entry : robot.entries) {
+    if (entry.key.text == "dock") return true;
+  }
+  return false;
+}
+
+void parse_robots(const Node& node, Scene& scene, std::vector<Seen>& seen, Diagnostics& diagnostics) {
+  if (!require_mapping(node, "`robots`", diagnostics)) return;
+  if (node.entries.size() > most_scene_robots) {
+    diagnostics.add(wording::too_many_robots(node.entries[most_scene_robots].key.span, most_scene_robots));
+    return;
+  }
+  for (const Entry& entry : node.entries) {
+    if (!entry.key.is_bad) take_name(entry.key, seen, has_dock(entry.value), diagnostics);
+  }
+  for (const Entry& entry : node.entries) {
+    if (!entry.key.is_bad) scene.robots.push_back(parse_robot(entry, seen, diagnostics));
+  }
 }
 
 std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnostics) {
@@ -130,18 +201,26 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
     }
     floor.finish();
   }
+  if (const Node* node = map.optional("real_rollers")) {
+    scene.real_rollers = parse_boolean(*node, "`real_rollers`", diagnostics).value_or(false);
+    scene.real_rollers_span = node->span;
+  }
+  std::vector<Seen> seen;
   const Node* objects = map.optional("objects");
   if (objects != nullptr && require_mapping(*objects, "`objects`", diagnostics)) {
     for (const Entry& entry : objects->entries) {
       if (entry.key.is_bad) continue;
+      scene.objects.push_back(parse_object(entry, diagnostics));
       // `truth.base.x` is the robot's.
       if (entry.key.text == "base")
         diagnostics.add(wording::name_taken(entry.key.span, "base", "the robot's base in `truth.base`"));
-      scene.objects.push_back(parse_object(entry, diagnostics));
+      seen.push_back({entry.key.text, scene.objects.back().dock.has_value()});
     }
   }
+  seen.push_back({"base", false});
+  if (const Node* node = map.optional("robots")) parse_robots(*node, scene, seen, diagnostics);
   if (const Node* node = map.optional("signals")) {
-    scene.signals = parse_scene_signals(*node, scene.objects, diagnostics);
+    scene.signals = parse_scene_signals(*node, seen, diagnostics);
   }
   const Node* state = map.optional("state");
   if (state != nullptr) scene.state = parse_state_noise(*state, diagnostics);
@@ -158,7 +237,10 @@ std::optional<Scene> load_scene_from(const std::filesystem::path& path, const Sp
                                      Diagnostics& diagnostics) {
   const std::optional<int> source = read_file(path, yaml_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
-  return read_scene(*source, diagnostics);
+  std::optional<Scene> scene = read_scene(*source, diagnostics);
+  if (scene) scene->path = path.string();
+  if (scene && !load_robots_of(*scene, path, diagnostics)) return std::nullopt;
+  return scene;
 }
 
 std::optional<Scene> read_scene(int source, Diagnostics& diagnostics) {

@@ -69,21 +69,45 @@ void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostic
   }
 }
 
-void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<SceneObject>& objects,
+/// The longest delay of a signal, and of a pose that corrects the wheels, which remember no more.
+constexpr double longest_delay = 1.9;      // [s]
+constexpr double longest_fix_delay = 0.4;  // [s]
+
+void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<Seen>& seen,
                        Diagnostics& diagnostics) {
   const Word word = parse_word(node, "signal `" + signal.name + "`", diagnostics);
   if (!word.exists()) return;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    names.push_back(objects[i].name);
-    if (objects[i].name == word.text) signal.object = static_cast<int>(i);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    names.push_back(seen[i].name);
+    if (seen[i].name == word.text) signal.object = static_cast<int>(i);
   }
-  if (signal.object < 0)
+  if (signal.object < 0) {
     diagnostics.add(wording::unknown_name(word.span, "object", word.text, nearest(word.text, names)));
+  } else if (signal.kind == SceneSignalKind::latch &&
+             !seen[static_cast<std::size_t>(signal.object)].has_dock) {
+    diagnostics.add(wording::nothing_latches(word.span, word.text));
+  }
 }
 
-SceneSignal parse_signal(const Entry& entry, const std::vector<SceneObject>& objects,
-                         Diagnostics& diagnostics) {
+/// `noise`, `angle_noise`, `delay`, `rate`, `dropouts`.
+void parse_quality(MapReader& map, SceneSignal& signal, double most_delay, Diagnostics& diagnostics) {
+  signal.noise = not_negative(map, "noise", dimension::length, diagnostics);
+  signal.angle_noise = not_negative(map, "angle_noise", dimension::angle, diagnostics);
+  signal.delay = not_negative(map, "delay", dimension::time, diagnostics);
+  if (signal.delay > most_delay)
+    diagnostics.add(wording::delayed_too_long(map.optional("delay")->span, map.what(), most_delay));
+  if (const Node* node = map.optional("rate")) {
+    const std::string what = map.what() + "'s `rate`";
+    const std::optional<double> rate = parse_plain(*node, dimension::frequency, what, diagnostics);
+    if (rate && *rate <= 0.0) diagnostics.add(wording::not_positive(node->span, what, false));
+    if (rate && *rate > 0.0) signal.period = 1.0 / *rate;
+  }
+  signal.dropouts = not_negative(map, "dropouts", dimension::none, diagnostics);
+  if (signal.dropouts >= 1.0) diagnostics.add(wording::all_dropped(map.optional("dropouts")->span));
+}
+
+SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diagnostics& diagnostics) {
   SceneSignal signal;
   signal.name = parse_name(entry.key, "a signal's name", diagnostics).text;
   signal.span = entry.key.span;
@@ -104,34 +128,24 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<SceneObject>& obj
     if (source.kind == SceneSignalKind::script) {
       parse_script(*node, signal, diagnostics);
     } else {
-      parse_object_name(*node, signal, objects, diagnostics);
+      parse_object_name(*node, signal, seen, diagnostics);
     }
   }
   if (found != 1 && !map.has_misspelt({"script", "pose_of", "distance_to", "latch"}))
     diagnostics.add(wording::one_signal_source(entry.key.span, entry.key.text));
-  signal.noise = not_negative(map, "noise", dimension::length, diagnostics);
-  signal.angle_noise = not_negative(map, "angle_noise", dimension::angle, diagnostics);
-  signal.delay = not_negative(map, "delay", dimension::time, diagnostics);
-  if (const Node* node = map.optional("rate")) {
-    const std::string what = map.what() + "'s `rate`";
-    const std::optional<double> rate = parse_plain(*node, dimension::frequency, what, diagnostics);
-    if (rate && *rate <= 0.0) diagnostics.add(wording::not_positive(node->span, what, false));
-    if (rate && *rate > 0.0) signal.period = 1.0 / *rate;
-  }
-  signal.dropouts = not_negative(map, "dropouts", dimension::none, diagnostics);
-  if (signal.dropouts >= 1.0) diagnostics.add(wording::all_dropped(map.optional("dropouts")->span));
+  parse_quality(map, signal, longest_delay, diagnostics);
   map.finish();
   return signal;
 }
 
 }  // namespace
 
-std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<SceneObject>& objects,
+std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<Seen>& seen,
                                              Diagnostics& diagnostics) {
   std::vector<SceneSignal> signals;
   if (!require_mapping(node, "`signals`", diagnostics)) return signals;
   for (const Entry& entry : node.entries) {
-    if (!entry.key.is_bad) signals.push_back(parse_signal(entry, objects, diagnostics));
+    if (!entry.key.is_bad) signals.push_back(parse_signal(entry, seen, diagnostics));
   }
   return signals;
 }
@@ -193,6 +207,18 @@ StateNoise parse_state_noise(const Node& node, Diagnostics& diagnostics) {
   noise.yaw = not_negative(map, "yaw", dimension::angle, diagnostics);
   noise.velocity = not_negative(map, "velocity", dimension::velocity, diagnostics);
   noise.turn = not_negative(map, "turn", dimension::angular_velocity, diagnostics);
+  if (const Node* fix = map.optional("fix")) {
+    for (const char* key : {"position", "yaw", "velocity", "turn"}) {
+      const Node* measured = map.optional(key);
+      if (measured != nullptr) diagnostics.add(wording::fix_of_measured(fix->span, key, measured->span));
+    }
+    MapReader quality(*fix, "`state.fix`", diagnostics);
+    noise.wheels_only = true;
+    noise.fix.emplace();
+    noise.fix->kind = SceneSignalKind::pose;
+    if (quality.is_mapping()) parse_quality(quality, *noise.fix, longest_fix_delay, diagnostics);
+    quality.finish();
+  }
   map.finish();
   return noise;
 }

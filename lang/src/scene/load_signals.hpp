@@ -8,14 +8,21 @@
 
 namespace zwang::lang {
 
+/// Something that signals can speak of.
+struct Seen {
+  std::string name;
+  bool has_dock = false;
+};
+
 /// `{name: {script: ..} | {pose_of: ..} | {distance_to: ..} | {latch: ..}, + how it is measured}`
-std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<SceneObject>& objects,
+/// `seen` are the objects and robots of the scene, in the order of SceneSignal::object.
+std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<Seen>& seen,
                                              Diagnostics& diagnostics);
 /// `[{time, at, yaw}, ..]`
 std::vector<Waypoint> parse_motion(const Node& node, const std::string& what, Diagnostics& diagnostics);
 /// `{at, reach, hook}`
 std::optional<Dock> parse_dock(const Node& node, const std::string& what, Diagnostics& diagnostics);
-/// `perfect`, or noise.
+/// `perfect`, `wheels`, noise, or how the wheels are corrected.
 StateNoise parse_state_noise(const Node& node, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -80,10 +80,19 @@ Json scene_object() {
 Json scene_signal() {
   return object("has one source: script, pose_of, distance_to or latch",
                 {{"script", filled(list("pairs of a time and a value", Json{{"type", "array"}}))},
-                 {"pose_of", word("an object")},
-                 {"distance_to", word("an object")},
-                 {"latch", word("an object with a dock")},
+                 {"pose_of", word("an object or a robot; `base` is the first one")},
+                 {"distance_to", word("an object or a robot")},
+                 {"latch", word("an object or a robot with a dock")},
                  {"noise", reference("quantity", "standard deviation")},
+                 {"angle_noise", reference("quantity", "standard deviation")},
+                 {"delay", reference("quantity")},
+                 {"rate", reference("quantity")},
+                 {"dropouts", reference("quantity", "the part that never arrives")}});
+}
+
+Json fix() {
+  return object("a pose of the base that somebody measures now and then",
+                {{"noise", reference("quantity", "standard deviation")},
                  {"angle_noise", reference("quantity", "standard deviation")},
                  {"delay", reference("quantity")},
                  {"rate", reference("quantity")},
@@ -95,7 +104,22 @@ Json base_state() {
                  object("standard deviations", {{"position", reference("quantity")},
                                                 {"yaw", reference("quantity")},
                                                 {"velocity", reference("quantity")},
-                                                {"turn", reference("quantity")}})});
+                                                {"turn", reference("quantity")}}),
+                 object("told by the wheels, and corrected", {{"fix", fix(), true}})});
+}
+
+Json scene_robot() {
+  return object("another robot, under a task file of its own",
+                {{"task", word("its task file, seen from this one"), true},
+                 {"robot", word("in the place of the task's own")},
+                 {"at", reference("point", "where its base starts, in the world"), true},
+                 {"yaw", reference("quantity")},
+                 {"stiffness", reference("quantity", "of a contact, as N/m")},
+                 {"damping", reference("quantity", "of a contact, against the critical one")},
+                 {"friction", reference("quantity", "coefficient")},
+                 {"dock", dock()},
+                 {"signals", named("where its task's signals come from", scene_signal())},
+                 {"state", base_state()}});
 }
 
 Json fault() {
@@ -116,14 +140,17 @@ Json start_pose() {
 
 Json expectation() {
   const Json condition = word("a condition; truth.* is what the plant measured");
-  return any_of({object("", {{"outcome",
-                              one_of_words("", {"done", "failed", "stopped", "diverged", "refused"}), true}}),
-                 object("", {{"diagnostic", word("the code that the task is refused with"), true}}),
-                 object("", {{"at", one_of_words("", {"end"}), true}, {"that", condition, true}}),
-                 object("", {{"within", reference("quantity"), true},
-                             {"of", word("what starts the time; the run's start when absent")},
-                             {"that", condition, true}}),
-                 object("", {{"always", condition, true}})});
+  return any_of(
+      {object("",
+              {{"outcome",
+                one_of_words("", {"done", "failed", "stopped", "diverged", "refused", "unfinished"}), true},
+               {"of", word("a robot of the scene; the first one's when absent")}}),
+       object("", {{"diagnostic", word("the code that the task is refused with"), true}}),
+       object("", {{"at", one_of_words("", {"end"}), true}, {"that", condition, true}}),
+       object("", {{"within", reference("quantity"), true},
+                   {"of", word("what starts the time; the run's start when absent")},
+                   {"that", condition, true}}),
+       object("", {{"always", condition, true}})});
 }
 
 }  // namespace
@@ -157,7 +184,10 @@ Json scene_file() {
                 {version("zwang_scene"),
                  {"start", start_pose()},
                  {"floor", object("", {{"friction", reference("quantity")}})},
+                 {"real_rollers",
+                  Json{{"type", "boolean"}, {"description", "mecanum and omni wheels roller by roller"}}},
                  {"objects", named("what the robot can meet", scene_object())},
+                 {"robots", named("other robots, with tasks of their own", scene_robot())},
                  {"signals", named("where the task's signals come from", scene_signal())},
                  {"state", base_state()},
                  {"faults", list("what goes wrong, and when", fault())}});

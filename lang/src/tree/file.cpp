@@ -80,6 +80,11 @@ std::optional<int> read_file(const std::filesystem::path& path, const SizeLimit&
   const bool is_too_large = text->size() > limit.bytes;
   if (is_too_large) text->clear();
   if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);
+  // What two robots of a scene share is one source: what is wrong with it is said once.
+  const std::vector<Source>& known = diagnostics.sources();
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i].path == path.string() && known[i].text == *text) return static_cast<int>(i);
+  }
   const int source = diagnostics.add_source({path.string(), std::move(*text)});
   if (is_too_large) {
     const Position start{1, 1};

@@ -1,6 +1,5 @@
 #include "contact_spring.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -8,26 +7,10 @@ namespace zwang::runtime {
 
 namespace {
 
-const lang::SceneObject& object_of(const lang::Scene& scene, int index) {
-  return scene.objects[static_cast<std::size_t>(index)];
-}
-
-const lang::SceneObject& softer_object(const lang::Scene& scene, int one, int other) {
-  if (one < 0 || other < 0) return object_of(scene, std::max(one, other));
-  const lang::SceneObject& a = object_of(scene, one);
-  const lang::SceneObject& b = object_of(scene, other);
-  return a.stiffness < b.stiffness ? a : b;
-}
-
-double inverse_mass(const lang::Scene& scene, double robot_mass, int index) {
-  if (index < 0) return 1.0 / robot_mass;
-  const auto& mass = object_of(scene, index).mass;
-  return mass ? 1.0 / *mass : 0.0;
-}
-
-void require_spring(const lang::SceneObject& object) {
-  const auto refuse = [&object](const char* what) {
-    throw std::invalid_argument("plant: " + std::string(what) + " (object `" + object.name + "`)");
+template <typename Touched>
+Touchable::Skin skin_of(const Touched& object, const char* kind) {
+  const auto refuse = [&](const char* what) {
+    throw std::invalid_argument("plant: " + std::string(what) + " (" + kind + " `" + object.name + "`)");
   };
   if (!(object.stiffness > 0.0) || !(object.damping >= 0.0) || !(object.friction >= 0.0)) {
     refuse("stiffness, damping or friction is out of range");
@@ -35,15 +18,26 @@ void require_spring(const lang::SceneObject& object) {
   // The contact's damping is also what resists sliding until the friction limit is reached.
   if (object.friction > 0.0 && object.damping < 0.01)
     refuse("friction needs a damping ratio of at least 0.01");
+  return {object.stiffness, object.damping, object.friction};
 }
 
 }  // namespace
 
-ContactSpring contact_spring(const lang::Scene& scene, double robot_mass, int one, int other) {
-  const lang::SceneObject& object = softer_object(scene, one, other);
-  require_spring(object);
-  const double mass = 1.0 / (inverse_mass(scene, robot_mass, one) + inverse_mass(scene, robot_mass, other));
-  return {object.stiffness, 2.0 * object.damping * std::sqrt(object.stiffness * mass)};
+Touchable touchable_object(const lang::SceneObject& object) {
+  return {object.name, object.mass ? 1.0 / *object.mass : 0.0, skin_of(object, "object")};
+}
+
+Touchable touchable_robot(const lang::SceneRobot* robot, double mass) {
+  if (robot == nullptr) return {"", 1.0 / mass, std::nullopt};
+  return {robot->name, 1.0 / mass, skin_of(*robot, "robot")};
+}
+
+ContactSpring contact_spring(const Touchable& one, const Touchable& other) {
+  const bool first_is_softer =
+      one.skin && other.skin ? one.skin->stiffness < other.skin->stiffness : one.skin.has_value();
+  const Touchable::Skin& skin = first_is_softer ? *one.skin : *other.skin;
+  const double mass = 1.0 / (one.inverse_mass + other.inverse_mass);
+  return {skin.stiffness, 2.0 * skin.damping * std::sqrt(skin.stiffness * mass)};
 }
 
 }  // namespace zwang::runtime

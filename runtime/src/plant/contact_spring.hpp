@@ -1,18 +1,33 @@
 /// What a contact in the bumper's plane is as a spring.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "zwang/lang/scene.hpp"
 
 namespace zwang::runtime {
+
+/// What can be met: an object of the scene or a robot.
+struct Touchable {
+  struct Skin {
+    double stiffness = 0.0, damping = 0.0, friction = 0.0;
+  };
+  std::string name;
+  double inverse_mass = 0.0;  ///< [1/kg]; 0: nothing pushes it
+  std::optional<Skin> skin;   ///< none: of the first robot, which feels as what it meets
+};
+/// Throw std::invalid_argument on numbers that make no spring.
+Touchable touchable_object(const lang::SceneObject& object);
+/// `robot` null: the first one.
+Touchable touchable_robot(const lang::SceneRobot* robot, double mass);
 
 struct ContactSpring {
   double stiffness = 0.0;  ///< K [N/m]
   double damping = 0.0;    ///< c = 2 zeta sqrt(K m) [N s/m], m the reduced mass of the two that meet
 };
 
-/// Between two objects of the scene, or an object and the robot (index -1). Two objects meet with the
-/// stiffness and damping ratio of the softer one. Throws std::invalid_argument on numbers that make no
-/// spring.
-ContactSpring contact_spring(const lang::Scene& scene, double robot_mass, int one, int other);
+/// The two meet with the stiffness and damping ratio of the softer one; at least one has a skin.
+ContactSpring contact_spring(const Touchable& one, const Touchable& other);
 
 }  // namespace zwang::runtime

@@ -3,11 +3,14 @@
 /// Names: `body_<i>`, `joint_<j>`, `motor_<j>` after the model's numbers, `wheel_<w>` (with rollers
 /// `wheel_<w>_<i>`, on bodies and joints `roller_<w>_<i>`), `floor`; of the
 /// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`; of its arms `tip_<t>`; of the scene
-/// `object_<k>` (body) with geoms `object_<k>_face` and `object_<k>_edge_<c>`, `dock_<k>` (equality).
+/// `object_<k>` (body) with geoms `object_<k>_face` and `object_<k>_edge_<c>`, `dock_<k>` (equality; those of
+/// robots are counted on after the objects'). All names of the scene's robots begin with `partner_<r>_`, r
+/// from 1.
 ///
 /// Robot and objects meet in one plane, at the height of the bumper: corners of the one against faces of the
 /// other, each pair one contact point. An arm meets faces with its tip, at any height. A corner is a sphere
-/// of 1 um tangent to both of its sides. Objects that move slide in the plane, on joints `object_<k>_x`,
+/// of 1 um tangent to both of its sides. Robots meet each other in the same way. Objects that move slide in
+/// the plane, on joints `object_<k>_x`,
 /// `_y`, `_turn`: their friction is in floor_friction.hpp.
 #pragma once
 
@@ -24,6 +27,8 @@ namespace zwang::runtime {
 
 /// What the text is written from, worked out once.
 struct SimulatedRobot {
+  lang::Robot robot;
+  std::string prefix;  ///< of all names of its parts
   SphereBase spheres;
   std::vector<RollerWheel> rollers;      ///< by wheel, where they are built as they are; else empty
   double ground = 0.0;                   ///< [m] height of the ground in the base frame
@@ -31,19 +36,32 @@ struct SimulatedRobot {
   std::vector<solver::Vector3> outline;  ///< convex hull of the footprint, counter-clockwise
   std::vector<solver::Frame> tips;       ///< of arms: where they touch objects
   std::vector<solver::Vector3> skids;    ///< points under the base; empty when the wheels carry it
+
+  std::string named(const char* part, std::size_t number) const {
+    return prefix + part + '_' + std::to_string(number);
+  }
 };
 
-/// Throws std::invalid_argument when the robot cannot be simulated.
-SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers = false);
+/// `number` 0 is the first robot, then come the scene's. Throws std::invalid_argument when the robot cannot
+/// be simulated.
+SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers = false, int number = 0);
 
 /// X_BaseBody of a body where all joints are at 0.
 solver::Pose pose_in_base(const solver::Model& model, int body);
 
-/// The frame that latches in the object's dock. Throws std::invalid_argument when the robot has none.
-const solver::Frame& hook_of(const solver::Model& model, const lang::SceneObject& object);
+/// The frame that latches in the dock of `owner`. Throws std::invalid_argument when the robot has none.
+const solver::Frame& hook_of(const solver::Model& model, const lang::Dock& dock, const std::string& owner);
 
-std::string write_mjcf(const lang::Robot& robot, const SimulatedRobot& simulated, const lang::Scene& scene,
-                       double period);
+inline constexpr double contact_half_height = 1.0;  ///< [m] of the upright faces that meet
+
+/// What is one robot's: meshes, its tree of bodies, its contacts with the floor, its motors.
+struct RobotText {
+  std::string assets, body, contacts, motors;
+};
+RobotText write_robot(const SimulatedRobot& simulated, double floor_friction);
+
+/// The first robot, then the scene's in its order.
+std::string write_mjcf(const std::vector<SimulatedRobot>& robots, const lang::Scene& scene, double period);
 
 /// How an object's springs are described in the text; the plant puts in the stiffness afterwards.
 inline constexpr double spring_impedance = 0.001;

@@ -9,19 +9,18 @@
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
-#include "joint_friction.hpp"
-#include "mjcf.hpp"
-#include "side_friction.hpp"
+#include "moving_robot.hpp"
 #include "simulated_object.hpp"
 #include "simulator.hpp"
+#include "zwang/lang/program.hpp"
 
 namespace zwang::runtime {
 
 namespace {
 
 using solver::Matrix3;
-using solver::Model;
 using solver::Vector3;
 
 constexpr double settling_time = 0.5;   ///< [s] before t = 0, without torque
@@ -29,14 +28,6 @@ constexpr double start_overlap = 1e-5;  ///< [m] allowed between robot and objec
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("plant: " + what);
-}
-
-Matrix3 matrix_of(const mjtNum* quaternion) {
-  return Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3]).toRotationMatrix();
-}
-
-Vector3 vector_of(const mjtNum* numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
 }
 
 std::string numbered(const char* name, int number) {
@@ -54,73 +45,80 @@ double yaw_of(const Matrix3& rotation) {
 }  // namespace
 
 struct MujocoPlant::Simulation {
-  /// How one joint of the model is read.
-  struct JointAddress {
-    int position = 0;                       ///< in qpos
-    int velocity = 0;                       ///< in qvel
-    int motor = -1;                         ///< in ctrl; -1 without a motor
-    const RollingSphere* sphere = nullptr;  ///< set: a ball joint; q is integrated
-    bool turns_wheel = false;
-  };
-  Simulation(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options)
-      : robot_model(robot.model),
-        simulated(prepare_robot(robot, options.real_rollers)),
-        posture(lang::start_state(robot).q),
-        side_friction(robot.model, scene.floor_friction),
-        joint_friction(robot),
-        wheel_loads(robot.model.wheels().size(), 0.0) {
+  Simulation(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options) {
     install_handlers();
     if (!(options.period > 0.0) || options.period > 0.01) refuse("the period is not within 0 and 10 ms");
-    text = write_mjcf(robot, simulated, scene, options.period);
+    const std::vector<SimulatedRobot> described =
+        describe_robots(robot, scene, options.real_rollers || scene.real_rollers);
+    for (const SimulatedRobot& one : described) robots.emplace_back(one, scene.floor_friction);
+    text = write_mjcf(described, scene, options.period);
     model = compile(text);
     data.reset(mj_makeData(model.get()));
     if (!data) refuse("MuJoCo has no memory for the simulation");
     find_addresses();
-    require_as_written(*model, robot_model, simulated);
-    owners = find_owners(*model, simulated, robot.footprint);
-    set_springs(*model, owners, scene, robot_model.total_mass());
+    for (const SimulatedRobot& one : described) require_as_written(*model, one);
+    owners = find_owners(*model, described);
+    set_springs(*model, owners, scene, described);
     truth.corner_forces.assign(robot.footprint.size(), 0.0);
     for (const lang::SceneObject& object : scene.objects)
       truth.objects.push_back({object.name, 0.0, {}, 0.0});
+    for (const lang::SceneRobot& other : scene.robots) {
+      truth.objects.push_back({other.name, 0.0, {}, 0.0});
+      truth.robots.emplace_back();
+    }
     find_objects(scene);
-    torque = Eigen::VectorXd::Zero(robot_model.joint_count());
-    base_mass = model->body_mass[base_body];
-    const std::array<double, 2> at = options.start_at.value_or(scene.start_at);
-    start(at, options.start_yaw.value_or(scene.start_yaw));
+    find_docks(scene);
+    base_mass = model->body_mass[first().base_body()];
+    std::vector<Start> starts{
+        {options.start_at.value_or(scene.start_at), options.start_yaw.value_or(scene.start_yaw)}};
+    for (const lang::SceneRobot& other : scene.robots) starts.push_back({other.at, other.yaw});
+    start(starts);
   }
+
+  static std::vector<SimulatedRobot> describe_robots(const lang::Robot& robot, const lang::Scene& scene,
+                                                     bool real_rollers) {
+    std::vector<SimulatedRobot> described{prepare_robot(robot, real_rollers)};
+    for (std::size_t r = 0; r < scene.robots.size(); ++r) {
+      const auto& program = scene.robots[r].program;
+      if (!program) refuse("the task file of the robot `" + scene.robots[r].name + "` was not loaded");
+      described.push_back(prepare_robot(program->robot, real_rollers, static_cast<int>(r) + 1));
+    }
+    return described;
+  }
+
+  struct Start {
+    std::array<double, 2> at;
+    double yaw;
+  };
+
+  /// A socket: of an object, or of one of the scene's robots.
+  struct SimulatedDock {
+    std::size_t owner = 0;  ///< in the truth's objects
+    lang::Dock dock;
+    int body = 0;  ///< that the hook is tied to
+    int equality = -1;
+    int hook_body = 0;
+    Vector3 hook = Vector3::Zero();  ///< [m] in that body
+  };
+
+  MovingRobot& first() noexcept { return robots.front(); }
+  const MovingRobot& first() const noexcept { return robots.front(); }
 
   int id_of(mjtObj type, const std::string& name) const {
     return mj_name2id(model.get(), type, name.c_str());
   }
 
-  bool floats() const { return !robot_model.has_fixed_base(); }
-
   void find_addresses() {
-    base_body = id_of(mjOBJ_BODY, "body_0");
-    int freedoms = floats() ? 6 : 0;
-    for (int j = 0; j < robot_model.joint_count(); ++j) {
-      const int id = id_of(mjOBJ_JOINT, numbered("joint", j));
-      JointAddress address;
-      address.position = model->jnt_qposadr[id];
-      address.velocity = model->jnt_dofadr[id];
-      address.motor = id_of(mjOBJ_ACTUATOR, numbered("motor", j));
-      for (const RollingSphere& sphere : simulated.spheres.spheres) {
-        if (sphere.body == j + 1) address.sphere = &sphere;
-      }
-      for (const solver::Wheel& wheel : robot_model.wheels()) {
-        if (wheel.body == j + 1) address.turns_wheel = true;
-      }
-      freedoms += address.sphere != nullptr ? 3 : 1;
-      joints.push_back(address);
+    int freedoms = 0;
+    for (MovingRobot& robot : robots) {
+      robot.find_addresses(*model);
+      freedoms += robot.freedoms();
     }
-    for (const RollerWheel& wheel : simulated.rollers) freedoms += static_cast<int>(wheel.rollers.size());
     for (int j = 0; j < model->njnt; ++j) {
       const char* name = mj_id2name(model.get(), mjOBJ_JOINT, j);
       if (std::strncmp(name, "object_", 7) == 0) freedoms += 1;
     }
     if (model->nv != freedoms) refuse("MuJoCo changed the number of freedoms");
-    q = posture;
-    qd.setZero(robot_model.joint_count());
   }
 
   void find_objects(const lang::Scene& scene) {
@@ -136,31 +134,38 @@ struct MujocoPlant::Simulation {
       }
       if (object.mass)
         simulated_object.friction =
-            floor_friction_of(object, scene.floor_friction, robot_model.gravity().norm());
-      if (object.dock) {
-        const solver::Frame& hook = hook_of(robot_model, object);
-        simulated_object.hook_body = id_of(mjOBJ_BODY, numbered("body", hook.body));
-        simulated_object.hook = hook.pose_in_body.position;
-        simulated_object.equality = id_of(mjOBJ_EQUALITY, numbered("dock", static_cast<int>(k)));
-      }
+            floor_friction_of(object, scene.floor_friction, first().model().gravity().norm());
       objects.push_back(std::move(simulated_object));
+    }
+  }
+
+  void find_docks(const lang::Scene& scene) {
+    const auto add = [&](std::size_t owner, const std::string& name, const lang::Dock& dock, int body) {
+      const solver::Frame& hook = hook_of(first().model(), dock, name);
+      docks.push_back({owner, dock, body, id_of(mjOBJ_EQUALITY, numbered("dock", static_cast<int>(owner))),
+                       id_of(mjOBJ_BODY, numbered("body", hook.body)), hook.pose_in_body.position});
+    };
+    for (std::size_t k = 0; k < objects.size(); ++k) {
+      if (scene.objects[k].dock) add(k, scene.objects[k].name, *scene.objects[k].dock, objects[k].body);
+    }
+    for (std::size_t r = 0; r < scene.robots.size(); ++r) {
+      const lang::SceneRobot& robot = scene.robots[r];
+      if (robot.dock) add(objects.size() + r, robot.name, *robot.dock, robots[r + 1].base_body());
     }
   }
 
   /// A hook that is near enough to its socket is tied to the object where it is.
   void latch_hooks() noexcept {
-    for (std::size_t k = 0; k < objects.size(); ++k) {
-      const SimulatedObject& object = objects[k];
-      if (object.equality < 0 || truth.objects[k].latched) continue;
-      const Vector3 hook = vector_of(data->xpos + 3 * object.hook_body) +
-                           matrix_of(data->xquat + 4 * object.hook_body) * object.hook;
-      if (!is_in_reach(object, truth.objects[k], hook)) continue;
-      Eigen::Map<Vector3>(model->eq_data + mjNEQDATA * object.equality) = object.hook;
-      Eigen::Map<Vector3>(model->eq_data + mjNEQDATA * object.equality + 3) =
-          matrix_of(data->xquat + 4 * object.body).transpose() *
-          (hook - vector_of(data->xpos + 3 * object.body));
-      model->eq_active[object.equality] = 1;
-      truth.objects[k].latched = true;
+    for (const SimulatedDock& dock : docks) {
+      if (truth.objects[dock.owner].latched) continue;
+      const Vector3 hook = vector_of(data->xpos + 3 * dock.hook_body) +
+                           matrix_of(data->xquat + 4 * dock.hook_body) * dock.hook;
+      if (!is_in_reach(dock.dock, truth.objects[dock.owner], hook)) continue;
+      Eigen::Map<Vector3>(model->eq_data + mjNEQDATA * dock.equality) = dock.hook;
+      Eigen::Map<Vector3>(model->eq_data + mjNEQDATA * dock.equality + 3) =
+          matrix_of(data->xquat + 4 * dock.body).transpose() * (hook - vector_of(data->xpos + 3 * dock.body));
+      model->eq_active[dock.equality] = 1;
+      truth.objects[dock.owner].latched = true;
     }
   }
 
@@ -169,6 +174,14 @@ struct MujocoPlant::Simulation {
       const int body = objects[k].body;
       place_truth(objects[k], vector_of(data->xpos + 3 * body), matrix_of(data->xquat + 4 * body),
                   truth.objects[k]);
+    }
+    for (std::size_t r = 1; r < robots.size(); ++r) {
+      ObjectTruth& seen = truth.objects[objects.size() + r - 1];
+      const Vector3 at = robots[r].base_position(*model, *data);
+      seen.x = at.x();
+      seen.y = at.y();
+      seen.yaw = yaw_of(robots[r].base_rotation(*model, *data));
+      truth.robots[r - 1].velocity = robots[r].planar_twist(*model, *data);
     }
   }
 
@@ -181,111 +194,95 @@ struct MujocoPlant::Simulation {
       if (friction[1] == friction[0]) friction[1] = coefficient;
       friction[0] = coefficient;
     }
-    side_friction.set_coefficient(coefficient);
+    for (MovingRobot& robot : robots) robot.set_floor_friction(coefficient);
   }
 
   void set_payload(double mass) noexcept {
-    const double change = base_mass + mass - model->body_mass[base_body];
-    model->body_mass[base_body] += change;
-    model->body_subtreemass[base_body] += change;
+    const int body = first().base_body();
+    const double change = base_mass + mass - model->body_mass[body];
+    model->body_mass[body] += change;
+    model->body_subtreemass[body] += change;
     model->body_subtreemass[0] += change;
   }
 
   const GeomOwner& owner_of(int geom) const { return owners[static_cast<std::size_t>(geom)]; }
 
-  /// Lets the robot sink into its wheels' contacts, then puts it exactly where it starts, at rest, at t = 0:
-  /// of the settled pose, height and tilt of the base are kept.
-  void start(const std::array<double, 2>& at, double yaw) {
-    place(at, yaw);
+  /// Lets the robots sink into their wheels' contacts, then puts them exactly where they start, at rest, at
+  /// t = 0: of the settled pose, height and tilt of the base are kept.
+  void start(const std::vector<Start>& starts) {
+    for (std::size_t r = 0; r < robots.size(); ++r)
+      robots[r].place(*model, *data, starts[r].at, starts[r].yaw);
     if (!guarded(mj_forward, model.get(), data.get())) refuse("MuJoCo fails at the start pose");
     refuse_overlap();
-    if (robot_model.base_type() == solver::BaseType::ground) settle(yaw);
+    const auto on_ground = [](const MovingRobot& robot) { return robot.is_on_ground(); };
+    if (std::any_of(robots.begin(), robots.end(), on_ground)) settle(starts);
     read_base();
     read_objects();
     truth.velocity.setZero();
     truth.acceleration.setZero();
   }
 
-  void settle(double yaw) {
+  void settle(const std::vector<Start>& starts) {
     const std::vector<mjtNum> standing(data->qpos, data->qpos + model->nq);
     const int steps = static_cast<int>(settling_time / model->opt.timestep);
     for (int i = 0; i < steps; ++i) {
       if (!step()) refuse("the simulation diverges while the robot settles on the floor");
-      hold_joints();
+      for (const MovingRobot& robot : robots) robot.hold_joints(*data);
     }
     std::fill(data->qfrc_applied, data->qfrc_applied + model->nv, 0.0);
-    side_friction.reset();
-    const double height = data->qpos[2];
-    const Matrix3 tilted = base_rotation();
-    const Eigen::Quaterniond turned(Eigen::AngleAxisd(yaw - yaw_of(tilted), Vector3::UnitZ()) * tilted);
-    const std::array<double, 4> orientation = {turned.w(), turned.x(), turned.y(), turned.z()};
+    std::vector<std::pair<double, Matrix3>> settled;
+    for (MovingRobot& robot : robots) {
+      robot.forget_bristles();
+      settled.emplace_back(robot.base_position(*model, *data).z(), robot.base_rotation(*model, *data));
+    }
     std::copy(standing.begin(), standing.end(), data->qpos);
-    data->qpos[2] = height;
-    std::copy(orientation.begin(), orientation.end(), data->qpos + 3);
+    for (std::size_t r = 0; r < robots.size(); ++r) {
+      if (robots[r].is_on_ground())
+        robots[r].stand(*data, starts[r].yaw, settled[r].first, settled[r].second);
+    }
     std::fill(data->qvel, data->qvel + model->nv, 0.0);
     data->time = 0.0;
     if (!guarded(mj_forward, model.get(), data.get())) refuse("MuJoCo fails at the start pose");
   }
 
-  /// While the robot settles: joints other than the wheels keep their posture, and bear what hangs on them.
-  void hold_joints() {
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (joints[j].turns_wheel) continue;
-      data->qpos[joints[j].position] = posture[static_cast<Eigen::Index>(j)];
-      data->qvel[joints[j].velocity] = 0.0;
-      data->qfrc_applied[joints[j].velocity] = data->qfrc_bias[joints[j].velocity];
-    }
-  }
-
-  void place(const std::array<double, 2>& at, double yaw) {
-    const std::array<double, 4> turn = {std::cos(0.5 * yaw), 0.0, 0.0, std::sin(0.5 * yaw)};
-    mjtNum* position = floats() ? data->qpos + model->jnt_qposadr[id_of(mjOBJ_JOINT, "base")]
-                                : model->body_pos + 3 * base_body;
-    mjtNum* orientation = floats() ? position + 3 : model->body_quat + 4 * base_body;
-    std::copy(at.begin(), at.end(), position);
-    std::copy(turn.begin(), turn.end(), orientation);
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (joints[j].sphere != nullptr) continue;
-      data->qpos[joints[j].position] = posture[static_cast<Eigen::Index>(j)];
-    }
-    q = posture;
-  }
-
   void refuse_overlap() const {
     for (int c = 0; c < data->ncon; ++c) {
       const mjContact& contact = data->contact[c];
-      const int object = touched_object(contact);
-      if (object >= 0 && contact.dist < -start_overlap) {
-        refuse("the robot starts inside `" + truth.objects[static_cast<std::size_t>(object)].name + "`");
-      }
+      const GeomOwner &one = owner_of(contact.geom1), &other = owner_of(contact.geom2);
+      const GeomOwner& robot = one.touches ? one : other;
+      const GeomOwner& met = one.touches ? other : one;
+      if (!robot.touches || contact.dist >= -start_overlap) continue;
+      if (met.object >= 0 || met.touches) refuse(name_of(robot) + " starts inside " + name_of(met));
     }
   }
 
-  /// The object that the robot's outline touches in this contact, or -1.
+  std::string name_of(const GeomOwner& owner) const {
+    if (owner.object < 0 && owner.robot == 0) return "the robot";
+    const auto index = owner.object >= 0 ? static_cast<std::size_t>(owner.object)
+                                         : objects.size() + static_cast<std::size_t>(owner.robot) - 1;
+    return "`" + truth.objects[index].name + "`";
+  }
+
+  /// What the first robot's outline touches in this contact: an index into the truth's objects, or -1.
   int touched_object(const mjContact& contact) const {
     const GeomOwner& one = owner_of(contact.geom1);
     const GeomOwner& other = owner_of(contact.geom2);
-    if (one.robot) return other.object;
-    if (other.robot) return one.object;
-    return -1;
+    const bool first_is_one = one.touches && one.robot == 0;
+    if (!first_is_one && !(other.touches && other.robot == 0)) return -1;
+    const GeomOwner& met = first_is_one ? other : one;
+    return met.touches ? static_cast<int>(objects.size()) + met.robot - 1 : met.object;
   }
 
   /// One step; false when the simulation is void.
   bool step() noexcept {
     const double before = data->time;
-    if (!simulated.spheres.spheres.empty() || !side_friction.empty()) {
-      // A free joint takes its force in world axes and its torque in the body's.
-      const solver::ForceVector wrench = sphere_products(simulated.spheres, base_twist()) +
-                                         side_friction.step(base_twist(), wheel_loads, model->opt.timestep);
-      Eigen::Map<Vector3>(data->qfrc_applied) = base_rotation() * wrench.linear;
-      Eigen::Map<Vector3>(data->qfrc_applied + 3) = wrench.angular;
-    }
+    for (MovingRobot& robot : robots) robot.push(*model, *data);
     for (SimulatedObject& object : objects) {
       follow_script(object, time(), data->qpos, data->qvel);
       add_floor_friction(object, model->opt.timestep, data->qvel, data->qfrc_applied);
     }
     if (!guarded(mj_step, model.get(), data.get())) return false;
-    if (!side_friction.empty()) read_loads();
+    read_loads();
     const double elapsed = data->time - before;
     if (!(std::abs(elapsed - model->opt.timestep) < 1e-6 * model->opt.timestep)) return false;
     for (const mjWarningStat& warning : data->warning) {
@@ -296,60 +293,32 @@ struct MujocoPlant::Simulation {
   }
 
   void read_loads() noexcept {
-    std::fill(wheel_loads.begin(), wheel_loads.end(), 0.0);
-    for (int c = 0; c < data->ncon; ++c) {
-      const int wheel =
-          std::max(owner_of(data->contact[c].geom1).wheel, owner_of(data->contact[c].geom2).wheel);
-      if (wheel < 0) continue;
+    bool is_needed = false;
+    for (MovingRobot& robot : robots) {
+      is_needed = is_needed || robot.needs_loads();
+      std::fill(robot.wheel_loads().begin(), robot.wheel_loads().end(), 0.0);
+    }
+    for (int c = 0; is_needed && c < data->ncon; ++c) {
+      const GeomOwner &one = owner_of(data->contact[c].geom1), &other = owner_of(data->contact[c].geom2);
+      const GeomOwner& rolling = one.wheel >= 0 ? one : other;
+      if (rolling.wheel < 0) continue;
       std::array<mjtNum, 6> wrench{};
       mj_contactForce(model.get(), data.get(), c, wrench.data());
-      wheel_loads[static_cast<std::size_t>(wheel)] += wrench[0];
+      robots[static_cast<std::size_t>(rolling.robot)]
+          .wheel_loads()[static_cast<std::size_t>(rolling.wheel)] += wrench[0];
     }
-  }
-
-  /// In base axes and at the base's origin.
-  solver::MotionVector base_twist() const {
-    if (!floats()) return {};
-    return {vector_of(data->qvel + 3), base_rotation().transpose() * vector_of(data->qvel)};
-  }
-
-  Vector3 base_velocity() const {
-    const solver::MotionVector twist = base_twist();
-    return {twist.linear.x(), twist.linear.y(), twist.angular.z()};
   }
 
   void read_base() noexcept {
     truth.time = time();
-    truth.x = base_position().x();
-    truth.y = base_position().y();
-    truth.yaw = yaw_of(base_rotation());
+    const Vector3 at = first().base_position(*model, *data);
+    truth.x = at.x();
+    truth.y = at.y();
+    truth.yaw = yaw_of(first().base_rotation(*model, *data));
   }
 
   /// Counted: MuJoCo's own clock adds up its steps and with them their rounding.
   double time() const { return static_cast<double>(steps_since_start) * model->opt.timestep; }
-
-  Vector3 base_position() const { return vector_of(floats() ? data->qpos : model->body_pos + 3 * base_body); }
-
-  Matrix3 base_rotation() const {
-    return matrix_of(floats() ? data->qpos + 3 : model->body_quat + 4 * base_body);
-  }
-
-  void read_joints() noexcept {
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      const JointAddress& address = joints[j];
-      const auto i = static_cast<Eigen::Index>(j);
-      if (address.sphere == nullptr) {
-        q[i] = data->qpos[address.position];
-        qd[i] = data->qvel[address.velocity];
-      } else {
-        // The joint's velocity is in the sphere's own axes, and relative to the base.
-        const Vector3 spin =
-            matrix_of(data->qpos + address.position) * vector_of(data->qvel + address.velocity);
-        qd[i] = address.sphere->torque_direction().dot(spin);
-        q[i] += model->opt.timestep * qd[i];
-      }
-    }
-  }
 
   /// The contacts of the step that was just made are those at its beginning, `before`.
   void read_contacts(double before) noexcept {
@@ -362,72 +331,56 @@ struct MujocoPlant::Simulation {
       mj_contactForce(model.get(), data.get(), c, wrench.data());
       ObjectTruth& object = truth.objects[static_cast<std::size_t>(k)];
       object.force += wrench[0];
-      const int corner =
-          std::max(owner_of(data->contact[c].geom1).corner, owner_of(data->contact[c].geom2).corner);
-      if (corner >= 0) truth.corner_forces[static_cast<std::size_t>(corner)] += wrench[0];
+      for (const int geom : {data->contact[c].geom1, data->contact[c].geom2}) {
+        const GeomOwner& owner = owner_of(geom);
+        if (owner.robot == 0 && owner.corner >= 0)
+          truth.corner_forces[static_cast<std::size_t>(owner.corner)] += wrench[0];
+      }
       if (!object.touched) object.touched = before;
     }
     for (ObjectTruth& object : truth.objects) object.peak_force = std::max(object.peak_force, object.force);
   }
 
-  PlantStatus apply(const Eigen::VectorXd& tau) noexcept {
+  PlantStatus give(std::size_t robot, const Eigen::VectorXd& tau) noexcept {
     if (diverged) return PlantStatus::diverged;
-    if (tau.size() != q.size() || !tau.allFinite()) return PlantStatus::unreachable;
-    torque = tau;
-    joint_friction.add_to(torque, qd, model->opt.timestep);
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      const double given = torque[static_cast<Eigen::Index>(j)];
-      if (joints[j].motor >= 0) {
-        data->ctrl[joints[j].motor] = given;
-      } else if (joints[j].sphere == nullptr) {
-        data->qfrc_applied[joints[j].velocity] = given;
-      }
-    }
+    return robots[robot].give(*data, tau, model->opt.timestep) ? PlantStatus::ok : PlantStatus::unreachable;
+  }
+
+  PlantStatus apply(const Eigen::VectorXd& tau) noexcept {
+    if (const PlantStatus given = give(0, tau); given != PlantStatus::ok) return given;
     const double before = time();
     if (!step()) {
       diverged = true;
       return PlantStatus::diverged;
     }
     ++steps_since_start;
-    const Vector3 now = base_velocity();
+    const Vector3 now = first().planar_twist(*model, *data);
     truth.acceleration = (now - velocity) / model->opt.timestep;
     truth.velocity = velocity = now;
     read_base();
-    read_joints();
+    for (MovingRobot& robot : robots) robot.read(*model, *data);
     read_contacts(before);
     read_objects();
     latch_hooks();
     return PlantStatus::ok;
   }
 
-  PlantStatus sense(Sensed& sensed) const noexcept {
+  PlantStatus sense(std::size_t robot, Sensed& sensed) const noexcept {
     if (diverged) return PlantStatus::diverged;
-    if (sensed.state.q.size() != q.size()) return PlantStatus::unreachable;
+    if (sensed.state.q.size() != robots[robot].joint_count()) return PlantStatus::unreachable;
     sensed.time = time();
-    sensed.state.q = q;
-    sensed.state.qd = qd;
-    sensed.state.base_pose.rotation = base_rotation();
-    sensed.state.base_pose.position = base_position();
-    sensed.state.base_twist = base_twist();
+    robots[robot].sense(*model, *data, sensed.state);
     return PlantStatus::ok;
   }
 
-  Model robot_model;
-  SimulatedRobot simulated;
-  Eigen::VectorXd posture;  ///< q at the start
-  SideFriction side_friction;
-  JointFriction joint_friction;
-  Eigen::VectorXd torque;           ///< of the joints, friction included
-  std::vector<double> wheel_loads;  ///< [N] that the floor carries each wheel with, in the last step
+  std::vector<MovingRobot> robots;  ///< the first, then the scene's
   std::string text;
   ModelPointer model;
   DataPointer data;
-  int base_body = 0;
-  std::vector<JointAddress> joints;
   std::vector<GeomOwner> owners;  ///< by geom
   std::vector<SimulatedObject> objects;
-  double base_mass = 0.0;  ///< [kg] without a payload
-  Eigen::VectorXd q, qd;
+  std::vector<SimulatedDock> docks;
+  double base_mass = 0.0;  ///< [kg] of the first robot, without a payload
   Vector3 velocity = Vector3::Zero();
   Truth truth;
   std::int64_t steps_since_start = 0;
@@ -441,11 +394,19 @@ MujocoPlant::MujocoPlant(const lang::Robot& robot, const lang::Scene& scene,
 MujocoPlant::~MujocoPlant() = default;
 
 PlantStatus MujocoPlant::sense(Sensed& sensed) noexcept {
-  return simulation_->sense(sensed);
+  return simulation_->sense(0, sensed);
 }
 
 PlantStatus MujocoPlant::apply(const Eigen::VectorXd& tau) noexcept {
   return simulation_->apply(tau);
+}
+
+PlantStatus MujocoPlant::sense_partner(std::size_t partner, Sensed& sensed) const noexcept {
+  return simulation_->sense(partner + 1, sensed);
+}
+
+PlantStatus MujocoPlant::give_partner(std::size_t partner, const Eigen::VectorXd& tau) noexcept {
+  return simulation_->give(partner + 1, tau);
 }
 
 const Truth& MujocoPlant::truth() const noexcept {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace zwang::runtime {
 
@@ -37,17 +38,34 @@ std::vector<Vector3> convex_hull(std::vector<Vector3> points) {
   return hull;
 }
 
-std::vector<Vector3> corner_centres(const std::vector<Vector3>& polygon) {
-  std::vector<Vector3> centres;
+std::vector<Corner> corners_of(const std::vector<Vector3>& polygon) {
+  std::vector<Corner> corners;
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {
     const Vector3 to_next = (polygon[(i + 1) % n] - polygon[i]).normalized();
     const Vector3 to_last = (polygon[(i + n - 1) % n] - polygon[i]).normalized();
     const Vector3 inward = (to_next + to_last).normalized();
     const double half_angle_sine = std::abs(to_next.cross(inward).z());
-    centres.push_back(polygon[i] + corner_radius / half_angle_sine * inward);
+    corners.push_back({polygon[i] + corner_radius / half_angle_sine * inward,
+                       std::atan2(-inward.y(), -inward.x()), std::acos(std::min(1.0, half_angle_sine))});
   }
-  return centres;
+  return corners;
+}
+
+double distance_to(const std::vector<Vector3>& polygon, double x, double y) noexcept {
+  const Eigen::Vector2d point(x, y);
+  double nearest = std::numeric_limits<double>::infinity();
+  bool is_inside = !polygon.empty();
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d from = polygon[i].head<2>(),
+                          side = polygon[(i + 1) % polygon.size()].head<2>() - from;
+    const Eigen::Vector2d away = point - from;
+    // Counter-clockwise: what is inside lies to the left of every side.
+    is_inside = is_inside && side.x() * away.y() - side.y() * away.x() >= 0.0;
+    const double along = std::clamp(side.dot(away) / side.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (away - along * side).norm());
+  }
+  return is_inside || polygon.empty() ? 0.0 : nearest;
 }
 
 std::vector<Vector3> rectangle(double half_x, double half_y) {

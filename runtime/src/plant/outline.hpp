@@ -12,8 +12,17 @@ inline constexpr double corner_radius = 1e-6;  ///< [m]
 /// Counter-clockwise, without points on straight stretches; empty for less than a triangle.
 std::vector<solver::Vector3> convex_hull(std::vector<solver::Vector3> points);
 
-/// Centres of spheres tangent to both sides of each corner of a convex polygon, from inside.
-std::vector<solver::Vector3> corner_centres(const std::vector<solver::Vector3>& polygon);
+/// A sphere tangent to both sides of a corner, from inside. Away from the polygon it presses in directions
+/// between the normals of the two sides only.
+struct Corner {
+  solver::Vector3 centre;   ///< [m]
+  double outward = 0.0;     ///< [rad] heading of the bisector of the two normals
+  double half_angle = 0.0;  ///< [rad] between the bisector and a normal
+};
+std::vector<Corner> corners_of(const std::vector<solver::Vector3>& polygon);
+
+/// In the plane, from a point to a convex polygon [m]; 0 inside.
+double distance_to(const std::vector<solver::Vector3>& polygon, double x, double y) noexcept;
 
 std::vector<solver::Vector3> rectangle(double half_x, double half_y);
 bool is_rectangle(const std::vector<solver::Vector3>& polygon);

@@ -1,10 +1,9 @@
 #include "zwang/runtime/scene_plant.hpp"
 
-#include <Eigen/Geometry>
 #include <stdexcept>
 
 #include "injected_faults.hpp"
-#include "scene_signals.hpp"
+#include "robot_senses.hpp"
 
 namespace zwang::runtime {
 
@@ -25,15 +24,41 @@ const lang::Scene& scene_of(const lang::Program& program) {
 
 }  // namespace
 
+ScenePartner::ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& settings)
+    : name(robot.name),
+      program(robot.program),
+      runner(*robot.program, settings),
+      torque(Eigen::VectorXd::Zero(robot.program->robot.model.joint_count())) {}
+
 struct ScenePlant::Parts {
+  /// What a partner is told, beside what others may see of it.
+  struct Told {
+    RobotSenses senses;
+    Sensed actual, sensed;
+  };
+
   Parts(const lang::Program& program, const ScenePlantOptions& options)
       : scene(scene_of(program)),
         simulation(program.robot, scene, options.simulation),
-        signals(program, options.seed),
+        senses(program, scene, 0, program.robot, options.seed),
         faults(all_faults(scene, options.faults), program.robot.model),
-        noise(options.seed ^ 0xD1B54A32D192ED03U),
         actual(program.robot.model),
-        torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())) {}
+        torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())) {
+    static_cast<void>(simulation.sense(actual));
+    senses.start_at(actual.state.base_pose);
+    RunnerSettings settings;
+    settings.period = options.simulation.period;
+    settings.extra_columns = {
+        {"truth.base.x", "m", {}}, {"truth.base.y", "m", {}}, {"truth.base.yaw", "rad", {}}};
+    for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+      partners.emplace_back(scene.robots[i], settings);
+      const lang::Program& own = *partners.back().program;
+      told.push_back({RobotSenses(own, scene, static_cast<int>(i) + 1, program.robot, options.seed),
+                      Sensed(own.robot.model), Sensed(own.robot.model, own.signals.size())});
+      static_cast<void>(simulation.sense_partner(i, told.back().actual));
+      told.back().senses.start_at(told.back().actual.state.base_pose);
+    }
+  }
 
   /// Floor, payload and the simulation itself.
   void change_world(double time) noexcept {
@@ -48,40 +73,33 @@ struct ScenePlant::Parts {
     if (faults.active(FaultKind::plant_diverges, time)) simulation.diverge();
   }
 
-  void add_noise(solver::State& state) noexcept {
-    const lang::StateNoise& n = scene.state;
-    if (n.position > 0.0) {
-      state.base_pose.position.x() += n.position * noise.normal();
-      state.base_pose.position.y() += n.position * noise.normal();
-    }
-    if (n.yaw > 0.0) {
-      state.base_pose.rotation =
-          Eigen::AngleAxisd(n.yaw * noise.normal(), solver::Vector3::UnitZ()) * state.base_pose.rotation;
-    }
-    if (n.velocity > 0.0) {
-      state.base_twist.linear.x() += n.velocity * noise.normal();
-      state.base_twist.linear.y() += n.velocity * noise.normal();
-    }
-    if (n.turn > 0.0) state.base_twist.angular.z() += n.turn * noise.normal();
+  /// The partner's tick, at the instant of the first robot's.
+  void step_partner(std::size_t i) noexcept {
+    ScenePartner& partner = partners[i];
+    Told& of = told[i];
+    if (simulation.sense_partner(i, of.actual) != PlantStatus::ok) return;
+    of.senses.measure(simulation.truth(), of.actual.state);
+    of.senses.tell(of.actual, of.sensed);
+    const ObjectTruth& own = simulation.truth().objects[scene.objects.size() + i];
+    const std::array<double, 3> truth{own.x, own.y, own.yaw};
+    partner.torque = partner.runner.step(of.sensed, truth);
+    static_cast<void>(simulation.give_partner(i, partner.torque));
   }
 
   lang::Scene scene;
   MujocoPlant simulation;
-  SceneSignals signals;
+  RobotSenses senses;
   InjectedFaults faults;
-  Noise noise;
   Sensed actual;
   Eigen::VectorXd torque;  ///< what the motors make of the command
-  solver::Pose start;      ///< of the base
+  std::vector<ScenePartner> partners;
+  std::vector<Told> told;  ///< parallel to `partners`
   double present_friction = scene.floor_friction;
   double present_payload = 0.0;
 };
 
 ScenePlant::ScenePlant(const lang::Program& program, const ScenePlantOptions& options)
-    : parts_(std::make_unique<Parts>(program, options)) {
-  static_cast<void>(parts_->simulation.sense(parts_->actual));
-  parts_->start = parts_->actual.state.base_pose;
-}
+    : parts_(std::make_unique<Parts>(program, options)) {}
 
 ScenePlant::~ScenePlant() = default;
 
@@ -90,18 +108,9 @@ PlantStatus ScenePlant::sense(Sensed& sensed) noexcept {
   const PlantStatus status = p.simulation.sense(p.actual);
   if (status != PlantStatus::ok) return status;
   if (sensed.state.q.size() != p.actual.state.q.size()) return PlantStatus::unreachable;
-  p.signals.measure(p.simulation.truth(), p.actual.state);
+  p.senses.measure(p.simulation.truth(), p.actual.state);
   if (p.faults.active(FaultKind::samples_lost, p.actual.time)) return PlantStatus::unreachable;
-  sensed.time = p.actual.time;
-  sensed.state = p.actual.state;
-  sensed.base_measured = !p.scene.state.wheels_only;
-  if (sensed.base_measured) {
-    p.add_noise(sensed.state);
-  } else {
-    sensed.state.base_pose = p.start;
-    sensed.state.base_twist = {};
-  }
-  p.signals.report(sensed.time, sensed.signals);
+  p.senses.tell(p.actual, sensed);
   p.faults.spoil(sensed);
   return PlantStatus::ok;
 }
@@ -113,6 +122,7 @@ PlantStatus ScenePlant::apply(const Eigen::VectorXd& tau) noexcept {
   p.torque = tau;
   p.faults.spoil(p.torque, time);
   p.change_world(time);
+  for (std::size_t i = 0; i < p.partners.size(); ++i) p.step_partner(i);
   return p.simulation.apply(p.torque);
 }
 
@@ -122,6 +132,10 @@ const Truth& ScenePlant::truth() const noexcept {
 
 const solver::State& ScenePlant::true_state() const noexcept {
   return parts_->actual.state;
+}
+
+std::vector<ScenePartner>& ScenePlant::partners() noexcept {
+  return parts_->partners;
 }
 
 }  // namespace zwang::runtime

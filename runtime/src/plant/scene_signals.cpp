@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "object_geometry.hpp"
+#include "outline.hpp"
 #include "schedule/frame_table.hpp"
 
 namespace zwang::runtime {
@@ -65,12 +65,19 @@ double Noise::normal() noexcept {
 
 namespace {
 
-/// The robot's frame that latches in the object that is seen.
-std::optional<solver::AttachedFrame> hook_of(const std::vector<lang::SceneObject>& objects,
-                                             const SceneSignal& signal, const solver::Model& model) {
-  if (signal.object < 0) return std::nullopt;
-  const auto& dock = objects[static_cast<std::size_t>(signal.object)].dock;
-  const auto number = dock ? model.find_frame(dock->hook) : std::nullopt;
+/// The dock of what has this number.
+const std::optional<lang::Dock>* dock_of(const lang::Scene& scene, int number) {
+  const auto objects = static_cast<int>(scene.objects.size());
+  if (number < 0 || number == objects) return nullptr;
+  if (number < objects) return &scene.objects[static_cast<std::size_t>(number)].dock;
+  return &scene.robots[static_cast<std::size_t>(number - objects - 1)].dock;
+}
+
+/// The robot's frame that latches in what is seen.
+std::optional<solver::AttachedFrame> hook_of(const lang::Scene& scene, const SceneSignal& signal,
+                                             const solver::Model& model) {
+  const auto* dock = dock_of(scene, signal.object);
+  const auto number = dock != nullptr && *dock ? model.find_frame((*dock)->hook) : std::nullopt;
   if (!number) return std::nullopt;
   const solver::Frame& frame = model.frames()[static_cast<std::size_t>(*number)];
   return solver::AttachedFrame{frame.body, frame.pose_in_body, {}};
@@ -78,10 +85,13 @@ std::optional<solver::AttachedFrame> hook_of(const std::vector<lang::SceneObject
 
 }  // namespace
 
-SceneSignals::SceneSignals(const lang::Program& program, std::uint64_t seed) : model_(program.robot.model) {
-  if (!program.scene) return;
-  objects_ = program.scene->objects;
-  for (const SceneSignal& signal : program.scene->signals) {
+SceneSignals::SceneSignals(const lang::Program& program, const lang::Scene& scene,
+                           const std::vector<SceneSignal>& signals,
+                           std::vector<std::vector<solver::Vector3>> footprints, std::uint64_t seed)
+    : model_(program.robot.model), scene_(scene) {
+  for (std::vector<solver::Vector3>& footprint : footprints)
+    footprints_.push_back(convex_hull(std::move(footprint)));
+  for (const SceneSignal& signal : signals) {
     for (std::size_t i = 0; i < program.signals.size(); ++i) {
       const lang::Signal& declared = program.signals[i];
       if (declared.name != signal.name) continue;
@@ -93,7 +103,7 @@ SceneSignals::SceneSignals(const lang::Program& program, std::uint64_t seed) : m
       source.index = static_cast<int>(i);
       source.type = declared.type;
       if (declared.type == SignalType::pose) source.in = attached_frame(program, declared.in);
-      if (signal.kind == SceneSignalKind::pose) source.hook = hook_of(objects_, signal, model_);
+      if (signal.kind == SceneSignalKind::pose) source.hook = hook_of(scene_, signal, model_);
       source.on_way.resize(ring);
       source.noise = Noise(seed * 0x9E3779B97F4A7C15U + i + 1);
       if (signal.delay > 1.9)
@@ -103,22 +113,47 @@ SceneSignals::SceneSignals(const lang::Program& program, std::uint64_t seed) : m
   }
 }
 
-SceneSignals::PlanarPose SceneSignals::seen_pose(const ObjectTruth& object,
-                                                 std::size_t number) const noexcept {
-  const auto& dock = objects_[number].dock;
-  if (!dock) return {object.x, object.y, object.yaw};
-  const double c = std::cos(object.yaw), s = std::sin(object.yaw);
-  return {object.x + c * dock->at[0] - s * dock->at[1], object.y + s * dock->at[0] + c * dock->at[1],
-          object.yaw + std::atan2(-dock->at[1], -dock->at[0])};
+void SceneSignals::measure_base(const SceneSignal& fix, std::uint64_t seed) {
+  base_.emplace();
+  base_->signal = fix;
+  base_->type = SignalType::pose;
+  base_->in = {-1, {}, {}};
+  base_->on_way.resize(ring);
+  base_->noise = Noise(seed);
 }
 
-double SceneSignals::distance(const ObjectTruth& object, std::size_t number,
-                              const Truth& truth) const noexcept {
-  const lang::SceneObject& described = objects_[number];
-  const double c = std::cos(object.yaw), s = std::sin(object.yaw);
-  const double dx = truth.x - object.x, dy = truth.y - object.y;
+SceneSignals::PlanarPose SceneSignals::pose_of(const Truth& truth, int number) const noexcept {
+  const auto objects = static_cast<int>(scene_.objects.size());
+  if (number == objects) return {truth.x, truth.y, truth.yaw};
+  // In the truth the scene's robots follow its objects: the first robot is not among them.
+  const ObjectTruth& seen = truth.objects[static_cast<std::size_t>(number < objects ? number : number - 1)];
+  return {seen.x, seen.y, seen.yaw};
+}
+
+bool SceneSignals::is_latched(const Truth& truth, int number) const noexcept {
+  const auto objects = static_cast<int>(scene_.objects.size());
+  if (number == objects) return false;
+  return truth.objects[static_cast<std::size_t>(number < objects ? number : number - 1)].latched;
+}
+
+SceneSignals::PlanarPose SceneSignals::seen_pose(const Truth& truth, int number) const noexcept {
+  const PlanarPose at = pose_of(truth, number);
+  const auto* dock = dock_of(scene_, number);
+  if (dock == nullptr || !*dock) return at;
+  const double c = std::cos(at.yaw), s = std::sin(at.yaw);
+  const double x = (*dock)->at[0], y = (*dock)->at[1];
+  return {at.x + c * x - s * y, at.y + s * x + c * y, at.yaw + std::atan2(-y, -x)};
+}
+
+double SceneSignals::distance(const Truth& truth, int number, const solver::State& state) const noexcept {
+  const PlanarPose at = pose_of(truth, number);
+  const double c = std::cos(at.yaw), s = std::sin(at.yaw);
+  const double dx = state.base_pose.position.x() - at.x, dy = state.base_pose.position.y() - at.y;
   // The base's origin in the object's own axes, from `at`.
   const double x = c * dx + s * dy, y = -s * dx + c * dy;
+  const auto objects = static_cast<int>(scene_.objects.size());
+  if (number >= objects) return distance_to(footprints_[static_cast<std::size_t>(number - objects)], x, y);
+  const lang::SceneObject& described = scene_.objects[static_cast<std::size_t>(number)];
   if (described.shape == lang::ShapeKind::cylinder)
     return std::max(0.0, std::hypot(x, y) - described.size[0]);
   const bool is_wall = described.shape == lang::ShapeKind::wall;
@@ -134,7 +169,7 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
   sample.valid = true;
   sample.stamp = truth.time;
   const SceneSignal& signal = source.signal;
-  const auto number = static_cast<std::size_t>(std::max(signal.object, 0));
+  const int number = std::max(signal.object, 0);
   switch (signal.kind) {
     case SceneSignalKind::script: {
       sample.valid = false;
@@ -147,14 +182,17 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
       break;
     }
     case SceneSignalKind::latch:
-      sample.boolean = truth.objects[number].latched;
+      sample.boolean = is_latched(truth, number);
       break;
     case SceneSignalKind::distance:
-      sample.number = std::max(
-          0.0, distance(truth.objects[number], number, truth) + signal.noise * source.noise.normal());
+      sample.number = std::max(0.0, distance(truth, number, state) + signal.noise * source.noise.normal());
       break;
     case SceneSignalKind::pose: {
-      const PlanarPose at = seen_pose(truth.objects[number], number);
+      const bool is_own = signal.object < 0;
+      const double yaw = solver::yaw_of(state.base_pose.rotation);
+      const PlanarPose at = is_own
+                                ? PlanarPose{state.base_pose.position.x(), state.base_pose.position.y(), yaw}
+                                : seen_pose(truth, number);
       const solver::FrameMotion in = solver::motion_of(source.in, model_, state);
       // Scenes are flat: a socket is as high as the hook that fits, anything else as high as who sees it.
       const solver::Pose seen_from =
@@ -171,30 +209,40 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
   return sample;
 }
 
+void SceneSignals::measure(Source& source, const Truth& truth, const solver::State& state) noexcept {
+  if (source.last_measured >= 0.0 && truth.time < source.last_measured + source.signal.period - tick_rounding)
+    return;
+  source.last_measured = truth.time;
+  SignalSample sample = measured(source, truth, state);
+  if (source.signal.dropouts > 0.0 && source.noise.uniform() < source.signal.dropouts) sample.valid = false;
+  source.on_way[source.next++ % ring] = sample;
+}
+
 void SceneSignals::measure(const Truth& truth, const solver::State& state) noexcept {
-  for (Source& source : sources_) {
-    if (source.last_measured >= 0.0 &&
-        truth.time < source.last_measured + source.signal.period - tick_rounding)
-      continue;
-    source.last_measured = truth.time;
-    SignalSample sample = measured(source, truth, state);
-    if (source.signal.dropouts > 0.0 && source.noise.uniform() < source.signal.dropouts) sample.valid = false;
-    source.on_way[source.next++ % ring] = sample;
+  for (Source& source : sources_) measure(source, truth, state);
+  if (base_) measure(*base_, truth, state);
+}
+
+const SignalSample* SceneSignals::arrived(const Source& source, double time) noexcept {
+  for (std::size_t back = 1; back <= std::min(source.next, ring); ++back) {
+    const SignalSample& sample = source.on_way[(source.next - back) % ring];
+    if (sample.stamp + source.signal.delay <= time + tick_rounding) return &sample;
   }
+  return nullptr;
 }
 
 void SceneSignals::report(double time, std::vector<SignalSample>& samples) const noexcept {
   for (const Source& source : sources_) {
     const auto index = static_cast<std::size_t>(source.index);
     if (index >= samples.size()) continue;
-    // The youngest that has arrived.
-    for (std::size_t back = 1; back <= std::min(source.next, ring); ++back) {
-      const SignalSample& sample = source.on_way[(source.next - back) % ring];
-      if (sample.stamp + source.signal.delay > time + tick_rounding) continue;
-      samples[index] = sample;
-      break;
-    }
+    if (const SignalSample* sample = arrived(source, time)) samples[index] = *sample;
   }
+}
+
+std::optional<MeasuredPose> SceneSignals::base_fix(double time) const noexcept {
+  const SignalSample* sample = base_ ? arrived(*base_, time) : nullptr;
+  if (sample == nullptr || !sample->valid) return std::nullopt;
+  return MeasuredPose{sample->stamp, sample->pose};
 }
 
 }  // namespace zwang::runtime

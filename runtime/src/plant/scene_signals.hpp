@@ -1,4 +1,5 @@
-/// The signals of a scene, measured as badly as it says: noise, delay, rate and dropouts, all from one seed.
+/// The signals of one robot of a scene, measured as badly as it says: noise, delay, rate and dropouts, all
+/// from one seed.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +26,22 @@ class Noise {
 
 class SceneSignals {
  public:
-  /// Scene signals that the program does not declare are left out. Throws std::invalid_argument on a source
-  /// that cannot give the declared type.
-  SceneSignals(const lang::Program& program, std::uint64_t seed);
+  /// Of a robot under `program`; `footprints` are those of all robots, the first one's first. Scene signals
+  /// that the program does not declare are left out. Throws std::invalid_argument on a source that cannot
+  /// give the declared type.
+  SceneSignals(const lang::Program& program, const lang::Scene& scene,
+               const std::vector<lang::SceneSignal>& signals,
+               std::vector<std::vector<solver::Vector3>> footprints, std::uint64_t seed);
 
-  /// Measures what is due at `truth.time`; `state` is the true one.
+  /// From now on the base's own pose in the world is measured, too.
+  void measure_base(const lang::SceneSignal& fix, std::uint64_t seed);
+
+  /// Measures what is due at `truth.time`; `state` is the seeing robot's true one.
   void measure(const Truth& truth, const solver::State& state) noexcept;
   /// What has arrived by then.
   void report(double time, std::vector<SignalSample>& samples) const noexcept;
+  /// The last pose of the base that arrived.
+  std::optional<MeasuredPose> base_fix(double time) const noexcept;
 
  private:
   struct Source {
@@ -46,17 +55,25 @@ class SceneSignals {
     double last_measured = -1.0;
     Noise noise{0};
   };
-  SignalSample measured(Source& source, const Truth& truth, const solver::State& state) const noexcept;
   struct PlanarPose {
     double x = 0.0, y = 0.0, yaw = 0.0;
   };
-  /// Of the object, or of its dock: there x points from the socket at the object's origin.
-  PlanarPose seen_pose(const ObjectTruth& object, std::size_t number) const noexcept;
-  double distance(const ObjectTruth& object, std::size_t number, const Truth& truth) const noexcept;
+  SignalSample measured(Source& source, const Truth& truth, const solver::State& state) const noexcept;
+  void measure(Source& source, const Truth& truth, const solver::State& state) noexcept;
+  /// The youngest that has arrived.
+  static const SignalSample* arrived(const Source& source, double time) noexcept;
+  /// Where it is, whatever has this number: an object, or a robot.
+  PlanarPose pose_of(const Truth& truth, int number) const noexcept;
+  /// The same, or the pose of its dock: there x points from the socket at the origin.
+  PlanarPose seen_pose(const Truth& truth, int number) const noexcept;
+  bool is_latched(const Truth& truth, int number) const noexcept;
+  double distance(const Truth& truth, int number, const solver::State& state) const noexcept;
 
   solver::Model model_;
-  std::vector<lang::SceneObject> objects_;
+  lang::Scene scene_;
+  std::vector<std::vector<solver::Vector3>> footprints_;  ///< convex
   std::vector<Source> sources_;
+  std::optional<Source> base_;  ///< of `measure_base`
 };
 
 }  // namespace zwang::runtime

@@ -47,8 +47,7 @@ void place_truth(const SimulatedObject& object, const Vector3& centre, const Mat
   truth.yaw = std::atan2(rotation(1, 0), rotation(0, 0));
 }
 
-bool is_in_reach(const SimulatedObject& object, const ObjectTruth& truth, const Vector3& hook) noexcept {
-  const lang::Dock& dock = *object.described.dock;
+bool is_in_reach(const lang::Dock& dock, const ObjectTruth& truth, const Vector3& hook) noexcept {
   const Vector3 socket =
       Vector3(truth.x, truth.y, 0.0) + turned_by(truth.yaw) * Vector3(dock.at[0], dock.at[1], 0.0);
   return (hook - socket).head<2>().norm() <= dock.reach;

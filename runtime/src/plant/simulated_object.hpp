@@ -15,9 +15,6 @@ struct SimulatedObject {
   int body = 0;
   int position = -1, velocity = -1;       ///< of its joints x, y, turn in qpos and qvel; -1: it is fixed
   std::optional<FloorFriction> friction;  ///< of one that slides on the floor
-  int equality = -1;                      ///< of its dock; -1: none
-  int hook_body = 0;
-  solver::Vector3 hook = solver::Vector3::Zero();  ///< [m] in that body
 };
 
 /// Puts a scripted object where it is at this time. Its joints are measured from where it was written, along
@@ -31,8 +28,7 @@ void add_floor_friction(SimulatedObject& object, double period, const double* qv
 void place_truth(const SimulatedObject& object, const solver::Vector3& centre,
                  const solver::Matrix3& rotation, ObjectTruth& truth) noexcept;
 
-/// Whether the hook, a point in the world, is near enough to the dock of the object to latch.
-bool is_in_reach(const SimulatedObject& object, const ObjectTruth& truth,
-                 const solver::Vector3& hook) noexcept;
+/// Whether the hook, a point in the world, is near enough to the dock to latch; `truth` is its owner's.
+bool is_in_reach(const lang::Dock& dock, const ObjectTruth& truth, const solver::Vector3& hook) noexcept;
 
 }  // namespace zwang::runtime

@@ -7,7 +7,6 @@
 
 namespace zwang::runtime {
 
-using lang::SceneObject;
 using solver::Body;
 using solver::Model;
 using solver::Pose;
@@ -80,14 +79,19 @@ std::vector<solver::Frame> find_tips(const Model& model) {
 
 }  // namespace
 
-const solver::Frame& hook_of(const Model& model, const SceneObject& object) {
-  const auto frame = model.find_frame(object.dock->hook);
-  if (!frame) refuse("the robot has no frame `" + object.dock->hook + "` to latch in `" + object.name + "`");
+const solver::Frame& hook_of(const Model& model, const lang::Dock& dock, const std::string& owner) {
+  const auto frame = model.find_frame(dock.hook);
+  if (!frame) refuse("the robot has no frame `" + dock.hook + "` to latch in `" + owner + "`");
   return model.frames()[static_cast<std::size_t>(*frame)];
 }
 
-SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers) {
+SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers, int number) {
   SimulatedRobot simulated;
+  simulated.robot = robot;
+  if (number > 0) {
+    simulated.prefix = "partner_";
+    simulated.prefix += std::to_string(number) + "_";
+  }
   simulated.tips = find_tips(robot.model);
   if (real_rollers) {
     simulated.spheres.base = robot.model.bodies().front().inertia;

@@ -41,9 +41,21 @@ void on_warning(const char* /*message*/) {}  // counted in mjData, where every s
 
 mjfCollision collide_sphere_box = nullptr;  ///< MuJoCo's own
 
+constexpr double touch_tolerance = 0.02;  ///< [rad] beyond the normals of a corner's sides
+
+/// Whether a sphere can press out of a face with the normal `out`: a corner presses between the normals of
+/// its own sides only, so that two that meet square, edge on edge, do not slip off each other's sides.
+bool faces(const mjModel* m, const mjData* d, int sphere, const Vector3& out) {
+  const double half_angle = m->nuser_geom > 0 ? m->geom_user[m->nuser_geom * sphere] : 0.0;
+  if (!(half_angle > 0.0)) return true;
+  const mjtNum* axes = d->geom_xmat + 9 * sphere;
+  const Vector3 outward(axes[0], axes[3], axes[6]);
+  return outward.dot(-out) >= std::cos(half_angle + touch_tolerance);
+}
+
 /// MuJoCo's collision of a sphere with a box stops at a depth of the sphere's radius, and so would a spring's
-/// force. Where the centre is inside the box, the depth is measured to the nearest face instead. Only in
-/// simulations of this file: others in the process keep what they have.
+/// force. Where the centre is inside the box, the depth is measured to the nearest face that it can press on
+/// instead. Only in simulations of this file: others in the process keep what they have.
 int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphere, int box, mjtNum margin) {
   const int count = collide_sphere_box(m, d, contact, sphere, box, margin);
   if (error_exit == nullptr || count != 1) return count;
@@ -52,9 +64,15 @@ int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphe
       centre(d->geom_xpos + 3 * sphere);
   const Vector3 local = axes.transpose() * (centre - box_at);
   const Vector3 depth = half - local.cwiseAbs();
-  int face = 0;
-  if (!(depth.minCoeff(&face) > 0.0)) return count;
-  const Vector3 out = (local[face] > 0.0 ? 1.0 : -1.0) * axes.col(face);
+  int nearest = 0;
+  if (!(depth.minCoeff(&nearest) > 0.0)) return count;
+  const auto normal = [&](int face) -> Vector3 { return (local[face] > 0.0 ? 1.0 : -1.0) * axes.col(face); };
+  int face = nearest;
+  for (int other = 0; other < 2; ++other) {
+    const bool is_better = !faces(m, d, sphere, normal(face)) || depth[other] < depth[face];
+    if (is_better && faces(m, d, sphere, normal(other))) face = other;
+  }
+  const Vector3 out = normal(face);
   contact->dist = -(depth[face] + m->geom_size[3 * sphere]);
   Eigen::Map<Vector3>(contact->frame) = -out;  // from the sphere to the box
   std::fill(contact->frame + 3, contact->frame + 9, 0.0);
@@ -85,14 +103,6 @@ struct VirtualFiles {
   VirtualFiles& operator=(const VirtualFiles&) = delete;
   mjVFS vfs;
 };
-
-Eigen::Matrix3d matrix_of(const mjtNum* quaternion) {
-  return Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3]).toRotationMatrix();
-}
-
-Vector3 vector_of(const mjtNum* numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
 
 /// The body's mass and inertia as MuJoCo has them must be the ones that were written.
 void require_equal(const mjModel& m, int id, const solver::RigidInertia& inertia, const std::string& name) {
@@ -126,6 +136,14 @@ const GeomOwner& owner_of(const std::vector<GeomOwner>& owners, int geom) {
 }
 
 }  // namespace
+
+Eigen::Matrix3d matrix_of(const double* quaternion) {
+  return Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3]).toRotationMatrix();
+}
+
+Vector3 vector_of(const double* numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
 
 void ModelDeleter::operator()(mjModel_* model) const {
   mj_deleteModel(model);
@@ -176,11 +194,13 @@ ModelPointer compile(const std::string& mjcf) {
   return model;
 }
 
-void require_as_written(const mjModel& model, const solver::Model& robot, const SimulatedRobot& simulated) {
+void require_as_written(const mjModel& model, const SimulatedRobot& simulated) {
+  const solver::Model& robot = simulated.robot.model;
   double mass = 0.0;
   for (int i = 0; i < robot.body_count(); ++i) {
     const solver::Body& body = robot.bodies()[static_cast<std::size_t>(i)];
-    const int id = mj_name2id(&model, mjOBJ_BODY, ("body_" + std::to_string(i)).c_str());
+    const std::string name = simulated.named("body", static_cast<std::size_t>(i));
+    const int id = mj_name2id(&model, mjOBJ_BODY, name.c_str());
     mass += model.body_mass[id];
     const auto& spheres = simulated.spheres.spheres;
     const bool is_sphere = std::any_of(spheres.begin(), spheres.end(),
@@ -197,19 +217,26 @@ void require_as_written(const mjModel& model, const solver::Model& robot, const 
   if (std::abs(mass - robot.total_mass()) > 1e-9 * mass) refuse("MuJoCo changed the robot's mass");
 }
 
-std::vector<GeomOwner> find_owners(const mjModel& model, const SimulatedRobot& simulated,
-                                   const std::vector<Vector3>& footprint) {
+std::vector<GeomOwner> find_owners(const mjModel& model, const std::vector<SimulatedRobot>& robots) {
   std::vector<GeomOwner> owners(static_cast<std::size_t>(model.ngeom));
   for (int g = 0; g < model.ngeom; ++g) {
     const char* name = mj_id2name(&model, mjOBJ_GEOM, g);
     GeomOwner& owner = owners[static_cast<std::size_t>(g)];
-    if (std::strncmp(name, "object_", 7) == 0) owner.object = std::atoi(name + 7);
+    if (std::strcmp(name, "floor") == 0) continue;
+    if (std::strncmp(name, "object_", 7) == 0) {
+      owner.object = std::atoi(name + 7);
+      continue;
+    }
+    const bool is_partner = std::strncmp(name, "partner_", 8) == 0;
+    owner.robot = is_partner ? std::atoi(name + 8) : 0;
+    const SimulatedRobot& robot = robots[static_cast<std::size_t>(owner.robot)];
+    name += robot.prefix.size();
     if (std::strncmp(name, "wheel_", 6) == 0) owner.wheel = std::atoi(name + 6);
     const bool of_outline = std::strncmp(name, "bumper_", 7) == 0;
-    owner.robot = of_outline || std::strncmp(name, "tip_", 4) == 0;
+    owner.touches = of_outline || std::strncmp(name, "tip_", 4) == 0;
     if (of_outline && std::isdigit(static_cast<unsigned char>(name[7])) != 0) {
-      owner.corner =
-          nearest_corner(footprint, simulated.outline[static_cast<std::size_t>(std::atoi(name + 7))]);
+      const auto corner = static_cast<std::size_t>(std::atoi(name + 7));
+      owner.corner = nearest_corner(robot.robot.footprint, robot.outline[corner]);
     }
   }
   return owners;
@@ -220,13 +247,20 @@ std::vector<GeomOwner> find_owners(const mjModel& model, const SimulatedRobot& s
 /// x + c v for k = K A (1 - d)/d, b = c A (1 - d)/d, apart from a/r, a mass of d/((1 - d) A) beside the
 /// robot's. solref holds (-k d, -b d): MuJoCo divides it by d and d^2, and multiplies k by d.
 void set_springs(mjModel& model, const std::vector<GeomOwner>& owners, const lang::Scene& scene,
-                 double robot_mass) {
+                 const std::vector<SimulatedRobot>& robots) {
+  const auto touchable = [&](const GeomOwner& owner) {
+    if (owner.object >= 0) return touchable_object(scene.objects[static_cast<std::size_t>(owner.object)]);
+    const auto r = static_cast<std::size_t>(owner.robot);
+    return touchable_robot(owner.robot > 0 ? &scene.robots[r - 1] : nullptr,
+                           robots[r].robot.model.total_mass());
+  };
   for (int p = 0; p < model.npair; ++p) {
     const int one = model.pair_geom1[p];
     const int other = model.pair_geom2[p];
-    const int first = owner_of(owners, one).object, second = owner_of(owners, other).object;
-    if (first < 0 && second < 0) continue;  // wheels and skids on the floor
-    const ContactSpring spring = contact_spring(scene, robot_mass, first, second);
+    const GeomOwner &first = owner_of(owners, one), &second = owner_of(owners, other);
+    const bool on_floor = (first.object < 0 && first.robot < 0) || (second.object < 0 && second.robot < 0);
+    if (on_floor) continue;
+    const ContactSpring spring = contact_spring(touchable(first), touchable(second));
     const double inverse_mass = model.body_invweight0[2 * model.geom_bodyid[one]] +
                                 model.body_invweight0[2 * model.geom_bodyid[other]];
     model.pair_solref[2 * p] = -spring.stiffness * (1.0 - spring_impedance) * inverse_mass;

@@ -2,6 +2,7 @@
 /// process; compiling a text, and what has to be asked of the model that comes of it.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,6 +23,10 @@ struct DataDeleter {
 using ModelPointer = std::unique_ptr<mjModel_, ModelDeleter>;
 using DataPointer = std::unique_ptr<mjData_, DataDeleter>;
 
+/// MuJoCo's numbers as ours: a quaternion w, x, y, z, and three in a row.
+Eigen::Matrix3d matrix_of(const double* quaternion);
+Eigen::Vector3d vector_of(const double* numbers);
+
 /// Once, before all else. Replaces the handlers of the whole process; the collision functions act as before
 /// outside of `guarded`.
 void install_handlers();
@@ -33,22 +38,22 @@ bool guarded(void (*call)(const mjModel_*, mjData_*), const mjModel_* model, mjD
 ModelPointer compile(const std::string& mjcf);
 
 /// Throws std::invalid_argument where MuJoCo's masses and inertias are not those that were written.
-void require_as_written(const mjModel_& model, const solver::Model& robot, const SimulatedRobot& simulated);
+void require_as_written(const mjModel_& model, const SimulatedRobot& simulated);
 
-/// Which object, or which part of the robot, a geom belongs to.
+/// Which object, or which part of a robot, a geom belongs to.
 struct GeomOwner {
   int object = -1;
-  bool robot = false;  ///< its outline or a tip
-  int corner = -1;     ///< of the robot's footprint
+  int robot = -1;        ///< 0 the first one, then the scene's
+  bool touches = false;  ///< of a robot: its outline or a tip
+  int corner = -1;       ///< of the robot's footprint
   int wheel = -1;
 };
 
 /// By geom. The corners of the outline are the footprint's.
-std::vector<GeomOwner> find_owners(const mjModel_& model, const SimulatedRobot& simulated,
-                                   const std::vector<solver::Vector3>& footprint);
+std::vector<GeomOwner> find_owners(const mjModel_& model, const std::vector<SimulatedRobot>& robots);
 
-/// Gives every contact with an object the spring that the scene says.
+/// Gives every contact with an object or between robots the spring that the scene says.
 void set_springs(mjModel_& model, const std::vector<GeomOwner>& owners, const lang::Scene& scene,
-                 double robot_mass);
+                 const std::vector<SimulatedRobot>& robots);
 
 }  // namespace zwang::runtime

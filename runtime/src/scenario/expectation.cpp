@@ -104,13 +104,19 @@ void ExpectationWatch::look(const TrueFacts& facts, double time, bool in_task) n
 }
 
 ExpectationResult ExpectationWatch::result(const std::string& outcome,
+                                           const std::vector<std::string>& of_partners,
                                            const std::vector<std::string>& codes) const {
   ExpectationResult result;
   result.text = expectation_.text;
   result.span = expectation_.span;
   switch (expectation_.kind) {
     case ExpectationKind::outcome:
-      result.held = outcome == expectation_.word;
+      if (expectation_.of_robot < 0) {
+        result.held = outcome == expectation_.word;
+      } else {
+        const auto number = static_cast<std::size_t>(expectation_.of_robot);
+        result.held = number < of_partners.size() && of_partners[number] == expectation_.word;
+      }
       return result;
     case ExpectationKind::diagnostic:
       result.held = std::find(codes.begin(), codes.end(), expectation_.word) != codes.end();

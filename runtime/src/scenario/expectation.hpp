@@ -21,7 +21,9 @@ class ExpectationWatch {
 
   /// `in_task`: a task is active, not the brake behind it.
   void look(const TrueFacts& facts, double time, bool in_task) noexcept;
-  ExpectationResult result(const std::string& outcome, const std::vector<std::string>& codes) const;
+  /// `of_partners`: their outcomes, in the scene's order.
+  ExpectationResult result(const std::string& outcome, const std::vector<std::string>& of_partners,
+                           const std::vector<std::string>& codes) const;
 
  private:
   const lang::Expectation& expectation_;

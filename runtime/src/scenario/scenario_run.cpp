@@ -29,10 +29,31 @@ double torque_share(const solver::Model& model, const Eigen::VectorXd& tau) noex
 void judge(const std::vector<ExpectationWatch>& watches, const std::vector<std::string>& codes,
            CellResult& result) {
   result.passed = true;
+  std::vector<std::string> of_partners;
+  for (const PartnerResult& partner : result.partners) of_partners.push_back(partner.outcome);
   for (const ExpectationWatch& watch : watches) {
-    result.expectations.push_back(watch.result(result.outcome, codes));
+    result.expectations.push_back(watch.result(result.outcome, of_partners, codes));
     result.passed = result.passed && result.expectations.back().held;
   }
+}
+
+/// What the partners measured and did on their last tick.
+void look_at_partners(ScenePlant& plant, TrueFacts& facts) noexcept {
+  for (std::size_t i = 0; i < plant.partners().size(); ++i) {
+    const ScenePartner& partner = plant.partners()[i];
+    facts.update_partner(i, plant.truth(), torque_share(partner.program->robot.model, partner.torque));
+  }
+}
+
+std::vector<PartnerResult> results_of(ScenePlant& plant) {
+  std::vector<PartnerResult> results;
+  for (const ScenePartner& partner : plant.partners()) {
+    const RunState state = partner.runner.state();
+    results.push_back(
+        {partner.name, state == RunState::running ? std::string("unfinished") : to_string(state), {}});
+    if (state == RunState::stopped) results.back().because = to_string(partner.runner.guard().reason());
+  }
+  return results;
 }
 
 void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, const lang::Program& program,
@@ -47,6 +68,8 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   Runner runner(program, {.period = period});
   TrueFacts facts(program);
   Sensed sensed(program.robot.model, program.signals.size());
+  const std::vector<ScenePartner>& partners = plant.partners();
+  std::vector<bool> had_stopped(partners.size(), false);
   PlantStatus status = PlantStatus::ok;
   while (!runner.finished() && plant.truth().time < scenario.time_limit) {
     // A sample that does not arrive is the runtime's to deal with: it steps on what it has.
@@ -60,11 +83,18 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
       if (runner.events()[i].code == EventCode::slip) facts.note_slip(plant.truth().time);
     }
     facts.update(plant.truth(), plant.true_state(), torque_share(program.robot.model, tau));
+    look_at_partners(plant, facts);
     const bool in_task = runner.state() == RunState::running;
     for (ExpectationWatch& watch : watches) watch.look(facts, plant.truth().time, in_task);
     status = plant.apply(tau);
     if (status != PlantStatus::ok) break;
+    for (std::size_t i = 0; i < partners.size(); ++i) {
+      if (!partners[i].runner.guard().stopped() || had_stopped[i]) continue;
+      had_stopped[i] = true;
+      facts.note_partner_stop(i, sensed.time);
+    }
   }
+  result.partners = results_of(plant);
   result.simulated = plant.truth().time;
   if (status == PlantStatus::diverged) {
     result.outcome = "diverged";

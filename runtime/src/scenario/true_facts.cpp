@@ -9,6 +9,15 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+void put_object(const ObjectTruth& object, double* values) noexcept {
+  values[lang::truth_force] = object.force;
+  values[lang::truth_peak] = object.peak_force;
+  values[lang::truth_touched] = object.touched.value_or(unknown);
+  values[lang::truth_object_x] = object.x;
+  values[lang::truth_object_y] = object.y;
+  values[lang::truth_object_yaw] = object.yaw;
+}
+
 }  // namespace
 
 TrueFacts::TrueFacts(const lang::Program& program)
@@ -28,16 +37,28 @@ void TrueFacts::update(const Truth& truth, const solver::State& state, double to
   values_[lang::truth_speed] = truth.velocity.head<2>().norm();
   values_[lang::truth_turn] = truth.velocity.z();
   values_[lang::truth_torque] = torque_share;
-  for (std::size_t k = 0; k < truth.objects.size(); ++k) {
-    const ObjectTruth& object = truth.objects[k];
-    double* values = values_.data() + lang::truth_base_count + k * lang::truth_object_count;
-    values[lang::truth_force] = object.force;
-    values[lang::truth_peak] = object.peak_force;
-    values[lang::truth_touched] = object.touched.value_or(unknown);
-    values[lang::truth_object_x] = object.x;
-    values[lang::truth_object_y] = object.y;
-    values[lang::truth_object_yaw] = object.yaw;
-  }
+  const std::size_t objects = truth.objects.size() - truth.robots.size();
+  for (std::size_t k = 0; k < objects; ++k)
+    put_object(truth.objects[k], values_.data() + lang::truth_base_count + k * lang::truth_object_count);
+}
+
+void TrueFacts::update_partner(std::size_t number, const Truth& truth, double torque_share) noexcept {
+  double* values = of_partner(number);
+  const RobotTruth& robot = truth.robots[number];
+  put_object(truth.objects[truth.objects.size() - truth.robots.size() + number], values);
+  values[lang::truth_robot_speed] = robot.velocity.head<2>().norm();
+  values[lang::truth_robot_turn] = robot.velocity.z();
+  values[lang::truth_robot_torque] = torque_share;
+}
+
+double* TrueFacts::of_partner(std::size_t number) noexcept {
+  const std::size_t objects = program_.scene->objects.size();
+  return values_.data() + lang::truth_base_count + objects * lang::truth_object_count +
+         number * lang::truth_robot_count;
+}
+
+void TrueFacts::note_partner_stop(std::size_t number, double time) noexcept {
+  of_partner(number)[lang::truth_robot_stopped] = time;
 }
 
 void TrueFacts::note_stop(double time) noexcept {

@@ -15,6 +15,9 @@ class TrueFacts {
 
   /// `torque_share`: of its limit, of the motor that is nearest to it.
   void update(const Truth& truth, const solver::State& state, double torque_share) noexcept;
+  /// Of another robot of the scene.
+  void update_partner(std::size_t number, const Truth& truth, double torque_share) noexcept;
+  void note_partner_stop(std::size_t number, double time) noexcept;
   /// When the protective stop latched, and when slip was told first [s].
   void note_stop(double time) noexcept;
   void note_slip(double time) noexcept;
@@ -23,6 +26,8 @@ class TrueFacts {
   double quantity(int index) const noexcept { return values_[static_cast<std::size_t>(index)]; }
 
  private:
+  double* of_partner(std::size_t number) noexcept;
+
   const lang::Program& program_;
   FrameTable frames_;
   std::vector<double> values_;  ///< in the order of lang::truth_names

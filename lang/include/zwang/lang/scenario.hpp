@@ -45,6 +45,7 @@ enum class ExpectationKind {
 struct Expectation {
   ExpectationKind kind = ExpectationKind::outcome;
   std::string word;
+  int of_robot = -1;    ///< whose outcome: an index into Scene::robots; -1: the first robot's, and the run's
   double within = 0.0;  ///< [s]
   int of = -1;          ///< index into `truth_names`, a time; -1: the start
   Condition that;
@@ -53,8 +54,8 @@ struct Expectation {
 };
 
 /// What the plant measures, as expectations call it, and when the run told what. First come
-/// `truth_base_count` of the base, then
-/// `truth_object_count` of each object, in the order of these enumerations.
+/// `truth_base_count` of the base, then `truth_object_count` of each object, then `truth_robot_count` of each
+/// robot of the scene, in the order of these enumerations.
 enum TruthOfBase {
   truth_x,
   truth_y,
@@ -74,6 +75,14 @@ enum TruthOfObject {
   truth_object_y,
   truth_object_yaw,
   truth_object_count
+};
+/// Of another robot: what an object has, and
+enum TruthOfRobot {
+  truth_robot_speed = truth_object_count,
+  truth_robot_turn,
+  truth_robot_torque,
+  truth_robot_stopped,  ///< [s] when its protective stop latched
+  truth_robot_count
 };
 std::vector<std::string> truth_names(const Scene& scene);
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
+
+struct Program;
 
 /// Where a scripted object stands at a time; between two of them it moves straight and evenly.
 struct Waypoint {
@@ -23,7 +26,7 @@ struct Waypoint {
 struct Dock {
   std::array<double, 2> at{};  ///< [m] in the axes of the object, from its `at`
   double reach = 0.02;         ///< [m] the hook latches when its frame is as near as this
-  std::string hook;            ///< a frame of the robot
+  std::string hook;            ///< a frame of the first robot
 };
 
 enum class ShapeKind { box, cylinder, wall };
@@ -53,9 +56,9 @@ struct ScriptStep {
 
 enum class SceneSignalKind {
   script,    ///< a bool or a number
-  pose,      ///< of the object, in the frame that the task file's signal is seen from
-  distance,  ///< of the object's edge from the robot's base frame, in the plane [m]
-  latch,     ///< whether the hook holds in the object's dock
+  pose,      ///< of the object or robot, in the frame that the task file's signal is seen from
+  distance,  ///< of the object's or robot's edge from the seeing robot's base frame, in the plane [m]
+  latch,     ///< whether the hook holds in the dock of the object or robot
 };
 
 /// Where a signal of the task file with this name comes from, and how well it is measured.
@@ -63,7 +66,7 @@ struct SceneSignal {
   std::string name;
   SceneSignalKind kind = SceneSignalKind::script;
   std::vector<ScriptStep> script;
-  int object = -1;           ///< index into Scene::objects
+  int object = -1;           ///< what is seen: an index into Scene::objects, or of a robot (`seen_robot`)
   double noise = 0.0;        ///< [m] standard deviation of a distance and of a pose's x and y
   double angle_noise = 0.0;  ///< [rad] of a pose's yaw
   double delay = 0.0;        ///< [s] from the measurement to its arrival
@@ -78,7 +81,10 @@ struct StateNoise {
   double yaw = 0.0;          ///< [rad]
   double velocity = 0.0;     ///< [m/s]
   double turn = 0.0;         ///< [rad/s]
-  bool wheels_only = false;  ///< the base is not measured at all: only where it starts, and the joints, are
+  bool wheels_only = false;  ///< the base is not measured tick by tick: the joints are, and where it starts
+  /// With `wheels_only`: how somebody measures the base's pose now and then. Its name and source mean
+  /// nothing.
+  std::optional<SceneSignal> fix;
 };
 
 enum class FaultKind {
@@ -103,14 +109,45 @@ struct Fault {
   Span span;
 };
 
+/// Another robot, under a task file of its own. The first robot meets its footprint as it meets an object.
+struct SceneRobot {
+  std::string name;
+  std::string task;  ///< path of its task file, as written
+  Span task_span;
+  std::string robot;  ///< path of its robot file, in the place of the task's own; empty: that one
+  Span robot_span;
+  std::string robot_path;            ///< the same, as it was opened
+  std::array<double, 2> at{};        ///< [m] where its base starts in the world
+  double yaw = 0.0;                  ///< [rad]
+  double stiffness = 1e5;            ///< [N/m] of one contact point
+  double damping = 0.3;              ///< damping ratio of the contact
+  double friction = 0.0;             ///< Coulomb coefficient
+  std::optional<Dock> dock;          ///< `at` in the axes of its base
+  std::vector<SceneSignal> signals;  ///< those of its own task file
+  StateNoise state;
+  /// Its task file, loaded; without the objects of this scene. None where the scene alone was read.
+  std::shared_ptr<const Program> program;
+  Span span;
+};
+
+inline constexpr std::size_t most_scene_robots = 4;
+
 struct Scene {
+  std::string path;                  ///< as it was opened
   std::array<double, 2> start_at{};  ///< [m] world
   double start_yaw = 0.0;            ///< [rad]
   double floor_friction = 0.9;
+  bool real_rollers = false;  ///< mecanum and omni wheels are built roller by roller
+  Span real_rollers_span;
   std::vector<SceneObject> objects;
+  std::vector<SceneRobot> robots;  ///< beside the first one
   std::vector<SceneSignal> signals;
   StateNoise state;
   std::vector<Fault> faults;
+
+  /// How SceneSignal::object calls a robot: -1 the first one, which scenes call `base`, else an index into
+  /// `robots`.
+  int seen_robot(int robot) const { return static_cast<int>(objects.size()) + 1 + robot; }
 };
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics);

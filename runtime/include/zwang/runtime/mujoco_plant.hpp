@@ -16,11 +16,16 @@ namespace zwang::runtime {
 /// What the simulator measured, not what the controller believes.
 struct ObjectTruth {
   std::string name;
-  double force = 0.0;  ///< [N] normal force that the robot presses on the object with, now, all contacts
+  double force = 0.0;  ///< [N] normal force that the first robot presses on it with, now, all contacts
   std::optional<double> touched;       ///< [s] time of the first contact
   double peak_force = 0.0;             ///< [N] largest `force` so far
-  double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the object's `at`
+  double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the object's `at`, of a robot's base
   bool latched = false;                ///< a hook holds in its dock
+};
+
+/// Of another robot, beside what is an object's.
+struct RobotTruth {
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< as Truth::velocity
 };
 
 struct Truth {
@@ -31,7 +36,8 @@ struct Truth {
   Eigen::Vector3d
       acceleration;  ///< rates of the components of `velocity` over the last step [m/s^2, m/s^2, rad/s^2]
   std::vector<double> corner_forces;  ///< [N] normal force on each corner of the footprint, now
-  std::vector<ObjectTruth> objects;   ///< parallel to the scene's
+  std::vector<ObjectTruth> objects;   ///< the scene's objects, then its robots
+  std::vector<RobotTruth> robots;     ///< the scene's
 };
 
 struct MujocoPlantOptions {
@@ -39,7 +45,7 @@ struct MujocoPlantOptions {
   std::optional<std::array<double, 2>> start_at;  ///< overrides the scene's
   std::optional<double> start_yaw;
   /// Mecanum and omni wheels with eighteen rollers each, as they are built, in the place of smooth ones:
-  /// slower, and with their ripple.
+  /// slower, and with their ripple. Scenes may say so, too.
   bool real_rollers = false;
 };
 
@@ -47,8 +53,9 @@ struct MujocoPlantOptions {
 /// spheres on hinges; those that skid slide sideways against dry friction. Dry and viscous friction of the
 /// joints is the robot file's. The robot meets objects with the corners and sides of its footprint's convex
 /// hull, at the bumper's height; each contact point is a spring of the object's stiffness. Objects with a
-/// mass slide on the floor. Contact forces are those of the last step, so they belong to the instant at its
-/// beginning. MuJoCo's error and warning handlers are replaced for the whole process.
+/// mass slide on the floor. The scene's other robots are in the same simulation; whoever steps it gives them
+/// torques before `apply`, or they keep their last. Contact forces are those of the last step, so they belong
+/// to the instant at its beginning. MuJoCo's error and warning handlers are replaced for the whole process.
 class MujocoPlant : public Plant {
  public:
   /// Throws std::invalid_argument when the robot or the scene cannot be simulated, with the reason.
@@ -59,6 +66,10 @@ class MujocoPlant : public Plant {
   PlantStatus sense(Sensed& sensed) noexcept override;
   /// `unreachable`, and no step, for torques that are not finite or too few. Torques are not clamped here.
   PlantStatus apply(const Eigen::VectorXd& tau) noexcept override;
+  /// Of another robot, by its number in the scene; its numbers belong to the same instant as the first one's.
+  PlantStatus sense_partner(std::size_t partner, Sensed& sensed) const noexcept;
+  /// For the next step, which `apply` makes.
+  PlantStatus give_partner(std::size_t partner, const Eigen::VectorXd& tau) noexcept;
   const Truth& truth() const noexcept;
   /// From now on; kept finite and positive by the caller.
   void set_floor_friction(double coefficient) noexcept;

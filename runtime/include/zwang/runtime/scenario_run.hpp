@@ -18,11 +18,20 @@ struct ExpectationResult {
   double time = 0.0;  ///< [s] of the run, when the margin was least
 };
 
+/// Another robot of the scene, when the run ended.
+struct PartnerResult {
+  std::string name;
+  std::string outcome;  ///< done, failed, stopped; unfinished while its task was under way
+  std::string because;  ///< of a stop
+};
+
 struct CellResult {
   std::string name;
   bool passed = false;
-  std::string outcome;     ///< done, failed, stopped, diverged, refused, unfinished, error
-  std::string because;     ///< of a stop or an error; the codes of a refusal
+  /// Of the first robot, which ends the run: done, failed, stopped, diverged, refused, unfinished, error
+  std::string outcome;
+  std::string because;  ///< of a stop or an error; the codes of a refusal
+  std::vector<PartnerResult> partners;
   double simulated = 0.0;  ///< [s]
   double wall = 0.0;       ///< [s]
   std::vector<ExpectationResult> expectations;

@@ -7,6 +7,7 @@
 
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
+#include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
 
@@ -16,7 +17,18 @@ struct ScenePlantOptions {
   std::vector<lang::Fault> faults;  ///< beside the scene's own
 };
 
-/// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected.
+/// Another robot of the scene, under a runner of its own.
+struct ScenePartner {
+  ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& settings);
+  std::string name;
+  std::shared_ptr<const lang::Program> program;
+  Runner runner;           ///< a recorder made with its columns may be attached before the first step
+  Eigen::VectorXd torque;  ///< that it commanded last
+};
+
+/// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
+/// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its
+/// own samples and with its own runner, then makes one step of the world.
 class ScenePlant : public Plant {
  public:
   /// Throws std::invalid_argument when the program has no scene, or robot, scene and faults do not go
@@ -30,6 +42,8 @@ class ScenePlant : public Plant {
   const Truth& truth() const noexcept;
   /// Without noise or faults.
   const solver::State& true_state() const noexcept;
+  /// In the scene's order.
+  std::vector<ScenePartner>& partners() noexcept;
 
  private:
   struct Parts;

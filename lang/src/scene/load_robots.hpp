@@ -1,0 +1,14 @@
+/// The task files of a scene's other robots.
+#pragma once
+
+#include <filesystem>
+
+#include "zwang/lang/scene.hpp"
+
+namespace zwang::lang {
+
+/// Loads the task file of each robot of `scene`, which was read from `path`, without the scene that it may
+/// name itself. False on an error.
+bool load_robots_of(Scene& scene, const std::filesystem::path& path, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

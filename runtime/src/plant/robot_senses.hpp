@@ -1,0 +1,31 @@
+/// What one robot of a scene is told of itself and of what it sees.
+#pragma once
+
+#include <cstdint>
+
+#include "scene_signals.hpp"
+
+namespace zwang::runtime {
+
+class RobotSenses {
+ public:
+  /// `number`: 0 the first robot, then the scene's. Throws
+  /// std::invalid_argument as SceneSignals does.
+  RobotSenses(const lang::Program& program, const lang::Scene& scene, int number, const lang::Robot& first,
+              std::uint64_t seed);
+
+  void start_at(const solver::Pose& start) noexcept { start_ = start; }
+  void measure(const Truth& truth, const solver::State& actual) noexcept { signals_.measure(truth, actual); }
+  /// `actual` as it arrives: with noise, or without the base and with what corrects its reckoning.
+  void tell(const Sensed& actual, Sensed& sensed) noexcept;
+
+ private:
+  void add_noise(solver::State& state) noexcept;
+
+  lang::StateNoise state_;
+  SceneSignals signals_;
+  Noise noise_;
+  solver::Pose start_;  ///< of the base
+};
+
+}  // namespace zwang::runtime
