@@ -29,11 +29,14 @@ std::optional<Robot> load_robot_of(const TaskFile& file, const fs::path& path, c
 
 std::optional<Scene> load_scene_of(const TaskFile& file, const fs::path& path, const fs::path& root,
                                    const LoadOptions& options, Diagnostics& diagnostics) {
-  if (options.scene) return load_scene_from(*options.scene, {}, diagnostics);
+  if (options.scene) {
+    const fs::path own_root = options.root.value_or(root_of(*options.scene));
+    return load_scene_from(*options.scene, own_root, {}, diagnostics);
+  }
   if (!file.scene.exists()) return std::nullopt;
   const auto scene = resolve_path(file.scene.text, path, root, file.scene.span, diagnostics);
   if (!scene) return std::nullopt;
-  return load_scene_from(*scene, file.scene.span, diagnostics);
+  return load_scene_from(*scene, root, file.scene.span, diagnostics);
 }
 
 void check_rollers(const Scene& scene, const Robot& robot, Diagnostics& diagnostics) {
@@ -82,8 +85,7 @@ Invitation invitation_of(const SceneRobot& robot, const Scene& scene) {
 
 }  // namespace
 
-bool load_robots_of(Scene& scene, const fs::path& path, Diagnostics& diagnostics) {
-  const fs::path root = root_of(path);
+bool load_robots_of(Scene& scene, const fs::path& path, const fs::path& root, Diagnostics& diagnostics) {
   for (SceneRobot& robot : scene.robots) {
     // Robots may share files: where one is wrong, it is wrong for all, and said already.
     if (diagnostics.has_errors()) return false;

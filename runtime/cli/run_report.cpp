@@ -122,10 +122,10 @@ std::string truth_table(const RunReport& report) {
     table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
   }
   for (const PartnerReport& p : report.partners) {
-    std::string text = p.outcome;
-    if (!p.task.empty()) text += " in `" + p.task + "`";
-    if (!p.because.empty()) text += ": " + p.because;
-    table.add({p.name, text});
+    std::string end = p.outcome;
+    if (!p.task.empty()) end += " in `" + p.task + "`";
+    if (!p.because.empty()) end += ": " + p.because;
+    table.add({p.name, end});
   }
   table.add({"base", "x " + with_unit(report.x, "m") + ", y " + with_unit(report.y, "m") + ", yaw " +
                          with_unit(report.yaw, "rad")});

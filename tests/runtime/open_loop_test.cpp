@@ -68,5 +68,66 @@ TEST(OpenLoop, TheMecanumPlantAcceleratesAsDemanded) {
   }
 }
 
+/// On real rollers, whose contacts jump from one to the next, with a velocity feedback of 20 1/s: the means
+/// over 20 ms of what the plant makes of a sine along one axis, against those of the demand.
+double error_on_rollers(int along, double amplitude) {
+  lang::Diagnostics diagnostics;
+  const auto robot = lang::load_robot(ZWANG_SOURCE_DIR "/specs/robots/mecanum_base.yaml", diagnostics);
+  if (!robot) throw std::runtime_error("the robot does not load");
+  MujocoPlant plant(*robot, lang::Scene{}, {.period = period, .real_rollers = true});
+  Sensed sensed(robot->model);
+  solver::Solver solver(robot->model);
+  solver::Solution solution(robot->model);
+  solver::ConstraintSet set;
+  constexpr std::array axes{solver::Axis::x, solver::Axis::y, solver::Axis::rz};
+  constexpr double feedback = 20.0;  // [1/s]
+  constexpr int window = 20;
+  const double turn = 2.0 * std::numbers::pi * frequency;
+  double error = 0.0, demand = 0.0, made_in_window = 0.0, asked_in_window = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const double asked = amplitude * std::sin(turn * i * period);
+    const double speed = amplitude * (1.0 - std::cos(turn * i * period)) / turn;
+    EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
+    EXPECT_EQ(solver.project_velocity(sensed.state), solver::Status::ok);
+    set.clear();
+    const solver::MotionVector& twist = sensed.state.base_twist;
+    const std::array<double, 3> now{twist.linear.x(), twist.linear.y(), twist.angular.z()};
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      solver::AxisConstraint constraint;
+      constraint.move.body = constraint.in.body = 0;
+      constraint.axis = axes[axis];
+      const double wanted = k == along ? asked + feedback * (speed - now[axis]) : -feedback * now[axis];
+      constraint.driver = solver::Driver{.quantity = solver::Quantity::acceleration, .target = wanted};
+      EXPECT_TRUE(set.add(constraint));
+    }
+    EXPECT_TRUE(set.fill(robot->model, sensed.state));
+    EXPECT_EQ(solver.solve(sensed.state, set.rows(), solution), solver::Status::ok);
+    EXPECT_EQ(plant.apply(solution.tau), PlantStatus::ok);
+    made_in_window += plant.truth().acceleration(along) / window;
+    asked_in_window += asked / window;
+    if ((i + 1) % window != 0) continue;
+    if (i >= 50) {
+      error += (made_in_window - asked_in_window) * (made_in_window - asked_in_window);
+      demand += asked_in_window * asked_in_window;
+    }
+    made_in_window = asked_in_window = 0.0;
+  }
+  return std::sqrt(error / demand);
+}
+
+TEST(RealRollers, AccelerateWithVelocityFeedbackWithinATenthAndYawWithinThreeTenths) {
+  const struct {
+    const char* name;
+    int along;
+    double amplitude, most;
+  } demands[] = {{"x 0.5 m/s^2", 0, 0.5, 0.1}, {"y 0.5 m/s^2", 1, 0.5, 0.1}, {"yaw 1 rad/s^2", 2, 1.0, 0.3}};
+  for (const auto& demand : demands) {
+    const double error = error_on_rollers(demand.along, demand.amplitude);
+    std::printf("real rollers, %s: rms error of 20 ms means %.2f %%\n", demand.name, 100.0 * error);
+    EXPECT_LE(error, demand.most) << demand.name;
+  }
+}
+
 }  // namespace
 }  // namespace zwang::runtime

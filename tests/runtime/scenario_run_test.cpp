@@ -24,6 +24,7 @@ CellResult run_scenario(const std::string& text) {
     fs::create_directories((folder / name).parent_path());
     fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name);
   }
+  std::ofstream(folder / ".zwang-root");
   std::ofstream(folder / "scenario.yaml") << "zwang_scenario: 1\ntask: wall_align.yaml\n" << text;
   lang::Diagnostics of_scenario, of_task;
   const auto scenario = lang::load_scenario(folder / "scenario.yaml", of_scenario);

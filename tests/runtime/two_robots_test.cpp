@@ -71,10 +71,10 @@ TEST(TwoRobots, WhatOneLosesInAHitTheOtherGains) {
 
 TEST(TwoRobots, NobodyStartsInsideAnother) {
   const lang::Program program =
-      program_with("robots: {partner: {task: task.yaml, at: [0.7 m, 0 m], yaw: 90 deg}}\n");
+      program_with("robots: {partner: {task: task.yaml, at: [0.6 m, 0 m], yaw: 90 deg}}\n");
   try {
     const ScenePlant plant(program);
-    FAIL() << "0.28 m and 0.4 m reach farther than 0.7 m";
+    FAIL() << "0.4 m and 0.28 m reach farther than 0.6 m";
   } catch (const std::invalid_argument& refusal) {
     EXPECT_NE(std::string(refusal.what()).find("partner"), std::string::npos) << refusal.what();
   }

@@ -7,8 +7,9 @@
 
 namespace zwang::lang {
 
-/// Loads the task file of each robot of `scene`, which was read from `path`, without the scene that it may
-/// name itself. False on an error.
-bool load_robots_of(Scene& scene, const std::filesystem::path& path, Diagnostics& diagnostics);
+/// Loads the task file of each robot of `scene`, which was read from `path`, from below `root` and without
+/// the scene that it may name itself. False on an error.
+bool load_robots_of(Scene& scene, const std::filesystem::path& path, const std::filesystem::path& root,
+                    Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -233,13 +233,13 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
 
 }  // namespace
 
-std::optional<Scene> load_scene_from(const std::filesystem::path& path, const Span& cause,
-                                     Diagnostics& diagnostics) {
+std::optional<Scene> load_scene_from(const std::filesystem::path& path, const std::filesystem::path& root,
+                                     const Span& cause, Diagnostics& diagnostics) {
   const std::optional<int> source = read_file(path, yaml_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
   std::optional<Scene> scene = read_scene(*source, diagnostics);
   if (scene) scene->path = path.string();
-  if (scene && !load_robots_of(*scene, path, diagnostics)) return std::nullopt;
+  if (scene && !load_robots_of(*scene, path, root, diagnostics)) return std::nullopt;
   return scene;
 }
 
@@ -253,7 +253,7 @@ std::optional<Scene> read_scene(int source, Diagnostics& diagnostics) {
 }
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  std::optional<Scene> scene = load_scene_from(path, {}, diagnostics);
+  std::optional<Scene> scene = load_scene_from(path, root_of(path), {}, diagnostics);
   diagnostics.settle();
   return scene;
 }

@@ -8,9 +8,10 @@
 
 namespace zwang::lang {
 
-/// As `load_scene`; `cause` is where the task file named the scene.
-std::optional<Scene> load_scene_from(const std::filesystem::path& path, const Span& cause,
-                                     Diagnostics& diagnostics);
+/// As `load_scene`; `cause` is where the task file named the scene, and what the scene names lies below
+/// `root`.
+std::optional<Scene> load_scene_from(const std::filesystem::path& path, const std::filesystem::path& root,
+                                     const Span& cause, Diagnostics& diagnostics);
 
 /// Of a source that was read already.
 std::optional<Scene> read_scene(int source, Diagnostics& diagnostics);
