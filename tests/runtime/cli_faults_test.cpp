@@ -120,14 +120,14 @@ TEST_F(FromOutside, AReplayOfARunThatWasStoppedIsTheSame) {
 
 TEST_F(FromOutside, AReplayTellsTheFirstDifference) {
   ASSERT_EQ(zwang({"run", specs + "wall_align.yaml", "--log", "log", "--quiet"}).code, 0);
-  // The facts of the log stand in it as they are: another push of the same length.
+  // The facts of the log stand in it as they are: another period of the same length.
   std::string bytes = read(folder_ / "log/log.mcap");
-  const std::string key = "params.push";
+  const std::string key = "period [s]";
   const std::size_t at = bytes.find(key);
   ASSERT_NE(at, std::string::npos);
-  const std::size_t value = bytes.find("20", at + key.size());
+  const std::size_t value = bytes.find("0.001", at + key.size());
   ASSERT_LT(value, at + key.size() + 8);
-  bytes.replace(value, 2, "21");
+  bytes.replace(value, 5, "0.002");
   std::ofstream(folder_ / "log/log.mcap", std::ios::binary) << bytes;
   const Result again = zwang({"replay", "log/log.mcap", "--format", "json"});
   EXPECT_EQ(again.code, 1) << again.err;

@@ -117,6 +117,7 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diag
     const char* key;
     SceneSignalKind kind;
   };
+  const Node* given = nullptr;
   int found = 0;
   for (const Source& source :
        {Source{"script", SceneSignalKind::script}, Source{"pose_of", SceneSignalKind::pose},
@@ -124,15 +125,16 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diag
     const Node* node = map.optional(source.key);
     if (node == nullptr) continue;
     ++found;
+    given = node;
     signal.kind = source.kind;
-    if (source.kind == SceneSignalKind::script) {
-      parse_script(*node, signal, diagnostics);
-    } else {
-      parse_object_name(*node, signal, seen, diagnostics);
-    }
   }
-  if (found != 1 && !map.has_misspelt({"script", "pose_of", "distance_to", "latch"}))
+  if (found == 1 && signal.kind == SceneSignalKind::script) {
+    parse_script(*given, signal, diagnostics);
+  } else if (found == 1) {
+    parse_object_name(*given, signal, seen, diagnostics);
+  } else if (!map.has_misspelt({"script", "pose_of", "distance_to", "latch"})) {
     diagnostics.add(wording::one_signal_source(entry.key.span, entry.key.text));
+  }
   parse_quality(map, signal, longest_delay, diagnostics);
   map.finish();
   return signal;
