@@ -20,35 +20,50 @@ namespace {
 constexpr int patience = 3;              // rounds in a row that may not lower the number of those that move
 constexpr double flat_rate = 1e-9;       // of a variable that follows a flat one: below, it does not
 constexpr double rounding_share = 0.01;  // of the gradient's tolerance: the slope after a good step
+constexpr double unknown = -1e300;       // of an entry of H
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
 /// A row of the base has nothing where only the joints of an arm move: its column of V ends early.
-void QuadraticProgram::measure_columns() noexcept {
+void QuadraticProgram::look_at_columns() noexcept {
   extents_.clear();
   for (int k = 0; k < variables_; ++k) {
     int extent = curvature_rows_;
     while (extent > 0 && V(k)[extent - 1] == 0.0) --extent;
     extents_.push_back(extent);
+    std::fill_n(&hessian_(k, 0), k + 1, unknown);
   }
 }
 
-/// An entry of H = V'V + R.
+/// An entry of H = V'V + R: few are asked for, some often.
 double QuadraticProgram::hessian(int k, int l) noexcept {
-  const double product = dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
-  return k == l ? product + R_(k) : product;
+  double& entry = hessian_(std::max(k, l), std::min(k, l));
+  if (entry == unknown) {
+    entry = dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
+    if (k == l) entry += R_(k);
+  }
+  return entry;
 }
 
-/// reduced_ = V'(V z) + R z - g, and the size of what is rounding in it.
-void QuadraticProgram::compute_gradient() noexcept {
-  double* const image = image_.data();
-  set_zero(curvature_rows_, image);
+/// V z
+void QuadraticProgram::compute_image() noexcept {
+  set_zero(curvature_rows_, image_.data());
   for (int k = 0; k < variables_; ++k) {
-    if (z_(k) != 0.0) add_multiple(extents_[index(k)], z_(k), V(k), image);
+    if (z_(k) != 0.0) add_multiple(extents_[index(k)], z_(k), V(k), image_.data());
   }
+}
+
+/// A row of H z, by way of V z.
+double QuadraticProgram::pull_on(int k) noexcept {
+  return dot(extents_[index(k)], V(k), image_.data()) + R_(k) * z_(k);
+}
+
+/// reduced_ = H z - g, and the size of what is rounding in it.
+void QuadraticProgram::compute_gradient() noexcept {
+  compute_image();
   double scale = largest_g_;
   for (int k = 0; k < variables_; ++k) {
-    const double pull = dot(extents_[index(k)], V(k), image) + R_(k) * z_(k);
+    const double pull = pull_on(k);
     scale = std::max(scale, std::abs(pull));
     reduced_(k) = pull - g_(k);
   }
@@ -108,14 +123,14 @@ bool QuadraticProgram::is_out_of_place(int k) const noexcept {
 /// True when it found the solution; else z is where it was.
 bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   std::copy_n(z_.data(), variables_, direction_.data());
-  measure_columns();
+  look_at_columns();
   superbasics_.clear();
   for (int k = 0; k < variables_; ++k) {
     const bool is_inside = z_(k) > lo_(k) && z_(k) < hi_(k);
     place_[index(k)] = is_inside ? Place::superbasic : Place::parked;
     if (is_inside) superbasics_.push_back(k);
   }
-  compute_gradient();
+  compute_image();
   int fewest = variables_ + 1;
   int tries = patience;
   for (int round = 0; round < max_rounds; ++round) {
@@ -146,6 +161,7 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
 
 /// To the minimum over the free variables.
 void QuadraticProgram::solve_free() noexcept {
+  for (const int k : superbasics_) reduced_(k) = pull_on(k) - g_(k);
   factorise_free();
   for (int refinement = 0; refinement <= max_refinements; ++refinement) {
     step_free();
@@ -230,10 +246,11 @@ void QuadraticProgram::change_places() noexcept {
       superbasics_.push_back(k);
     } else {
       place_[index(k)] = Place::parked;
-      z_(k) = std::clamp(z_(k), lo_(k), hi_(k));
+      const double bound = std::clamp(z_(k), lo_(k), hi_(k));
+      add_multiple(extents_[index(k)], bound - z_(k), V(k), image_.data());
+      z_(k) = bound;
     }
   }
-  compute_gradient();
 }
 
 double QuadraticProgram::slope_of_curved() const noexcept {

@@ -62,8 +62,10 @@ class QuadraticProgram {
   static constexpr int max_refinements = 4;
 
   bool pivot_blocks(int max_rounds, int& iterations) noexcept;
-  void measure_columns() noexcept;
+  void look_at_columns() noexcept;
   double hessian(int k, int l) noexcept;
+  void compute_image() noexcept;
+  double pull_on(int k) noexcept;
   void compute_gradient() noexcept;
   void factorise_free() noexcept;
   void step_free() noexcept;
