@@ -25,9 +25,9 @@ class CellMaker {
 
   void put(const std::string& key, const MatrixValue& value, ScenarioCell& cell) const {
     if (key == "robot") {
-      cell.robot = resolve_path(value.word.text, path_, root_, value.word.span, diagnostics_);
+      cell.robot = existing(value.word);
     } else if (key == "scene") {
-      cell.scene = resolve_path(value.word.text, path_, root_, value.word.span, diagnostics_);
+      cell.scene = existing(value.word);
     } else if (key == "start_at") {
       cell.start_at = value.at;
     } else if (key == "start_yaw") {
@@ -40,6 +40,13 @@ class CellMaker {
   }
 
  private:
+  /// Read here so that a file that is not there is the scenario's mistake, where it is named.
+  std::optional<fs::path> existing(const Word& named) const {
+    const auto file = resolve_path(named.text, path_, root_, named.span, diagnostics_);
+    if (file && !read_file(*file, yaml_size_limit, named.span, diagnostics_)) return std::nullopt;
+    return file;
+  }
+
   void put_faults(const MatrixValue& value, ScenarioCell& cell) const {
     if (value.word.text == "none") return;
     std::vector<std::string> names{"none"};
