@@ -146,8 +146,8 @@ TEST_F(FromOutside, TwoRunsWithOneSeedWriteTheSameMcap) {
   EXPECT_TRUE(log == read(folder_ / "b/log.mcap"));
 }
 
-/// A file that may not grow beyond 1 MiB is a disk that fills up under way. (The thread sanitizer writes smaller
-/// ones for itself.)
+/// A file that may not grow beyond 1 MiB is a disk that fills up under way. (The thread sanitizer writes
+/// smaller ones for itself.)
 TEST_F(FromOutside, AFullDiskLeavesTheRunAloneAndTheExitStatusSaysSo) {
   const std::string command = "cd " + folder_.string() +
                               " && ulimit -f 1024 && trap '' XFSZ && exec " ZWANG_PROGRAM + " run " + specs +
