@@ -114,12 +114,13 @@ SceneSignals::SceneSignals(const lang::Program& program, const lang::Scene& scen
 }
 
 void SceneSignals::measure_base(const SceneSignal& fix, std::uint64_t seed) {
-  base_.emplace();
-  base_->signal = fix;
-  base_->type = SignalType::pose;
-  base_->in = {-1, {}, {}};
-  base_->on_way.resize(ring);
-  base_->noise = Noise(seed);
+  Source source;
+  source.signal = fix;
+  source.type = SignalType::pose;
+  source.in = {-1, {}, {}};
+  source.on_way.resize(ring);
+  source.noise = Noise(seed);
+  base_ = std::move(source);
 }
 
 SceneSignals::PlanarPose SceneSignals::pose_of(const Truth& truth, int number) const noexcept {
