@@ -5,16 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
-#include "../temporary_folder.hpp"
+#include "scene_program.hpp"
 
 namespace zwang::runtime {
 namespace {
 
-namespace fs = std::filesystem;
 constexpr double period = 1e-3;
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -35,22 +32,7 @@ tasks:
 )";
 
 lang::Program program_with(const std::string& scene) {
-  const zwang::test::TemporaryFolder temporary;
-  const fs::path& folder = temporary.path();
-  fs::create_directories(folder / "robots");
-  for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf"}) {
-    fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name);
-  }
-  std::ofstream(folder / "task.yaml") << task_text;
-  std::ofstream(folder / "scene.yaml") << "zwang_scene: 1\n" << scene;
-  lang::LoadOptions options;
-  options.scene = folder / "scene.yaml";
-  lang::Diagnostics diagnostics;
-  auto program = lang::load(folder / "task.yaml", options, diagnostics);
-  std::ostringstream text;
-  lang::render_human(diagnostics, text);
-  if (!program) throw std::runtime_error(text.str());
-  return *program;
+  return zwang::test::program_in_scene(task_text, scene);
 }
 
 /// Steps the plant without torque, or with `tau`, and calls `look` with each sample.

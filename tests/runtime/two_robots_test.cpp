@@ -3,17 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
-#include "../temporary_folder.hpp"
+#include "scene_program.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::runtime {
 namespace {
 
-namespace fs = std::filesystem;
 constexpr double period = 1e-3;
 
 /// A task of a robot that does nothing: it rolls as it is pushed.
@@ -26,22 +23,7 @@ tasks:
 )";
 
 lang::Program program_with(const std::string& scene) {
-  const zwang::test::TemporaryFolder temporary;
-  const fs::path& folder = temporary.path();
-  fs::create_directories(folder / "robots");
-  for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf"}) {
-    fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name);
-  }
-  std::ofstream(folder / "task.yaml") << idle_task;
-  std::ofstream(folder / "scene.yaml") << "zwang_scene: 1\n" << scene;
-  lang::LoadOptions options;
-  options.scene = folder / "scene.yaml";
-  lang::Diagnostics diagnostics;
-  auto program = lang::load(folder / "task.yaml", options, diagnostics);
-  std::ostringstream text;
-  lang::render_human(diagnostics, text);
-  if (!program) throw std::runtime_error(text.str());
-  return *program;
+  return zwang::test::program_in_scene(idle_task, scene);
 }
 
 // Equal robots that roll freely, and a contact without damping: they change their speeds. The force of four

@@ -17,6 +17,15 @@ std::optional<ScenarioFile> read_scenario(const fs::path& path, Diagnostics& dia
   return parse_scenario_file(*document, diagnostics);
 }
 
+/// The file that a scenario names. Read here so that one that is not there is the scenario's mistake, where
+/// it is named.
+std::optional<fs::path> existing_file(const Word& named, const fs::path& path, const fs::path& root,
+                                      Diagnostics& diagnostics) {
+  const auto file = resolve_path(named.text, path, root, named.span, diagnostics);
+  if (file && !read_file(*file, yaml_size_limit, named.span, diagnostics)) return std::nullopt;
+  return file;
+}
+
 /// Puts values of the matrix into a cell.
 class CellMaker {
  public:
@@ -25,9 +34,9 @@ class CellMaker {
 
   void put(const std::string& key, const MatrixValue& value, ScenarioCell& cell) const {
     if (key == "robot") {
-      cell.robot = existing(value.word);
+      cell.robot = existing_file(value.word, path_, root_, diagnostics_);
     } else if (key == "scene") {
-      cell.scene = existing(value.word);
+      cell.scene = existing_file(value.word, path_, root_, diagnostics_);
     } else if (key == "start_at") {
       cell.start_at = value.at;
     } else if (key == "start_yaw") {
@@ -40,13 +49,6 @@ class CellMaker {
   }
 
  private:
-  /// Read here so that a file that is not there is the scenario's mistake, where it is named.
-  std::optional<fs::path> existing(const Word& named) const {
-    const auto file = resolve_path(named.text, path_, root_, named.span, diagnostics_);
-    if (file && !read_file(*file, yaml_size_limit, named.span, diagnostics_)) return std::nullopt;
-    return file;
-  }
-
   void put_faults(const MatrixValue& value, ScenarioCell& cell) const {
     if (value.word.text == "none") return;
     std::vector<std::string> names{"none"};
@@ -125,9 +127,7 @@ std::optional<Scenario> scenario_of(const ScenarioFile& file, const fs::path& pa
   scenario.time_limit = file.time_limit;
   scenario.seed = file.seed;
   if (file.task.exists()) {
-    const auto task = resolve_path(file.task.text, path, root_of(path), file.task.span, diagnostics);
-    // Read here so that a task file that is not there is the scenario's mistake, where it is named.
-    if (task && read_file(*task, yaml_size_limit, file.task.span, diagnostics)) scenario.task = *task;
+    if (const auto task = existing_file(file.task, path, root_of(path), diagnostics)) scenario.task = *task;
   }
   scenario.cells = multiply(file, path, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;

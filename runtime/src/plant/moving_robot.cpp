@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "simulator.hpp"
+#include "zwang/solver/wheels.hpp"
 
 namespace zwang::runtime {
 
@@ -42,9 +43,7 @@ void MovingRobot::find_addresses(const mjModel& m) {
     for (const RollingSphere& sphere : simulated_.spheres.spheres) {
       if (sphere.body == j + 1) address.sphere = &sphere;
     }
-    for (const solver::Wheel& wheel : model().wheels()) {
-      if (wheel.body == j + 1) address.turns_wheel = true;
-    }
+    address.turns_wheel = solver::turns_wheel(model(), j + 1);
     freedoms_ += address.sphere != nullptr ? 3 : 1;
     joints_.push_back(address);
   }

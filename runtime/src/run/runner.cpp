@@ -258,7 +258,7 @@ Runner& Runner::operator=(Runner&&) noexcept = default;
 const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double> extra) noexcept {
   Parts& p = *parts_;
   p.event = {};
-  p.given_parameters = p.scheduler.parameters();
+  if (p.recorder != nullptr) p.given_parameters = p.scheduler.parameters();
   const SampleStatus status = p.guard.admit(sensed);
   const bool good = status == SampleStatus::good;
   bool solved = false;

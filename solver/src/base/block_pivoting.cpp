@@ -77,13 +77,13 @@ void QuadraticProgram::factorise_free() noexcept {
   const auto n = static_cast<int>(superbasics_.size());
   for (int s = 0; s < n; ++s) {
     for (int t = 0; t <= s; ++t) factor_(s, t) = hessian(superbasics_[index(s)], superbasics_[index(t)]);
-    step_(s) = factor_(s, s);
   }
   const Eigen::Index stride = factor_.outerStride();
   double* const w = work_.data();
   for (int c = 0; c < n; ++c) {
+    const int variable = superbasics_[index(c)];
     const double pivot = factor_(c, c);
-    const bool is_curved = pivot > ample_curvature * step_(c);
+    const bool is_curved = pivot > ample_curvature * hessian(variable, variable);
     const double inverse = is_curved ? 1.0 / std::sqrt(pivot) : 0.0;
     inverse_root_(c) = inverse;
     for (int s = c + 1; s < n; ++s) factor_(s, c) = w[s] = inverse * factor_(s, c);

@@ -108,7 +108,7 @@ class QuadraticProgram {
   RowMajorMatrix inverse_basis_;  ///< rank x rank
   RowMajorMatrix follow_;         ///< how the basic variables follow, a row a superbasic one
   RowMajorMatrix reduced_V_;      ///< a row a superbasic variable
-  RowMajorMatrix hessian_;        ///< the reduced Hessian, lower triangle
+  RowMajorMatrix hessian_;        ///< the reduced Hessian, of the blocks H itself; lower triangle
   RowMajorMatrix factor_;         ///< its Cholesky factor
   Eigen::VectorXd inverse_root_;  ///< of the blocks' factor: 1 over its diagonal
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
