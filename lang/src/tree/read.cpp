@@ -45,6 +45,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node node = start(NodeKind::null, mark);
+    if (is_null_written_at(mark)) node.span = word_at(mark);
     refuse_anchor(node, anchor, mark);
     place(std::move(node));
   }
@@ -109,6 +110,16 @@ class TreeBuilder final : public YAML::EventHandler {
       ++end;
     }
     return {source_, position(mark), index_.position(end)};
+  }
+
+  /// Whether YAML's word for nothing stands at the mark; as a key it would be the next entry's.
+  bool is_null_written_at(const YAML::Mark& mark) const {
+    const Span span = word_at(mark);
+    const std::size_t begin = index_.offset(span.begin), end = index_.offset(span.end);
+    const std::string_view word = text_.substr(begin, end - begin);
+    if (word != "~" && word != "null" && word != "Null" && word != "NULL") return false;
+    const std::size_t next = text_.find_first_not_of(' ', end);
+    return next == std::string_view::npos || text_[next] != ':';
   }
 
   Node start(NodeKind kind, const YAML::Mark& mark) {
@@ -184,7 +195,9 @@ class TreeBuilder final : public YAML::EventHandler {
       level.key = std::move(node);
     } else {
       // `key:` with nothing behind it: yaml-cpp marks the next token; the place is the key's end.
-      if (node.kind == NodeKind::null) node.span = {source_, level.key->span.end, level.key->span.end};
+      const bool is_nothing =
+          node.kind == NodeKind::null && index_.offset(node.span.begin) == index_.offset(node.span.end);
+      if (is_nothing) node.span = {source_, level.key->span.end, level.key->span.end};
       level.node.entries.push_back({std::move(*level.key), std::move(node)});
       level.key.reset();
     }
