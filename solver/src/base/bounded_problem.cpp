@@ -56,8 +56,10 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       gram_(RowMajorMatrix::Zero(dimension, spaced(dimension))),
       entries_(static_cast<std::size_t>(rows)),
       solutions_(static_cast<std::size_t>(rows)),
+      nearest_(static_cast<std::size_t>(rows)),
       program_(2 * rows + motors, dimension, dimension + rows) {
   posed_.reserve(static_cast<std::size_t>(rows));
+  folded_.reserve(static_cast<std::size_t>(rows));
   units_.reserve(static_cast<std::size_t>(rows));
   tied_.reserve(static_cast<std::size_t>(rows));
   soles_.reserve(static_cast<std::size_t>(motors));
@@ -262,21 +264,6 @@ void BoundedProblem::project_rows(int level) noexcept {
     e.reach = blocked ? 0.0 : std::sqrt(squared);
     for (int k = 0; k < dimension_; ++k) P[k] = blocked ? 0.0 : dot(dimension_, V, &F_(k, 0));
   }
-}
-
-bool BoundedProblem::is_one_sided(int i) const noexcept {
-  const RowKind kind = entries_[static_cast<std::size_t>(i)].kind;
-  return kind == RowKind::upper || kind == RowKind::lower;
-}
-
-bool BoundedProblem::is_motion(int i) const noexcept {
-  return is_one_sided(i) || entries_[static_cast<std::size_t>(i)].kind == RowKind::driver;
-}
-
-/// A row takes part in a stage while something of it is left free.
-bool BoundedProblem::takes_part(int i) const noexcept {
-  const Entry& e = entries_[static_cast<std::size_t>(i)];
-  return !e.out && e.reach > 0.0;
 }
 
 /// Below its own level a row holds what it reached with whatever that takes.

@@ -82,10 +82,19 @@ class BoundedProblem {
     std::copy_n(from.data(), dimension_, to.data());
   }
   Entry& entry(int i) noexcept { return entries_[static_cast<std::size_t>(i)]; }
-  bool is_one_sided(int i) const noexcept;
-  bool is_motion(int i) const noexcept;
+  bool is_one_sided(int i) const noexcept {
+    const RowKind kind = entries_[static_cast<std::size_t>(i)].kind;
+    return kind == RowKind::upper || kind == RowKind::lower;
+  }
+  bool is_motion(int i) const noexcept {
+    return is_one_sided(i) || entries_[static_cast<std::size_t>(i)].kind == RowKind::driver;
+  }
   bool is_soft(int i) noexcept { return softness(i) > 0.0; }
-  bool takes_part(int i) const noexcept;
+  /// A row takes part in a stage while something of it is left free.
+  bool takes_part(int i) const noexcept {
+    const Entry& e = entries_[static_cast<std::size_t>(i)];
+    return !e.out && e.reach > 0.0;
+  }
   Range bounds_at(int i, int level) const noexcept;
   double softness(int i) const noexcept;
   double held_softness(int i) const noexcept;
@@ -120,6 +129,25 @@ class BoundedProblem {
   bool brake(int forces, int level, int max_iterations) noexcept;
   bool share_torque(int forces, int level, int max_iterations) noexcept;
 
+  /// Of the firm limits along one axis those that leave the least room; -1 for none.
+  struct NearestLimits {
+    int upper = -1, lower = -1, upper_above = -1, lower_above = -1;
+  };
+  /// Rows along the same axis share it.
+  std::size_t axis_of(int i) noexcept {
+    return static_cast<std::size_t>(entry(i).twin >= 0 ? entry(i).twin : i);
+  }
+  double target_of(int i) const noexcept;
+  bool is_firm_limit(int i, int level) noexcept;
+  void find_nearest_limits(int level) noexcept;
+  bool gives_in(int i, int level) noexcept;
+  bool is_slack_beside(int i) noexcept;
+  void fold_limits(int level) noexcept;
+  bool folded_limits_rest() noexcept;
+  void unfold_limits() noexcept;
+
+  void take_out_limits(const Vector& p) noexcept;
+  bool find_motion(int level, int max_iterations) noexcept;
   void pose_rows(int level) noexcept;
   void pose_limits_above(int level) noexcept;
   void resize_program(int n, int level, int curvature_rows, bool with_motors) noexcept;
@@ -164,6 +192,8 @@ class BoundedProblem {
   std::vector<Entry> entries_;
   std::vector<RowSolution> solutions_;
   std::vector<int> posed_;     ///< row of each variable of the present stage
+  std::vector<int> folded_;    ///< rows of the present stage that need not be solved for
+  std::vector<NearestLimits> nearest_;  ///< by axis
   std::vector<double> units_;  ///< force of a unit of each variable
   std::vector<int> tied_;      ///< rows of the present stage whose multipliers are not unique
   QuadraticProgram program_;

@@ -103,12 +103,8 @@ double BoundedProblem::room_of(int i, const Vector& p) noexcept {
 bool BoundedProblem::brake(int forces, int level, int max_iterations) noexcept {
   const std::vector<int>::iterator begin = posed_.begin();
   std::rotate(begin, begin + forces, posed_.end());
-  copy(work_, fixed_);
+  take_out_limits(work_);
   const int limits = static_cast<int>(posed_.size()) - forces;
-  for (int k = 0; k < limits; ++k) {
-    const int i = posed_[static_cast<std::size_t>(k)];
-    push(i, -entry(i).nu, fixed_);
-  }
   pose_motion(limits, level, false);
   const bool exact = program_.solve(max_iterations, iterations_);
   take_p(limits);
@@ -252,6 +248,7 @@ void BoundedProblem::take_motors(int first) noexcept {
 /// The level's own motion rows, and the limits of the levels above.
 void BoundedProblem::pose_rows(int level) noexcept {
   posed_.clear();
+  folded_.clear();
   for (int i = 0; i < rows_; ++i) {
     const Entry& e = entry(i);
     if (e.level == level && is_motion(i) && takes_part(i)) posed_.push_back(i);
@@ -277,27 +274,46 @@ bool BoundedProblem::limits_rest(int level) noexcept {
   return true;
 }
 
+/// fixed_ = p without what the posed limits push.
+void BoundedProblem::take_out_limits(const Vector& p) noexcept {
+  copy(p, fixed_);
+  for (const int i : posed_) {
+    if (is_one_sided(i)) push(i, -entry(i).nu, fixed_);
+  }
+}
+
+/// The motion in work_ with the posed rows, motors aside.
+bool BoundedProblem::find_motion(int level, int max_iterations) noexcept {
+  const int n = static_cast<int>(posed_.size());
+  take_out_limits(p_);
+  pose_motion(n, level, false);
+  const bool exact = program_.solve(max_iterations, iterations_);
+  take_p(n);
+  return exact;
+}
+
 /// Most of the time no motor is at its limit: the problem is solved without the motors first, and stands when
 /// they can.
 bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   pose_rows(level);
   if (posed_.empty() || limits_rest(level)) return true;
-  const int n = static_cast<int>(posed_.size());
-  copy(p_, fixed_);
-  for (const int i : posed_) {
-    if (is_one_sided(i)) push(i, -entry(i).nu, fixed_);
-  }
   bool exact = true;
   bool possible = false;
   if (motors_reach_all_) {
-    pose_motion(n, level, false);
-    exact = program_.solve(max_iterations, iterations_);
-    take_p(n);
+    fold_limits(level);
+    exact = find_motion(level, max_iterations);
+    if (!folded_limits_rest()) {
+      unfold_limits();
+      exact = find_motion(level, max_iterations);
+    }
     possible = sums_hold(level, work_) && torques_for(work_);
   }
   if (possible) {
     tau_.head(motors_) = candidate_.head(motors_);
   } else {
+    unfold_limits();
+    take_out_limits(p_);
+    const int n = static_cast<int>(posed_.size());
     pose_motion(n, level, true);
     exact = program_.solve(max_iterations, iterations_);
     take_p(n);
@@ -307,6 +323,7 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   take_multipliers(level);
   copy(work_, p_);
   exact = least_multipliers(level, max_iterations) && exact;
+  unfold_limits();
   for (const int i : posed_) {
     // A fading row rests where a . Xdd + R nu = b; what is beyond that it could not hold, or it was not worth
     // it.

@@ -1,0 +1,105 @@
+// Limits along one axis: two ends of a range, ranges of several quantities, ranges of several levels. Mostly
+// one of them decides, and who it is can be told before the stage is solved, from what they ask for:
+//
+//   a limit beyond another one of its side                 has nothing to do while that one holds
+//   a limit that contradicts one of a level above           pushes with all its force, and in vain
+//
+// Both are left out; the second with its force, against which the limit above pushes. What was said of them is
+// looked at when the stage is solved, and where it does not hold, as when a limit's force did not suffice, all
+// take part. Limits that yield (fading, with a weight) and equal ones, which share their force, stay.
+#include <algorithm>
+#include <cmath>
+
+#include "base/bounded_problem.hpp"
+
+namespace zwang::solver {
+
+namespace {
+
+constexpr double tie = 1e-9;  // relative: limits closer than that are equal
+
+/// Whether `one` is clearly beyond `other`, seen from inside the range that `side` (1: upper) bounds.
+bool is_beyond(double one, double other, double side) {
+  return side * (one - other) > tie * (std::abs(one) + std::abs(other));
+}
+
+}  // namespace
+
+/// The acceleration that a posed limit asks for.
+double BoundedProblem::target_of(int i) const noexcept {
+  return d_(i) + entries_[static_cast<std::size_t>(i)].offset;
+}
+
+bool BoundedProblem::is_firm_limit(int i, int level) noexcept {
+  return is_one_sided(i) && (entry(i).level == level ? softness(i) : held_softness(i)) == 0.0;
+}
+
+/// Of the firm limits along each axis those that leave the least room, by side, of this level and above.
+void BoundedProblem::find_nearest_limits(int level) noexcept {
+  for (const int i : posed_) nearest_[axis_of(i)] = {};
+  for (const int i : posed_) {
+    if (!is_firm_limit(i, level)) continue;
+    NearestLimits& nearest = nearest_[axis_of(i)];
+    const bool is_upper = entry(i).kind == RowKind::upper;
+    int& own = is_upper ? nearest.upper : nearest.lower;
+    int& above = is_upper ? nearest.upper_above : nearest.lower_above;
+    int& place = entry(i).level == level ? own : above;
+    if (place < 0 || is_beyond(target_of(place), target_of(i), is_upper ? 1.0 : -1.0)) place = i;
+  }
+}
+
+/// Whether a limit pushes in vain against one of a level above, which is told of it.
+bool BoundedProblem::gives_in(int i, int level) noexcept {
+  Entry& e = entry(i);
+  const bool is_upper = e.kind == RowKind::upper;
+  const NearestLimits& nearest = nearest_[axis_of(i)];
+  const int opposite = is_upper ? nearest.lower_above : nearest.upper_above;
+  if (e.level != level || opposite < 0) return false;
+  if (!is_beyond(target_of(opposite), target_of(i), is_upper ? 1.0 : -1.0)) return false;
+  e.nu = is_upper ? e.lo : e.hi;
+  entry(opposite).nu -= e.nu;
+  return true;
+}
+
+/// Whether another limit of its side leaves a limit nothing to do.
+bool BoundedProblem::is_slack_beside(int i) noexcept {
+  const bool is_upper = entry(i).kind == RowKind::upper;
+  const NearestLimits& nearest = nearest_[axis_of(i)];
+  const auto leaves_less = [&](int other) {
+    return other >= 0 && is_beyond(target_of(i), target_of(other), is_upper ? 1.0 : -1.0);
+  };
+  return entry(i).nu == 0.0 && (leaves_less(is_upper ? nearest.upper : nearest.lower) ||
+                                leaves_less(is_upper ? nearest.upper_above : nearest.lower_above));
+}
+
+/// Takes out of posed_ what need not be solved for.
+void BoundedProblem::fold_limits(int level) noexcept {
+  folded_.clear();
+  find_nearest_limits(level);
+  std::size_t kept = 0;
+  for (const int i : posed_) {
+    const bool is_folded = is_firm_limit(i, level) && (gives_in(i, level) || is_slack_beside(i));
+    if (is_folded) {
+      folded_.push_back(i);
+    } else {
+      posed_[kept++] = i;
+    }
+  }
+  posed_.resize(kept);
+}
+
+/// Whether the motion in work_ leaves the folded limits as was said: room for those without force, none for
+/// the others.
+bool BoundedProblem::folded_limits_rest() noexcept {
+  return std::all_of(folded_.begin(), folded_.end(), [this](int i) {
+    const double room = room_of(i, work_);
+    return entry(i).nu == 0.0 ? room >= 0.0 : room <= 0.0;
+  });
+}
+
+void BoundedProblem::unfold_limits() noexcept {
+  posed_.insert(posed_.end(), folded_.begin(), folded_.end());
+  folded_.clear();
+}
+
+}  // namespace zwang::solver
