@@ -137,6 +137,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"second_document", "a: 1\n---\nb: 2\n", "E100", 2, 1},
                     Refusal{"block_scalar", "a: |\n  text\n", "E100", 1, 4},
                     Refusal{"open_quote", "a: \"text\n  more\"\n", "E100", 1, 4},
+                    Refusal{"open_behind_a_doubled_quote", "a: '''\nb: 1\n", "E100", 1, 4},
                     Refusal{"not_utf8", "a: \xFF\n", "E100", 1, 4},
                     Refusal{"overlong", "a: \xC0\xAF\n", "E100", 1, 4},
                     Refusal{"surrogate", "a: \xED\xA0\x80\n", "E100", 1, 4},
