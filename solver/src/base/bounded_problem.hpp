@@ -191,11 +191,11 @@ class BoundedProblem {
   bool torques_are_least_ = false;  ///< tau_ are the least ones that make p_
   std::vector<Entry> entries_;
   std::vector<RowSolution> solutions_;
-  std::vector<int> posed_;     ///< row of each variable of the present stage
-  std::vector<int> folded_;    ///< rows of the present stage that need not be solved for
+  std::vector<int> posed_;              ///< row of each variable of the present stage
+  std::vector<int> folded_;             ///< rows of the present stage that need not be solved for
   std::vector<NearestLimits> nearest_;  ///< by axis
-  std::vector<double> units_;  ///< force of a unit of each variable
-  std::vector<int> tied_;      ///< rows of the present stage whose multipliers are not unique
+  std::vector<double> units_;           ///< force of a unit of each variable
+  std::vector<int> tied_;               ///< rows of the present stage whose multipliers are not unique
   QuadraticProgram program_;
 };
 

@@ -4,9 +4,9 @@
 //   a limit beyond another one of its side                 has nothing to do while that one holds
 //   a limit that contradicts one of a level above           pushes with all its force, and in vain
 //
-// Both are left out; the second with its force, against which the limit above pushes. What was said of them is
-// looked at when the stage is solved, and where it does not hold, as when a limit's force did not suffice, all
-// take part. Limits that yield (fading, with a weight) and equal ones, which share their force, stay.
+// Both are left out; the second with its force, against which the limit above pushes. What was said of them
+// is looked at when the stage is solved, and where it does not hold, as when a limit's force did not suffice,
+// all take part. Limits that yield (fading, with a weight) and equal ones, which share their force, stay.
 #include <algorithm>
 #include <cmath>
 
@@ -88,12 +88,12 @@ void BoundedProblem::fold_limits(int level) noexcept {
   posed_.resize(kept);
 }
 
-/// Whether the motion in work_ leaves the folded limits as was said: room for those without force, none for
-/// the others.
+/// Whether the motion in work_ leaves the folded limits as was said: clearly room for those without force,
+/// clearly none for the others. Those in between may share a force with another one.
 bool BoundedProblem::folded_limits_rest() noexcept {
   return std::all_of(folded_.begin(), folded_.end(), [this](int i) {
-    const double room = room_of(i, work_);
-    return entry(i).nu == 0.0 ? room >= 0.0 : room <= 0.0;
+    const double room = entry(i).nu == 0.0 ? room_of(i, work_) : -room_of(i, work_);
+    return room > tie * std::abs(target_of(i));
   });
 }
 

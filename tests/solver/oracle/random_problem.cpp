@@ -311,7 +311,7 @@ std::vector<Row> random_rows(const Model& model, const RowOptions& options, Rand
       row = rows[static_cast<std::size_t>(random.pick(0, static_cast<int>(rows.size()) - 1))];
       row.fade = 1.0;
       row.weight = solver::infinity;
-      if (random.chance(0.3)) row.b += random.uniform(-1.0, 1.0);
+      if (random.chance(options.apart)) row.b += random.uniform(-1.0, 1.0);
     } else {
       row.body = planar && random.chance(0.6) ? 0 : random.pick(first, bodies - 1);
       row.a = direction(row.body);

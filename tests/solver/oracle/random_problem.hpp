@@ -60,6 +60,7 @@ struct RowOptions {
   double force = 0.15;
   double fading = 0.15;
   double duplicate = 0.15;  ///< a copy of an earlier row, or a mixture of two; b is consistent or not
+  double apart = 0.3;       ///< of the copies those with another b
   double relative = 0.15;   ///< between two bodies
   double weight = 0.1;      ///< soft
   double sum = 0.1;         ///< bounds what the rows press with together
