@@ -20,7 +20,6 @@ namespace {
 constexpr int patience = 3;              // rounds in a row that may not lower the number of those that move
 constexpr double flat_rate = 1e-9;       // of a variable that follows a flat one: below, it does not
 constexpr double rounding_share = 0.01;  // of the gradient's tolerance: the slope after a good step
-constexpr double unknown = -1e300;       // of an entry of H
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
@@ -31,18 +30,13 @@ void QuadraticProgram::look_at_columns() noexcept {
     int extent = curvature_rows_;
     while (extent > 0 && V(k)[extent - 1] == 0.0) --extent;
     extents_.push_back(extent);
-    std::fill_n(&hessian_(k, 0), k + 1, unknown);
   }
 }
 
-/// An entry of H = V'V + R: few are asked for, some often.
-double QuadraticProgram::hessian(int k, int l) noexcept {
-  double& entry = hessian_(std::max(k, l), std::min(k, l));
-  if (entry == unknown) {
-    entry = dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
-    if (k == l) entry += R_(k);
-  }
-  return entry;
+/// An entry of H = V'V + R.
+double QuadraticProgram::hessian(int k, int l) const noexcept {
+  const double entry = dot(std::min(extents_[index(k)], extents_[index(l)]), &V_(k, 0), &V_(l, 0));
+  return k == l ? entry + R_(k) : entry;
 }
 
 /// V z
@@ -70,25 +64,25 @@ void QuadraticProgram::compute_gradient() noexcept {
   tolerance_ = relative_gradient_tolerance * scale;
 }
 
-/// Cholesky's factor of the free variables' part of H, column by column: what a column leaves of the others
-/// is taken off at once. inverse_root_ is 0 for a variable without curvature of its own, which stays where it
+/// Cholesky's factor of the free variables' part of H, row by row; the first rows are those of the round before
+/// where the variables are. inverse_root_ is 0 for a variable without curvature of its own, which stays where it
 /// is.
 void QuadraticProgram::factorise_free() noexcept {
   const auto n = static_cast<int>(superbasics_.size());
-  for (int s = 0; s < n; ++s) {
-    for (int t = 0; t <= s; ++t) factor_(s, t) = hessian(superbasics_[index(s)], superbasics_[index(t)]);
+  for (int s = factorised_; s < n; ++s) {
+    double* const line = &factor_(s, 0);
+    const int variable = superbasics_[index(s)];
+    const double own = hessian(variable, variable);
+    double pivot = own;
+    for (int c = 0; c < s; ++c) {
+      const double h = hessian(variable, superbasics_[index(c)]);
+      line[c] = (h - dot(c, line, &factor_(c, 0))) * inverse_root_(c);
+      pivot -= line[c] * line[c];
+    }
+    line[s] = pivot;
+    inverse_root_(s) = pivot > ample_curvature * own ? 1.0 / std::sqrt(pivot) : 0.0;
   }
-  const Eigen::Index stride = factor_.outerStride();
-  double* const w = work_.data();
-  for (int c = 0; c < n; ++c) {
-    const int variable = superbasics_[index(c)];
-    const double pivot = factor_(c, c);
-    const bool is_curved = pivot > ample_curvature * hessian(variable, variable);
-    const double inverse = is_curved ? 1.0 / std::sqrt(pivot) : 0.0;
-    inverse_root_(c) = inverse;
-    for (int s = c + 1; s < n; ++s) factor_(s, c) = w[s] = inverse * factor_(s, c);
-    add_square(c + 1, n, -1.0, w, factor_.data(), stride);
-  }
+  factorised_ = n;
 }
 
 /// x := H_FF^-1 x
@@ -125,6 +119,7 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   std::copy_n(z_.data(), variables_, direction_.data());
   look_at_columns();
   superbasics_.clear();
+  factorised_ = 0;
   for (int k = 0; k < variables_; ++k) {
     const bool is_inside = z_(k) > lo_(k) && z_(k) < hi_(k);
     place_[index(k)] = is_inside ? Place::superbasic : Place::parked;
@@ -214,6 +209,7 @@ bool QuadraticProgram::slide(int flat) noexcept {
   const int parking = superbasics_[index(blocking)];
   z_(parking) = step_(blocking) > 0.0 ? hi_(parking) : lo_(parking);
   if (blocking != flat) inverse_root_(flat) = 1.0;  // it stays
+  factorised_ = std::min(factorised_, flat);
   inverse_root_(blocking) = 0.0;
   compute_gradient();
   return true;
@@ -225,6 +221,7 @@ void QuadraticProgram::park_flat_ones() noexcept {
     const int k = superbasics_[index(s)];
     if (inverse_root_(s) == 0.0) {
       place_[index(k)] = Place::parked;
+      factorised_ = std::min(factorised_, s);
     } else {
       superbasics_[index(curved++)] = k;
     }
@@ -238,8 +235,6 @@ void QuadraticProgram::change_places() noexcept {
     const double one = std::abs(reduced_(k)), other = std::abs(reduced_(l));
     return one > other || (one == other && k < l);
   });
-  const auto leaves = [this](int k) { return std::find(rows_.begin(), rows_.end(), k) != rows_.end(); };
-  superbasics_.erase(std::remove_if(superbasics_.begin(), superbasics_.end(), leaves), superbasics_.end());
   for (const int k : rows_) {
     if (place_[index(k)] == Place::parked) {
       place_[index(k)] = Place::superbasic;
@@ -251,6 +246,10 @@ void QuadraticProgram::change_places() noexcept {
       z_(k) = bound;
     }
   }
+  const auto is_parked = [this](int k) { return place_[index(k)] == Place::parked; };
+  const auto first = std::find_if(superbasics_.begin(), superbasics_.end(), is_parked);
+  factorised_ = std::min(factorised_, static_cast<int>(first - superbasics_.begin()));
+  superbasics_.erase(std::remove_if(first, superbasics_.end(), is_parked), superbasics_.end());
 }
 
 double QuadraticProgram::slope_of_curved() const noexcept {

@@ -63,7 +63,7 @@ class QuadraticProgram {
 
   bool pivot_blocks(int max_rounds, int& iterations) noexcept;
   void look_at_columns() noexcept;
-  double hessian(int k, int l) noexcept;
+  double hessian(int k, int l) const noexcept;
   void compute_image() noexcept;
   double pull_on(int k) noexcept;
   void compute_gradient() noexcept;
@@ -108,9 +108,10 @@ class QuadraticProgram {
   RowMajorMatrix inverse_basis_;  ///< rank x rank
   RowMajorMatrix follow_;         ///< how the basic variables follow, a row a superbasic one
   RowMajorMatrix reduced_V_;      ///< a row a superbasic variable
-  RowMajorMatrix hessian_;        ///< the reduced Hessian, of the blocks H itself; lower triangle
+  RowMajorMatrix hessian_;        ///< the reduced Hessian; lower triangle
   RowMajorMatrix factor_;         ///< its Cholesky factor
   Eigen::VectorXd inverse_root_;  ///< of the blocks' factor: 1 over its diagonal
+  int factorised_ = 0;            ///< rows of the blocks' factor that are those of the free variables
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
   Eigen::VectorXd image_;         ///< V z
   std::vector<int> extents_;      ///< of the columns of V: the rest is 0
