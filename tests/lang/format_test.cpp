@@ -43,8 +43,8 @@ TEST(Format, leaves_values_as_they_are) {
 }
 
 TEST(Format, keeps_a_written_null) {
-  expect_layout("a:   null\nb:   [ ~,Null ]\nc:\n-   NULL\n-\ne: # of e\n    ~\n",
-                "a: null\nb: [~, Null]\nc:\n  - NULL\n  -\ne:  # of e\n    ~\n");
+  expect_layout("null x: 1\na:   null\nb:   [ ~,Null ]\nc:\n-   NULL\n-\ne: # of e\n    ~\n",
+                "null x: 1\na: null\nb: [~, Null]\nc:\n  - NULL\n  -\ne:  # of e\n    ~\n");
 }
 
 TEST(Format, keeps_blank_lines_inside_a_text) {

@@ -132,6 +132,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Refusal{"duplicate_in_flow", "m: {y: 1, y: 2}\n", "E102", 1, 11},
                     Refusal{"anchor", "a: &x 1\n", "E106", 1, 4}, Refusal{"alias", "a: *x\n", "E106", 1, 4},
                     Refusal{"tag", "a: !!int 1\n", "E106", 1, 4},
+                    Refusal{"bare_tag", "a: ! b\n", "E106", 1, 4},
+                    Refusal{"tag_of_a_key", "a: 1\n! b: 2\n", "E106", 2, 1},
                     Refusal{"merge", "<<: {a: 1}\n", "E106", 1, 1},
                     Refusal{"complex_key", "? [a, b]\n: c\n", "E106", 1, 3},
                     Refusal{"second_document", "a: 1\n---\nb: 2\n", "E100", 2, 1},

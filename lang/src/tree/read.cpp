@@ -112,14 +112,16 @@ class TreeBuilder final : public YAML::EventHandler {
     return {source_, position(mark), index_.position(end)};
   }
 
-  /// Whether YAML's word for nothing stands at the mark; as a key it would be the next entry's.
+  /// Whether YAML's word for nothing stands at the mark, and nothing behind it: else it begins the next key.
   bool is_null_written_at(const YAML::Mark& mark) const {
     const Span span = word_at(mark);
     const std::size_t begin = index_.offset(span.begin), end = index_.offset(span.end);
     const std::string_view word = text_.substr(begin, end - begin);
     if (word != "~" && word != "null" && word != "Null" && word != "NULL") return false;
     const std::size_t next = text_.find_first_not_of(' ', end);
-    return next == std::string_view::npos || text_[next] != ':';
+    if (next == std::string_view::npos) return true;
+    const bool is_in_flow = !levels_.empty() && levels_.back().node.is_flow;
+    return std::string_view(is_in_flow ? "\r\n#,]}" : "\r\n#").find(text_[next]) != std::string_view::npos;
   }
 
   Node start(NodeKind kind, const YAML::Mark& mark) {
@@ -134,7 +136,8 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   void refuse_tag(Node& node, const std::string& tag, const YAML::Mark& mark) {
-    if (tag.empty() || tag == "?" || tag == "!") return;
+    const bool is_written = !tag.empty() && text_[index_.offset(position(mark))] == '!';  // else: of quotes
+    if (!is_written && (tag.empty() || tag == "?" || tag == "!")) return;
     diagnostics_.add(is_condition_next() ? wording::exclamation_for_not(word_at(mark))
                                          : wording::tag(word_at(mark)));
     node.is_bad = true;
