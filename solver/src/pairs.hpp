@@ -28,6 +28,13 @@ inline void copy(int count, const double* x, double* y) {
   if (k < count) y[k] = x[k];
 }
 
+/// y = s x, for `count` numbers.
+inline void scaled_copy(int count, double s, const double* x, double* y) {
+  int k = 0;
+  for (; k + 2 <= count; k += 2) Pair(y + k) = s * ConstPair(x + k);
+  if (k < count) y[k] = s * x[k];
+}
+
 /// y += s x, for `count` numbers.
 inline void add_multiple(int count, double s, const double* x, double* y) {
   int k = 0;

@@ -107,6 +107,7 @@ struct Solver::Workspace {
         problem(options.row_capacity, robot.joint_count(),
                 std::max(1, sweeps.columns.dimensions() - sweeps.columns.held_dimensions())),
         ground_bias(Eigen::VectorXd::Zero(capacity)),
+        free_acceleration(Eigen::VectorXd::Zero(options.row_capacity)),
         p(Eigen::VectorXd::Zero(sweeps.columns.dimensions())),
         forces(Eigen::VectorXd::Zero(sweeps.columns.dimensions() + 1)),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
@@ -166,16 +167,21 @@ struct Solver::Workspace {
     problem.resize(count, static_cast<int>(motors.size()), whitened.mobility());
     for (int i = 0; i < count; ++i) {
       const int id = ids[static_cast<std::size_t>(i)];
+      const int twin = twins[static_cast<std::size_t>(i)];
       const Row& row = rows[static_cast<std::size_t>(i)];
-      copy(whitened.mobility(), whitened.B(id), problem.B(i));
-      problem.d(i) = row.b - sweeps.columns.g(id) - whitened.held_acceleration(id);
-      problem.set_row(i, row, whitened.free_square(id), twins[static_cast<std::size_t>(i)]);
+      if (twin < 0) {
+        problem.set_row(i, row, whitened.B(id), whitened.free_square(id));
+        free_acceleration(i) = sweeps.columns.g(id) + whitened.held_acceleration(id);
+      } else {
+        problem.set_twin(i, row, twin);
+        free_acceleration(i) = free_acceleration(twin);
+      }
+      problem.d(i) = row.b - free_acceleration(i);
     }
     int motor = 0;
     for (const int j : motors) {
-      copy(whitened.mobility(), whitened.B(first_joint_row() + j), problem.T(motor));
       const double limit = model.joint(j).max_effort;
-      problem.set_motor(motor++, -limit - tau_ff(j), limit - tau_ff(j));
+      problem.set_motor(motor++, whitened.B(first_joint_row() + j), -limit - tau_ff(j), limit - tau_ff(j));
     }
   }
 
@@ -195,8 +201,9 @@ struct Solver::Workspace {
   std::vector<int> motors;
   std::vector<int> ids,
       twins;  ///< by row of the task: its id in the sweeps, and an earlier row along the same axis
-  Eigen::VectorXd ground_bias;  ///< by row of the ground
-  Eigen::VectorXd p, forces;    ///< of the torques on the motions; with the ground's answer, by dimension
+  Eigen::VectorXd ground_bias;        ///< by row of the ground
+  Eigen::VectorXd free_acceleration;  ///< by row of the task: with the ground's answer, nobody pushing
+  Eigen::VectorXd p, forces;  ///< of the torques on the motions; with the ground's answer, by dimension
   Eigen::VectorXd tau_ff, qdd;
 };
 

@@ -23,19 +23,9 @@ constexpr double rounding_share = 0.01;  // of the gradient's tolerance: the slo
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
-/// A row of the base has nothing where only the joints of an arm move: its column of V ends early.
-void QuadraticProgram::look_at_columns() noexcept {
-  extents_.clear();
-  for (int k = 0; k < variables_; ++k) {
-    int extent = curvature_rows_;
-    while (extent > 0 && V(k)[extent - 1] == 0.0) --extent;
-    extents_.push_back(extent);
-  }
-}
-
 /// An entry of H = V'V + R.
 double QuadraticProgram::hessian(int k, int l) const noexcept {
-  const double entry = dot(std::min(extents_[index(k)], extents_[index(l)]), &V_(k, 0), &V_(l, 0));
+  const double entry = dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
   return k == l ? entry + R_(k) : entry;
 }
 
@@ -64,9 +54,9 @@ void QuadraticProgram::compute_gradient() noexcept {
   tolerance_ = relative_gradient_tolerance * scale;
 }
 
-/// Cholesky's factor of the free variables' part of H, row by row; the first rows are those of the round before
-/// where the variables are. inverse_root_ is 0 for a variable without curvature of its own, which stays where it
-/// is.
+/// Cholesky's factor of the free variables' part of H, row by row; the first rows are those of the round
+/// before where the variables are. inverse_root_ is 0 for a variable without curvature of its own, which
+/// stays where it is.
 void QuadraticProgram::factorise_free() noexcept {
   const auto n = static_cast<int>(superbasics_.size());
   for (int s = factorised_; s < n; ++s) {
@@ -117,7 +107,6 @@ bool QuadraticProgram::is_out_of_place(int k) const noexcept {
 /// True when it found the solution; else z is where it was.
 bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   std::copy_n(z_.data(), variables_, direction_.data());
-  look_at_columns();
   superbasics_.clear();
   factorised_ = 0;
   for (int k = 0; k < variables_; ++k) {

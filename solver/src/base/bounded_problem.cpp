@@ -36,9 +36,9 @@ double nonzero(double length) {
 
 BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
     : B_(RowMajorMatrix::Zero(rows, dimension)),
-      T_(RowMajorMatrix::Zero(motors, spaced(dimension))),
       V_(RowMajorMatrix::Zero(rows, dimension)),
       P_(RowMajorMatrix::Zero(rows, dimension)),
+      T_(static_cast<std::size_t>(motors)),
       d_(Vector::Zero(rows)),
       tau_(Vector::Zero(motors)),
       tau_lo_(Vector::Zero(motors)),
@@ -72,10 +72,31 @@ void BoundedProblem::resize(int rows, int motors, int dimension) noexcept {
   dimension_ = dimension;
 }
 
-void BoundedProblem::set_row(int i, const Row& row, double unconstrained, int twin) noexcept {
+void BoundedProblem::set_row(int i, const Row& row, const double* B, double unconstrained) noexcept {
   Entry& e = entry(i);
   e = Entry{};
+  solver::copy(dimension_, B, &B_(i, 0));
+  e.B = &B_(i, 0);
+  e.extent = extent_of(e.B);
+  const double squared = dot(e.extent, e.B, e.B);
+  e.length = std::sqrt(squared);
+  e.reachable = squared >= unreachable_share * unconstrained && squared > 0.0;
+  take_source(e, row);
+}
+
+void BoundedProblem::set_twin(int i, const Row& row, int twin) noexcept {
+  Entry& e = entry(i);
+  const Entry& other = entry(twin);
+  e = Entry{};
   e.twin = twin;
+  e.B = other.B;
+  e.extent = other.extent;
+  e.length = other.length;
+  e.reachable = other.reachable;
+  take_source(e, row);
+}
+
+void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
   e.kind = row.kind;
   e.quantity = row.quantity;
   e.level = row.level;
@@ -84,19 +105,18 @@ void BoundedProblem::set_row(int i, const Row& row, double unconstrained, int tw
   e.weight = row.weight;
   e.fade = std::clamp(row.fade, 0.0, 1.0);
   e.force = e.fade * row.force;
-  const double squared = dot(dimension_, &B_(i, 0), &B_(i, 0));
-  e.length = std::sqrt(squared);
   if (e.kind == RowKind::sum && e.fade > 0.0) {
     e.lo /= e.fade;
     e.hi /= e.fade;
   }
-  if (!(squared >= unreachable_share * unconstrained) || squared == 0.0 || e.fade == 0.0) {
+  if (!e.reachable || e.fade == 0.0) {
     e.out = true;
     e.status = RowStatus::unreachable;
   }
 }
 
-void BoundedProblem::set_motor(int j, double lowest, double highest) noexcept {
+void BoundedProblem::set_motor(int j, const double* T, double lowest, double highest) noexcept {
+  T_[static_cast<std::size_t>(j)] = T;
   tau_lo_(j) = lowest;
   tau_hi_(j) = highest;
 }
@@ -104,7 +124,7 @@ void BoundedProblem::set_motor(int j, double lowest, double highest) noexcept {
 void BoundedProblem::sum_torques(double* p) const noexcept {
   std::fill_n(p, dimension_, 0.0);
   for (int j = 0; j < motors_; ++j)
-    add_multiple(motor_extents_[static_cast<std::size_t>(j)], tau_(j), &T_(j, 0), p);
+    add_multiple(motor_extents_[static_cast<std::size_t>(j)], tau_(j), T(j), p);
 }
 
 /// The levels as a table of contents.
@@ -149,9 +169,9 @@ void BoundedProblem::factorise_motors() noexcept {
   std::fill_n(last_of_.begin(), dimension_, none);
   double trace = 0.0;
   for (int j = 0; j < motors_; ++j) {
-    const int extent = extent_of(j);
+    const int extent = extent_of(T(j));
     motor_extents_[static_cast<std::size_t>(j)] = extent;
-    const double squared = dot(extent, &T_(j, 0), &T_(j, 0));
+    const double squared = dot(extent, T(j), T(j));
     motor_length_(j) = std::sqrt(squared);
     trace += squared;
     if (extent == 0) continue;
@@ -163,8 +183,8 @@ void BoundedProblem::factorise_motors() noexcept {
   int open = dimension_;
   for (; open > 0; --open) {
     const int j = last_of_[static_cast<std::size_t>(open - 1)];
-    if (j < 0 || !(T_(j, open - 1) * T_(j, open - 1) > least)) break;
-    soles_.push_back({j, 1.0 / T_(j, open - 1)});
+    if (j < 0 || !(T(j)[open - 1] * T(j)[open - 1] > least)) break;
+    soles_.push_back({j, 1.0 / T(j)[open - 1]});
   }
   shared_dimensions_ = open;
   shared_motors_.clear();
@@ -173,7 +193,7 @@ void BoundedProblem::factorise_motors() noexcept {
     const int extent = motor_extents_[static_cast<std::size_t>(j)];
     if (extent > open) continue;
     shared_motors_.push_back(j);
-    add_square(0, extent, 1.0, &T_(j, 0), gram_.data(), gram_.outerStride());
+    add_square(0, extent, 1.0, T(j), gram_.data(), gram_.outerStride());
   }
   motors_reach_all_ = cholesky(gram_, open, least);
   motors_drive_all_ = motors_reach_all_;
@@ -181,22 +201,16 @@ void BoundedProblem::factorise_motors() noexcept {
     motors_drive_all_ = motors_drive_all_ && (tau_lo_(j) < 0.0 || tau_hi_(j) > 0.0);
 }
 
-/// T_j is 0 from here on: the whitened axes come from joints, one after the other.
-int BoundedProblem::extent_of(int motor) const noexcept {
+/// A line is 0 from here on: the whitened axes come from joints, one after the other.
+int BoundedProblem::extent_of(const double* x) const noexcept {
   int extent = dimension_;
-  while (extent > 0 && T_(motor, extent - 1) == 0.0) --extent;
+  while (extent > 0 && x[extent - 1] == 0.0) --extent;
   return extent;
 }
 
 /// No multiplier is unbounded: what the motors can do along a row bounds it, one-sided rows by a multiple of
 /// that.
 void BoundedProblem::bound_rows() noexcept {
-  double scale = 0.0;
-  for (int i = 0; i < rows_; ++i) {
-    scale = std::max(
-        {scale, std::abs(d_(i)) / nonzero(entry(i).length), std::abs(entry(i).force) * entry(i).length});
-  }
-  if (scale == 0.0) scale = 1.0;
   for (int i = 0; i < rows_; ++i) {
     Entry& e = entry(i);
     if (e.out || e.kind == RowKind::sum) continue;
@@ -212,11 +226,21 @@ void BoundedProblem::bound_rows() noexcept {
       e.status = RowStatus::unreachable;
     }
     if (e.out || e.kind == RowKind::force) continue;
-    if (!std::isfinite(force)) force = 1e7 * scale / e.length;
+    if (!std::isfinite(force)) force = 1e7 * largest_demand() / e.length;
     if (is_one_sided(i)) force *= authority(e.quantity);
     e.lo = e.fade * (std::isfinite(e.lo) ? e.lo : -force);
     e.hi = e.fade * (std::isfinite(e.hi) ? e.hi : force);
   }
+}
+
+/// Of all rows, as an acceleration of the whitened axes.
+double BoundedProblem::largest_demand() noexcept {
+  double largest = 0.0;
+  for (int i = 0; i < rows_; ++i) {
+    const Entry& e = entry(i);
+    largest = std::max({largest, std::abs(d_(i)) / nonzero(e.length), std::abs(e.force) * e.length});
+  }
+  return nonzero(largest);
 }
 
 /// Upper bound of |nu| with B_i nu = T'tau: both sides times B_i. 0 where no motor drives the row.
@@ -227,7 +251,7 @@ double BoundedProblem::largest_force(int i) noexcept {
   double sum = 0.0;
   for (int j = 0; j < motors_; ++j) {
     const int extent = motor_extents_[static_cast<std::size_t>(j)];
-    const double share = std::abs(dot(extent, &B_(i, 0), &T_(j, 0)));
+    const double share = std::abs(dot(std::min(extent, entry(i).extent), B(i), T(j)));
     if (share > driven_share * motor_length_(j) * length) sum += share * std::max(-tau_lo_(j), tau_hi_(j));
   }
   return length > 0.0 ? sum / (length * length) : 0.0;
@@ -239,25 +263,29 @@ void BoundedProblem::project_rows(int level) noexcept {
     Entry& e = entry(i);
     const bool is_posed = e.level == level || (e.level < level && is_one_sided(i));
     if (e.out || !is_posed) continue;
-    double* const V = &V_(i, 0);
-    double* const P = &P_(i, 0);
     e.projected_at = level;
     if (e.twin >= 0 && entry(e.twin).projected_at == level) {
       const Entry& twin = entry(e.twin);
-      std::copy_n(&V_(e.twin, 0), dimension_, V);
-      std::copy_n(&P_(e.twin, 0), dimension_, P);
+      e.V = twin.V;
+      e.P = twin.P;
+      e.reach_extent = twin.reach_extent;
       e.reach = twin.reach;
       if (e.level == level) e.blocked = twin.reach == 0.0;
       continue;
     }
     if (all_free_) {
-      std::copy_n(&B_(i, 0), dimension_, V);
-      std::copy_n(&B_(i, 0), dimension_, P);
+      e.V = e.P = e.B;
+      e.reach_extent = e.extent;
       e.reach = e.length;
       continue;
     }
+    double* const V = &V_(i, 0);
+    double* const P = &P_(i, 0);
+    e.V = V;
+    e.P = P;
+    e.reach_extent = dimension_;
     std::fill_n(V, dimension_, 0.0);
-    for (int k = 0; k < dimension_; ++k) add_multiple(dimension_, B_(i, k), &F_(k, 0), V);
+    for (int k = 0; k < e.extent; ++k) add_multiple(dimension_, e.B[k], &F_(k, 0), V);
     const double squared = dot(dimension_, V, V);
     const bool blocked = squared <= blocked_share * e.length * e.length;
     if (e.level == level) e.blocked = blocked;
@@ -303,7 +331,7 @@ void BoundedProblem::freeze(int level) noexcept {
     if (all_free_) F_.topLeftCorner(dimension_, dimension_).setIdentity();
     all_free_ = false;
     std::fill_n(v, dimension_, 0.0);
-    for (int k = 0; k < dimension_; ++k) add_multiple(dimension_, B_(i, k), &F_(k, 0), v);
+    for (int k = 0; k < e.extent; ++k) add_multiple(dimension_, e.B[k], &F_(k, 0), v);
     for (int c = 0; c < frozen_count_; ++c) {
       add_multiple(dimension_, -dot(dimension_, &frozen_(c, 0), v), &frozen_(c, 0), v);
     }

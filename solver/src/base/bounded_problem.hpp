@@ -34,13 +34,13 @@ class BoundedProblem {
   BoundedProblem(int row_capacity, int motor_capacity, int dimension_capacity);
 
   void resize(int rows, int motors, int dimension) noexcept;
-  double* B(int row) noexcept { return &B_(row, 0); }
-  double* T(int motor) noexcept { return &T_(motor, 0); }
   double& d(int row) noexcept { return d_(row); }
-  /// After B(row): `unconstrained` is A_i M^-1 A_i', what the row would be without the ground; `twin` an
-  /// earlier row with the same B, or -1.
-  void set_row(int row, const Row& source, double unconstrained, int twin) noexcept;
-  void set_motor(int motor, double lowest, double highest) noexcept;
+  /// `unconstrained` is A_i M^-1 A_i', what the row would be without the ground.
+  void set_row(int row, const Row& source, const double* B, double unconstrained) noexcept;
+  /// A row with the same B as an earlier one.
+  void set_twin(int row, const Row& source, int twin) noexcept;
+  /// `T` stays where it is until the problem is solved.
+  void set_motor(int motor, const double* T, double lowest, double highest) noexcept;
 
   /// False when an active set met its iteration cap; all results stay inside their bounds.
   bool solve(int max_iterations) noexcept;
@@ -61,11 +61,17 @@ class BoundedProblem {
     double force = 0.0;         ///< f, fading included
     double fade = 1.0;
     double weight = infinity;
+    const double* B = nullptr;
+    int extent = 0;               ///< of B_i: the rest is 0
     double length = 0.0;          ///< |B_i|
+    bool reachable = false;       ///< the ground leaves some of it
     double reach = 0.0;           ///< |V_i|, at the present level
     double largest_force = -1.0;  ///< that the motors make along the row; negative before it is known
     int twin = -1;                ///< an earlier row with the same B
     int projected_at = -1;        ///< level of V_i and P_i
+    const double* V = nullptr;    ///< B_i F: the row in the metric that the levels above leave
+    const double* P = nullptr;    ///< B_i K: the motion that a unit force along the row makes
+    int reach_extent = 0;         ///< of V_i and P_i
     double above = 0.0;           ///< of a sum: B_S.p / |B_S|^2 of the levels above
     double offset = 0.0;          ///< how far beyond b its own level left a violated one-sided row
     bool blocked = false;         ///< the levels above leave it no freedom
@@ -75,12 +81,22 @@ class BoundedProblem {
   };
   using Vector = Eigen::VectorXd;
   /// B_i . p, the acceleration that p makes along row i.
-  double along(int i, const Vector& p) const noexcept { return dot(dimension_, &B_(i, 0), p.data()); }
+  double along(int i, const Vector& p) const noexcept {
+    const Entry& e = entries_[static_cast<std::size_t>(i)];
+    return dot(e.extent, e.B, p.data());
+  }
   /// p += P_i nu
-  void push(int i, double nu, Vector& p) const noexcept { add_multiple(dimension_, nu, &P_(i, 0), p.data()); }
+  void push(int i, double nu, Vector& p) const noexcept {
+    const Entry& e = entries_[static_cast<std::size_t>(i)];
+    add_multiple(e.reach_extent, nu, e.P, p.data());
+  }
   void copy(const Vector& from, Vector& to) const noexcept {
     std::copy_n(from.data(), dimension_, to.data());
   }
+  const double* B(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].B; }
+  const double* V(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].V; }
+  const double* P(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].P; }
+  const double* T(int motor) const noexcept { return T_[static_cast<std::size_t>(motor)]; }
   Entry& entry(int i) noexcept { return entries_[static_cast<std::size_t>(i)]; }
   bool is_one_sided(int i) const noexcept {
     const RowKind kind = entries_[static_cast<std::size_t>(i)].kind;
@@ -98,7 +114,9 @@ class BoundedProblem {
   Range bounds_at(int i, int level) const noexcept;
   double softness(int i) const noexcept;
   double held_softness(int i) const noexcept;
-  int extent_of(int motor) const noexcept;
+  int extent_of(const double* x) const noexcept;
+  void take_source(Entry& e, const Row& row) noexcept;
+  double largest_demand() noexcept;
   double largest_force(int row) noexcept;
   int next_level(int after) const noexcept;
 
@@ -163,9 +181,9 @@ class BoundedProblem {
   bool take_torque(int motor, double torque) noexcept;
 
   int rows_ = 0, motors_ = 0, dimension_ = 0, iterations_ = 0;
-  RowMajorMatrix B_, T_;
-  RowMajorMatrix V_;  ///< B F: rows in the metric that the levels above leave
-  RowMajorMatrix P_;  ///< B K: the motion that a unit force along a row makes
+  RowMajorMatrix B_;
+  RowMajorMatrix V_, P_;  ///< of the rows on which the levels above have frozen something
+  std::vector<const double*> T_;
   Vector d_, tau_, tau_lo_, tau_hi_, candidate_;
   Vector motor_length_;  ///< |T_j|
   std::vector<int> motor_extents_;

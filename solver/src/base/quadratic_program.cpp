@@ -40,7 +40,7 @@ QuadraticProgram::QuadraticProgram(int n, int d, int m)
   basics_.reserve(index(std::max(n, m)));
   superbasics_.reserve(index(std::max(n, m)));
   rows_.reserve(index(std::max(n, m)));
-  extents_.reserve(index(n));
+  extents_.resize(index(n));
 }
 
 void QuadraticProgram::resize(int variables, int curvature_rows, int equality_rows) noexcept {
@@ -48,9 +48,21 @@ void QuadraticProgram::resize(int variables, int curvature_rows, int equality_ro
   curvature_rows_ = curvature_rows;
   equality_rows_ = equality_rows;
   for (int k = 0; k < variables; ++k) {
-    std::fill_n(V(k), curvature_rows, 0.0);
-    std::fill_n(E(k), equality_rows, 0.0);
+    extents_[index(k)] = 0;
+    set_zero(equality_rows, E(k));
     R_(k) = g_(k) = z_(k) = 0.0;
+  }
+}
+
+void QuadraticProgram::set_V(int variable, int count, double scale, const double* x) noexcept {
+  extents_[index(variable)] = count;
+  scaled_copy(count, scale, x, &V_(variable, 0));
+}
+
+void QuadraticProgram::fill_columns() noexcept {
+  for (int k = 0; k < variables_; ++k) {
+    const int extent = extents_[index(k)];
+    std::fill_n(&V_(k, extent), curvature_rows_ - extent, 0.0);
   }
 }
 
@@ -59,6 +71,7 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
   for (int k = 0; k < variables_; ++k) largest_g_ = std::max(largest_g_, std::abs(g_(k)));
   constexpr int rounds = 20;
   if (equality_rows_ == 0 && pivot_blocks(std::min(max_iterations, rounds), iterations)) return true;
+  fill_columns();
   choose_basis();
   if (!factorise_basis()) return false;
   choose_superbasics();

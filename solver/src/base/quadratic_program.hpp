@@ -30,11 +30,12 @@ class QuadraticProgram {
  public:
   QuadraticProgram(int variable_capacity, int curvature_capacity, int equality_capacity);
 
-  /// Sizes the problem: `variables` columns; V has `curvature_rows` rows, E `equality_rows`. Everything is
-  /// zeroed, bounds are left to set.
+  /// Sizes the problem: `variables` columns; V has `curvature_rows` rows, E `equality_rows`. Everything is 0,
+  /// bounds are left to set.
   void resize(int variables, int curvature_rows, int equality_rows) noexcept;
 
-  double* V(int variable) noexcept { return &V_(variable, 0); }  ///< a column of V
+  /// A column of V: `scale` times the `count` numbers of `x`, the rest 0.
+  void set_V(int variable, int count, double scale, const double* x) noexcept;
   double* E(int variable) noexcept { return &E_(variable, 0); }  ///< a column of E
   double& R(int variable) noexcept { return R_(variable); }
   double& g(int variable) noexcept { return g_(variable); }
@@ -62,7 +63,8 @@ class QuadraticProgram {
   static constexpr int max_refinements = 4;
 
   bool pivot_blocks(int max_rounds, int& iterations) noexcept;
-  void look_at_columns() noexcept;
+  const double* V(int variable) const noexcept { return &V_(variable, 0); }
+  void fill_columns() noexcept;
   double hessian(int k, int l) const noexcept;
   void compute_image() noexcept;
   double pull_on(int k) noexcept;
@@ -114,7 +116,7 @@ class QuadraticProgram {
   int factorised_ = 0;            ///< rows of the blocks' factor that are those of the free variables
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
   Eigen::VectorXd image_;         ///< V z
-  std::vector<int> extents_;      ///< of the columns of V: the rest is 0
+  std::vector<int> extents_;      ///< of the columns of V: the rest is 0, and not written before it is needed
   std::vector<Place> place_;
   std::vector<char> stuck_;
   std::vector<int> basics_, superbasics_, rows_;

@@ -105,7 +105,7 @@ bool BoundedProblem::is_sum_at_bound(int i, double direction) noexcept {
 bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
   for (int k = 0; k < rows_; ++k) {
     if (!sum_counts(k, entry(i).level)) continue;
-    const double share = dot(dimension_, &B_(k, 0), &B_(i, 0));
+    const double share = dot(dimension_, B(k), B(i));
     if (std::abs(share) <= residual_tolerance * entry(k).length * entry(i).length) continue;
     if (is_sum_at_bound(k, wanted * share)) return true;
   }
@@ -119,7 +119,7 @@ bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
 double BoundedProblem::opposition(int k, int i, double wanted, double miss) noexcept {
   const Entry& e = entry(k);
   if (k == i || e.out) return 0.0;
-  const double share = dot(dimension_, &B_(i, 0), &B_(k, 0));
+  const double share = dot(dimension_, B(i), B(k));
   if (std::abs(share) <= residual_tolerance * entry(i).length * e.length) return 0.0;
   if (e.kind == RowKind::sum) {
     return e.level <= entry(i).level && is_sum_at_bound(k, wanted * share) ? miss : 0.0;

@@ -190,12 +190,12 @@ void BoundedProblem::pose_multiplier(int k, int level) noexcept {
 /// B_i.p + R nu + room = b. Without them a level whose torque runs out would trade a limit above for itself.
 void BoundedProblem::pose_motors(int n, int level) noexcept {
   for (int k = 0; k < n; ++k) {
-    add_multiple(dimension_, -units_[static_cast<std::size_t>(k)],
-                 &P_(posed_[static_cast<std::size_t>(k)], 0), program_.E(k));
+    add_multiple(dimension_, -units_[static_cast<std::size_t>(k)], P(posed_[static_cast<std::size_t>(k)]),
+                 program_.E(k));
   }
   for (int j = 0; j < motors_; ++j) {
     const double length = nonzero(motor_length_(j));
-    add_multiple(dimension_, 1.0 / length, &T_(j, 0), program_.E(n + j));
+    add_multiple(dimension_, 1.0 / length, T(j), program_.E(n + j));
     program_.lo(n + j) = tau_lo_(j) * length;
     program_.hi(n + j) = tau_hi_(j) * length;
     program_.z(n + j) = tau_(j) * length;
@@ -208,7 +208,7 @@ void BoundedProblem::pose_motors(int n, int level) noexcept {
     const double length = entry(i).reach;
     const int equation = dimension_ + limit;
     for (int other = 0; other < n; ++other) {
-      const double share = dot(dimension_, &V_(i, 0), &V_(posed_[static_cast<std::size_t>(other)], 0));
+      const double share = dot(dimension_, V(i), V(posed_[static_cast<std::size_t>(other)]));
       program_.E(other)[equation] = sign * share * units_[static_cast<std::size_t>(other)] / length;
     }
     program_.E(k)[equation] += sign * held_softness(i) / (length * length);
@@ -227,7 +227,7 @@ void BoundedProblem::pose_sums(int n, int level, int variable, int equation) noe
     if (!sum_counts(i, level)) continue;
     const double length = entry(i).length;
     for (int k = 0; k < n; ++k) {
-      const double share = dot(dimension_, &B_(i, 0), &P_(posed_[static_cast<std::size_t>(k)], 0)) / length;
+      const double share = dot(dimension_, B(i), P(posed_[static_cast<std::size_t>(k)])) / length;
       program_.E(k)[equation] = share * units_[static_cast<std::size_t>(k)];
     }
     program_.E(variable)[equation] = -1.0;
@@ -339,7 +339,7 @@ void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
     const int i = posed_[static_cast<std::size_t>(k)];
     const Entry& e = entry(i);
     const double unit = 1.0 / e.reach;
-    add_multiple(dimension_, unit, &V_(i, 0), program_.V(k));
+    program_.set_V(k, e.reach_extent, unit, V(i));
     program_.g(k) = (d_(i) + e.offset - along(i, fixed_)) * unit;
     program_.R(k) = (e.level == level ? softness(i) : held_softness(i)) * unit * unit;
     pose_multiplier(k, level);
@@ -384,7 +384,7 @@ bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
   for (int k = 0; k < n; ++k) {
     const int i = tied_[static_cast<std::size_t>(k)];
     const double length = entry(i).reach;
-    add_multiple(dimension_, 1.0 / length, &V_(i, 0), program_.E(k));
+    add_multiple(dimension_, 1.0 / length, V(i), program_.E(k));
     program_.R(k) = 1.0 / (length * length);
     program_.lo(k) = bounds_at(i, level).low * length;
     program_.hi(k) = bounds_at(i, level).high * length;
@@ -408,12 +408,12 @@ bool BoundedProblem::torques_for(const Vector& p) noexcept {
   for (const Sole& sole : soles_) {
     const double torque = rest[--open] * sole.inverse;
     if (!take_torque(sole.motor, torque)) return false;
-    add_multiple(open, -torque, &T_(sole.motor, 0), rest);
+    add_multiple(open, -torque, T(sole.motor), rest);
   }
   solve_lower(gram_, shared_dimensions_, rest);
   solve_upper(gram_, shared_dimensions_, rest);
   for (const int j : shared_motors_) {
-    if (!take_torque(j, dot(motor_extents_[static_cast<std::size_t>(j)], &T_(j, 0), rest))) return false;
+    if (!take_torque(j, dot(motor_extents_[static_cast<std::size_t>(j)], T(j), rest))) return false;
   }
   return true;
 }
