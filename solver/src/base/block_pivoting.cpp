@@ -23,12 +23,6 @@ constexpr double rounding_share = 0.01;  // of the gradient's tolerance: the slo
 constexpr double infinite_step = std::numeric_limits<double>::infinity();
 }  // namespace
 
-/// An entry of H = V'V + R.
-double QuadraticProgram::hessian(int k, int l) const noexcept {
-  const double entry = dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
-  return k == l ? entry + R_(k) : entry;
-}
-
 /// V z
 void QuadraticProgram::compute_image() noexcept {
   set_zero(curvature_rows_, image_.data());
@@ -79,10 +73,7 @@ void QuadraticProgram::factorise_free() noexcept {
 void QuadraticProgram::divide_by_free(double* x) const noexcept {
   const auto n = static_cast<int>(superbasics_.size());
   for (int s = 0; s < n; ++s) {
-    double rest = x[s];
-    const double* const line = &factor_(s, 0);
-    for (int t = 0; t < s; ++t) rest -= line[t] * x[t];
-    x[s] = rest * inverse_root_(s);
+    x[s] = (x[s] - dot(s, &factor_(s, 0), x)) * inverse_root_(s);
   }
   for (int s = n - 1; s >= 0; --s) {
     x[s] *= inverse_root_(s);

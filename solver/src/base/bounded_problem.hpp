@@ -164,6 +164,15 @@ class BoundedProblem {
   bool folded_limits_rest() noexcept;
   void unfold_limits() noexcept;
 
+  /// What a limit pushes; no row: none does, alone.
+  struct Push {
+    int row = -1;
+    double nu = 0.0;
+  };
+  Push push_alone(int first, int level, Vector& p) noexcept;
+  bool one_limit_settles(int level) noexcept;
+  void take_offsets(int level) noexcept;
+  double least_room(int i) noexcept;
   void take_out_limits(const Vector& p) noexcept;
   bool find_motion(int level, int max_iterations) noexcept;
   void pose_rows(int level) noexcept;

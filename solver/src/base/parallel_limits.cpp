@@ -36,7 +36,9 @@ bool BoundedProblem::is_firm_limit(int i, int level) noexcept {
 
 /// Of the firm limits along each axis those that leave the least room, by side, of this level and above.
 void BoundedProblem::find_nearest_limits(int level) noexcept {
-  for (const int i : posed_) nearest_[axis_of(i)] = {};
+  for (const int i : posed_) {
+    if (is_one_sided(i)) nearest_[axis_of(i)] = {};
+  }
   for (const int i : posed_) {
     if (!is_firm_limit(i, level)) continue;
     NearestLimits& nearest = nearest_[axis_of(i)];

@@ -20,9 +20,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "base/cholesky.hpp"
+#include "pairs.hpp"
 
 namespace zwang::solver {
 
@@ -65,7 +67,11 @@ class QuadraticProgram {
   bool pivot_blocks(int max_rounds, int& iterations) noexcept;
   const double* V(int variable) const noexcept { return &V_(variable, 0); }
   void fill_columns() noexcept;
-  double hessian(int k, int l) const noexcept;
+  /// An entry of H.
+  double hessian(int k, int l) const noexcept {
+    const double entry = dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
+    return k == l ? entry + R_(k) : entry;
+  }
   void compute_image() noexcept;
   double pull_on(int k) noexcept;
   void compute_gradient() noexcept;

@@ -69,9 +69,11 @@ bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
   bool exact = true;
   bool full = limits_above_hold(forces) && sums_hold(level, work_) && torques_for(work_);
   if (!full && static_cast<int>(posed_.size()) > forces && motors_reach_all_) {
-    exact = brake(forces, level, max_iterations);
+    const Push alone = push_alone(forces, level, work_);
+    if (alone.row < 0) exact = brake(forces, level, max_iterations);
     full = sums_hold(level, work_) && torques_for(work_);
-    if (full) take_limits(forces);
+    if (full && alone.row < 0) take_limits(forces);
+    if (full && alone.row >= 0) entry(alone.row).nu = alone.nu;
   }
   if (full) {
     for (int k = 0; k < forces; ++k) entry(posed_[static_cast<std::size_t>(k)]).phi = 1.0;
@@ -256,6 +258,11 @@ void BoundedProblem::pose_rows(int level) noexcept {
   pose_limits_above(level);
 }
 
+/// Of a limit that takes no share of what another one pushes.
+double BoundedProblem::least_room(int i) noexcept {
+  return 1e3 * rounding * (std::abs(d_(i)) + std::abs(entry(i).offset));
+}
+
 /// Whether the posed rows are limits that are content with the present motion: those that push stand exactly
 /// where they push to, the others have room. (At no room without a push the share between equals is open.)
 bool BoundedProblem::limits_rest(int level) noexcept {
@@ -266,12 +273,66 @@ bool BoundedProblem::limits_rest(int level) noexcept {
   }
   for (const int i : posed_) {
     const double room = room_of(i, p_);
-    const double tolerance = rounding * (std::abs(d_(i)) + std::abs(entry(i).offset));
-    const bool stands = entry(i).nu != 0.0 && entry(i).level < level && std::abs(room) <= tolerance;
-    const bool is_free = entry(i).nu == 0.0 && (pushes ? room > 1e3 * tolerance : room >= 0.0);
+    const bool stands =
+        entry(i).nu != 0.0 && entry(i).level < level && std::abs(room) <= 1e-3 * least_room(i);
+    const bool is_free = entry(i).nu == 0.0 && (pushes ? room > least_room(i) : room >= 0.0);
     if (!stands && !is_free) return false;
   }
   return true;
+}
+
+/// Where the posed rows from `first` on are limits at rest, and one of them alone stands in the way: what it
+/// pushes is added to p.
+BoundedProblem::Push BoundedProblem::push_alone(int first, int level, Vector& p) noexcept {
+  Push push;
+  double miss = 0.0;
+  for (std::size_t k = static_cast<std::size_t>(first); k < posed_.size(); ++k) {
+    const int i = posed_[k];
+    if (!is_one_sided(i) || entry(i).nu != 0.0) return {};
+    const double room = room_of(i, p);
+    if (room >= 0.0) continue;
+    if (push.row >= 0) return {};
+    push.row = i;
+    miss = entry(i).kind == RowKind::upper ? room : -room;
+  }
+  if (push.row < 0) return {};
+  const Entry& e = entry(push.row);
+  const double softness_here = e.level == level ? softness(push.row) : held_softness(push.row);
+  push.nu = miss / (e.reach * e.reach + softness_here);
+  const Range bounds = bounds_at(push.row, level);
+  if (push.nu < bounds.low || push.nu > bounds.high) return {};
+  this->push(push.row, push.nu, p);
+  for (std::size_t k = static_cast<std::size_t>(first); k < posed_.size(); ++k) {
+    const int i = posed_[k];
+    if (i == push.row || room_of(i, p) > least_room(i)) continue;
+    this->push(push.row, -push.nu, p);
+    return {};
+  }
+  return push;
+}
+
+/// The same for a level's motion.
+bool BoundedProblem::one_limit_settles(int level) noexcept {
+  if (!motors_reach_all_) return false;
+  copy(p_, work_);
+  const Push alone = push_alone(0, level, work_);
+  if (alone.row < 0 || !sums_hold(level, work_) || !torques_for(work_)) return false;
+  entry(alone.row).nu = alone.nu;
+  tau_.head(motors_) = candidate_.head(motors_);
+  torques_are_least_ = true;
+  copy(work_, p_);
+  take_offsets(level);
+  return true;
+}
+
+/// How far beyond b a level leaves its limits: a fading one rests where a . Xdd + R nu = b; what is beyond
+/// that it could not hold, or it was not worth it.
+void BoundedProblem::take_offsets(int level) noexcept {
+  for (const int i : posed_) {
+    if (!is_one_sided(i) || entry(i).level != level) continue;
+    const double miss = std::max(0.0, -room_of(i, p_));
+    entry(i).offset = entry(i).kind == RowKind::lower ? -miss : miss;
+  }
 }
 
 /// fixed_ = p without what the posed limits push.
@@ -296,7 +357,7 @@ bool BoundedProblem::find_motion(int level, int max_iterations) noexcept {
 /// they can.
 bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   pose_rows(level);
-  if (posed_.empty() || limits_rest(level)) return true;
+  if (posed_.empty() || limits_rest(level) || one_limit_settles(level)) return true;
   bool exact = true;
   bool possible = false;
   if (motors_reach_all_) {
@@ -324,12 +385,7 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   copy(work_, p_);
   exact = least_multipliers(level, max_iterations) && exact;
   unfold_limits();
-  for (const int i : posed_) {
-    // A fading row rests where a . Xdd + R nu = b; what is beyond that it could not hold, or it was not worth
-    // it.
-    if (is_one_sided(i) && entry(i).level == level) entry(i).offset = std::max(0.0, -room_of(i, p_));
-    if (entry(i).kind == RowKind::lower && entry(i).level == level) entry(i).offset *= -1.0;
-  }
+  take_offsets(level);
   return exact;
 }
 
