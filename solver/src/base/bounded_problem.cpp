@@ -56,10 +56,14 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       gram_(RowMajorMatrix::Zero(dimension, spaced(dimension))),
       entries_(static_cast<std::size_t>(rows)),
       solutions_(static_cast<std::size_t>(rows)),
+      last_on_axis_(static_cast<std::size_t>(rows)),
       nearest_(static_cast<std::size_t>(rows)),
       program_(2 * rows + motors, dimension, dimension + rows) {
   posed_.reserve(static_cast<std::size_t>(rows));
   folded_.reserve(static_cast<std::size_t>(rows));
+  awake_.reserve(static_cast<std::size_t>(rows));
+  idle_.reserve(static_cast<std::size_t>(rows));
+  sums_.reserve(static_cast<std::size_t>(rows));
   units_.reserve(static_cast<std::size_t>(rows));
   tied_.reserve(static_cast<std::size_t>(rows));
   soles_.reserve(static_cast<std::size_t>(motors));
@@ -127,33 +131,45 @@ void BoundedProblem::sum_torques(double* p) const noexcept {
     add_multiple(motor_extents_[static_cast<std::size_t>(j)], tau_(j), T(j), p);
 }
 
-/// The levels as a table of contents.
 bool BoundedProblem::solve(int max_iterations) noexcept {
   iterations_ = 0;
-  frozen_count_ = 0;
-  all_free_ = true;
-  p_.head(dimension_).setZero();
-  tau_.head(motors_).setZero();
-  torques_are_least_ = true;
-  bool exact = true;
   factorise_motors();
+  find_idle_limits();
   bound_rows();
-  for (int level = next_level(no_level), below = 0; level != no_level; level = below) {
-    below = next_level(level);
-    project_rows(level);
-    start_sums(level);
-    exact = solve_forces(level, max_iterations) && exact;
-    exact = solve_motion(level, max_iterations) && exact;
-    if (below != no_level) freeze(level);
+  bool exact = true;
+  if (!solve_levels(max_iterations, exact)) {
+    wake_idle_limits(next_level(no_level));
+    for (Entry& e : entries_) e.nu = e.phi = e.offset = 0.0;
+    solve_levels(max_iterations, exact);
   }
   exact = least_torques(max_iterations) && exact;
   report();
   return exact;
 }
 
+/// The levels as a table of contents. False when an idle limit would have had to push.
+bool BoundedProblem::solve_levels(int max_iterations, bool& exact) noexcept {
+  frozen_count_ = 0;
+  all_free_ = true;
+  p_.head(dimension_).setZero();
+  tau_.head(motors_).setZero();
+  torques_are_least_ = true;
+  exact = true;
+  for (int level = next_level(no_level), below = 0; level != no_level; level = below) {
+    below = next_level(level);
+    project_rows(level);
+    start_sums(level);
+    exact = solve_forces(level, max_iterations) && exact;
+    exact = solve_motion(level, max_iterations) && exact;
+    if (!idle_limits_rest(level)) return false;
+    if (below != no_level) freeze(level);
+  }
+  return true;
+}
+
 int BoundedProblem::next_level(int after) const noexcept {
   int next = no_level;
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : awake_) {
     const int level = entries_[static_cast<std::size_t>(i)].level;
     if (level > after && (next == no_level || level < next)) next = level;
   }
@@ -211,26 +227,28 @@ int BoundedProblem::extent_of(const double* x) const noexcept {
 /// No multiplier is unbounded: what the motors can do along a row bounds it, one-sided rows by a multiple of
 /// that.
 void BoundedProblem::bound_rows() noexcept {
-  for (int i = 0; i < rows_; ++i) {
-    Entry& e = entry(i);
-    if (e.out || e.kind == RowKind::sum) continue;
-    const bool is_bounded = e.kind == RowKind::force || (std::isfinite(e.lo) && std::isfinite(e.hi));
-    if (is_bounded && motors_drive_all_) {
-      e.lo *= e.fade;
-      e.hi *= e.fade;
-      continue;
-    }
-    double force = e.largest_force = largest_force(i);
-    if (force == 0.0) {
-      e.out = true;
-      e.status = RowStatus::unreachable;
-    }
-    if (e.out || e.kind == RowKind::force) continue;
-    if (!std::isfinite(force)) force = 1e7 * largest_demand() / e.length;
-    if (is_one_sided(i)) force *= authority(e.quantity);
-    e.lo = e.fade * (std::isfinite(e.lo) ? e.lo : -force);
-    e.hi = e.fade * (std::isfinite(e.hi) ? e.hi : force);
+  for (const int i : awake_) bound_row(i);
+}
+
+void BoundedProblem::bound_row(int i) noexcept {
+  Entry& e = entry(i);
+  if (e.out || e.kind == RowKind::sum) return;
+  const bool is_bounded = e.kind == RowKind::force || (std::isfinite(e.lo) && std::isfinite(e.hi));
+  if (is_bounded && motors_drive_all_) {
+    e.lo *= e.fade;
+    e.hi *= e.fade;
+    return;
   }
+  double force = e.largest_force = largest_force(i);
+  if (force == 0.0) {
+    e.out = true;
+    e.status = RowStatus::unreachable;
+  }
+  if (e.out || e.kind == RowKind::force) return;
+  if (!std::isfinite(force)) force = 1e7 * largest_demand() / e.length;
+  if (is_one_sided(i)) force *= authority(e.quantity);
+  e.lo = e.fade * (std::isfinite(e.lo) ? e.lo : -force);
+  e.hi = e.fade * (std::isfinite(e.hi) ? e.hi : force);
 }
 
 /// Of all rows, as an acceleration of the whitened axes.
@@ -259,7 +277,7 @@ double BoundedProblem::largest_force(int i) noexcept {
 
 /// V_i = F'B_i and P_i = F V_i = K B_i: the row as the levels above let it act.
 void BoundedProblem::project_rows(int level) noexcept {
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : awake_) {
     Entry& e = entry(i);
     const bool is_posed = e.level == level || (e.level < level && is_one_sided(i));
     if (e.out || !is_posed) continue;
@@ -324,7 +342,7 @@ double BoundedProblem::held_softness(int i) const noexcept {
 void BoundedProblem::freeze(int level) noexcept {
   double* const v = solved_.data();
   double* const Fv = work_.data();
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : awake_) {
     const Entry& e = entry(i);
     if (e.level != level || is_one_sided(i) || e.kind == RowKind::sum || !takes_part(i)) continue;
     if (frozen_count_ == dimension_) return;

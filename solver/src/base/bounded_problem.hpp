@@ -74,6 +74,8 @@ class BoundedProblem {
     int reach_extent = 0;         ///< of V_i and P_i
     double above = 0.0;           ///< of a sum: B_S.p / |B_S|^2 of the levels above
     double offset = 0.0;          ///< how far beyond b its own level left a violated one-sided row
+    int limit_before = -1;        ///< along the same axis
+    bool is_idle = false;         ///< a limit that has nothing to do beside another one of its level
     bool blocked = false;         ///< the levels above leave it no freedom
     bool out = false;             ///< unreachable: takes no part
     RowStatus status = RowStatus::held;
@@ -121,7 +123,13 @@ class BoundedProblem {
   int next_level(int after) const noexcept;
 
   void factorise_motors() noexcept;
+  void find_idle_limits() noexcept;
+  bool idle_limits_rest(int level) noexcept;
+  void wake_idle_limits(int level) noexcept;
+  void mark_idle_limits() noexcept;
   void bound_rows() noexcept;
+  void bound_row(int i) noexcept;
+  bool solve_levels(int max_iterations, bool& exact) noexcept;
   void project_rows(int level) noexcept;
   bool solve_forces(int level, int max_iterations) noexcept;
   bool solve_motion(int level, int max_iterations) noexcept;
@@ -218,6 +226,9 @@ class BoundedProblem {
   bool torques_are_least_ = false;  ///< tau_ are the least ones that make p_
   std::vector<Entry> entries_;
   std::vector<RowSolution> solutions_;
+  std::vector<int> awake_, idle_;  ///< all rows: those that take part, and limits without anything to do
+  std::vector<int> sums_;
+  std::vector<int> last_on_axis_;       ///< by axis: the last limit
   std::vector<int> posed_;              ///< row of each variable of the present stage
   std::vector<int> folded_;             ///< rows of the present stage that need not be solved for
   std::vector<NearestLimits> nearest_;  ///< by axis

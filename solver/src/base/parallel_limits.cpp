@@ -25,6 +25,54 @@ bool is_beyond(double one, double other, double side) {
 
 }  // namespace
 
+/// Of limits of one level and side, along one axis, all but the nearest; where the motors do not make every
+/// motion, none, as then even a limit that has room may have to push.
+void BoundedProblem::find_idle_limits() noexcept {
+  awake_.clear();
+  idle_.clear();
+  sums_.clear();
+  if (motors_reach_all_) mark_idle_limits();
+  for (int i = 0; i < rows_; ++i) {
+    (entry(i).is_idle ? idle_ : awake_).push_back(i);
+    if (entry(i).kind == RowKind::sum) sums_.push_back(i);
+  }
+}
+
+void BoundedProblem::mark_idle_limits() noexcept {
+  for (int i = 0; i < rows_; ++i) last_on_axis_[axis_of(i)] = -1;
+  for (int i = 0; i < rows_; ++i) {
+    Entry& e = entry(i);
+    if (!is_firm_limit(i, e.level) || e.out) continue;
+    const double side = e.kind == RowKind::upper ? 1.0 : -1.0;
+    int& last = last_on_axis_[axis_of(i)];
+    for (int k = last; k >= 0 && !e.is_idle; k = entry(k).limit_before) {
+      Entry& other = entry(k);
+      if (other.is_idle || other.kind != e.kind || other.level != e.level) continue;
+      e.is_idle = is_beyond(d_(i), d_(k), side);
+      other.is_idle = is_beyond(d_(k), d_(i), side);
+    }
+    e.limit_before = last;
+    last = i;
+  }
+}
+
+/// Whether the idle limits up to this level have room, as they do where the nearest ones hold.
+bool BoundedProblem::idle_limits_rest(int level) noexcept {
+  return std::all_of(idle_.begin(), idle_.end(), [this, level](int i) {
+    return entry(i).level > level || room_of(i, p_) > tie * std::abs(d_(i));
+  });
+}
+
+/// From this level on they take part.
+void BoundedProblem::wake_idle_limits(int level) noexcept {
+  if (idle_.empty()) return;
+  for (const int i : idle_) bound_row(i);
+  idle_.clear();
+  awake_.clear();
+  for (int i = 0; i < rows_; ++i) awake_.push_back(i);
+  project_rows(level);
+}
+
 /// The acceleration that a posed limit asks for.
 double BoundedProblem::target_of(int i) const noexcept {
   return d_(i) + entries_[static_cast<std::size_t>(i)].offset;

@@ -33,7 +33,8 @@ void BoundedProblem::report() noexcept {
     if (!std::isfinite(width)) continue;
     motor_at_limit = motor_at_limit || tau_(j) <= tau_lo_(j) + width || tau_(j) >= tau_hi_(j) - width;
   }
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : idle_) solutions_[static_cast<std::size_t>(i)] = {};
+  for (const int i : awake_) {
     const RowKind kind = entry(i).kind;
     solutions_[static_cast<std::size_t>(i)] = kind == RowKind::force ? report_force(i, motor_at_limit)
                                               : kind == RowKind::sum ? report_sum(i)

@@ -18,16 +18,16 @@ double nonzero(double length) {
 
 /// Adds the limits of the levels above `level`: they are posed again.
 void BoundedProblem::pose_limits_above(int level) noexcept {
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : awake_) {
     if (is_one_sided(i) && entry(i).level < level && takes_part(i)) posed_.push_back(i);
   }
 }
 
 /// From its level on a sum counts what is added to p.
 void BoundedProblem::start_sums(int level) noexcept {
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : sums_) {
     Entry& e = entry(i);
-    if (e.kind != RowKind::sum || e.level != level || e.out) continue;
+    if (e.level != level || e.out) continue;
     e.above = 0.0;
     e.above = sum_of(i, p_);
   }
@@ -44,7 +44,7 @@ double BoundedProblem::sum_of(int i, const Vector& p) noexcept {
 }
 
 bool BoundedProblem::sums_hold(int level, const Vector& p) noexcept {
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : sums_) {
     if (!sum_counts(i, level)) continue;
     const Entry& e = entry(i);
     const double sum = sum_of(i, p);
@@ -58,7 +58,7 @@ bool BoundedProblem::sums_hold(int level, const Vector& p) noexcept {
 bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
   posed_.clear();
   copy(p_, work_);
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : awake_) {
     if (entry(i).kind != RowKind::force || entry(i).level != level || !takes_part(i)) continue;
     posed_.push_back(i);
     push(i, entry(i).force, work_);
@@ -79,6 +79,9 @@ bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
     for (int k = 0; k < forces; ++k) entry(posed_[static_cast<std::size_t>(k)]).phi = 1.0;
     tau_.head(motors_) = candidate_.head(motors_);
   } else {
+    wake_idle_limits(level);
+    posed_.resize(static_cast<std::size_t>(forces));
+    pose_limits_above(level);
     exact = share_torque(forces, level, max_iterations) && exact;
   }
   torques_are_least_ = full;
@@ -171,7 +174,7 @@ void BoundedProblem::resize_program(int n, int level, int curvature_rows, bool w
     const int i = posed_[static_cast<std::size_t>(k)];
     if (is_one_sided(i) && entry(i).level < level) ++bounded;
   }
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : sums_) {
     if (sum_counts(i, level)) ++bounded;
   }
   program_.resize(n + motors_ + bounded, curvature_rows, dimension_ + bounded);
@@ -225,7 +228,7 @@ void BoundedProblem::pose_motors(int n, int level) noexcept {
 
 /// The variable sigma = |B_S| (the sum): B_S.p / |B_S| = sigma + what the levels above made of it.
 void BoundedProblem::pose_sums(int n, int level, int variable, int equation) noexcept {
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : sums_) {
     if (!sum_counts(i, level)) continue;
     const double length = entry(i).length;
     for (int k = 0; k < n; ++k) {
@@ -251,7 +254,7 @@ void BoundedProblem::take_motors(int first) noexcept {
 void BoundedProblem::pose_rows(int level) noexcept {
   posed_.clear();
   folded_.clear();
-  for (int i = 0; i < rows_; ++i) {
+  for (const int i : awake_) {
     const Entry& e = entry(i);
     if (e.level == level && is_motion(i) && takes_part(i)) posed_.push_back(i);
   }
@@ -372,7 +375,8 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   if (possible) {
     tau_.head(motors_) = candidate_.head(motors_);
   } else {
-    unfold_limits();
+    wake_idle_limits(level);
+    pose_rows(level);
     take_out_limits(p_);
     const int n = static_cast<int>(posed_.size());
     pose_motion(n, level, true);
