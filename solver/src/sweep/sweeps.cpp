@@ -1,6 +1,7 @@
 #include "sweep/sweeps.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace zwang::solver {
 
@@ -116,6 +117,17 @@ void write_bias(const Vector3& gravity, const ForceVector& f_ext, BodySweep& swe
   if (!f_ext.is_zero()) sweep.pA -= sweep.to_base(f_ext);
 }
 
+/// U = IA S and D = d + S'U; false where D is not positive.
+bool divide_by_inertia(double rotor_inertia, BodySweep& sweep) {
+  sweep.U.noalias() = sweep.IA * sweep.S;
+  const double D = rotor_inertia + sweep.S.dot(sweep.U);
+  if (!(D > 0.0)) return false;
+  sweep.D_inverse = 1.0 / D;
+  sweep.root_D = std::sqrt(D);
+  sweep.root_D_inverse = sweep.root_D * sweep.D_inverse;  // neither waits for the other
+  return true;
+}
+
 /// F with inertia^-1 = F'F, the inverse of the Cholesky factor G over the freedoms in `order`; line k of it
 /// is line (k + shift) % 6 of F. False when the inertia is not positive definite.
 bool invert_factor(const Matrix6& inertia, const int (&order)[6], int shift, Matrix6& F) {
@@ -159,7 +171,9 @@ constexpr int planar_first[6] = {2, 3, 4, 5, 0, 1};  // rz, x, y; z, rx, ry
 }  // namespace
 
 Sweeps::Sweeps(const Model& model, int row_capacity)
-    : bodies(static_cast<std::size_t>(model.body_count())), columns(model, row_capacity) {
+    : bodies(static_cast<std::size_t>(model.body_count())),
+      columns(model, row_capacity),
+      placed_at(Eigen::VectorXd::Constant(model.joint_count(), std::numeric_limits<double>::quiet_NaN())) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = model.bodies()[i];
     BodySweep& sweep = bodies[i];
@@ -190,8 +204,13 @@ void outward_kinematics(const Model& model, const State& state, const Vector6& b
   } else {
     base.v = state.base_twist.vector();
   }
+  const bool moved = sweeps.placed_at != state.q;
+  if (moved) {
+    sweeps.placed_at = state.q;
+    sweeps.is_articulated = false;
+  }
   // Ahead of the walk, where each body would wait for them: these do not wait for one another.
-  for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+  for (std::size_t i = 1; moved && i < sweeps.bodies.size(); ++i) {
     const double q = state.q(static_cast<Eigen::Index>(i) - 1);
     sweeps.bodies[i].cosine = std::cos(q);
     sweeps.bodies[i].sine = std::sin(q);
@@ -201,24 +220,26 @@ void outward_kinematics(const Model& model, const State& state, const Vector6& b
     const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
     BodySweep& sweep = sweeps.bodies[i];
     const auto j = static_cast<Eigen::Index>(i) - 1;
-    place(body, state.q(j), parent, sweep);
-    sweep.com = sweep.p;
-    sweep.com.noalias() += sweep.R * sweep.com_in_body;
-    turn_inertia(sweep);
+    if (moved) {
+      place(body, state.q(j), parent, sweep);
+      sweep.com = sweep.p;
+      sweep.com.noalias() += sweep.R * sweep.com_in_body;
+      turn_inertia(sweep);
+    }
     move(state.qd(j), parent, sweep);
   }
 }
 
 void load_bodies(const Model& model, const State& state, const Vector3& gravity, Sweeps& sweeps) noexcept {
   for (std::size_t i = model.has_fixed_base() ? 1 : 0; i < sweeps.bodies.size(); ++i) {
-    write_inertia(sweeps.bodies[i]);
+    if (!sweeps.is_articulated) write_inertia(sweeps.bodies[i]);
     write_bias(gravity, state.f_ext[i], sweeps.bodies[i]);
   }
 }
 
 void load_bodies_at_rest(Sweeps& sweeps) noexcept {
   for (BodySweep& sweep : sweeps.bodies) {
-    write_inertia(sweep);
+    if (!sweeps.is_articulated) write_inertia(sweep);
     sweep.pA.setZero();
     sweep.v.setZero();
     sweep.c.setZero();
@@ -233,26 +254,26 @@ bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& swee
     BodySweep& sweep = sweeps.bodies[i];
     BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
 
-    sweep.U.noalias() = sweep.IA * sweep.S;
-    const double D = body.joint.rotor_inertia + sweep.S.dot(sweep.U);
-    if (!(D > 0.0)) return false;
-    sweep.D_inverse = 1.0 / D;
-    sweep.root_D = std::sqrt(D);
-    sweep.root_D_inverse = sweep.root_D * sweep.D_inverse;  // neither waits for the other
+    if (!sweeps.is_articulated && !divide_by_inertia(body.joint.rotor_inertia, sweep)) return false;
     sweep.u = tau(static_cast<Eigen::Index>(i) - 1) - sweep.S.dot(sweep.pA);
     const Vector6 UD = sweep.U * sweep.D_inverse;
     if (base_moves || body.parent > 0) {
-      for (int k = 0; k < 6; ++k) parent.IA.col(k) += sweep.IA.col(k) - UD * sweep.U(k);
+      if (!sweeps.is_articulated) {
+        for (int k = 0; k < 6; ++k) parent.IA.col(k) += sweep.IA.col(k) - UD * sweep.U(k);
+      }
       parent.pA += sweep.pA + UD * sweep.u;
     }
     sweeps.columns.carry(i, sweep, UD);
   }
-  if (!base_moves) return true;
-  const BodySweep& base = sweeps.bodies.front();
-  const int held = sweeps.columns.held_dimensions();
-  if (!invert_factor(base.IA, held > 0 ? planar_first : all_freedoms, held, sweeps.base_inverse_factor))
-    return false;
-  sweeps.columns.finish(sweeps.base_inverse_factor, base.pA);
+  if (base_moves) {
+    const BodySweep& base = sweeps.bodies.front();
+    const int held = sweeps.columns.held_dimensions();
+    const auto& order = held > 0 ? planar_first : all_freedoms;
+    Matrix6& F = sweeps.base_inverse_factor;
+    if (!sweeps.is_articulated && !invert_factor(base.IA, order, held, F)) return false;
+    sweeps.columns.finish(F, base.pA);
+  }
+  sweeps.is_articulated = true;
   return true;
 }
 

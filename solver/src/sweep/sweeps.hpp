@@ -105,6 +105,10 @@ struct Sweeps {
 
   std::vector<BodySweep> bodies;
   Columns columns;
+  /// What depends on the joints' positions alone is kept while they stay, as from project_velocity to solve:
+  /// with these positions the poses, and when is_articulated the articulated inertias.
+  Eigen::VectorXd placed_at;
+  bool is_articulated = false;
   /// F, the inverse of a Cholesky factor: IA_0^-1 = F'F. Its lines are the base's dimensions; under wheels z,
   /// rx and ry come last in the factor, so that the lines of the others, which are free, are 0 there.
   Matrix6 base_inverse_factor;
