@@ -104,7 +104,7 @@ bool BoundedProblem::is_sum_at_bound(int i, double direction) noexcept {
 
 /// Whether row i, which wants more (`wanted` > 0) or less force, would take a sum beyond its bound.
 bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
-  for (int k = 0; k < rows_; ++k) {
+  for (const int k : sums_) {
     if (!sum_counts(k, entry(i).level)) continue;
     const double share = dot(dimension_, B(k), B(i));
     if (std::abs(share) <= residual_tolerance * entry(k).length * entry(i).length) continue;
