@@ -196,11 +196,11 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   while (!runner.finished()) {
     if (interrupted != 0 && !give_up) {
       give_up = Clock::now() + longest_signal_stop;
-      runner.guard().stop(runtime::StopReason::requested);
+      runner.guard().stop(runtime::EventCode::requested);
     }
     if (watchdog) {
       watchdog->feed();
-      if (watchdog->expired()) runner.guard().stop(runtime::StopReason::watchdog);
+      if (watchdog->expired()) runner.guard().stop(runtime::EventCode::watchdog);
     }
     if (give_up && Clock::now() > *give_up) break;
     // A sample that does not arrive is the guard's to count: it is shown the last one again.
@@ -217,7 +217,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     watch.look(plant.truth(), in_task);
   }
   report.outcome = to_string(runner.state());
-  if (runner.state() == runtime::RunState::stopped) report.because = to_string(runner.guard().reason());
+  if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
   if (status != PlantStatus::ok) {
     report.outcome = to_string(status);
     report.because = "the plant " + report.outcome;

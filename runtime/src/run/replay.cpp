@@ -65,13 +65,13 @@ double value_of(const json& record, const std::string& column) {
 }
 
 /// A stop that the runner did not come to by itself.
-StopReason outside_stop(const json& record) {
+EventCode outside_stop(const json& record) {
   const auto event = record.find("event");
-  if (event == record.end() || !event->is_string()) return StopReason::none;
+  if (event == record.end() || !event->is_string()) return EventCode::none;
   for (const EventCode code : {EventCode::requested, EventCode::watchdog, EventCode::plant}) {
-    if (*event == to_string(code)) return static_cast<StopReason>(code);
+    if (*event == to_string(code)) return code;
   }
-  return StopReason::none;
+  return EventCode::none;
 }
 
 bool same_bits(double a, double b) {
@@ -127,8 +127,7 @@ ReplayResult replay(const fs::path& log, const lang::Program& program, double pe
       if (!std::isnan(parameters[i]) && parameters[i] != runner.scheduler().parameters()[i])
         runner.set_parameter(program.parameters[i].name, parameters[i]);
     }
-    if (const StopReason reason = outside_stop(record); reason != StopReason::none)
-      runner.guard().stop(reason);
+    if (const EventCode reason = outside_stop(record); reason != EventCode::none) runner.guard().stop(reason);
     const Eigen::VectorXd& tau = runner.step(sensed);
     bool equal = true;
     for (std::size_t j = 0; j < torques.size(); ++j) {
