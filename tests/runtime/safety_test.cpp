@@ -61,8 +61,11 @@ struct Observed {
 Observed run_with(const Injected& injected, Runner& runner) {
   ScenePlantOptions options;
   options.simulation.start_yaw = 0.0;
-  options.faults.push_back(
-      lang::Fault{injected.kind, begin, injected.duration, injected.joint, injected.value, {}});
+  options.faults.push_back(lang::Fault{.kind = injected.kind,
+                                       .at = begin,
+                                       .duration = injected.duration,
+                                       .joint = injected.joint,
+                                       .value = injected.value});
   ScenePlant plant(program(), options);
   Sensed sensed(program().robot.model, program().signals.size());
   Observed observed;

@@ -117,7 +117,9 @@ CellResult run_cell(const lang::Scenario& scenario, const lang::ScenarioCell& ce
   const auto begin = Clock::now();
   if (!run.program) {
     result.outcome = "refused";
-    for (const std::string& code : codes) result.because += (result.because.empty() ? "" : ", ") + code;
+    for (const std::string& code : codes) {
+      if (code.front() == 'E') result.because += (result.because.empty() ? "" : ", ") + code;
+    }
   } else {
     try {
       simulate(scenario, cell, *run.program, watches, result);
