@@ -45,7 +45,7 @@ int main(int argc, char** argv) try {
     if (tick == 600)
       std::printf("push 300 N: %s\n", runner.set_parameter("push", 300.0) ? "taken" : "refused");
     if (tick == 1000) std::printf("the other task: %s\n", runner.swap_program(next) ? "runs" : "refused");
-    if (tick == 2000) runner.guard().stop(runtime::StopReason::requested);
+    if (tick == 2000) runner.guard().stop(runtime::EventCode::requested);
     if (plant.apply(runner.step(sensed)) != runtime::PlantStatus::ok) return 1;
   }
   for (const runtime::Event& event : runner.events()) {

@@ -4,6 +4,7 @@
 #include "diagnostic/wordings.hpp"
 #include "lower/lower.hpp"
 #include "robot/load_robot.hpp"
+#include "scene/faults.hpp"
 #include "scene/load_robots.hpp"
 #include "scene/load_scene.hpp"
 #include "spec/task_file.hpp"
@@ -64,7 +65,10 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
   std::optional<Robot> robot = load_robot_of(*file, path, root, options, invited.robot, diagnostics);
   std::optional<Scene> scene =
       invited.scene ? invited.scene : load_scene_of(*file, path, root, options, diagnostics);
-  if (scene && robot) check_rollers(*scene, *robot, diagnostics);
+  if (scene && robot) {
+    check_rollers(*scene, *robot, diagnostics);
+    check_faults_of(scene->faults, *robot, diagnostics);
+  }
   // Names of a section that could not be read would all be called unknown.
   if (file->is_incomplete) return std::nullopt;
   std::optional<CheckedFile> checked =
@@ -95,6 +99,7 @@ bool load_robots_of(Scene& scene, const fs::path& path, const fs::path& root, Di
       options.robot = resolve_path(robot.robot, path, root, robot.robot_span, diagnostics);
     const auto task = resolve_path(robot.task, path, root, robot.task_span, diagnostics);
     if (!task || (!robot.robot.empty() && !options.robot)) continue;
+    options.given = robot.parameters;
     if (options.robot) robot.robot_path = options.robot->string();
     if (auto program = load_phases(*task, options, false, diagnostics, invitation_of(robot, scene)))
       robot.program = std::make_shared<const Program>(std::move(*program));

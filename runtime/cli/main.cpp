@@ -195,6 +195,8 @@ int parse_and_do(int argc, char** argv) {
   run_verb->add_flag("--quiet", to_run.quiet, "no live line, only the report");
   run_verb->add_flag("--watchdog", to_run.watchdog,
                      "stop as a robot would when no tick happens for 200 ms of real time");
+  run_verb->add_flag("--watch", to_run.watch,
+                     "at the pace of real time; a task file that changes under way is loaded again");
   run_verb->add_option("--format", to_run.format, "human (default) or json: one object on stdout")
       ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
 

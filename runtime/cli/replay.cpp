@@ -1,6 +1,7 @@
 #include "zwang/runtime/replay.hpp"
 
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -11,6 +12,7 @@ namespace zwang::cli {
 
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 std::string exactly(double value) {
@@ -23,6 +25,29 @@ double period_of(const runtime::LogContext& context) {
   const auto period = context.facts.find("period [s]");
   if (period == context.facts.end()) throw Impossible("the log does not say its control period");
   return std::stod(period->second);
+}
+
+constexpr std::size_t most_parts = 1000;
+
+runtime::LogContents contents_of(const fs::path& log) {
+  require_file(log.string());
+  return runtime::read_log(log, [](double, std::string_view) {});
+}
+
+lang::Program program_of(const runtime::LogContext& context) {
+  lang::Diagnostics diagnostics;
+  std::optional<lang::Program> program = runtime::logged_program(context, diagnostics);
+  if (program) return std::move(*program);
+  std::ostringstream text;
+  lang::render_human(diagnostics, text);
+  throw Impossible("the logged files do not load any more:\n" + text.str());
+}
+
+/// The log in the same folder where this one began, after a reload.
+std::optional<fs::path> log_before(const fs::path& log, const runtime::LogContext& context) {
+  const auto before = context.facts.find("continues");
+  if (before == context.facts.end()) return std::nullopt;
+  return log.parent_path() / fs::path(before->second).filename();
 }
 
 ordered_json as_json(const std::string& file, const runtime::ReplayResult& result, bool whole,
@@ -55,16 +80,16 @@ std::string as_text(const std::string& file, const runtime::ReplayResult& result
 }  // namespace
 
 int replay(const ReplayArguments& arguments) {
-  require_file(arguments.file);
-  const runtime::LogContents log = runtime::read_log(arguments.file, [](double, std::string_view) {});
-  lang::Diagnostics diagnostics;
-  const std::optional<lang::Program> program = runtime::logged_program(log.context, diagnostics);
-  if (!program) {
-    std::ostringstream text;
-    lang::render_human(diagnostics, text);
-    throw Impossible("the logged files do not load any more:\n" + text.str());
+  const runtime::LogContents log = contents_of(arguments.file);
+  std::vector<runtime::ReplayPart> parts{{arguments.file, program_of(log.context)}};
+  // A log that goes on where another one ends, and so on back to the begin of the run.
+  for (std::optional<fs::path> before = log_before(arguments.file, log.context); before;) {
+    if (parts.size() > most_parts) throw Impossible("its logs go on from one another without a begin");
+    const runtime::LogContext context = contents_of(*before).context;
+    parts.insert(parts.begin(), {*before, program_of(context)});
+    before = log_before(*before, context);
   }
-  const runtime::ReplayResult result = runtime::replay(arguments.file, *program, period_of(log.context));
+  const runtime::ReplayResult result = runtime::replay(parts, period_of(log.context));
   const bool whole = log.closed && log.damage.empty();
   const auto version = log.context.facts.find("zwang");
   const std::string by = version == log.context.facts.end() ? "?" : version->second;

@@ -8,6 +8,8 @@
 #include <sstream>
 
 #include "output.hpp"
+#include "reload.hpp"
+#include "run_log.hpp"
 #include "run_report.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/program.hpp"
@@ -23,7 +25,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using runtime::PlantStatus;
 
-constexpr double period = 1e-3;  // [s]
+constexpr double period = control_period;
 constexpr auto terminal_refresh = std::chrono::milliseconds(50);
 constexpr double line_every = 1.0;  // [s] of the run, where there is no terminal
 constexpr auto longest_signal_stop = std::chrono::milliseconds(300);
@@ -41,11 +43,6 @@ void catch_signals() {
   std::signal(SIGTERM, on_signal);
 }
 
-std::optional<lang::Program> load(const RunArguments& arguments, lang::Diagnostics& diagnostics) {
-  require_file(arguments.file);
-  return lang::load(arguments.file, arguments.overrides.load_options(), diagnostics);
-}
-
 void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Format format) {
   if (refused && format == Format::json) {
     const nlohmann::ordered_json whole = {
@@ -59,84 +56,8 @@ void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Form
   print_error(text.str());
 }
 
-/// A folder of its own for the run: the given one, else the first free `runs/<task>-NNN`.
-fs::path make_folder(const RunArguments& arguments) {
-  std::error_code error;
-  if (arguments.log) {
-    fs::create_directories(*arguments.log, error);
-    if (!fs::is_directory(*arguments.log))
-      throw Impossible(*arguments.log + ": cannot make this folder: " + error.message());
-    return *arguments.log;
-  }
-  fs::create_directories("runs", error);
-  const std::string name = fs::path(arguments.file).stem().string();
-  for (int i = 1; i < 1'000'000 && !error; ++i) {
-    char number[16];
-    std::snprintf(number, sizeof number, "-%03d", i);
-    fs::path folder = fs::path("runs") / (name + number);
-    // True for the one that made it: two runs at once do not share a folder.
-    if (fs::create_directory(folder, error)) return folder;
-  }
-  throw Impossible("runs: cannot make a folder for the log: " + error.message());
-}
-
-std::string exactly(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
-/// Of one of the scene's robots: its task file alone says what it does.
-runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene& scene,
-                               const lang::SceneRobot& robot, const lang::Diagnostics& diagnostics) {
-  runtime::LogContext context;
-  context.sources = diagnostics.sources();
-  context.facts["zwang"] = ZWANG_VERSION;
-  context.facts["task"] = robot.program->path;
-  context.facts["scene"] = scene.path;
-  if (!robot.robot_path.empty()) context.facts["robot"] = robot.robot_path;
-  context.facts["partner"] = robot.name;
-  context.facts["seed"] = std::to_string(arguments.seed);
-  context.facts["period [s]"] = exactly(period);
-  for (const lang::Parameter& p : robot.program->parameters)
-    context.facts["params." + p.name] = exactly(p.value);
-  return context;
-}
-
-/// A log of `runner` in the folder, as MCAP and as CSV.
-std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const fs::path& folder,
-                                          const std::string& name, runtime::LogContext context) {
-  std::vector<std::unique_ptr<runtime::LogSink>> sinks;
-  sinks.push_back(runtime::mcap_sink(folder / (name + ".mcap"), std::move(context)));
-  sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
-  auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
-  if (!recorder->status().error.empty()) throw Impossible(recorder->status().error);
-  runner.record_to(recorder.get());
-  return recorder;
-}
-
-/// The files that were read and everything that the command line changed: the same run again needs no more.
-runtime::LogContext context_of(const RunArguments& arguments, const lang::Program& program,
-                               const lang::Diagnostics& diagnostics) {
-  runtime::LogContext context;
-  context.sources = diagnostics.sources();
-  std::map<std::string, std::string>& facts = context.facts;
-  facts["zwang"] = ZWANG_VERSION;
-  facts["task"] = arguments.file;
-  if (arguments.overrides.robot) facts["robot"] = *arguments.overrides.robot;
-  if (arguments.overrides.scene) facts["scene"] = *arguments.overrides.scene;
-  facts["seed"] = std::to_string(arguments.seed);
-  facts["period [s]"] = exactly(period);
-  if (arguments.start_yaw) facts["start_yaw [rad]"] = exactly(*arguments.start_yaw);
-  if (arguments.start_at) {
-    facts["start_at [m]"] = exactly((*arguments.start_at)[0]) + ", " + exactly((*arguments.start_at)[1]);
-  }
-  for (const lang::Parameter& p : program.parameters) facts["params." + p.name] = exactly(p.value);
-  return context;
-}
-
 std::vector<runtime::Column> truth_columns(const lang::Scene& scene) {
-  std::vector<runtime::Column> columns = {
-      {"truth.base.x", "m", {}}, {"truth.base.y", "m", {}}, {"truth.base.yaw", "rad", {}}};
+  std::vector<runtime::Column> columns = runtime::base_truth_columns();
   for (const lang::SceneObject& o : scene.objects) columns.push_back({"truth." + o.name + ".force", "N", {}});
   for (const lang::SceneRobot& r : scene.robots) columns.push_back({"truth." + r.name + ".force", "N", {}});
   return columns;
@@ -179,11 +100,10 @@ class Live {
   Clock::time_point last_;
 };
 
-using Recorders = std::vector<std::unique_ptr<runtime::Recorder>>;
-
 /// The run itself; what it leaves is in the arguments and in the report.
 void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorders& recorders,
-             const lang::Program& program, bool with_watchdog, Live& live, RunReport& report) {
+             const lang::Program& program, bool with_watchdog, Reloads* reloads, Live& live,
+             RunReport& report) {
   runtime::Sensed sensed(program.robot.model, program.signals.size());
   std::vector<double> truth(3 + program.scene->objects.size() + program.scene->robots.size());
   TruthWatch watch(plant.truth(), period);
@@ -196,17 +116,18 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   while (!runner.finished()) {
     if (interrupted != 0 && !give_up) {
       give_up = Clock::now() + longest_signal_stop;
-      runner.guard().stop(runtime::StopReason::requested);
+      runner.guard().stop(runtime::EventCode::requested);
     }
     if (watchdog) {
       watchdog->feed();
-      if (watchdog->expired()) runner.guard().stop(runtime::StopReason::watchdog);
+      if (watchdog->expired()) runner.guard().stop(runtime::EventCode::watchdog);
     }
     if (give_up && Clock::now() > *give_up) break;
     // A sample that does not arrive is the guard's to count: it is shown the last one again.
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
     put_truth(plant.truth(), truth);
+    if (reloads != nullptr) reloads->look(runner, sensed.time);
     for (const auto& recorder : recorders) recorder->wait_for_room();
     const Eigen::VectorXd& tau = runner.step(sensed, truth);
     const bool in_task = runner.state() == runtime::RunState::running;
@@ -217,7 +138,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     watch.look(plant.truth(), in_task);
   }
   report.outcome = to_string(runner.state());
-  if (runner.state() == runtime::RunState::stopped) report.because = to_string(runner.guard().reason());
+  if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
   if (status != PlantStatus::ok) {
     report.outcome = to_string(status);
     report.because = "the plant " + report.outcome;
@@ -245,7 +166,9 @@ std::string headline(const RunArguments& arguments, const lang::Program& program
 
 int run(const RunArguments& arguments) {
   lang::Diagnostics diagnostics;
-  const std::optional<lang::Program> program = load(arguments, diagnostics);
+  require_file(arguments.file);
+  const std::optional<lang::Program> program =
+      lang::load(arguments.file, arguments.overrides.load_options(), diagnostics);
   const bool refused = !program || diagnostics.has_errors();
   report_diagnostics(diagnostics, refused, arguments.format);
   if (refused) return exit_bad;
@@ -263,7 +186,7 @@ int run(const RunArguments& arguments) {
   settings.extra_columns = truth_columns(*program->scene);
   runtime::Runner runner(*program, settings);
 
-  const fs::path folder = make_folder(arguments);
+  const fs::path folder = make_log_folder(arguments);
   Recorders recorders;
   recorders.push_back(record(runner, folder, "log", context_of(arguments, *program, diagnostics)));
   for (std::size_t i = 0; i < plant.partners().size(); ++i) {
@@ -280,7 +203,11 @@ int run(const RunArguments& arguments) {
   report.log = (folder / "log.csv").string();
   catch_signals();
   const auto begin = Clock::now();
-  control(plant, runner, recorders, *program, arguments.watchdog, live, report);
+  std::optional<Reloads> reloads;
+  if (arguments.watch) reloads.emplace(arguments, folder, *program, diagnostics, settings, recorders);
+  control(plant, runner, recorders, *program, arguments.watchdog, reloads ? &*reloads : nullptr, live,
+          report);
+  reloads.reset();
   report.wall_time = std::chrono::duration<double>(Clock::now() - begin).count();
   for (const auto& recorder : recorders) recorder->close();
   live.end();

@@ -59,7 +59,7 @@ struct Job {
 std::vector<std::string> codes_of(const lang::Diagnostics& diagnostics) {
   std::vector<std::string> codes;
   for (const lang::Diagnostic& d : diagnostics.sorted()) {
-    if (d.severity == lang::Severity::error && std::find(codes.begin(), codes.end(), d.code) == codes.end())
+    if (d.severity != lang::Severity::note && std::find(codes.begin(), codes.end(), d.code) == codes.end())
       codes.push_back(d.code);
   }
   return codes;

@@ -84,6 +84,7 @@ struct RunArguments {
   std::uint64_t seed = 0;
   bool quiet = false;
   bool watchdog = false;
+  bool watch = false;  ///< files that change are loaded again
   Format format = Format::human;
   std::optional<double> start_yaw;                ///< [rad]
   std::optional<std::array<double, 2>> start_at;  ///< [m]

@@ -11,6 +11,11 @@
 #include "targets.hpp"
 
 namespace zwang::fuzz {
+
+void PrintTo(const Target& target, std::ostream* out) {
+  *out << target.name;
+}
+
 namespace {
 
 namespace fs = std::filesystem;

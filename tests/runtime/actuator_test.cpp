@@ -348,7 +348,7 @@ TEST(ProtectiveStop, HoldsAnArmWhereItWas) {
         const bool of_arm = program.robot.model.joint(j).name.rfind("arm", 0) == 0;
         if (of_arm) worst = std::max(worst, std::abs(sensed.state.q(j) - start(j)));
       }
-      if (i == 2 && !blind) runner.guard().stop(StopReason::requested);
+      if (i == 2 && !blind) runner.guard().stop(EventCode::requested);
       if (i >= 2 && blind) sensed.state.qd(0) = std::nan("");
       const Eigen::VectorXd& tau = runner.step(sensed);
       for (int j = 0; j < joints; ++j) {

@@ -68,6 +68,40 @@ TEST_F(FromOutside, ASignalEndsTheRunWithinHalfASecond) {
   }
 }
 
+/// What somebody does with an editor: a slip first, then what was meant. The run goes on with the old file,
+/// then with the new one, and both of its logs replay.
+TEST_F(FromOutside, ATaskFileThatChangesIsReloadedAndReplays) {
+  const pid_t child = start_endless({"--watch"});
+  const std::string endless = read(folder_ / "task.yaml");
+  const auto said = [&](const std::string& words) {
+    for (int i = 0; i < 100; ++i) {
+      if (read(folder_ / "err").find(words) != std::string::npos) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return false;
+  };
+  write("task.yaml", endless.substr(0, endless.size() / 2));
+  EXPECT_TRUE(said("was not reloaded, the old program goes on: it has errors")) << read(folder_ / "err");
+  std::string other = endless;
+  other.replace(other.find("x: {velocity: 0 m/s}"), 20, "x: {velocity: 0.05 m/s}");
+  other.replace(other.find("100000 s, goto: failed"), 22, "0.5 s, goto: done");
+  write("task.yaml", other);
+  EXPECT_TRUE(said("reloaded at")) << read(folder_ / "err");
+  const Result r = finish(child);
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  EXPECT_EQ(json::parse(r.out)["outcome"], "done");
+  json whole;
+  for (const char* log : {"log/log.mcap", "log/log-reload-1.mcap"}) {
+    const Result again = zwang({"replay", log, "--format", "json"});
+    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    const json replayed = json::parse(again.out);
+    EXPECT_EQ(replayed["equal"], replayed["records"]) << log;
+    EXPECT_TRUE(whole.is_null() || replayed["records"] > whole["records"]) << "both of them";
+    whole = replayed;
+  }
+  std::printf("reloaded: %d records of both logs, all equal\n", whole["records"].get<int>());
+}
+
 TEST_F(FromOutside, AThreadThatIsBlockedFor200MillisecondsStops) {
   const pid_t child = start_endless({"--watchdog"});
   kill(child, SIGSTOP);

@@ -58,7 +58,7 @@ TEST(Guard, RefusesEveryNumberThatIsNotFiniteAndStopsInTheSameTick) {
       entries[e](bench.sensed) = bad;
       EXPECT_EQ(bench.guard.admit(bench.sensed), SampleStatus::not_finite) << e;
       EXPECT_TRUE(bench.guard.stopped());
-      EXPECT_EQ(bench.guard.reason(), StopReason::bad_sample);
+      EXPECT_EQ(bench.guard.reason(), EventCode::bad_sample);
       EXPECT_EQ(bench.guard.counters().refused_values, 1u);
       EXPECT_EQ(bench.guard.output_blind(bench.tau), GuardStatus::stopped);
       EXPECT_TRUE(bench.tau.isZero(0.0)) << e;
@@ -74,7 +74,7 @@ TEST(Guard, ATorqueThatIsNotFiniteStopsAndIsNeverClampedIntoFullTorque) {
       bench.wanted(j) = bad;
       EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::stopped);
       EXPECT_TRUE(bench.tau.isZero(0.0)) << "the wheels stand, so the brake has nothing to do";
-      EXPECT_EQ(bench.guard.reason(), StopReason::bad_torque);
+      EXPECT_EQ(bench.guard.reason(), EventCode::bad_torque);
     }
   }
 }
@@ -144,7 +144,7 @@ TEST(Guard, AFewLostTicksGoOnTwentyStop) {
   EXPECT_EQ(few.admit_after(20 * period), SampleStatus::good);
   EXPECT_FALSE(few.guard.stopped());
   EXPECT_EQ(few.admit_after(21 * period), SampleStatus::good);
-  EXPECT_EQ(few.guard.reason(), StopReason::lost_ticks);
+  EXPECT_EQ(few.guard.reason(), EventCode::lost_ticks);
 
   Bench frozen;
   ASSERT_EQ(frozen.admit_after(0.0), SampleStatus::good);
@@ -152,15 +152,15 @@ TEST(Guard, AFewLostTicksGoOnTwentyStop) {
     EXPECT_FALSE(frozen.guard.stopped()) << i;
     EXPECT_EQ(frozen.admit_after(0.0), SampleStatus::bad_clock);
   }
-  EXPECT_EQ(frozen.guard.reason(), StopReason::lost_ticks);
+  EXPECT_EQ(frozen.guard.reason(), EventCode::lost_ticks);
 }
 
 TEST(Guard, TheStopIsLatchedUntilAnExplicitReset) {
   Bench bench;
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);
-  bench.guard.stop(StopReason::requested);
-  bench.guard.stop(StopReason::plant);
-  EXPECT_EQ(bench.guard.reason(), StopReason::requested);
+  bench.guard.stop(EventCode::requested);
+  bench.guard.stop(EventCode::plant);
+  EXPECT_EQ(bench.guard.reason(), EventCode::requested);
   bench.wanted.setConstant(5.0);
   for (int i = 0; i < 1000; ++i) {
     ASSERT_EQ(bench.admit_after(period), SampleStatus::good);
@@ -176,7 +176,7 @@ TEST(Guard, TheStopBrakesAMovingBaseWithinItsForceToRest) {
   Bench bench;
   PlanarBase base;
   base.V = {0.5, 0.2, 0.0};
-  bench.guard.stop(StopReason::requested);
+  bench.guard.stop(EventCode::requested);
   double last_speed = base.V.norm();
   while (base.time < 2.0) {
     base.sense(bench.sensed);

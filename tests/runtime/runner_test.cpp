@@ -163,7 +163,7 @@ TEST(Runner, ABadSampleStopsTheRunAndTheRestBrakes) {
   loop.run();
   EXPECT_TRUE(loop.runner.finished());
   EXPECT_LT(loop.base.V.norm(), 0.02);
-  EXPECT_EQ(loop.runner.guard().reason(), StopReason::bad_sample);
+  EXPECT_EQ(loop.runner.guard().reason(), EventCode::bad_sample);
 }
 
 std::string log_of_a_run(const std::filesystem::path& path) {

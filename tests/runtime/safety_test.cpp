@@ -30,8 +30,8 @@ struct Injected {
   double duration;  // [s]
   const char* joint = "";
   double value = 0.0;
-  StopReason reason = StopReason::none;  ///< none: the run goes on
-  int deadline = 0;                      ///< ticks from the begin to the stop
+  EventCode reason = EventCode::none;  ///< none: the run goes on
+  int deadline = 0;                    ///< ticks from the begin to the stop
 };
 
 void PrintTo(const Injected& injected, std::ostream* out) {
@@ -61,8 +61,11 @@ struct Observed {
 Observed run_with(const Injected& injected, Runner& runner) {
   ScenePlantOptions options;
   options.simulation.start_yaw = 0.0;
-  options.faults.push_back(
-      lang::Fault{injected.kind, begin, injected.duration, injected.joint, injected.value, {}});
+  options.faults.push_back(lang::Fault{.kind = injected.kind,
+                                       .at = begin,
+                                       .duration = injected.duration,
+                                       .joint = injected.joint,
+                                       .value = injected.value});
   ScenePlant plant(program(), options);
   Sensed sensed(program().robot.model, program().signals.size());
   Observed observed;
@@ -103,12 +106,12 @@ TEST_P(SafetyUnder, AFault) {
   Runner runner(program(), {.period = period});
   const Observed observed = run_with(injected, runner);
   std::printf("%s: %s after %d ticks, torque at most %.0f %% of its limit, %.1f mm moved after rest\n",
-              injected.name, to_string(runner.guard().reason()), observed.ticks_to_stop,
+              injected.name, describe(runner.guard().reason()), observed.ticks_to_stop,
               100.0 * observed.worst_share, 1e3 * observed.moved_after_rest);
   EXPECT_TRUE(observed.always_finite);
   EXPECT_LE(observed.worst_share, 1.0 + 1e-12);
-  EXPECT_EQ(runner.guard().reason(), injected.reason) << to_string(runner.guard().reason());
-  if (injected.reason == StopReason::none) {
+  EXPECT_EQ(runner.guard().reason(), injected.reason) << describe(runner.guard().reason());
+  if (injected.reason == EventCode::none) {
     EXPECT_EQ(runner.state(), RunState::running);
     return;
   }
@@ -121,14 +124,14 @@ TEST_P(SafetyUnder, AFault) {
 INSTANTIATE_TEST_SUITE_P(
     Injected, SafetyUnder,
     testing::Values(
-        Injected{"nan for one sample", FaultKind::samples_nan, 0.001, "", 0.0, StopReason::bad_sample, 0},
+        Injected{"nan for one sample", FaultKind::samples_nan, 0.001, "", 0.0, EventCode::bad_sample, 0},
         Injected{"4 samples lost", FaultKind::samples_lost, 0.004},
         Injected{"19 samples lost", FaultKind::samples_lost, 0.019},
-        Injected{"100 samples lost", FaultKind::samples_lost, 0.100, "", 0.0, StopReason::lost_ticks, 20},
+        Injected{"100 samples lost", FaultKind::samples_lost, 0.100, "", 0.0, EventCode::lost_ticks, 20},
         Injected{"frozen for 10 ms", FaultKind::samples_frozen, 0.010},
-        Injected{"frozen for 200 ms", FaultKind::samples_frozen, 0.200, "", 0.0, StopReason::frozen, 20},
+        Injected{"frozen for 200 ms", FaultKind::samples_frozen, 0.200, "", 0.0, EventCode::frozen, 20},
         Injected{"clock backwards for 5 ms", FaultKind::clock_backwards, 0.005},
-        Injected{"clock backwards", FaultKind::clock_backwards, 0.100, "", 0.0, StopReason::lost_ticks, 20},
+        Injected{"clock backwards", FaultKind::clock_backwards, 0.100, "", 0.0, EventCode::lost_ticks, 20},
         Injected{"floor of ice for 1 s", FaultKind::floor_friction, 1.0, "", 0.05},
         Injected{"23 kg of payload", FaultKind::payload, 10.0, "", 23.0}),
     [](const auto& tested) {

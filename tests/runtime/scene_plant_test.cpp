@@ -263,7 +263,8 @@ signals: {latch: {latch: dock}}
 ScenePlantOptions with_fault(lang::FaultKind kind, double at, double duration, const char* joint = "",
                              double value = 0.0) {
   ScenePlantOptions options;
-  options.faults.push_back(lang::Fault{kind, at, duration, joint, value, {}});
+  options.faults.push_back(
+      lang::Fault{.kind = kind, .at = at, .duration = duration, .joint = joint, .value = value});
   return options;
 }
 

@@ -51,6 +51,29 @@ TEST(TwoRobots, WhatOneLosesInAHitTheOtherGains) {
   EXPECT_NEAR(impulse, mass * (before - first), 0.01 * impulse);
 }
 
+// A hit without damping: v2 = 2 m1 / (m1 + m2) v1. The payload is the partner's alone.
+TEST(TwoRobots, APayloadIsThePartnersOwn) {
+  const double payload = 30.0;
+  const lang::Program program = program_with(R"(robots:
+  partner: {task: task.yaml, at: [1.2 m, 0 m], stiffness: 100 kN/m, damping: 0}
+faults:
+  - {at: 0 s, robot: partner, payload: 30 kg}
+)");
+  ScenePlant plant(program);
+  const double push = 4.0 * 2.0 / program.robot.model.wheels().front().radius;
+  const Eigen::VectorXd torque = Eigen::VectorXd::Constant(4, 2.0), none = Eigen::VectorXd::Zero(4);
+  double mass = 0.0, before = 0.0;
+  for (int i = 0; i < 1500; ++i) {
+    ASSERT_EQ(plant.apply(i < 300 ? torque : none), PlantStatus::ok);
+    if (i == 200) mass = push / plant.truth().acceleration.x();
+    if (!plant.truth().objects[0].touched) before = plant.truth().velocity.x();
+  }
+  ASSERT_TRUE(plant.truth().objects[0].touched);
+  const double expected = 2.0 * mass / (2.0 * mass + payload) * before;
+  EXPECT_NEAR(plant.truth().robots[0].velocity.x(), expected, 0.03 * before);
+  EXPECT_GT(before - expected, 0.2 * before) << "the payload tells";
+}
+
 TEST(TwoRobots, NobodyStartsInsideAnother) {
   const lang::Program program =
       program_with("robots: {partner: {task: task.yaml, at: [0.6 m, 0 m], yaw: 90 deg}}\n");

@@ -57,15 +57,19 @@ ParameterSymbol check_parameter(CheckContext& context, const ParameterText& text
   // Which of the two is wrong is not known, nor what the parameter measures then.
   symbol.is_bad = context.diagnostics.error_count() > errors_before;
   const auto& range = symbol.parameter.range;
-  const bool is_overridden = context.options.parameters.contains(text.name.text);
+  const auto& given = context.options.given;
+  const bool is_overridden = context.options.parameters.contains(text.name.text) ||
+                             std::any_of(given.begin(), given.end(), [&](const GivenParameter& other) {
+                               return other.name == text.name.text;
+                             });
   if (range && !is_overridden && (quantity.value < range->low || quantity.value > range->high)) {
     context.diagnostics.add(wording::outside_range(text.value.span, symbol.parameter, quantity.value));
   }
   return symbol;
 }
 
-/// `-p name=value` in the place of the file's own value.
-void apply_override(CheckContext& context, const std::string& name, const std::string& text) {
+/// `-p name=value`, as if it stood in a file.
+GivenParameter from_command_line(CheckContext& context, const std::string& name, const std::string& text) {
   const std::string written = name + "=" + text;
   const int source = context.diagnostics.add_source({"-p", written});
   const auto column = [&](std::size_t offset) {
@@ -73,24 +77,30 @@ void apply_override(CheckContext& context, const std::string& name, const std::s
   };
   const Span name_span{source, {1, 1}, {1, column(name.size())}};
   const Span value_span{source, {1, column(name.size() + 1)}, {1, column(written.size())}};
+  return {name, text, name_span, value_span};
+}
+
+/// In the place of the file's own value.
+void apply_override(CheckContext& context, const GivenParameter& given) {
+  const std::string& name = given.name;
   ParameterSymbol* symbol = context.symbols.find_parameter(name);
   if (symbol == nullptr) {
-    context.diagnostics.add(wording::unknown_name(name_span, "parameter", name,
+    context.diagnostics.add(wording::unknown_name(given.name_span, "parameter", name,
                                                   nearest(name, context.symbols.parameter_names())));
     return;
   }
   if (symbol->is_bad) return;
   Node node;
   node.kind = NodeKind::scalar;
-  node.span = value_span;
-  node.text = text;
+  node.span = given.value_span;
+  node.text = given.value;
   const std::string what = "parameter `" + name + "`";
   const ValueText value = parse_value(node, what, context.diagnostics);
   if (!require_quantity(value, symbol->dimension, what, context.diagnostics)) return;
   const double number = value.quantity.value;
   const auto& range = symbol->parameter.range;
   if (range && (number < range->low || number > range->high)) {
-    context.diagnostics.add(wording::outside_range(value_span, symbol->parameter, number));
+    context.diagnostics.add(wording::outside_range(given.value_span, symbol->parameter, number));
     return;
   }
   symbol->parameter.value = number;
@@ -243,7 +253,9 @@ void check_parameters(CheckContext& context) {
   for (const ParameterText& text : context.file.parameters) {
     if (text.name.exists()) context.symbols.parameters.push_back(check_parameter(context, text));
   }
-  for (const auto& [name, text] : context.options.parameters) apply_override(context, name, text);
+  for (const GivenParameter& given : context.options.given) apply_override(context, given);
+  for (const auto& [name, text] : context.options.parameters)
+    apply_override(context, from_command_line(context, name, text));
 }
 
 void check_frames(CheckContext& context) {

@@ -218,6 +218,7 @@ Diagnostic one_shape(const Span& span, const std::string& what);
 Diagnostic fixed_with_mass(const Span& span, const std::string& what, const Span& mass);
 Diagnostic scripted_with_mass(const Span& span, const std::string& what, const Span& mass);
 Diagnostic one_fault(const Span& span);
+Diagnostic fault_of_all(const Span& span);
 Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
                          const std::vector<std::string>& known);
 Diagnostic script_step(const Span& span);

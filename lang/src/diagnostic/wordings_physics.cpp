@@ -208,6 +208,12 @@ Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool tur
                  "limit the acceleration to `+-" + at_most(enough, u.acceleration) + "`");
 }
 
+Diagnostic free_and_held(const Span& span, const std::string& axis, bool elsewhere) {
+  const std::string held = "`" + axis + "` is free, but the wheels hold it";
+  return warning("W609", span, held + (elsewhere ? " while nobody steers" : "") + ": no contact moves it",
+                 "leave the axis out, or take a base that can be moved along it");
+}
+
 Diagnostic unasked(const Span& span, const std::string& task) {
   return make("N608", Severity::note, span,
               "from task `" + task +

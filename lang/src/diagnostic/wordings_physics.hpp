@@ -69,6 +69,9 @@ Diagnostic beyond_the_motors(const Span& span, const std::string& axis, bool tur
 Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool turns, double mass,
                              double braking, double force, double enough);
 
+/// `elsewhere`: its wheels hold it where they stand at the start, and not however they are steered.
+Diagnostic free_and_held(const Span& span, const std::string& axis, bool elsewhere);
+
 /// From this task on nothing was asked of the robot's model.
 Diagnostic unasked(const Span& span, const std::string& task);
 

@@ -70,6 +70,11 @@ Diagnostic one_fault(const Span& span) {
                "`samples`, `clock`, `wheel` with `torque`, `floor_friction`, `payload` or `plant`");
 }
 
+Diagnostic fault_of_all(const Span& span) {
+  return error("E907", span, "floor and plant are not one robot's",
+               "leave `robot` out: such a fault is everybody's");
+}
+
 Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
                          const std::vector<std::string>& known) {
   return unknown_word("E907", span, "`" + key + "` cannot be " + in_ticks(text), text, known);

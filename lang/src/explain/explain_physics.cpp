@@ -127,6 +127,17 @@ file's. Times the effective mass that is a force, and the motors make less: the 
           .example = "in: world\nx: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-6 m/s^2}",
           .instead = "in: world\nx: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-5 m/s^2}"},
       Explanation{
+          .code = "W609",
+          .title = "a free axis that the wheels hold",
+          .why =
+              R"~(An axis is left free so that what touches the base may move it: a wall turns it square, a socket guides its hook. Where
+the wheels hold the axis nothing does, and the task may end `done` without what it was meant for. Steered wheels hold the axis only
+while nobody steers: nothing is said where a row of the task does.)~",
+          .fix = "Leave the axis out where it does not matter; else take a base that can be moved along it.",
+          .part = ExcerptOf::group,
+          .example = "x: {force: 1 N}\ny: free",
+          .instead = "x: {force: 1 N}\nrz: free"},
+      Explanation{
           .code = "N608",
           .title = "a file too large to be asked about the robot's model",
           .why =

@@ -139,13 +139,13 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
                                      const AxisText& text, bool in_always) {
   const bool is_feature = group.kind == GroupKind::feature;
   PlannedAxis axis;
-  if (text.is_free) return std::nullopt;
   const bool is_measured =
       is_feature ? measure_feature(context, group, axis) : measure_axis(context, group, text, axis);
   if (!is_measured) return std::nullopt;
   axis.path = (in_always ? "always." : "") + group.name.text + (is_feature ? "" : "." + text.name.text);
   axis.text = &text;
   if (!in_always) axis.group = group.name.text;
+  if (text.is_free) return axis;
   if (axis.move.body < 0 || !read_statements(context, text, axis)) return std::nullopt;
   // A position in axes that ride along: E405 says so.
   const bool rides_along = !is_feature && axis.in.body >= 0 && axis.in.body == axis.move.body;
@@ -180,7 +180,7 @@ void plan_groups(const CheckContext& context, const std::vector<GroupText>& grou
         continue;
       }
       std::optional<PlannedAxis> axis = plan_axis(context, group, text, in_always);
-      if (axis) plan.axes.push_back(std::move(*axis));
+      if (axis) (text.is_free ? plan.free : plan.axes).push_back(std::move(*axis));
     }
   }
 }

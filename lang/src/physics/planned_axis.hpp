@@ -63,6 +63,7 @@ struct PlannedSpeed {
 struct PlannedTask {
   const TaskText* task = nullptr;
   std::vector<PlannedAxis> axes;  ///< of `always`, of the task, then the robot file's limits
+  std::vector<PlannedAxis> free;  ///< of them what is written as `free`
   std::vector<PlannedSpeed> speeds;
 
   /// How fast the axis may go at most, by its own range and by what bounds the planar speed of what it moves.

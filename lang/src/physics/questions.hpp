@@ -34,6 +34,8 @@ class Remarks {
 void ask_reach(PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// E406, W407, and E404 for axes that the wheels tie together.
 void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W609: an axis that contact may move, and cannot.
+void ask_free(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// E601, W601: force drivers and acceleration ranges.
 void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W602: a guard on `saturated` that never fires.

@@ -1,6 +1,7 @@
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scenario/scenario_file.hpp"
+#include "scene/faults.hpp"
 #include "tree/file.hpp"
 
 namespace zwang::lang {
@@ -156,6 +157,11 @@ std::optional<ScenarioRun> load_run(const fs::path& path, std::size_t cell, Diag
   if (!run.program) {
     run.expectations = expectations_of_words(*file);
     return run;
+  }
+  if (run.program->scene) {
+    check_faults_of(chosen.faults, run.program->robot, of_scenario);
+    check_faults_of_partners(chosen.faults, *run.program->scene, of_scenario);
+    if (of_scenario.has_errors()) return std::nullopt;
   }
   auto expectations = check_expectations(*file, *run.program, of_scenario);
   if (!expectations) return std::nullopt;

@@ -119,6 +119,18 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   return object;
 }
 
+std::vector<GivenParameter> parse_given_parameters(const Node& node, const std::string& what,
+                                                   Diagnostics& diagnostics) {
+  std::vector<GivenParameter> given;
+  if (!require_mapping(node, what, diagnostics)) return given;
+  for (const Entry& entry : node.entries) {
+    if (entry.key.is_bad) continue;
+    const Word value = parse_word(entry.value, what + "." + entry.key.text, diagnostics);
+    if (value.exists()) given.push_back({entry.key.text, value.text, entry.key.span, entry.value.span});
+  }
+  return given;
+}
+
 /// The robot's own signals may speak of robots that come later: `seen` are all.
 SceneRobot parse_robot(const Entry& entry, const std::vector<Seen>& seen, Diagnostics& diagnostics) {
   SceneRobot robot;
@@ -135,6 +147,8 @@ SceneRobot parse_robot(const Entry& entry, const std::vector<Seen>& seen, Diagno
     robot.robot = parse_word(*file, what + "'s `robot`", diagnostics).text;
     robot.robot_span = file->span;
   }
+  if (const Node* node = map.optional("params"))
+    robot.parameters = parse_given_parameters(*node, what + "'s `params`", diagnostics);
   if (const Node* at = map.required("at")) parse_place(*at, what + "'s `at`", robot.at, diagnostics);
   if (const Node* yaw = map.optional("yaw"))
     robot.yaw = parse_plain(*yaw, dimension::angle, what + "'s `yaw`", diagnostics).value_or(0.0);
@@ -240,6 +254,9 @@ std::optional<Scene> load_scene_from(const std::filesystem::path& path, const st
   std::optional<Scene> scene = read_scene(*source, diagnostics);
   if (scene) scene->path = path.string();
   if (scene && !load_robots_of(*scene, path, root, diagnostics)) return std::nullopt;
+  const int errors_before = diagnostics.error_count();
+  if (scene) check_faults_of_partners(scene->faults, *scene, diagnostics);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
   return scene;
 }
 

@@ -27,9 +27,9 @@ DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
     if (model.joint(j).actuated && !carries_wheel(model, j + 1)) arm_.push_back(j);
   }
   qd_ = expected_ = sent_ = torque_ = Eigen::VectorXd::Zero(joints);
-  excess_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(watched_.size()));
+  excess_ = watched_rates_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(watched_.size()));
   const int most = joints + 6;
-  p_ = right_ = w_ = Eigen::VectorXd::Zero(most);
+  p_ = right_ = w_ = yd_ = Eigen::VectorXd::Zero(most);
   gram_ = Eigen::MatrixXd::Zero(most, most);
   C_ = Eigen::MatrixXd::Zero(3 + static_cast<Eigen::Index>(arm_.size()), most);
 }
@@ -71,26 +71,33 @@ bool DisturbanceObserver::compare(const solver::State& state, double time) noexc
     excess += part * (e - excess);
     torque_(j) += part * (sent_(j) - torque_(j));
   }
-  least_squares();
+  least_squares(excess_, p_);
   const solver::Vector3 w = on_base();
   if (!w.allFinite()) return false;
   filtered_ += (1.0 - std::exp(-dt / (time_constant - quick))) * (w - filtered_);
   return true;
 }
 
-/// (T'T) p = T'e over the joints that are watched.
-void DisturbanceObserver::least_squares() noexcept {
+double DisturbanceObserver::kinetic_energy(const Eigen::VectorXd& qd) noexcept {
+  for (std::size_t i = 0; i < watched_.size(); ++i)
+    watched_rates_(static_cast<Eigen::Index>(i)) = qd(watched_[i]);
+  least_squares(watched_rates_, yd_);
+  return 0.5 * yd_.head(motions_.count).squaredNorm();
+}
+
+/// (T'T) y = T'e.
+void DisturbanceObserver::least_squares(const Eigen::VectorXd& watched, Eigen::VectorXd& y) noexcept {
   const int m = motions_.count;
   gram_.topLeftCorner(m, m).setZero();
   right_.head(m).setZero();
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const auto row = motions_.joint.row(watched_[i]).head(m);
     for (int a = 0; a < m; ++a) {
-      right_(a) += row(a) * excess_(static_cast<Eigen::Index>(i));
+      right_(a) += row(a) * watched(static_cast<Eigen::Index>(i));
       for (int b = 0; b <= a; ++b) gram_(a, b) += row(a) * row(b);
     }
   }
-  solve(m, right_, p_);
+  solve(m, right_, y);
 }
 
 /// w = (C C')^-1 C p.

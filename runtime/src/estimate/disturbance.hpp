@@ -31,6 +31,9 @@ class DisturbanceObserver {
   /// What came of it. False when there is nothing to compare with.
   bool compare(const solver::State& state, double time) noexcept;
 
+  /// T = 1/2 |yd|^2 of the joints' rates, qd = T yd, at the state of the last `expect`. [J]
+  double kinetic_energy(const Eigen::VectorXd& qd) noexcept;
+
   /// On the base at its origin, in its axes: x, y [N] and rz [N m]; low-passed.
   const solver::Vector3& base_force() const noexcept { return filtered_; }
   /// p of the last comparison, low-passed with `quick`; `motions().count` entries.
@@ -45,7 +48,8 @@ class DisturbanceObserver {
 
  private:
   double friction(int joint, double rate) const noexcept;
-  void least_squares() noexcept;
+  /// The y of qd = T y over the joints that are watched.
+  void least_squares(const Eigen::VectorXd& watched, Eigen::VectorXd& y) noexcept;
   solver::Vector3 on_base() noexcept;
   void solve(int size, const Eigen::VectorXd& right, Eigen::VectorXd& out) noexcept;
 
@@ -54,9 +58,9 @@ class DisturbanceObserver {
   std::vector<int> watched_;  ///< joints that turn a wheel or have a motor
   std::vector<int> arm_;      ///< joints with a motor that carry no wheel
   solver::FreeMotions motions_;
-  Eigen::VectorXd qd_, expected_, sent_, torque_, excess_, p_;
+  Eigen::VectorXd qd_, expected_, sent_, torque_, excess_, watched_rates_, p_;
   Eigen::MatrixXd C_, gram_;
-  Eigen::VectorXd right_, w_;
+  Eigen::VectorXd right_, w_, yd_;
   solver::Vector3 filtered_ = solver::Vector3::Zero();
   double time_ = 0.0;
   bool expects_ = false;

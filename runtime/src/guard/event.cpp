@@ -28,12 +28,52 @@ const char* to_string(EventCode code) noexcept {
       return "torque_stuck";
     case EventCode::torque_flipped:
       return "torque_flipped";
+    case EventCode::runaway:
+      return "runaway";
     case EventCode::sensor_bias:
       return "sensor_bias";
     case EventCode::clock_refused:
       return "clock_refused";
     case EventCode::slip:
       return "slip";
+  }
+  return "?";
+}
+
+const char* describe(EventCode code) noexcept {
+  switch (code) {
+    case EventCode::none:
+      return "none";
+    case EventCode::bad_sample:
+      return "a sensed number is not finite";
+    case EventCode::lost_ticks:
+      return "too long without a good sample";
+    case EventCode::frozen:
+      return "the robot says that it moves, and its position does not change";
+    case EventCode::bad_torque:
+      return "a commanded torque is not finite";
+    case EventCode::solver:
+      return "the solver gave no solution";
+    case EventCode::plant:
+      return "the robot does not answer";
+    case EventCode::requested:
+      return "requested";
+    case EventCode::watchdog:
+      return "the control thread was blocked";
+    case EventCode::torque_lost:
+      return "a motor's torque does not arrive";
+    case EventCode::torque_stuck:
+      return "a motor's torque does not follow its command";
+    case EventCode::torque_flipped:
+      return "a motor turns the wrong way";
+    case EventCode::runaway:
+      return "the base gets faster than it may while its motors are told to brake";
+    case EventCode::clock_refused:
+      return "a sample's time was refused";
+    case EventCode::sensor_bias:
+      return "a force is measured before anything has moved";
+    case EventCode::slip:
+      return "a wheel slides that should roll";
   }
   return "?";
 }

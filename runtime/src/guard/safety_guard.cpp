@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "guard/arm_hold.hpp"
+#include "guard/wheel_brake.hpp"
 
 namespace zwang::runtime {
 
@@ -13,9 +14,6 @@ namespace {
 // No position, speed, wrench or time of a robot is larger; a number that is, is a broken one. 1e9 s are 32
 // years.
 constexpr double largest_plausible = 1e9;
-// The protective stop's torques reach their limit at this joint speed and shrink with it below, so that the
-// wheels come to rest without chattering around it.
-constexpr double full_brake_speed = 0.5;  // [rad/s] or [m/s]
 // A robot that says to be faster than this changes its position within a few ticks, however coarse its
 // encoders are.
 constexpr double moving_joint = 0.1;  // [rad/s] or [m/s]
@@ -51,36 +49,6 @@ const char* to_string(SampleStatus status) noexcept {
   return "?";
 }
 
-const char* to_string(StopReason reason) noexcept {
-  switch (reason) {
-    case StopReason::none:
-      return "none";
-    case StopReason::bad_sample:
-      return "a sensed number is not finite";
-    case StopReason::lost_ticks:
-      return "too long without a good sample";
-    case StopReason::frozen:
-      return "the robot says that it moves, and its position does not change";
-    case StopReason::bad_torque:
-      return "a commanded torque is not finite";
-    case StopReason::solver:
-      return "the solver gave no solution";
-    case StopReason::plant:
-      return "the robot does not answer";
-    case StopReason::requested:
-      return "requested";
-    case StopReason::watchdog:
-      return "the control thread was blocked";
-    case StopReason::torque_lost:
-      return "a motor's torque does not arrive";
-    case StopReason::torque_stuck:
-      return "a motor's torque does not follow its command";
-    case StopReason::torque_flipped:
-      return "a motor turns the wrong way";
-  }
-  return "?";
-}
-
 const char* to_string(GuardStatus status) noexcept {
   switch (status) {
     case GuardStatus::passed:
@@ -100,11 +68,11 @@ const char* to_string(GuardStatus status) noexcept {
 SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings)
     : settings_(settings),
       limit_(Eigen::VectorXd::Zero(robot.model.joint_count())),
-      stop_limit_(limit_),
       last_(limit_),
       next_(limit_),
       last_q_(limit_),
-      arm_(std::make_unique<ArmHold>(robot.model)) {
+      arm_(std::make_unique<ArmHold>(robot.model)),
+      brake_(std::make_unique<WheelBrake>(robot, settings.period)) {
   if (!(settings.period > 0.0) || !(settings.max_step >= settings.period) || settings.max_lost_ticks < 1 ||
       !(settings.max_slew > 0.0)) {
     throw std::invalid_argument("safety guard: a setting is not positive, or max_step is below the period");
@@ -112,13 +80,6 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
   const solver::Model& model = robot.model;
   for (int j = 0; j < model.joint_count(); ++j) {
     if (model.joint(j).actuated) limit_(j) = model.joint(j).max_effort;
-  }
-  int driven = 0;
-  for (const solver::Wheel& wheel : model.wheels()) driven += limit_(wheel.body - 1) > 0.0 ? 1 : 0;
-  // All wheels together may press the ground with the stop's force.
-  for (const solver::Wheel& wheel : model.wheels()) {
-    const int joint = wheel.body - 1;
-    stop_limit_(joint) = std::min(limit_(joint), robot.stop.force * wheel.radius / std::max(driven, 1));
   }
 }
 
@@ -163,7 +124,7 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
   if (const Event bad = find_bad_entry(sensed); bad.code != EventCode::none) {
     ++counters_.refused_values;
     refusal_ = bad;
-    stop(StopReason::bad_sample, bad.signal, bad.value);
+    stop(EventCode::bad_sample, bad.signal, bad.value);
     return SampleStatus::not_finite;
   }
   if (!has_time_) {
@@ -174,12 +135,12 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
   }
   const double step = sensed.time - last_time_;
   if (step > (settings_.max_lost_ticks + clock_rounding) * settings_.period) {
-    stop(StopReason::lost_ticks, event_signal::time, step);
+    stop(EventCode::lost_ticks, event_signal::time, step);
   }
   if (step <= 0.0 || step > settings_.max_step) {
     ++counters_.refused_clock;
     refusal_ = {EventCode::clock_refused, last_time_, event_signal::time, sensed.time};
-    if (++lost_ticks_ >= settings_.max_lost_ticks) stop(StopReason::lost_ticks, event_signal::time, step);
+    if (++lost_ticks_ >= settings_.max_lost_ticks) stop(EventCode::lost_ticks, event_signal::time, step);
     // After a jump ahead the clock goes on from there; a clock that went back has to catch up first.
     if (step > settings_.max_step) last_time_ = sensed.time;
     return SampleStatus::bad_clock;
@@ -197,17 +158,15 @@ void SafetyGuard::watch_for_a_frozen_state(const solver::State& state) noexcept 
   frozen_ticks_ = moves && stands ? frozen_ticks_ + 1 : 0;
   if (frozen_ticks_ > 0) ++counters_.frozen;
   if (frozen_ticks_ >= settings_.max_lost_ticks) {
-    stop(StopReason::frozen, event_signal::base_pose, state.base_twist.linear.norm());
+    stop(EventCode::frozen, event_signal::base_pose, state.base_twist.linear.norm());
   }
   last_q_ = state.q;
   last_position_ = state.base_pose.position;
 }
 
 void SafetyGuard::brake(const Sensed& sensed) noexcept {
-  for (Eigen::Index j = 0; j < next_.size(); ++j) {
-    const double damping = stop_limit_(j) / full_brake_speed;
-    next_(j) = std::clamp(-damping * sensed.state.qd(j), -stop_limit_(j), stop_limit_(j));
-  }
+  next_.setZero();
+  brake_->brake(sensed.state.qd, next_);
   arm_->hold(sensed.state, next_);
 }
 
@@ -223,10 +182,10 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
     while (bad < wanted.size() && std::isfinite(wanted(bad))) ++bad;
     if (wanted.size() != limit_.size()) {
       ++counters_.bad_torques;
-      stop(StopReason::bad_torque, -1, static_cast<double>(wanted.size()));
+      stop(EventCode::bad_torque, -1, static_cast<double>(wanted.size()));
     } else if (bad < wanted.size()) {
       ++counters_.bad_torques;
-      stop(StopReason::bad_torque, event_signal::of_joint(static_cast<int>(bad), event_signal::tau),
+      stop(EventCode::bad_torque, event_signal::of_joint(static_cast<int>(bad), event_signal::tau),
            wanted(bad));
     }
   }
@@ -279,14 +238,15 @@ GuardStatus SafetyGuard::send(Eigen::VectorXd& tau, GuardStatus status) noexcept
   return status;
 }
 
-void SafetyGuard::stop(StopReason reason, int signal, double value) noexcept {
-  if (stopped() || reason == StopReason::none) return;
-  reason_ = reason;
-  stop_event_ = {static_cast<EventCode>(reason), has_time_ ? last_time_ : 0.0, signal, value};
+void SafetyGuard::stop(EventCode reason, int signal, double value) noexcept {
+  if (stopped() || !latches_the_stop(reason)) return;
+  stop_event_ = {reason, has_time_ ? last_time_ : 0.0, signal, value};
+  const bool is_found = reason >= EventCode::torque_lost && reason <= EventCode::torque_flipped;
+  const bool names_motor = is_found || reason == EventCode::runaway;
+  brake_->begin(names_motor ? event_signal::joint_of(signal) : -1, is_found);
 }
 
 void SafetyGuard::reset() noexcept {
-  reason_ = StopReason::none;
   stop_event_ = {};
   has_time_ = false;
   lost_ticks_ = 0;

@@ -68,7 +68,7 @@ struct MujocoPlant::Simulation {
     }
     find_objects(scene);
     find_docks(scene);
-    base_mass = model->body_mass[first().base_body()];
+    for (const MovingRobot& moving : robots) base_mass.push_back(model->body_mass[moving.base_body()]);
     std::vector<Start> starts{
         {options.start_at.value_or(scene.start_at), options.start_yaw.value_or(scene.start_yaw)}};
     for (const lang::SceneRobot& other : scene.robots) starts.push_back({other.at, other.yaw});
@@ -197,9 +197,9 @@ struct MujocoPlant::Simulation {
     for (MovingRobot& robot : robots) robot.set_floor_friction(coefficient);
   }
 
-  void set_payload(double mass) noexcept {
-    const int body = first().base_body();
-    const double change = base_mass + mass - model->body_mass[body];
+  void set_payload(std::size_t robot, double mass) noexcept {
+    const int body = robots[robot].base_body();
+    const double change = base_mass[robot] + mass - model->body_mass[body];
     model->body_mass[body] += change;
     model->body_subtreemass[body] += change;
     model->body_subtreemass[0] += change;
@@ -380,7 +380,7 @@ struct MujocoPlant::Simulation {
   std::vector<GeomOwner> owners;  ///< by geom
   std::vector<SimulatedObject> objects;
   std::vector<SimulatedDock> docks;
-  double base_mass = 0.0;  ///< [kg] of the first robot, without a payload
+  std::vector<double> base_mass;  ///< [kg] of each robot's base, without a payload
   Vector3 velocity = Vector3::Zero();
   Truth truth;
   std::int64_t steps_since_start = 0;
@@ -418,7 +418,11 @@ void MujocoPlant::set_floor_friction(double coefficient) noexcept {
 }
 
 void MujocoPlant::set_payload(double mass) noexcept {
-  simulation_->set_payload(mass);
+  simulation_->set_payload(0, mass);
+}
+
+void MujocoPlant::set_partner_payload(std::size_t partner, double mass) noexcept {
+  if (partner + 1 < simulation_->robots.size()) simulation_->set_payload(partner + 1, mass);
 }
 
 void MujocoPlant::diverge() noexcept {

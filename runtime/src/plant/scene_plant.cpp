@@ -1,5 +1,7 @@
 #include "zwang/runtime/scene_plant.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "injected_faults.hpp"
@@ -11,10 +13,20 @@ using lang::FaultKind;
 
 namespace {
 
-std::vector<lang::Fault> all_faults(const lang::Scene& scene, const std::vector<lang::Fault>& more) {
-  std::vector<lang::Fault> faults = scene.faults;
-  faults.insert(faults.end(), more.begin(), more.end());
+/// Those of a robot of the scene, or of the first one and the world, whose name is empty.
+std::vector<lang::Fault> faults_of(const std::string& robot, const lang::Scene& scene,
+                                   const std::vector<lang::Fault>& more) {
+  std::vector<lang::Fault> faults;
+  for (const std::vector<lang::Fault>* some : {&scene.faults, &more}) {
+    std::copy_if(some->begin(), some->end(), std::back_inserter(faults),
+                 [&](const lang::Fault& fault) { return fault.robot == robot; });
+  }
   return faults;
+}
+
+double payload_of(const InjectedFaults& faults, double time) noexcept {
+  const lang::Fault* payload = faults.find(FaultKind::payload, time);
+  return payload != nullptr ? payload->value : 0.0;
 }
 
 const lang::Scene& scene_of(const lang::Program& program) {
@@ -24,6 +36,10 @@ const lang::Scene& scene_of(const lang::Program& program) {
 
 }  // namespace
 
+std::vector<Column> base_truth_columns() {
+  return {{"truth.base.x", "m", {}}, {"truth.base.y", "m", {}}, {"truth.base.yaw", "rad", {}}};
+}
+
 ScenePartner::ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& settings)
     : name(robot.name),
       program(robot.program),
@@ -31,30 +47,34 @@ ScenePartner::ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& 
       torque(Eigen::VectorXd::Zero(robot.program->robot.model.joint_count())) {}
 
 struct ScenePlant::Parts {
-  /// What a partner is told, beside what others may see of it.
+  /// What a partner is told, beside what others may see of it, and what goes wrong with it.
   struct Told {
     RobotSenses senses;
+    InjectedFaults faults;
     Sensed actual, sensed;
+    Eigen::VectorXd torque;  ///< what its motors make of the command
+    double payload = 0.0;
   };
 
   Parts(const lang::Program& program, const ScenePlantOptions& options)
       : scene(scene_of(program)),
         simulation(program.robot, scene, options.simulation),
         senses(program, scene, 0, program.robot, options.seed),
-        faults(all_faults(scene, options.faults), program.robot.model),
+        faults(faults_of({}, scene, options.faults), program.robot.model),
         actual(program.robot.model),
         torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())) {
     static_cast<void>(simulation.sense(actual));
     senses.start_at(actual.state.base_pose);
     RunnerSettings settings;
     settings.period = options.simulation.period;
-    settings.extra_columns = {
-        {"truth.base.x", "m", {}}, {"truth.base.y", "m", {}}, {"truth.base.yaw", "rad", {}}};
+    settings.extra_columns = base_truth_columns();
     for (std::size_t i = 0; i < scene.robots.size(); ++i) {
       partners.emplace_back(scene.robots[i], settings);
       const lang::Program& own = *partners.back().program;
       told.push_back({RobotSenses(own, scene, static_cast<int>(i) + 1, program.robot, options.seed),
-                      Sensed(own.robot.model), Sensed(own.robot.model, own.signals.size())});
+                      InjectedFaults(faults_of(partners.back().name, scene, options.faults), own.robot.model),
+                      Sensed(own.robot.model), Sensed(own.robot.model, own.signals.size()),
+                      partners.back().torque});
       static_cast<void>(simulation.sense_partner(i, told.back().actual));
       told.back().senses.start_at(told.back().actual.state.base_pose);
     }
@@ -66,8 +86,7 @@ struct ScenePlant::Parts {
     const double friction = slip != nullptr ? slip->value : scene.floor_friction;
     if (friction != present_friction) simulation.set_floor_friction(friction);
     present_friction = friction;
-    const lang::Fault* payload = faults.find(FaultKind::payload, time);
-    const double mass = payload != nullptr ? payload->value : 0.0;
+    const double mass = payload_of(faults, time);
     if (mass != present_payload) simulation.set_payload(mass);
     present_payload = mass;
     if (faults.active(FaultKind::plant_diverges, time)) simulation.diverge();
@@ -79,11 +98,20 @@ struct ScenePlant::Parts {
     Told& of = told[i];
     if (simulation.sense_partner(i, of.actual) != PlantStatus::ok) return;
     of.senses.measure(simulation.truth(), of.actual.state);
-    of.senses.tell(of.actual, of.sensed);
+    const double time = of.actual.time;
+    if (const double mass = payload_of(of.faults, time); mass != of.payload)
+      simulation.set_partner_payload(i, of.payload = mass);
+    // A sample that does not arrive leaves the last one: the guard counts it.
+    if (!of.faults.active(FaultKind::samples_lost, time)) {
+      of.senses.tell(of.actual, of.sensed);
+      of.faults.spoil(of.sensed);
+    }
     const ObjectTruth& own = simulation.truth().objects[scene.objects.size() + i];
     const std::array<double, 3> truth{own.x, own.y, own.yaw};
     partner.torque = partner.runner.step(of.sensed, truth);
-    static_cast<void>(simulation.give_partner(i, partner.torque));
+    of.torque = partner.torque;
+    of.faults.spoil(of.torque, time);
+    static_cast<void>(simulation.give_partner(i, of.torque));
   }
 
   lang::Scene scene;

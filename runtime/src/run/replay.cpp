@@ -65,13 +65,13 @@ double value_of(const json& record, const std::string& column) {
 }
 
 /// A stop that the runner did not come to by itself.
-StopReason outside_stop(const json& record) {
+EventCode outside_stop(const json& record) {
   const auto event = record.find("event");
-  if (event == record.end() || !event->is_string()) return StopReason::none;
+  if (event == record.end() || !event->is_string()) return EventCode::none;
   for (const EventCode code : {EventCode::requested, EventCode::watchdog, EventCode::plant}) {
-    if (*event == to_string(code)) return static_cast<StopReason>(code);
+    if (*event == to_string(code)) return code;
   }
-  return StopReason::none;
+  return EventCode::none;
 }
 
 bool same_bits(double a, double b) {
@@ -108,16 +108,17 @@ std::optional<lang::Program> logged_program(const LogContext& context, lang::Dia
   return program;
 }
 
-ReplayResult replay(const fs::path& log, const lang::Program& program, double period) {
+namespace {
+
+void replay_part(const ReplayPart& part, Runner& runner, ReplayResult& result) {
+  const lang::Program& program = part.program;
   const solver::Model& model = program.robot.model;
   const SensedColumns inputs(model, program.signals, program.parameters);
-  Runner runner(program, {.period = period});
   Sensed sensed(model, program.signals.size());
   std::vector<double> parameters(program.parameters.size());
   std::vector<double> values(inputs.columns().size());
   std::vector<std::string> torques;
   for (int j = 0; j < model.joint_count(); ++j) torques.push_back(model.joint(j).name + ".tau");
-  ReplayResult result;
   const auto compare = [&](double time, std::string_view text) {
     const json record = json::parse(text, nullptr, false);
     if (!record.is_object()) throw std::runtime_error("replay: a record is no JSON object");
@@ -127,8 +128,7 @@ ReplayResult replay(const fs::path& log, const lang::Program& program, double pe
       if (!std::isnan(parameters[i]) && parameters[i] != runner.scheduler().parameters()[i])
         runner.set_parameter(program.parameters[i].name, parameters[i]);
     }
-    if (const StopReason reason = outside_stop(record); reason != StopReason::none)
-      runner.guard().stop(reason);
+    if (const EventCode reason = outside_stop(record); reason != EventCode::none) runner.guard().stop(reason);
     const Eigen::VectorXd& tau = runner.step(sensed);
     bool equal = true;
     for (std::size_t j = 0; j < torques.size(); ++j) {
@@ -141,10 +141,30 @@ ReplayResult replay(const fs::path& log, const lang::Program& program, double pe
     ++result.records;
     if (equal) ++result.equal;
   };
-  const LogContents contents = read_log(log, compare);
+  const LogContents contents = read_log(part.log, compare);
   if (contents.schema.find("\"sensed.time\"") == std::string::npos)
     throw std::runtime_error("replay: the log does not hold what was sensed");
+}
+
+}  // namespace
+
+ReplayResult replay(const std::vector<ReplayPart>& parts, double period) {
+  ReplayResult result;
+  std::optional<Runner> runner;
+  for (const ReplayPart& part : parts) {
+    Runner next(part.program, {.period = period});
+    if (!runner) {
+      runner = std::move(next);
+    } else if (!runner->swap_program(next)) {
+      throw std::runtime_error("replay: the program of " + part.log.string() + " cannot go on there");
+    }
+    replay_part(part, *runner, result);
+  }
   return result;
+}
+
+ReplayResult replay(const fs::path& log, const lang::Program& program, double period) {
+  return replay({{log, program}}, period);
 }
 
 }  // namespace zwang::runtime

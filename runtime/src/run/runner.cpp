@@ -7,6 +7,7 @@
 #include "estimate/friction.hpp"
 #include "estimate/weight.hpp"
 #include "guard/actuator_watch.hpp"
+#include "guard/runaway_watch.hpp"
 #include "guard/slip_watch.hpp"
 #include "run/limit_table.hpp"
 #include "run/log_layout.hpp"
@@ -64,6 +65,7 @@ struct Runner::Parts {
         weight(model),
         disturbance(program.robot),
         actuators(program.robot, settings.period),
+        runaway(model.joint_count(), settings.period),
         slip(model),
         signals(program.signals),
         signal_words(event_signals(model, signal_names(program))),
@@ -113,6 +115,7 @@ struct Runner::Parts {
   WeightFeedForward weight;
   DisturbanceObserver disturbance;
   ActuatorWatch actuators;
+  RunawayWatch runaway;
   SlipWatch slip;
   const std::vector<lang::Signal> signals;
   const std::vector<std::string> signal_words;  ///< of events
@@ -201,7 +204,7 @@ bool Runner::Parts::has_the_joints_of(const Parts& other) const noexcept {
 void Runner::Parts::tell(const Event& told) noexcept {
   ++event_count;
   if (events.size() < events.capacity()) events.push_back(told);
-  const bool is_stop = told.code < EventCode::clock_refused;
+  const bool is_stop = latches_the_stop(told.code);
   if (event.code == EventCode::none || is_stop) event = told;
 }
 
@@ -209,14 +212,23 @@ void Runner::Parts::compare() noexcept {
   if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
   if (!disturbance.compare(sample.state, sample.time)) {
     actuators.reset();
+    runaway.reset();
     return;
   }
   scheduler.estimate_force(disturbance.base_force());
   // A wheel that slides gives the ground less than its motor gives the wheel.
   if (slip.doubtful()) {
     actuators.reset();
-  } else if (const auto fault = actuators.look(disturbance)) {
-    guard.stop(static_cast<StopReason>(fault->code), fault->signal, fault->value);
+    runaway.reset();
+    return;
+  }
+  if (const auto fault = actuators.look(disturbance)) {
+    guard.stop(fault->code, fault->signal, fault->value);
+  }
+  if (runaway.follow(tau, sample.state.qd)) {
+    const double energy = disturbance.kinetic_energy(runaway.rates());
+    if (const auto fault = runaway.look(scheduler.constraints(), energy))
+      guard.stop(fault->code, fault->signal, fault->value);
   }
 }
 
@@ -269,7 +281,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   }
   if (good && !p.guard.stopped()) {
     const bool computed = p.control();
-    if (!computed) p.guard.stop(StopReason::solver, -1, static_cast<double>(p.solver_status));
+    if (!computed) p.guard.stop(EventCode::solver, -1, static_cast<double>(p.solver_status));
     solved = computed && !p.guard.stopped();
   }
   p.guard_status = good ? p.guard.output(p.estimated, p.wanted, p.tau) : p.guard.output_blind(p.tau);
@@ -323,6 +335,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   std::swap(now.event_count, before.event_count);
   now.disturbance.pause();
   now.actuators.reset();
+  now.runaway.reset();
   now.tau = before.tau;
   now.handed_over_for = 0.0;
   now.recorder = nullptr;

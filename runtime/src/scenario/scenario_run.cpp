@@ -51,7 +51,7 @@ std::vector<PartnerResult> results_of(ScenePlant& plant) {
     const RunState state = partner.runner.state();
     results.push_back(
         {partner.name, state == RunState::running ? std::string("unfinished") : to_string(state), {}});
-    if (state == RunState::stopped) results.back().because = to_string(partner.runner.guard().reason());
+    if (state == RunState::stopped) results.back().because = describe(partner.runner.guard().reason());
   }
   return results;
 }
@@ -103,7 +103,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   } else {
     result.outcome = to_string(runner.state());
   }
-  if (runner.state() == RunState::stopped) result.because = to_string(runner.guard().reason());
+  if (runner.state() == RunState::stopped) result.because = describe(runner.guard().reason());
 }
 
 }  // namespace
@@ -117,7 +117,9 @@ CellResult run_cell(const lang::Scenario& scenario, const lang::ScenarioCell& ce
   const auto begin = Clock::now();
   if (!run.program) {
     result.outcome = "refused";
-    for (const std::string& code : codes) result.because += (result.because.empty() ? "" : ", ") + code;
+    for (const std::string& code : codes) {
+      if (code.front() == 'E') result.because += (result.because.empty() ? "" : ", ") + code;
+    }
   } else {
     try {
       simulate(scenario, cell, *run.program, watches, result);

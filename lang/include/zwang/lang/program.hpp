@@ -264,6 +264,7 @@ struct LoadOptions {
   std::optional<std::filesystem::path> robot;
   std::optional<std::filesystem::path> scene;
   std::map<std::string, std::string> parameters;  ///< name -> quantity as text, `20 N`
+  std::vector<GivenParameter> given;              ///< the same, where a scene says so
   /// Robots, scenes and URDFs are read from below this folder only; none: the nearest parent of the task file
   /// with a `.zwang-root` file, else the task file's own folder.
   std::optional<std::filesystem::path> root;

@@ -105,8 +105,17 @@ struct Fault {
   double at = 0.0;                                            ///< [s]
   double duration = std::numeric_limits<double>::infinity();  ///< [s]
   std::string joint;
+  Span joint_span;
+  std::string robot;  ///< whose: one of Scene::robots; empty: the first one's, or the world's
+  Span robot_span;
   double value = 0.0;
   Span span;
+};
+
+/// A parameter's value as a scene writes it.
+struct GivenParameter {
+  std::string name, value;  ///< `push`, `20 N`
+  Span name_span, value_span;
 };
 
 /// Another robot, under a task file of its own. The first robot meets its footprint as it meets an object.
@@ -116,14 +125,15 @@ struct SceneRobot {
   Span task_span;
   std::string robot;  ///< path of its robot file, in the place of the task's own; empty: that one
   Span robot_span;
-  std::string robot_path;            ///< the same, as it was opened
-  std::array<double, 2> at{};        ///< [m] where its base starts in the world
-  double yaw = 0.0;                  ///< [rad]
-  double stiffness = 1e5;            ///< [N/m] of one contact point
-  double damping = 0.3;              ///< damping ratio of the contact
-  double friction = 0.0;             ///< Coulomb coefficient
-  std::optional<Dock> dock;          ///< `at` in the axes of its base
-  std::vector<SceneSignal> signals;  ///< those of its own task file
+  std::vector<GivenParameter> parameters;  ///< in the place of its task file's own values
+  std::string robot_path;                  ///< the same, as it was opened
+  std::array<double, 2> at{};              ///< [m] where its base starts in the world
+  double yaw = 0.0;                        ///< [rad]
+  double stiffness = 1e5;                  ///< [N/m] of one contact point
+  double damping = 0.3;                    ///< damping ratio of the contact
+  double friction = 0.0;                   ///< Coulomb coefficient
+  std::optional<Dock> dock;                ///< `at` in the axes of its base
+  std::vector<SceneSignal> signals;        ///< those of its own task file
   StateNoise state;
   /// Its task file, loaded; without the objects of this scene. None where the scene alone was read.
   std::shared_ptr<const Program> program;

@@ -9,8 +9,8 @@
 namespace zwang::runtime {
 
 enum class EventCode {
-  // Those that latch the protective stop, in the order of StopReason.
   none,
+  // Those that latch the protective stop.
   bad_sample,
   lost_ticks,
   frozen,
@@ -22,12 +22,18 @@ enum class EventCode {
   torque_lost,
   torque_stuck,
   torque_flipped,
+  runaway,  ///< faster than the task allows, and ever faster while the motors are told to brake
   // Those that are only told.
   clock_refused,
   sensor_bias,  ///< a force is measured before anything has moved
   slip,
 };
 const char* to_string(EventCode code) noexcept;
+/// The same for people: "a motor turns the wrong way".
+const char* describe(EventCode code) noexcept;
+inline constexpr bool latches_the_stop(EventCode code) {
+  return code > EventCode::none && code < EventCode::clock_refused;
+}
 
 struct Event {
   EventCode code = EventCode::none;
@@ -48,6 +54,9 @@ inline constexpr int base_twist = 2;
 enum OfJoint { q, qd, tau_ff, tau, of_joint_count };
 inline constexpr int of_joint(int joint, OfJoint what) {
   return base_twist + 1 + of_joint_count * joint + what;
+}
+inline constexpr int joint_of(int signal) {
+  return signal <= base_twist ? -1 : (signal - base_twist - 1) / of_joint_count;
 }
 inline constexpr int f_ext(int joints, int body) {
   return of_joint(joints, q) + body;

@@ -75,6 +75,7 @@ class MujocoPlant : public Plant {
   void set_floor_friction(double coefficient) noexcept;
   /// The base weighs this much [kg] more than its model says, where its centre of mass is.
   void set_payload(double mass) noexcept;
+  void set_partner_payload(std::size_t partner, double mass) noexcept;
   /// As if the simulation had failed.
   void diverge() noexcept;
   /// The MJCF that was compiled, for inspection.

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/log_reader.hpp"
@@ -33,5 +34,14 @@ struct ReplayResult {
 /// events, parameters that a host set during the run from its columns. Throws std::runtime_error when the log
 /// cannot be opened, or does not hold what was sensed.
 ReplayResult replay(const std::filesystem::path& log, const lang::Program& program, double period);
+
+/// A log and the program of it.
+struct ReplayPart {
+  std::filesystem::path log;
+  lang::Program program;
+};
+/// The same of a run whose program was swapped under way: each log begins where the last one ends. Throws
+/// std::runtime_error, too, when a program does not fit the robot of the one before.
+ReplayResult replay(const std::vector<ReplayPart>& parts, double period);
 
 }  // namespace zwang::runtime

@@ -20,23 +20,6 @@ enum class SampleStatus {
 };
 const char* to_string(SampleStatus status) noexcept;
 
-/// The same values as EventCode's.
-enum class StopReason {
-  none,
-  bad_sample,
-  lost_ticks,
-  frozen,
-  bad_torque,
-  solver,
-  plant,
-  requested,
-  watchdog,
-  torque_lost,
-  torque_stuck,
-  torque_flipped,
-};
-const char* to_string(StopReason reason) noexcept;
-
 enum class GuardStatus {
   passed,   ///< the torques went through as they came
   limited,  ///< a torque was cut to its limit
@@ -64,6 +47,7 @@ struct GuardCounters {
 };
 
 class ArmHold;
+class WheelBrake;
 
 /// Does not allocate, lock, throw or print after construction.
 class SafetyGuard {
@@ -87,11 +71,11 @@ class SafetyGuard {
   /// those that bear an arm.
   GuardStatus output_blind(Eigen::VectorXd& tau) noexcept;
 
-  /// Latches the protective stop. The first reason is kept. What told it, and what that read, is for the
-  /// event.
-  void stop(StopReason reason, int signal = -1, double value = 0.0) noexcept;
-  bool stopped() const noexcept { return reason_ != StopReason::none; }
-  StopReason reason() const noexcept { return reason_; }
+  /// Latches the protective stop, for one of the codes that do. The first reason is kept. What told it, and
+  /// what that read, is for the event.
+  void stop(EventCode reason, int signal = -1, double value = 0.0) noexcept;
+  bool stopped() const noexcept { return stop_event_.code != EventCode::none; }
+  EventCode reason() const noexcept { return stop_event_.code; }  ///< `none` while nothing latched the stop
   /// Releases the stop; the clock starts anew.
   void reset() noexcept;
 
@@ -109,18 +93,17 @@ class SafetyGuard {
   GuardStatus send(Eigen::VectorXd& tau, GuardStatus status) noexcept;
 
   GuardSettings settings_;
-  Eigen::VectorXd limit_;       ///< [N m] of each joint, 0 where there is no motor
-  Eigen::VectorXd stop_limit_;  ///< [N m] what the protective stop may use
-  Eigen::VectorXd last_;        ///< sent last
+  Eigen::VectorXd limit_;  ///< [N m] of each joint, 0 where there is no motor
+  Eigen::VectorXd last_;   ///< sent last
   Eigen::VectorXd next_;
   Eigen::VectorXd last_q_;  ///< of the last good sample, as is the position
   solver::Vector3 last_position_ = solver::Vector3::Zero();
   std::unique_ptr<ArmHold> arm_;
+  std::unique_ptr<WheelBrake> brake_;
   int frozen_ticks_ = 0;
   double last_time_ = 0.0;
   bool has_time_ = false;
   int lost_ticks_ = 0;
-  StopReason reason_ = StopReason::none;
   Event stop_event_;
   Event refusal_;
   GuardCounters counters_;

@@ -37,7 +37,7 @@ struct CellResult {
   std::vector<ExpectationResult> expectations;
 };
 
-/// `codes` are those of the diagnostics of a task that was refused. Touches nothing outside of its arguments:
+/// `codes` are those of the task's errors and warnings. Touches nothing outside of its arguments:
 /// cells may run side by side on threads.
 CellResult run_cell(const lang::Scenario& scenario, const lang::ScenarioCell& cell,
                     const lang::ScenarioRun& run, const std::vector<std::string>& codes = {});

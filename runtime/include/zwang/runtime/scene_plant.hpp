@@ -26,6 +26,9 @@ struct ScenePartner {
   Eigen::VectorXd torque;  ///< that it commanded last
 };
 
+/// Of a log's columns behind the runner's own: where the plant has the base, its x, y and yaw.
+std::vector<Column> base_truth_columns();
+
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
 /// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its
 /// own samples and with its own runner, then makes one step of the world.

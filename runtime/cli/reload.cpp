@@ -1,0 +1,122 @@
+#include "reload.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <sstream>
+
+#include "output.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+constexpr auto look_every = std::chrono::milliseconds(50);
+
+}  // namespace
+
+Reloads::Reloads(const RunArguments& arguments, fs::path folder, const lang::Program& program,
+                 const lang::Diagnostics& diagnostics, const runtime::RunnerSettings& settings,
+                 Recorders& recorders)
+    : arguments_(arguments),
+      folder_(std::move(folder)),
+      program_(program),
+      settings_(settings),
+      recorders_(recorders) {
+  for (const lang::Source& source : diagnostics.sources()) {
+    std::error_code error;
+    if (fs::is_regular_file(source.path, error)) files_.push_back(source.path);
+  }
+  thread_ = std::thread([this] { watch(); });
+}
+
+Reloads::~Reloads() {
+  is_over_ = true;
+  thread_.join();
+}
+
+Reloads::Stamps Reloads::stamps() const {
+  Stamps stamps;
+  for (const std::string& file : files_) {
+    std::error_code error;
+    stamps.push_back(fs::last_write_time(file, error));
+  }
+  return stamps;
+}
+
+/// Editors write in pieces, or move a new file into the place of the old one: what is loaded has stayed as it
+/// is from one look to the next.
+void Reloads::watch() {
+  Stamps known = stamps(), last = known;
+  while (!is_over_) {
+    std::this_thread::sleep_for(look_every);
+    const Stamps now = stamps();
+    if (now != known && now == last) {
+      known = now;
+      load();
+    }
+    last = now;
+  }
+}
+
+/// What the plant measures for the program, it measures in the order of its signals.
+bool Reloads::fits(const lang::Program& next) const {
+  return std::equal(next.signals.begin(), next.signals.end(), program_.signals.begin(),
+                    program_.signals.end(), [&](const lang::Signal& a, const lang::Signal& b) {
+                      return a.name == b.name && a.type == b.type &&
+                             next.frames[static_cast<std::size_t>(a.in)].name ==
+                                 program_.frames[static_cast<std::size_t>(b.in)].name;
+                    });
+}
+
+void Reloads::load() {
+  auto next = std::make_unique<Loaded>();
+  std::string refusal;
+  try {
+    next->program = lang::load(arguments_.file, arguments_.overrides.load_options(), next->diagnostics);
+    std::ostringstream text;
+    lang::render_human(next->diagnostics, text);
+    print_error(text.str());
+    const bool is_good = next->program && !next->diagnostics.has_errors();
+    if (!is_good) {
+      refusal = "it has errors";
+    } else if (!fits(*next->program)) {
+      refusal = "its signals are others";
+    } else {
+      next->runner = std::make_unique<runtime::Runner>(*next->program, settings_);
+    }
+  } catch (const std::exception& error) {
+    refusal = error.what();
+  }
+  if (!refusal.empty())
+    return print_error("zwang: " + arguments_.file +
+                       " was not reloaded, the old program goes on: " + refusal + "\n");
+  const std::lock_guard lock(mutex_);
+  loaded_ = std::move(next);
+  is_loaded_ = true;
+}
+
+void Reloads::look(runtime::Runner& runner, double time) {
+  std::this_thread::sleep_until(begin_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                                             std::chrono::duration<double>(time)));
+  if (!is_loaded_) return;
+  std::unique_ptr<Loaded> next;
+  {
+    const std::lock_guard lock(mutex_);
+    next = std::move(loaded_);
+    is_loaded_ = false;
+  }
+  const bool is_over = runner.state() != runtime::RunState::running;
+  if (is_over || !runner.swap_program(*next->runner))
+    return print_error("zwang: " + arguments_.file + " was not reloaded: " +
+                       (is_over ? "the task is over" : "its robot is another") + "\n");
+  const std::string name = "log-reload-" + std::to_string(log_count_++);
+  runtime::LogContext context = context_of(arguments_, *next->program, next->diagnostics);
+  context.facts["continues"] = last_log_;
+  recorders_.push_back(record(runner, folder_, name, std::move(context)));
+  last_log_ = name + ".mcap";
+  print_error("zwang: " + arguments_.file + " reloaded at " + with_unit(time, "s") + "; " + last_log_ +
+              " goes on\n");
+}
+
+}  // namespace zwang::cli

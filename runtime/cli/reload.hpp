@@ -1,0 +1,63 @@
+/// `zwang run --watch`: a task file that changes while it runs.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "run_log.hpp"
+
+namespace zwang::cli {
+
+/// Looks at the files of a run on a thread of its own. When one has changed, and has stayed as it is for a
+/// moment, all are loaded. With an error the diagnostics are printed and the old program goes on; else the
+/// new one is swapped in between two ticks, at its start task, and a new log goes on where the last one ends.
+/// The robot, the scene and the signals are those that the run began with.
+class Reloads {
+ public:
+  /// What is referred to must outlive it.
+  Reloads(const RunArguments& arguments, std::filesystem::path folder, const lang::Program& program,
+          const lang::Diagnostics& diagnostics, const runtime::RunnerSettings& settings,
+          Recorders& recorders);
+  ~Reloads();
+  Reloads(const Reloads&) = delete;
+  Reloads& operator=(const Reloads&) = delete;
+
+  /// Between two ticks. Keeps the run at the pace of real time, too, so that somebody can watch it.
+  void look(runtime::Runner& runner, double time);
+
+ private:
+  struct Loaded {
+    std::optional<lang::Program> program;
+    lang::Diagnostics diagnostics;
+    std::unique_ptr<runtime::Runner> runner;
+  };
+  using Stamps = std::vector<std::filesystem::file_time_type>;
+
+  Stamps stamps() const;
+  void watch();
+  void load();
+  bool fits(const lang::Program& next) const;
+
+  const RunArguments& arguments_;
+  const std::filesystem::path folder_;
+  const lang::Program& program_;
+  const runtime::RunnerSettings& settings_;
+  Recorders& recorders_;
+  std::vector<std::string> files_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::string last_log_ = "log.mcap";
+  int log_count_ = 1;
+  std::mutex mutex_;
+  std::unique_ptr<Loaded> loaded_;  ///< by the watching thread, for the next tick
+  std::atomic<bool> is_loaded_ = false, is_over_ = false;
+  std::thread thread_;
+};
+
+}  // namespace zwang::cli

@@ -1,0 +1,89 @@
+#include "run_log.hpp"
+
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "output.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string exactly(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+}  // namespace
+
+std::filesystem::path make_log_folder(const RunArguments& arguments) {
+  std::error_code error;
+  if (arguments.log) {
+    fs::create_directories(*arguments.log, error);
+    if (!fs::is_directory(*arguments.log))
+      throw Impossible(*arguments.log + ": cannot make this folder: " + error.message());
+    return *arguments.log;
+  }
+  fs::create_directories("runs", error);
+  const std::string name = fs::path(arguments.file).stem().string();
+  for (int i = 1; i < 1'000'000 && !error; ++i) {
+    char number[16];
+    std::snprintf(number, sizeof number, "-%03d", i);
+    fs::path folder = fs::path("runs") / (name + number);
+    // True for the one that made it: two runs at once do not share a folder.
+    if (fs::create_directory(folder, error)) return folder;
+  }
+  throw Impossible("runs: cannot make a folder for the log: " + error.message());
+}
+
+runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene& scene,
+                               const lang::SceneRobot& robot, const lang::Diagnostics& diagnostics) {
+  runtime::LogContext context;
+  context.sources = diagnostics.sources();
+  context.facts["zwang"] = ZWANG_VERSION;
+  context.facts["task"] = robot.program->path;
+  context.facts["scene"] = scene.path;
+  if (!robot.robot_path.empty()) context.facts["robot"] = robot.robot_path;
+  context.facts["partner"] = robot.name;
+  context.facts["seed"] = std::to_string(arguments.seed);
+  context.facts["period [s]"] = exactly(control_period);
+  for (const lang::Parameter& p : robot.program->parameters)
+    context.facts["params." + p.name] = exactly(p.value);
+  return context;
+}
+
+std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const fs::path& folder,
+                                          const std::string& name, runtime::LogContext context) {
+  std::vector<std::unique_ptr<runtime::LogSink>> sinks;
+  sinks.push_back(runtime::mcap_sink(folder / (name + ".mcap"), std::move(context)));
+  sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
+  auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
+  if (!recorder->status().error.empty()) throw Impossible(recorder->status().error);
+  runner.record_to(recorder.get());
+  return recorder;
+}
+
+runtime::LogContext context_of(const RunArguments& arguments, const lang::Program& program,
+                               const lang::Diagnostics& diagnostics) {
+  runtime::LogContext context;
+  context.sources = diagnostics.sources();
+  std::map<std::string, std::string>& facts = context.facts;
+  facts["zwang"] = ZWANG_VERSION;
+  facts["task"] = arguments.file;
+  if (arguments.overrides.robot) facts["robot"] = *arguments.overrides.robot;
+  if (arguments.overrides.scene) facts["scene"] = *arguments.overrides.scene;
+  facts["seed"] = std::to_string(arguments.seed);
+  facts["period [s]"] = exactly(control_period);
+  if (arguments.start_yaw) facts["start_yaw [rad]"] = exactly(*arguments.start_yaw);
+  if (arguments.start_at) {
+    facts["start_at [m]"] = exactly((*arguments.start_at)[0]) + ", " + exactly((*arguments.start_at)[1]);
+  }
+  for (const lang::Parameter& p : program.parameters) facts["params." + p.name] = exactly(p.value);
+  return context;
+}
+
+}  // namespace zwang::cli

@@ -1,0 +1,34 @@
+/// Where a run leaves its logs, and what they say of it.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "verbs.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/recorder.hpp"
+#include "zwang/runtime/runner.hpp"
+
+namespace zwang::cli {
+
+inline constexpr double control_period = 1e-3;  ///< [s]
+
+using Recorders = std::vector<std::unique_ptr<runtime::Recorder>>;
+
+/// A folder of its own for the run: the given one, else the first free `runs/<task>-NNN`.
+std::filesystem::path make_log_folder(const RunArguments& arguments);
+
+/// The files that were read and everything that the command line changed: the same run again needs no more.
+runtime::LogContext context_of(const RunArguments& arguments, const lang::Program& program,
+                               const lang::Diagnostics& diagnostics);
+/// Of one of the scene's robots: its task file alone says what it does.
+runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene& scene,
+                               const lang::SceneRobot& robot, const lang::Diagnostics& diagnostics);
+
+/// A log of `runner` in the folder, as MCAP and as CSV. Throws Impossible.
+std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const std::filesystem::path& folder,
+                                          const std::string& name, runtime::LogContext context);
+
+}  // namespace zwang::cli

@@ -1,0 +1,54 @@
+/// The protective stop's brake on the wheels.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+
+namespace zwang::runtime {
+
+/// Each driven wheel damps its own motion, tau = -d qd within its limit, which can only take energy, as long
+/// as the motor does what it is told. One that does the opposite drives the base instead, faster than the
+/// others brake it: of four mecanum wheels' rates three quarters can be its own. So a motor under suspicion
+/// is left out, and where the wheels get faster under the brake, one after the other is, until they do not.
+/// Few wheels cannot brake every motion without it: where they roll on evenly its torque is turned around,
+/// and left out for good should that make them faster.
+/// Does not allocate, lock, throw or print after construction.
+class WheelBrake {
+ public:
+  /// All wheels together press the ground with `robot.stop.force` at most.
+  WheelBrake(const lang::Robot& robot, double period);
+
+  /// `suspect`: a joint whose motor the stop is about; -1: none. `is_sure`: it is that one and no other.
+  void begin(int suspect, bool is_sure) noexcept;
+  void brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept;
+
+  static constexpr double full_brake_speed = 0.5;  ///< [rad/s] the torque shrinks with the rate below it
+  static constexpr double look_every = 0.02;       ///< [s]
+  static constexpr double growth = 1.1;            ///< of the sum of squared speeds at the rims
+  static constexpr double evenly = 0.95;           ///< of the same sum: less is braking
+  static constexpr int even_looks = 3;             ///< before a motor is turned around
+  static constexpr double rest = 0.005;            ///< [m/s] root mean square at the rims
+  static constexpr double slow = 0.02;             ///< [m/s] root mean square at the rims: as good as rest
+
+ private:
+  struct DrivenWheel {
+    int joint = 0;
+    double radius = 0.0;  ///< [m]
+    double limit = 0.0;   ///< [N m]
+  };
+  void look(const Eigen::VectorXd& qd) noexcept;
+
+  std::vector<DrivenWheel> wheels_;
+  int ticks_between_looks_;
+  int ticks_ = 0;
+  int left_out_ = -1;   ///< index into `wheels_`; -1: none
+  double sense_ = 0.0;  ///< what its torque is multiplied with: 0, or -1 when it was turned around
+  bool may_turn_ = true;
+  int even_looks_ = 0;
+  bool searches_ = true;   ///< nobody said for sure which motor to leave out
+  double last_sum_ = 0.0;  ///< [m^2/s^2]
+};
+
+}  // namespace zwang::runtime

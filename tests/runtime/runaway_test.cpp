@@ -1,0 +1,201 @@
+// A base that gets away from its motors: what is one, what is none, and how the stop brakes it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "guard/runaway_watch.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+constexpr double period = 1e-3;
+
+lang::Program load(const std::string& robot) {
+  const std::string specs = ZWANG_SOURCE_DIR "/specs/";
+  lang::Diagnostics diagnostics;
+  lang::LoadOptions options;
+  options.robot = specs + "robots/" + robot + "_base.yaml";
+  options.scene = specs + "scenes/wall_far.yaml";
+  auto program = lang::load(specs + "wall_align.yaml", options, diagnostics);
+  if (!program) throw std::runtime_error("specs/wall_align.yaml does not load with " + robot);
+  return *program;
+}
+
+/// One mass on one wheel, told to stay between two speeds: v(t) and the force that it is told are given.
+class OneMass {
+ public:
+  OneMass(double low, double high) : model_(load("mecanum").robot.model), state_(model_) {
+    solver::AxisConstraint limit;
+    limit.move = limit.in = {.body = 0};
+    limit.velocity = solver::Range{low, high};
+    set_.add(limit);
+  }
+  /// [s] of the event; -1: none.
+  template <typename Speed, typename Force>
+  double found(double until, const Speed& speed, const Force& force) {
+    RunawayWatch watch(1, period);
+    Eigen::VectorXd rate(1), told(1);
+    for (int i = 0; i * period < until; ++i) {
+      const double t = i * period;
+      told(0) = force(t);
+      rate(0) = speed(t);
+      const bool is_due = watch.follow(told, rate);
+      state_.base_twist.linear.x() = speed(t);
+      set_.fill(model_, state_);
+      if (is_due && watch.look(set_, 0.5 * mass * watch.rates()(0) * watch.rates()(0))) return t;
+    }
+    return -1.0;
+  }
+  static constexpr double mass = 50.0;  // [kg]
+
+ private:
+  const solver::Model model_;
+  solver::State state_;
+  solver::ConstraintSet set_;
+};
+
+constexpr auto brake = [](double v) { return v > 0.0 ? -20.0 : 20.0; };  // [N]
+
+TEST(Runaway, IsFoundOneDwellAfterTheSpeedIsExceeded) {
+  // From rest with 0.5 m/s^2 against its brake: 0.1 m/s and the margin are passed after 0.26 s. One look
+  // finds that, `dwell` more see it grow; the low pass is late by its time constant.
+  OneMass mass(-0.1, 0.1);
+  const auto speed = [](double t) { return 0.5 * t; };
+  const double at = mass.found(1.0, speed, [&](double t) { return brake(speed(t)); });
+  const double passed = (0.1 + RunawayWatch::margin) / 0.5;
+  EXPECT_GT(at, passed + RunawayWatch::dwell * RunawayWatch::look_every);
+  EXPECT_LT(at, passed + (RunawayWatch::dwell + 2) * RunawayWatch::look_every + RunawayWatch::quick);
+}
+
+TEST(Runaway, IsNoneAsLongAsTheMotorsDoTheWork) {
+  OneMass mass(-0.1, 0.1);
+  EXPECT_EQ(mass.found(
+                2.0, [](double t) { return 0.5 * t; }, [](double) { return 20.0; }),
+            -1.0);
+}
+
+TEST(Runaway, IsNoneWhileTheSpeedIsAllowed) {
+  // Somebody pushes it, as slowly as it may move.
+  OneMass mass(-0.1, 0.1);
+  const auto speed = [](double t) { return 0.12 * (1.0 - std::exp(-t)); };
+  EXPECT_EQ(mass.found(3.0, speed, [&](double t) { return brake(speed(t)); }), -1.0);
+}
+
+TEST(Runaway, IsNoBounce) {
+  // At 0.3 m/s into a spring of half a period of 0.2 s, and back with 0.25 m/s where 0.05 m/s are allowed: it
+  // rises for 0.1 s against the motors, to less than it had.
+  OneMass mass(-0.05, 0.4);
+  const auto speed = [](double t) {
+    if (t < 1.0) return 0.3;
+    const double phase = std::min((t - 1.0) / 0.2, 1.0) * M_PI;
+    return phase < 0.5 * M_PI ? 0.3 * std::cos(phase) : 0.25 * std::cos(phase);
+  };
+  EXPECT_EQ(mass.found(2.0, speed, [](double) { return 20.0; }), -1.0);
+}
+
+TEST(Runaway, IsNoHitOfSomebodyElse) {
+  // Another robot hits one that stands: within 35 ms it has 0.2 m/s, and brakes from there.
+  OneMass mass(-0.05, 0.05);
+  const auto speed = [](double t) {
+    return 0.2 * std::clamp((t - 0.5) / 0.035, 0.0, 1.0) * std::exp(-std::max(0.0, t - 0.535) / 0.5);
+  };
+  EXPECT_EQ(mass.found(2.0, speed, [&](double t) { return brake(speed(t)); }), -1.0);
+}
+
+TEST(Runaway, IsNoTightenedLimit) {
+  OneMass mass(-0.1, 0.1);
+  const auto speed = [](double t) { return std::max(0.0, 0.6 - 0.4 * t); };
+  EXPECT_EQ(mass.found(1.5, speed, [&](double t) { return brake(speed(t)); }), -1.0);
+}
+
+struct Flipped {
+  const char* robot;
+  const char* wheel;
+};
+
+void PrintTo(const Flipped& flipped, std::ostream* out) {
+  *out << flipped.robot << " " << flipped.wheel;
+}
+
+class MotorInContact : public testing::TestWithParam<Flipped> {};
+
+/// At rest against the wall, 20 N and every speed told to be 0, a motor turns around. What the guard is to
+/// find is a speed of `margin`; until it has, each axis gets at most
+///   a (dwell + 2) look_every = 0.07 m/s more, a = 1 m/s^2 the limit of what a row may ask for.
+TEST_P(MotorInContact, ThatFlipsIsNamedAndTheBaseStands) {
+  const lang::Program program = load(GetParam().robot);
+  const double at = 15.0;
+  ScenePlantOptions options;
+  options.simulation.start_yaw = 0.0;
+  options.faults.push_back(
+      lang::Fault{.kind = lang::FaultKind::torque_flipped, .at = at, .joint = GetParam().wheel});
+  lang::Program pressing = program;  // for ever, and square
+  pressing.tasks[1].exits.clear();
+  ScenePlant plant(pressing, options);
+  Runner runner(pressing, {.period = period});
+  Sensed sensed(program.robot.model, program.signals.size());
+  double fastest = 0.0, hardest = 0.0, stopped_at = -1.0;
+  while (!runner.finished() && plant.truth().time < at + 3.0) {
+    ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+    ASSERT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+    if (plant.truth().time < at) continue;
+    fastest = std::max(fastest, plant.truth().velocity.head<2>().norm());
+    hardest = std::max(hardest, plant.truth().objects[0].force);
+    if (runner.guard().stopped() && stopped_at < 0.0) stopped_at = plant.truth().time - at;
+  }
+  ASSERT_TRUE(runner.guard().stopped());
+  const Event& event = runner.guard().stop_event();
+  std::printf("%s, %s: %s after %.0f ms; %.3f m/s and %.1f N at most; stands %.0f ms later\n",
+              GetParam().robot, GetParam().wheel, to_string(event.code), 1e3 * stopped_at, fastest, hardest,
+              1e3 * (plant.truth().time - at - stopped_at));
+  EXPECT_EQ(event.code, EventCode::runaway);
+  EXPECT_EQ(runner.event_signal(event), std::string(GetParam().wheel) + ".qd");
+  EXPECT_LE(fastest, RunawayWatch::margin + 0.07);
+  EXPECT_LE(hardest, 22.0) << "the bound and 10 %";
+  EXPECT_TRUE(runner.finished());
+  EXPECT_LE(plant.truth().time - at - stopped_at, 1.0) << "stands, and not because the time is up";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Wheels, MotorInContact,
+    testing::Values(Flipped{"mecanum", "front_left_wheel"}, Flipped{"mecanum", "front_right_wheel"},
+                    Flipped{"mecanum", "rear_left_wheel"}, Flipped{"mecanum", "rear_right_wheel"},
+                    Flipped{"omni", "front_left_wheel"}, Flipped{"omni", "front_right_wheel"},
+                    Flipped{"diff", "left_wheel"}, Flipped{"diff", "right_wheel"}),
+    [](const auto& tested) { return std::string(tested.param.robot) + "_" + tested.param.wheel; });
+
+/// A stop for another reason, on a base of which nobody knows that a motor is flipped: the brake finds it.
+TEST(ProtectiveStop, BrakesWithAMotorThatTurnsTheWrongWay) {
+  for (const auto& [robot, wheel] : {Flipped{"mecanum", "rear_left_wheel"},
+                                     Flipped{"omni", "front_left_wheel"}, Flipped{"diff", "right_wheel"}}) {
+    const lang::Program program = load(robot);
+    ScenePlantOptions options;
+    options.simulation.start_yaw = 0.0;
+    options.faults.push_back(lang::Fault{.kind = lang::FaultKind::torque_flipped, .at = 3.0, .joint = wheel});
+    ScenePlant plant(program, options);
+    Runner runner(program, {.period = period});
+    Sensed sensed(program.robot.model, program.signals.size());
+    double rest_since = -1.0;
+    while (plant.truth().time < 6.0) {
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      if (plant.truth().time >= 3.0) runner.guard().stop(EventCode::requested);
+      ASSERT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+      const bool rests = plant.truth().velocity.head<2>().norm() < 0.01;
+      if (!rests) rest_since = -1.0;
+      if (rests && rest_since < 0.0) rest_since = plant.truth().time;
+    }
+    std::printf("%s, %s: stands %.2f s after the stop, x %.3f m\n", robot, wheel, rest_since - 3.0,
+                plant.truth().x);
+    EXPECT_EQ(runner.guard().reason(), EventCode::requested);
+    EXPECT_GT(rest_since, 0.0) << robot;
+    EXPECT_LT(rest_since, 4.0) << robot;
+  }
+}
+
+}  // namespace
+}  // namespace zwang::runtime
