@@ -241,50 +241,9 @@ void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
   }
 }
 
-namespace {
-
-/// What the scene's signal measures; empty where its values may be those of a bool or of any number.
-std::string measured_by(const SceneSignal& signal) {
-  if (signal.kind == SceneSignalKind::pose) return "a pose";
-  if (signal.kind == SceneSignalKind::latch) return "true or false";
-  if (signal.kind == SceneSignalKind::distance) return describe(dimension::length);
-  const bool is_number = std::any_of(signal.script.begin(), signal.script.end(), [](const ScriptStep& step) {
-    return step.valid && step.value != 0.0 && step.value != 1.0;
-  });
-  return is_number ? "a number" : "";
-}
-
-bool gives(const SceneSignal& signal, const SignalSymbol& declared) {
-  switch (declared.signal.type) {
-    case SignalType::boolean:
-      return signal.kind == SceneSignalKind::latch || measured_by(signal).empty();
-    case SignalType::number:
-      return signal.kind == SceneSignalKind::script ||
-             (signal.kind == SceneSignalKind::distance && declared.dimension == dimension::length);
-    case SignalType::pose:
-      return signal.kind == SceneSignalKind::pose;
-    case SignalType::wrench:
-      break;
-  }
-  return false;
-}
-
-/// What the scene gives is what the task file takes it for.
-void check_scene(CheckContext& context, const Scene& scene) {
-  for (const SceneSignal& signal : scene.signals) {
-    const std::optional<int> index = context.symbols.find_signal(signal.name);
-    if (!index) continue;
-    const SignalSymbol& declared = context.symbols.signals[static_cast<std::size_t>(*index)];
-    if (declared.is_bad || gives(signal, declared)) continue;
-    context.diagnostics.add(
-        wording::signal_of_another_type(signal.span, signal.name, measured_by(signal), declared.signal.span));
-  }
-}
-
-}  // namespace
-
 std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
-                                 const LoadOptions& options, bool with_notes, Diagnostics& diagnostics) {
+                                 const LoadOptions& options, bool with_notes, double& budget,
+                                 Diagnostics& diagnostics) {
   CheckedFile checked;
   checked.symbols.has_robot = robot.has_value();
   for (const TaskText& task : file.tasks) checked.symbols.tasks.push_back(task.name.text);
@@ -293,7 +252,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   declare_signals(context);
   check_frames(context);
   check_world(context);
-  if (scene) check_scene(context, *scene);
+  if (scene) check_scene_signals(context, *scene);
   check_groups(context, file.always_groups);
   for (const ExitText& exit : file.always_exits) {
     checked.always_conditions.push_back(check_exit(context, exit, nullptr));
@@ -309,7 +268,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
     checked.requirements.push_back(std::move(require));
   }
   check_flow(context, checked.conditions);
-  check_physics(context, scene);
+  check_physics(context, scene, budget);
   if (diagnostics.has_errors() || !robot) return std::nullopt;
   checked.robot = std::move(*robot);
   checked.scene = std::move(scene);

@@ -79,21 +79,8 @@ void apply_override(CheckContext& context, const std::string& name, const std::s
                                                   nearest(name, context.symbols.parameter_names())));
     return;
   }
-  if (symbol->is_bad) return;
-  Node node;
-  node.kind = NodeKind::scalar;
-  node.span = value_span;
-  node.text = text;
-  const std::string what = "parameter `" + name + "`";
-  const ValueText value = parse_value(node, what, context.diagnostics);
-  if (!require_quantity(value, symbol->dimension, what, context.diagnostics)) return;
-  const double number = value.quantity.value;
-  const auto& range = symbol->parameter.range;
-  if (range && (number < range->low || number > range->high)) {
-    context.diagnostics.add(wording::outside_range(value_span, symbol->parameter, number));
-    return;
-  }
-  symbol->parameter.value = number;
+  if (const auto number = check_parameter_value(*symbol, {text, value_span}, context.diagnostics))
+    symbol->parameter.value = *number;
 }
 
 solver::Pose pose_of(const FrameText& frame) {
@@ -238,6 +225,25 @@ class FrameOrder {
 };
 
 }  // namespace
+
+std::optional<double> check_parameter_value(const ParameterSymbol& symbol, const Word& text,
+                                            Diagnostics& diagnostics) {
+  if (symbol.is_bad) return std::nullopt;
+  Node node;
+  node.kind = NodeKind::scalar;
+  node.span = text.span;
+  node.text = text.text;
+  const std::string what = "parameter `" + symbol.parameter.name + "`";
+  const ValueText value = parse_value(node, what, diagnostics);
+  if (!require_quantity(value, symbol.dimension, what, diagnostics)) return std::nullopt;
+  const double number = value.quantity.value;
+  const auto& range = symbol.parameter.range;
+  if (range && (number < range->low || number > range->high)) {
+    diagnostics.add(wording::outside_range(text.span, symbol.parameter, number));
+    return std::nullopt;
+  }
+  return number;
+}
 
 void check_parameters(CheckContext& context) {
   for (const ParameterText& text : context.file.parameters) {

@@ -220,6 +220,8 @@ Diagnostic scripted_with_mass(const Span& span, const std::string& what, const S
 Diagnostic one_fault(const Span& span);
 Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
                          const std::vector<std::string>& known);
+/// Of a motor that is none: nothing would go wrong.
+Diagnostic fault_without_motor(const Span& span, const std::string& joint);
 Diagnostic script_step(const Span& span);
 Diagnostic mixed_script(const Span& span, const std::string& what, bool starts_with_number,
                         const Span& first);

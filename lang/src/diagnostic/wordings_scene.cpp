@@ -1,6 +1,7 @@
 #include "diagnostic/make.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_scenario.hpp"
 #include "spec/units.hpp"
 #include "tree/text.hpp"
 
@@ -65,6 +66,27 @@ Diagnostic not_a_time(const Span& span, const std::string& name) {
                "use for example `truth.wall.touched`");
 }
 
+Diagnostic unknown_task_parameter(const Span& span, const std::string& name, const std::string& meant,
+                                  const std::vector<std::string>& known, const std::string& task) {
+  const std::string has = in_ticks(task) + (known.empty() ? " declares none" : " has " + list_of(known));
+  const std::string help = meant.empty() ? has : "did you mean `" + meant + "`? " + has;
+  return error("E301", span, "no parameter named " + in_ticks(name), help);
+}
+
+Diagnostic refused_cell(const Span& span, const std::string& cell, const std::string& code,
+                        const std::string& reason, const std::string& place) {
+  return error("E912", span,
+               "in the cell `" + cell + "` the task is refused, and nothing expects it: " + code + " at " +
+                   place + ", " + reason,
+               "leave the cell out, or write `- diagnostic: " + code + "`");
+}
+
+Diagnostic unasked_cells(const Span& span, const std::string& cell) {
+  return make("N608", Severity::note, span,
+              "from the cell `" + cell + "` on nothing was asked: so many would take too long",
+              "`zwang test` asks them all");
+}
+
 Diagnostic one_fault(const Span& span) {
   return error("E907", span, "a fault says exactly one thing that goes wrong",
                "`samples`, `clock`, `wheel` with `torque`, `floor_friction`, `payload` or `plant`");
@@ -73,6 +95,11 @@ Diagnostic one_fault(const Span& span) {
 Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
                          const std::vector<std::string>& known) {
   return unknown_word("E907", span, "`" + key + "` cannot be " + in_ticks(text), text, known);
+}
+
+Diagnostic fault_without_motor(const Span& span, const std::string& joint) {
+  return error("E907", span, "no motor turns " + in_ticks(joint) + ": its torque cannot fail",
+               "name a joint of the robot file's `actuated`");
 }
 
 Diagnostic script_step(const Span& span) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "diagnostic/make.hpp"
+#include "diagnostic/wordings_physics.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang::wording {
@@ -130,13 +131,32 @@ Diagnostic word_for_a_name(const Span& span, const std::string& word) {
 }
 
 Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& measured,
+                                  const std::string& expected, const std::string& remedy,
                                   const Span& declared) {
-  const std::string gives = measured.empty() ? "truth values or numbers" : measured;
   return with_related(error("E701", span,
-                            "for signal `" + name + "` the scene gives " + gives +
-                                ", and the task file declares it as something else",
-                            "give it another source, or declare it as what it is"),
+                            "for signal `" + name + "` the scene gives " + measured +
+                                ", and the task file declares " + expected,
+                            remedy),
                       declared, "`" + name + "` is declared here");
+}
+
+Diagnostic signal_too_old(const Span& span, const std::string& name, double delay, double period, double age,
+                          const Span& stale_after) {
+  const auto ms = [](double seconds) { return figure(seconds * 1e3, "ms"); };
+  const bool is_never_known = delay > age;
+  const std::string message =
+      is_never_known ? "` comes " + ms(delay) + " late and is believed for " + ms(age) + ": it is never known"
+                     : "` is " + ms(delay + period) + " old before the next sample comes, and believed for " +
+                           ms(age) + ": it is lost again and again";
+  return with_related(
+      warning("W702", span, "signal `" + name + message,
+              "make `stale_after` longer than " + ms(delay + period) + ", or let the signal come sooner"),
+      stale_after, "`stale_after` is given here");
+}
+
+Diagnostic unheard_signal(const Span& span, const std::string& name, const std::string& meant) {
+  return with_suggestion(
+      warning("W302", span, "the scene gives a signal `" + name + "`, and the task file has none"), meant);
 }
 
 Diagnostic directive(const Span& span) {

@@ -38,7 +38,13 @@ Diagnostic unknown_truth(const Span& span, const std::string& name, const std::s
 Diagnostic word_for_a_name(const Span& span, const std::string& word);
 /// The scene measures something else for it than the task file takes it for.
 Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& measured,
+                                  const std::string& expected, const std::string& remedy,
                                   const Span& declared);
+/// It is older than `stale_after` before the next sample comes. [s]
+Diagnostic signal_too_old(const Span& span, const std::string& name, double delay, double period, double age,
+                          const Span& stale_after);
+/// Of the scene, and the task file has none of this name.
+Diagnostic unheard_signal(const Span& span, const std::string& name, const std::string& meant);
 /// A line that begins with `%`.
 Diagnostic directive(const Span& span);
 Diagnostic urdf_for_robot_file(const Span& span);

@@ -156,6 +156,14 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
   axis.level = text.level.value_or(group.level.value_or(in_always ? 0 : 1));
   axis.is_soft = text.weight || group.weight;
   axis.is_spring = text.stiffness || text.damping;
+  if (text.stiffness && text.damping) {
+    const bool turns = axis.turns();
+    axis.stiffness =
+        known(context, *text.stiffness, turns ? dimension::angular_stiffness : dimension::stiffness);
+    axis.damping = known(context, *text.damping, turns ? dimension::angular_damping : dimension::damping);
+    axis.stiffness_span = text.stiffness->span;
+    axis.damping_span = text.damping->span;
+  }
   return axis;
 }
 

@@ -80,7 +80,7 @@ void parse_fixed(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics) {
     const Node* node = map.optional(name);
     if (node == nullptr) continue;
     if (auto value = parse_matrix_value(name, *node, diagnostics)) {
-      file.fixed.push_back({name, {std::move(*value)}});
+      file.fixed.push_back({name, {std::move(*value)}, node->span});
     }
   }
   const Node* parameters = map.optional("params");
@@ -89,7 +89,7 @@ void parse_fixed(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics) {
     if (entry.key.is_bad) continue;
     const std::string name = "params." + entry.key.text;
     if (auto value = parse_matrix_value(name, entry.value, diagnostics)) {
-      file.fixed.push_back({name, {std::move(*value)}});
+      file.fixed.push_back({name, {std::move(*value)}, entry.key.span});
     }
   }
 }
@@ -145,7 +145,8 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
   }
   const Node* that = always != nullptr ? always : nullptr;
   if (always != nullptr) expected.kind = ExpectationKind::always;
-  if (at != nullptr || within != nullptr) that = map.required("that");
+  // Of two claims in one nobody knows which one needs it.
+  if (at != nullptr || within != nullptr) that = is_good ? map.required("that") : map.optional("that");
   if (that != nullptr) expected.that = parse_condition(*that, diagnostics);
   map.report_split_condition();
   map.finish();

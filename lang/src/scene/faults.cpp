@@ -57,7 +57,10 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
   if (const Node* length = map.optional("for"))
     fault.duration = positive(*length, dimension::time, "a fault's `for`", false, diagnostics);
   const Node* wheel = map.optional("wheel");
-  if (wheel != nullptr) fault.joint = parse_word(*wheel, "`wheel`", diagnostics).text;
+  if (wheel != nullptr) {
+    fault.joint = parse_word(*wheel, "`wheel`", diagnostics).text;
+    fault.joint_span = wheel->span;
+  }
   int found = 0;
   for (const char* key : {"samples", "clock", "torque", "plant"}) {
     if (const Node* word = map.optional(key)) parse_word_of(key, *word, fault, found, diagnostics);
@@ -72,8 +75,7 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
     fault.kind = FaultKind::payload;
     fault.value = positive(*payload, dimension::mass, "`payload`", false, diagnostics);
   }
-  const bool names_wheel = fault.kind == FaultKind::torque_lost || fault.kind == FaultKind::torque_stuck ||
-                           fault.kind == FaultKind::torque_flipped;
+  const bool names_wheel = map.optional("torque") != nullptr;
   if (found != 1 && !map.has_unread_keys()) diagnostics.add(wording::one_fault(node.span));
   if (found == 1 && names_wheel && wheel == nullptr) map.required("wheel");
   if (found == 1 && !names_wheel && wheel != nullptr) diagnostics.add(wording::one_fault(node.span));

@@ -1,5 +1,6 @@
 #include "scene/load_scene.hpp"
 
+#include "check/check.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scene/faults.hpp"
 #include "scene/load_robots.hpp"
@@ -234,12 +235,12 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
 }  // namespace
 
 std::optional<Scene> load_scene_from(const std::filesystem::path& path, const std::filesystem::path& root,
-                                     const Span& cause, Diagnostics& diagnostics) {
+                                     const Span& cause, double& budget, Diagnostics& diagnostics) {
   const std::optional<int> source = read_file(path, yaml_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
   std::optional<Scene> scene = read_scene(*source, diagnostics);
   if (scene) scene->path = path.string();
-  if (scene && !load_robots_of(*scene, path, root, diagnostics)) return std::nullopt;
+  if (scene && !load_robots_of(*scene, path, root, budget, diagnostics)) return std::nullopt;
   return scene;
 }
 
@@ -253,7 +254,8 @@ std::optional<Scene> read_scene(int source, Diagnostics& diagnostics) {
 }
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  std::optional<Scene> scene = load_scene_from(path, root_of(path), {}, diagnostics);
+  double budget = whole_budget;
+  std::optional<Scene> scene = load_scene_from(path, root_of(path), {}, budget, diagnostics);
   diagnostics.settle();
   return scene;
 }

@@ -34,6 +34,14 @@ std::optional<StepValue> parse_step_value(const Node& node, const Node& step, do
   return std::nullopt;
 }
 
+/// What the first value says of all.
+void describe_script(const StepValue& first, const Span& span, SceneSignal& signal) {
+  signal.source_span = span;
+  signal.script_kind = first.dimension ? ScriptKind::number : ScriptKind::truth;
+  const Dimension d = first.dimension.value_or(dimension::none);
+  signal.powers = {d.length, d.mass, d.time, d.angle};
+}
+
 /// `[[0 s, false], [5 s, true]]`: what the signal is from each time on.
 void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostics) {
   const std::string what = "signal `" + signal.name + "`'s script";
@@ -59,6 +67,7 @@ void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostic
     if (!first) {
       first = parsed;
       first_span = value.span;
+      describe_script(*parsed, value.span, signal);
     } else if (first->dimension.has_value() != parsed->dimension.has_value()) {
       diagnostics.add(wording::mixed_script(value.span, what, first->dimension.has_value(), first_span));
       return;
@@ -128,6 +137,7 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diag
     given = node;
     signal.kind = source.kind;
   }
+  if (given != nullptr) signal.source_span = given->span;
   if (found == 1 && signal.kind == SceneSignalKind::script) {
     parse_script(*given, signal, diagnostics);
   } else if (found == 1) {
@@ -191,7 +201,10 @@ std::optional<Dock> parse_dock(const Node& node, const std::string& what, Diagno
         parse_plain(*reach, dimension::length, what + "'s `reach`", diagnostics).value_or(dock.reach);
     if (dock.reach <= 0.0) diagnostics.add(wording::not_positive(reach->span, what + "'s `reach`", false));
   }
-  if (const Node* hook = map.required("hook")) dock.hook = parse_word(*hook, "`hook`", diagnostics).text;
+  if (const Node* hook = map.required("hook")) {
+    dock.hook = parse_word(*hook, "`hook`", diagnostics).text;
+    dock.hook_span = hook->span;
+  }
   map.finish();
   return dock;
 }

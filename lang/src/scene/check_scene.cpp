@@ -1,0 +1,58 @@
+#include "scene/check_scene.hpp"
+
+#include <algorithm>
+
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+void check_rollers(const Scene& scene, const Robot& robot, Diagnostics& diagnostics) {
+  const auto& wheels = robot.model.wheels();
+  const auto rolls = [](const solver::Wheel& wheel) { return wheel.roller_angle.has_value(); };
+  if (scene.real_rollers && std::none_of(wheels.begin(), wheels.end(), rolls))
+    diagnostics.add(wording::no_rollers(scene.real_rollers_span, robot.name));
+}
+
+void check_hook(const std::optional<Dock>& dock, const Robot& robot, Diagnostics& diagnostics) {
+  if (!dock || dock->hook.empty() || robot.model.find_frame(dock->hook)) return;
+  std::vector<std::string> frames;
+  for (const solver::Frame& frame : robot.model.frames()) frames.push_back(frame.name);
+  diagnostics.add(wording::unknown_name(dock->hook_span, "frame", dock->hook, nearest(dock->hook, frames)));
+}
+
+/// Names of the joints that a motor turns.
+std::vector<std::string> motors_of(const solver::Model& model) {
+  std::vector<std::string> names;
+  for (int j = 0; j < model.joint_count(); ++j) {
+    if (model.joint(j).actuated) names.push_back(model.joint(j).name);
+  }
+  return names;
+}
+
+}  // namespace
+
+void check_faults_for(const std::vector<Fault>& faults, const Robot& robot, Diagnostics& diagnostics) {
+  const std::vector<std::string> motors = motors_of(robot.model);
+  for (const Fault& fault : faults) {
+    const bool is_known = std::find(motors.begin(), motors.end(), fault.joint) != motors.end();
+    if (fault.joint.empty() || is_known) continue;
+    if (robot.model.find_joint(fault.joint)) {
+      diagnostics.add(wording::fault_without_motor(fault.joint_span, fault.joint));
+    } else {
+      diagnostics.add(wording::unknown_name(fault.joint_span, "joint with a motor", fault.joint,
+                                            nearest(fault.joint, motors)));
+    }
+  }
+}
+
+void check_scene_for(const Scene& scene, const Robot& robot, Diagnostics& diagnostics) {
+  check_rollers(scene, robot, diagnostics);
+  for (const SceneObject& object : scene.objects) check_hook(object.dock, robot, diagnostics);
+  for (const SceneRobot& other : scene.robots) check_hook(other.dock, robot, diagnostics);
+  check_faults_for(scene.faults, robot, diagnostics);
+}
+
+}  // namespace zwang::lang
