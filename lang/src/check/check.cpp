@@ -50,8 +50,7 @@ void check_target(CheckContext& context, const Word& target, const TaskText* tas
   if (context.symbols.find_task(target.text)) return;
   std::vector<std::string> known = context.symbols.tasks;
   known.insert(known.end(), {"done", "failed"});
-  context.diagnostics.add(
-      wording::unknown_name(target.span, "task", target.text, nearest(target.text, known)));
+  context.diagnostics.add(wording::unknown_name(target.span, "task", target.text, known));
 }
 
 Condition check_exit(CheckContext& context, const ExitText& exit, const TaskText* task) {
@@ -95,8 +94,8 @@ void complain_of_driver_name(CheckContext& context, const ValueText& value, cons
   }
   std::vector<std::string> known = context.symbols.signal_names();
   if (what.ends_with(".position")) known.push_back("here");
-  context.diagnostics.add(
-      wording::unknown_name(value.span, "number signal", value.name, nearest(value.name, known)));
+  context.diagnostics.add(wording::unknown_driver(value.span, value.name, nearest(value.name, known),
+                                                  what.ends_with(".position")));
 }
 
 }  // namespace
@@ -154,14 +153,18 @@ bool check_value(CheckContext& context, const ValueText& value, const Dimension&
     return false;
   }
   ParameterSymbol* symbol = context.symbols.find_parameter(value.name);
+  if (symbol == nullptr && value.name == "here") {
+    context.diagnostics.add(wording::dollar_before_here(value.span));
+    return false;
+  }
   if (symbol == nullptr) {
     const auto& declared = context.file.parameters;
     const bool is_declared_so = !is_identifier(value.name) &&
                                 std::any_of(declared.begin(), declared.end(),
                                             [](const ParameterText& text) { return !text.name.exists(); });
     if (is_declared_so) return false;
-    context.diagnostics.add(wording::unknown_name(value.span, "parameter", value.name,
-                                                  nearest(value.name, context.symbols.parameter_names())));
+    context.diagnostics.add(
+        wording::unknown_name(value.span, "parameter", value.name, context.symbols.parameter_names()));
     return false;
   }
   symbol->is_used = true;
@@ -198,8 +201,8 @@ std::optional<int> check_frame(CheckContext& context, const Word& name) {
   }
   if (!index) {
     if (context.symbols.has_robot) {
-      context.diagnostics.add(wording::unknown_name(name.span, "frame", name.text,
-                                                    nearest(name.text, context.symbols.frame_names())));
+      context.diagnostics.add(
+          wording::unknown_name(name.span, "frame", name.text, context.symbols.frame_names()));
     }
     return std::nullopt;
   }
@@ -214,9 +217,8 @@ void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
     if (set.kind == SetKind::parameter) {
       ParameterSymbol* symbol = context.symbols.find_parameter(set.name.text);
       if (symbol == nullptr) {
-        context.diagnostics.add(
-            wording::unknown_name(set.name.span, "parameter", set.name.text,
-                                  nearest(set.name.text, context.symbols.parameter_names())));
+        context.diagnostics.add(wording::unknown_name(set.name.span, "parameter", set.name.text,
+                                                      context.symbols.parameter_names()));
         continue;
       }
       const std::string what = "params." + set.name.text;
@@ -234,8 +236,7 @@ void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
       std::vector<std::string> declared;
       for (const FrameText& frame : context.file.frames) declared.push_back(frame.name.text);
       context.diagnostics.add(index ? wording::not_settable(set.name.span, set.name.text)
-                                    : wording::unknown_name(set.name.span, "frame", set.name.text,
-                                                            nearest(set.name.text, declared)));
+                                    : wording::unknown_name(set.name.span, "frame", set.name.text, declared));
     }
     check_frame(context, set.source);
   }
@@ -258,8 +259,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
     checked.always_conditions.push_back(check_exit(context, exit, nullptr));
   }
   if (file.start.exists() && !file.tasks.empty() && !checked.symbols.find_task(file.start.text)) {
-    diagnostics.add(wording::unknown_name(file.start.span, "task", file.start.text,
-                                          nearest(file.start.text, checked.symbols.tasks)));
+    diagnostics.add(wording::unknown_name(file.start.span, "task", file.start.text, checked.symbols.tasks));
   }
   for (const TaskText& task : file.tasks) {
     checked.conditions.push_back(check_task(context, task));

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "check/context.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "tree/text.hpp"
 
@@ -75,8 +74,8 @@ void apply_override(CheckContext& context, const std::string& name, const std::s
   const Span value_span{source, {1, column(name.size() + 1)}, {1, column(written.size())}};
   ParameterSymbol* symbol = context.symbols.find_parameter(name);
   if (symbol == nullptr) {
-    context.diagnostics.add(wording::unknown_name(name_span, "parameter", name,
-                                                  nearest(name, context.symbols.parameter_names())));
+    context.diagnostics.add(
+        wording::unknown_name(name_span, "parameter", name, context.symbols.parameter_names()));
     return;
   }
   if (const auto number = check_parameter_value(*symbol, {text, value_span}, context.diagnostics))
@@ -172,7 +171,7 @@ class FrameOrder {
     for (const SignalSymbol& signal : symbols.signals) {
       if (signal.signal.type == SignalType::pose) known.push_back(signal.signal.name);
     }
-    context_.diagnostics.add(wording::unknown_name(name.span, "frame", name.text, nearest(name.text, known)));
+    context_.diagnostics.add(wording::unknown_name(name.span, "frame", name.text, known));
     return std::nullopt;
   }
 

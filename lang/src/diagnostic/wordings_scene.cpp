@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "diagnostic/make.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
@@ -73,12 +75,24 @@ Diagnostic unknown_task_parameter(const Span& span, const std::string& name, con
   return error("E301", span, "no parameter named " + in_ticks(name), help);
 }
 
-Diagnostic refused_cell(const Span& span, const std::string& cell, const std::string& code,
+Diagnostic refused_cell(const std::vector<Span>& spans, const std::string& cell, const std::string& code,
                         const std::string& reason, const std::string& place) {
-  return error("E912", span,
-               "in the cell `" + cell + "` the task is refused, and nothing expects it: " + code + " at " +
-                   place + ", " + reason,
-               "leave the cell out, or write `- diagnostic: " + code + "`");
+  Diagnostic diagnostic =
+      error("E912", spans.front(),
+            "in the cell `" + cell + "` the task is refused, and nothing expects it: " + code + " at " +
+                place + ", " + reason,
+            "leave this out of the matrix, or write `- diagnostic: " + code + "`");
+  const auto is_same = [](const Span& a, const Span& b) {
+    return a.source == b.source && a.begin.line == b.begin.line && a.begin.column == b.begin.column;
+  };
+  for (const Span& span : spans) {
+    const auto& said = diagnostic.related;
+    const bool is_new = !is_same(span, spans.front()) &&
+                        std::none_of(said.begin(), said.end(),
+                                     [&](const RelatedSpan& other) { return is_same(other.span, span); });
+    if (is_new) diagnostic.related.push_back({span, "and with this"});
+  }
+  return diagnostic;
 }
 
 Diagnostic unasked_cells(const Span& span, const std::string& cell) {

@@ -130,6 +130,44 @@ Diagnostic word_for_a_name(const Span& span, const std::string& word) {
                "choose another name");
 }
 
+Diagnostic condition_without_key(const Span& span, const std::string& what, const std::string& key,
+                                 const std::string& condition) {
+  return error("E103", span, what + " does not say `" + key + "`",
+               "write `" + key + ": " + escaped(condition) + "`");
+}
+
+Diagnostic unknown_driver(const Span& span, const std::string& name, const std::string& meant,
+                          bool is_position) {
+  const std::string values = "write a number with its unit, a parameter, as `$push`, ";
+  return with_suggestion(
+      error("E301", span, "no number signal named " + in_ticks(name),
+            values + (is_position ? "`here`, or a number signal" : "or the name of a number signal")),
+      meant);
+}
+
+Diagnostic dollar_before_here(const Span& span) {
+  return with_replacement(error("E301", span, "no parameter named `here`", "write `here` without the `$`"),
+                          "here");
+}
+
+Diagnostic parameter_of_a_matrix(const Span& span, const std::string& key) {
+  return error("E101", span, "unknown key " + in_ticks(key) + " in `matrix`",
+               "a parameter is written `params." + (key == "params" ? "NAME: [..]" : escaped(key)) +
+                   "`; the other keys are robot, scene, start_at, start_yaw, faults");
+}
+
+Diagnostic unknown_hook(const Span& span, const std::string& name, const std::string& meant) {
+  return with_suggestion(error("E301", span, "no frame of the robot named " + in_ticks(name),
+                               "a hook is a part of the robot: declare it under `frames` of the robot file"),
+                         meant);
+}
+
+Diagnostic quantity_of_a_feature(const Span& span, const std::string& written, const std::string& feature) {
+  return with_replacement(error("E301", span, "nothing named " + in_ticks(written) + " can be measured here",
+                                "a feature is measured by its name alone: `" + feature + "`"),
+                          feature);
+}
+
 Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& measured,
                                   const std::string& expected, const std::string& remedy,
                                   const Span& declared) {

@@ -13,6 +13,20 @@ namespace zwang::lang::wording {
 std::string plainly_written(const std::string& text);
 /// Offers that spelling; `plain` reads well.
 Diagnostic odd_letters(const Span& span, const std::string& text, const std::string& plain);
+/// `{at: end, elapsed > 2 s}` for `{at: end, that: elapsed > 2 s}`.
+Diagnostic condition_without_key(const Span& span, const std::string& what, const std::string& key,
+                                 const std::string& condition);
+/// What drives an axis is no quantity, and `meant` is empty or the name of a signal that is.
+Diagnostic unknown_driver(const Span& span, const std::string& name, const std::string& meant,
+                          bool is_position);
+/// `$here` for `here`.
+Diagnostic dollar_before_here(const Span& span);
+/// `push` for `params.push` in a matrix.
+Diagnostic parameter_of_a_matrix(const Span& span, const std::string& key);
+/// A hook is a frame of the robot's own.
+Diagnostic unknown_hook(const Span& span, const std::string& name, const std::string& meant);
+/// `reach.position` for `reach`.
+Diagnostic quantity_of_a_feature(const Span& span, const std::string& written, const std::string& feature);
 /// `AND` for `and`.
 Diagnostic word_in_capitals(const Span& span, const std::string& text, const std::string& word);
 Diagnostic divides_by_zero(const Span& span);

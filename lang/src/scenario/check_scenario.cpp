@@ -1,6 +1,6 @@
 // What can be said of a scenario's cells without running them.
 #include <algorithm>
-#include <set>
+#include <map>
 #include <tuple>
 
 #include "check/check.hpp"
@@ -132,12 +132,16 @@ class CellChecker {
 
   void complain_of_refusals() {
     if (refusals_.empty() || (accepted_.empty() && is_refused_alone())) return;
-    std::set<std::tuple<std::string, std::string, std::string>> said;
-    for (const Refusal& refusal : refusals_) {
-      // One cause, one message: a mistake in a scene is the same on all robots.
-      if (!said.emplace(refusal.reason.code, refusal.reason.message, refusal.place).second) continue;
-      diagnostics_.add(wording::refused_cell(guilty(*refusal.cell), refusal.cell->name, refusal.reason.code,
-                                             refusal.reason.message, refusal.place));
+    // One cause, one message: a mistake in a scene is the same on all robots.
+    std::map<std::pair<std::string, std::string>, std::vector<const Refusal*>> by_cause;
+    for (const Refusal& refusal : refusals_)
+      by_cause[{refusal.reason.code, refusal.place}].push_back(&refusal);
+    for (const auto& [cause, alike] : by_cause) {
+      const Refusal& first = *alike.front();
+      std::vector<Span> guilty_ones;
+      for (const Refusal* refusal : alike) guilty_ones.push_back(guilty(*refusal->cell));
+      diagnostics_.add(wording::refused_cell(guilty_ones, first.cell->name, first.reason.code,
+                                             first.reason.message, first.place));
     }
   }
 

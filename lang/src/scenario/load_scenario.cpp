@@ -1,4 +1,3 @@
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scenario/scenario_file.hpp"
 #include "scene/check_scene.hpp"
@@ -61,8 +60,7 @@ class CellMaker {
       cell.faults = set.faults;
       return;
     }
-    diagnostics_.add(wording::unknown_name(value.word.span, "set of faults", value.word.text,
-                                           nearest(value.word.text, names)));
+    diagnostics_.add(wording::unknown_name(value.word.span, "set of faults", value.word.text, names));
   }
 
   const ScenarioFile& file_;

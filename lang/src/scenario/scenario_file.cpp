@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "scene/faults.hpp"
 #include "spec/shape.hpp"
 #include "zwang/lang/explanation.hpp"
@@ -71,6 +73,11 @@ void parse_matrix(const Node& node, ScenarioFile& file, Diagnostics& diagnostics
                           entry.key.text == "scene" || entry.key.text == "start_at" ||
                           entry.key.text == "start_yaw" || entry.key.text == "faults";
     if (!entry.key.is_bad && is_known) file.matrix.push_back(parse_matrix_key(entry, diagnostics));
+    if (entry.key.is_bad || is_known ||
+        !meant_key(entry.key.text, {"robot", "scene", "start_at", "start_yaw", "faults"}).empty())
+      continue;
+    diagnostics.add(wording::parameter_of_a_matrix(entry.key.span, entry.key.text));
+    map.optional(entry.key.text);
   }
   map.finish();
 }
@@ -131,7 +138,7 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
     expected.kind = ExpectationKind::diagnostic;
     expected.word = parse_word(*code, "`diagnostic`", diagnostics);
     if (expected.word.exists() && find_explanation(expected.word.text) == nullptr)
-      diagnostics.add(wording::unknown_name(code->span, "code", expected.word.text, ""));
+      diagnostics.add(wording::unknown_name(code->span, "code", expected.word.text, {}));
   }
   if (at != nullptr) {
     expected.kind = ExpectationKind::at_end;

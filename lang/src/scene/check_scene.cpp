@@ -4,6 +4,7 @@
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 
 namespace zwang::lang {
 
@@ -20,7 +21,7 @@ void check_hook(const std::optional<Dock>& dock, const Robot& robot, Diagnostics
   if (!dock || dock->hook.empty() || robot.model.find_frame(dock->hook)) return;
   std::vector<std::string> frames;
   for (const solver::Frame& frame : robot.model.frames()) frames.push_back(frame.name);
-  diagnostics.add(wording::unknown_name(dock->hook_span, "frame", dock->hook, nearest(dock->hook, frames)));
+  diagnostics.add(wording::unknown_hook(dock->hook_span, dock->hook, nearest(dock->hook, frames)));
 }
 
 /// Names of the joints that a motor turns.
@@ -42,8 +43,7 @@ void check_faults_for(const std::vector<Fault>& faults, const Robot& robot, Diag
     if (robot.model.find_joint(fault.joint)) {
       diagnostics.add(wording::fault_without_motor(fault.joint_span, fault.joint));
     } else {
-      diagnostics.add(wording::unknown_name(fault.joint_span, "joint with a motor", fault.joint,
-                                            nearest(fault.joint, motors)));
+      diagnostics.add(wording::unknown_name(fault.joint_span, "joint with a motor", fault.joint, motors));
     }
   }
 }

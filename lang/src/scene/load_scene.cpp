@@ -50,27 +50,28 @@ void parse_sizes(const Node& node, const std::string& what, SceneObject& object,
   map.finish();
 }
 
-void parse_shape(MapReader& map, SceneObject& object, Diagnostics& diagnostics) {
+/// How many shapes are given.
+int parse_shape(MapReader& map, SceneObject& object, Diagnostics& diagnostics) {
   const std::string what = "object `" + object.name + "`";
   const Node* box = map.optional("box");
   const Node* cylinder = map.optional("cylinder");
   const Node* wall = map.optional("wall");
   const int count = (box != nullptr ? 1 : 0) + (cylinder != nullptr ? 1 : 0) + (wall != nullptr ? 1 : 0);
-  if (count != 1) {
-    if (count == 0 && map.has_misspelt({"box", "cylinder", "wall"})) return;
-    diagnostics.add(wording::one_shape(object.span, what));
-  } else if (box != nullptr) {
+  if (count == 1 && box != nullptr) {
     object.shape = ShapeKind::box;
     const auto values = parse_vector(*box, dimension::length, 3, 3, what + "'s box", diagnostics);
-    if (!values) return;
+    if (!values) return count;
     object.size = {(*values)[0], (*values)[1], (*values)[2]};
     for (const double extent : *values) {
-      if (extent <= 0.0) return diagnostics.add(wording::not_positive(box->span, what + "'s box", false));
+      if (extent > 0.0) continue;
+      diagnostics.add(wording::not_positive(box->span, what + "'s box", false));
+      return count;
     }
-  } else {
+  } else if (count == 1) {
     object.shape = cylinder != nullptr ? ShapeKind::cylinder : ShapeKind::wall;
     parse_sizes(cylinder != nullptr ? *cylinder : *wall, what, object, diagnostics);
   }
+  return count;
 }
 
 /// How it feels to touch an object or a robot.
@@ -95,7 +96,7 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   const std::string what = "object `" + entry.key.text + "`";
   MapReader map(entry.value, what, diagnostics);
   if (!map.is_mapping()) return object;
-  parse_shape(map, object, diagnostics);
+  const int shapes = parse_shape(map, object, diagnostics);
   if (const Node* at = map.required("at")) parse_place(*at, what + "'s `at`", object.at, diagnostics);
   if (const Node* yaw = map.optional("yaw")) {
     object.yaw = parse_plain(*yaw, dimension::angle, what + "'s `yaw`", diagnostics).value_or(0.0);
@@ -116,6 +117,9 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   if (const Node* node = map.optional("dock")) {
     object.dock = parse_dock(*node, what + "'s `dock`", diagnostics);
   }
+  // An unknown key may have been the shape's.
+  if (shapes > 1 || (shapes == 0 && !map.has_unread_keys()))
+    diagnostics.add(wording::one_shape(object.span, what));
   map.finish();
   return object;
 }

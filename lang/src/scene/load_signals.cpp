@@ -1,6 +1,5 @@
 #include "scene/load_signals.hpp"
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 
 namespace zwang::lang {
@@ -92,7 +91,7 @@ void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<
     if (seen[i].name == word.text) signal.object = static_cast<int>(i);
   }
   if (signal.object < 0) {
-    diagnostics.add(wording::unknown_name(word.span, "object", word.text, nearest(word.text, names)));
+    diagnostics.add(wording::unknown_name(word.span, "object", word.text, names));
   } else if (signal.kind == SceneSignalKind::latch &&
              !seen[static_cast<std::size_t>(signal.object)].has_dock) {
     diagnostics.add(wording::nothing_latches(word.span, word.text));
@@ -142,10 +141,11 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diag
     parse_script(*given, signal, diagnostics);
   } else if (found == 1) {
     parse_object_name(*given, signal, seen, diagnostics);
-  } else if (!map.has_misspelt({"script", "pose_of", "distance_to", "latch"})) {
-    diagnostics.add(wording::one_signal_source(entry.key.span, entry.key.text));
   }
   parse_quality(map, signal, longest_delay, diagnostics);
+  // An unknown key may have been the source's.
+  if (found > 1 || (found == 0 && !map.has_unread_keys()))
+    diagnostics.add(wording::one_signal_source(entry.key.span, entry.key.text));
   map.finish();
   return signal;
 }

@@ -43,6 +43,19 @@ void parse_statements(MapReader& map, const std::string& path, AxisText& axis, i
   }
 }
 
+/// What `0 deg` alone may have been meant as.
+std::string statement_of(const std::string& text) {
+  const QuantityResult result = parse_quantity(text);
+  const Dimension& d = result.quantity.dimension;
+  const bool is_known = result.error == QuantityError::none;
+  if (is_known && (d == dimension::length || d == dimension::angle)) return "{position: " + text + "}";
+  if (is_known && (d == dimension::force || d == dimension::torque)) return "{force: " + text + "}";
+  if (is_known && (d == dimension::acceleration || d == dimension::angular_acceleration))
+    return "{acceleration: " + text + "}";
+  if (is_known || text.starts_with("$")) return "{velocity: " + text + "}";
+  return "{position: here}";
+}
+
 AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_level,
                     Diagnostics& diagnostics) {
   AxisText axis;
@@ -50,7 +63,9 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
   const std::string path = group + "." + entry.key.text;
   if (entry.value.is_scalar() && !entry.value.is_bad) {
     axis.is_free = entry.value.text == "free";
-    if (!axis.is_free) diagnostics.add(wording::bare_axis(entry.value.span, path, entry.value.text));
+    if (!axis.is_free)
+      diagnostics.add(wording::bare_axis(entry.value.span, path, entry.value.text,
+                                         statement_of(trimmed(entry.value.text))));
     return axis;
   }
   const bool is_empty =
@@ -203,11 +218,18 @@ void parse_enter(const Node& node, TaskText& task, Diagnostics& diagnostics) {
   map.finish();
 }
 
+/// In the place of groups that could not be read: one of them may be the one that a condition names.
+GroupText unread_group() {
+  GroupText unread;
+  unread.is_incomplete = true;
+  return unread;
+}
+
 }  // namespace
 
 std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnostics& diagnostics) {
   std::vector<GroupText> groups;
-  if (!require_mapping(node, "`constraints`", diagnostics)) return groups;
+  if (!require_mapping(node, "`constraints`", diagnostics)) return {unread_group()};
   if (node.entries.size() > most_groups) {
     diagnostics.add(wording::too_many_groups(node.entries[most_groups].key.span, most_groups));
   }
@@ -220,9 +242,7 @@ std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnost
 std::vector<GroupText> parse_constraints(MapReader& map, int lowest_level, Diagnostics& diagnostics) {
   if (const Node* node = map.optional("constraints")) return parse_groups(*node, lowest_level, diagnostics);
   if (!map.has_misspelt({"constraints"})) return {};
-  GroupText unread;
-  unread.is_incomplete = true;
-  return {unread};
+  return {unread_group()};
 }
 
 std::vector<ExitText> parse_exits(const Node& node, Diagnostics& diagnostics) {

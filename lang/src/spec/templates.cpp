@@ -102,8 +102,8 @@ void Templates::declare(const Node& node) {
         if (find_kind(argument.value.text) == nullptr) {
           std::vector<std::string> known;
           for (const ArgumentKind& kind : argument_kinds) known.emplace_back(kind.word);
-          diagnostics_.add(wording::unknown_name(argument.value.span, "kind of argument", argument.value.text,
-                                                 nearest(argument.value.text, known)));
+          diagnostics_.add(
+              wording::unknown_name(argument.value.span, "kind of argument", argument.value.text, known));
         }
         declared.arguments[argument.key.text] = argument.value.text;
       }
@@ -130,7 +130,7 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
   if (found == templates_.end()) {
     std::vector<std::string> known;
     for (const auto& [other, declared] : templates_) known.push_back(other);
-    diagnostics_.add(wording::unknown_name(name.span, "template", name.text, nearest(name.text, known)));
+    diagnostics_.add(wording::unknown_name(name.span, "template", name.text, known));
     return std::nullopt;
   }
   Template& used = found->second;
@@ -147,7 +147,7 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
   }
   if (const Entry* with = misspelt_with(task)) {
     diagnostics_.add(
-        wording::unknown_key(with->key.span, with->key.text, "a task that uses a template", "with", {}));
+        wording::unknown_key(with->key.span, with->key.text, "a task that uses a template", "with", {}, {}));
     return std::nullopt;
   }
   std::map<std::string, Node> values;
@@ -220,7 +220,7 @@ bool Templates::check_parameter(const std::string& name, const ValueText& value,
   if (parameter == parameters_.end()) {
     std::vector<std::string> known;
     for (const auto& [other, dimension] : parameters_) known.push_back(other);
-    diagnostics_.add(wording::unknown_name(value.span, "parameter", value.name, nearest(value.name, known)));
+    diagnostics_.add(wording::unknown_name(value.span, "parameter", value.name, known));
     return false;
   }
   if (!parameter->second) return false;

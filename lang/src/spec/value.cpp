@@ -50,7 +50,7 @@ ValueText parse_value_text(const std::string& text, const Span& span, Diagnostic
     value.name = text;
   } else if (is_spelt_oddly(text, span, diagnostics)) {
     return value;
-  } else if (!starts_a_number(text)) {
+  } else if (!starts_a_number(text) || text.find("..") != std::string::npos) {
     diagnostics.add(wording::not_a_value(span, text));
   } else {
     QuantityResult result = parse_quantity(text);
