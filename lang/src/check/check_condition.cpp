@@ -176,6 +176,9 @@ class ConditionCheck {
     if (has_unread_name()) return bad_type;
     if (parts.size() == 2 && context_.symbols.find_feature(parts[0]))
       return complain(wording::quantity_of_a_feature(node.span, node.word, parts[0]));
+    if (!context_.of_truth) {
+      if (const auto slip = slip_of_a_name(node, parts)) return complain(*slip);
+    }
     std::vector<std::string> known{"elapsed"};
     if (!context_.of_truth) known.insert(known.end(), estimated_forces.begin(), estimated_forces.end());
     for (const std::string& name : context_.symbols.signal_names()) known.push_back(name);
@@ -189,6 +192,23 @@ class ConditionCheck {
       }
     }
     return complain(wording::unknown_quantity(node.span, node.word, nearest(node.word, known)));
+  }
+
+  /// A name that means something, elsewhere or with a word more.
+  std::optional<Diagnostic> slip_of_a_name(const ExpressionText& node,
+                                           const std::vector<std::string>& parts) {
+    if (context_.symbols.find_parameter(node.word) != nullptr)
+      return wording::parameter_without_dollar(node.span, node.word);
+    if (parts.size() > 2) return std::nullopt;
+    ExpressionNode unused;
+    const GroupText* group = find_group(parts[0], unused);
+    const bool names_axis = group != nullptr && parts.size() == 2 &&
+                            std::any_of(group->axes.begin(), group->axes.end(),
+                                        [&](const AxisText& axis) { return axis.name.text == parts[1]; });
+    if (names_axis) return wording::axis_without_quantity(node.span, node.word);
+    if (group == nullptr && context_.symbols.find_frame(parts[0]))
+      return wording::frame_for_a_quantity(node.span, node.word, parts[0]);
+    return std::nullopt;
   }
 
   Type check_signal(const ExpressionText& node, int index, ExpressionNode& lowered) {

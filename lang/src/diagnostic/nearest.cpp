@@ -111,6 +111,15 @@ constexpr Synonym synonyms[] = {
     {"expectations", "expect"},
     {"assert", "expect"},
     {"speed", "velocity"},
+    {"args", "with"},
+    {"arguments", "with"},
+    {"template", "use"},
+    {"region", "inside"},
+    {"area", "inside"},
+    {"zone", "inside"},
+    {"retries", "attempts"},
+    {"rectangle", "polygon"},
+    {"box", "polygon"},
 };
 
 bool holds(const std::vector<std::string>& keys, std::string_view key) {

@@ -124,7 +124,8 @@ Diagnostic unknown_function(const Span& span, const std::string& name, const std
                          meant);
 }
 
-Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& meant) {
+Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& near) {
+  const std::string meant = name == "time" || name == "t" ? "elapsed" : near;
   return with_suggestion(error("E301", span, "nothing named " + in_ticks(name) + " can be measured here",
                                "write group.axis.velocity, a function, $parameter or elapsed"),
                          meant);

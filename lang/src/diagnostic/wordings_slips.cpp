@@ -162,6 +162,45 @@ Diagnostic unknown_hook(const Span& span, const std::string& name, const std::st
                          meant);
 }
 
+Diagnostic never_after(const Span& span) {
+  return with_replacement(
+      error("E104", span, "`never` stands in the place of the whole timeout", "write `timeout: never`"),
+      "never");
+}
+
+Diagnostic computed_value(const Span& span, const std::string& text) {
+  return error("E105", span, in_ticks(text) + " is not a value",
+               "nothing is computed here: write a number, or one parameter as `$push` or `-$push`");
+}
+
+Diagnostic needs_units(const Span& span, const std::string& what, const std::vector<std::string>& numbers,
+                       const Dimension& expected) {
+  std::string written;
+  for (const std::string& number : numbers)
+    written += (written.empty() ? "[" : ", ") + number + " " + usual_unit(expected);
+  written += "]";
+  return with_replacement(error("E201", span, what + " needs units", "write `" + written + "`"), written);
+}
+
+Diagnostic argument_without_unit(const Span& span, const std::string& argument, const std::string& number,
+                                 const Dimension& expected) {
+  const std::string written = number + " " + usual_unit(expected);
+  return with_replacement(error("E303", span, "argument `" + argument + "` must be " + describe(expected),
+                                "write `" + written + "`"),
+                          written);
+}
+
+Diagnostic axis_without_quantity(const Span& span, const std::string& axis) {
+  return error("E301", span, "`" + axis + "` does not say which quantity is meant",
+               "write `" + axis + ".position`, or `.velocity`, `.force`, `.residual`, `.saturated`");
+}
+
+Diagnostic frame_for_a_quantity(const Span& span, const std::string& written, const std::string& frame) {
+  return error("E301", span, "nothing named " + in_ticks(written) + " can be measured here",
+               "`" + frame + "` is a frame: measure `speed(" + frame + ")`, `moved(" + frame +
+                   ")`, or an axis of a group that moves it, as `group.x.position`");
+}
+
 Diagnostic quantity_of_a_feature(const Span& span, const std::string& written, const std::string& feature) {
   return with_replacement(error("E301", span, "nothing named " + in_ticks(written) + " can be measured here",
                                 "a feature is measured by its name alone: `" + feature + "`"),

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "spec/dimension.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang::wording {
@@ -27,6 +29,19 @@ Diagnostic parameter_of_a_matrix(const Span& span, const std::string& key);
 Diagnostic unknown_hook(const Span& span, const std::string& name, const std::string& meant);
 /// `reach.position` for `reach`.
 Diagnostic quantity_of_a_feature(const Span& span, const std::string& written, const std::string& feature);
+/// `timeout: {after: never}`.
+Diagnostic never_after(const Span& span);
+/// `2*$press`.
+Diagnostic computed_value(const Span& span, const std::string& text);
+/// A list of numbers, all without a unit.
+Diagnostic needs_units(const Span& span, const std::string& what, const std::vector<std::string>& numbers,
+                       const Dimension& expected);
+Diagnostic argument_without_unit(const Span& span, const std::string& argument, const std::string& number,
+                                 const Dimension& expected);
+/// `contact.x` for `contact.x.position`.
+Diagnostic axis_without_quantity(const Span& span, const std::string& axis);
+/// `tool.x`, or `tool`.
+Diagnostic frame_for_a_quantity(const Span& span, const std::string& written, const std::string& frame);
 /// `AND` for `and`.
 Diagnostic word_in_capitals(const Span& span, const std::string& text, const std::string& word);
 Diagnostic divides_by_zero(const Span& span);

@@ -393,7 +393,10 @@ Diagnostic chained_comparison(const Span& span) {
 
 Diagnostic unexpected_in_condition(const Span& span, const std::string& text) {
   return error("E105", span, in_ticks(text) + " is not expected here",
-               text == "," ? "join conditions with `and` or `or`" : "");
+               text == ","        ? "join conditions with `and` or `or`"
+               : text == "\u2265" ? "write `>=`"
+               : text == "\u2264" ? "write `<=`"
+                                  : "");
 }
 
 Diagnostic missing_argument(const Span& span, const std::string& function) {

@@ -200,6 +200,12 @@ TimeoutText parse_timeout(const Node& node, Diagnostics& diagnostics) {
     return timeout;
   }
   MapReader map(node, "`timeout`", diagnostics);
+  const Entry* never = node.is_mapping() ? node.find("after") : nullptr;
+  if (never != nullptr && never->value.is_scalar() && never->value.text == "never") {
+    diagnostics.add(wording::never_after(node.span));
+    timeout.is_never = true;
+    return timeout;
+  }
   if (const Node* after = map.required("after")) {
     timeout.after = parse_value(*after, "timeout.after", diagnostics);
   }
@@ -284,6 +290,7 @@ TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnosti
   }
   if (map.has_misspelt({"use"})) {
     for (const char* key : {"use", "with"}) map.optional(key);
+    task.groups.push_back(unread_group());
   }
   task.is_bad = task.is_bad || !task.name.exists() || map.has_unread_keys();
   map.finish();

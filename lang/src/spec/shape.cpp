@@ -158,6 +158,25 @@ std::optional<double> parse_plain(const Node& node, const Dimension& expected, c
   return value.quantity.value;
 }
 
+namespace {
+
+/// `[0, 0]` for `[0 m, 0 m]`: who forgets the unit forgets it everywhere, and is told once.
+bool complain_of_bare_numbers(const Node& list, const Dimension& expected, const std::string& what,
+                              Diagnostics& diagnostics) {
+  if (expected == dimension::none || list.items.size() < 2) return false;
+  std::vector<std::string> numbers;
+  for (const Node& item : list.items) {
+    if (item.is_bad || !item.is_scalar()) return false;
+    const QuantityResult result = parse_quantity(trimmed(item.text));
+    if (result.error != QuantityError::none || result.quantity.has_unit) return false;
+    numbers.push_back(result.quantity.number);
+  }
+  diagnostics.add(wording::needs_units(list.span, what, numbers, expected));
+  return true;
+}
+
+}  // namespace
+
 std::optional<std::vector<double>> parse_vector(const Node& node, const Dimension& expected,
                                                 std::size_t fewest, std::size_t most, const std::string& what,
                                                 Diagnostics& diagnostics) {
@@ -170,6 +189,7 @@ std::optional<std::vector<double>> parse_vector(const Node& node, const Dimensio
     diagnostics.add(wording::wrong_count(node.span, what, fewest, most, node.items.size()));
     return std::nullopt;
   }
+  if (complain_of_bare_numbers(node, expected, what, diagnostics)) return std::nullopt;
   std::vector<double> values;
   bool is_good = true;
   for (const Node& item : node.items) {

@@ -42,6 +42,10 @@ ValueText parse_value_text(const std::string& text, const Span& span, Diagnostic
   ValueText value;
   value.span = span;
   if (text.starts_with("$")) return parse_parameter(text, 1.0, value, diagnostics);
+  if (!text.starts_with("-$") && text.find('$') != std::string::npos) {
+    diagnostics.add(wording::computed_value(span, text));
+    return value;
+  }
   if (text.starts_with("-$")) return parse_parameter(text.substr(1), -1.0, value, diagnostics);
   if (text == "here") {
     value.kind = ValueKind::here;
