@@ -109,6 +109,8 @@ TEST(Scenario, mistakes_are_found_where_they_are_written) {
       {"outcome: done", "outcome: don", "E903", 12},
       {"at: end", "at: start", "E904", 13},
       {"outcome: done", "always: true < 1", "E301", 12},
+      {"within: 3 s", "wtihin: 3 s", "E101", 14},
+      {"{at: end, that", "{at: end, always: truth.base.x < 3 m, that", "E904", 13},
       {"outcome: done", "{outcome: done, diagnostic: E404}", "E904", 12},
       {"outcome: done", "diagnostic: E999", "E301", 12},
       {"start_yaw: [-5 deg, 5 deg]", "start_yaw: []", "E905", 6},
@@ -290,6 +292,34 @@ signals:
     ASSERT_GE(test::count(diagnostics, mistake.code), 1) << mistake.to << "\n" << rendered(diagnostics);
     EXPECT_EQ(diagnostics.error_count(), 1) << rendered(diagnostics);
     EXPECT_EQ(diagnostics.sorted()[0].span.begin.line, mistake.line) << rendered(diagnostics);
+  }
+}
+
+TEST(Scene, a_misspelt_key_is_the_only_mistake) {
+  const char* const text = R"(zwang_scene: 1
+objects:
+  cart:
+    box: [0.6 m, 0.4 m, 0.5 m]
+    at: [2 m, 0 m]
+    dock: {at: [-0.3 m, 0 m], hook: hook}
+signals:
+  partner: {pose_of: cart}
+  hooked:  {latch: cart}
+faults:
+  - {at: 2 s, wheel: left, torque: lost}
+)";
+  const Mistake mistakes[] = {{"objects:", "ojbects:", "E101", 2},
+                              {"dock:", "dcok:", "E101", 6},
+                              {"torque: lost", "torque: los", "E907", 11},
+                              {"box:", "bx:", "E101", 4}};
+  for (const Mistake& mistake : mistakes) {
+    const test::Folder folder;
+    Diagnostics diagnostics;
+    EXPECT_FALSE(
+        load_scene(folder.write("s.yaml", test::replaced(text, mistake.from, mistake.to)), diagnostics));
+    ASSERT_EQ(diagnostics.all().size(), 1u) << rendered(diagnostics);
+    EXPECT_EQ(diagnostics.all()[0].code, mistake.code) << rendered(diagnostics);
+    EXPECT_EQ(diagnostics.all()[0].span.begin.line, mistake.line) << rendered(diagnostics);
   }
 }
 

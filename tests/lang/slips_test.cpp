@@ -205,6 +205,26 @@ TEST(Slips, what_hangs_on_an_unreadable_part_is_not_complained_of) {
               "E201", 4);
 }
 
+TEST(Slips, a_misspelt_key_is_not_taken_for_one_that_is_not_there) {
+  const std::string slow =
+      "always: {constraints: {soft: {move: base_link, in: base_link, x: {acceleration: +-0.1 m/s^2}}}}\n";
+  const std::string drive = test::replaced(body, "x: {velocity: 0.1 m/s}",
+                                           "x: {position: here, velocity: +-0.5 m/s, tmie_constant: 3 s}");
+  expect_once(head + slow + drive, "E101", 8);
+  const std::string unused = "templates:\n  go_on: {body: {timeout: {after: 1 s, goto: done}}}\n";
+  expect_once(head + unused + test::replaced(body, "tasks:", "tsaks:"), "E101", 6);
+  expect_once(head + "params:\n  pace: {value: 0.1, range: [0 m/s, 1 m/s]}\n" +
+                  "templates:\n  on: {args: {v: velocity}, body: {constraints: {go: {move: base_link, in: "
+                  "base_link, x: {velocity: $v}}}, timeout: {after: 1 s, goto: done}}}\n" +
+                  "start: go\ntasks:\n  go: {use: on, with: {v: $pace}}\n",
+              "E201", 4);
+  expect_once(
+      head + test::replaced(body, "goto: done}",
+                            "goto: done}\n    exits: [{when: valid(eye) and speed(eye) < 1 m/s, for: 1 s, "
+                            "goto: done}]"),
+      "E301", 9);
+}
+
 TEST(Slips, the_weight_of_a_group_is_a_mass_above_zero) {
   const auto weighing = [](const std::string& weight, const std::string& axis) {
     return head + test::replaced(body, "x: {velocity: 0.1 m/s}", "weight: " + weight + ", " + axis);

@@ -269,6 +269,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   }
   check_flow(context, checked.conditions);
   check_physics(context, scene, budget);
+  if (scene && !diagnostics.has_errors()) check_scene_names(context, *scene);
   if (diagnostics.has_errors() || !robot) return std::nullopt;
   checked.robot = std::move(*robot);
   checked.scene = std::move(scene);

@@ -99,10 +99,7 @@ void check_age(CheckContext& context, const SceneSignal& signal, int index) {
 void check_scene_signals(CheckContext& context, const Scene& scene) {
   for (const SceneSignal& signal : scene.signals) {
     const std::optional<int> index = context.symbols.find_signal(signal.name);
-    if (!index) {
-      check_name(context, scene, signal);
-      continue;
-    }
+    if (!index) continue;
     const SignalSymbol& declared = context.symbols.signals[static_cast<std::size_t>(*index)];
     if (declared.is_bad) continue;
     if (gives(signal, declared)) {
@@ -112,6 +109,12 @@ void check_scene_signals(CheckContext& context, const Scene& scene) {
           signal.source_span, signal.name, measured_by(signal), declared_as(declared),
           remedy(signal, declared), declared.signal.span));
     }
+  }
+}
+
+void check_scene_names(CheckContext& context, const Scene& scene) {
+  for (const SceneSignal& signal : scene.signals) {
+    if (!context.symbols.find_signal(signal.name)) check_name(context, scene, signal);
   }
 }
 

@@ -139,7 +139,8 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
                                      const AxisText& text, bool in_always) {
   const bool is_feature = group.kind == GroupKind::feature;
   PlannedAxis axis;
-  if (text.is_free) return std::nullopt;
+  // What could not be read may be what the model would be asked about.
+  if (text.is_free || group.is_incomplete) return std::nullopt;
   const bool is_measured =
       is_feature ? measure_feature(context, group, axis) : measure_axis(context, group, text, axis);
   if (!is_measured) return std::nullopt;

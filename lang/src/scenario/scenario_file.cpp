@@ -150,6 +150,9 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
     if (expected.within < 0.0) diagnostics.add(wording::not_positive(within->span, "`within`", true));
     if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
   }
+  if (!is_good) {
+    for (const char* key : {"of", "that"}) map.optional(key);
+  }
   const Node* that = always != nullptr ? always : nullptr;
   if (always != nullptr) expected.kind = ExpectationKind::always;
   // Of two claims in one nobody knows which one needs it.

@@ -1,6 +1,7 @@
 #include "scene/load_scene.hpp"
 
 #include "check/check.hpp"
+#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scene/faults.hpp"
 #include "scene/load_robots.hpp"
@@ -166,9 +167,11 @@ void take_name(const Node& key, std::vector<Seen>& seen, bool has_dock, Diagnost
   seen.push_back({key.text, has_dock});
 }
 
-bool has_dock(const Node& robot) {
-  for (const Entry& entry : robot.entries) {
-    if (entry.key.text == "dock") return true;
+/// Of an object or a robot; one that is misspelt was complained of.
+bool has_dock(const Node& node) {
+  for (const Entry& entry : node.entries) {
+    if (meant_key(entry.key.text, {"at", "dock", "mass", "yaw"}) == "dock" || entry.key.text == "dock")
+      return true;
   }
   return false;
 }
@@ -219,10 +222,11 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
       // `truth.base.x` is the robot's.
       if (entry.key.text == "base")
         diagnostics.add(wording::name_taken(entry.key.span, "base", "the robot's base in `truth.base`"));
-      seen.push_back({entry.key.text, scene.objects.back().dock.has_value()});
+      seen.push_back({entry.key.text, has_dock(entry.value)});
     }
   }
   seen.push_back({"base", false});
+  if (map.has_misspelt({"objects", "robots"})) seen.push_back({});
   if (const Node* node = map.optional("robots")) parse_robots(*node, scene, seen, diagnostics);
   if (const Node* node = map.optional("signals")) {
     scene.signals = parse_scene_signals(*node, seen, diagnostics);

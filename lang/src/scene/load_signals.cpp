@@ -1,5 +1,7 @@
 #include "scene/load_signals.hpp"
 
+#include <algorithm>
+
 #include "diagnostic/wordings.hpp"
 
 namespace zwang::lang {
@@ -90,6 +92,9 @@ void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<
     names.push_back(seen[i].name);
     if (seen[i].name == word.text) signal.object = static_cast<int>(i);
   }
+  const bool may_be_unread =
+      std::any_of(seen.begin(), seen.end(), [](const Seen& other) { return other.name.empty(); });
+  if (signal.object < 0 && may_be_unread) return;
   if (signal.object < 0) {
     diagnostics.add(wording::unknown_name(word.span, "object", word.text, names));
   } else if (signal.kind == SceneSignalKind::latch &&

@@ -56,7 +56,8 @@ std::string statement_of(const std::string& text) {
   return "{position: here}";
 }
 
-AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_level,
+/// `is_incomplete` is set where a key could not be read.
+AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_level, bool& is_incomplete,
                     Diagnostics& diagnostics) {
   AxisText axis;
   axis.name = {entry.key.text, entry.key.span};
@@ -92,6 +93,7 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
   } else {
     parse_statements(map, path, axis, lowest_level, diagnostics);
   }
+  is_incomplete = is_incomplete || map.has_unread_keys();
   map.finish();
   return axis;
 }
@@ -131,10 +133,12 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
     parse_manner(map, path, group.time_constant, group.weight, group.level, lowest_level, diagnostics);
     for (const char* name : {"x", "y", "z", "rx", "ry", "rz", "speed"}) {
       if (map.optional(name) == nullptr) continue;
-      group.axes.push_back(parse_axis(*entry.value.find(name), path, lowest_level, diagnostics));
+      group.axes.push_back(
+          parse_axis(*entry.value.find(name), path, lowest_level, group.is_incomplete, diagnostics));
     }
   }
-  group.is_incomplete = !map.is_mapping() || !group.name.exists() || map.has_unread_keys();
+  group.is_incomplete =
+      group.is_incomplete || !map.is_mapping() || !group.name.exists() || map.has_unread_keys();
   map.finish();
   return group;
 }

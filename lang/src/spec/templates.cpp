@@ -110,7 +110,7 @@ void Templates::declare(const Node& node) {
         declared.arguments[argument.key.text] = argument.value.text;
       }
     }
-    declared.is_bad = declared.body == nullptr || !has_list;
+    declared.is_bad = declared.body == nullptr || !has_list || map.has_misspelt({"args"});
     if (declared.body != nullptr) declared.nodes = count_nodes(*declared.body);
     map.finish();
     templates_[entry.key.text] = declared;
