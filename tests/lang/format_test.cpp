@@ -42,6 +42,11 @@ TEST(Format, leaves_values_as_they_are) {
                 "when: a  <  2 s   and b\nq: \"x  \\\" # y\"\n");
 }
 
+TEST(Format, keeps_a_written_null) {
+  expect_layout("null x: 1\na:   null\nb:   [ ~,Null ]\nc:\n-   NULL\n-\ne: # of e\n    ~\n",
+                "null x: 1\na: null\nb: [~, Null]\nc:\n  - NULL\n  -\ne:  # of e\n    ~\n");
+}
+
 TEST(Format, keeps_blank_lines_inside_a_text) {
   expect_layout("about: one\n\n\n\n    two\n\n\n\nb: 1\n", "about: one\n\n\n\n    two\n\nb: 1\n");
 }

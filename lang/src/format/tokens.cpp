@@ -45,7 +45,9 @@ class Tokenizer {
   int column_of(std::size_t offset) const { return index_.position(offset).column - 1; }
 
   void collect(const Node& node) {
-    if (node.is_scalar()) scalars_.push_back({index_.offset(node.span.begin), index_.offset(node.span.end)});
+    const bool is_written = node.is_scalar() || node.kind == NodeKind::null;
+    const Stretch stretch{index_.offset(node.span.begin), index_.offset(node.span.end)};
+    if (is_written && stretch.begin < stretch.end) scalars_.push_back(stretch);
   }
 
   void walk_flow(const Node& node) {
@@ -59,7 +61,7 @@ class Tokenizer {
 
   /// `depth` is the indentation that the node's entries or items get.
   void walk_block(const Node& node, int depth) {
-    if (node.is_flow || node.is_scalar()) return walk_flow(node);
+    if (node.is_flow || (!node.is_mapping() && !node.is_sequence())) return walk_flow(node);
     for (const Entry& entry : node.entries) {
       start_line(entry.key.span.begin, depth);
       collect(entry.key);

@@ -47,6 +47,21 @@ Span span_at(int source, const TextIndex& index, std::size_t begin, std::size_t 
   return {source, index.position(begin), index.position(end)};
 }
 
+/// The offset of the quote that closes the one at `begin`; \" and '' are quotes inside.
+std::optional<std::size_t> closing_quote(std::string_view line, std::size_t begin) {
+  const char quote = line[begin];
+  for (std::size_t i = begin + 1; i < line.size(); ++i) {
+    const bool is_doubled = quote == '\'' && i + 1 < line.size() && line[i] == quote && line[i + 1] == quote;
+    const bool is_escaped = quote == '"' && line[i] == '\\';
+    if (is_doubled || is_escaped) {
+      ++i;
+    } else if (line[i] == quote) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
 /// Walks one line of YAML as far as it takes to know where quotes and comments are.
 struct LineScan {
   std::optional<std::size_t> comment;     ///< offset of its `#`
@@ -63,13 +78,12 @@ LineScan scan_line(std::string_view line) {
       return result;
     }
     if ((c == '"' || c == '\'') && token_may_start) {
-      std::size_t end = i + 1;
-      while (end < line.size() && line[end] != c) end += (c == '"' && line[end] == '\\') ? 2u : 1u;
-      if (end >= line.size()) {
+      const std::optional<std::size_t> end = closing_quote(line, i);
+      if (!end) {
         result.open_quote = i;
         return result;
       }
-      i = end;
+      i = *end;
     }
     const bool opens = c == ',' || c == '[' || c == '{' || c == ':' || c == '-' || c == '?';
     if (c != ' ' && c != '\t') token_may_start = opens;

@@ -45,6 +45,7 @@ class TreeBuilder final : public YAML::EventHandler {
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     Node node = start(NodeKind::null, mark);
+    if (is_null_written_at(mark)) node.span = word_at(mark);
     refuse_anchor(node, anchor, mark);
     place(std::move(node));
   }
@@ -111,6 +112,18 @@ class TreeBuilder final : public YAML::EventHandler {
     return {source_, position(mark), index_.position(end)};
   }
 
+  /// Whether YAML's word for nothing stands at the mark, and nothing behind it: else it begins the next key.
+  bool is_null_written_at(const YAML::Mark& mark) const {
+    const Span span = word_at(mark);
+    const std::size_t begin = index_.offset(span.begin), end = index_.offset(span.end);
+    const std::string_view word = text_.substr(begin, end - begin);
+    if (word != "~" && word != "null" && word != "Null" && word != "NULL") return false;
+    const std::size_t next = text_.find_first_not_of(' ', end);
+    if (next == std::string_view::npos) return true;
+    const bool is_in_flow = !levels_.empty() && levels_.back().node.is_flow;
+    return std::string_view(is_in_flow ? "\r\n#,]}" : "\r\n#").find(text_[next]) != std::string_view::npos;
+  }
+
   Node start(NodeKind kind, const YAML::Mark& mark) {
     if (++nodes_ > most_nodes) {
       diagnostics_.add(wording::too_many_nodes(point(mark), most_nodes));
@@ -123,7 +136,8 @@ class TreeBuilder final : public YAML::EventHandler {
   }
 
   void refuse_tag(Node& node, const std::string& tag, const YAML::Mark& mark) {
-    if (tag.empty() || tag == "?" || tag == "!") return;
+    const bool is_written = !tag.empty() && text_[index_.offset(position(mark))] == '!';  // else: of quotes
+    if (!is_written && (tag.empty() || tag == "?" || tag == "!")) return;
     diagnostics_.add(is_condition_next() ? wording::exclamation_for_not(word_at(mark))
                                          : wording::tag(word_at(mark)));
     node.is_bad = true;
@@ -184,7 +198,9 @@ class TreeBuilder final : public YAML::EventHandler {
       level.key = std::move(node);
     } else {
       // `key:` with nothing behind it: yaml-cpp marks the next token; the place is the key's end.
-      if (node.kind == NodeKind::null) node.span = {source_, level.key->span.end, level.key->span.end};
+      const bool is_nothing =
+          node.kind == NodeKind::null && index_.offset(node.span.begin) == index_.offset(node.span.end);
+      if (is_nothing) node.span = {source_, level.key->span.end, level.key->span.end};
       level.node.entries.push_back({std::move(*level.key), std::move(node)});
       level.key.reset();
     }
