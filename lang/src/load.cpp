@@ -1,16 +1,16 @@
-#include <algorithm>
-
 #include "check/check.hpp"
 #include "diagnostic/wordings.hpp"
+#include "load_within.hpp"
 #include "lower/lower.hpp"
 #include "robot/load_robot.hpp"
-#include "scene/faults.hpp"
+#include "scene/check_scene.hpp"
 #include "scene/load_robots.hpp"
 #include "scene/load_scene.hpp"
 #include "spec/task_file.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
 #include "zwang/lang/notes.hpp"
+#include "zwang/lang/scene_for_robot.hpp"
 
 namespace zwang::lang {
 
@@ -29,22 +29,15 @@ std::optional<Robot> load_robot_of(const TaskFile& file, const fs::path& path, c
 }
 
 std::optional<Scene> load_scene_of(const TaskFile& file, const fs::path& path, const fs::path& root,
-                                   const LoadOptions& options, Diagnostics& diagnostics) {
+                                   const LoadOptions& options, double& budget, Diagnostics& diagnostics) {
   if (options.scene) {
     const fs::path own_root = options.root.value_or(root_of(*options.scene));
-    return load_scene_from(*options.scene, own_root, {}, diagnostics);
+    return load_scene_from(*options.scene, own_root, {}, budget, diagnostics);
   }
   if (!file.scene.exists()) return std::nullopt;
   const auto scene = resolve_path(file.scene.text, path, root, file.scene.span, diagnostics);
   if (!scene) return std::nullopt;
-  return load_scene_from(*scene, root, file.scene.span, diagnostics);
-}
-
-void check_rollers(const Scene& scene, const Robot& robot, Diagnostics& diagnostics) {
-  const auto& wheels = robot.model.wheels();
-  const auto rolls = [](const solver::Wheel& wheel) { return wheel.roller_angle.has_value(); };
-  if (scene.real_rollers && std::none_of(wheels.begin(), wheels.end(), rolls))
-    diagnostics.add(wording::no_rollers(scene.real_rollers_span, robot.name));
+  return load_scene_from(*scene, root, file.scene.span, budget, diagnostics);
 }
 
 /// A robot of a scene names a task file, and the place of its start is all that the physics asks of a scene.
@@ -54,7 +47,7 @@ struct Invitation {
 };
 
 std::optional<Program> load_phases(const fs::path& path, const LoadOptions& options, bool with_notes,
-                                   Diagnostics& diagnostics, const Invitation& invited = {}) {
+                                   double& budget, Diagnostics& diagnostics, const Invitation& invited = {}) {
   const fs::path root = options.root.value_or(root_of(path));
   const std::optional<int> source = read_file(path, yaml_size_limit, invited.task, diagnostics);
   if (!source) return std::nullopt;
@@ -64,15 +57,12 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
   if (!file) return std::nullopt;
   std::optional<Robot> robot = load_robot_of(*file, path, root, options, invited.robot, diagnostics);
   std::optional<Scene> scene =
-      invited.scene ? invited.scene : load_scene_of(*file, path, root, options, diagnostics);
-  if (scene && robot) {
-    check_rollers(*scene, *robot, diagnostics);
-    check_faults_of(scene->faults, *robot, diagnostics);
-  }
+      invited.scene ? invited.scene : load_scene_of(*file, path, root, options, budget, diagnostics);
+  if (scene && robot) check_scene_for(*scene, *robot, diagnostics);
   // Names of a section that could not be read would all be called unknown.
   if (file->is_incomplete) return std::nullopt;
   std::optional<CheckedFile> checked =
-      check(std::move(*file), std::move(robot), std::move(scene), options, with_notes, diagnostics);
+      check(std::move(*file), std::move(robot), std::move(scene), options, with_notes, budget, diagnostics);
   if (!checked) return std::nullopt;
   Program program = lower(std::move(*checked));
   program.path = path.string();
@@ -84,12 +74,14 @@ Invitation invitation_of(const SceneRobot& robot, const Scene& scene) {
   own.start_at = robot.at;
   own.start_yaw = robot.yaw;
   own.floor_friction = scene.floor_friction;
+  own.signals = robot.signals;
   return {robot.task_span, robot.robot_span, std::move(own)};
 }
 
 }  // namespace
 
-bool load_robots_of(Scene& scene, const fs::path& path, const fs::path& root, Diagnostics& diagnostics) {
+bool load_robots_of(Scene& scene, const fs::path& path, const fs::path& root, double& budget,
+                    Diagnostics& diagnostics) {
   for (SceneRobot& robot : scene.robots) {
     // Robots may share files: where one is wrong, it is wrong for all, and said already.
     if (diagnostics.has_errors()) return false;
@@ -101,10 +93,21 @@ bool load_robots_of(Scene& scene, const fs::path& path, const fs::path& root, Di
     if (!task || (!robot.robot.empty() && !options.robot)) continue;
     options.given = robot.parameters;
     if (options.robot) robot.robot_path = options.robot->string();
-    if (auto program = load_phases(*task, options, false, diagnostics, invitation_of(robot, scene)))
+    if (auto program = load_phases(*task, options, false, budget, diagnostics, invitation_of(robot, scene)))
       robot.program = std::make_shared<const Program>(std::move(*program));
   }
   return !diagnostics.has_errors();
+}
+
+std::optional<Scene> load_scene_for(const fs::path& robot_path, const fs::path& path,
+                                    Diagnostics& diagnostics) {
+  double budget = whole_budget;
+  const std::optional<Robot> robot = load_robot_below(robot_path, root_of(robot_path), {}, diagnostics);
+  std::optional<Scene> scene = load_scene_from(path, root_of(path), {}, budget, diagnostics);
+  if (scene && robot) check_scene_for(*scene, *robot, diagnostics);
+  diagnostics.settle();
+  if (diagnostics.has_errors()) return std::nullopt;
+  return scene;
 }
 
 solver::State start_state(const Robot& robot, const std::optional<Scene>& scene) {
@@ -115,15 +118,22 @@ solver::State start_state(const Robot& robot, const std::optional<Scene>& scene)
   return state;
 }
 
-std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
-  std::optional<Program> program = load_phases(path, options, false, diagnostics);
+std::optional<Program> load_within(double& budget, const fs::path& path, const LoadOptions& options,
+                                   Diagnostics& diagnostics) {
+  std::optional<Program> program = load_phases(path, options, false, budget, diagnostics);
   diagnostics.settle();
   return program;
 }
 
+std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  double budget = whole_budget;
+  return load_within(budget, path, options, diagnostics);
+}
+
 std::optional<Program> load_with_notes(const fs::path& path, const LoadOptions& options,
                                        Diagnostics& diagnostics) {
-  std::optional<Program> program = load_phases(path, options, true, diagnostics);
+  double budget = whole_budget;
+  std::optional<Program> program = load_phases(path, options, true, budget, diagnostics);
   diagnostics.settle();
   return program;
 }

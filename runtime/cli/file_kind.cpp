@@ -8,6 +8,7 @@
 #include "zwang/lang/notes.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
+#include "zwang/lang/scene_for_robot.hpp"
 
 namespace zwang::cli {
 
@@ -65,15 +66,13 @@ std::optional<std::string> read_as(FileKind kind, const std::string& path, lang:
       }
       return std::nullopt;
     case FileKind::scene:
-      if (const auto scene = lang::load_scene(path, diagnostics)) {
+      if (const auto scene = options.robot ? lang::load_scene_for(*options.robot, path, diagnostics)
+                                           : lang::load_scene(path, diagnostics)) {
         return "scene, " + count(scene->objects.size(), "object");
       }
       return std::nullopt;
     case FileKind::scenario:
-      if (const auto scenario = lang::load_scenario(path, diagnostics)) {
-        // What the expectations mean is known once the task is; that one is judged on its own.
-        lang::Diagnostics of_task;
-        if (!lang::load_run(path, 0, diagnostics, of_task)) return std::nullopt;
+      if (const auto scenario = lang::check_scenario(path, diagnostics)) {
         return "scenario, " + count(scenario->cells.size(), "run");
       }
       return std::nullopt;

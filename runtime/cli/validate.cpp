@@ -61,10 +61,13 @@ FileKind kind_of(const std::string& path) {
   return kind_by_key(path).value_or(FileKind::task);
 }
 
-/// `-p`, `--robot` and `--scene` speak of task files only.
+/// `-p`, `--robot` and `--scene` speak of task files; `--robot` of scene files, too.
 void require_task_for(const TaskOverrides& overrides, const std::vector<std::string>& paths) {
-  const bool is_for_some = std::any_of(
-      paths.begin(), paths.end(), [](const std::string& path) { return kind_of(path) == FileKind::task; });
+  const bool is_robot_alone = overrides.robot && !overrides.scene && overrides.parameters.empty();
+  const bool is_for_some = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
+    const FileKind kind = kind_of(path);
+    return kind == FileKind::task || (kind == FileKind::scene && is_robot_alone);
+  });
   if (overrides.any() && !is_for_some)
     throw Impossible("-p, --robot and --scene are for task files, and there is none among these");
 }

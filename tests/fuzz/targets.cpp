@@ -76,8 +76,9 @@ const Robot& small_robot() {
 }
 
 std::optional<Program> program_of(TaskFile file, Diagnostics& diagnostics) {
+  double budget = whole_budget;
   std::optional<CheckedFile> checked =
-      check(std::move(file), small_robot(), std::nullopt, {}, true, diagnostics);
+      check(std::move(file), small_robot(), std::nullopt, {}, true, budget, diagnostics);
   if (!checked) return std::nullopt;
   return lower(std::move(*checked));
 }

@@ -33,10 +33,7 @@ void load_as_named(const std::filesystem::path& path, Diagnostics& diagnostics) 
   } else if (name.starts_with("scene_")) {
     is_good = load_scene(path, diagnostics).has_value();
   } else if (name.starts_with("scenario_")) {
-    is_good = load_scenario(path, diagnostics).has_value();
-    // What expectations mean is known once the task is.
-    Diagnostics of_task;
-    if (is_good) is_good = load_run(path, 0, diagnostics, of_task).has_value();
+    is_good = check_scenario(path, diagnostics).has_value();
   } else {
     const bool with_notes = name.find("N6") != std::string::npos;
     is_good = (with_notes ? load_with_notes : load)(path, {}, diagnostics).has_value();

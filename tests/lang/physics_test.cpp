@@ -141,6 +141,58 @@ TEST_F(Physics, an_approach_brakes_with_velocity_over_e_time_constants) {
   only_outside("W604", about(tau * 1.001, bound), about(tau * 0.999, bound));
 }
 
+/// A mass on a spring that is felt one tick late: [m], after so many ticks from 1 m.
+struct SampledSpring {
+  double k, d, m = mass, dt = 1e-3;
+  double s = 1.0, v = 0.0, felt_s = 1.0, felt_v = 0.0;
+
+  void step() {
+    const double f = -k * felt_s - d * felt_v;
+    felt_s = s;
+    felt_v = v;
+    v += dt * f / m;
+    s += dt * v;
+  }
+  double largest(int ticks) {
+    double most = 0.0;
+    for (int i = 0; i < ticks; ++i, step()) most = std::max(most, std::abs(s));
+    return most;
+  }
+  bool settles() {
+    const double first = largest(2000);
+    largest(40000);
+    return largest(2000) < first;
+  }
+};
+
+TEST_F(Physics, a_spring_is_as_stiff_as_the_tick_can_follow) {
+  const double d = 500.0, most = d * (1.0 - d * 1e-3 / mass) / 1e-3;
+  EXPECT_TRUE((SampledSpring{.k = 0.98 * most, .d = d}.settles()));
+  EXPECT_FALSE((SampledSpring{.k = 1.02 * most, .d = d}.settles()));
+  const auto about = [&](double k) {
+    return said("x: {position: here, stiffness: " + number(k, "N/m") + ", damping: 500 N s/m, force: +-20 N}",
+                "elapsed > 2 s", "base_link", "world");
+  };
+  expect_number(only_outside("W604", about(0.999 * most), about(1.001 * most)), "`stiffness: 488000 N/m`");
+}
+
+TEST_F(Physics, a_damping_is_as_hard_as_the_tick_can_follow) {
+  const double most = mass / 4e-3;
+  const auto swings = [](double d) {
+    SampledSpring spring{.k = 0.0, .d = d, .v = 1.0, .felt_v = 1.0};
+    bool turned = false;
+    for (int i = 0; i < 1000; ++i, spring.step()) turned = turned || spring.v < 0.0;
+    return turned;
+  };
+  EXPECT_FALSE(swings(0.99 * most));
+  EXPECT_TRUE(swings(1.01 * most));
+  const auto about = [&](double d) {
+    return said("x: {position: here, stiffness: 1 kN/m, damping: " + number(d, "N s/m") + ", force: +-20 N}",
+                "elapsed > 2 s", "base_link", "world");
+  };
+  expect_number(only_outside("W604", about(0.999 * most), about(1.001 * most)), "`damping: 5600 N s/m`");
+}
+
 TEST_F(Physics, a_boundary_brakes_with_its_share_of_the_acceleration) {
   const double a = force / (0.8 * mass);
   const auto axes = [](double braking) {

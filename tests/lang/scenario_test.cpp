@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
+
 #include "support.hpp"
 
 namespace zwang::lang {
@@ -34,6 +36,12 @@ class Shelf {
     for (const char* name : {"wall_align.yaml", "robots/mecanum_base.yaml", "robots/mecanum_base.urdf",
                              "robots/diff_base.yaml", "robots/diff_base.urdf", "scenes/wall.yaml"})
       folder_.write(name, test::slurp(test::source_dir / "specs" / name));
+    std::string many = "zwang: 1\nrobot: robots/mecanum_base.yaml\nstart: go\nparams:\n";
+    for (int i = 0; i < 64; ++i) many += "  p" + std::to_string(i) + ": 1 m\n";
+    folder_.write("many.yaml",
+                  many +
+                      "tasks:\n  go:\n    constraints:\n      go: {move: base_link, in: base_link, "
+                      "x: {velocity: 0.1 m/s}}\n    timeout: {after: 1 s, goto: done}\n");
     path = folder_.write("scenario.yaml", scenario);
   }
   std::filesystem::path path;
@@ -101,6 +109,8 @@ TEST(Scenario, mistakes_are_found_where_they_are_written) {
       {"outcome: done", "outcome: don", "E903", 12},
       {"at: end", "at: start", "E904", 13},
       {"outcome: done", "always: true < 1", "E301", 12},
+      {"within: 3 s", "wtihin: 3 s", "E101", 14},
+      {"{at: end, that", "{at: end, always: truth.base.x < 3 m, that", "E904", 13},
       {"outcome: done", "{outcome: done, diagnostic: E404}", "E904", 12},
       {"outcome: done", "diagnostic: E999", "E301", 12},
       {"start_yaw: [-5 deg, 5 deg]", "start_yaw: []", "E905", 6},
@@ -127,9 +137,83 @@ TEST(Scenario, mistakes_are_found_where_they_are_written) {
   }
 }
 
+TEST(Scenario, parameters_are_those_of_the_task_file) {
+  const Mistake mistakes[] = {
+      {"params: {push: 20 N}", "params: {push: 20 N, pussh: 3 N}", "E301", 4},
+      {"  params.push: [10 N", "  params.pusch: [10 N", "E301", 7},
+      {"params.push: [10 N, 20 N", "params.push: [10 N, 20 m", "E202", 7},
+      {"params.push: [10 N, 20 N", "params.push: [10 N, 20", "E201", 7},
+      {"params.push: [10 N, 20 N", "params.push: [10 N, 200 N", "E204", 7},
+      {"params: {push: 20 N}", "params: {push: 1 N}", "E204", 4},
+      {"params: {push: 20 N}", "params: {push: 20 Nn}", "E203", 4},
+      {"params: {push: 20 N}", "params: {push: $push}", "E105", 4},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const Shelf shelf(test::replaced(good, mistake.from, mistake.to));
+    Diagnostics diagnostics;
+    EXPECT_FALSE(load_scenario(shelf.path, diagnostics)) << mistake.to;
+    EXPECT_EQ(diagnostics.error_count(), 1) << rendered(diagnostics);
+    EXPECT_EQ(test::count(diagnostics, mistake.code), 1) << mistake.to << "\n" << rendered(diagnostics);
+    const Diagnostic said = diagnostics.sorted()[0];
+    EXPECT_EQ(said.span.begin.line, mistake.line) << rendered(diagnostics);
+    EXPECT_EQ(diagnostics.source(said.span.source).path, shelf.path.string());
+    for (const RelatedSpan& related : said.related)
+      EXPECT_TRUE(diagnostics.source(related.span.source).path.ends_with("wall_align.yaml"));
+  }
+}
+
+TEST(Scenario, a_cell_that_is_refused_is_told_with_what_makes_it_so) {
+  // What moves weighs at most about 60 kg: with 0.3 m/s^2 it presses with 18 N at most.
+  const std::string task = test::replaced(test::slurp(test::source_dir / "specs/wall_align.yaml"),
+                                          "{force: $push,", "{acceleration: +-0.3 m/s^2, force: $push,");
+  const test::Folder folder;
+  for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "scenes/wall.yaml"})
+    folder.write(name, test::slurp(test::source_dir / "specs" / name));
+  folder.write("task.yaml", test::replaced(task, "value: 20 N", "value: 10 N"));
+  const auto path = folder.write("scenario.yaml", R"(zwang_scenario: 1
+task: task.yaml
+matrix:
+  start_yaw: [0 deg, 5 deg]
+  params.push: [12 N, 30 N]
+expect: [{outcome: done}]
+)");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(check_scenario(path, diagnostics));
+  ASSERT_EQ(diagnostics.all().size(), 1u) << rendered(diagnostics);
+  EXPECT_EQ(diagnostics.all()[0].code, "E912");
+  EXPECT_NE(diagnostics.all()[0].message.find("E601"), std::string::npos) << rendered(diagnostics);
+  EXPECT_EQ(diagnostics.all()[0].span.begin.line, 5);
+  EXPECT_EQ(diagnostics.all()[0].span.begin.column, 23) << "the value that is too much";
+}
+
+TEST(Scenario, a_task_that_is_refused_anyway_is_judged_on_its_own) {
+  const Shelf shelf(test::replaced(good, "task: wall_align.yaml", "task: broken.yaml"));
+  std::ofstream(shelf.path.parent_path() / "broken.yaml") << test::replaced(
+      test::slurp(test::source_dir / "specs/wall_align.yaml"), "move: base_link", "move: bas_link");
+  Diagnostics diagnostics;
+  EXPECT_TRUE(check_scenario(shelf.path, diagnostics)) << rendered(diagnostics);
+  EXPECT_TRUE(diagnostics.all().empty()) << rendered(diagnostics);
+}
+
+TEST(Scenario, checking_ends_however_many_cells_there_are) {
+  std::string scenario = "zwang_scenario: 1\ntask: many.yaml\nexpect: [{outcome: done}]\nmatrix:\n";
+  for (int i = 0; i < 9; ++i) scenario += "  params.p" + std::to_string(i) + ": [1 m, 2 m]\n";
+  const Shelf shelf(scenario);
+  Diagnostics diagnostics;
+  const std::clock_t begin = std::clock();
+  EXPECT_TRUE(check_scenario(shelf.path, diagnostics)) << rendered(diagnostics);
+  const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  EXPECT_EQ(test::count(diagnostics, "N608"), 1);
+#ifdef NDEBUG
+  EXPECT_LT(seconds, 2.0);  // of CPU
+#else
+  EXPECT_LT(seconds, 40.0);
+#endif
+}
+
 /// Of so many keys with two values, and one with the given number.
 std::string with_matrix(int keys, int last) {
-  std::string text = "zwang_scenario: 1\ntask: wall_align.yaml\nexpect: [{outcome: done}]\nmatrix:\n";
+  std::string text = "zwang_scenario: 1\ntask: many.yaml\nexpect: [{outcome: done}]\nmatrix:\n";
   for (int i = 0; i < keys; ++i) text += "  params.p" + std::to_string(i) + ": [1 m, 2 m]\n";
   text += "  start_yaw: [";
   for (int i = 0; i < last; ++i) text += (i > 0 ? ", " : "") + std::to_string(i) + " deg";
@@ -208,6 +292,34 @@ signals:
     ASSERT_GE(test::count(diagnostics, mistake.code), 1) << mistake.to << "\n" << rendered(diagnostics);
     EXPECT_EQ(diagnostics.error_count(), 1) << rendered(diagnostics);
     EXPECT_EQ(diagnostics.sorted()[0].span.begin.line, mistake.line) << rendered(diagnostics);
+  }
+}
+
+TEST(Scene, a_misspelt_key_is_the_only_mistake) {
+  const char* const text = R"(zwang_scene: 1
+objects:
+  cart:
+    box: [0.6 m, 0.4 m, 0.5 m]
+    at: [2 m, 0 m]
+    dock: {at: [-0.3 m, 0 m], hook: hook}
+signals:
+  partner: {pose_of: cart}
+  hooked:  {latch: cart}
+faults:
+  - {at: 2 s, wheel: left, torque: lost}
+)";
+  const Mistake mistakes[] = {{"objects:", "ojbects:", "E101", 2},
+                              {"dock:", "dcok:", "E101", 6},
+                              {"torque: lost", "torque: los", "E907", 11},
+                              {"box:", "bx:", "E101", 4}};
+  for (const Mistake& mistake : mistakes) {
+    const test::Folder folder;
+    Diagnostics diagnostics;
+    EXPECT_FALSE(
+        load_scene(folder.write("s.yaml", test::replaced(text, mistake.from, mistake.to)), diagnostics));
+    ASSERT_EQ(diagnostics.all().size(), 1u) << rendered(diagnostics);
+    EXPECT_EQ(diagnostics.all()[0].code, mistake.code) << rendered(diagnostics);
+    EXPECT_EQ(diagnostics.all()[0].span.begin.line, mistake.line) << rendered(diagnostics);
   }
 }
 

@@ -183,6 +183,48 @@ TEST(Slips, a_file_without_tasks_has_no_start_to_complain_of) {
   expect_once(head + "start: go\ntasks: [go]\n", "E104", 4);
 }
 
+TEST(Slips, what_hangs_on_an_unreadable_part_is_not_complained_of) {
+  const std::string uses =
+      "    use: go_on\n    with: {pace: 0.1 m/s}\n    timeout: {after: 3 s, goto: done}\n";
+  const std::string tasks = "start: go\ntasks:\n  go:\n" + uses;
+  const std::string body_of_it =
+      "    body:\n      constraints:\n        go: {move: base_link, in: base_link, x: {velocity: $pace}}\n";
+  expect_once(head + "templates:\n  go_on:\n    args: [pace]\n" + body_of_it + tasks, "E104", 5);
+  const std::string declared = head + "templates:\n  go_on:\n    args: {pace: velocity}\n" + body_of_it;
+  expect_once(declared + test::replaced(tasks, "with: {pace", "args: {pace"), "E101", 13);
+  expect_once(declared + test::replaced(tasks, "0.1 m/s", "0.1"), "E303", 13);
+  expect_once(head + "regions:\n  hall: {area: [1 m, 1 m]}\n" +
+                  test::replaced(body, "go: {move", "stay: {move: base_link, inside: hall}\n      go: {move"),
+              "E101", 4);
+  expect_once(head + "features:\n  far: {between: [base_link, world]}\n" +
+                  test::replaced(body, "goto: done}",
+                                 "goto: done}\n    exits: [{when: far > 1 m, for: 1 s, goto: done}]"),
+              "E101", 4);
+  expect_once(head + "regions:\n  hall: {polygon: [[0, 0], [1 m, 0 m], [1 m, 1 m]]}\n" +
+                  test::replaced(body, "go: {move", "stay: {move: base_link, inside: hall}\n      go: {move"),
+              "E201", 4);
+}
+
+TEST(Slips, a_misspelt_key_is_not_taken_for_one_that_is_not_there) {
+  const std::string slow =
+      "always: {constraints: {soft: {move: base_link, in: base_link, x: {acceleration: +-0.1 m/s^2}}}}\n";
+  const std::string drive = test::replaced(body, "x: {velocity: 0.1 m/s}",
+                                           "x: {position: here, velocity: +-0.5 m/s, tmie_constant: 3 s}");
+  expect_once(head + slow + drive, "E101", 8);
+  const std::string unused = "templates:\n  go_on: {body: {timeout: {after: 1 s, goto: done}}}\n";
+  expect_once(head + unused + test::replaced(body, "tasks:", "tsaks:"), "E101", 6);
+  expect_once(head + "params:\n  pace: {value: 0.1, range: [0 m/s, 1 m/s]}\n" +
+                  "templates:\n  on: {args: {v: velocity}, body: {constraints: {go: {move: base_link, in: "
+                  "base_link, x: {velocity: $v}}}, timeout: {after: 1 s, goto: done}}}\n" +
+                  "start: go\ntasks:\n  go: {use: on, with: {v: $pace}}\n",
+              "E201", 4);
+  expect_once(
+      head + test::replaced(body, "goto: done}",
+                            "goto: done}\n    exits: [{when: valid(eye) and speed(eye) < 1 m/s, for: 1 s, "
+                            "goto: done}]"),
+      "E301", 9);
+}
+
 TEST(Slips, the_weight_of_a_group_is_a_mass_above_zero) {
   const auto weighing = [](const std::string& weight, const std::string& axis) {
     return head + test::replaced(body, "x: {velocity: 0.1 m/s}", "weight: " + weight + ", " + axis);

@@ -55,6 +55,17 @@ TEST_F(Tutorial, each_block_is_good) {
   EXPECT_EQ(tried, 5);
 }
 
+TEST_F(Tutorial, each_block_runs) {
+  for (const Block& block : blocks()) {
+    if (block.language != "yaml") continue;
+    write(block);
+    const test::Result result =
+        zwang({"run", "mine.yaml", "--scene", "scenes/wall.yaml", "--quiet", "--format", "json"});
+    ASSERT_EQ(result.code, 0) << "docs/tutorial.md:" << block.line << "\n" << result.out << result.err;
+    EXPECT_EQ(nlohmann::json::parse(result.out).at("outcome"), "done") << "docs/tutorial.md:" << block.line;
+  }
+}
+
 TEST_F(Tutorial, the_first_block_has_eight_lines) {
   for (const Block& block : blocks()) {
     if (block.language != "yaml") continue;

@@ -50,8 +50,7 @@ void check_target(CheckContext& context, const Word& target, const TaskText* tas
   if (context.symbols.find_task(target.text)) return;
   std::vector<std::string> known = context.symbols.tasks;
   known.insert(known.end(), {"done", "failed"});
-  context.diagnostics.add(
-      wording::unknown_name(target.span, "task", target.text, nearest(target.text, known)));
+  context.diagnostics.add(wording::unknown_name(target.span, "task", target.text, known));
 }
 
 Condition check_exit(CheckContext& context, const ExitText& exit, const TaskText* task) {
@@ -95,8 +94,8 @@ void complain_of_driver_name(CheckContext& context, const ValueText& value, cons
   }
   std::vector<std::string> known = context.symbols.signal_names();
   if (what.ends_with(".position")) known.push_back("here");
-  context.diagnostics.add(
-      wording::unknown_name(value.span, "number signal", value.name, nearest(value.name, known)));
+  context.diagnostics.add(wording::unknown_driver(value.span, value.name, nearest(value.name, known),
+                                                  what.ends_with(".position")));
 }
 
 }  // namespace
@@ -154,14 +153,18 @@ bool check_value(CheckContext& context, const ValueText& value, const Dimension&
     return false;
   }
   ParameterSymbol* symbol = context.symbols.find_parameter(value.name);
+  if (symbol == nullptr && value.name == "here") {
+    context.diagnostics.add(wording::dollar_before_here(value.span));
+    return false;
+  }
   if (symbol == nullptr) {
     const auto& declared = context.file.parameters;
     const bool is_declared_so = !is_identifier(value.name) &&
                                 std::any_of(declared.begin(), declared.end(),
                                             [](const ParameterText& text) { return !text.name.exists(); });
     if (is_declared_so) return false;
-    context.diagnostics.add(wording::unknown_name(value.span, "parameter", value.name,
-                                                  nearest(value.name, context.symbols.parameter_names())));
+    context.diagnostics.add(
+        wording::unknown_name(value.span, "parameter", value.name, context.symbols.parameter_names()));
     return false;
   }
   symbol->is_used = true;
@@ -198,8 +201,8 @@ std::optional<int> check_frame(CheckContext& context, const Word& name) {
   }
   if (!index) {
     if (context.symbols.has_robot) {
-      context.diagnostics.add(wording::unknown_name(name.span, "frame", name.text,
-                                                    nearest(name.text, context.symbols.frame_names())));
+      context.diagnostics.add(
+          wording::unknown_name(name.span, "frame", name.text, context.symbols.frame_names()));
     }
     return std::nullopt;
   }
@@ -214,9 +217,8 @@ void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
     if (set.kind == SetKind::parameter) {
       ParameterSymbol* symbol = context.symbols.find_parameter(set.name.text);
       if (symbol == nullptr) {
-        context.diagnostics.add(
-            wording::unknown_name(set.name.span, "parameter", set.name.text,
-                                  nearest(set.name.text, context.symbols.parameter_names())));
+        context.diagnostics.add(wording::unknown_name(set.name.span, "parameter", set.name.text,
+                                                      context.symbols.parameter_names()));
         continue;
       }
       const std::string what = "params." + set.name.text;
@@ -234,57 +236,15 @@ void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
       std::vector<std::string> declared;
       for (const FrameText& frame : context.file.frames) declared.push_back(frame.name.text);
       context.diagnostics.add(index ? wording::not_settable(set.name.span, set.name.text)
-                                    : wording::unknown_name(set.name.span, "frame", set.name.text,
-                                                            nearest(set.name.text, declared)));
+                                    : wording::unknown_name(set.name.span, "frame", set.name.text, declared));
     }
     check_frame(context, set.source);
   }
 }
 
-namespace {
-
-/// What the scene's signal measures; empty where its values may be those of a bool or of any number.
-std::string measured_by(const SceneSignal& signal) {
-  if (signal.kind == SceneSignalKind::pose) return "a pose";
-  if (signal.kind == SceneSignalKind::latch) return "true or false";
-  if (signal.kind == SceneSignalKind::distance) return describe(dimension::length);
-  const bool is_number = std::any_of(signal.script.begin(), signal.script.end(), [](const ScriptStep& step) {
-    return step.valid && step.value != 0.0 && step.value != 1.0;
-  });
-  return is_number ? "a number" : "";
-}
-
-bool gives(const SceneSignal& signal, const SignalSymbol& declared) {
-  switch (declared.signal.type) {
-    case SignalType::boolean:
-      return signal.kind == SceneSignalKind::latch || measured_by(signal).empty();
-    case SignalType::number:
-      return signal.kind == SceneSignalKind::script ||
-             (signal.kind == SceneSignalKind::distance && declared.dimension == dimension::length);
-    case SignalType::pose:
-      return signal.kind == SceneSignalKind::pose;
-    case SignalType::wrench:
-      break;
-  }
-  return false;
-}
-
-/// What the scene gives is what the task file takes it for.
-void check_scene(CheckContext& context, const Scene& scene) {
-  for (const SceneSignal& signal : scene.signals) {
-    const std::optional<int> index = context.symbols.find_signal(signal.name);
-    if (!index) continue;
-    const SignalSymbol& declared = context.symbols.signals[static_cast<std::size_t>(*index)];
-    if (declared.is_bad || gives(signal, declared)) continue;
-    context.diagnostics.add(
-        wording::signal_of_another_type(signal.span, signal.name, measured_by(signal), declared.signal.span));
-  }
-}
-
-}  // namespace
-
 std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
-                                 const LoadOptions& options, bool with_notes, Diagnostics& diagnostics) {
+                                 const LoadOptions& options, bool with_notes, double& budget,
+                                 Diagnostics& diagnostics) {
   CheckedFile checked;
   checked.symbols.has_robot = robot.has_value();
   for (const TaskText& task : file.tasks) checked.symbols.tasks.push_back(task.name.text);
@@ -293,14 +253,13 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   declare_signals(context);
   check_frames(context);
   check_world(context);
-  if (scene) check_scene(context, *scene);
+  if (scene) check_scene_signals(context, *scene);
   check_groups(context, file.always_groups);
   for (const ExitText& exit : file.always_exits) {
     checked.always_conditions.push_back(check_exit(context, exit, nullptr));
   }
   if (file.start.exists() && !file.tasks.empty() && !checked.symbols.find_task(file.start.text)) {
-    diagnostics.add(wording::unknown_name(file.start.span, "task", file.start.text,
-                                          nearest(file.start.text, checked.symbols.tasks)));
+    diagnostics.add(wording::unknown_name(file.start.span, "task", file.start.text, checked.symbols.tasks));
   }
   for (const TaskText& task : file.tasks) {
     checked.conditions.push_back(check_task(context, task));
@@ -309,7 +268,8 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
     checked.requirements.push_back(std::move(require));
   }
   check_flow(context, checked.conditions);
-  check_physics(context, scene);
+  check_physics(context, scene, budget);
+  if (scene && !diagnostics.has_errors()) check_scene_names(context, *scene);
   if (diagnostics.has_errors() || !robot) return std::nullopt;
   checked.robot = std::move(*robot);
   checked.scene = std::move(scene);

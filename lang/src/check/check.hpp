@@ -23,8 +23,13 @@ struct CheckedFile {
 };
 
 /// `robot` none: it could not be read, and was complained of; what does not need it is checked all the same.
-/// `with_notes`: notes (N codes) are looked for, too.
+/// `with_notes`: notes (N codes) are looked for, too. `budget`: what may still be asked of robots' models, in
+/// the units of `Probe`; files that are loaded together share it.
 std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
-                                 const LoadOptions& options, bool with_notes, Diagnostics& diagnostics);
+                                 const LoadOptions& options, bool with_notes, double& budget,
+                                 Diagnostics& diagnostics);
+
+/// Takes about a second.
+inline constexpr double whole_budget = 2e9;
 
 }  // namespace zwang::lang

@@ -129,8 +129,8 @@ class ConditionCheck {
   Type check_parameter(const ExpressionText& node, ExpressionNode& lowered) {
     ParameterSymbol* symbol = context_.symbols.find_parameter(node.word);
     if (symbol == nullptr) {
-      return complain(wording::unknown_name(node.span, "parameter", node.word,
-                                            nearest(node.word, context_.symbols.parameter_names())));
+      return complain(
+          wording::unknown_name(node.span, "parameter", node.word, context_.symbols.parameter_names()));
     }
     symbol->is_used = true;
     lowered.op = Op::parameter;
@@ -174,6 +174,11 @@ class ConditionCheck {
     }
     if (parts.size() == 3) return check_coordinate(node, parts, lowered);
     if (has_unread_name()) return bad_type;
+    if (parts.size() == 2 && context_.symbols.find_feature(parts[0]))
+      return complain(wording::quantity_of_a_feature(node.span, node.word, parts[0]));
+    if (!context_.of_truth) {
+      if (const auto slip = slip_of_a_name(node, parts)) return complain(*slip);
+    }
     std::vector<std::string> known{"elapsed"};
     if (!context_.of_truth) known.insert(known.end(), estimated_forces.begin(), estimated_forces.end());
     for (const std::string& name : context_.symbols.signal_names()) known.push_back(name);
@@ -187,6 +192,23 @@ class ConditionCheck {
       }
     }
     return complain(wording::unknown_quantity(node.span, node.word, nearest(node.word, known)));
+  }
+
+  /// A name that means something, elsewhere or with a word more.
+  std::optional<Diagnostic> slip_of_a_name(const ExpressionText& node,
+                                           const std::vector<std::string>& parts) {
+    if (context_.symbols.find_parameter(node.word) != nullptr)
+      return wording::parameter_without_dollar(node.span, node.word);
+    if (parts.size() > 2) return std::nullopt;
+    ExpressionNode unused;
+    const GroupText* group = find_group(parts[0], unused);
+    const bool names_axis = group != nullptr && parts.size() == 2 &&
+                            std::any_of(group->axes.begin(), group->axes.end(),
+                                        [&](const AxisText& axis) { return axis.name.text == parts[1]; });
+    if (names_axis) return wording::axis_without_quantity(node.span, node.word);
+    if (group == nullptr && context_.symbols.find_frame(parts[0]))
+      return wording::frame_for_a_quantity(node.span, node.word, parts[0]);
+    return std::nullopt;
   }
 
   Type check_signal(const ExpressionText& node, int index, ExpressionNode& lowered) {
@@ -238,7 +260,7 @@ class ConditionCheck {
     if (found == nullptr && has_unread_group()) return bad_type;
     if (found == nullptr) {
       for (const GroupText& group : groups_) known.push_back(group.name.text);
-      return complain(wording::unknown_name(node.span, "group", parts[0], nearest(parts[0], known)));
+      return complain(wording::unknown_name(node.span, "group", parts[0], known));
     }
     const GroupText& group = *found;
     for (std::size_t a = 0; a < group.axes.size(); ++a) {
@@ -258,7 +280,7 @@ class ConditionCheck {
       lowered.what = word.quantity;
       return type_of(word.quantity, axis_measured(group, parts[1]));
     }
-    return complain(wording::unknown_name(node.span, "quantity", parts[2], nearest(parts[2], known)));
+    return complain(wording::unknown_name(node.span, "quantity", parts[2], known));
   }
 
   /// The axis itself; of a feature any that measures alike.
@@ -277,8 +299,8 @@ class ConditionCheck {
     if (node.word == "valid") {
       const std::optional<int> signal = context_.symbols.find_signal(node.argument);
       if (!signal) {
-        return complain(wording::unknown_name(node.span, "signal", node.argument,
-                                              nearest(node.argument, context_.symbols.signal_names())));
+        return complain(
+            wording::unknown_name(node.span, "signal", node.argument, context_.symbols.signal_names()));
       }
       context_.symbols.signals[static_cast<std::size_t>(*signal)].is_used = true;
       lowered.op = Op::valid;

@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "check/context.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 
@@ -187,9 +186,8 @@ void check_inside(CheckContext& context, const GroupText& group) {
   if (region) {
     context.symbols.regions[static_cast<std::size_t>(*region)].is_used = true;
   } else if (group.region.exists()) {
-    context.diagnostics.add(
-        wording::unknown_name(group.region.span, "region", group.region.text,
-                              nearest(group.region.text, context.symbols.region_names())));
+    context.diagnostics.add(wording::unknown_name(group.region.span, "region", group.region.text,
+                                                  context.symbols.region_names()));
   }
   if (group.move.text != "footprint") {
     const std::optional<int> move = check_frame(context, group.move);
@@ -208,9 +206,8 @@ void check_feature_group(CheckContext& context, const GroupText& group) {
   const std::optional<int> feature = context.symbols.find_feature(group.feature.text);
   if (!feature) {
     if (group.feature.exists()) {
-      context.diagnostics.add(
-          wording::unknown_name(group.feature.span, "feature", group.feature.text,
-                                nearest(group.feature.text, context.symbols.feature_names())));
+      context.diagnostics.add(wording::unknown_name(group.feature.span, "feature", group.feature.text,
+                                                    context.symbols.feature_names()));
     }
     return;
   }

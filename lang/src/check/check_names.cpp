@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "check/context.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "tree/text.hpp"
 
@@ -85,25 +84,13 @@ void apply_override(CheckContext& context, const GivenParameter& given) {
   const std::string& name = given.name;
   ParameterSymbol* symbol = context.symbols.find_parameter(name);
   if (symbol == nullptr) {
-    context.diagnostics.add(wording::unknown_name(given.name_span, "parameter", name,
-                                                  nearest(name, context.symbols.parameter_names())));
+    context.diagnostics.add(
+        wording::unknown_name(given.name_span, "parameter", name, context.symbols.parameter_names()));
     return;
   }
-  if (symbol->is_bad) return;
-  Node node;
-  node.kind = NodeKind::scalar;
-  node.span = given.value_span;
-  node.text = given.value;
-  const std::string what = "parameter `" + name + "`";
-  const ValueText value = parse_value(node, what, context.diagnostics);
-  if (!require_quantity(value, symbol->dimension, what, context.diagnostics)) return;
-  const double number = value.quantity.value;
-  const auto& range = symbol->parameter.range;
-  if (range && (number < range->low || number > range->high)) {
-    context.diagnostics.add(wording::outside_range(given.value_span, symbol->parameter, number));
-    return;
-  }
-  symbol->parameter.value = number;
+  const Word value{given.value, given.value_span};
+  if (const auto number = check_parameter_value(*symbol, value, context.diagnostics))
+    symbol->parameter.value = *number;
 }
 
 solver::Pose pose_of(const FrameText& frame) {
@@ -195,7 +182,7 @@ class FrameOrder {
     for (const SignalSymbol& signal : symbols.signals) {
       if (signal.signal.type == SignalType::pose) known.push_back(signal.signal.name);
     }
-    context_.diagnostics.add(wording::unknown_name(name.span, "frame", name.text, nearest(name.text, known)));
+    context_.diagnostics.add(wording::unknown_name(name.span, "frame", name.text, known));
     return std::nullopt;
   }
 
@@ -248,6 +235,25 @@ class FrameOrder {
 };
 
 }  // namespace
+
+std::optional<double> check_parameter_value(const ParameterSymbol& symbol, const Word& text,
+                                            Diagnostics& diagnostics) {
+  if (symbol.is_bad) return std::nullopt;
+  Node node;
+  node.kind = NodeKind::scalar;
+  node.span = text.span;
+  node.text = text.text;
+  const std::string what = "parameter `" + symbol.parameter.name + "`";
+  const ValueText value = parse_value(node, what, diagnostics);
+  if (!require_quantity(value, symbol.dimension, what, diagnostics)) return std::nullopt;
+  const double number = value.quantity.value;
+  const auto& range = symbol.parameter.range;
+  if (range && (number < range->low || number > range->high)) {
+    diagnostics.add(wording::outside_range(text.span, symbol.parameter, number));
+    return std::nullopt;
+  }
+  return number;
+}
 
 void check_parameters(CheckContext& context) {
   for (const ParameterText& text : context.file.parameters) {

@@ -28,6 +28,15 @@ void check_time(CheckContext& context, const ValueText& value, const std::string
 std::optional<int> check_frame(CheckContext& context, const Word& name);
 
 void check_parameters(CheckContext& context);
+/// What somebody else than the task file gives a parameter, SI; writes E105, E201 to E204. nullopt on an
+/// error, and silently where the declaration itself is bad.
+std::optional<double> check_parameter_value(const ParameterSymbol& symbol, const Word& text,
+                                            Diagnostics& diagnostics);
+/// Whether the signals of the scene are what the task file takes them for: E701, W702.
+void check_scene_signals(CheckContext& context, const Scene& scene);
+/// W302: signals of the scene that only nearly have the name of one of the task file's. Asked last: there may
+/// be a better reason.
+void check_scene_names(CheckContext& context, const Scene& scene);
 /// Names of signals; what they are seen from is asked in `check_world`, once the frames are known.
 void declare_signals(CheckContext& context);
 void check_frames(CheckContext& context);

@@ -20,6 +20,19 @@ bool is_same(const Diagnostic& a, const Diagnostic& b) {
          a.span.source == b.span.source && a.code == b.code && (a.message == b.message || a.code == "E101");
 }
 
+/// Of "no frame named `x`" that name.
+std::string_view unknown_name_in(const Diagnostic& d) {
+  const std::size_t at = d.message.find(" named `");
+  if (d.code != "E301" || !d.message.starts_with("no ") || at == std::string::npos) return {};
+  return std::string_view(d.message).substr(at);
+}
+
+bool are_of_one_cause(const Diagnostic& a, const Diagnostic& b) {
+  if (a.message == b.message) return true;
+  const std::string_view name = unknown_name_in(a);
+  return !name.empty() && name == unknown_name_in(b);
+}
+
 /// A name that nobody declared may stand in many places; one declaration mends them all.
 bool is_about_a_name(const Diagnostic& d) {
   return d.code == "E301" || d.code == "E303";
@@ -37,7 +50,7 @@ void Diagnostics::add(Diagnostic diagnostic) {
   const bool may_be_elsewhere = is_about_a_name(diagnostic);
   for (Diagnostic& other : diagnostics_) {
     if (is_same(other, diagnostic)) return;
-    if (!may_be_elsewhere || other.message != diagnostic.message) continue;
+    if (!may_be_elsewhere || !are_of_one_cause(other, diagnostic)) continue;
     other.related.push_back({diagnostic.span, "and here"});
     return;
   }

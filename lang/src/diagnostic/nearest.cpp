@@ -43,4 +43,103 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   return best;
 }
 
+namespace {
+
+struct Synonym {
+  std::string_view word, key;
+};
+
+/// What authors write who know other programs.
+constexpr Synonym synonyms[] = {
+    {"frame", "move"},
+    {"link", "move"},
+    {"body", "move"},
+    {"reference", "in"},
+    {"relative_to", "in"},
+    {"wrt", "in"},
+    {"axes", "in"},
+    {"frame", "in"},
+    {"frame", "parent"},
+    {"default", "value"},
+    {"min", "range"},
+    {"max", "range"},
+    {"limits", "range"},
+    {"description", "about"},
+    {"description", "help"},
+    {"comment", "note"},
+    {"timeout", "stale_after"},
+    {"max_age", "stale_after"},
+    {"if", "when"},
+    {"condition", "when"},
+    {"until", "when"},
+    {"then", "goto"},
+    {"next", "goto"},
+    {"to", "goto"},
+    {"target", "goto"},
+    {"duration", "for"},
+    {"hold", "for"},
+    {"position", "at"},
+    {"pos", "at"},
+    {"xy", "at"},
+    {"x", "at"},
+    {"y", "at"},
+    {"rotation", "yaw"},
+    {"orientation", "yaw"},
+    {"heading", "yaw"},
+    {"angle", "yaw"},
+    {"yaw", "rz"},
+    {"theta", "rz"},
+    {"heading", "rz"},
+    {"roll", "rx"},
+    {"pitch", "ry"},
+    {"max_force", "force"},
+    {"torque", "force"},
+    {"effort", "force"},
+    {"tau", "time_constant"},
+    {"k", "stiffness"},
+    {"d", "damping"},
+    {"priority", "level"},
+    {"distance", "position"},
+    {"distance", "distance_to"},
+    {"pose", "pose_of"},
+    {"states", "tasks"},
+    {"initial", "start"},
+    {"parameters", "params"},
+    {"variables", "params"},
+    {"world", "scene"},
+    {"cells", "matrix"},
+    {"expectations", "expect"},
+    {"assert", "expect"},
+    {"speed", "velocity"},
+    {"args", "with"},
+    {"arguments", "with"},
+    {"template", "use"},
+    {"region", "inside"},
+    {"area", "inside"},
+    {"zone", "inside"},
+    {"retries", "attempts"},
+    {"rectangle", "polygon"},
+    {"box", "polygon"},
+};
+
+bool holds(const std::vector<std::string>& keys, std::string_view key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+}  // namespace
+
+std::string meant_key(std::string_view word, const std::vector<std::string>& keys) {
+  for (const Synonym& synonym : synonyms) {
+    if (synonym.word == word && holds(keys, synonym.key)) return std::string(synonym.key);
+  }
+  std::string meant = nearest(word, keys);
+  if (!meant.empty() || word.size() < 3) return meant;
+  for (const std::string& key : keys) {
+    if (!key.starts_with(word)) continue;
+    if (!meant.empty()) return {};
+    meant = key;
+  }
+  return meant;
+}
+
 }  // namespace zwang::lang

@@ -44,10 +44,15 @@ Diagnostic too_many_tasks(const Span& span, std::size_t limit);
 Diagnostic too_many_groups(const Span& span, std::size_t limit);
 Diagnostic other_version(const Span& span, const std::string& key, const std::string& version);
 Diagnostic missing_version(const Span& span, const std::string& what, const std::string& key);
+/// `missing` are keys that would have to be there: one of them may be what was meant.
 Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,
-                       const std::string& meant, const std::vector<std::string>& known);
+                       const std::string& meant, const std::vector<std::string>& known,
+                       const std::vector<std::string>& missing);
 Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key);
-Diagnostic expected_mapping(const Span& span, const std::string& what);
+Diagnostic expected_mapping(const Span& span, const std::string& what, bool is_list);
+/// `unit` is what an author would write behind each of the numbers.
+Diagnostic expected_vector(const Span& span, const std::string& what, std::size_t count,
+                           const std::string& unit);
 Diagnostic expected_list(const Span& span, const std::string& what);
 Diagnostic expected_word(const Span& span, const std::string& what);
 Diagnostic expected_value(const Span& span, const std::string& what, bool is_empty);
@@ -61,7 +66,9 @@ Diagnostic wrong_count(const Span& span, const std::string& what, std::size_t fe
 Diagnostic range_ends(const Span& span, std::size_t found);
 Diagnostic range_where_value(const Span& span, const std::string& what);
 Diagnostic value_where_range(const Span& span, const std::string& what);
-Diagnostic bare_axis(const Span& span, const std::string& axis, const std::string& text);
+/// `instead` says it as a statement.
+Diagnostic bare_axis(const Span& span, const std::string& axis, const std::string& text,
+                     const std::string& instead);
 Diagnostic bare_timeout(const Span& span, const std::string& text);
 Diagnostic bad_set(const Span& span, const std::string& key);
 Diagnostic yaw_and_rpy(const Span& span, const std::string& what, const Span& yaw);
@@ -86,6 +93,7 @@ Diagnostic missing_parenthesis(const Span& opened);
 Diagnostic unopened_parenthesis(const Span& span);
 Diagnostic symbol_for_word(const Span& span, const std::string& symbol, const std::string& word);
 Diagnostic equality(const Span& span);
+Diagnostic equality_of_truth(const Span& span);
 Diagnostic chained_comparison(const Span& span);
 Diagnostic unexpected_in_condition(const Span& span, const std::string& text);
 Diagnostic missing_argument(const Span& span, const std::string& function);
@@ -109,8 +117,9 @@ Diagnostic expected_number(const Span& span);
 Diagnostic misplaced_here(const Span& span, const std::string& what);
 
 // --- Names: E301 to E305 (meaning.cpp) ---
+/// `known`: the names that would do; the nearest is offered, else they are listed.
 Diagnostic unknown_name(const Span& span, const std::string& kind, const std::string& name,
-                        const std::string& meant);
+                        const std::vector<std::string>& known);
 Diagnostic unknown_function(const Span& span, const std::string& name, const std::string& meant);
 Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& meant);
 Diagnostic unknown_axis(const Span& span, const std::string& group, const std::string& axis, bool is_axis,
@@ -221,6 +230,8 @@ Diagnostic one_fault(const Span& span);
 Diagnostic fault_of_all(const Span& span);
 Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
                          const std::vector<std::string>& known);
+/// Of a motor that is none: nothing would go wrong.
+Diagnostic fault_without_motor(const Span& span, const std::string& joint);
 Diagnostic script_step(const Span& span);
 Diagnostic mixed_script(const Span& span, const std::string& what, bool starts_with_number,
                         const Span& first);

@@ -1,4 +1,8 @@
+#include <cmath>
+#include <cstdlib>
+
 #include "diagnostic/make.hpp"
+#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "spec/units.hpp"
 #include "tree/text.hpp"
@@ -13,6 +17,16 @@ std::string in_unit_of(const Parameter& parameter, double value) {
   return format_number(value / parameter.unit_scale) + (parameter.unit.empty() ? "" : " " + parameter.unit);
 }
 
+/// The last ones where there are many: what an author declares stands behind what the robot brings.
+std::string known_here(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 16;
+  std::string text;
+  for (std::size_t i = names.size() > most ? names.size() - most : 0; i < names.size(); ++i) {
+    if (!names[i].empty()) text += (text.empty() ? "known here: " : ", ") + names[i];
+  }
+  return text;
+}
+
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "`" : ", `") + name + "`";
@@ -23,7 +37,10 @@ std::string listed(const std::vector<std::string>& names) {
 
 Diagnostic needs_unit(const Span& span, const std::string& what, const std::string& number,
                       const Dimension& expected) {
-  const std::string written = number + " " + usual_unit(expected);
+  // Nobody turns by more than once in radians.
+  const bool is_in_degrees =
+      expected == dimension::angle && std::abs(std::strtod(number.c_str(), nullptr)) > 6.3;
+  const std::string written = number + " " + (is_in_degrees ? "deg" : usual_unit(expected));
   return with_replacement(error("E201", span, what + " needs a unit", "write `" + written + "`"), written);
 }
 
@@ -93,10 +110,11 @@ Diagnostic misplaced_here(const Span& span, const std::string& what) {
 }
 
 Diagnostic unknown_name(const Span& span, const std::string& kind, const std::string& name,
-                        const std::string& meant) {
+                        const std::vector<std::string>& known) {
   // The span may hold more than the name (`speed(name)`): a replacement would not fit it.
   Diagnostic diagnostic = error("E301", span, "no " + kind + " named " + in_ticks(name));
-  if (!meant.empty()) diagnostic.help = "did you mean `" + meant + "`?";
+  const std::string meant = nearest(name, known);
+  diagnostic.help = meant.empty() ? known_here(known) : "did you mean `" + meant + "`?";
   return diagnostic;
 }
 
@@ -106,7 +124,8 @@ Diagnostic unknown_function(const Span& span, const std::string& name, const std
                          meant);
 }
 
-Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& meant) {
+Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& near) {
+  const std::string meant = name == "time" || name == "t" ? "elapsed" : near;
   return with_suggestion(error("E301", span, "nothing named " + in_ticks(name) + " can be measured here",
                                "write group.axis.velocity, a function, $parameter or elapsed"),
                          meant);
@@ -244,7 +263,7 @@ Diagnostic force_range_without_zero(const Span& span, const std::string& axis) {
 }
 
 Diagnostic immovable(const Span& span, const std::string& frame) {
-  return error("E409", span, "`" + frame + "` stands in the world: nothing can move it",
+  return error("E409", span, "`" + frame + "` is no part of the robot: nothing can move it",
                "move a frame of the robot, `in` this one");
 }
 

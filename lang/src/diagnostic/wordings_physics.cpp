@@ -176,6 +176,20 @@ Diagnostic faster_than_the_tick(const Span& span, const std::string& axis, doubl
                  "`time_constant: " + figure(least * 1e3, "ms") + "` or longer");
 }
 
+Diagnostic damped_too_hard(const Span& span, const std::string& axis, bool turns, double mass, double most) {
+  return warning("W604", span,
+                 "the damping of `" + axis + "` shakes " + figure(mass, units(turns).mass) +
+                     ": a control period of 1 ms cannot follow it",
+                 "`damping: " + at_most(most, turns ? "N m s/rad" : "N s/m") + "` or less");
+}
+
+Diagnostic too_stiff(const Span& span, const std::string& axis, bool turns, double mass, double most) {
+  return warning("W604", span,
+                 "`" + axis + "` is too stiff for its damping: on " + figure(mass, units(turns).mass) +
+                     " and with a control period of 1 ms it swings wider and wider",
+                 "`stiffness: " + at_most(most, turns ? "N m/rad" : "N/m") + "` or less, or more damping");
+}
+
 Diagnostic force_budget(const Span& span, const std::string& axis, bool turns, double own,
                         const std::string& others, double added) {
   const Units u = units(turns);

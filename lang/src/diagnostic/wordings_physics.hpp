@@ -60,6 +60,9 @@ Diagnostic brakes_too_hard(const Span& span, const std::string& axis, bool turns
                            double enough);
 Diagnostic faster_than_the_tick(const Span& span, const std::string& axis, double time_constant,
                                 double least);
+/// The damping and the stiffness of a spring on the mass. SI
+Diagnostic damped_too_hard(const Span& span, const std::string& axis, bool turns, double mass, double most);
+Diagnostic too_stiff(const Span& span, const std::string& axis, bool turns, double mass, double most);
 
 Diagnostic force_budget(const Span& span, const std::string& axis, bool turns, double own,
                         const std::string& others, double added);

@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include "diagnostic/make.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_scenario.hpp"
 #include "spec/units.hpp"
 #include "tree/text.hpp"
 
@@ -65,6 +68,39 @@ Diagnostic not_a_time(const Span& span, const std::string& name) {
                "use for example `truth.wall.touched`");
 }
 
+Diagnostic unknown_task_parameter(const Span& span, const std::string& name, const std::string& meant,
+                                  const std::vector<std::string>& known, const std::string& task) {
+  const std::string has = in_ticks(task) + (known.empty() ? " declares none" : " has " + list_of(known));
+  const std::string help = meant.empty() ? has : "did you mean `" + meant + "`? " + has;
+  return error("E301", span, "no parameter named " + in_ticks(name), help);
+}
+
+Diagnostic refused_cell(const std::vector<Span>& spans, const std::string& cell, const std::string& code,
+                        const std::string& reason, const std::string& place) {
+  Diagnostic diagnostic =
+      error("E912", spans.front(),
+            "in the cell `" + cell + "` the task is refused, and nothing expects it: " + code + " at " +
+                place + ", " + reason,
+            "leave this out of the matrix, or write `- diagnostic: " + code + "`");
+  const auto is_same = [](const Span& a, const Span& b) {
+    return a.source == b.source && a.begin.line == b.begin.line && a.begin.column == b.begin.column;
+  };
+  for (const Span& span : spans) {
+    const auto& said = diagnostic.related;
+    const bool is_new = !is_same(span, spans.front()) &&
+                        std::none_of(said.begin(), said.end(),
+                                     [&](const RelatedSpan& other) { return is_same(other.span, span); });
+    if (is_new) diagnostic.related.push_back({span, "and with this"});
+  }
+  return diagnostic;
+}
+
+Diagnostic unasked_cells(const Span& span, const std::string& cell) {
+  return make("N608", Severity::note, span,
+              "from the cell `" + cell + "` on nothing was asked: so many would take too long",
+              "`zwang test` asks them all");
+}
+
 Diagnostic one_fault(const Span& span) {
   return error("E907", span, "a fault says exactly one thing that goes wrong",
                "`samples`, `clock`, `wheel` with `torque`, `floor_friction`, `payload` or `plant`");
@@ -78,6 +114,11 @@ Diagnostic fault_of_all(const Span& span) {
 Diagnostic unknown_fault(const Span& span, const std::string& key, const std::string& text,
                          const std::vector<std::string>& known) {
   return unknown_word("E907", span, "`" + key + "` cannot be " + in_ticks(text), text, known);
+}
+
+Diagnostic fault_without_motor(const Span& span, const std::string& joint) {
+  return error("E907", span, "no motor turns " + in_ticks(joint) + ": its torque cannot fail",
+               "name a joint of the robot file's `actuated`");
 }
 
 Diagnostic script_step(const Span& span) {

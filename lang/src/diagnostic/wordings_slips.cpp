@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "diagnostic/make.hpp"
+#include "diagnostic/wordings_physics.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang::wording {
@@ -129,14 +130,110 @@ Diagnostic word_for_a_name(const Span& span, const std::string& word) {
                "choose another name");
 }
 
+Diagnostic condition_without_key(const Span& span, const std::string& what, const std::string& key,
+                                 const std::string& condition) {
+  return error("E103", span, what + " does not say `" + key + "`",
+               "write `" + key + ": " + escaped(condition) + "`");
+}
+
+Diagnostic unknown_driver(const Span& span, const std::string& name, const std::string& meant,
+                          bool is_position) {
+  const std::string values = "write a number with its unit, a parameter, as `$push`, ";
+  return with_suggestion(
+      error("E301", span, "no number signal named " + in_ticks(name),
+            values + (is_position ? "`here`, or a number signal" : "or the name of a number signal")),
+      meant);
+}
+
+Diagnostic dollar_before_here(const Span& span) {
+  return with_replacement(error("E301", span, "no parameter named `here`", "write `here` without the `$`"),
+                          "here");
+}
+
+Diagnostic parameter_of_a_matrix(const Span& span, const std::string& key) {
+  return error("E101", span, "unknown key " + in_ticks(key) + " in `matrix`",
+               "a parameter is written `params." + (key == "params" ? "NAME: [..]" : escaped(key)) +
+                   "`; the other keys are robot, scene, start_at, start_yaw, faults");
+}
+
+Diagnostic unknown_hook(const Span& span, const std::string& name, const std::string& meant) {
+  return with_suggestion(error("E301", span, "no frame of the robot named " + in_ticks(name),
+                               "a hook is a part of the robot: declare it under `frames` of the robot file"),
+                         meant);
+}
+
+Diagnostic never_after(const Span& span) {
+  return with_replacement(
+      error("E104", span, "`never` stands in the place of the whole timeout", "write `timeout: never`"),
+      "never");
+}
+
+Diagnostic computed_value(const Span& span, const std::string& text) {
+  return error("E105", span, in_ticks(text) + " is not a value",
+               "nothing is computed here: write a number, or one parameter as `$push` or `-$push`");
+}
+
+Diagnostic needs_units(const Span& span, const std::string& what, const std::vector<std::string>& numbers,
+                       const Dimension& expected) {
+  std::string written;
+  for (const std::string& number : numbers)
+    written += (written.empty() ? "[" : ", ") + number + " " + usual_unit(expected);
+  written += "]";
+  return with_replacement(error("E201", span, what + " needs units", "write `" + written + "`"), written);
+}
+
+Diagnostic argument_without_unit(const Span& span, const std::string& argument, const std::string& number,
+                                 const Dimension& expected) {
+  const std::string written = number + " " + usual_unit(expected);
+  return with_replacement(error("E303", span, "argument `" + argument + "` must be " + describe(expected),
+                                "write `" + written + "`"),
+                          written);
+}
+
+Diagnostic axis_without_quantity(const Span& span, const std::string& axis) {
+  return error("E301", span, "`" + axis + "` does not say which quantity is meant",
+               "write `" + axis + ".position`, or `.velocity`, `.force`, `.residual`, `.saturated`");
+}
+
+Diagnostic frame_for_a_quantity(const Span& span, const std::string& written, const std::string& frame) {
+  return error("E301", span, "nothing named " + in_ticks(written) + " can be measured here",
+               "`" + frame + "` is a frame: measure `speed(" + frame + ")`, `moved(" + frame +
+                   ")`, or an axis of a group that moves it, as `group.x.position`");
+}
+
+Diagnostic quantity_of_a_feature(const Span& span, const std::string& written, const std::string& feature) {
+  return with_replacement(error("E301", span, "nothing named " + in_ticks(written) + " can be measured here",
+                                "a feature is measured by its name alone: `" + feature + "`"),
+                          feature);
+}
+
 Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& measured,
+                                  const std::string& expected, const std::string& remedy,
                                   const Span& declared) {
-  const std::string gives = measured.empty() ? "truth values or numbers" : measured;
   return with_related(error("E701", span,
-                            "for signal `" + name + "` the scene gives " + gives +
-                                ", and the task file declares it as something else",
-                            "give it another source, or declare it as what it is"),
+                            "for signal `" + name + "` the scene gives " + measured +
+                                ", and the task file declares " + expected,
+                            remedy),
                       declared, "`" + name + "` is declared here");
+}
+
+Diagnostic signal_too_old(const Span& span, const std::string& name, double delay, double period, double age,
+                          const Span& stale_after) {
+  const auto ms = [](double seconds) { return figure(seconds * 1e3, "ms"); };
+  const bool is_never_known = delay > age;
+  const std::string message =
+      is_never_known ? "` comes " + ms(delay) + " late and is believed for " + ms(age) + ": it is never known"
+                     : "` is " + ms(delay + period) + " old before the next sample comes, and believed for " +
+                           ms(age) + ": it is lost again and again";
+  return with_related(
+      warning("W702", span, "signal `" + name + message,
+              "make `stale_after` longer than " + ms(delay + period) + ", or let the signal come sooner"),
+      stale_after, "`stale_after` is given here");
+}
+
+Diagnostic unheard_signal(const Span& span, const std::string& name, const std::string& meant) {
+  return with_suggestion(
+      warning("W302", span, "the scene gives a signal `" + name + "`, and the task file has none"), meant);
 }
 
 Diagnostic directive(const Span& span) {

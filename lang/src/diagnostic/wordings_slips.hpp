@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "spec/dimension.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang::wording {
@@ -13,6 +15,33 @@ namespace zwang::lang::wording {
 std::string plainly_written(const std::string& text);
 /// Offers that spelling; `plain` reads well.
 Diagnostic odd_letters(const Span& span, const std::string& text, const std::string& plain);
+/// `{at: end, elapsed > 2 s}` for `{at: end, that: elapsed > 2 s}`.
+Diagnostic condition_without_key(const Span& span, const std::string& what, const std::string& key,
+                                 const std::string& condition);
+/// What drives an axis is no quantity, and `meant` is empty or the name of a signal that is.
+Diagnostic unknown_driver(const Span& span, const std::string& name, const std::string& meant,
+                          bool is_position);
+/// `$here` for `here`.
+Diagnostic dollar_before_here(const Span& span);
+/// `push` for `params.push` in a matrix.
+Diagnostic parameter_of_a_matrix(const Span& span, const std::string& key);
+/// A hook is a frame of the robot's own.
+Diagnostic unknown_hook(const Span& span, const std::string& name, const std::string& meant);
+/// `reach.position` for `reach`.
+Diagnostic quantity_of_a_feature(const Span& span, const std::string& written, const std::string& feature);
+/// `timeout: {after: never}`.
+Diagnostic never_after(const Span& span);
+/// `2*$press`.
+Diagnostic computed_value(const Span& span, const std::string& text);
+/// A list of numbers, all without a unit.
+Diagnostic needs_units(const Span& span, const std::string& what, const std::vector<std::string>& numbers,
+                       const Dimension& expected);
+Diagnostic argument_without_unit(const Span& span, const std::string& argument, const std::string& number,
+                                 const Dimension& expected);
+/// `contact.x` for `contact.x.position`.
+Diagnostic axis_without_quantity(const Span& span, const std::string& axis);
+/// `tool.x`, or `tool`.
+Diagnostic frame_for_a_quantity(const Span& span, const std::string& written, const std::string& frame);
 /// `AND` for `and`.
 Diagnostic word_in_capitals(const Span& span, const std::string& text, const std::string& word);
 Diagnostic divides_by_zero(const Span& span);
@@ -38,7 +67,13 @@ Diagnostic unknown_truth(const Span& span, const std::string& name, const std::s
 Diagnostic word_for_a_name(const Span& span, const std::string& word);
 /// The scene measures something else for it than the task file takes it for.
 Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& measured,
+                                  const std::string& expected, const std::string& remedy,
                                   const Span& declared);
+/// It is older than `stale_after` before the next sample comes. [s]
+Diagnostic signal_too_old(const Span& span, const std::string& name, double delay, double period, double age,
+                          const Span& stale_after);
+/// Of the scene, and the task file has none of this name.
+Diagnostic unheard_signal(const Span& span, const std::string& name, const std::string& meant);
 /// A line that begins with `%`.
 Diagnostic directive(const Span& span);
 Diagnostic urdf_for_robot_file(const Span& span);

@@ -48,7 +48,8 @@ constexpr std::array reasons{
 }  // namespace
 
 Diagnostic unreadable_file(const Span& span, const std::string& path, const std::string& reason) {
-  return error("E109", span, "cannot read " + in_ticks(path) + ": " + reason);
+  return error("E109", span, "cannot read " + in_ticks(path) + ": " + reason,
+               span.exists() ? "paths are seen from the folder of the file that names them" : "");
 }
 
 Diagnostic not_a_path(const Span& span, const std::string& written) {
@@ -187,9 +188,13 @@ Diagnostic missing_version(const Span& span, const std::string& what, const std:
 }
 
 Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,
-                       const std::string& meant, const std::vector<std::string>& known) {
+                       const std::string& meant, const std::vector<std::string>& known,
+                       const std::vector<std::string>& missing) {
   std::string help;
   for (const std::string& name : known) help += (help.empty() ? "known here: " : ", ") + name;
+  std::string needed;
+  for (const std::string& name : missing) needed += (needed.empty() ? "`" : ", `") + name + "`";
+  if (!needed.empty()) help += "; needed, and not given: " + needed;
   return with_suggestion(error("E101", span, "unknown key " + in_ticks(key) + " in " + what, help), meant);
 }
 
@@ -197,8 +202,18 @@ Diagnostic missing_key(const Span& span, const std::string& what, const std::str
   return error("E103", span, what + " does not say `" + key + "`", "add `" + key + ": ..`");
 }
 
-Diagnostic expected_mapping(const Span& span, const std::string& what) {
-  return error("E104", span, what + " must be a list of `key: value` lines");
+Diagnostic expected_mapping(const Span& span, const std::string& what, bool is_list) {
+  return error("E104", span, what + " must be a list of `key: value` lines",
+               is_list ? "leave out the `- ` before the names" : "");
+}
+
+Diagnostic expected_vector(const Span& span, const std::string& what, std::size_t count,
+                           const std::string& unit) {
+  std::string example;
+  for (std::size_t i = 0; i < count; ++i)
+    example += (i == 0 ? "[0" : ", 0") + (unit.empty() ? unit : " " + unit);
+  return error("E104", span, what + " must be a list of " + std::to_string(count) + " values",
+               "for example `" + example + "]`");
 }
 
 Diagnostic expected_list(const Span& span, const std::string& what) {
@@ -257,9 +272,10 @@ Diagnostic value_where_range(const Span& span, const std::string& what) {
   return error("E104", span, what + " must be a range", "write `[low, high]` or `+-value`");
 }
 
-Diagnostic bare_axis(const Span& span, const std::string& axis, const std::string& text) {
+Diagnostic bare_axis(const Span& span, const std::string& axis, const std::string& text,
+                     const std::string& instead) {
   return error("E104", span, "axis `" + axis + "` does not say which quantity " + in_ticks(text) + " is",
-               "write `free`, or for example `{velocity: " + escaped(text) + "}`");
+               "write `free`, or for example `" + escaped(instead) + "`");
 }
 
 Diagnostic bare_timeout(const Span& span, const std::string& text) {
@@ -282,6 +298,15 @@ Diagnostic no_tasks(const Span& span) {
 }
 
 Diagnostic not_a_value(const Span& span, const std::string& text) {
+  const bool is_bound = text.starts_with('<') || text.starts_with('>') || text.starts_with("max ") ||
+                        text.starts_with("min ") || text.starts_with("up to ") ||
+                        text.find("..") != std::string::npos;
+  if (is_bound)
+    return error("E105", span, in_ticks(text) + " is not a value",
+                 "a bound is a range: write `[low, high]`, or `+-10 N`");
+  if (text == "inf" || text == ".inf" || text == "-.inf" || text == "infinity")
+    return error("E105", span, in_ticks(text) + " is not a value",
+                 "a range has two ends: write one that the robot never comes to");
   return error("E105", span, in_ticks(text) + " is not a value",
                "write a number with its unit, as `0.08 m/s`, or a parameter, as `$push`");
 }
@@ -357,12 +382,21 @@ Diagnostic equality(const Span& span) {
                "compare the distance: `abs(a - b) < 1 mm`");
 }
 
+Diagnostic equality_of_truth(const Span& span) {
+  return error("E105", span, "what is true or false is not compared",
+               "write the signal alone, or `not` and the signal");
+}
+
 Diagnostic chained_comparison(const Span& span) {
   return error("E105", span, "a comparison has two sides", "write `a < b and b < c`");
 }
 
 Diagnostic unexpected_in_condition(const Span& span, const std::string& text) {
-  return error("E105", span, in_ticks(text) + " is not expected here");
+  return error("E105", span, in_ticks(text) + " is not expected here",
+               text == ","        ? "join conditions with `and` or `or`"
+               : text == "\u2265" ? "write `>=`"
+               : text == "\u2264" ? "write `<=`"
+                                  : "");
 }
 
 Diagnostic missing_argument(const Span& span, const std::string& function) {

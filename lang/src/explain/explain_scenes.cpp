@@ -15,6 +15,15 @@ std::span<const Explanation> scenes() {
               "the wrong thing; the task would never get a sample that it can use.",
           .fix = "Give the signal another source in the scene, or declare it as what it is."},
       Explanation{
+          .code = "W702",
+          .title = "a signal that is too old before the next one comes",
+          .why =
+              "A sample is as old as its `delay` when it comes, and one period of its `rate` older before "
+              "the next one does. Where that is more than the task file's `stale_after`, the signal is lost "
+              "between its samples, and what hangs on it stops and starts: axes in its frame stand still, "
+              "conditions are unknown, `always` fires.",
+          .fix = "Give `stale_after` room for the delay and a few periods, or measure more often."},
+      Explanation{
           .code = "E901",
           .title = "an object without a shape, or with two",
           .why = "What the robot can meet has one shape: a `box`, a `cylinder` or a `wall`.",
@@ -99,6 +108,16 @@ std::span<const Explanation> scenes() {
               "`real_rollers` builds mecanum and omni wheels roller by roller. A robot without such wheels "
               "would be the same with and without it, and a comparison would show nothing.",
           .fix = "Delete `real_rollers`, or take a robot whose wheels have a `roller`."},
+      Explanation{
+          .code = "E912",
+          .title = "a cell whose task is refused",
+          .why =
+              "With the robot, the scene or the parameters of this cell the task file has an error that it "
+              "does not have otherwise. It would not run, and nothing that the scenario expects could come "
+              "true.",
+          .fix =
+              "Leave the robot, the scene or the value out of the matrix; or, if that is the claim, expect "
+              "`outcome: refused` or the `diagnostic` in a scenario of its own."},
   };
   return entries;
 }

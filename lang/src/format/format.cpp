@@ -201,7 +201,7 @@ std::optional<std::string> format_source(int source, Diagnostics& diagnostics) {
   const std::optional<Document> document = read(source, diagnostics);
   if (!document || diagnostics.has_errors()) return std::nullopt;
   if (!document->root.is_mapping()) {
-    diagnostics.add(wording::expected_mapping(document->root.span, "a file"));
+    diagnostics.add(wording::expected_mapping(document->root.span, "a file", document->root.is_sequence()));
     return std::nullopt;
   }
   const std::vector<LineTokens> lines = tokens_of(*document, diagnostics.source(source).text);

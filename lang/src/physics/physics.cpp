@@ -63,10 +63,10 @@ void ask_task(const CheckContext& context, const TaskText& task, Probe& probe, R
 
 }  // namespace
 
-void check_physics(CheckContext& context, const std::optional<Scene>& scene) {
+void check_physics(CheckContext& context, const std::optional<Scene>& scene, double& budget) {
   if (!context.robot) return;
   try {
-    Probe probe(*context.robot, scene);
+    Probe probe(*context.robot, scene, budget);
     Remarks remarks(context.diagnostics);
     for (const TaskText& task : context.file.tasks) {
       if (!probe.is_exhausted()) ask_task(context, task, probe, remarks);

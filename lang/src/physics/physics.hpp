@@ -7,6 +7,6 @@
 namespace zwang::lang {
 
 /// Asks what can be asked of a file that may have other errors; notes only where they are wanted.
-void check_physics(CheckContext& context, const std::optional<Scene>& scene);
+void check_physics(CheckContext& context, const std::optional<Scene>& scene, double& budget);
 
 }  // namespace zwang::lang

@@ -139,6 +139,8 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
                                      const AxisText& text, bool in_always) {
   const bool is_feature = group.kind == GroupKind::feature;
   PlannedAxis axis;
+  // What could not be read may be what the model would be asked about.
+  if (group.is_incomplete) return std::nullopt;
   const bool is_measured =
       is_feature ? measure_feature(context, group, axis) : measure_axis(context, group, text, axis);
   if (!is_measured) return std::nullopt;
@@ -156,6 +158,14 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
   axis.level = text.level.value_or(group.level.value_or(in_always ? 0 : 1));
   axis.is_soft = text.weight || group.weight;
   axis.is_spring = text.stiffness || text.damping;
+  if (text.stiffness && text.damping) {
+    const bool turns = axis.turns();
+    axis.stiffness =
+        known(context, *text.stiffness, turns ? dimension::angular_stiffness : dimension::stiffness);
+    axis.damping = known(context, *text.damping, turns ? dimension::angular_damping : dimension::damping);
+    axis.stiffness_span = text.stiffness->span;
+    axis.damping_span = text.damping->span;
+  }
   return axis;
 }
 

@@ -38,8 +38,10 @@ struct PlannedAxis {
   std::array<double, 4> corners{};
   std::size_t corner_count = 0;
   int level = 1;
-  bool is_soft = false;    ///< has a weight
-  bool is_spring = false;  ///< has stiffness and damping: pushes, and holds no motion
+  bool is_soft = false;                      ///< has a weight
+  bool is_spring = false;                    ///< has stiffness and damping: pushes, and holds no motion
+  std::optional<double> stiffness, damping;  ///< of a spring, at the start
+  Span stiffness_span, damping_span;
 
   const std::optional<solver::Range>& operator[](solver::Quantity q) const {
     return ranges[static_cast<std::size_t>(q)];

@@ -14,8 +14,6 @@ namespace zwang::lang {
 namespace {
 
 constexpr int most_rows = 64;
-/// In the units of `Probe::pay`; a unit takes about half a nanosecond.
-constexpr double budget = 2e9;
 
 /// A force driver along the axis, and nothing else.
 solver::AxisConstraint constraint_of(const PlannedAxis& axis, double force) {
@@ -58,7 +56,7 @@ double along(const solver::Row& row, const solver::Solution& solution) {
 
 }  // namespace
 
-Probe::Probe(const Robot& robot, const std::optional<Scene>& scene)
+Probe::Probe(const Robot& robot, const std::optional<Scene>& scene, double& budget)
     : robot_(robot),
       states_(configurations(robot, scene)),
       general_(general_states(robot.model)),

@@ -46,8 +46,9 @@ struct Pressed {
 /// answered any more.
 class Probe {
  public:
-  /// Throws std::invalid_argument on a model that dynamics cannot use.
-  Probe(const Robot& robot, const std::optional<Scene>& scene);
+  /// `budget` is what may be spent, and what is left of it afterwards. Throws std::invalid_argument on a
+  /// model that dynamics cannot use.
+  Probe(const Robot& robot, const std::optional<Scene>& scene, double& budget);
 
   /// nullptr past the budget.
   const AxisFigures* figures(const PlannedAxis& axis);
@@ -101,7 +102,7 @@ class Probe {
   std::vector<solver::State> states_;   ///< the configurations, the start pose first
   std::vector<solver::State> general_;  ///< any joint angles, any heading
   int base_mobility_ = 0, mobility_ = 0;
-  double budget_;
+  double& budget_;
   std::map<Key, Looks> looks_;
   solver::Solver solver_;
   solver::Solution solution_;

@@ -1,4 +1,4 @@
-// W604: a time constant that is too short.
+// W604: a time constant that is too short, a spring that is too stiff.
 //
 // A critically damped approach that comes in at the velocity range's v (or that of the planar speed) brakes
 // hardest one time constant after the range let go, with
@@ -11,6 +11,12 @@
 // And whatever drives, the tick of dt = 1 ms must follow it. One tick passes between sensing and torque, so a
 // velocity error decays as z^2 - z + dt/tau = 0: without oscillation from tau = 4 dt on. A position driver
 // damps with 2/tau instead of 1/tau: from tau = 8 dt on.
+//
+// A spring of stiffness k and damping d on the mass m damps with d/m: without oscillation up to d = m / (4
+// dt). With the same tick between sensing and torque it follows z^3 - 2 z^2 + (1 + a + b) z - a = 0 with a =
+// d dt/m and b = k dt^2/m; by Jury's criterion that decays as long as b < a (1 - a):
+//
+//   k dt < d (1 - d dt/m)
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -53,10 +59,26 @@ void ask_braking(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe,
                                        v / (std::numbers::e * allowed)));
 }
 
+void ask_spring(const PlannedAxis& axis, Probe& probe, Remarks& remarks) {
+  if (!axis.stiffness || !axis.damping) return;
+  const AxisFigures* figures = probe.figures(axis);
+  if (figures == nullptr || !std::isfinite(figures->least_mass) || !(figures->least_mass > 0.0)) return;
+  const double k = *axis.stiffness, d = *axis.damping, m = figures->least_mass;
+  const double most_damping = m / (4.0 * tick);
+  if (d > most_damping) {
+    remarks.add(wording::damped_too_hard(axis.damping_span, axis.path, axis.turns(), m, most_damping));
+    return;
+  }
+  const double most_stiffness = d * (1.0 - d * tick / m) / tick;
+  if (k >= most_stiffness)
+    remarks.add(wording::too_stiff(axis.stiffness_span, axis.path, axis.turns(), m, most_stiffness));
+}
+
 }  // namespace
 
 void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
+    if (axis.is_spring) ask_spring(axis, probe, remarks);
     if (!axis.drives_motion() || !(axis.time_constant > 0.0)) continue;
     ask_tick(axis, remarks);
     ask_braking(plan, axis, probe, remarks);

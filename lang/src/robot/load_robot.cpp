@@ -5,7 +5,6 @@
 #include <set>
 #include <stdexcept>
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "robot/robot_file.hpp"
@@ -59,7 +58,7 @@ class RobotBuilder {
       diagnostics_.add(wording::fixed_joint(name.span, name.text, joint.span));
       return nullptr;
     }
-    diagnostics_.add(wording::unknown_name(name.span, "joint", name.text, nearest(name.text, moving)));
+    diagnostics_.add(wording::unknown_name(name.span, "joint", name.text, moving));
     return nullptr;
   }
 
@@ -68,7 +67,7 @@ class RobotBuilder {
 
   void check_link(const Word& name) {
     if (!name.exists() || urdf_.find_link(name.text) != nullptr) return;
-    diagnostics_.add(wording::unknown_name(name.span, "link", name.text, nearest(name.text, link_names())));
+    diagnostics_.add(wording::unknown_name(name.span, "link", name.text, link_names()));
   }
 
   /// The base floats: everything above it, up to the URDF's root, must be fixed to it.
@@ -140,8 +139,8 @@ class RobotBuilder {
     std::vector<std::string> known = link_names();
     for (const RobotFrameText& frame : file_.frames) {
       if (frame.parent.exists() && std::find(known.begin(), known.end(), frame.parent.text) == known.end()) {
-        diagnostics_.add(wording::unknown_name(frame.parent.span, "link or earlier frame", frame.parent.text,
-                                               nearest(frame.parent.text, known)));
+        diagnostics_.add(
+            wording::unknown_name(frame.parent.span, "link or earlier frame", frame.parent.text, known));
       }
       if (!frame.name.exists()) continue;
       if (frame.name.text == "world" || urdf_.find_link(frame.name.text) != nullptr) {

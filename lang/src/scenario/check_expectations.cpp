@@ -1,5 +1,4 @@
 #include "check/context.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scenario/scenario_file.hpp"
 #include "spec/units.hpp"
@@ -74,8 +73,7 @@ void declare_program(const Program& program, Symbols& symbols) {
 int find_time(const Word& name, const Symbols& symbols, Diagnostics& diagnostics) {
   const auto index = symbols.find_signal(name.text);
   if (!index) {
-    diagnostics.add(
-        wording::unknown_name(name.span, "quantity", name.text, nearest(name.text, symbols.signal_names())));
+    diagnostics.add(wording::unknown_name(name.span, "quantity", name.text, symbols.signal_names()));
     return -1;
   }
   if (symbols.signals[static_cast<std::size_t>(*index)].dimension != dimension::time)
@@ -90,8 +88,7 @@ int find_robot(const Word& name, const Scene& scene, Diagnostics& diagnostics) {
     if (scene.robots[i].name == name.text) return static_cast<int>(i);
     names.push_back(scene.robots[i].name);
   }
-  diagnostics.add(
-      wording::unknown_name(name.span, "robot in the scene", name.text, nearest(name.text, names)));
+  diagnostics.add(wording::unknown_name(name.span, "robot in the scene", name.text, names));
   return -1;
 }
 

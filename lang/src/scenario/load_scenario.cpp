@@ -1,7 +1,6 @@
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scenario/scenario_file.hpp"
-#include "scene/faults.hpp"
+#include "scene/check_scene.hpp"
 #include "tree/file.hpp"
 
 namespace zwang::lang {
@@ -9,14 +8,6 @@ namespace zwang::lang {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::optional<ScenarioFile> read_scenario(const fs::path& path, Diagnostics& diagnostics) {
-  const std::optional<int> source = read_file(path, yaml_size_limit, {}, diagnostics);
-  if (!source) return std::nullopt;
-  const std::optional<Document> document = read(*source, diagnostics);
-  if (!document) return std::nullopt;
-  return parse_scenario_file(*document, diagnostics);
-}
 
 /// The file that a scenario names. Read here so that one that is not there is the scenario's mistake, where
 /// it is named.
@@ -33,11 +24,12 @@ class CellMaker {
   CellMaker(const ScenarioFile& file, const fs::path& path, Diagnostics& diagnostics)
       : file_(file), path_(path), root_(root_of(path)), diagnostics_(diagnostics) {}
 
-  void put(const std::string& key, const MatrixValue& value, ScenarioCell& cell) const {
+  void put(const std::string& key, const MatrixValue& value, ScenarioCell& cell) {
+    cell.spans[key] = value.word.span;
     if (key == "robot") {
-      cell.robot = existing_file(value.word, path_, root_, diagnostics_);
+      cell.robot = existing(value.word);
     } else if (key == "scene") {
-      cell.scene = existing_file(value.word, path_, root_, diagnostics_);
+      cell.scene = existing(value.word);
     } else if (key == "start_at") {
       cell.start_at = value.at;
     } else if (key == "start_yaw") {
@@ -50,6 +42,15 @@ class CellMaker {
   }
 
  private:
+  /// Looked at once, however many cells it is in.
+  std::optional<fs::path> existing(const Word& named) {
+    const auto known = found_.find(named.text);
+    if (known != found_.end()) return known->second;
+    const std::optional<fs::path> file = existing_file(named, path_, root_, diagnostics_);
+    if (file) found_.emplace(named.text, *file);
+    return file;
+  }
+
   void put_faults(const MatrixValue& value, ScenarioCell& cell) const {
     if (value.word.text == "none") return;
     std::vector<std::string> names{"none"};
@@ -59,19 +60,19 @@ class CellMaker {
       cell.faults = set.faults;
       return;
     }
-    diagnostics_.add(wording::unknown_name(value.word.span, "set of faults", value.word.text,
-                                           nearest(value.word.text, names)));
+    diagnostics_.add(wording::unknown_name(value.word.span, "set of faults", value.word.text, names));
   }
 
   const ScenarioFile& file_;
   const fs::path& path_;
   fs::path root_;
+  std::map<std::string, fs::path> found_;
   Diagnostics& diagnostics_;
 };
 
 /// The product of all keys, the last one varying fastest.
 std::vector<ScenarioCell> multiply(const ScenarioFile& file, const fs::path& path, Diagnostics& diagnostics) {
-  const CellMaker maker(file, path, diagnostics);
+  CellMaker maker(file, path, diagnostics);
   ScenarioCell first;
   for (const MatrixKey& key : file.fixed) maker.put(key.name, key.values.front(), first);
   std::vector<ScenarioCell> cells{first};
@@ -120,6 +121,16 @@ std::vector<Expectation> expectations_of_words(const ScenarioFile& file) {
 
 }  // namespace
 
+std::optional<ScenarioFile> read_scenario(const fs::path& path, Diagnostics& diagnostics) {
+  const std::optional<int> source = read_file(path, yaml_size_limit, {}, diagnostics);
+  if (!source) return std::nullopt;
+  const std::optional<Document> document = read(*source, diagnostics);
+  if (!document) return std::nullopt;
+  std::optional<ScenarioFile> file = parse_scenario_file(*document, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return file;
+}
+
 std::optional<Scenario> scenario_of(const ScenarioFile& file, const fs::path& path,
                                     Diagnostics& diagnostics) {
   Scenario scenario;
@@ -137,14 +148,18 @@ std::optional<Scenario> scenario_of(const ScenarioFile& file, const fs::path& pa
 
 std::optional<Scenario> load_scenario(const fs::path& path, Diagnostics& diagnostics) {
   const std::optional<ScenarioFile> file = read_scenario(path, diagnostics);
-  if (!file || diagnostics.has_errors()) return std::nullopt;
-  return scenario_of(*file, path, diagnostics);
+  if (!file) return std::nullopt;
+  std::optional<Scenario> scenario = scenario_of(*file, path, diagnostics);
+  if (!scenario) return std::nullopt;
+  check_named_parameters(*file, scenario->task, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return scenario;
 }
 
 std::optional<ScenarioRun> load_run(const fs::path& path, std::size_t cell, Diagnostics& of_scenario,
                                     Diagnostics& of_task) {
   const std::optional<ScenarioFile> file = read_scenario(path, of_scenario);
-  if (!file || of_scenario.has_errors()) return std::nullopt;
+  if (!file) return std::nullopt;
   const std::optional<Scenario> scenario = scenario_of(*file, path, of_scenario);
   if (!scenario) return std::nullopt;
   const ScenarioCell& chosen = scenario->cells.at(cell);
@@ -158,11 +173,8 @@ std::optional<ScenarioRun> load_run(const fs::path& path, std::size_t cell, Diag
     run.expectations = expectations_of_words(*file);
     return run;
   }
-  if (run.program->scene) {
-    check_faults_of(chosen.faults, run.program->robot, of_scenario);
-    check_faults_of_partners(chosen.faults, *run.program->scene, of_scenario);
-    if (of_scenario.has_errors()) return std::nullopt;
-  }
+  check_faults_for(chosen.faults, run.program->robot, of_scenario);
+  if (run.program->scene) check_faults_of_partners(chosen.faults, *run.program->scene, of_scenario);
   auto expectations = check_expectations(*file, *run.program, of_scenario);
   if (!expectations) return std::nullopt;
   run.expectations = std::move(*expectations);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "scene/faults.hpp"
 #include "spec/shape.hpp"
 #include "zwang/lang/explanation.hpp"
@@ -71,6 +73,11 @@ void parse_matrix(const Node& node, ScenarioFile& file, Diagnostics& diagnostics
                           entry.key.text == "scene" || entry.key.text == "start_at" ||
                           entry.key.text == "start_yaw" || entry.key.text == "faults";
     if (!entry.key.is_bad && is_known) file.matrix.push_back(parse_matrix_key(entry, diagnostics));
+    if (entry.key.is_bad || is_known ||
+        !meant_key(entry.key.text, {"robot", "scene", "start_at", "start_yaw", "faults"}).empty())
+      continue;
+    diagnostics.add(wording::parameter_of_a_matrix(entry.key.span, entry.key.text));
+    map.optional(entry.key.text);
   }
   map.finish();
 }
@@ -80,7 +87,7 @@ void parse_fixed(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics) {
     const Node* node = map.optional(name);
     if (node == nullptr) continue;
     if (auto value = parse_matrix_value(name, *node, diagnostics)) {
-      file.fixed.push_back({name, {std::move(*value)}});
+      file.fixed.push_back({name, {std::move(*value)}, node->span});
     }
   }
   const Node* parameters = map.optional("params");
@@ -89,7 +96,7 @@ void parse_fixed(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics) {
     if (entry.key.is_bad) continue;
     const std::string name = "params." + entry.key.text;
     if (auto value = parse_matrix_value(name, entry.value, diagnostics)) {
-      file.fixed.push_back({name, {std::move(*value)}});
+      file.fixed.push_back({name, {std::move(*value)}, entry.key.span});
     }
   }
 }
@@ -131,7 +138,7 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
     expected.kind = ExpectationKind::diagnostic;
     expected.word = parse_word(*code, "`diagnostic`", diagnostics);
     if (expected.word.exists() && find_explanation(expected.word.text) == nullptr)
-      diagnostics.add(wording::unknown_name(code->span, "code", expected.word.text, ""));
+      diagnostics.add(wording::unknown_name(code->span, "code", expected.word.text, {}));
   }
   if (at != nullptr) {
     expected.kind = ExpectationKind::at_end;
@@ -143,9 +150,13 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
     if (expected.within < 0.0) diagnostics.add(wording::not_positive(within->span, "`within`", true));
     if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
   }
+  if (!is_good) {
+    for (const char* key : {"of", "that"}) map.optional(key);
+  }
   const Node* that = always != nullptr ? always : nullptr;
   if (always != nullptr) expected.kind = ExpectationKind::always;
-  if (at != nullptr || within != nullptr) that = map.required("that");
+  // Of two claims in one nobody knows which one needs it.
+  if (at != nullptr || within != nullptr) that = is_good ? map.required("that") : map.optional("that");
   if (that != nullptr) expected.that = parse_condition(*that, diagnostics);
   map.report_split_condition();
   map.finish();

@@ -60,6 +60,15 @@ std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagno
 std::optional<Scenario> scenario_of(const ScenarioFile& file, const std::filesystem::path& path,
                                     Diagnostics& diagnostics);
 
+/// E301, E202, E204 and the like for `params` and `matrix.params.NAME`, unless the scenario expects them.
+void check_named_parameters(const ScenarioFile& file, const std::filesystem::path& task,
+                            Diagnostics& diagnostics);
+
+/// Whether the scenario says that a task with errors of these codes is refused.
+bool expects_refusal(const ScenarioFile& file, const std::vector<std::string>& codes);
+
+std::optional<ScenarioFile> read_scenario(const std::filesystem::path& path, Diagnostics& diagnostics);
+
 /// Names and dimensions of what is expected. nullopt on an error.
 std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& file, const Program& program,
                                                            Diagnostics& diagnostics);

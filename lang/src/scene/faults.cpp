@@ -1,12 +1,9 @@
 #include "scene/faults.hpp"
 
-#include <algorithm>
 #include <array>
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "spec/shape.hpp"
-#include "zwang/lang/program.hpp"
 
 namespace zwang::lang {
 
@@ -83,8 +80,7 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
     fault.kind = FaultKind::payload;
     fault.value = positive(*payload, dimension::mass, "`payload`", false, diagnostics);
   }
-  const bool names_wheel = fault.kind == FaultKind::torque_lost || fault.kind == FaultKind::torque_stuck ||
-                           fault.kind == FaultKind::torque_flipped;
+  const bool names_wheel = map.optional("torque") != nullptr;
   if (found != 1 && !map.has_unread_keys()) diagnostics.add(wording::one_fault(node.span));
   if (found == 1 && names_wheel && wheel == nullptr) map.required("wheel");
   if (found == 1 && !names_wheel && wheel != nullptr) diagnostics.add(wording::one_fault(node.span));
@@ -95,19 +91,6 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
   return fault;
 }
 
-void check_motor(const Fault& fault, const Robot& robot, Diagnostics& diagnostics) {
-  if (fault.joint.empty()) return;
-  std::vector<std::string> motors;
-  for (int j = 0; j < robot.model.joint_count(); ++j) {
-    const solver::Joint& joint = robot.model.joint(j);
-    if (!joint.actuated) continue;
-    if (joint.name == fault.joint) return;
-    motors.push_back(joint.name);
-  }
-  diagnostics.add(
-      wording::unknown_name(fault.joint_span, "motor", fault.joint, nearest(fault.joint, motors)));
-}
-
 }  // namespace
 
 std::vector<Fault> parse_faults(const Node& node, Diagnostics& diagnostics) {
@@ -115,29 +98,6 @@ std::vector<Fault> parse_faults(const Node& node, Diagnostics& diagnostics) {
   if (!require_sequence(node, "`faults`", diagnostics)) return faults;
   for (const Node& item : node.items) faults.push_back(parse_fault(item, diagnostics));
   return faults;
-}
-
-void check_faults_of_partners(const std::vector<Fault>& faults, const Scene& scene,
-                              Diagnostics& diagnostics) {
-  std::vector<std::string> names;
-  for (const SceneRobot& robot : scene.robots) names.push_back(robot.name);
-  for (const Fault& fault : faults) {
-    if (fault.robot.empty()) continue;
-    const auto named = std::find(names.begin(), names.end(), fault.robot);
-    if (named == names.end()) {
-      diagnostics.add(
-          wording::unknown_name(fault.robot_span, "robot", fault.robot, nearest(fault.robot, names)));
-      continue;
-    }
-    const SceneRobot& robot = scene.robots[static_cast<std::size_t>(named - names.begin())];
-    if (robot.program) check_motor(fault, robot.program->robot, diagnostics);
-  }
-}
-
-void check_faults_of(const std::vector<Fault>& faults, const Robot& robot, Diagnostics& diagnostics) {
-  for (const Fault& fault : faults) {
-    if (fault.robot.empty()) check_motor(fault, robot, diagnostics);
-  }
 }
 
 }  // namespace zwang::lang

@@ -1,6 +1,9 @@
 #include "scene/load_scene.hpp"
 
+#include "check/check.hpp"
+#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "scene/check_scene.hpp"
 #include "scene/faults.hpp"
 #include "scene/load_robots.hpp"
 #include "scene/load_signals.hpp"
@@ -49,27 +52,28 @@ void parse_sizes(const Node& node, const std::string& what, SceneObject& object,
   map.finish();
 }
 
-void parse_shape(MapReader& map, SceneObject& object, Diagnostics& diagnostics) {
+/// How many shapes are given.
+int parse_shape(MapReader& map, SceneObject& object, Diagnostics& diagnostics) {
   const std::string what = "object `" + object.name + "`";
   const Node* box = map.optional("box");
   const Node* cylinder = map.optional("cylinder");
   const Node* wall = map.optional("wall");
   const int count = (box != nullptr ? 1 : 0) + (cylinder != nullptr ? 1 : 0) + (wall != nullptr ? 1 : 0);
-  if (count != 1) {
-    if (count == 0 && map.has_misspelt({"box", "cylinder", "wall"})) return;
-    diagnostics.add(wording::one_shape(object.span, what));
-  } else if (box != nullptr) {
+  if (count == 1 && box != nullptr) {
     object.shape = ShapeKind::box;
     const auto values = parse_vector(*box, dimension::length, 3, 3, what + "'s box", diagnostics);
-    if (!values) return;
+    if (!values) return count;
     object.size = {(*values)[0], (*values)[1], (*values)[2]};
     for (const double extent : *values) {
-      if (extent <= 0.0) return diagnostics.add(wording::not_positive(box->span, what + "'s box", false));
+      if (extent > 0.0) continue;
+      diagnostics.add(wording::not_positive(box->span, what + "'s box", false));
+      return count;
     }
-  } else {
+  } else if (count == 1) {
     object.shape = cylinder != nullptr ? ShapeKind::cylinder : ShapeKind::wall;
     parse_sizes(cylinder != nullptr ? *cylinder : *wall, what, object, diagnostics);
   }
+  return count;
 }
 
 /// How it feels to touch an object or a robot.
@@ -94,7 +98,7 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   const std::string what = "object `" + entry.key.text + "`";
   MapReader map(entry.value, what, diagnostics);
   if (!map.is_mapping()) return object;
-  parse_shape(map, object, diagnostics);
+  const int shapes = parse_shape(map, object, diagnostics);
   if (const Node* at = map.required("at")) parse_place(*at, what + "'s `at`", object.at, diagnostics);
   if (const Node* yaw = map.optional("yaw")) {
     object.yaw = parse_plain(*yaw, dimension::angle, what + "'s `yaw`", diagnostics).value_or(0.0);
@@ -115,6 +119,9 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   if (const Node* node = map.optional("dock")) {
     object.dock = parse_dock(*node, what + "'s `dock`", diagnostics);
   }
+  // An unknown key may have been the shape's.
+  if (shapes > 1 || (shapes == 0 && !map.has_unread_keys()))
+    diagnostics.add(wording::one_shape(object.span, what));
   map.finish();
   return object;
 }
@@ -175,9 +182,11 @@ void take_name(const Node& key, std::vector<Seen>& seen, bool has_dock, Diagnost
   seen.push_back({key.text, has_dock});
 }
 
-bool has_dock(const Node& robot) {
-  for (const Entry& entry : robot.entries) {
-    if (entry.key.text == "dock") return true;
+/// Of an object or a robot; one that is misspelt was complained of.
+bool has_dock(const Node& node) {
+  for (const Entry& entry : node.entries) {
+    if (meant_key(entry.key.text, {"at", "dock", "mass", "yaw"}) == "dock" || entry.key.text == "dock")
+      return true;
   }
   return false;
 }
@@ -228,10 +237,11 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
       // `truth.base.x` is the robot's.
       if (entry.key.text == "base")
         diagnostics.add(wording::name_taken(entry.key.span, "base", "the robot's base in `truth.base`"));
-      seen.push_back({entry.key.text, scene.objects.back().dock.has_value()});
+      seen.push_back({entry.key.text, has_dock(entry.value)});
     }
   }
   seen.push_back({"base", false});
+  if (map.has_misspelt({"objects", "robots"})) seen.push_back({});
   if (const Node* node = map.optional("robots")) parse_robots(*node, scene, seen, diagnostics);
   if (const Node* node = map.optional("signals")) {
     scene.signals = parse_scene_signals(*node, seen, diagnostics);
@@ -248,12 +258,12 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
 }  // namespace
 
 std::optional<Scene> load_scene_from(const std::filesystem::path& path, const std::filesystem::path& root,
-                                     const Span& cause, Diagnostics& diagnostics) {
+                                     const Span& cause, double& budget, Diagnostics& diagnostics) {
   const std::optional<int> source = read_file(path, yaml_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
   std::optional<Scene> scene = read_scene(*source, diagnostics);
   if (scene) scene->path = path.string();
-  if (scene && !load_robots_of(*scene, path, root, diagnostics)) return std::nullopt;
+  if (scene && !load_robots_of(*scene, path, root, budget, diagnostics)) return std::nullopt;
   const int errors_before = diagnostics.error_count();
   if (scene) check_faults_of_partners(scene->faults, *scene, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
@@ -270,7 +280,8 @@ std::optional<Scene> read_scene(int source, Diagnostics& diagnostics) {
 }
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics) {
-  std::optional<Scene> scene = load_scene_from(path, root_of(path), {}, diagnostics);
+  double budget = whole_budget;
+  std::optional<Scene> scene = load_scene_from(path, root_of(path), {}, budget, diagnostics);
   diagnostics.settle();
   return scene;
 }

@@ -1,6 +1,7 @@
 #include "scene/load_signals.hpp"
 
-#include "diagnostic/nearest.hpp"
+#include <algorithm>
+
 #include "diagnostic/wordings.hpp"
 
 namespace zwang::lang {
@@ -34,6 +35,14 @@ std::optional<StepValue> parse_step_value(const Node& node, const Node& step, do
   return std::nullopt;
 }
 
+/// What the first value says of all.
+void describe_script(const StepValue& first, const Span& span, SceneSignal& signal) {
+  signal.source_span = span;
+  signal.script_kind = first.dimension ? ScriptKind::number : ScriptKind::truth;
+  const Dimension d = first.dimension.value_or(dimension::none);
+  signal.powers = {d.length, d.mass, d.time, d.angle};
+}
+
 /// `[[0 s, false], [5 s, true]]`: what the signal is from each time on.
 void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostics) {
   const std::string what = "signal `" + signal.name + "`'s script";
@@ -59,6 +68,7 @@ void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostic
     if (!first) {
       first = parsed;
       first_span = value.span;
+      describe_script(*parsed, value.span, signal);
     } else if (first->dimension.has_value() != parsed->dimension.has_value()) {
       diagnostics.add(wording::mixed_script(value.span, what, first->dimension.has_value(), first_span));
       return;
@@ -82,8 +92,11 @@ void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<
     names.push_back(seen[i].name);
     if (seen[i].name == word.text) signal.object = static_cast<int>(i);
   }
+  const bool may_be_unread =
+      std::any_of(seen.begin(), seen.end(), [](const Seen& other) { return other.name.empty(); });
+  if (signal.object < 0 && may_be_unread) return;
   if (signal.object < 0) {
-    diagnostics.add(wording::unknown_name(word.span, "object", word.text, nearest(word.text, names)));
+    diagnostics.add(wording::unknown_name(word.span, "object", word.text, names));
   } else if (signal.kind == SceneSignalKind::latch &&
              !seen[static_cast<std::size_t>(signal.object)].has_dock) {
     diagnostics.add(wording::nothing_latches(word.span, word.text));
@@ -128,14 +141,16 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diag
     given = node;
     signal.kind = source.kind;
   }
+  if (given != nullptr) signal.source_span = given->span;
   if (found == 1 && signal.kind == SceneSignalKind::script) {
     parse_script(*given, signal, diagnostics);
   } else if (found == 1) {
     parse_object_name(*given, signal, seen, diagnostics);
-  } else if (!map.has_misspelt({"script", "pose_of", "distance_to", "latch"})) {
-    diagnostics.add(wording::one_signal_source(entry.key.span, entry.key.text));
   }
   parse_quality(map, signal, longest_delay, diagnostics);
+  // An unknown key may have been the source's.
+  if (found > 1 || (found == 0 && !map.has_unread_keys()))
+    diagnostics.add(wording::one_signal_source(entry.key.span, entry.key.text));
   map.finish();
   return signal;
 }
@@ -191,7 +206,10 @@ std::optional<Dock> parse_dock(const Node& node, const std::string& what, Diagno
         parse_plain(*reach, dimension::length, what + "'s `reach`", diagnostics).value_or(dock.reach);
     if (dock.reach <= 0.0) diagnostics.add(wording::not_positive(reach->span, what + "'s `reach`", false));
   }
-  if (const Node* hook = map.required("hook")) dock.hook = parse_word(*hook, "`hook`", diagnostics).text;
+  if (const Node* hook = map.required("hook")) {
+    dock.hook = parse_word(*hook, "`hook`", diagnostics).text;
+    dock.hook_span = hook->span;
+  }
   map.finish();
   return dock;
 }

@@ -10,7 +10,7 @@ namespace zwang::lang {
 
 /// Something that signals can speak of.
 struct Seen {
-  std::string name;
+  std::string name;  ///< empty: there are more, whose names could not be read
   bool has_dock = false;
 };
 

@@ -65,7 +65,10 @@ class ConditionParser {
     }
     if (rest[0] == '=' || rest.starts_with("!=")) {
       const std::size_t length = rest.size() > 1 && rest[1] == '=' ? 2 : 1;
-      stop(wording::equality(span(at_, at_ + length)));
+      const std::string other = trimmed(rest.substr(length));
+      stop(other.starts_with("true") || other.starts_with("false")
+               ? wording::equality_of_truth(span(at_, at_ + length))
+               : wording::equality(span(at_, at_ + length)));
     }
     if (std::string_view("<>").find(rest[0]) != std::string_view::npos) {
       stop(wording::chained_comparison(span(at_, at_ + 1)));

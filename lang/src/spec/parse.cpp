@@ -67,7 +67,10 @@ std::map<std::string, std::optional<Dimension>> dimensions_of(const std::vector<
   std::map<std::string, std::optional<Dimension>> dimensions;
   for (const ParameterText& parameter : parameters) {
     if (!parameter.name.exists()) continue;
-    const bool is_good = parameter.value.kind == ValueKind::quantity;
+    // Where only the range has a unit, the value lacks one.
+    const bool lacks_unit = parameter.range && parameter.range->low.kind == ValueKind::quantity &&
+                            parameter.range->low.quantity.has_unit && !parameter.value.quantity.has_unit;
+    const bool is_good = parameter.value.kind == ValueKind::quantity && !lacks_unit;
     dimensions[parameter.name.text] =
         is_good ? std::optional(parameter.value.quantity.dimension) : std::nullopt;
   }
@@ -163,11 +166,12 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, templates, file, diagnostics);
   for (const char* section :
        {"params", "frames", "regions", "signals", "features", "templates", "always", "tasks"}) {
-    const bool is_absent = document.root.find(section) == nullptr;
-    file.is_incomplete = file.is_incomplete || (is_absent && map.has_misspelt({section}));
+    const Entry* entry = document.root.find(section);
+    file.is_incomplete = file.is_incomplete || (entry == nullptr && map.has_misspelt({section})) ||
+                         (entry != nullptr && !entry->value.is_mapping());
   }
-  if (!diagnostics.has_errors()) templates.report_unused();
   map.finish();
+  if (!diagnostics.has_errors()) templates.report_unused();
   return file;
 }
 

@@ -43,14 +43,30 @@ void parse_statements(MapReader& map, const std::string& path, AxisText& axis, i
   }
 }
 
-AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_level,
+/// What `0 deg` alone may have been meant as.
+std::string statement_of(const std::string& text) {
+  const QuantityResult result = parse_quantity(text);
+  const Dimension& d = result.quantity.dimension;
+  const bool is_known = result.error == QuantityError::none;
+  if (is_known && (d == dimension::length || d == dimension::angle)) return "{position: " + text + "}";
+  if (is_known && (d == dimension::force || d == dimension::torque)) return "{force: " + text + "}";
+  if (is_known && (d == dimension::acceleration || d == dimension::angular_acceleration))
+    return "{acceleration: " + text + "}";
+  if (is_known || text.starts_with("$")) return "{velocity: " + text + "}";
+  return "{position: here}";
+}
+
+/// `is_incomplete` is set where a key could not be read.
+AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_level, bool& is_incomplete,
                     Diagnostics& diagnostics) {
   AxisText axis;
   axis.name = {entry.key.text, entry.key.span};
   const std::string path = group + "." + entry.key.text;
   if (entry.value.is_scalar() && !entry.value.is_bad) {
     axis.is_free = entry.value.text == "free";
-    if (!axis.is_free) diagnostics.add(wording::bare_axis(entry.value.span, path, entry.value.text));
+    if (!axis.is_free)
+      diagnostics.add(wording::bare_axis(entry.value.span, path, entry.value.text,
+                                         statement_of(trimmed(entry.value.text))));
     return axis;
   }
   const bool is_empty =
@@ -77,6 +93,7 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
   } else {
     parse_statements(map, path, axis, lowest_level, diagnostics);
   }
+  is_incomplete = is_incomplete || map.has_unread_keys();
   map.finish();
   return axis;
 }
@@ -116,10 +133,12 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
     parse_manner(map, path, group.time_constant, group.weight, group.level, lowest_level, diagnostics);
     for (const char* name : {"x", "y", "z", "rx", "ry", "rz", "speed"}) {
       if (map.optional(name) == nullptr) continue;
-      group.axes.push_back(parse_axis(*entry.value.find(name), path, lowest_level, diagnostics));
+      group.axes.push_back(
+          parse_axis(*entry.value.find(name), path, lowest_level, group.is_incomplete, diagnostics));
     }
   }
-  group.is_incomplete = !map.is_mapping() || !group.name.exists() || map.has_unread_keys();
+  group.is_incomplete =
+      group.is_incomplete || !map.is_mapping() || !group.name.exists() || map.has_unread_keys();
   map.finish();
   return group;
 }
@@ -185,6 +204,12 @@ TimeoutText parse_timeout(const Node& node, Diagnostics& diagnostics) {
     return timeout;
   }
   MapReader map(node, "`timeout`", diagnostics);
+  const Entry* never = node.is_mapping() ? node.find("after") : nullptr;
+  if (never != nullptr && never->value.is_scalar() && never->value.text == "never") {
+    diagnostics.add(wording::never_after(node.span));
+    timeout.is_never = true;
+    return timeout;
+  }
   if (const Node* after = map.required("after")) {
     timeout.after = parse_value(*after, "timeout.after", diagnostics);
   }
@@ -203,11 +228,18 @@ void parse_enter(const Node& node, TaskText& task, Diagnostics& diagnostics) {
   map.finish();
 }
 
+/// In the place of groups that could not be read: one of them may be the one that a condition names.
+GroupText unread_group() {
+  GroupText unread;
+  unread.is_incomplete = true;
+  return unread;
+}
+
 }  // namespace
 
 std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnostics& diagnostics) {
   std::vector<GroupText> groups;
-  if (!require_mapping(node, "`constraints`", diagnostics)) return groups;
+  if (!require_mapping(node, "`constraints`", diagnostics)) return {unread_group()};
   if (node.entries.size() > most_groups) {
     diagnostics.add(wording::too_many_groups(node.entries[most_groups].key.span, most_groups));
   }
@@ -220,9 +252,7 @@ std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnost
 std::vector<GroupText> parse_constraints(MapReader& map, int lowest_level, Diagnostics& diagnostics) {
   if (const Node* node = map.optional("constraints")) return parse_groups(*node, lowest_level, diagnostics);
   if (!map.has_misspelt({"constraints"})) return {};
-  GroupText unread;
-  unread.is_incomplete = true;
-  return {unread};
+  return {unread_group()};
 }
 
 std::vector<ExitText> parse_exits(const Node& node, Diagnostics& diagnostics) {
@@ -264,6 +294,7 @@ TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnosti
   }
   if (map.has_misspelt({"use"})) {
     for (const char* key : {"use", "with"}) map.optional(key);
+    task.groups.push_back(unread_group());
   }
   task.is_bad = task.is_bad || !task.name.exists() || map.has_unread_keys();
   map.finish();

@@ -58,7 +58,7 @@ RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
     region.parent = parse_word(*parent, what + "'s `parent`", diagnostics);
   }
   const bool is_one = (polygon != nullptr) != (circle != nullptr);
-  if (map.is_mapping() && !is_one && !map.has_misspelt({"polygon", "circle"})) {
+  if (map.is_mapping() && !is_one && (polygon != nullptr || !map.has_unread_keys())) {
     diagnostics.add(wording::one_region_shape(entry.key.span, what));
   } else if (polygon != nullptr && require_sequence(*polygon, what + "'s `polygon`", diagnostics)) {
     double area = 0.0;
@@ -119,7 +119,7 @@ FeatureText parse_feature(const Entry& entry, Diagnostics& diagnostics) {
   const Node* direction = map.optional("direction");
   const int count =
       (distance != nullptr ? 1 : 0) + (angle != nullptr ? 1 : 0) + (direction != nullptr ? 1 : 0);
-  if (map.is_mapping() && count != 1 && !map.has_misspelt({"distance", "angle", "direction"})) {
+  if (map.is_mapping() && count != 1 && (count > 1 || !map.has_unread_keys())) {
     diagnostics.add(wording::one_feature_kind(entry.key.span, what));
     feature.is_bad = true;
   } else if (direction != nullptr) {

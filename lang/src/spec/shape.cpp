@@ -5,6 +5,7 @@
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -32,7 +33,13 @@ bool MapReader::report_split_condition() {
   for (const Entry& entry : node_.entries) {
     const bool is_known = std::find(known_.begin(), known_.end(), entry.key.text) != known_.end();
     const bool is_fragment = entry.value.kind == NodeKind::null && !entry.key.is_bad && !is_known;
-    if (is_fragment && !split_reported_) diagnostics_.add(wording::split_condition(entry.key.span));
+    if (is_fragment && !split_reported_ && missing_.empty())
+      diagnostics_.add(wording::split_condition(entry.key.span));
+    // The condition is whole, and lacks its key.
+    if (is_fragment && !split_reported_ && !missing_.empty()) {
+      diagnostics_.add(wording::condition_without_key(entry.key.span, what_, missing_[0], entry.key.text));
+      missing_.erase(missing_.begin());
+    }
     split_reported_ = split_reported_ || is_fragment;
   }
   return split_reported_;
@@ -41,7 +48,7 @@ bool MapReader::report_split_condition() {
 bool MapReader::has_misspelt(const std::vector<std::string>& keys) const {
   for (const Entry& entry : node_.entries) {
     const bool is_known = std::find(known_.begin(), known_.end(), entry.key.text) != known_.end();
-    if (!is_known && !nearest(entry.key.text, keys).empty()) return true;
+    if (!is_known && !meant_key(entry.key.text, keys).empty()) return true;
   }
   return false;
 }
@@ -59,15 +66,25 @@ void MapReader::finish() {
     for (const std::string& key : known_) {
       if (node_.find(key) == nullptr) absent.push_back(key);
     }
+    std::vector<const Node*> puzzling;
     for (const Entry& entry : node_.entries) {
       if (entry.key.is_bad || std::find(known_.begin(), known_.end(), entry.key.text) != known_.end()) {
         continue;
       }
       if (split_reported_ && entry.value.kind == NodeKind::null) continue;
-      const std::string meant = nearest(entry.key.text, absent);
-      diagnostics_.add(wording::unknown_key(entry.key.span, entry.key.text, what_, meant, known_));
+      const std::string meant = meant_key(entry.key.text, absent);
+      if (meant.empty()) {
+        puzzling.push_back(&entry.key);
+        continue;
+      }
+      diagnostics_.add(wording::unknown_key(entry.key.span, entry.key.text, what_, meant, known_, {}));
       // The misspelt key was the missing one: one cause, one message.
       std::erase(missing_, meant);
+    }
+    for (const Node* key : puzzling) {
+      diagnostics_.add(wording::unknown_key(key->span, key->text, what_, "", known_, missing_));
+      // Perhaps it was one of these.
+      missing_.clear();
     }
   }
   for (const std::string& key : missing_) diagnostics_.add(wording::missing_key(node_.span, what_, key));
@@ -129,7 +146,8 @@ bool require_sequence(const Node& node, const std::string& what, Diagnostics& di
 
 bool require_mapping(const Node& node, const std::string& what, Diagnostics& diagnostics) {
   if (node.is_bad) return false;
-  if (!node.is_mapping()) diagnostics.add(wording::expected_mapping(node.span, what));
+  if (!node.is_mapping())
+    diagnostics.add(wording::expected_mapping(node.span, what, node.is_sequence() && !node.is_flow));
   return node.is_mapping();
 }
 
@@ -140,14 +158,38 @@ std::optional<double> parse_plain(const Node& node, const Dimension& expected, c
   return value.quantity.value;
 }
 
+namespace {
+
+/// `[0, 0]` for `[0 m, 0 m]`: who forgets the unit forgets it everywhere, and is told once.
+bool complain_of_bare_numbers(const Node& list, const Dimension& expected, const std::string& what,
+                              Diagnostics& diagnostics) {
+  if (expected == dimension::none || list.items.size() < 2) return false;
+  std::vector<std::string> numbers;
+  for (const Node& item : list.items) {
+    if (item.is_bad || !item.is_scalar()) return false;
+    const QuantityResult result = parse_quantity(trimmed(item.text));
+    if (result.error != QuantityError::none || result.quantity.has_unit) return false;
+    numbers.push_back(result.quantity.number);
+  }
+  diagnostics.add(wording::needs_units(list.span, what, numbers, expected));
+  return true;
+}
+
+}  // namespace
+
 std::optional<std::vector<double>> parse_vector(const Node& node, const Dimension& expected,
                                                 std::size_t fewest, std::size_t most, const std::string& what,
                                                 Diagnostics& diagnostics) {
-  if (!require_sequence(node, what, diagnostics)) return std::nullopt;
+  if (node.is_bad) return std::nullopt;
+  if (!node.is_sequence()) {
+    diagnostics.add(wording::expected_vector(node.span, what, fewest, usual_unit(expected)));
+    return std::nullopt;
+  }
   if (node.items.size() < fewest || node.items.size() > most) {
     diagnostics.add(wording::wrong_count(node.span, what, fewest, most, node.items.size()));
     return std::nullopt;
   }
+  if (complain_of_bare_numbers(node, expected, what, diagnostics)) return std::nullopt;
   std::vector<double> values;
   bool is_good = true;
   for (const Node& item : node.items) {

@@ -4,6 +4,7 @@
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "spec/shape.hpp"
 #include "tree/read.hpp"
 #include "tree/text.hpp"
@@ -47,7 +48,7 @@ bool is_name_part(char c) {
 const Entry* misspelt_with(const Node& task) {
   if (task.find("with") != nullptr) return nullptr;
   for (const Entry& entry : task.entries) {
-    if (!nearest(entry.key.text, {"with"}).empty()) return &entry;
+    if (!meant_key(entry.key.text, {"with"}).empty()) return &entry;
   }
   return nullptr;
 }
@@ -97,18 +98,19 @@ void Templates::declare(const Node& node) {
     MapReader map(entry.value, "template `" + entry.key.text + "`", diagnostics_);
     declared.body = map.required("body");
     const Node* arguments = map.optional("args");
-    if (arguments != nullptr && require_mapping(*arguments, "`args`", diagnostics_)) {
+    const bool has_list = arguments == nullptr || require_mapping(*arguments, "`args`", diagnostics_);
+    if (arguments != nullptr && has_list) {
       for (const Entry& argument : arguments->entries) {
         if (find_kind(argument.value.text) == nullptr) {
           std::vector<std::string> known;
           for (const ArgumentKind& kind : argument_kinds) known.emplace_back(kind.word);
-          diagnostics_.add(wording::unknown_name(argument.value.span, "kind of argument", argument.value.text,
-                                                 nearest(argument.value.text, known)));
+          diagnostics_.add(
+              wording::unknown_name(argument.value.span, "kind of argument", argument.value.text, known));
         }
         declared.arguments[argument.key.text] = argument.value.text;
       }
     }
-    declared.is_bad = declared.body == nullptr;
+    declared.is_bad = declared.body == nullptr || !has_list || map.has_misspelt({"args"});
     if (declared.body != nullptr) declared.nodes = count_nodes(*declared.body);
     map.finish();
     templates_[entry.key.text] = declared;
@@ -130,7 +132,7 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
   if (found == templates_.end()) {
     std::vector<std::string> known;
     for (const auto& [other, declared] : templates_) known.push_back(other);
-    diagnostics_.add(wording::unknown_name(name.span, "template", name.text, nearest(name.text, known)));
+    diagnostics_.add(wording::unknown_name(name.span, "template", name.text, known));
     return std::nullopt;
   }
   Template& used = found->second;
@@ -147,7 +149,7 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
   }
   if (const Entry* with = misspelt_with(task)) {
     diagnostics_.add(
-        wording::unknown_key(with->key.span, with->key.text, "a task that uses a template", "with", {}));
+        wording::unknown_key(with->key.span, with->key.text, "a task that uses a template", "with", {}, {}));
     return std::nullopt;
   }
   std::map<std::string, Node> values;
@@ -210,6 +212,11 @@ bool Templates::check_argument(const std::string& name, const std::string& kind,
   if (text.kind == ValueKind::bad) return false;
   if (text.kind == ValueKind::parameter) return check_parameter(name, text, *expected->dimension);
   const bool fits = text.kind == ValueKind::quantity && text.quantity.dimension == *expected->dimension;
+  if (!fits && text.kind == ValueKind::quantity && !text.quantity.has_unit) {
+    diagnostics_.add(
+        wording::argument_without_unit(value.span, name, text.quantity.number, *expected->dimension));
+    return false;
+  }
   if (!fits) diagnostics_.add(wording::wrong_argument(value.span, name, describe(*expected->dimension)));
   return fits;
 }
@@ -220,7 +227,7 @@ bool Templates::check_parameter(const std::string& name, const ValueText& value,
   if (parameter == parameters_.end()) {
     std::vector<std::string> known;
     for (const auto& [other, dimension] : parameters_) known.push_back(other);
-    diagnostics_.add(wording::unknown_name(value.span, "parameter", value.name, nearest(value.name, known)));
+    diagnostics_.add(wording::unknown_name(value.span, "parameter", value.name, known));
     return false;
   }
   if (!parameter->second) return false;

@@ -42,6 +42,10 @@ ValueText parse_value_text(const std::string& text, const Span& span, Diagnostic
   ValueText value;
   value.span = span;
   if (text.starts_with("$")) return parse_parameter(text, 1.0, value, diagnostics);
+  if (!text.starts_with("-$") && text.find('$') != std::string::npos) {
+    diagnostics.add(wording::computed_value(span, text));
+    return value;
+  }
   if (text.starts_with("-$")) return parse_parameter(text.substr(1), -1.0, value, diagnostics);
   if (text == "here") {
     value.kind = ValueKind::here;
@@ -50,7 +54,7 @@ ValueText parse_value_text(const std::string& text, const Span& span, Diagnostic
     value.name = text;
   } else if (is_spelt_oddly(text, span, diagnostics)) {
     return value;
-  } else if (!starts_a_number(text)) {
+  } else if (!starts_a_number(text) || text.find("..") != std::string::npos) {
     diagnostics.add(wording::not_a_value(span, text));
   } else {
     QuantityResult result = parse_quantity(text);

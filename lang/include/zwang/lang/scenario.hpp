@@ -22,6 +22,7 @@ struct ScenarioCell {
   std::optional<double> start_yaw;                ///< [rad]
   std::map<std::string, std::string> parameters;  ///< name -> quantity as text
   std::vector<Fault> faults;                      ///< beside the scene's own
+  std::map<std::string, Span> spans;              ///< where `robot`, `scene`, `params.NAME` are written
 };
 
 struct Scenario {
@@ -86,8 +87,14 @@ enum TruthOfRobot {
 };
 std::vector<std::string> truth_names(const Scene& scene);
 
-/// Reads a scenario file and multiplies its matrix out.
+/// Reads a scenario file, multiplies its matrix out, and checks the parameters that it names against those
+/// that the task file declares.
 std::optional<Scenario> load_scenario(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+/// As `load_scenario`, and asks of every cell, without running it, what `load_run` would: whether the task is
+/// refused on this robot and in this scene where the scenario does not expect it, what the expectations mean
+/// there, and whether the faults have something that can fail. The task file alone is not judged.
+std::optional<Scenario> check_scenario(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 /// A cell ready to run.
 struct ScenarioRun {

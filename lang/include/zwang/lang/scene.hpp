@@ -27,6 +27,7 @@ struct Dock {
   std::array<double, 2> at{};  ///< [m] in the axes of the object, from its `at`
   double reach = 0.02;         ///< [m] the hook latches when its frame is as near as this
   std::string hook;            ///< a frame of the first robot
+  Span hook_span{};
 };
 
 enum class ShapeKind { box, cylinder, wall };
@@ -54,6 +55,13 @@ struct ScriptStep {
   bool valid = true;   ///< false: nothing is measured
 };
 
+/// What the steps of a script are.
+enum class ScriptKind {
+  lost,   ///< nothing else
+  truth,  ///< true and false
+  number
+};
+
 enum class SceneSignalKind {
   script,    ///< a bool or a number
   pose,      ///< of the object or robot, in the frame that the task file's signal is seen from
@@ -66,12 +74,15 @@ struct SceneSignal {
   std::string name;
   SceneSignalKind kind = SceneSignalKind::script;
   std::vector<ScriptStep> script;
-  int object = -1;           ///< what is seen: an index into Scene::objects, or of a robot (`seen_robot`)
-  double noise = 0.0;        ///< [m] standard deviation of a distance and of a pose's x and y
-  double angle_noise = 0.0;  ///< [rad] of a pose's yaw
-  double delay = 0.0;        ///< [s] from the measurement to its arrival
-  double period = 0.0;       ///< [s] between measurements; 0: every tick
-  double dropouts = 0.0;     ///< the share of measurements that are lost, 0 to 1
+  ScriptKind script_kind = ScriptKind::lost;
+  std::array<int, 4> powers{};  ///< of length, mass, time and angle, in what a script's numbers measure
+  Span source_span{};           ///< of what is seen; of a script its first value
+  int object = -1;              ///< what is seen: an index into Scene::objects, or of a robot (`seen_robot`)
+  double noise = 0.0;           ///< [m] standard deviation of a distance and of a pose's x and y
+  double angle_noise = 0.0;     ///< [rad] of a pose's yaw
+  double delay = 0.0;           ///< [s] from the measurement to its arrival
+  double period = 0.0;          ///< [s] between measurements; 0: every tick
+  double dropouts = 0.0;        ///< the share of measurements that are lost, 0 to 1
   Span span;
 };
 
@@ -105,9 +116,9 @@ struct Fault {
   double at = 0.0;                                            ///< [s]
   double duration = std::numeric_limits<double>::infinity();  ///< [s]
   std::string joint;
-  Span joint_span;
+  Span joint_span{};
   std::string robot;  ///< whose: one of Scene::robots; empty: the first one's, or the world's
-  Span robot_span;
+  Span robot_span{};
   double value = 0.0;
   Span span;
 };

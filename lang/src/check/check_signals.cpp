@@ -1,0 +1,121 @@
+// What a scene gives for the signals that a task file declares.
+#include <algorithm>
+
+#include "check/context.hpp"
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// What a number of the scene's signal measures; nullopt where it gives none.
+std::optional<Dimension> number_of(const SceneSignal& signal) {
+  if (signal.kind == SceneSignalKind::distance) return dimension::length;
+  const bool is_number = signal.kind == SceneSignalKind::script && signal.script_kind == ScriptKind::number;
+  if (!is_number) return std::nullopt;
+  return Dimension{signal.powers[0], signal.powers[1], signal.powers[2], signal.powers[3]};
+}
+
+std::string measured_by(const SceneSignal& signal) {
+  if (const auto number = number_of(signal)) return describe(*number);
+  if (signal.kind == SceneSignalKind::pose) return "a pose";
+  return signal.script_kind == ScriptKind::lost && signal.kind == SceneSignalKind::script ? "nothing at all"
+                                                                                          : "true or false";
+}
+
+std::string declared_as(const SignalSymbol& declared) {
+  switch (declared.signal.type) {
+    case SignalType::boolean:
+      return "`type: bool`";
+    case SignalType::number:
+      return describe(declared.dimension);
+    case SignalType::pose:
+      return "a pose";
+    case SignalType::wrench:
+      break;
+  }
+  return "a wrench";
+}
+
+bool gives(const SceneSignal& signal, const SignalSymbol& declared) {
+  const bool is_script = signal.kind == SceneSignalKind::script;
+  const bool is_lost = is_script && signal.script_kind == ScriptKind::lost;
+  switch (declared.signal.type) {
+    case SignalType::boolean:
+      return signal.kind == SceneSignalKind::latch || is_lost ||
+             (is_script && signal.script_kind == ScriptKind::truth);
+    case SignalType::number:
+      return is_lost || number_of(signal) == declared.dimension;
+    case SignalType::pose:
+      return signal.kind == SceneSignalKind::pose;
+    case SignalType::wrench:
+      break;
+  }
+  return false;
+}
+
+/// What to write instead.
+std::string remedy(const SceneSignal& signal, const SignalSymbol& declared) {
+  const std::string unit = usual_unit(declared.dimension);
+  const bool is_script = signal.kind == SceneSignalKind::script;
+  if (is_script && declared.signal.type == SignalType::boolean)
+    return "write `true` and `false` in the script, or declare the signal as `type: number`";
+  if (is_script && declared.signal.type == SignalType::number && signal.script_kind == ScriptKind::truth)
+    return "write numbers" + (unit.empty() ? std::string() : " in `" + unit + "`") +
+           " in the script, or declare the signal as `type: bool`";
+  if (is_script && declared.signal.type == SignalType::number)
+    return unit.empty() ? "write plain numbers in the script, or give the signal its `unit`"
+                        : "write the script in `" + unit + "`, or mend the signal's `unit`";
+  return "give it another source, or declare it as what it is";
+}
+
+/// A misspelt name: the task file's signal would never come.
+void check_name(CheckContext& context, const Scene& scene, const SceneSignal& signal) {
+  std::vector<std::string> without_source;
+  for (const std::string& name : context.symbols.signal_names()) {
+    const bool has_source = std::any_of(scene.signals.begin(), scene.signals.end(),
+                                        [&](const SceneSignal& other) { return other.name == name; });
+    if (!has_source) without_source.push_back(name);
+  }
+  // A scene may serve several task files, and give more than this one asks for.
+  const std::string meant = nearest(signal.name, without_source);
+  if (!meant.empty()) context.diagnostics.add(wording::unheard_signal(signal.span, signal.name, meant));
+}
+
+/// A sample is `delay` old when it comes, and `period` older when the next one does.
+void check_age(CheckContext& context, const SceneSignal& signal, int index) {
+  const auto& stale_after = context.file.signals[static_cast<std::size_t>(index)].stale_after;
+  if (!stale_after || stale_after->kind == ValueKind::bad) return;
+  const double age = present_value(context, *stale_after);
+  if (!(age > 0.0) || signal.delay + signal.period <= age) return;
+  context.diagnostics.add(
+      wording::signal_too_old(signal.span, signal.name, signal.delay, signal.period, age, stale_after->span));
+}
+
+}  // namespace
+
+void check_scene_signals(CheckContext& context, const Scene& scene) {
+  for (const SceneSignal& signal : scene.signals) {
+    const std::optional<int> index = context.symbols.find_signal(signal.name);
+    if (!index) continue;
+    const SignalSymbol& declared = context.symbols.signals[static_cast<std::size_t>(*index)];
+    if (declared.is_bad) continue;
+    if (gives(signal, declared)) {
+      check_age(context, signal, *index);
+    } else {
+      context.diagnostics.add(wording::signal_of_another_type(
+          signal.source_span, signal.name, measured_by(signal), declared_as(declared),
+          remedy(signal, declared), declared.signal.span));
+    }
+  }
+}
+
+void check_scene_names(CheckContext& context, const Scene& scene) {
+  for (const SceneSignal& signal : scene.signals) {
+    if (!context.symbols.find_signal(signal.name)) check_name(context, scene, signal);
+  }
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,79 @@
+#include "scene/check_scene.hpp"
+
+#include <algorithm>
+
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+void check_rollers(const Scene& scene, const Robot& robot, Diagnostics& diagnostics) {
+  const auto& wheels = robot.model.wheels();
+  const auto rolls = [](const solver::Wheel& wheel) { return wheel.roller_angle.has_value(); };
+  if (scene.real_rollers && std::none_of(wheels.begin(), wheels.end(), rolls))
+    diagnostics.add(wording::no_rollers(scene.real_rollers_span, robot.name));
+}
+
+void check_hook(const std::optional<Dock>& dock, const Robot& robot, Diagnostics& diagnostics) {
+  if (!dock || dock->hook.empty() || robot.model.find_frame(dock->hook)) return;
+  std::vector<std::string> frames;
+  for (const solver::Frame& frame : robot.model.frames()) frames.push_back(frame.name);
+  diagnostics.add(wording::unknown_hook(dock->hook_span, dock->hook, nearest(dock->hook, frames)));
+}
+
+/// Names of the joints that a motor turns.
+std::vector<std::string> motors_of(const solver::Model& model) {
+  std::vector<std::string> names;
+  for (int j = 0; j < model.joint_count(); ++j) {
+    if (model.joint(j).actuated) names.push_back(model.joint(j).name);
+  }
+  return names;
+}
+
+void check_motor(const Fault& fault, const Robot& robot, Diagnostics& diagnostics) {
+  const std::vector<std::string> motors = motors_of(robot.model);
+  const bool is_known = std::find(motors.begin(), motors.end(), fault.joint) != motors.end();
+  if (fault.joint.empty() || is_known) return;
+  if (robot.model.find_joint(fault.joint)) {
+    diagnostics.add(wording::fault_without_motor(fault.joint_span, fault.joint));
+  } else {
+    diagnostics.add(wording::unknown_name(fault.joint_span, "joint with a motor", fault.joint, motors));
+  }
+}
+
+}  // namespace
+
+void check_faults_for(const std::vector<Fault>& faults, const Robot& robot, Diagnostics& diagnostics) {
+  for (const Fault& fault : faults) {
+    if (fault.robot.empty()) check_motor(fault, robot, diagnostics);
+  }
+}
+
+void check_faults_of_partners(const std::vector<Fault>& faults, const Scene& scene,
+                              Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const SceneRobot& robot : scene.robots) names.push_back(robot.name);
+  for (const Fault& fault : faults) {
+    if (fault.robot.empty()) continue;
+    const auto named = std::find(names.begin(), names.end(), fault.robot);
+    if (named == names.end()) {
+      diagnostics.add(wording::unknown_name(fault.robot_span, "robot", fault.robot, names));
+      continue;
+    }
+    const SceneRobot& robot = scene.robots[static_cast<std::size_t>(named - names.begin())];
+    if (robot.program) check_motor(fault, robot.program->robot, diagnostics);
+  }
+}
+
+void check_scene_for(const Scene& scene, const Robot& robot, Diagnostics& diagnostics) {
+  check_rollers(scene, robot, diagnostics);
+  for (const SceneObject& object : scene.objects) check_hook(object.dock, robot, diagnostics);
+  for (const SceneRobot& other : scene.robots) check_hook(other.dock, robot, diagnostics);
+  check_faults_for(scene.faults, robot, diagnostics);
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,18 @@
+/// What scenes and scenarios name of a robot that they do not choose themselves.
+#pragma once
+
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/scene.hpp"
+
+namespace zwang::lang {
+
+/// Hooks, wheels that fail, real rollers: E301, E907, E911. `robot` is the first one.
+void check_scene_for(const Scene& scene, const Robot& robot, Diagnostics& diagnostics);
+/// The joints of the first robot's faults.
+void check_faults_for(const std::vector<Fault>& faults, const Robot& robot, Diagnostics& diagnostics);
+/// The same of the scene's other robots, which are loaded; and whether they are in the scene.
+void check_faults_of_partners(const std::vector<Fault>& faults, const Scene& scene, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang
