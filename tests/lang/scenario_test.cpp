@@ -295,6 +295,32 @@ signals:
   }
 }
 
+TEST(Scene, signals_speak_of_objects_of_the_first_robot_and_of_others) {
+  const test::Folder folder;
+  const auto robots = test::source_dir / "tests/conformance";
+  for (const char* name : {"ok_shorter_for.yaml", "robots/mini.yaml", "robots/mini.urdf"})
+    folder.write(name, test::slurp(robots / name));
+  const auto path = folder.write("s.yaml", R"(zwang_scene: 1
+objects:
+  cart: {box: [0.6 m, 0.4 m, 0.5 m], at: [2 m, 0 m]}
+robots:
+  near: {task: ok_shorter_for.yaml, at: [0 m, 2 m], signals: {seen: {pose_of: far}, me: {pose_of: base}}}
+  far:  {task: ok_shorter_for.yaml, at: [0 m, 4 m]}
+signals:
+  a: {pose_of: cart}
+  b: {pose_of: near}
+  c: {pose_of: far}
+)");
+  Diagnostics diagnostics;
+  const auto scene = load_scene(path, diagnostics);
+  ASSERT_TRUE(scene) << rendered(diagnostics);
+  EXPECT_EQ(scene->signals[0].object, 0);
+  EXPECT_EQ(scene->signals[1].object, scene->seen_robot(0));
+  EXPECT_EQ(scene->signals[2].object, scene->seen_robot(1));
+  EXPECT_EQ(scene->robots[0].signals[0].object, scene->seen_robot(1));
+  EXPECT_EQ(scene->robots[0].signals[1].object, scene->seen_robot(-1));
+}
+
 TEST(Scene, a_misspelt_key_is_the_only_mistake) {
   const char* const text = R"(zwang_scene: 1
 objects:

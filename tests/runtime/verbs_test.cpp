@@ -94,6 +94,16 @@ TEST_F(Verbs, ValidateTakesWhatRunAndPlanTake) {
   EXPECT_TRUE(contains(r.err, "for task files")) << r.err;
 }
 
+TEST_F(Verbs, ValidateKnowsARobotForAScene) {
+  const std::string scene = (specs / "scenes/dock.yaml").string();
+  EXPECT_EQ(zwang({"validate", scene, "--robot", (specs / "robots/mecanum_base.yaml").string()}).code, 0);
+  const std::string mini = (fs::path(ZWANG_SOURCE_DIR) / "tests/conformance/robots/mini.yaml").string();
+  const Result r = zwang({"validate", scene, "--robot", mini});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_TRUE(contains(r.out, "error E301: no frame of the robot named `hook`")) << r.out;
+  EXPECT_EQ(zwang({"validate", scene, "-p", "push=30 N"}).code, 2);
+}
+
 TEST_F(Verbs, AnAllowedWarningIsNotDenied) {
   const std::string file = task("allowed.yaml", read(conformance / "ok_allowed.yaml"));
   const Result r = zwang({"validate", file, "--deny", "warnings"});

@@ -241,8 +241,8 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
     }
   }
   seen.push_back({"base", false});
-  if (map.has_misspelt({"objects", "robots"})) seen.push_back({});
   if (const Node* node = map.optional("robots")) parse_robots(*node, scene, seen, diagnostics);
+  if (map.has_misspelt({"objects", "robots"})) seen.push_back({});
   if (const Node* node = map.optional("signals")) {
     scene.signals = parse_scene_signals(*node, seen, diagnostics);
   }
