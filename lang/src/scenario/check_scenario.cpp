@@ -84,7 +84,9 @@ class CellChecker {
         if (is_exhausted()) return diagnostics_.add(wording::unasked_cells(file_.task.span, cell.name));
         known = programs.emplace(world, load_cell(cell)).first;
       }
-      if (known->second) check_faults_for(cell.faults, known->second->robot, diagnostics_);
+      if (!known->second) continue;
+      check_faults_for(cell.faults, known->second->robot, diagnostics_);
+      if (known->second->scene) check_faults_of_partners(cell.faults, *known->second->scene, diagnostics_);
     }
     complain_of_refusals();
   }
