@@ -1,12 +1,16 @@
-// Limits along one axis: two ends of a range, ranges of several quantities, ranges of several levels. Mostly
-// one of them decides, and who it is can be told before the stage is solved, from what they ask for:
+// The one-sided rows of a stage: which of them are posed, and what is known of them beforehand.
 //
-//   a limit beyond another one of its side                 has nothing to do while that one holds
-//   a limit that contradicts one of a level above           pushes with all its force, and in vain
+// Limits along one axis are two ends of a range, ranges of several quantities, ranges of several levels.
+// Mostly one of them decides, and what they ask for tells which:
 //
-// Both are left out; the second with its force, against which the limit above pushes. What was said of them
-// is looked at when the stage is solved, and where it does not hold, as when a limit's force did not suffice,
-// all take part. Limits that yield (fading, with a weight) and equal ones, which share their force, stay.
+//   a limit beyond another one of its side            has nothing to do while that one holds
+//   a limit that contradicts one of a level above     pushes with all its force, and in vain
+//
+// Both are left out: the first from all that follows, where the other one is of its own level (it is idle),
+// else from a stage; the second from a stage, with its force, against which the limit above pushes. What was
+// said of them is looked at when the stage is solved, and where it does not hold, as when a limit's force did
+// not suffice, all take part. Limits that yield (fading, with a weight) and equal ones, which share their
+// force, stay.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +20,8 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double tie = 1e-9;  // relative: limits closer than that are equal
+constexpr double tie = 1e-9;        // relative: limits closer than that are equal
+constexpr double rounding = 1e-12;  // the same, of a limit that stands where it pushes to
 
 /// Whether `one` is clearly beyond `other`, seen from inside the range that `side` (1: upper) bounds.
 bool is_beyond(double one, double other, double side) {
@@ -150,6 +155,113 @@ bool BoundedProblem::folded_limits_rest() noexcept {
 void BoundedProblem::unfold_limits() noexcept {
   posed_.insert(posed_.end(), folded_.begin(), folded_.end());
   folded_.clear();
+}
+
+/// Adds the limits of the levels above `level`: they are posed again.
+void BoundedProblem::pose_limits_above(int level) noexcept {
+  for (const int i : awake_) {
+    if (is_one_sided(i) && entry(i).level < level && takes_part(i)) posed_.push_back(i);
+  }
+}
+
+/// Whether the posed limits hold at work_ with the multipliers that they have.
+bool BoundedProblem::limits_above_hold(int first) noexcept {
+  for (std::size_t k = static_cast<std::size_t>(first); k < posed_.size(); ++k) {
+    if (room_of(posed_[k], work_) < 0.0) return false;
+  }
+  return true;
+}
+
+/// How far a limit is from what it must keep, with its present multiplier; negative where it does not.
+double BoundedProblem::room_of(int i, const Vector& p) noexcept {
+  const Entry& e = entry(i);
+  const double s = along(i, p) + held_softness(i) * e.nu - d_(i) - e.offset;
+  return e.kind == RowKind::upper ? -s : s;
+}
+
+/// Of a limit that takes no share of what another one pushes.
+double BoundedProblem::least_room(int i) noexcept {
+  return 1e3 * rounding * (std::abs(d_(i)) + std::abs(entry(i).offset));
+}
+
+/// Whether the posed rows are limits that are content with the present motion: those that push stand exactly
+/// where they push to, the others have room. (At no room without a push the share between equals is open.)
+bool BoundedProblem::limits_rest(int level) noexcept {
+  bool pushes = false;
+  for (const int i : posed_) {
+    if (!is_one_sided(i)) return false;
+    pushes = pushes || entry(i).nu != 0.0;
+  }
+  for (const int i : posed_) {
+    const double room = room_of(i, p_);
+    const bool stands =
+        entry(i).nu != 0.0 && entry(i).level < level && std::abs(room) <= 1e-3 * least_room(i);
+    const bool is_free = entry(i).nu == 0.0 && (pushes ? room > least_room(i) : room >= 0.0);
+    if (!stands && !is_free) return false;
+  }
+  return true;
+}
+
+/// fixed_ = p without what the posed limits push.
+void BoundedProblem::take_out_limits(const Vector& p) noexcept {
+  copy(p, fixed_);
+  for (const int i : posed_) {
+    if (is_one_sided(i)) push(i, -entry(i).nu, fixed_);
+  }
+}
+
+/// Where the posed rows from `first` on are limits at rest, and one of them alone stands in the way: what it
+/// pushes is added to p.
+BoundedProblem::Push BoundedProblem::push_alone(int first, int level, Vector& p) noexcept {
+  Push push;
+  double miss = 0.0;
+  for (std::size_t k = static_cast<std::size_t>(first); k < posed_.size(); ++k) {
+    const int i = posed_[k];
+    if (!is_one_sided(i) || entry(i).nu != 0.0) return {};
+    const double room = room_of(i, p);
+    if (room >= 0.0) continue;
+    if (push.row >= 0) return {};
+    push.row = i;
+    miss = entry(i).kind == RowKind::upper ? room : -room;
+  }
+  if (push.row < 0) return {};
+  const Entry& e = entry(push.row);
+  const double softness_here = e.level == level ? softness(push.row) : held_softness(push.row);
+  push.nu = miss / (e.reach * e.reach + softness_here);
+  const Range bounds = bounds_at(push.row, level);
+  if (push.nu < bounds.low || push.nu > bounds.high) return {};
+  this->push(push.row, push.nu, p);
+  for (std::size_t k = static_cast<std::size_t>(first); k < posed_.size(); ++k) {
+    const int i = posed_[k];
+    if (i == push.row || room_of(i, p) > least_room(i)) continue;
+    this->push(push.row, -push.nu, p);
+    return {};
+  }
+  return push;
+}
+
+/// The same for a level's motion.
+bool BoundedProblem::one_limit_settles(int level) noexcept {
+  if (!motors_reach_all_) return false;
+  copy(p_, work_);
+  const Push alone = push_alone(0, level, work_);
+  if (alone.row < 0 || !sums_hold(level, work_) || !torques_for(work_)) return false;
+  entry(alone.row).nu = alone.nu;
+  tau_.head(motors_) = candidate_.head(motors_);
+  torques_are_least_ = true;
+  copy(work_, p_);
+  take_offsets(level);
+  return true;
+}
+
+/// How far beyond b a level leaves its limits: a fading one rests where a . Xdd + R nu = b; what is beyond
+/// that it could not hold, or it was not worth it.
+void BoundedProblem::take_offsets(int level) noexcept {
+  for (const int i : posed_) {
+    if (!is_one_sided(i) || entry(i).level != level) continue;
+    const double miss = std::max(0.0, -room_of(i, p_));
+    entry(i).offset = entry(i).kind == RowKind::lower ? -miss : miss;
+  }
 }
 
 }  // namespace zwang::solver
