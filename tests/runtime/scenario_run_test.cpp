@@ -76,7 +76,8 @@ TEST(ScenarioRun, ARefusedTaskHasItsCodes) {
       run_scenario("params: {push: 200 N}\nexpect: [{outcome: refused}, {diagnostic: E204}]\n");
   EXPECT_TRUE(refused.passed) << refused.because;
   const CellResult missed =
-      run_scenario("params: {push: 200 N}\nexpect: [{outcome: done}, {diagnostic: E404}]\n");
+      run_scenario("robot: robots/skid_base.yaml\nexpect: [{outcome: done}, {diagnostic: E601}]\n");
+  EXPECT_FALSE(missed.passed);
   EXPECT_FALSE(missed.expectations[0].held);
   EXPECT_FALSE(missed.expectations[1].held);
 }
@@ -129,7 +130,7 @@ expect: [{outcome: done}]
     run_scenario(text);
     ADD_FAILURE() << "it ran";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("E301: no motor named `left_wheel`"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("E301: no joint with a motor named `left_wheel`"), std::string::npos)
         << error.what();
   }
 }

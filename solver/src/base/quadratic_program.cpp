@@ -62,7 +62,7 @@ void QuadraticProgram::set_V(int variable, int count, double scale, const double
 void QuadraticProgram::fill_columns() noexcept {
   for (int k = 0; k < variables_; ++k) {
     const int extent = extents_[index(k)];
-    std::fill_n(&V_(k, extent), curvature_rows_ - extent, 0.0);
+    std::fill_n(&V_(k, 0) + extent, curvature_rows_ - extent, 0.0);
   }
 }
 
