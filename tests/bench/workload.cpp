@@ -207,9 +207,10 @@ Workload chain(int links, int rows) {
   Arm::add_to(builder, "base", links);
   auto w = std::make_shared<Unbounded>(builder.build(), 3);
   for (int k = 0; k < rows; ++k) add_rows(links - k / 6 * (links / 4), {k % 6}, w->rows);
-  // One state: many states of a long chain would measure the cache.
-  return {chain_name(links, rows), unbounded_call,
-          [w](std::size_t) { demand(w->solver.solve(w->states[0], w->rows, w->motion) == Status::ok); }};
+  // Two states in turn: with one the inertias would be kept, and many would measure the cache.
+  return {chain_name(links, rows), unbounded_call, [w](std::size_t i) {
+            demand(w->solver.solve(w->states[i % 2], w->rows, w->motion) == Status::ok);
+          }};
 }
 
 Workload base_full() {
