@@ -70,6 +70,14 @@ inline void add_square(int first, int last, double s, const double* x, double* m
   if (k < last) add_to_line(s * x[k], x, first, last, line);
 }
 
+/// x . y, for an even number of numbers that the compiler knows.
+template <int count>
+double dot(const double* x, const double* y) {
+  Eigen::Array2d sum = ConstPair(x) * ConstPair(y);
+  for (int k = 2; k < count; k += 2) sum += ConstPair(x + k) * ConstPair(y + k);
+  return sum(0) + sum(1);
+}
+
 /// x . y, for `count` numbers.
 inline double dot(int count, const double* x, const double* y) {
   Eigen::Array2d sum = Eigen::Array2d::Zero();

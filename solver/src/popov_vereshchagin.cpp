@@ -33,6 +33,9 @@ bool fits(const ConstrainedMotion& result, const Model& model) {
 
 }  // namespace
 
+/// Lines of W of an arm of up to seven joints, with the zeros behind them.
+constexpr int short_line = spaced(7);
+
 /// Rows have ids in the order ground, given.
 struct PopovVereshchagin::Workspace {
   Workspace(const Model& robot, const Settings& options)
@@ -80,11 +83,15 @@ struct PopovVereshchagin::Workspace {
   void factorise_given(double damping) noexcept {
     const int count = sweeps.columns.rows() - ground;
     const int r = (whitened.mobility() + 1) & ~1;  // lines have a 0 to spare
+    const bool is_short = ground == 0 && sweeps.columns.W.cols() == short_line;
     const bool is_held = whitened.mobility() < sweeps.columns.dimensions();
     given.resize(count);
     for (int i = 0; i < count; ++i) {
       const double* const B = whitened.B(ground + i);
-      for (int k = 0; k <= i; ++k) given.L(i, k) = dot(r, B, whitened.B(ground + k));
+      for (int k = 0; k <= i; ++k) {
+        const double* const other = whitened.B(ground + k);
+        given.L(i, k) = is_short ? dot<short_line>(B, other) : dot(r, B, other);
+      }
       given.size(i) = (is_held ? whitened.free_square(ground + i) : given.L(i, i)) + damping;
       given.L(i, i) += damping;
     }
