@@ -130,7 +130,8 @@ expect: [{outcome: done}]
     run_scenario(text);
     ADD_FAILURE() << "it ran";
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("E301: no joint with a motor named `left_wheel`"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("E301: no joint with a motor named `left_wheel`"),
+              std::string::npos)
         << error.what();
   }
 }
