@@ -155,8 +155,10 @@ TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
   const int problems = setting("ZWANG_ORACLE_PROBLEMS", 54);
   const int first = setting("ZWANG_ORACLE_SEED", 1);
   int failures = 0;
-  int unsure =
-      0;  // where the dense oracle finds no optimum: equal ranges that contradict each other on three levels
+  // Of equal ranges that contradict each other on three levels the dense oracle now and then finds no
+  // optimum.
+  const bool may_be_unsure = GetParam().family.starts_with("ranges");
+  int unsure = 0;
   for (int seed = first; seed < first + problems; ++seed) {
     Random random(static_cast<std::uint64_t>(seed) * 7919u + static_cast<std::uint64_t>(GetParam().robot));
     const double effort =
@@ -168,7 +170,7 @@ TEST_P(SolverOracle, AgreesOnSeededRandomProblems) {
     const std::vector<solver::Row> rows = random_rows(model, options, random);
 
     const OracleSolution want = solve(model, state, rows);
-    if (want.error > 1e-12L && ++unsure <= problems / 50) continue;
+    if (may_be_unsure && want.error > 1e-12L && ++unsure <= problems / 50) continue;
     ASSERT_LT(want.error, 1e-12L) << "the oracle itself, seed " << seed;
     solver::Solver solver(model);
     solver::Solution got(model);

@@ -55,19 +55,26 @@ void check_named_parameter(const MatrixKey& key, Symbols& symbols, const fs::pat
   for (const MatrixValue& value : key.values) check_parameter_value(*symbol, value.word, diagnostics);
 }
 
+void check_named_parameters(const ScenarioFile& file, const fs::path& task, Diagnostics& diagnostics) {
+  std::optional<Symbols> symbols = parameters_of(task, diagnostics);
+  if (!symbols) return;
+  for (const auto* keys : {&file.fixed, &file.matrix}) {
+    for (const MatrixKey& key : *keys) {
+      if (!is_parameter(key.name)) continue;
+      Diagnostics found;
+      check_named_parameter(key, *symbols, task, found);
+      for (const Diagnostic& d : found.all()) {
+        if (!expects_refusal(file, {d.code})) diagnostics.add(d);
+      }
+    }
+  }
+}
+
 /// What the task is loaded with: all that cells differ in before they run.
 using World = std::tuple<std::string, std::string, std::map<std::string, std::string>>;
 
 World world_of(const ScenarioCell& cell) {
   return {cell.robot.value_or("").string(), cell.scene.value_or("").string(), cell.parameters};
-}
-
-LoadOptions options_of(const ScenarioCell& cell) {
-  LoadOptions options;
-  options.robot = cell.robot;
-  options.scene = cell.scene;
-  options.parameters = cell.parameters;
-  return options;
 }
 
 class CellChecker {
@@ -84,9 +91,7 @@ class CellChecker {
         if (is_exhausted()) return diagnostics_.add(wording::unasked_cells(file_.task.span, cell.name));
         known = programs.emplace(world, load_cell(cell)).first;
       }
-      if (!known->second) continue;
-      check_faults_for(cell.faults, known->second->robot, diagnostics_);
-      if (known->second->scene) check_faults_of_partners(cell.faults, *known->second->scene, diagnostics_);
+      if (known->second) check_faults(cell, *known->second, diagnostics_);
     }
     complain_of_refusals();
   }
@@ -200,28 +205,33 @@ bool expects_refusal(const ScenarioFile& file, const std::vector<std::string>& c
   return is_refused && !names_code;
 }
 
-void check_named_parameters(const ScenarioFile& file, const fs::path& task, Diagnostics& diagnostics) {
-  std::optional<Symbols> symbols = parameters_of(task, diagnostics);
-  if (!symbols) return;
-  for (const auto* keys : {&file.fixed, &file.matrix}) {
-    for (const MatrixKey& key : *keys) {
-      if (!is_parameter(key.name)) continue;
-      Diagnostics found;
-      check_named_parameter(key, *symbols, task, found);
-      for (const Diagnostic& d : found.all()) {
-        if (!expects_refusal(file, {d.code})) diagnostics.add(d);
-      }
-    }
-  }
+LoadOptions options_of(const ScenarioCell& cell) {
+  LoadOptions options;
+  options.robot = cell.robot;
+  options.scene = cell.scene;
+  options.parameters = cell.parameters;
+  return options;
+}
+
+void check_faults(const ScenarioCell& cell, const Program& program, Diagnostics& diagnostics) {
+  check_faults_for(cell.faults, program.robot, diagnostics);
+  if (program.scene) check_faults_of_partners(cell.faults, *program.scene, diagnostics);
+}
+
+std::optional<Scenario> scenario_with_parameters(const ScenarioFile& file, const fs::path& path,
+                                                 Diagnostics& diagnostics) {
+  std::optional<Scenario> scenario = scenario_of(file, path, diagnostics);
+  if (!scenario) return std::nullopt;
+  check_named_parameters(file, scenario->task, diagnostics);
+  if (diagnostics.has_errors()) return std::nullopt;
+  return scenario;
 }
 
 std::optional<Scenario> check_scenario(const fs::path& path, Diagnostics& diagnostics) {
   const std::optional<ScenarioFile> file = read_scenario(path, diagnostics);
   if (!file) return std::nullopt;
-  std::optional<Scenario> scenario = scenario_of(*file, path, diagnostics);
+  std::optional<Scenario> scenario = scenario_with_parameters(*file, path, diagnostics);
   if (!scenario) return std::nullopt;
-  check_named_parameters(*file, scenario->task, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
   CellChecker(*file, *scenario, diagnostics).check_all();
   diagnostics.settle();
   if (diagnostics.has_errors()) return std::nullopt;

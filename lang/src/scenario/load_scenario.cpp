@@ -1,6 +1,5 @@
 #include "diagnostic/wordings.hpp"
 #include "scenario/scenario_file.hpp"
-#include "scene/check_scene.hpp"
 #include "tree/file.hpp"
 
 namespace zwang::lang {
@@ -149,11 +148,7 @@ std::optional<Scenario> scenario_of(const ScenarioFile& file, const fs::path& pa
 std::optional<Scenario> load_scenario(const fs::path& path, Diagnostics& diagnostics) {
   const std::optional<ScenarioFile> file = read_scenario(path, diagnostics);
   if (!file) return std::nullopt;
-  std::optional<Scenario> scenario = scenario_of(*file, path, diagnostics);
-  if (!scenario) return std::nullopt;
-  check_named_parameters(*file, scenario->task, diagnostics);
-  if (diagnostics.has_errors()) return std::nullopt;
-  return scenario;
+  return scenario_with_parameters(*file, path, diagnostics);
 }
 
 std::optional<ScenarioRun> load_run(const fs::path& path, std::size_t cell, Diagnostics& of_scenario,
@@ -163,18 +158,13 @@ std::optional<ScenarioRun> load_run(const fs::path& path, std::size_t cell, Diag
   const std::optional<Scenario> scenario = scenario_of(*file, path, of_scenario);
   if (!scenario) return std::nullopt;
   const ScenarioCell& chosen = scenario->cells.at(cell);
-  LoadOptions options;
-  options.robot = chosen.robot;
-  options.scene = chosen.scene;
-  options.parameters = chosen.parameters;
   ScenarioRun run;
-  run.program = load(scenario->task, options, of_task);
+  run.program = load(scenario->task, options_of(chosen), of_task);
   if (!run.program) {
     run.expectations = expectations_of_words(*file);
     return run;
   }
-  check_faults_for(chosen.faults, run.program->robot, of_scenario);
-  if (run.program->scene) check_faults_of_partners(chosen.faults, *run.program->scene, of_scenario);
+  check_faults(chosen, *run.program, of_scenario);
   auto expectations = check_expectations(*file, *run.program, of_scenario);
   if (!expectations) return std::nullopt;
   run.expectations = std::move(*expectations);

@@ -60,9 +60,16 @@ std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagno
 std::optional<Scenario> scenario_of(const ScenarioFile& file, const std::filesystem::path& path,
                                     Diagnostics& diagnostics);
 
-/// E301, E202, E204 and the like for `params` and `matrix.params.NAME`, unless the scenario expects them.
-void check_named_parameters(const ScenarioFile& file, const std::filesystem::path& task,
-                            Diagnostics& diagnostics);
+/// The same, and E301, E202, E204 and the like for `params` and `matrix.params.NAME`, unless the scenario
+/// expects them.
+std::optional<Scenario> scenario_with_parameters(const ScenarioFile& file, const std::filesystem::path& path,
+                                                 Diagnostics& diagnostics);
+
+/// What a cell's task is loaded with.
+LoadOptions options_of(const ScenarioCell& cell);
+
+/// The robots that a cell's faults name, and their motors: E301, E907.
+void check_faults(const ScenarioCell& cell, const Program& program, Diagnostics& diagnostics);
 
 /// Whether the scenario says that a task with errors of these codes is refused.
 bool expects_refusal(const ScenarioFile& file, const std::vector<std::string>& codes);
