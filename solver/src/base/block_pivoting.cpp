@@ -56,7 +56,7 @@ void QuadraticProgram::factorise_free() noexcept {
   for (int s = factorised_; s < n; ++s) {
     double* const line = &factor_(s, 0);
     const int variable = superbasics_[index(s)];
-    const double own = hessian(variable, variable);
+    const double own = curvature_(variable);
     double pivot = own;
     for (int c = 0; c < s; ++c) {
       const double h = hessian(variable, superbasics_[index(c)]);
@@ -100,12 +100,16 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   std::copy_n(z_.data(), variables_, direction_.data());
   superbasics_.clear();
   factorised_ = 0;
+  compute_image();
   for (int k = 0; k < variables_; ++k) {
+    const double start = z_(k);
+    curvature_(k) = hessian(k, k);
+    z_(k) = std::clamp(start + (g_(k) - pull_on(k)) / curvature_(k), lo_(k), hi_(k));
+    add_multiple(extents_[index(k)], z_(k) - start, V(k), image_.data());
     const bool is_inside = z_(k) > lo_(k) && z_(k) < hi_(k);
     place_[index(k)] = is_inside ? Place::superbasic : Place::parked;
     if (is_inside) superbasics_.push_back(k);
   }
-  compute_image();
   int fewest = variables_ + 1;
   int tries = patience;
   for (int round = 0; round < max_rounds; ++round) {
@@ -165,7 +169,7 @@ bool QuadraticProgram::has_room(int k) const noexcept {
 bool QuadraticProgram::slide(int flat) noexcept {
   const int entering = superbasics_[index(flat)];
   const double left = factor_(flat, flat);  // of its curvature
-  if (left > curvature_tolerance * hessian(entering, entering)) return false;
+  if (left > curvature_tolerance * curvature_(entering)) return false;
   if (std::abs(reduced_(entering)) <= slope_tolerance * tolerance_) return false;
   const auto n = static_cast<int>(superbasics_.size());
   for (int s = 0; s < n; ++s) step_(s) = hessian(superbasics_[index(s)], entering);

@@ -118,6 +118,7 @@ class QuadraticProgram {
   RowMajorMatrix reduced_V_;      ///< a row a superbasic variable
   RowMajorMatrix hessian_;        ///< the reduced Hessian; lower triangle
   RowMajorMatrix factor_;         ///< its Cholesky factor
+  Eigen::VectorXd curvature_;     ///< the diagonal of H
   Eigen::VectorXd inverse_root_;  ///< of the blocks' factor: 1 over its diagonal
   int factorised_ = 0;            ///< rows of the blocks' factor that are those of the free variables
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
