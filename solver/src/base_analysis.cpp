@@ -24,24 +24,28 @@ struct WhitenedRobot {
       : ground_rows(model),
         ground(ground_rows.row_count()),
         base(model.has_fixed_base() ? 0 : 6),
-        sweeps(model, ground + base + model.joint_count() + 1),
-        rows(sweeps.columns) {
+        sweeps(model, ground + base + model.joint_count(), 1),
+        rows(sweeps.robot_rows) {
     outward_kinematics(model, state, Vector6::Zero(), sweeps);
     load_bodies_at_rest(sweeps);
     add_ground_rows(ground_rows, sweeps, [](int, const GroundRow&) {});
-    for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, Vector6::Unit(i));
-    for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
+    for (int i = 0; i < base; ++i) sweeps.robot_rows.add_row(0, Vector6::Unit(i));
+    for (int j = 0; j < model.joint_count(); ++j) sweeps.robot_rows.add_joint_row(j);
     if (row != nullptr) add_row(*row, sweeps);
     const Eigen::VectorXd no_torque = Eigen::VectorXd::Zero(model.joint_count());
     if (!inward_inertia(model, no_torque, sweeps)) {
       throw std::invalid_argument("analysis: an inertia of the model cannot be inverted");
     }
-    rows.factorise(sweeps.columns, ground);
+    inward_rows(model, sweeps, sweeps.robot_rows);
+    rows.factorise(sweeps.robot_rows, ground);
+    inward_rows(model, sweeps, sweeps.task_rows);
+    rows.turn(sweeps.task_rows);
   }
 
-  Eigen::VectorXd joint(int j) const { return rows.motion(ground + base + j).transpose(); }
-  Eigen::VectorXd base_freedom(int i) const { return rows.motion(ground + i).transpose(); }
-  int last_row() const { return sweeps.columns.rows() - 1; }
+  Eigen::VectorXd joint(int j) const { return rows.robot_motion(ground + base + j).transpose(); }
+  Eigen::VectorXd base_freedom(int i) const { return rows.robot_motion(ground + i).transpose(); }
+  double base_free_square(int i) const { return rows.robot_free_square(ground + i); }
+  int last_row() const { return sweeps.task_rows.rows() - 1; }
 
   Ground ground_rows;
   int ground, base;
@@ -61,8 +65,8 @@ int rank_of(const Eigen::MatrixXd& columns) {
 int base_mobility(const WhitenedRobot& robot) {
   Eigen::MatrixXd planar(robot.rows.mobility(), 3);
   for (int i = 0; i < 3; ++i) {
-    const int row = robot.ground + 2 + i;  // rz, x and y of the six freedoms
-    planar.col(i) = robot.base_freedom(i + 2) / std::sqrt(robot.rows.free_square(row));
+    const int freedom = 2 + i;  // rz, x and y of the six
+    planar.col(i) = robot.base_freedom(freedom) / std::sqrt(robot.base_free_square(freedom));
   }
   if (planar.size() == 0) return 0;
   const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(planar).singularValues();

@@ -36,63 +36,63 @@ bool fits(const ConstrainedMotion& result, const Model& model) {
 /// Lines of W of an arm of up to seven joints, with the zeros behind them.
 constexpr int short_line = spaced(7);
 
-/// Rows have ids in the order ground, given.
 struct PopovVereshchagin::Workspace {
   Workspace(const Model& robot, const Settings& options)
       : model(robot),
         settings(options),
         ground_rows(robot),
         ground(ground_rows.row_count()),
-        sweeps(robot, ground + options.row_capacity),
-        whitened(sweeps.columns),
+        sweeps(robot, ground, options.row_capacity),
+        whitened(sweeps.robot_rows),
         given(options.row_capacity),
-        wanted(Eigen::VectorXd::Zero(ground + options.row_capacity)),
-        nu(Eigen::VectorXd::Zero(ground + options.row_capacity)),
-        p(Eigen::VectorXd::Zero(sweeps.columns.dimensions())),
-        force(Eigen::VectorXd::Zero(sweeps.columns.dimensions() + 1)),
+        ground_bias(Eigen::VectorXd::Zero(ground)),
+        wanted(Eigen::VectorXd::Zero(options.row_capacity)),
+        nu(Eigen::VectorXd::Zero(options.row_capacity)),
+        p(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions())),
+        motion(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions() + 1)),
         qdd(Eigen::VectorXd::Zero(robot.joint_count())),
         wrenches(static_cast<std::size_t>(robot.body_count()), Vector6::Zero()) {}
 
   const BodySweep& body_sweep(int i) const { return sweeps.bodies[static_cast<std::size_t>(i)]; }
 
-  /// `wanted`: b by row id.
   void add_rows(const std::vector<AccelerationRow>& rows) noexcept {
-    add_ground_rows(ground_rows, sweeps, [this](int id, const GroundRow& row) { wanted(id) = row.bias; });
+    add_ground_rows(ground_rows, sweeps, [this](int i, const GroundRow& row) {
+      ground_bias(i) = row.bias - row.a.dot(body_sweep(row.body).c);
+    });
+    sweeps.task_rows.clear();
     for (const AccelerationRow& row : rows) wanted(add_row(row, sweeps)) = row.b;
   }
 
   /// nu = L^-1 (b - g), line 21: the ground's rows are held, the given ones then met as well as that leaves.
   /// The rank is that of L, damped or not.
   void solve_base() noexcept {
-    const int m = sweeps.columns.rows();
-    whitened.factorise(sweeps.columns, ground);
     const int r = whitened.mobility();
-    wanted.head(m) -= sweeps.columns.g.head(m);
-    whitened.hold_ground(wanted);
-    for (int i = ground; i < m; ++i) wanted(i) -= whitened.held_acceleration(i);
+    const int m = sweeps.task_rows.rows();
+    whitened.hold_ground(sweeps.free_motion, ground_bias);
+    for (int i = 0; i < m; ++i) wanted(i) -= whitened.acceleration(i);
     factorise_given(0.0);
-    rank = sweeps.columns.held_dimensions() + whitened.ground_rank() + given.rank();
+    rank = sweeps.task_rows.held_dimensions() + whitened.ground_rank() + given.rank();
     if (settings.damping > 0.0) factorise_given(settings.damping * settings.damping);
-    given.solve(wanted.data() + ground, nu.data());
+    given.solve(wanted.data(), nu.data());
     set_zero(r, p.data());
-    for (int i = ground; i < m; ++i) add_multiple(r, nu(i - ground), whitened.B(i), p.data());
-    whitened.forces(p.data(), force);
+    for (int i = 0; i < m; ++i) add_multiple(r, nu(i), whitened.B(i), p.data());
+    whitened.motion(p.data(), motion);
   }
 
   /// L of the given rows where the ground is held: B B'.
   void factorise_given(double damping) noexcept {
-    const int count = sweeps.columns.rows() - ground;
+    const int count = sweeps.task_rows.rows();
     const int r = (whitened.mobility() + 1) & ~1;  // lines have a 0 to spare
-    const bool is_short = ground == 0 && sweeps.columns.W.cols() == short_line;
-    const bool is_held = whitened.mobility() < sweeps.columns.dimensions();
+    const bool is_short = ground == 0 && sweeps.task_rows.W.cols() == short_line;
+    const bool is_held = whitened.mobility() < sweeps.task_rows.dimensions();
     given.resize(count);
     for (int i = 0; i < count; ++i) {
-      const double* const B = whitened.B(ground + i);
+      const double* const B = whitened.B(i);
       for (int k = 0; k <= i; ++k) {
-        const double* const other = whitened.B(ground + k);
+        const double* const other = whitened.B(k);
         given.L(i, k) = is_short ? dot<short_line>(B, other) : dot(r, B, other);
       }
-      given.size(i) = (is_held ? whitened.free_square(ground + i) : given.L(i, i)) + damping;
+      given.size(i) = (is_held ? whitened.free_square(i) : given.L(i, i)) + damping;
       given.L(i, i) += damping;
     }
     given.factorise(WhitenedRows::ground_tolerance);
@@ -102,7 +102,7 @@ struct PopovVereshchagin::Workspace {
   /// sum.
   void carry_wrenches(ConstrainedMotion& result) noexcept {
     for (Vector6& wrench : wrenches) wrench.setZero();
-    sweeps.columns.add_wrenches(ground, nu, wrenches);
+    sweeps.task_rows.add_wrenches(nu, wrenches);
     for (std::size_t i = wrenches.size() - 1; i > 0; --i) {
       result.tau_control(static_cast<Eigen::Index>(i) - 1) += sweeps.bodies[i].S.dot(wrenches[i]);
       wrenches[static_cast<std::size_t>(model.bodies()[i].parent)] += wrenches[i];
@@ -121,9 +121,10 @@ struct PopovVereshchagin::Workspace {
   Sweeps sweeps;
   WhitenedRows whitened;
   PivotedCholesky given;
-  Eigen::VectorXd wanted;    ///< by row id
-  Eigen::VectorXd nu;        ///< by given row
-  Eigen::VectorXd p, force;  ///< of the given rows on the motions; with the ground's answer, by dimension
+  Eigen::VectorXd ground_bias;  ///< by row of the ground
+  Eigen::VectorXd wanted, nu;   ///< by given row: b less what comes anyway, and the multipliers
+  Eigen::VectorXd p;            ///< force of the given rows on the motions that the ground leaves
+  Eigen::VectorXd motion;       ///< by dimension of the sweeps
   Eigen::VectorXd qdd;
   std::vector<Vector6, Eigen::aligned_allocator<Vector6>> wrenches;
 };
@@ -148,9 +149,17 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
   outward_kinematics(model, state, base_acceleration, sweeps);
   load_bodies(model, state, gravity, sweeps);
   add_rows(rows);
+  const bool ground_stays = sweeps.is_articulated;
   if (!inward_inertia(model, state.tau_ff, sweeps)) return Status::degenerate_model;
+  if (!ground_stays) {
+    inward_rows(model, sweeps, sweeps.robot_rows);
+    whitened.factorise(sweeps.robot_rows, ground);
+  }
+  inward_rows(model, sweeps, sweeps.task_rows);
+  sweeps.task_rows.find_drift(sweeps.bodies);
+  whitened.turn(sweeps.task_rows);
   solve_base();
-  outward_accelerations(model, force, sweeps, qdd);
+  outward_accelerations(model, motion, sweeps, qdd);
   if (finite_sum(qdd) + finite_sum(nu.head(count)) != 0.0) return Status::degenerate_model;
 
   copy(model.joint_count(), qdd.data(), result.qdd.data());
@@ -168,8 +177,9 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
     result.residual(static_cast<Eigen::Index>(i)) = acceleration - row.b;
   }
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+    const int k = sweeps.task_rows.dimension_of(i);
     result.constraint_torque(static_cast<Eigen::Index>(i) - 1) =
-        sweeps.bodies[i].root_D * force(sweeps.columns.dimension_of(i));
+        sweeps.bodies[i].root_D * (motion(k) - sweeps.free_motion(k));
   }
   copy(model.joint_count(), state.tau_ff.data(), result.tau_control.data());
   carry_wrenches(result);

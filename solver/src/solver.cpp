@@ -92,8 +92,8 @@ bool is_valid(const Row& row) {
 
 }  // namespace
 
-/// Rows have ids in the order ground, base freedoms, joints, task; rows of the task along the same axis share
-/// one.
+/// The robot's own rows have ids in the order ground, base freedoms, joints; rows of the task along the same
+/// axis share one.
 struct Solver::Workspace {
   Workspace(const Model& robot, const Settings& options)
       : model(robot),
@@ -101,19 +101,19 @@ struct Solver::Workspace {
         ground_rows(robot),
         ground(ground_rows.row_count()),
         base(base_freedoms(robot, options.base_motion)),
-        capacity(ground + base + robot.joint_count() + options.row_capacity),
-        sweeps(robot, capacity),
-        whitened(sweeps.columns),
+        sweeps(robot, ground + base + robot.joint_count(), options.row_capacity),
+        whitened(sweeps.robot_rows),
         problem(options.row_capacity, robot.joint_count(),
-                std::max(1, sweeps.columns.dimensions() - sweeps.columns.held_dimensions())),
-        ground_bias(Eigen::VectorXd::Zero(capacity)),
+                std::max(1, sweeps.task_rows.dimensions() - sweeps.task_rows.held_dimensions())),
+        ground_bias(Eigen::VectorXd::Zero(ground)),
         free_acceleration(Eigen::VectorXd::Zero(options.row_capacity)),
-        p(Eigen::VectorXd::Zero(sweeps.columns.dimensions())),
-        forces(Eigen::VectorXd::Zero(sweeps.columns.dimensions() + 1)),
+        p(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions())),
+        motion(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions() + 1)),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
         qdd(Eigen::VectorXd::Zero(robot.joint_count())) {
     ids.reserve(static_cast<std::size_t>(options.row_capacity));
     twins.reserve(static_cast<std::size_t>(options.row_capacity));
+    axes.reserve(static_cast<std::size_t>(options.row_capacity));
     for (int j = 0; j < robot.joint_count(); ++j) {
       if (robot.joint(j).actuated) motors.push_back(j);
     }
@@ -121,29 +121,38 @@ struct Solver::Workspace {
 
   const BodySweep& body_sweep(int i) const { return sweeps.bodies[static_cast<std::size_t>(i)]; }
   Vector3 gravity(const State& state) const { return state.base_pose.rotation.transpose() * model.gravity(); }
+  int first_base_row() const { return ground; }
   int first_joint_row() const { return ground + base; }
-  int first_task_row() const { return ground + base + model.joint_count(); }
 
-  void add_rows(const std::vector<Row>& rows) noexcept {
-    add_ground_rows(ground_rows, sweeps,
-                    [this](int id, const GroundRow& row) { ground_bias(id) = row.bias; });
-    for (int i = 0; i < base; ++i) sweeps.columns.add_row(0, base_freedom(model, i));
-    for (int j = 0; j < model.joint_count(); ++j) sweeps.columns.add_joint_row(j);
+  /// `bias` of a row of the ground: its wanted acceleration less what it has of itself.
+  template <class Bias>
+  void add_robot_rows(Bias bias) noexcept {
+    add_ground_rows(ground_rows, sweeps, [&](int i, const GroundRow& row) { ground_bias(i) = bias(row); });
+    if (sweeps.is_articulated) return;
+    for (int i = 0; i < base; ++i) sweeps.robot_rows.add_row(0, base_freedom(model, i));
+    for (int j = 0; j < model.joint_count(); ++j) sweeps.robot_rows.add_joint_row(j);
+  }
+
+  void add_task_rows(const std::vector<Row>& rows) noexcept {
+    sweeps.task_rows.clear();
     twins.clear();
     ids.clear();
+    axes.clear();
     for (const Row& row : rows) {
-      twins.push_back(twin_of(row, rows));
-      ids.push_back(twins.back() < 0 ? add_row(row, sweeps) : ids[static_cast<std::size_t>(twins.back())]);
+      const int twin = twin_of(row, rows);
+      twins.push_back(twin);
+      if (twin < 0) axes.push_back(static_cast<int>(ids.size()));
+      ids.push_back(twin < 0 ? add_row(row, sweeps) : ids[static_cast<std::size_t>(twin)]);
     }
   }
 
   /// The first row before `row` that acts along the same axis, as the two ends of a range do; -1 for none.
   int twin_of(const Row& row, const std::vector<Row>& rows) const noexcept {
-    for (const Row* other = rows.data(); other != &row; ++other) {
-      if (other->body == row.body && other->reference_body == row.reference_body &&
-          is_same(other->a, row.a) &&
-          (row.reference_body < 0 || is_same(other->a_reference, row.a_reference)))
-        return static_cast<int>(other - rows.data());
+    for (const int i : axes) {
+      const Row& other = rows[static_cast<std::size_t>(i)];
+      if (other.body == row.body && other.reference_body == row.reference_body && is_same(other.a, row.a) &&
+          (row.reference_body < 0 || is_same(other.a_reference, row.a_reference)))
+        return i;
     }
     return -1;
   }
@@ -156,22 +165,37 @@ struct Solver::Workspace {
     }
   }
 
-  void take_ground() noexcept {
-    whitened.factorise(sweeps.columns, ground);
-    ground_bias.head(ground) -= sweeps.columns.g.head(ground);
-    whitened.hold_ground(ground_bias);
+  /// Phase 2, with ground and motors, which stay while the joints do.
+  bool sweep_inward() noexcept {
+    const bool robot_stays = sweeps.is_articulated;
+    if (!inward_inertia(model, tau_ff, sweeps)) return false;
+    if (robot_stays) return true;
+    inward_rows(model, sweeps, sweeps.robot_rows);
+    whitened.factorise(sweeps.robot_rows, ground);
+    problem.clear_motors(whitened.mobility());
+    for (const int j : motors) problem.add_motor(whitened.robot_B(first_joint_row() + j));
+    problem.factorise_motors();
+    return true;
+  }
+
+  /// The same for the task.
+  void sweep_task_inward() noexcept {
+    inward_rows(model, sweeps, sweeps.task_rows);
+    sweeps.task_rows.find_drift(sweeps.bodies);
+    whitened.turn(sweeps.task_rows);
+    whitened.hold_ground(sweeps.free_motion, ground_bias);
   }
 
   void pose_problem(const std::vector<Row>& rows) noexcept {
     const int count = static_cast<int>(rows.size());
-    problem.resize(count, static_cast<int>(motors.size()), whitened.mobility());
+    problem.resize(count);
     for (int i = 0; i < count; ++i) {
       const int id = ids[static_cast<std::size_t>(i)];
       const int twin = twins[static_cast<std::size_t>(i)];
       const Row& row = rows[static_cast<std::size_t>(i)];
       if (twin < 0) {
         problem.set_row(i, row, whitened.B(id), whitened.free_square(id));
-        free_acceleration(i) = sweeps.columns.g(id) + whitened.held_acceleration(id);
+        free_acceleration(i) = whitened.acceleration(id);
       } else {
         problem.set_twin(i, row, twin);
         free_acceleration(i) = free_acceleration(twin);
@@ -181,29 +205,30 @@ struct Solver::Workspace {
     int motor = 0;
     for (const int j : motors) {
       const double limit = model.joint(j).max_effort;
-      problem.set_motor(motor++, whitened.B(first_joint_row() + j), -limit - tau_ff(j), limit - tau_ff(j));
+      problem.limit_motor(motor++, -limit - tau_ff(j), limit - tau_ff(j));
     }
   }
 
-  /// The torques and the ground's answer to them.
-  void collect_forces() noexcept {
+  /// Under the torques and the ground's answer to them.
+  void find_motion() noexcept {
     problem.sum_torques(p.data());
-    whitened.forces(p.data(), forces);
+    whitened.motion(p.data(), motion);
   }
 
   Model model;
   Settings settings;
   Ground ground_rows;
-  int ground, base, capacity;
+  int ground, base;
   Sweeps sweeps;
   WhitenedRows whitened;
   BoundedProblem problem;
   std::vector<int> motors;
-  std::vector<int> ids,
-      twins;  ///< by row of the task: its id in the sweeps, and an earlier row along the same axis
-  Eigen::VectorXd ground_bias;        ///< by row of the ground
+  std::vector<int> ids, twins;  ///< by row of the task: its id in the sweeps, the first row along its axis
+  std::vector<int> axes;        ///< the first rows along each axis
+  Eigen::VectorXd ground_bias;  ///< by row of the ground
   Eigen::VectorXd free_acceleration;  ///< by row of the task: with the ground's answer, nobody pushing
-  Eigen::VectorXd p, forces;  ///< of the torques on the motions; with the ground's answer, by dimension
+  Eigen::VectorXd p;                  ///< force of the torques on the motions that the ground leaves
+  Eigen::VectorXd motion;             ///< by dimension of the sweeps
   Eigen::VectorXd tau_ff, qdd;
 };
 
@@ -239,14 +264,15 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   w.clamp_feed_forward(state);
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
   load_bodies(w.model, state, w.gravity(state), w.sweeps);
-  w.add_rows(rows);
-  if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
-  w.take_ground();
+  w.add_robot_rows([&w](const GroundRow& row) { return row.bias - row.a.dot(w.body_sweep(row.body).c); });
+  w.add_task_rows(rows);
+  if (!w.sweep_inward()) return Status::degenerate_model;
+  w.sweep_task_inward();
   w.pose_problem(rows);
   const bool exact = w.problem.solve(w.settings.max_iterations);
-  w.collect_forces();
-  outward_accelerations(w.model, w.forces, w.sweeps, w.qdd);
-  if (finite_sum(w.qdd) + finite_sum(w.forces) != 0.0) return Status::degenerate_model;
+  w.find_motion();
+  outward_accelerations(w.model, w.motion, w.sweeps, w.qdd);
+  if (finite_sum(w.qdd) + finite_sum(w.motion) != 0.0) return Status::degenerate_model;
 
   solution.qdd = w.qdd;
   for (std::size_t i = 0; i < w.sweeps.bodies.size(); ++i) {
@@ -258,8 +284,8 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
     const double limit = w.model.joint(j).max_effort;  // not even by a rounding beyond
     solution.tau(j) = std::clamp(w.tau_ff(j) + w.problem.tau(motor++), -limit, limit);
   }
-  solution.rows.clear();
-  for (std::size_t i = 0; i < rows.size(); ++i) solution.rows.push_back(w.problem.row(static_cast<int>(i)));
+  const std::span<const RowSolution> solved = w.problem.rows();
+  solution.rows.assign(solved.begin(), solved.end());
   solution.mobility = w.whitened.mobility();
   solution.iterations = w.problem.iterations();
   return exact ? Status::ok : Status::iteration_limit;
@@ -273,37 +299,34 @@ void Solver::free_motions(FreeMotions& out) const noexcept {
   const Workspace& w = *workspace_;
   out.count = w.whitened.mobility();
   for (int j = 0; j < w.model.joint_count(); ++j) {
-    out.joint.row(j).head(out.count) = w.whitened.motion(w.first_joint_row() + j);
+    out.joint.row(j).head(out.count) = w.whitened.robot_motion(w.first_joint_row() + j);
   }
   // From the order rz, x, y on the ground, or rx, ry, rz, x, y, z.
   const bool on_ground = w.model.base_type() == BaseType::ground;
   const int first_linear = on_ground ? 1 : 3, turn = on_ground ? 0 : 2;
   if (w.base < 3) return;
-  out.base.row(0).head(out.count) = w.whitened.motion(w.ground + first_linear);
-  out.base.row(1).head(out.count) = w.whitened.motion(w.ground + first_linear + 1);
-  out.base.row(2).head(out.count) = w.whitened.motion(w.ground + turn);
+  out.base.row(0).head(out.count) = w.whitened.robot_motion(w.first_base_row() + first_linear);
+  out.base.row(1).head(out.count) = w.whitened.robot_motion(w.first_base_row() + first_linear + 1);
+  out.base.row(2).head(out.count) = w.whitened.robot_motion(w.first_base_row() + turn);
 }
 
 Status Solver::project_velocity(State& state) noexcept {
   Workspace& w = *workspace_;
   if (!fits(state, w.model)) return Status::wrong_size;
   if (!is_finite(state)) return Status::invalid_input;
-  if (w.ground == 0 && w.sweeps.columns.held_dimensions() == 0) return Status::ok;
+  if (w.ground == 0 && w.sweeps.task_rows.held_dimensions() == 0) return Status::ok;
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
-  add_ground_rows(w.ground_rows, w.sweeps, [&w](int id, const GroundRow& row) {
-    w.ground_bias(id) = -row.a.dot(w.body_sweep(row.body).v);
-  });
+  w.add_robot_rows([&w](const GroundRow& row) { return -row.a.dot(w.body_sweep(row.body).v); });
   const Vector6 twist = w.body_sweep(0).v;
   load_bodies_at_rest(w.sweeps);
   w.tau_ff.setZero();
-  if (!inward_inertia(w.model, w.tau_ff, w.sweeps)) return Status::degenerate_model;
-  w.whitened.factorise(w.sweeps.columns, w.ground);
-  w.whitened.hold_ground(w.ground_bias, held_base_force(w.sweeps, -twist));
+  if (!w.sweep_inward()) return Status::degenerate_model;
+  w.whitened.hold_ground(w.sweeps.free_motion, w.ground_bias, held_base_force(w.sweeps, -twist));
   w.p.setZero();
-  w.whitened.forces(w.p.data(), w.forces);
-  outward_accelerations(w.model, w.forces, w.sweeps, w.qdd);
+  w.whitened.motion(w.p.data(), w.motion);
+  outward_accelerations(w.model, w.motion, w.sweeps, w.qdd);
   if (!w.qdd.allFinite()) return Status::degenerate_model;
   state.qd += w.qdd;
   if (w.model.has_fixed_base()) return Status::ok;

@@ -70,9 +70,8 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
   shared_motors_.reserve(static_cast<std::size_t>(motors));
 }
 
-void BoundedProblem::resize(int rows, int motors, int dimension) noexcept {
-  rows_ = rows;
-  motors_ = motors;
+void BoundedProblem::clear_motors(int dimension) noexcept {
+  motors_ = 0;
   dimension_ = dimension;
 }
 
@@ -119,12 +118,6 @@ void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
   }
 }
 
-void BoundedProblem::set_motor(int j, const double* T, double lowest, double highest) noexcept {
-  T_[static_cast<std::size_t>(j)] = T;
-  tau_lo_(j) = lowest;
-  tau_hi_(j) = highest;
-}
-
 void BoundedProblem::sum_torques(double* p) const noexcept {
   std::fill_n(p, dimension_, 0.0);
   for (int j = 0; j < motors_; ++j)
@@ -133,7 +126,9 @@ void BoundedProblem::sum_torques(double* p) const noexcept {
 
 bool BoundedProblem::solve(int max_iterations) noexcept {
   iterations_ = 0;
-  factorise_motors();
+  motors_drive_all_ = motors_reach_all_;
+  for (int j = 0; j < motors_; ++j)
+    motors_drive_all_ = motors_drive_all_ && (tau_lo_(j) < 0.0 || tau_hi_(j) > 0.0);
   find_idle_limits();
   bound_rows();
   bool exact = true;
@@ -212,9 +207,6 @@ void BoundedProblem::factorise_motors() noexcept {
     add_square(0, extent, 1.0, T(j), gram_.data(), gram_.outerStride());
   }
   motors_reach_all_ = cholesky(gram_, open, least);
-  motors_drive_all_ = motors_reach_all_;
-  for (int j = 0; j < motors_; ++j)
-    motors_drive_all_ = motors_drive_all_ && (tau_lo_(j) < 0.0 || tau_hi_(j) > 0.0);
 }
 
 /// A line is 0 from here on: the whitened axes come from joints, one after the other.

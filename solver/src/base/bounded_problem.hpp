@@ -33,19 +33,27 @@ class BoundedProblem {
  public:
   BoundedProblem(int row_capacity, int motor_capacity, int dimension_capacity);
 
-  void resize(int rows, int motors, int dimension) noexcept;
+  /// The motors by their directions, which stay where they are, until they are cleared again.
+  void clear_motors(int dimension) noexcept;
+  void add_motor(const double* T) noexcept { T_[static_cast<std::size_t>(motors_++)] = T; }
+  void factorise_motors() noexcept;
+  void limit_motor(int motor, double lowest, double highest) noexcept {
+    tau_lo_(motor) = lowest;
+    tau_hi_(motor) = highest;
+  }
+
+  void resize(int rows) noexcept { rows_ = rows; }
   double& d(int row) noexcept { return d_(row); }
   /// `unconstrained` is A_i M^-1 A_i', what the row would be without the ground.
   void set_row(int row, const Row& source, const double* B, double unconstrained) noexcept;
   /// A row with the same B as an earlier one.
   void set_twin(int row, const Row& source, int twin) noexcept;
-  /// `T` stays where it is until the problem is solved.
-  void set_motor(int motor, const double* T, double lowest, double highest) noexcept;
-
   /// False when an active set met its iteration cap; all results stay inside their bounds.
   bool solve(int max_iterations) noexcept;
 
-  const RowSolution& row(int i) const noexcept { return solutions_[static_cast<std::size_t>(i)]; }
+  std::span<const RowSolution> rows() const noexcept {
+    return {solutions_.data(), static_cast<std::size_t>(rows_)};
+  }
   double tau(int motor) const noexcept { return tau_(motor); }
   /// p = T'tau
   void sum_torques(double* p) const noexcept;
@@ -122,7 +130,6 @@ class BoundedProblem {
   double largest_force(int row) noexcept;
   int next_level(int after) const noexcept;
 
-  void factorise_motors() noexcept;
   void find_idle_limits() noexcept;
   bool idle_limits_rest(int level) noexcept;
   void wake_idle_limits(int level) noexcept;

@@ -61,10 +61,11 @@ void BoundedProblem::mark_idle_limits() noexcept {
   }
 }
 
-/// Whether the idle limits up to this level have room, as they do where the nearest ones hold.
+/// Whether the idle limits of this level have room, as they do where the nearest ones hold; the levels below
+/// leave those as they are.
 bool BoundedProblem::idle_limits_rest(int level) noexcept {
   return std::all_of(idle_.begin(), idle_.end(), [this, level](int i) {
-    return entry(i).level > level || room_of(i, p_) > tie * std::abs(d_(i));
+    return entry(i).level != level || room_of(i, p_) > tie * std::abs(d_(i));
   });
 }
 

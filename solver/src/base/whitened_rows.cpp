@@ -7,33 +7,49 @@
 
 namespace zwang::solver {
 
-WhitenedRows::WhitenedRows(const Columns& columns)
-    : reflections_(RowMajorMatrix::Zero(columns.ground_end(), spaced(columns.ground_end()))),
-      scale_(Eigen::VectorXd::Zero(columns.ground_end())),
-      left_(Eigen::VectorXd::Zero(columns.g.size())),
-      size_(Eigen::VectorXd::Zero(columns.g.size())),
-      held_force_(Eigen::VectorXd::Zero(columns.dimensions())),
-      pivots_(static_cast<std::size_t>(columns.g.size())),
-      dimensions_(columns.dimensions()),
-      ground_end_(columns.ground_end()),
-      base_(columns.held_dimensions()) {}
+WhitenedRows::WhitenedRows(const Columns& robot)
+    : reflections_(RowMajorMatrix::Zero(robot.ground_end(), spaced(robot.ground_end()))),
+      scale_(Eigen::VectorXd::Zero(robot.ground_end())),
+      left_(Eigen::VectorXd::Zero(robot.drift.size())),
+      size_(Eigen::VectorXd::Zero(robot.drift.size())),
+      held_motion_(Eigen::VectorXd::Zero(robot.dimensions() + 1)),
+      pivots_(static_cast<std::size_t>(robot.drift.size())),
+      dimensions_(robot.dimensions()),
+      ground_end_(robot.ground_end()),
+      base_(robot.held_dimensions()) {}
 
-void WhitenedRows::factorise(Columns& columns, int ground) noexcept {
-  W_ = &columns.W;
+void WhitenedRows::factorise(Columns& robot, int ground) noexcept {
+  robot_ = &robot;
   rank_ = 0;
   for (int i = 0; i < ground; ++i) {
+    const double* const line = &robot.W(i, 0);
     pivots_[static_cast<std::size_t>(i)] = i;
-    left_(i) = dot(ground_end_ - base_, line(i) + base_, line(i) + base_);
-    size_(i) = left_(i) + dot(base_, line(i), line(i));
+    left_(i) = dot(ground_end_ - base_, line + base_, line + base_);
+    size_(i) = left_(i) + dot(base_, line, line);
   }
   while (base_ + rank_ < ground_end_) {
     const int k = next_pivot(ground);
     if (k < 0) break;
     std::swap(pivots_[static_cast<std::size_t>(rank_)], pivots_[static_cast<std::size_t>(k)]);
-    reflect(columns, pivots_[static_cast<std::size_t>(rank_)], base_ + rank_, ground);
+    reflect(pivots_[static_cast<std::size_t>(rank_)], base_ + rank_, ground);
     ++rank_;
   }
   held_ = base_ + rank_;
+  turn_from(ground, robot);
+}
+
+void WhitenedRows::turn(Columns& task) noexcept {
+  task_ = &task;
+  turn_from(0, task);
+}
+
+/// The lines of this row and those behind it.
+void WhitenedRows::turn_from(int row, Columns& rows) noexcept {
+  for (; row + 2 <= rows.rows(); row += 2) {
+    for (int k = 0; k < rank_; ++k) turn_two(k, &rows.W(row, 0), &rows.W(row + 1, 0));
+  }
+  if (row == rows.rows()) return;
+  for (int k = 0; k < rank_; ++k) turn(k, &rows.W(row, 0));
 }
 
 /// The next row if the pivots so far leave an ample share of it; else the one of which they leave the
@@ -56,9 +72,9 @@ int WhitenedRows::next_pivot(int ground) const noexcept {
 /// them:
 ///   v = x + sign(x_0) |x| e_0        y -= (v.y) 2 / v.v  v        for the lines y of the other rows
 /// v has zeros around it, so that every loop goes over whole pairs.
-void WhitenedRows::reflect(Columns& columns, int pivot, int first, int ground) noexcept {
+void WhitenedRows::reflect(int pivot, int first, int ground) noexcept {
   double* const v = &reflections_(rank_, 0);
-  double* const x = &columns.W(pivot, 0);
+  double* const x = &robot_->W(pivot, 0);
   set_zero(first, v);
   for (int k = first; k < ground_end_; ++k) {
     v[k] = x[k];
@@ -70,13 +86,10 @@ void WhitenedRows::reflect(Columns& columns, int pivot, int first, int ground) n
   v[first] -= x[first];
   for (int k = rank_ + 1; k < ground; ++k) {
     const int row = pivots_[static_cast<std::size_t>(k)];
-    double* const y = &columns.W(row, 0);
+    double* const y = &robot_->W(row, 0);
     turn(rank_, y);
     left_(row) -= y[first] * y[first];
   }
-  int row = ground;
-  for (; row + 2 <= columns.rows(); row += 2) turn_two(rank_, &columns.W(row, 0), &columns.W(row + 1, 0));
-  if (row < columns.rows()) turn(rank_, &columns.W(row, 0));
 }
 
 /// Line y, or any vector by dimension, under a reflection.
@@ -108,26 +121,27 @@ double WhitenedRows::free_share(int row) const noexcept {
   return square > 0.0 ? motion(row).squaredNorm() / square : 0.0;
 }
 
-void WhitenedRows::hold_ground(const Eigen::VectorXd& bias) noexcept {
-  hold_ground(bias, Vector3::Zero());
-}
-
-void WhitenedRows::hold_ground(const Eigen::VectorXd& bias, const Vector3& base_force) noexcept {
-  double* const y = held_force_.data();
-  for (int c = 0; c < base_; ++c) y[c] = base_force(c);
+/// The triangle, dimension by dimension.
+void WhitenedRows::hold_ground(const Eigen::VectorXd& free_motion, const Eigen::VectorXd& bias,
+                               const Vector3& base_motion) noexcept {
+  double* const x = held_motion_.data();
+  copy(dimensions_, free_motion.data(), x);
+  for (int k = 0; k < rank_; ++k) turn(k, x);
+  for (int c = 0; c < base_; ++c) x[c] = base_motion(c);
   for (int c = base_; c < held_; ++c) {
     const int row = pivots_[static_cast<std::size_t>(c - base_)];
+    const double* const line = &robot_->W(row, 0);
     double rest = bias(row);
-    for (int k = 0; k < c; ++k) rest -= line(row)[k] * y[k];
-    y[c] = rest / line(row)[c];
+    for (int k = 0; k < c; ++k) rest -= line[k] * x[k];
+    x[c] = rest / line[c];
   }
 }
 
-/// The reflections backward. (`force` has a number to spare.)
-void WhitenedRows::forces(const double* p, Eigen::VectorXd& force) const noexcept {
-  double* const x = force.data();
-  copy(held_, held_force_.data(), x);
-  copy(mobility(), p, x + held_);
+/// The reflections backward.
+void WhitenedRows::motion(const double* p, Eigen::VectorXd& motion) const noexcept {
+  double* const x = motion.data();
+  copy(dimensions_, held_motion_.data(), x);
+  add_multiple(mobility(), 1.0, p, x + held_);
   for (int k = rank_ - 1; k >= 0; --k) turn(k, x);
 }
 

@@ -23,48 +23,59 @@ namespace zwang::solver {
 
 class WhitenedRows {
  public:
-  explicit WhitenedRows(const Columns& columns);
+  explicit WhitenedRows(const Columns& robot);
 
-  /// Turns the lines of columns.W; rows [0, ground) are the ground's.
-  void factorise(Columns& columns, int ground) noexcept;
+  /// Finds the reflections that make a triangle of the ground's lines, the first ones of the robot's rows,
+  /// and turns all of these. That stays until the robot moves.
+  void factorise(Columns& robot, int ground) noexcept;
+  /// Turns the lines of the task's rows, which all below is about where nothing else is said.
+  void turn(Columns& task) noexcept;
 
   int mobility() const noexcept { return dimensions_ - held_; }
   int ground_rank() const noexcept { return rank_; }  ///< of the ground's rows
-  /// B_i, of a row beyond the ground.
   const double* B(int row) const noexcept { return line(row) + held_; }
-  auto motion(int row) const noexcept { return W_->row(row).segment(held_, mobility()); }
+  auto motion(int row) const noexcept { return task_->W.row(row).segment(held_, mobility()); }
+  /// B_i of a row of the robot itself, beyond the ground's.
+  const double* robot_B(int row) const noexcept { return &robot_->W(row, held_); }
+  auto robot_motion(int row) const noexcept { return robot_->W.row(row).segment(held_, mobility()); }
   /// A_i M^-1 A_i', the robot without the ground.
   double free_square(int row) const noexcept { return dot(dimensions_, line(row), line(row)); }
+  double robot_free_square(int row) const noexcept {
+    return dot(dimensions_, &robot_->W(row, 0), &robot_->W(row, 0));
+  }
   /// A_i Mc A_i' over A_i M^-1 A_i': how much of a row the ground leaves.
   double free_share(int row) const noexcept;
 
-  /// Holding the ground rows at `bias` (desired minus free acceleration, by row) adds to the acceleration of
-  /// a row beyond the ground
-  void hold_ground(const Eigen::VectorXd& bias) noexcept;
-  double held_acceleration(int row) const noexcept { return dot(held_, line(row), held_force_.data()); }
-  /// The same with the dimensions that the ground holds of the base at these forces: at 0 the base keeps its
-  /// height, roll and pitch.
-  void hold_ground(const Eigen::VectorXd& bias, const Vector3& base_force) noexcept;
-
-  /// The constraint forces by dimension of the sweeps, for the forces p on the motions and the ground's
-  /// answer.
-  void forces(const double* p, Eigen::VectorXd& force) const noexcept;
+  /// The motion h of the dimensions as the ground lets it be: its rows at `bias` (wanted acceleration less
+  /// drift, by row), what the ground holds of the base at `base_motion`: at 0 the base keeps its height, roll
+  /// and pitch.
+  void hold_ground(const Eigen::VectorXd& free_motion, const Eigen::VectorXd& bias,
+                   const Vector3& base_motion = Vector3::Zero()) noexcept;
+  /// The acceleration along a row then, nobody pushing.
+  double acceleration(int row) const noexcept {
+    return task_->drift(row) + dot(dimensions_, line(row), held_motion_.data());
+  }
+  /// The motion by dimension of the sweeps when the forces p act on the motions that are left. (`motion` has
+  /// a number to spare.)
+  void motion(const double* p, Eigen::VectorXd& motion) const noexcept;
 
   static constexpr double ground_tolerance =
       1e-10;  ///< share of a row; rounding leaves about 1e-15 on a dependent one
 
  private:
-  const double* line(int row) const noexcept { return &(*W_)(row, 0); }
+  const double* line(int row) const noexcept { return &task_->W(row, 0); }
   int next_pivot(int ground) const noexcept;
-  void reflect(Columns& columns, int row, int first, int ground) noexcept;
+  void reflect(int row, int first, int ground) noexcept;
+  void turn_from(int row, Columns& rows) noexcept;
   void turn(int reflection, double* y) const noexcept;
   void turn_two(int reflection, double* one, double* other) const noexcept;
 
-  const RowMajorMatrix* W_ = nullptr;
+  Columns* robot_ = nullptr;
+  const Columns* task_ = nullptr;
   RowMajorMatrix reflections_;  ///< by pivot: v, of  1 - scale v v'
   Eigen::VectorXd scale_;
   Eigen::VectorXd left_, size_;  ///< by row of the ground: square of what is left of it, and of all of it
-  Eigen::VectorXd held_force_;   ///< by dimension, the first held_: what holds the ground
+  Eigen::VectorXd held_motion_;  ///< by turned dimension: h with the ground's answer
   std::vector<int> pivots_;      ///< rows of the ground, the pivots first
   int dimensions_ = 0, ground_end_ = 0;
   int base_ = 0;  ///< dimensions of the base that the ground holds

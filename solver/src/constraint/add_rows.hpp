@@ -6,15 +6,16 @@
 
 namespace zwang::solver {
 
-/// The rows of the ground, which come first, at the configuration and the twists in `sweeps`. Each is handed
-/// to `take(id, row)`, too.
+/// The rows of the ground at the configuration and the twists in `sweeps`, where they change. Each is handed
+/// to `take(index, row)`, too.
 template <class Take>
 void add_ground_rows(const Ground& ground, Sweeps& sweeps, Take take) noexcept {
-  sweeps.columns.clear();
+  if (!sweeps.is_articulated) sweeps.robot_rows.clear();
   const int count = ground.row_count();
   for (int i = 0; i < count; ++i) {
     const GroundRow row = ground.row(i, sweeps);
-    take(sweeps.columns.add_row(row.body, row.a), row);
+    if (!sweeps.is_articulated) sweeps.robot_rows.add_row(row.body, row.a);
+    take(i, row);
   }
 }
 
@@ -24,9 +25,9 @@ int add_row(const BodyRow& row, Sweeps& sweeps) noexcept {
   const auto in_base = [&sweeps](int body, const ForceVector& a) {
     return sweeps.bodies[static_cast<std::size_t>(body)].to_base(a);
   };
-  const int id = sweeps.columns.add_row(row.body, in_base(row.body, row.a));
+  const int id = sweeps.task_rows.add_row(row.body, in_base(row.body, row.a));
   if (row.reference_body >= 0) {
-    sweeps.columns.extend_last_row(row.reference_body, in_base(row.reference_body, -row.a_reference));
+    sweeps.task_rows.extend_last_row(row.reference_body, in_base(row.reference_body, -row.a_reference));
   }
   return id;
 }

@@ -27,7 +27,7 @@ std::vector<int> walk_by_branches(const std::vector<int>& parents) {
 }  // namespace
 
 Columns::Columns(const Model& model, int row_capacity)
-    : g(Eigen::VectorXd::Zero(row_capacity)),
+    : drift(Eigen::VectorXd::Zero(row_capacity)),
       dimension_of_(index(model.body_count())),
       columns_(index(2 * row_capacity)),
       own_(Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 2 * row_capacity)),
@@ -107,28 +107,41 @@ void Columns::lay_out() noexcept {
   }
 }
 
-void Columns::arrange(const std::vector<BodySweep>& bodies) noexcept {
+void Columns::sweep_inward(const std::vector<BodySweep>& bodies,
+                           const Matrix6* base_inverse_factor) noexcept {
+  if (rows_ == 0) return;
+  arrange();
+  for (std::size_t i = bodies.size() - 1; i > 0; --i) carry(i, bodies[i]);
+  if (base_inverse_factor != nullptr) finish(*base_inverse_factor);
+}
+
+/// In the order of the walk.
+void Columns::arrange() noexcept {
   if (laid_out_ != count_) lay_out();
   for (int i = 0; i < rows_; ++i) set_zero(dimensions_, &W(i, 0));
-  set_zero(rows_, g.data());
-  for (int k = 0; k < count_; ++k) {
+  for (int k = 0; k < count_; ++k) A_.col(columns_[index(k)].place) = own_.col(k);
+}
+
+void Columns::find_drift(const std::vector<BodySweep>& bodies) noexcept {
+  set_zero(rows_, drift.data());
+  const double* A = own_.data();
+  for (int k = 0; k < count_; ++k, A += 6) {
     const Column& column = columns_[index(k)];
-    A_.col(column.place) = own_.col(k);
-    g(column.row) += own_.col(k).dot(bodies[index(column.body)].c);
+    if (!column.of_joint) drift(column.row) += dot<6>(A, bodies[index(column.body)].c.data());
   }
 }
 
-void Columns::carry(std::size_t i, const BodySweep& sweep, const Vector6& UD) noexcept {
+/// Takes the columns of body i through its joint: (8) and (9).
+void Columns::carry(std::size_t i, const BodySweep& sweep) noexcept {
   const Range& range = ranges_[i];
   if (range.first == range.last) return;
   const double root = sweep.root_D_inverse;
-  const double free_acceleration = sweep.u * sweep.D_inverse;
   double* const axis = W.data() + dimension_of_[i];
   const Eigen::Index stride = W.outerStride();
   Eigen::Array2d S[3], factor[3];
   for (int r = 0; r < 3; ++r) {
     S[r] = ConstPair(sweep.S.data() + 2 * r);
-    factor[r] = ConstPair(UD.data() + 2 * r);
+    factor[r] = ConstPair(sweep.UD.data() + 2 * r);
   }
   double* A = A_.data() + 6 * range.first;
   for (int k = range.first; k < range.last; ++k, A += 6) {
@@ -137,19 +150,16 @@ void Columns::carry(std::size_t i, const BodySweep& sweep, const Vector6& UD) no
     const double along = sum(0) + sum(1);
     for (int r = 0; r < 3; ++r) Pair(A + 2 * r) -= along * factor[r];
     axis[row * stride] += root * along;
-    g(row) += free_acceleration * along;
   }
   if (range.joint >= 0) {
     const int row = row_of_[index(range.joint)];
-    A_.col(range.joint) = -UD;
+    A_.col(range.joint) = -sweep.UD;
     axis[row * stride] = root;
-    g(row) = free_acceleration;
   }
 }
 
-void Columns::finish(const Matrix6& F, const Vector6& pA) noexcept {
-  Vector6 Fp = F * pA;
-  Fp.head(held_).setZero();
+/// A floating base, (12), with IA_0^-1 = F'F: its dimensions of W are F's lines.
+void Columns::finish(const Matrix6& F) noexcept {
   const double* A = A_.data();
   for (int k = 0; k < count_; ++k, A += 6) {
     Eigen::Array2d FA[3];
@@ -157,14 +167,8 @@ void Columns::finish(const Matrix6& F, const Vector6& pA) noexcept {
     for (int c = 1; c < 6; ++c) {
       for (int r = 0; r < 3; ++r) FA[r] += A[c] * ConstPair(F.data() + 6 * c + 2 * r);
     }
-    const int row = row_of_[index(k)];
-    double* const base = &W(row, 0);
-    Eigen::Array2d along = Eigen::Array2d::Zero();
-    for (int r = 0; r < 3; ++r) {
-      Pair(base + 2 * r) += FA[r];
-      along += FA[r] * ConstPair(Fp.data() + 2 * r);
-    }
-    g(row) -= along(0) + along(1);
+    double* const base = &W(row_of_[index(k)], 0);
+    for (int r = 0; r < 3; ++r) Pair(base + 2 * r) += FA[r];
   }
 }
 

@@ -1,12 +1,14 @@
-/// The rows' part of the sweeps: the columns of A on their way inward, and the W and g that they leave
-/// behind.
+/// The rows' part of the sweeps: the columns of A on their way inward, and the W that they leave behind.
 ///
 /// L is a sum of squares, (9) and (12): each joint adds (S'A)' D^-1 (S'A), the base A_0' IA_0^-1 A_0. So the
 /// sweep itself factorises it,
 ///
 ///   L = W W',   W = [ F A_0,  D^-1/2 S'A of every joint ],   IA_0^-1 = F'F
 ///
-/// one line a row, one dimension a freedom of the robot, and L itself is never formed.
+/// one line a row, one dimension a freedom of the robot, and L itself is never formed. What joint i adds to
+/// g, (10), is its dimension of W times D^-1/2 u, so g needs no sweep of its own:
+///
+///   g = A'c + W h,   h = [ -F pA_0,  D^-1/2 u of every joint ]
 ///
 /// A row that acts on one body has one column, a row between two bodies has two. Columns are kept in the
 /// order of a walk through the tree that finishes a branch before it starts the next, so those that a joint
@@ -29,8 +31,8 @@ class Columns {
  public:
   Columns(const Model& model, int row_capacity);
 
-  RowMajorMatrix W;   ///< rows() x dimensions()
-  Eigen::VectorXd g;  ///< by row
+  RowMajorMatrix W;       ///< rows() x dimensions()
+  Eigen::VectorXd drift;  ///< by row: A'c
 
   int rows() const noexcept { return rows_; }
   int dimensions() const noexcept { return dimensions_; }
@@ -48,21 +50,17 @@ class Columns {
   /// Adds the row of a joint's own acceleration: A = 0, and S'A = 1 at that joint.
   int add_joint_row(int joint) noexcept;
 
-  /// Lays the columns out for the inward sweep; g starts at A'c.
-  void arrange(const std::vector<BodySweep>& bodies) noexcept;
-  /// Takes the columns of body i through its joint: (8), (9) and (10). `UD` is U D^-1.
-  void carry(std::size_t i, const BodySweep& sweep, const Vector6& UD) noexcept;
-  /// A floating base, (12), with IA_0^-1 = F'F, the dimensions of W in F's lines; those that the ground holds
-  /// do not follow pA.
-  void finish(const Matrix6& F, const Vector6& pA) noexcept;
+  /// The inward sweep, with a base that moves to its end.
+  void sweep_inward(const std::vector<BodySweep>& bodies, const Matrix6* base_inverse_factor) noexcept;
+  /// What velocities alone do along the rows.
+  void find_drift(const std::vector<BodySweep>& bodies) noexcept;
 
-  /// Adds the constraint forces of the rows from `first` on, nu(0) the one of `first`, to the bodies on which
-  /// they act.
+  /// Adds the constraint forces of the rows to the bodies on which they act.
   template <class Wrenches>
-  void add_wrenches(int first, const Eigen::VectorXd& nu, Wrenches& wrenches) const noexcept {
+  void add_wrenches(const Eigen::VectorXd& nu, Wrenches& wrenches) const noexcept {
     for (int k = 0; k < count_; ++k) {
       const Column& column = columns_[index(k)];
-      if (column.row >= first) wrenches[index(column.body)] += own_.col(k) * nu(column.row - first);
+      wrenches[index(column.body)] += own_.col(k) * nu(column.row);
     }
   }
 
@@ -83,6 +81,9 @@ class Columns {
   static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
   void add(int body, int row, bool of_joint, const Vector6& a) noexcept;
   void number_dimensions(const Model& model);
+  void arrange() noexcept;
+  void carry(std::size_t i, const BodySweep& sweep) noexcept;
+  void finish(const Matrix6& F) noexcept;
   void lay_out() noexcept;
 
   int rows_ = 0;

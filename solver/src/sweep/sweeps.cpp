@@ -123,6 +123,7 @@ bool divide_by_inertia(double rotor_inertia, BodySweep& sweep) {
   const double D = rotor_inertia + sweep.S.dot(sweep.U);
   if (!(D > 0.0)) return false;
   sweep.D_inverse = 1.0 / D;
+  sweep.UD = sweep.U * sweep.D_inverse;
   sweep.root_D = std::sqrt(D);
   sweep.root_D_inverse = sweep.root_D * sweep.D_inverse;  // neither waits for the other
   return true;
@@ -157,22 +158,16 @@ bool invert_factor(const Matrix6& inertia, const int (&order)[6], int shift, Mat
   return true;
 }
 
-/// IA_0 da_0 = A_0 nu - pA_0, where the base is free:  da_0 = F'(F A_0 nu - F pA_0)
-Vector6 base_acceleration(const Eigen::VectorXd& force, const Sweeps& sweeps) {
-  const Matrix6& F = sweeps.base_inverse_factor;
-  Vector6 answer = F * sweeps.bodies.front().pA;
-  answer.head(sweeps.columns.held_dimensions()).setZero();
-  return F.transpose() * (force.head<6>() - answer);
-}
-
 constexpr int all_freedoms[6] = {0, 1, 2, 3, 4, 5};
 constexpr int planar_first[6] = {2, 3, 4, 5, 0, 1};  // rz, x, y; z, rx, ry
 
 }  // namespace
 
-Sweeps::Sweeps(const Model& model, int row_capacity)
+Sweeps::Sweeps(const Model& model, int robot_row_capacity, int task_row_capacity)
     : bodies(static_cast<std::size_t>(model.body_count())),
-      columns(model, row_capacity),
+      robot_rows(model, robot_row_capacity),
+      task_rows(model, task_row_capacity),
+      free_motion(Eigen::VectorXd::Zero(task_rows.dimensions())),
       placed_at(Eigen::VectorXd::Constant(model.joint_count(), std::numeric_limits<double>::quiet_NaN())) {
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = model.bodies()[i];
@@ -247,7 +242,6 @@ void load_bodies_at_rest(Sweeps& sweeps) noexcept {
 }
 
 bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept {
-  sweeps.columns.arrange(sweeps.bodies);
   const bool base_moves = !model.has_fixed_base();
   for (std::size_t i = sweeps.bodies.size() - 1; i > 0; --i) {
     const Body& body = model.bodies()[i];
@@ -255,40 +249,46 @@ bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& swee
     BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
 
     if (!sweeps.is_articulated && !divide_by_inertia(body.joint.rotor_inertia, sweep)) return false;
-    sweep.u = tau(static_cast<Eigen::Index>(i) - 1) - sweep.S.dot(sweep.pA);
-    const Vector6 UD = sweep.U * sweep.D_inverse;
+    const double u = tau(static_cast<Eigen::Index>(i) - 1) - sweep.S.dot(sweep.pA);
+    sweeps.free_motion(sweeps.task_rows.dimension_of(i)) = sweep.root_D_inverse * u;
     if (base_moves || body.parent > 0) {
       if (!sweeps.is_articulated) {
-        for (int k = 0; k < 6; ++k) parent.IA.col(k) += sweep.IA.col(k) - UD * sweep.U(k);
+        for (int k = 0; k < 6; ++k) parent.IA.col(k) += sweep.IA.col(k) - sweep.UD * sweep.U(k);
       }
-      parent.pA += sweep.pA + UD * sweep.u;
+      parent.pA += sweep.pA + sweep.UD * u;
     }
-    sweeps.columns.carry(i, sweep, UD);
   }
   if (base_moves) {
     const BodySweep& base = sweeps.bodies.front();
-    const int held = sweeps.columns.held_dimensions();
+    const int held = sweeps.task_rows.held_dimensions();
     const auto& order = held > 0 ? planar_first : all_freedoms;
     Matrix6& F = sweeps.base_inverse_factor;
     if (!sweeps.is_articulated && !invert_factor(base.IA, order, held, F)) return false;
-    sweeps.columns.finish(F, base.pA);
+    // The dimensions that the ground holds do not follow pA.
+    sweeps.free_motion.head<6>() = -(F * base.pA);
+    sweeps.free_motion.head(held).setZero();
   }
   sweeps.is_articulated = true;
   return true;
 }
 
-void outward_accelerations(const Model& model, const Eigen::VectorXd& force, Sweeps& sweeps,
+void inward_rows(const Model& model, const Sweeps& sweeps, Columns& rows) noexcept {
+  rows.sweep_inward(sweeps.bodies, model.has_fixed_base() ? nullptr : &sweeps.base_inverse_factor);
+}
+
+void outward_accelerations(const Model& model, const Eigen::VectorXd& motion, Sweeps& sweeps,
                            Eigen::VectorXd& qdd) noexcept {
   BodySweep& base = sweeps.bodies.front();
   base.da.setZero();
-  if (!model.has_fixed_base()) base.da = base_acceleration(force, sweeps);
+  // IA_0 da_0 = A_0 nu - pA_0
+  if (!model.has_fixed_base()) base.da.noalias() = sweeps.base_inverse_factor.transpose() * motion.head<6>();
   base.a = base.c + base.da;
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
     BodySweep& sweep = sweeps.bodies[i];
     const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(model.bodies()[i].parent)];
-    // (S'A) nu = D^1/2 force
-    const double acceleration = sweep.D_inverse * (sweep.u - sweep.U.dot(parent.da)) +
-                                sweep.root_D_inverse * force(sweeps.columns.dimension_of(i));
+    // D^-1 (u - U'da_p + (S'A) nu)
+    const double acceleration = sweep.root_D_inverse * motion(sweeps.task_rows.dimension_of(i)) -
+                                sweep.D_inverse * sweep.U.dot(parent.da);
     qdd(static_cast<Eigen::Index>(i) - 1) = acceleration;
     sweep.da = parent.da + sweep.S * acceleration;
     sweep.a = sweep.c + sweep.da;
@@ -299,7 +299,7 @@ void outward_accelerations(const Model& model, const Eigen::VectorXd& force, Swe
 Vector3 held_base_force(const Sweeps& sweeps, const Vector6& a) noexcept {
   const Matrix6& F = sweeps.base_inverse_factor;
   Vector3 force = Vector3::Zero();
-  for (int k = sweeps.columns.held_dimensions() - 1; k >= 0; --k) {
+  for (int k = sweeps.task_rows.held_dimensions() - 1; k >= 0; --k) {
     const int freedom = planar_first[3 + k];
     double rest = a(freedom);
     for (int l = k + 1; l < 3; ++l) rest -= F(l, freedom) * force(l);

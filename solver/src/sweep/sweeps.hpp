@@ -2,7 +2,7 @@
 /// Featherstone's letters:
 ///
 ///   1 outward  kinematics     S v c
-///   2 inward   inertia        IA pA  and  A L g
+///   2 inward   inertia        IA pA  and  A L h
 ///   4 outward  accelerations  a qdd
 ///
 /// (Phase 3, at the base, finds the multipliers: see bounded_problem.hpp.)
@@ -32,8 +32,8 @@
 ///
 /// A branch carries the rows of its own links only. A row on a joint's own axis has A = 0 and S'A = 1 there.
 /// At a floating base L = L_0 + A_0' IA_0^-1 A_0 and g = g_0 - A_0' IA_0^-1 pA_0; on the ground the base
-/// moves in rz, x and y only. L is kept as its factor W, L = W W'. Gravity acts as a force inside pA, so all
-/// accelerations are true ones.
+/// moves in rz, x and y only. L is kept as its factor W, L = W W', and g = A'c + W h (columns.hpp). Gravity
+/// acts as a force inside pA, so all accelerations are true ones.
 ///
 /// Coordinates: everything is written in the axes of the base and at its origin, in the inertial frame that
 /// coincides with the base at this instant. So nothing is transformed from link to link (the X of the
@@ -75,10 +75,10 @@ struct BodySweep {
   Matrix6 IA;  ///< articulated inertia
   Vector6 pA;  ///< articulated bias force
   Vector6 U;
+  Vector6 UD;  ///< U D^-1
   double D_inverse = 0.0;
   double root_D = 0.0;
   double root_D_inverse = 0.0;
-  double u = 0.0;
   Vector6 da;  ///< what joints and base add to c
   Vector6 a;   ///< spatial acceleration: c + da
 
@@ -101,12 +101,15 @@ struct BodySweep {
 
 /// Everything the sweeps write. Sized once.
 struct Sweeps {
-  Sweeps(const Model& model, int row_capacity);
+  Sweeps(const Model& model, int robot_rows, int task_rows);
 
   std::vector<BodySweep> bodies;
-  Columns columns;
+  Columns robot_rows;  ///< of the ground, then those of the base's freedoms and the joints
+  Columns task_rows;
+  Eigen::VectorXd free_motion;  ///< h: the acceleration by dimension that no constraint changes
   /// What depends on the joints' positions alone is kept while they stay, as from project_velocity to solve:
-  /// with these positions the poses, and when is_articulated the articulated inertias.
+  /// with these positions the poses, and when is_articulated the articulated inertias and W of the
+  /// robot_rows.
   Eigen::VectorXd placed_at;
   bool is_articulated = false;
   /// F, the inverse of a Cholesky factor: IA_0^-1 = F'F. Its lines are the base's dimensions; under wheels z,
@@ -123,8 +126,10 @@ void load_bodies(const Model& model, const State& state, const Vector3& gravity,
 void load_bodies_at_rest(Sweeps& sweeps) noexcept;
 /// Phase 2, with the base's inertia factorised at the end. False where an inertia cannot be inverted.
 bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept;
-/// Phase 4. `force` = W'nu, the constraint forces by dimension; writes `a` of every body and qdd.
-void outward_accelerations(const Model& model, const Eigen::VectorXd& force, Sweeps& sweeps,
+/// And what it does to the robot's or the task's rows.
+void inward_rows(const Model& model, const Sweeps& sweeps, Columns& rows) noexcept;
+/// Phase 4. `motion` = h + W'nu, by dimension; writes `a` of every body and qdd.
+void outward_accelerations(const Model& model, const Eigen::VectorXd& motion, Sweeps& sweeps,
                            Eigen::VectorXd& qdd) noexcept;
 
 /// The constraint forces, by the base's dimensions that the ground holds, which bring the base's acceleration
