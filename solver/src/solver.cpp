@@ -107,7 +107,6 @@ struct Solver::Workspace {
                 std::max(1, sweeps.task_rows.dimensions() - sweeps.task_rows.held_dimensions())),
         ground_bias(Eigen::VectorXd::Zero(ground)),
         free_acceleration(Eigen::VectorXd::Zero(options.row_capacity)),
-        p(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions())),
         motion(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions() + 1)),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
         qdd(Eigen::VectorXd::Zero(robot.joint_count())) {
@@ -194,7 +193,7 @@ struct Solver::Workspace {
       const int twin = twins[static_cast<std::size_t>(i)];
       const Row& row = rows[static_cast<std::size_t>(i)];
       if (twin < 0) {
-        problem.set_row(i, row, whitened.B(id), whitened.free_square(id));
+        problem.set_row(i, row, whitened.B(id), whitened.held_square(id));
         free_acceleration(i) = whitened.acceleration(id);
       } else {
         problem.set_twin(i, row, twin);
@@ -209,12 +208,6 @@ struct Solver::Workspace {
     }
   }
 
-  /// Under the torques and the ground's answer to them.
-  void find_motion() noexcept {
-    problem.sum_torques(p.data());
-    whitened.motion(p.data(), motion);
-  }
-
   Model model;
   Settings settings;
   Ground ground_rows;
@@ -227,7 +220,6 @@ struct Solver::Workspace {
   std::vector<int> axes;        ///< the first rows along each axis
   Eigen::VectorXd ground_bias;  ///< by row of the ground
   Eigen::VectorXd free_acceleration;  ///< by row of the task: with the ground's answer, nobody pushing
-  Eigen::VectorXd p;                  ///< force of the torques on the motions that the ground leaves
   Eigen::VectorXd motion;             ///< by dimension of the sweeps
   Eigen::VectorXd tau_ff, qdd;
 };
@@ -270,7 +262,7 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   w.sweep_task_inward();
   w.pose_problem(rows);
   const bool exact = w.problem.solve(w.settings.max_iterations);
-  w.find_motion();
+  w.whitened.motion(w.problem.p(), w.motion);
   outward_accelerations(w.model, w.motion, w.sweeps, w.qdd);
   if (finite_sum(w.qdd) + finite_sum(w.motion) != 0.0) return Status::degenerate_model;
 
@@ -324,8 +316,7 @@ Status Solver::project_velocity(State& state) noexcept {
   w.tau_ff.setZero();
   if (!w.sweep_inward()) return Status::degenerate_model;
   w.whitened.hold_ground(w.sweeps.free_motion, w.ground_bias, held_base_force(w.sweeps, -twist));
-  w.p.setZero();
-  w.whitened.motion(w.p.data(), w.motion);
+  w.whitened.motion(nullptr, w.motion);
   outward_accelerations(w.model, w.motion, w.sweeps, w.qdd);
   if (!w.qdd.allFinite()) return Status::degenerate_model;
   state.qd += w.qdd;

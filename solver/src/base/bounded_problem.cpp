@@ -13,6 +13,7 @@ constexpr int no_level = std::numeric_limits<int>::min();
 constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
 constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
 constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
+constexpr double torque_rounding = 1e-12;       // of a motor's range
 constexpr double motor_rank_tolerance = 1e-12;  // of a pivot of T'T, relative to its trace
 
 /// One-sided rows push harder than any driver can, and harder the higher they rank: so where ranges
@@ -44,6 +45,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       tau_lo_(Vector::Zero(motors)),
       tau_hi_(Vector::Zero(motors)),
       candidate_(Vector::Zero(motors)),
+      tau_slack_(Vector::Zero(motors)),
       motor_length_(Vector::Zero(motors)),
       motor_extents_(static_cast<std::size_t>(motors)),
       last_of_(static_cast<std::size_t>(dimension)),
@@ -75,7 +77,7 @@ void BoundedProblem::clear_motors(int dimension) noexcept {
   dimension_ = dimension;
 }
 
-void BoundedProblem::set_row(int i, const Row& row, const double* B, double unconstrained) noexcept {
+void BoundedProblem::set_row(int i, const Row& row, const double* B, double held) noexcept {
   Entry& e = entry(i);
   e = Entry{};
   solver::copy(dimension_, B, &B_(i, 0));
@@ -83,7 +85,7 @@ void BoundedProblem::set_row(int i, const Row& row, const double* B, double unco
   e.extent = extent_of(e.B);
   const double squared = dot(e.extent, e.B, e.B);
   e.length = std::sqrt(squared);
-  e.reachable = squared >= unreachable_share * unconstrained && squared > 0.0;
+  e.reachable = squared >= unreachable_share * (squared + held) && squared > 0.0;
   take_source(e, row);
 }
 
@@ -118,10 +120,11 @@ void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
   }
 }
 
-void BoundedProblem::sum_torques(double* p) const noexcept {
-  std::fill_n(p, dimension_, 0.0);
-  for (int j = 0; j < motors_; ++j)
-    add_multiple(motor_extents_[static_cast<std::size_t>(j)], tau_(j), T(j), p);
+void BoundedProblem::limit_motor(int motor, double lowest, double highest) noexcept {
+  tau_lo_(motor) = lowest;
+  tau_hi_(motor) = highest;
+  const double slack = torque_rounding * (highest - lowest);
+  tau_slack_(motor) = std::isfinite(slack) ? slack : 0.0;
 }
 
 bool BoundedProblem::solve(int max_iterations) noexcept {

@@ -37,15 +37,12 @@ class BoundedProblem {
   void clear_motors(int dimension) noexcept;
   void add_motor(const double* T) noexcept { T_[static_cast<std::size_t>(motors_++)] = T; }
   void factorise_motors() noexcept;
-  void limit_motor(int motor, double lowest, double highest) noexcept {
-    tau_lo_(motor) = lowest;
-    tau_hi_(motor) = highest;
-  }
+  void limit_motor(int motor, double lowest, double highest) noexcept;
 
   void resize(int rows) noexcept { rows_ = rows; }
   double& d(int row) noexcept { return d_(row); }
-  /// `unconstrained` is A_i M^-1 A_i', what the row would be without the ground.
-  void set_row(int row, const Row& source, const double* B, double unconstrained) noexcept;
+  /// `held` is what of A_i M^-1 A_i' the ground holds; the rest is |B|^2.
+  void set_row(int row, const Row& source, const double* B, double held) noexcept;
   /// A row with the same B as an earlier one.
   void set_twin(int row, const Row& source, int twin) noexcept;
   /// False when an active set met its iteration cap; all results stay inside their bounds.
@@ -55,8 +52,8 @@ class BoundedProblem {
     return {solutions_.data(), static_cast<std::size_t>(rows_)};
   }
   double tau(int motor) const noexcept { return tau_(motor); }
-  /// p = T'tau
-  void sum_torques(double* p) const noexcept;
+  /// The force of the torques on the motions, T'tau.
+  const double* p() const noexcept { return p_.data(); }
   int iterations() const noexcept { return iterations_; }
   int opposing(int row, std::span<int> out) noexcept;
 
@@ -209,6 +206,7 @@ class BoundedProblem {
   RowMajorMatrix V_, P_;  ///< of the rows on which the levels above have frozen something
   std::vector<const double*> T_;
   Vector d_, tau_, tau_lo_, tau_hi_, candidate_;
+  Vector tau_slack_;  ///< by how much rounding may take a torque beyond its limits
   Vector motor_length_;  ///< |T_j|
   std::vector<int> motor_extents_;
   /// A motor that alone drives a dimension, the last one of those still open.

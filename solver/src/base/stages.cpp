@@ -8,7 +8,7 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double rounding = 1e-12;  // relative: what torques and sums may show at a limit
+constexpr double rounding = 1e-12;  // relative: what sums may show at a limit
 
 double nonzero(double length) {
   return length > 0.0 ? length : 1.0;
@@ -373,14 +373,13 @@ bool BoundedProblem::torques_for(const Vector& p) noexcept {
 
 /// Into candidate_; false beyond a limit.
 bool BoundedProblem::take_torque(int motor, double torque) noexcept {
-  const double slack = rounding * (tau_hi_(motor) - tau_lo_(motor));
-  const double room = std::isfinite(slack) ? slack : 0.0;
-  if (torque < tau_lo_(motor) - room || torque > tau_hi_(motor) + room) return false;
-  candidate_(motor) = std::clamp(torque, tau_lo_(motor), tau_hi_(motor));
+  const double lowest = tau_lo_(motor), highest = tau_hi_(motor), slack = tau_slack_(motor);
+  if (torque < lowest - slack || torque > highest + slack) return false;
+  candidate_(motor) = std::clamp(torque, lowest, highest);
   return true;
 }
 
-/// The last stage: of all torques that make p, the smallest.
+/// The last stage: of all torques that make p, the smallest; p is what they make then.
 bool BoundedProblem::least_torques(int max_iterations) noexcept {
   if (torques_are_least_) return true;
   if (torques_for(p_)) {
@@ -396,6 +395,9 @@ bool BoundedProblem::least_torques(int max_iterations) noexcept {
   }
   const bool exact = program_.solve(max_iterations, iterations_);
   take_motors(0);
+  set_zero(dimension_, p_.data());
+  for (int j = 0; j < motors_; ++j)
+    add_multiple(motor_extents_[static_cast<std::size_t>(j)], tau_(j), T(j), p_.data());
   return exact;
 }
 

@@ -141,7 +141,7 @@ void WhitenedRows::hold_ground(const Eigen::VectorXd& free_motion, const Eigen::
 void WhitenedRows::motion(const double* p, Eigen::VectorXd& motion) const noexcept {
   double* const x = motion.data();
   copy(dimensions_, held_motion_.data(), x);
-  add_multiple(mobility(), 1.0, p, x + held_);
+  if (p != nullptr) add_multiple(mobility(), 1.0, p, x + held_);
   for (int k = rank_ - 1; k >= 0; --k) turn(k, x);
 }
 

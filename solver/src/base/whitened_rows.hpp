@@ -38,6 +38,8 @@ class WhitenedRows {
   /// B_i of a row of the robot itself, beyond the ground's.
   const double* robot_B(int row) const noexcept { return &robot_->W(row, held_); }
   auto robot_motion(int row) const noexcept { return robot_->W.row(row).segment(held_, mobility()); }
+  /// What the ground holds of A_i M^-1 A_i'.
+  double held_square(int row) const noexcept { return dot(held_, line(row), line(row)); }
   /// A_i M^-1 A_i', the robot without the ground.
   double free_square(int row) const noexcept { return dot(dimensions_, line(row), line(row)); }
   double robot_free_square(int row) const noexcept {
@@ -55,7 +57,8 @@ class WhitenedRows {
   double acceleration(int row) const noexcept {
     return task_->drift(row) + dot(dimensions_, line(row), held_motion_.data());
   }
-  /// The motion by dimension of the sweeps when the forces p act on the motions that are left. (`motion` has
+  /// The motion by dimension of the sweeps when the forces p act on the motions that are left; none
+  /// without p. (`motion` has
   /// a number to spare.)
   void motion(const double* p, Eigen::VectorXd& motion) const noexcept;
 
