@@ -31,11 +31,6 @@ void QuadraticProgram::compute_image() noexcept {
   }
 }
 
-/// A row of H z, by way of V z.
-double QuadraticProgram::pull_on(int k) noexcept {
-  return dot(extents_[index(k)], V(k), image_.data()) + R_(k) * z_(k);
-}
-
 /// reduced_ = H z - g, and the size of what is rounding in it.
 void QuadraticProgram::compute_gradient() noexcept {
   compute_image();
@@ -102,9 +97,12 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   factorised_ = 0;
   compute_image();
   for (int k = 0; k < variables_; ++k) {
-    const double start = z_(k);
     curvature_(k) = hessian(k, k);
-    z_(k) = std::clamp(start + (g_(k) - pull_on(k)) / curvature_(k), lo_(k), hi_(k));
+    step_(k) = 1.0 / curvature_(k);
+  }
+  for (int k = 0; k < variables_; ++k) {
+    const double start = z_(k);
+    z_(k) = std::clamp(start + (g_(k) - pull_on(k)) * step_(k), lo_(k), hi_(k));
     add_multiple(extents_[index(k)], z_(k) - start, V(k), image_.data());
     const bool is_inside = z_(k) > lo_(k) && z_(k) < hi_(k);
     place_[index(k)] = is_inside ? Place::superbasic : Place::parked;

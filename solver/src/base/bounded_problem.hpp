@@ -142,9 +142,9 @@ class BoundedProblem {
   bool least_torques(int max_iterations) noexcept;
 
   void report() noexcept;
-  RowSolution report_force(int i, bool motor_at_limit) noexcept;
-  RowSolution report_sum(int i) noexcept;
-  RowSolution report_motion(int i, bool motor_at_limit) noexcept;
+  void report_force(int i, bool motor_at_limit, RowSolution& row) noexcept;
+  void report_sum(int i, RowSolution& row) noexcept;
+  void report_motion(int i, bool motor_at_limit, RowSolution& row) noexcept;
   bool is_sum_at_bound(int i, double direction) noexcept;
   bool is_held_by_sum(int i, double wanted) noexcept;
   double opposition(int k, int i, double wanted, double miss) noexcept;
@@ -206,7 +206,7 @@ class BoundedProblem {
   RowMajorMatrix V_, P_;  ///< of the rows on which the levels above have frozen something
   std::vector<const double*> T_;
   Vector d_, tau_, tau_lo_, tau_hi_, candidate_;
-  Vector tau_slack_;  ///< by how much rounding may take a torque beyond its limits
+  Vector tau_slack_;     ///< by how much rounding may take a torque beyond its limits
   Vector motor_length_;  ///< |T_j|
   std::vector<int> motor_extents_;
   /// A motor that alone drives a dimension, the last one of those still open.

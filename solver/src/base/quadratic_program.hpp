@@ -73,7 +73,10 @@ class QuadraticProgram {
     return k == l ? entry + R_(k) : entry;
   }
   void compute_image() noexcept;
-  double pull_on(int k) noexcept;
+  /// A row of H z, by way of V z.
+  double pull_on(int k) const noexcept {
+    return dot(extents_[index(k)], V(k), image_.data()) + R_(k) * z_(k);
+  }
   void compute_gradient() noexcept;
   void factorise_free() noexcept;
   void step_free() noexcept;

@@ -35,16 +35,23 @@ void BoundedProblem::report() noexcept {
   }
   for (const int i : idle_) solutions_[static_cast<std::size_t>(i)] = {};
   for (const int i : awake_) {
-    const RowKind kind = entry(i).kind;
-    solutions_[static_cast<std::size_t>(i)] = kind == RowKind::force ? report_force(i, motor_at_limit)
-                                              : kind == RowKind::sum ? report_sum(i)
-                                                                     : report_motion(i, motor_at_limit);
+    RowSolution& row = solutions_[static_cast<std::size_t>(i)];
+    row = {};
+    switch (entry(i).kind) {
+      case RowKind::force:
+        report_force(i, motor_at_limit, row);
+        break;
+      case RowKind::sum:
+        report_sum(i, row);
+        break;
+      default:
+        report_motion(i, motor_at_limit, row);
+    }
   }
 }
 
-RowSolution BoundedProblem::report_force(int i, bool motor_at_limit) noexcept {
+void BoundedProblem::report_force(int i, bool motor_at_limit, RowSolution& row) noexcept {
   const Entry& e = entry(i);
-  RowSolution row;
   row.phi = e.phi;
   row.nu = e.phi * e.force;
   row.saturated = e.phi < 1.0 - bound_tolerance;
@@ -56,22 +63,18 @@ RowSolution BoundedProblem::report_force(int i, bool motor_at_limit) noexcept {
     const bool by_sum = !motor_at_limit || is_held_by_sum(i, e.force);
     row.status = by_sum ? RowStatus::force_limited : RowStatus::torque_limited;
   }
-  return row;
 }
 
-RowSolution BoundedProblem::report_sum(int i) noexcept {
+void BoundedProblem::report_sum(int i, RowSolution& row) noexcept {
   const Entry& e = entry(i);
-  RowSolution row;
-  if (e.out) return row;
+  if (e.out) return;
   row.nu = sum_of(i, p_);
   row.saturated = side_of(row.nu, e.lo, e.hi) != 0;
   row.status = row.saturated ? RowStatus::force_limited : RowStatus::held;
-  return row;
 }
 
-RowSolution BoundedProblem::report_motion(int i, bool motor_at_limit) noexcept {
+void BoundedProblem::report_motion(int i, bool motor_at_limit, RowSolution& row) noexcept {
   const Entry& e = entry(i);
-  RowSolution row;
   const double s = along(i, p_) - d_(i);
   row.nu = e.out ? 0.0 : e.nu;
   row.residual = e.kind == RowKind::upper   ? std::max(s, 0.0)
@@ -93,7 +96,6 @@ RowSolution BoundedProblem::report_motion(int i, bool motor_at_limit) noexcept {
   } else {
     row.status = motor_at_limit ? RowStatus::torque_limited : RowStatus::conflict;
   }
-  return row;
 }
 
 bool BoundedProblem::is_sum_at_bound(int i, double direction) noexcept {

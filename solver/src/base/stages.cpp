@@ -351,6 +351,14 @@ bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
   return exact;
 }
 
+/// Into candidate_; false beyond a limit.
+inline bool BoundedProblem::take_torque(int motor, double torque) noexcept {
+  const double lowest = tau_lo_(motor), highest = tau_hi_(motor), slack = tau_slack_(motor);
+  if (torque < lowest - slack || torque > highest + slack) return false;
+  candidate_(motor) = std::clamp(torque, lowest, highest);
+  return true;
+}
+
 /// Least-norm torques for p into candidate_: those of the sole motors one after the other, then tau = T
 /// (T'T)^-1 p. False when the motors do not reach p or a limit is in the way.
 bool BoundedProblem::torques_for(const Vector& p) noexcept {
@@ -368,14 +376,6 @@ bool BoundedProblem::torques_for(const Vector& p) noexcept {
   for (const int j : shared_motors_) {
     if (!take_torque(j, dot(motor_extents_[static_cast<std::size_t>(j)], T(j), rest))) return false;
   }
-  return true;
-}
-
-/// Into candidate_; false beyond a limit.
-bool BoundedProblem::take_torque(int motor, double torque) noexcept {
-  const double lowest = tau_lo_(motor), highest = tau_hi_(motor), slack = tau_slack_(motor);
-  if (torque < lowest - slack || torque > highest + slack) return false;
-  candidate_(motor) = std::clamp(torque, lowest, highest);
   return true;
 }
 
