@@ -119,11 +119,11 @@ bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
 ///   a sum at its bound: the miss
 double BoundedProblem::opposition(int k, int i, double wanted, double miss) noexcept {
   const Entry& e = entry(k);
-  if (k == i || e.out) return 0.0;
+  if (k == i || e.out || e.level > entry(i).level) return 0.0;
   const double share = dot(dimension_, B(i), B(k));
   if (std::abs(share) <= residual_tolerance * entry(i).length * e.length) return 0.0;
   if (e.kind == RowKind::sum) {
-    return e.level <= entry(i).level && is_sum_at_bound(k, wanted * share) ? miss : 0.0;
+    return is_sum_at_bound(k, wanted * share) ? miss : 0.0;
   }
   const double force = e.kind == RowKind::force ? e.phi * e.force : e.nu;
   const double pushed_back = -std::copysign(1.0, wanted) * share * force;
