@@ -62,9 +62,7 @@ Family family(const std::string& name) {
     o.fading = 0.2, f.least_effort = 2.0, f.most_effort = 40.0;
   }
   if (name == "everything") {
-    f.rows = RowOptions{};
-    o.levels = 3;
-    o.count = 8;
+    f.rows = everything;
     f.least_effort = 1.0;
     f.most_effort = 40.0;
   }

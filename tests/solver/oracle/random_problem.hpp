@@ -67,6 +67,8 @@ struct RowOptions {
   double bound = 60.0;      ///< largest |nu| [N] or [N m]
   double demand = 3.0;      ///< largest |b| [m/s^2] or [rad/s^2]
 };
+/// Eight rows of every kind at most, on three levels.
+inline constexpr RowOptions everything{.count = 8, .levels = 3};
 std::vector<solver::Row> random_rows(const solver::Model& model, const RowOptions& options, Random& random);
 
 }  // namespace zwang::oracle
