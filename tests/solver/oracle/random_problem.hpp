@@ -41,11 +41,16 @@ enum class Robot {
   skid,
   mecanum_arm,
   tricycle,
-  swerve
+  swerve,
+  differential_arm,
+  kelo_arm,
+  car
 };
-inline constexpr Robot all_robots[] = {
-    Robot::arm,  Robot::tree, Robot::floating_tree, Robot::mecanum,  Robot::omni,  Robot::differential,
-    Robot::kelo, Robot::skid, Robot::mecanum_arm,   Robot::tricycle, Robot::swerve};
+inline constexpr Robot all_robots[] = {Robot::arm,      Robot::tree,   Robot::floating_tree,
+                                       Robot::mecanum,  Robot::omni,   Robot::differential,
+                                       Robot::kelo,     Robot::skid,   Robot::mecanum_arm,
+                                       Robot::tricycle, Robot::swerve, Robot::differential_arm,
+                                       Robot::kelo_arm, Robot::car};
 const char* to_string(Robot robot);
 
 solver::RigidInertia random_inertia(Random& random, double mass);
