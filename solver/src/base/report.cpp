@@ -84,12 +84,12 @@ RowSolution BoundedProblem::report_motion(int i, bool motor_at_limit) noexcept {
   } else if (!row.saturated && is_held_by_sum(i, -row.residual)) {
     row.saturated = true;
     row.status = RowStatus::force_limited;
+  } else if (e.blocked) {
+    row.status = RowStatus::blocked;
   } else if (is_soft(i) && !row.saturated) {
     row.status = RowStatus::held;
   } else if (row.saturated) {
     row.status = is_one_sided(i) ? RowStatus::conflict : RowStatus::force_limited;
-  } else if (e.blocked) {
-    row.status = RowStatus::blocked;
   } else {
     row.status = motor_at_limit ? RowStatus::torque_limited : RowStatus::conflict;
   }
@@ -106,7 +106,7 @@ bool BoundedProblem::is_sum_at_bound(int i, double direction) noexcept {
 bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
   for (const int k : sums_) {
     if (!sum_counts(k, entry(i).level)) continue;
-    const double share = dot(dimension_, B(k), B(i));
+    const double share = dot(dimension_, B(k), P(i));  // what the levels above keep of their own counts, too
     if (std::abs(share) <= residual_tolerance * entry(k).length * entry(i).length) continue;
     if (is_sum_at_bound(k, wanted * share)) return true;
   }
