@@ -39,8 +39,8 @@ double wrench_map_residual(const LawProblem& p, const std::vector<Row>& rows, co
 }
 
 TEST(Acceptance, WrenchMapResidualOnEveryExactBase) {
-  for (const Robot robot :
-       {Robot::mecanum, Robot::omni, Robot::differential, Robot::kelo, Robot::mecanum_arm}) {
+  for (const Robot robot : {Robot::mecanum, Robot::omni, Robot::differential, Robot::kelo, Robot::mecanum_arm,
+                            Robot::differential_arm, Robot::kelo_arm, Robot::car}) {
     double worst = 0.0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       LawProblem p(robot, seed);

@@ -2,7 +2,9 @@
 // a skid-steered base that cannot push sideways.
 #include <gtest/gtest.h>
 
-#include <array>
+#include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "carriage.hpp"
 #include "oracle/random_problem.hpp"
@@ -184,6 +186,120 @@ TEST(Opposing, NamesTheLevelsAboveAndTheSums) {
   const Row drive = along_rail(RowKind::driver, 1.0, 1000.0, 1);
   EXPECT_EQ(opposing({still, drive}, 1), (std::vector<int>{0})) << "at rest without any force";
   EXPECT_EQ(opposing({along_rail(RowKind::sum, 0.0, 4.0, 0), drive}, 1), (std::vector<int>{0}));
+}
+
+/// The carriage with rows that contradict each other: what it does, how each row ends, and who is to blame.
+class Contradictions : public testing::Test {
+ protected:
+  void solve(const std::vector<Row>& rows, double max_effort = unlimited) {
+    rows_ = rows;
+    const solver::Model model = solver::test::carriage(max_effort);
+    solver_.emplace(model);
+    solution_.emplace(model);
+    ASSERT_EQ(solver_->solve(solver::State(model), rows, *solution_), solver::Status::ok);
+  }
+  double acceleration() const { return solution_->qdd[0]; }
+  void expect(int row, solver::RowStatus status, double nu, const std::vector<int>& opposing) const {
+    const solver::RowSolution& got = solution_->rows[static_cast<std::size_t>(row)];
+    const Row& asked = rows_[static_cast<std::size_t>(row)];
+    EXPECT_EQ(got.status, status) << to_string(got.status) << ", row " << row;
+    EXPECT_NEAR(got.nu, nu, 1e-9) << "row " << row;
+    const double missed = acceleration() - asked.b;
+    const double residual = asked.kind == RowKind::upper   ? std::max(missed, 0.0)
+                            : asked.kind == RowKind::lower ? std::min(missed, 0.0)
+                                                           : missed;
+    EXPECT_NEAR(got.residual, residual, 1e-9) << "row " << row;
+    std::vector<int> names(4);
+    names.resize(static_cast<std::size_t>(solver_->opposing(row, names)));
+    EXPECT_EQ(names, opposing) << "row " << row;
+  }
+
+  static Row equal(double b, double bound, int level = 1) {
+    return along_rail(RowKind::driver, b, bound, level);
+  }
+  static Row at_most(double b, double bound, int level = 1) {
+    return along_rail(RowKind::upper, b, bound, level);
+  }
+  static Row at_least(double b, double bound, int level = 1) {
+    return along_rail(RowKind::lower, b, bound, level);
+  }
+
+ private:
+  std::vector<Row> rows_;
+  std::optional<solver::Solver> solver_;
+  std::optional<solver::Solution> solution_;
+};
+
+using solver::RowStatus;
+
+TEST_F(Contradictions, TwoEqualitiesOfOneForceCancel) {
+  solve({equal(1.0, 40.0), equal(-1.0, 40.0)});
+  EXPECT_NEAR(acceleration(), 0.0, 1e-12);
+  expect(0, RowStatus::force_limited, 40.0, {1});
+  expect(1, RowStatus::force_limited, -40.0, {0});
+}
+
+TEST_F(Contradictions, OfTwoEqualitiesTheOneWithMoreForceWins) {
+  // 10 kg at 1 m/s^2, and 7 N against it.
+  solve({equal(1.0, 40.0), equal(-1.0, 7.0)});
+  expect(0, RowStatus::held, 17.0, {});
+  expect(1, RowStatus::force_limited, -7.0, {0});
+}
+
+TEST_F(Contradictions, OfTwoEqualitiesOnTwoLevelsTheHigherOneHolds) {
+  solve({equal(1.0, 40.0, 1), equal(-1.0, 1000.0, 2)});
+  expect(0, RowStatus::held, 10.0, {});
+  expect(1, RowStatus::blocked, 0.0, {0});
+  solve({equal(-1.0, 1000.0, 2), equal(3.0, 20.0, 1)});
+  expect(0, RowStatus::blocked, 0.0, {1});
+  expect(1, RowStatus::force_limited, 20.0, {});
+}
+
+TEST_F(Contradictions, TwoLimitsOfOneForceCancel) {
+  solve({at_most(-1.0, 500.0), at_least(1.0, 500.0)});
+  EXPECT_NEAR(acceleration(), 0.0, 1e-12);
+  expect(0, RowStatus::conflict, -500.0, {1});
+  expect(1, RowStatus::conflict, 500.0, {0});
+}
+
+TEST_F(Contradictions, OfTwoLimitsTheOneWithMoreForceWins) {
+  solve({at_most(-1.0, 500.0), at_least(1.0, 30.0)});
+  expect(0, RowStatus::held, -40.0, {});
+  expect(1, RowStatus::conflict, 30.0, {0});
+}
+
+TEST_F(Contradictions, OfTwoLimitsWithoutBoundsAccelerationWinsOverPosition) {
+  // A position's limit is given 4 times what the motor can do, an acceleration's more.
+  Row position = at_most(-1.0, unlimited);
+  position.quantity = solver::Quantity::position;
+  Row acceleration = at_least(1.0, unlimited);
+  acceleration.quantity = solver::Quantity::acceleration;
+  solve({position, acceleration}, 30.0);
+  expect(0, RowStatus::conflict, -120.0, {1});
+  expect(1, RowStatus::held, 130.0, {});
+}
+
+TEST_F(Contradictions, OfTwoLimitsOnTwoLevelsTheHigherOneHolds) {
+  solve({at_most(-1.0, 50.0, 0), at_least(1.0, 500.0, 1)});
+  expect(0, RowStatus::held, -510.0, {});
+  expect(1, RowStatus::conflict, 500.0, {0});
+  solve({at_most(-1.0, 500.0, 1), at_least(1.0, 50.0, 0)});
+  expect(0, RowStatus::conflict, -500.0, {1});
+  expect(1, RowStatus::held, 510.0, {});
+}
+
+TEST_F(Contradictions, AnEqualityAgainstALimitIsForceLimitedByIt) {
+  solve({equal(5.0, 40.0), at_most(1.0, 1000.0)});
+  expect(0, RowStatus::force_limited, 40.0, {1});
+  expect(1, RowStatus::held, -30.0, {});
+}
+
+TEST_F(Contradictions, ALowerLevelIsNeverToBlame) {
+  // 5 N are all that the higher limit has: -0.5 m/s^2, with or without the lower one.
+  solve({at_most(-1.0, 5.0, 0), at_least(1.0, 500.0, 1)});
+  EXPECT_NEAR(acceleration(), -0.5, 1e-12);
+  expect(0, RowStatus::conflict, -505.0, {});
+  expect(1, RowStatus::conflict, 500.0, {0});
 }
 
 TEST(TorqueLimits, ALimitAboveBrakesAForceThatTheMotorAloneCouldNotMake) {

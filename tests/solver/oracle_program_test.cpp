@@ -161,7 +161,7 @@ TEST(OracleLevels, RandomProblemsAreSolvedToTheirOptimalityConditions) {
   Random random(22);
   Real worst = 0;
   for (int i = 0; i < 45; ++i) {
-    const Robot robot = all_robots[i % 9];
+    const Robot robot = all_robots[static_cast<std::size_t>(i) % std::size(all_robots)];
     const solver::Model model = random_model(robot, random, random.uniform(2.0, 40.0));
     const solver::State state = random_state(model, random);
     RowOptions options;

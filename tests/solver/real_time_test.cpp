@@ -1,11 +1,14 @@
 // What a control loop relies on: no heap call inside the step, and the same bits for the same input.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <random>
+#include <span>
 
+#include "law_problem.hpp"
 #include "malloc_counter.hpp"
 #include "robots.hpp"
 #include "zwang/solver/solver.hpp"
@@ -110,6 +113,105 @@ TEST(RealTime, TheSameInputGivesTheSameBits) {
   ASSERT_EQ(first.size(), second.size());
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(double)), 0);
 }
+
+/// A random robot of its kind with rows of every kind, solved in two states in turn.
+struct BusyRobot : oracle::LawProblem {
+  BusyRobot(oracle::Robot robot, std::uint64_t seed)
+      : LawProblem(robot, seed, 1.0 + static_cast<double>(seed % 40)),
+        states{state, oracle::random_state(model, random)},
+        rows{LawProblem::rows(oracle::everything), LawProblem::rows(oracle::everything)},
+        equalities{oracle::acceleration_rows(rows[0]), oracle::acceleration_rows(rows[1])} {}
+
+  std::array<State, 2> states;
+  std::array<std::vector<Row>, 2> rows;
+  std::array<std::vector<AccelerationRow>, 2> equalities;
+};
+
+/// Both solvers and what they answer.
+struct Answers {
+  explicit Answers(const BusyRobot& problem)
+      : p(problem), state(p.model), solver(p.model), popov(p.model), solution(p.model), motion(p.model) {}
+
+  bool solve(std::size_t which) {
+    opposed = 0;
+    state = p.states[which];
+    bool solved = solver.project_velocity(state) == Status::ok;
+    solved = solver.solve(state, p.rows[which], solution) == Status::ok && solved;
+    opposing.fill(-1);
+    for (std::size_t row = 0; row < p.rows[which].size(); ++row)
+      opposed += solver.opposing(static_cast<int>(row), std::span(opposing).subspan(named * row, named));
+    solved = popov.solve(p.states[which], p.equalities[which], motion) == Status::ok && solved;
+    if (!p.model.has_fixed_base()) return solved;
+    return popov.solve(p.states[which], p.equalities[which], upwards, motion) == Status::ok && solved;
+  }
+  std::vector<double> bits(std::size_t which) const {
+    std::vector<double> out(opposing.begin(), opposing.end());
+    const auto add = [&out](const auto& numbers) { out.insert(out.end(), numbers.begin(), numbers.end()); };
+    add(solution.tau);
+    add(solution.qdd);
+    for (const RowSolution& row : solution.rows) add(std::array{row.nu, row.phi, row.residual});
+    add(motion.qdd);
+    add(motion.nu.head(static_cast<Eigen::Index>(p.rows[which].size())));
+    add(motion.tau_control);
+    for (const MotionVector& a : solution.acceleration) add(a.vector());
+    for (const MotionVector& a : motion.acceleration) add(a.vector());
+    return out;
+  }
+
+  const BusyRobot& p;
+  const MotionVector upwards{Vector3::Zero(), {0.0, 0.0, 9.81}};
+  State state;
+  Solver solver;
+  PopovVereshchagin popov;
+  Solution solution;
+  ConstrainedMotion motion;
+  static constexpr std::size_t named = 4;
+  std::array<int, named* static_cast<std::size_t>(oracle::everything.count)> opposing{};  ///< by row
+  int opposed = 0;
+};
+
+constexpr std::uint64_t seeds = 40;
+
+class RealTimeOn : public testing::TestWithParam<oracle::Robot> {};
+
+TEST_P(RealTimeOn, NeitherSolverMakesAHeapCall) {
+  if (!zwang::test::can_count_heap_calls()) GTEST_SKIP() << "a sanitizer owns malloc";
+  int opposed = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const BusyRobot problem(GetParam(), seed);
+    Answers answers(problem);
+    for (const std::size_t which : {0u, 1u, 0u}) {
+      zwang::test::start_counting_heap_calls();
+      const bool solved = answers.solve(which);
+      EXPECT_EQ(zwang::test::stop_counting_heap_calls(), 0) << "seed " << seed;
+      EXPECT_TRUE(solved) << "seed " << seed;
+      opposed += answers.opposed;
+    }
+  }
+  EXPECT_GT(opposed, 50) << "rows that get all they ask make no busy problem";
+}
+
+/// Twice, and whatever was solved before.
+TEST_P(RealTimeOn, BothSolversGiveTheSameBits) {
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const BusyRobot problem(GetParam(), seed);
+    Answers fresh(problem);
+    ASSERT_TRUE(fresh.solve(1)) << "seed " << seed;
+    const std::vector<double> want = fresh.bits(1);
+    ASSERT_TRUE(fresh.solve(1)) << "seed " << seed;
+    const std::vector<double> again = fresh.bits(1);
+    Answers used(problem);
+    ASSERT_TRUE(used.solve(0) && used.solve(1)) << "seed " << seed;
+    const std::vector<double> after = used.bits(1);
+    const std::size_t size = want.size() * sizeof(double);
+    ASSERT_TRUE(again.size() == want.size() && after.size() == want.size());
+    EXPECT_EQ(std::memcmp(again.data(), want.data(), size), 0) << "seed " << seed << ", solved again";
+    EXPECT_EQ(std::memcmp(after.data(), want.data(), size), 0) << "seed " << seed << ", after another one";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, RealTimeOn, testing::ValuesIn(oracle::all_robots),
+                         [](const auto& drawn) { return oracle::to_string(drawn.param); });
 
 }  // namespace
 }  // namespace zwang::solver

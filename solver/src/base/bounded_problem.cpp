@@ -287,6 +287,7 @@ void BoundedProblem::project_rows(int level) noexcept {
       continue;
     }
     if (all_free_) {
+      e.blocked = false;
       e.V = e.P = e.B;
       e.reach_extent = e.extent;
       e.reach = e.length;

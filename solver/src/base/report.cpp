@@ -87,12 +87,12 @@ void BoundedProblem::report_motion(int i, bool motor_at_limit, RowSolution& row)
   } else if (!row.saturated && is_held_by_sum(i, -row.residual)) {
     row.saturated = true;
     row.status = RowStatus::force_limited;
+  } else if (e.blocked) {
+    row.status = RowStatus::blocked;
   } else if (is_soft(i) && !row.saturated) {
     row.status = RowStatus::held;
   } else if (row.saturated) {
     row.status = is_one_sided(i) ? RowStatus::conflict : RowStatus::force_limited;
-  } else if (e.blocked) {
-    row.status = RowStatus::blocked;
   } else {
     row.status = motor_at_limit ? RowStatus::torque_limited : RowStatus::conflict;
   }
@@ -108,7 +108,7 @@ bool BoundedProblem::is_sum_at_bound(int i, double direction) noexcept {
 bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
   for (const int k : sums_) {
     if (!sum_counts(k, entry(i).level)) continue;
-    const double share = dot(dimension_, B(k), B(i));
+    const double share = dot(dimension_, B(k), P(i));  // what the levels above keep of their own counts, too
     if (std::abs(share) <= residual_tolerance * entry(k).length * entry(i).length) continue;
     if (is_sum_at_bound(k, wanted * share)) return true;
   }
@@ -121,11 +121,11 @@ bool BoundedProblem::is_held_by_sum(int i, double wanted) noexcept {
 ///   a sum at its bound: the miss
 double BoundedProblem::opposition(int k, int i, double wanted, double miss) noexcept {
   const Entry& e = entry(k);
-  if (k == i || e.out) return 0.0;
+  if (k == i || e.out || e.level > entry(i).level) return 0.0;
   const double share = dot(dimension_, B(i), B(k));
   if (std::abs(share) <= residual_tolerance * entry(i).length * e.length) return 0.0;
   if (e.kind == RowKind::sum) {
-    return e.level <= entry(i).level && is_sum_at_bound(k, wanted * share) ? miss : 0.0;
+    return is_sum_at_bound(k, wanted * share) ? miss : 0.0;
   }
   const double force = e.kind == RowKind::force ? e.phi * e.force : e.nu;
   const double pushed_back = -std::copysign(1.0, wanted) * share * force;

@@ -218,6 +218,7 @@ class Levels {
     const QuadraticSolution s = solve_stage(qp);
     for (Index k = 0; k < at.own; ++k) {
       const Index i = forces[static_cast<std::size_t>(k)];
+      result(i).idle = idle(i);
       result(i).phi = std::clamp(s.x[k], Real(0), Real(1));
       result(i).nu = result(i).phi * wrench(i);
       push_ += result(i).nu * y(i);
@@ -333,9 +334,14 @@ class Levels {
     }
     out_.vdot = p_.free + p_.B * c_;
     out_.mobility = static_cast<int>(c_.size());
+    Eigen::ColPivHouseholderQR<Matrix> motors(p_.G);
+    motors.setThreshold(1e-8L);
+    out_.motors_reach_all = motors.rank() == p_.G.rows();
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const auto i = static_cast<Index>(r);
       out_.rows[r].residual = y(i).dot(c_) - d_[i];
+      out_.rows[r].demand = d_[i];
+      out_.rows[r].unreachable = unreachable(i);
       out_.rows[r].acceleration = out_.rows[r].residual + static_cast<Real>(row(i).b);
     }
     for (const Sum& sum : sums_) result(sum.row).nu = pressed(sum.row, c_) - sum.above;

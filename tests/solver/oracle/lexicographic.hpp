@@ -14,10 +14,12 @@ namespace zwang::oracle {
 struct OracleRow {
   Real nu = 0;
   Real phi = 0;
-  Real acceleration = 0;  ///< a . Xdd after the last level
-  Real residual = 0;      ///< a . Xdd - b
-  bool unique = true;     ///< nu is the only optimal one
-  bool idle = false;      ///< unreachable, or the levels above leave it no freedom: nu is 0
+  Real acceleration = 0;     ///< a . Xdd after the last level
+  Real residual = 0;         ///< a . Xdd - b
+  bool unique = true;        ///< nu is the only optimal one
+  Real demand = 0;           ///< b less the acceleration that comes by itself
+  bool unreachable = false;  ///< the ground holds the axis, or no motor moves it
+  bool idle = false;         ///< unreachable, or the levels above leave it no freedom: nu is 0
 };
 
 struct OracleSolution {
@@ -25,6 +27,7 @@ struct OracleSolution {
   Vector vdot;  ///< base (none on a fixed base), then joints
   std::vector<OracleRow> rows;
   int mobility = 0;
+  bool motors_reach_all = false;             ///< every motion that the ground leaves
   Real error = 0;                            ///< worst violation of optimality among all stages
   std::vector<Vector> spatial_acceleration;  ///< of each body, body coordinates, angular first
 };

@@ -61,6 +61,12 @@ const char* to_string(Robot robot) {
       return "tricycle";
     case Robot::swerve:
       return "swerve";
+    case Robot::differential_arm:
+      return "differential_arm";
+    case Robot::kelo_arm:
+      return "kelo_arm";
+    case Robot::car:
+      return "car";
   }
   return "?";
 }
@@ -115,6 +121,10 @@ void add_branch(ModelBuilder& builder, const std::string& prefix, std::string pa
                      random_inertia(random, random.uniform(0.3, 1.0) * heaviest));
     parent = name;
   }
+}
+
+void add_arm(ModelBuilder& builder, double max_effort, Random& random) {
+  add_branch(builder, "arm", "base", random.pick(3, 6), max_effort, 3.0, random);
 }
 
 RigidInertia chassis(Random& random) {
@@ -198,8 +208,7 @@ Model random_model(Robot robot, Random& random, double max_effort) {
     case Robot::mecanum_arm: {
       ModelBuilder builder(BaseType::ground, "base", chassis(random));
       add_mecanum(builder, max_effort, random);
-      if (robot == Robot::mecanum_arm)
-        add_branch(builder, "arm", "base", random.pick(3, 6), max_effort, 3.0, random);
+      if (robot == Robot::mecanum_arm) add_arm(builder, max_effort, random);
       return builder.build();
     }
     case Robot::omni: {
@@ -215,7 +224,8 @@ Model random_model(Robot robot, Random& random, double max_effort) {
       }
       return builder.build();
     }
-    case Robot::differential: {
+    case Robot::differential:
+    case Robot::differential_arm: {
       ModelBuilder builder(BaseType::ground, "base", chassis(random));
       add_wheel(builder, "left", "base", {0.0, 0.2, 0.0}, 0.0, 0.08, true, max_effort, random, {});
       add_wheel(builder, "right", "base", {0.0, -0.2, 0.0}, 0.0, 0.08, true, max_effort, random, {});
@@ -223,9 +233,11 @@ Model random_model(Robot robot, Random& random, double max_effort) {
         add_caster(builder, side > 0 ? "caster_left" : "caster_right", {-0.3, 0.15 * side, 0.0}, 0.03, 1,
                    false, max_effort, random);
       }
+      if (robot == Robot::differential_arm) add_arm(builder, max_effort, random);
       return builder.build();
     }
-    case Robot::kelo: {
+    case Robot::kelo:
+    case Robot::kelo_arm: {
       ModelBuilder builder(BaseType::ground, "base", chassis(random));
       const int units = random.pick(2, 4);
       for (int i = 0; i < units; ++i) {
@@ -233,6 +245,7 @@ Model random_model(Robot robot, Random& random, double max_effort) {
         add_caster(builder, "unit" + std::to_string(i), {0.3 * std::cos(angle), 0.3 * std::sin(angle), 0.0},
                    random.uniform(0.01, 0.04), 2, true, max_effort, random);
       }
+      if (robot == Robot::kelo_arm) add_arm(builder, max_effort, random);
       return builder.build();
     }
     case Robot::tricycle: {
@@ -240,6 +253,20 @@ Model random_model(Robot robot, Random& random, double max_effort) {
       add_steered_wheel(builder, "front", {0.4, 0.0, 0.0}, max_effort, random);
       add_wheel(builder, "left", "base", {-0.1, 0.2, 0.0}, 0.0, 0.08, false, max_effort, random, {});
       add_wheel(builder, "right", "base", {-0.1, -0.2, 0.0}, 0.0, 0.08, false, max_effort, random, {});
+      return builder.build();
+    }
+    case Robot::car: {  // the front axle turns as a whole: its wheels and the rear ones have a common centre
+      ModelBuilder builder(BaseType::ground, "base", chassis(random));
+      builder.add_link("axle", "base", {Matrix3::Identity(), {0.35, 0.0, 0.0}},
+                       motor("steering", Vector3::UnitZ(), max_effort, random.uniform(0.0, 0.02)),
+                       random_inertia(random, random.uniform(0.5, 2.0)));
+      for (const int side : {1, -1}) {
+        const std::string name = side > 0 ? "left" : "right";
+        add_wheel(builder, "front_" + name, "axle", {0.0, 0.15 * side, 0.0}, 0.0, 0.06, false, max_effort,
+                  random, {});
+        add_wheel(builder, "rear_" + name, "base", {0.0, 0.15 * side, 0.0}, 0.0, 0.06, true, max_effort,
+                  random, {});
+      }
       return builder.build();
     }
     case Robot::swerve: {  // two wheels always have a common centre; three at random angles lock the base

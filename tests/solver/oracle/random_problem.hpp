@@ -41,11 +41,16 @@ enum class Robot {
   skid,
   mecanum_arm,
   tricycle,
-  swerve
+  swerve,
+  differential_arm,
+  kelo_arm,
+  car
 };
-inline constexpr Robot all_robots[] = {
-    Robot::arm,  Robot::tree, Robot::floating_tree, Robot::mecanum,  Robot::omni,  Robot::differential,
-    Robot::kelo, Robot::skid, Robot::mecanum_arm,   Robot::tricycle, Robot::swerve};
+inline constexpr Robot all_robots[] = {Robot::arm,      Robot::tree,   Robot::floating_tree,
+                                       Robot::mecanum,  Robot::omni,   Robot::differential,
+                                       Robot::kelo,     Robot::skid,   Robot::mecanum_arm,
+                                       Robot::tricycle, Robot::swerve, Robot::differential_arm,
+                                       Robot::kelo_arm, Robot::car};
 const char* to_string(Robot robot);
 
 solver::RigidInertia random_inertia(Random& random, double mass);
@@ -67,6 +72,8 @@ struct RowOptions {
   double bound = 60.0;      ///< largest |nu| [N] or [N m]
   double demand = 3.0;      ///< largest |b| [m/s^2] or [rad/s^2]
 };
+/// Eight rows of every kind at most, on three levels.
+inline constexpr RowOptions everything{.count = 8, .levels = 3};
 std::vector<solver::Row> random_rows(const solver::Model& model, const RowOptions& options, Random& random);
 
 }  // namespace zwang::oracle

@@ -28,7 +28,7 @@ enum class RowStatus {
   torque_limited,  ///< a motor at its limit is what keeps the row from b, or phi from 1
   unreachable,     ///< nothing the robot can do moves this axis
   blocked,         ///< higher rows leave this axis no freedom
-  conflict,        ///< rows of the same level contradict it
+  conflict,        ///< rows of the same level, or limits of one above, contradict it
 };
 const char* to_string(RowStatus status) noexcept;
 
@@ -82,7 +82,7 @@ class Solver {
   [[nodiscard]] Status solve(const State& state, const std::vector<Row>& rows, Solution& solution) noexcept;
 
   /// The rows that keep row `row` of the last solved problem from what it asks, the strongest first, into
-  /// `out`: rows whose forces push it the other way, rows of higher levels that hold its axis, sums at their
+  /// `out`: rows of its level or above whose forces push it the other way or hold its axis, sums at their
   /// bound. Returns how many; 0 for a row that got what it asked. Each has at least 1 % of the strongest
   /// one's say. Does not allocate, lock, throw or print.
   int opposing(int row, std::span<int> out) const noexcept;
