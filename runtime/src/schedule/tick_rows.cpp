@@ -45,14 +45,9 @@ void Scheduler::Parts::find_braking() noexcept {
   braking.setConstant(solver::infinity);
   const auto tighten = [&](int i, double most) { braking(i) = std::min(braking(i), most); };
   for (const ActiveAxis& a : axes) {
-    const AxisStatements& s = statements(a);
-    const lang::Group& g = group(a.origin);
-    if (!(s.acceleration || (s.force && !s.driver))) continue;
-    const bool on_base = g.kind == lang::GroupKind::axes && !s.is_planar_speed &&
-                         is_base(declarations, g.move) && is_base(declarations, g.in);
-    if (!on_base) continue;
-    if (s.axis != Axis::x && s.axis != Axis::y && s.axis != Axis::rz) continue;
-    const int i = is_rotation(s.axis) ? 2 : static_cast<int>(s.axis);
+    const int i = a.brakes;
+    if (i < 0) continue;
+    const AxisStatements& s = *a.says;
     if (s.acceleration) {
       const Range range = value(*s.acceleration);
       tighten(i, std::min(-range.low, range.high));
@@ -99,7 +94,7 @@ double Scheduler::Parts::braking_of(const solver::AxisConstraint& c, const AxisS
 /// The driver as the task has it; where its axes or its value are not known, one that stands still with the
 /// same force, or one that lets go.
 solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
-  const AxisStatements& s = statements(a);
+  const AxisStatements& s = *a.says;
   solver::Driver driver;
   driver.quantity = *s.driver;
   driver.time_constant = s.time_constant.evaluate(parameters);
@@ -120,8 +115,8 @@ solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
 }
 
 void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
-  const AxisStatements& s = statements(a);
-  const lang::Group& g = group(a.origin);
+  const AxisStatements& s = *a.says;
+  const lang::Group& g = *a.group;
   Wanted& w = next_wanted();
   w.origin = a.origin;
   w.always = a.origin.task == tasks.always();
@@ -145,7 +140,7 @@ void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
 
 /// The nearest of the pairs of features that what is in force now could not keep apart much faster.
 void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexcept {
-  const lang::Group& g = group(a.origin);
+  const lang::Group& g = *a.group;
   const solver::AttachedFrame& move = frames.attached(g.move);
   const solver::AttachedFrame& in = frames.attached(g.in);
   fence.update(move, frames.motions().of(move), in, frames.motions().of(in), g.margin.evaluate(parameters));
@@ -198,19 +193,17 @@ void Scheduler::Parts::want() noexcept {
   wanted_count = 0;
   find_braking();
   for (const ActiveAxis& a : axes) {
-    const int fence =
-        fence_of[static_cast<std::size_t>(a.origin.task)][static_cast<std::size_t>(a.origin.group)];
-    if (fence >= 0) {
-      want_fence(a, fences[static_cast<std::size_t>(fence)]);
-    } else if (says_something(statements(a))) {
+    if (a.fence >= 0) {
+      want_fence(a, fences[static_cast<std::size_t>(a.fence)]);
+    } else if (says_something(*a.says)) {
       want_axis(a);
     }
   }
 }
 
 bool Scheduler::Parts::is_lost(const ActiveAxis& a) const noexcept {
-  const lang::Group& g = group(a.origin);
-  const int value_signal = statements(a).target.signal;
+  const lang::Group& g = *a.group;
+  const int value_signal = a.says->target.signal;
   return !is_known(g.in) || !is_known(g.move) || (value_signal >= 0 && !signals.known(value_signal));
 }
 
@@ -227,6 +220,7 @@ void Scheduler::Parts::start_blend() noexcept {
 void Scheduler::Parts::track_losses() noexcept {
   bool changed = false;
   for (ActiveAxis& a : axes) {
+    if (!a.hangs_on_signal) continue;
     const bool lost = is_lost(a);
     changed = changed || lost != a.lost;
     if (!lost) capture_here(a);
@@ -246,7 +240,7 @@ void Scheduler::Parts::put_constraints() noexcept {
 void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
   const std::vector<solver::Row>& rows = set->rows();
   for (ActiveAxis& a : axes) {
-    if (!statements(a).driver) a.reading = {};
+    if (!a.says->driver) a.reading = {};
   }
   const std::size_t count = std::min(rows.size(), solution.rows.size());
   int last = -1;  // the rows of a constraint stand together
@@ -262,8 +256,7 @@ void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
     AxisReading& reading = axis->reading;
     if (rows[i].kind == solver::RowKind::driver || rows[i].kind == solver::RowKind::force) {
       reading = {solution.rows[i].nu, solution.rows[i].residual, solution.rows[i].saturated};
-    } else if (!statements(*axis).driver &&
-               std::abs(solution.rows[i].residual) > std::abs(reading.residual)) {
+    } else if (!axis->says->driver && std::abs(solution.rows[i].residual) > std::abs(reading.residual)) {
       reading.residual = solution.rows[i].residual;
     }
   }
