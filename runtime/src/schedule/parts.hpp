@@ -28,6 +28,7 @@ struct ActiveAxis {
   std::optional<solver::AttachedFrame> entry_axes;  ///< `here` in axes of the moved body: the axes on entry
   double here = 0.0;
   bool has_here = false;
+  std::size_t wanted = 0;  ///< index in `wanted` of its constraint, or of its first one
   bool lost = false;  ///< its axes hang on a pose signal that is not known now, or its value on such a signal
   AxisReading reading;
 };
@@ -83,8 +84,10 @@ struct Scheduler::Parts final : Facts {
   void track_losses() noexcept;
   void start_blend() noexcept;
   void put_constraints() noexcept;
+  void list_wanted() noexcept;
+  void list_axis(const ActiveAxis& a) noexcept;
+  void list_fence(const ActiveAxis& a) noexcept;
   void want() noexcept;
-  Wanted& next_wanted() noexcept;
   void want_axis(const ActiveAxis& a) noexcept;
   solver::Driver driver_of(const ActiveAxis& a) const noexcept;
   bool is_lost(const ActiveAxis& a) const noexcept;
@@ -145,7 +148,6 @@ struct Scheduler::Parts final : Facts {
   std::size_t always_axes = 0;
   std::vector<double> scratch;
   std::vector<Wanted> wanted;
-  std::size_t wanted_count = 0;  ///< so many of this tick stand in `wanted`
   std::vector<InForce> in_force;
   std::optional<Blend> blend;
   std::optional<solver::ConstraintSet> set;
