@@ -245,7 +245,7 @@ void Scheduler::Parts::start_blend() noexcept {
   want();
   switched = now;
   blend_time = active().blend.evaluate(parameters);
-  blend->start(wanted, blend_time);
+  blend->start(wanted, blend_time, *set);
 }
 
 /// A signal that is lost or found changes what drives an axis. That is a switch like any other.
