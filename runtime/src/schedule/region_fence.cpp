@@ -39,6 +39,16 @@ solver::Pose side_pose(const Eigen::Vector2d& begin, const Eigen::Vector2d& y) {
   return pose;
 }
 
+/// The motion of `f` against `t`, in the axes of `t`: of a point at `arm` from the origin of `f`
+///   v = linear + angular x arm.
+solver::FrameMotion seen_from(const solver::FrameMotion& t, const solver::FrameMotion& f) {
+  const solver::Matrix3 to_axes = t.pose.rotation.transpose();
+  const Vector3 offset = f.pose.position - t.pose.position;
+  return {{to_axes * f.pose.rotation, to_axes * offset},
+          to_axes * (f.angular - t.angular),
+          to_axes * (f.linear - t.linear - t.angular.cross(offset))};
+}
+
 solver::Pose point_pose(const Vector3& p) {
   solver::Pose pose;
   pose.position = p;
@@ -131,28 +141,19 @@ void RegionFence::update(const solver::AttachedFrame& move, const solver::FrameM
   margin_ = margin;
   to_world_ = in_motion.pose.rotation;
   move_to_world_ = move_motion.pose.rotation;
-  // The velocity of the moved body's point that is at p, less that of the parent's.
-  const auto relative = [&](const Vector3& p) {
-    const Vector3 moved = move_motion.linear + move_motion.angular.cross(p - move_motion.pose.position);
-    const Vector3 carried = in_motion.linear + in_motion.angular.cross(p - in_motion.pose.position);
-    return Vector3(moved - carried);
-  };
-  const solver::Pose to_parent = in_motion.pose.inverse();
+  const solver::FrameMotion move_seen = seen_from(in_motion, move_motion);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const Vector3 p = move_motion.pose * corners_[i];
-    Moving& now = corner_now_[i];
-    const Vector3 seen = to_parent * p;
-    now.place = flat(seen);
-    now.height = seen.z();
-    now.velocity = flat(to_world_.transpose() * relative(p));
-    now.is_located = false;
+    const Vector3 arm = move_seen.pose.rotation * corners_[i];
+    const Vector3 place = move_seen.pose.position + arm;
+    corner_now_[i] = {flat(place), place.z(), flat(move_seen.linear + move_seen.angular.cross(arm))};
   }
-  for (std::size_t i = 0; i < reflex_.size(); ++i) {
-    const Vector3 p = in_motion.pose * high(polygon_[static_cast<std::size_t>(reflex_[i])]);
-    Moving& now = vertex_now_[i];
-    now.place = flat(move_motion.pose.inverse() * p);
-    now.velocity = flat(move_to_world_.transpose() * Vector3(-relative(p)));
-    now.is_located = false;
+  if (!reflex_.empty()) {
+    const solver::FrameMotion in_seen = seen_from(move_motion, in_motion);
+    for (std::size_t i = 0; i < reflex_.size(); ++i) {
+      const Vector3 arm = in_seen.pose.rotation * high(polygon_[static_cast<std::size_t>(reflex_[i])]);
+      const Vector3 place = in_seen.pose.position + arm;
+      vertex_now_[i] = {flat(place), place.z(), flat(in_seen.linear + in_seen.angular.cross(arm))};
+    }
   }
   for (std::size_t i = 0; i < pairs_.size(); ++i) approaches_[i] = look(pairs_[i]);
 }
