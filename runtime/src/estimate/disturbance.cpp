@@ -13,6 +13,13 @@ namespace {
 /// Of the trace: what keeps a matrix that lacks a direction invertible, and the answer along it small.
 constexpr double damping = 1e-9;
 
+/// Of a few numbers: nothing to be set up for.
+double dot(const double* a, const double* b, Eigen::Index count) noexcept {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
 }  // namespace
 
 DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
@@ -31,7 +38,8 @@ DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
   const int most = joints + 6;
   p_ = right_ = w_ = yd_ = Eigen::VectorXd::Zero(most);
   gram_ = Eigen::MatrixXd::Zero(most, most);
-  C_ = Eigen::MatrixXd::Zero(3 + static_cast<Eigen::Index>(arm_.size()), most);
+  T_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(watched_.size()), most);
+  C_turned_ = Eigen::MatrixXd::Zero(most, 3 + static_cast<Eigen::Index>(arm_.size()));
 }
 
 double DisturbanceObserver::friction(int joint, double rate) const noexcept {
@@ -43,7 +51,7 @@ double DisturbanceObserver::friction(int joint, double rate) const noexcept {
 void DisturbanceObserver::expect(const solver::Solver& solver, const solver::Solution& solution,
                                  const solver::State& state, const Eigen::VectorXd& sent,
                                  double time) noexcept {
-  solver.free_motions(motions_);
+  take_motions(solver);
   const int m = motions_.count;
   sent_ = sent;
   // p that the solver's torques lack of those that act
@@ -57,6 +65,17 @@ void DisturbanceObserver::expect(const solver::Solver& solver, const solver::Sol
   qd_ = state.qd;
   time_ = time;
   expects_ = true;
+}
+
+void DisturbanceObserver::take_motions(const solver::Solver& solver) noexcept {
+  solver.free_motions(motions_);
+  for (int a = 0; a < motions_.count; ++a) {
+    for (std::size_t i = 0; i < watched_.size(); ++i)
+      T_(static_cast<Eigen::Index>(i), a) = motions_.joint(watched_[i], a);
+    for (int row = 0; row < 3; ++row) C_turned_(a, row) = motions_.base(row, a);
+    for (std::size_t i = 0; i < arm_.size(); ++i)
+      C_turned_(a, 3 + static_cast<Eigen::Index>(i)) = motions_.joint(arm_[i], a);
+  }
 }
 
 bool DisturbanceObserver::compare(const solver::State& state, double time) noexcept {
@@ -88,14 +107,9 @@ double DisturbanceObserver::kinetic_energy(const Eigen::VectorXd& qd) noexcept {
 /// (T'T) y = T'e.
 void DisturbanceObserver::least_squares(const Eigen::VectorXd& watched, Eigen::VectorXd& y) noexcept {
   const int m = motions_.count;
-  gram_.topLeftCorner(m, m).setZero();
-  right_.head(m).setZero();
-  for (std::size_t i = 0; i < watched_.size(); ++i) {
-    const auto row = motions_.joint.row(watched_[i]).head(m);
-    for (int a = 0; a < m; ++a) {
-      right_(a) += row(a) * watched(static_cast<Eigen::Index>(i));
-      for (int b = 0; b <= a; ++b) gram_(a, b) += row(a) * row(b);
-    }
+  for (int a = 0; a < m; ++a) {
+    right_(a) = dot(T_.col(a).data(), watched.data(), T_.rows());
+    for (int b = 0; b <= a; ++b) gram_(a, b) = dot(T_.col(a).data(), T_.col(b).data(), T_.rows());
   }
   solve(m, right_, y);
 }
@@ -103,14 +117,10 @@ void DisturbanceObserver::least_squares(const Eigen::VectorXd& watched, Eigen::V
 /// w = (C C')^-1 C p.
 solver::Vector3 DisturbanceObserver::on_base() noexcept {
   const int m = motions_.count;
-  const int n = static_cast<int>(C_.rows());
-  C_.topLeftCorner(3, m) = motions_.base.leftCols(m);
-  for (std::size_t i = 0; i < arm_.size(); ++i) {
-    C_.row(3 + static_cast<Eigen::Index>(i)).head(m) = motions_.joint.row(arm_[i]).head(m);
-  }
+  const int n = static_cast<int>(C_turned_.cols());
   for (int a = 0; a < n; ++a) {
-    right_(a) = C_.row(a).head(m).dot(p_.head(m));
-    for (int b = 0; b <= a; ++b) gram_(a, b) = C_.row(a).head(m).dot(C_.row(b).head(m));
+    right_(a) = dot(C_turned_.col(a).data(), p_.data(), m);
+    for (int b = 0; b <= a; ++b) gram_(a, b) = dot(C_turned_.col(a).data(), C_turned_.col(b).data(), m);
   }
   solve(n, right_, w_);
   return w_.head<3>();

@@ -50,6 +50,7 @@ class DisturbanceObserver {
   double friction(int joint, double rate) const noexcept;
   /// The y of qd = T y over the joints that are watched.
   void least_squares(const Eigen::VectorXd& watched, Eigen::VectorXd& y) noexcept;
+  void take_motions(const solver::Solver& solver) noexcept;
   solver::Vector3 on_base() noexcept;
   void solve(int size, const Eigen::VectorXd& right, Eigen::VectorXd& out) noexcept;
 
@@ -59,7 +60,9 @@ class DisturbanceObserver {
   std::vector<int> arm_;      ///< joints with a motor that carry no wheel
   solver::FreeMotions motions_;
   Eigen::VectorXd qd_, expected_, sent_, torque_, excess_, watched_rates_, p_;
-  Eigen::MatrixXd C_, gram_;
+  Eigen::MatrixXd T_;         ///< of the joints that are watched
+  Eigen::MatrixXd C_turned_;  ///< C'
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> gram_;
   Eigen::VectorXd right_, w_, yd_;
   solver::Vector3 filtered_ = solver::Vector3::Zero();
   double time_ = 0.0;

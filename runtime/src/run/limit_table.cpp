@@ -107,6 +107,8 @@ void LimitTable::update(const StatementTable& statements, const solver::Constrai
   for (std::size_t r = 0; r < rows; ++r) {
     const solver::Row& row = set.rows()[r];
     const auto i = static_cast<std::size_t>(row.constraint);
+    const bool is_end_of_range = row.kind == solver::RowKind::upper || row.kind == solver::RowKind::lower;
+    if (row.constraint == last && is_end_of_range) continue;  // its range is compared by now
     if (i >= in_force.size() || !in_force[i].active) continue;
     const solver::AxisConstraint& c = constraints[i];
     if (c.alpha < 1.0 || c.progress < 1.0) continue;

@@ -101,7 +101,16 @@ Blend::Blend(std::size_t most_wanted, int leaving_row_capacity, double force_sca
   taken_.reserve(capacity);
 }
 
-void Blend::start(const std::vector<Wanted>& wanted, double duration) noexcept {
+/// What the set alone knows of the parts.
+void Blend::recall(const solver::ConstraintSet& set) noexcept {
+  for (Part& part : parts_) {
+    if (part.place >= 0) part.present = set.constraints()[static_cast<std::size_t>(part.place)];
+  }
+}
+
+void Blend::start(const std::vector<Wanted>& wanted, double duration,
+                  const solver::ConstraintSet& set) noexcept {
+  recall(set);
   duration_ = duration;
   if (!(duration > 0.0)) {
     settle(wanted);
@@ -254,16 +263,13 @@ Range Blend::loosened(const Range& from, const Range& to, double progress, doubl
   return now;
 }
 
-/// What the part puts in force at `progress`: of what it becomes, or of what leaves.
-void Blend::update(Part& part, const AxisConstraint* wanted, double progress) const noexcept {
-  AxisConstraint& c = part.present;
-  if (wanted == nullptr) {
-    c = part.old;
+/// Makes of `c`, what the part becomes or what leaves, what is in force at `progress`.
+void Blend::fade(const Part& part, double progress, AxisConstraint& c) const noexcept {
+  if (part.wanted < 0) {
     c.leaving = true;
     c.alpha = lerp(part.alpha_from, 0.0, progress);
     return;
   }
-  c = *wanted;
   keep_only(c, part.drives, part.ranges);
   c.alpha = lerp(part.alpha_from, 1.0, progress);
   c.blend = part.entering ? duration_ : 0.0;
@@ -290,13 +296,17 @@ void Blend::put(const std::vector<Wanted>& wanted, double progress, solver::Cons
   set.clear();
   in_force.clear();
   for (Part& part : parts_) {
-    const AxisConstraint* target =
-        part.wanted < 0 ? nullptr : &wanted[static_cast<std::size_t>(part.wanted)].constraint;
-    part.far = target != nullptr && wanted[static_cast<std::size_t>(part.wanted)].far;
-    if (part.far) continue;
-    update(part, target, progress);
-    if (!(part.present.alpha > 0.0) || in_force.size() == in_force.capacity()) continue;
-    if (set.add(part.present)) in_force.push_back({part.origin, part.wanted >= 0, part.drives});
+    const bool leaves = part.wanted < 0;
+    const Wanted* to = leaves ? nullptr : &wanted[static_cast<std::size_t>(part.wanted)];
+    part.place = -1;
+    part.far = !leaves && to->far;
+    if (part.far || in_force.size() == in_force.capacity()) continue;
+    if (!set.add(leaves ? part.old : to->constraint)) continue;
+    part.place = static_cast<int>(in_force.size());
+    fade(part, progress, set[part.place]);
+    in_force.push_back({part.origin, !leaves, part.drives});
+    // A boundary that goes out of reach is remembered.
+    if (part.origin.part >= 0) part.present = set[part.place];
   }
 }
 

@@ -40,8 +40,8 @@ class Blend {
   Blend(std::size_t most_wanted, int leaving_row_capacity, double force_scale, double torque_scale);
 
   /// Fades from what is in force to `wanted`, over `duration` [s]; 0 switches at once. `wanted` keeps its
-  /// length until the next switch.
-  void start(const std::vector<Wanted>& wanted, double duration) noexcept;
+  /// length until the next switch. `set`: as the last `put` left it.
+  void start(const std::vector<Wanted>& wanted, double duration, const solver::ConstraintSet& set) noexcept;
   /// Puts the constraints in force at `progress` (0 to 1, > 0) into `set`.
   void put(const std::vector<Wanted>& wanted, double progress, solver::ConstraintSet& set,
            std::vector<InForce>& in_force) noexcept;
@@ -53,7 +53,8 @@ class Blend {
   using Ranges = unsigned;
   struct Part {
     solver::AxisConstraint old;      ///< as it was when the blend began
-    solver::AxisConstraint present;  ///< as it was put last
+    solver::AxisConstraint present;  ///< as it was put last; until a switch asks, only the set may know
+    int place = -1;                  ///< in the set, as of the last tick; -1: not in force
     Origin origin;
     FrameKey move, in;
     bool always = false;
@@ -68,6 +69,7 @@ class Blend {
 
   static Part part_of(const std::vector<Wanted>& wanted, int index) noexcept;
   void settle(const std::vector<Wanted>& wanted) noexcept;
+  void recall(const solver::ConstraintSet& set) noexcept;
   void add_entering(const std::vector<Wanted>& wanted, int index, bool drives, Ranges ranges) noexcept;
   void add_persisting(const std::vector<Wanted>& wanted, int index, const Part& from, bool drives,
                       Ranges ranges) noexcept;
@@ -77,7 +79,7 @@ class Blend {
   static bool is_match(const Part& part, const Wanted& wanted) noexcept;
   int match(const Wanted& wanted) const noexcept;
   void make_room() noexcept;
-  void update(Part& part, const solver::AxisConstraint* wanted, double progress) const noexcept;
+  void fade(const Part& part, double progress, solver::AxisConstraint& c) const noexcept;
   solver::Range loosened(const solver::Range& from, const solver::Range& to, double progress,
                          double scale) const noexcept;
 

@@ -20,9 +20,15 @@ namespace zwang::runtime {
 /// An axis of `always` or of the active task.
 struct ActiveAxis {
   Origin origin;
+  const lang::Group* group = nullptr;
+  const lang::AxisStatements* says = nullptr;
+  int fence = -1;   ///< of a group `inside`: index into `fences`
+  int brakes = -1;  ///< of the base's x, y and rz the one whose braking its ranges limit; -1: none
+  bool hangs_on_signal = false;                     ///< its frames or its value do: it can be lost
   std::optional<solver::AttachedFrame> entry_axes;  ///< `here` in axes of the moved body: the axes on entry
   double here = 0.0;
   bool has_here = false;
+  std::size_t wanted = 0;  ///< index in `wanted` of its constraint, or of its first one
   bool lost = false;  ///< its axes hang on a pose signal that is not known now, or its value on such a signal
   AxisReading reading;
 };
@@ -70,14 +76,18 @@ struct Scheduler::Parts final : Facts {
   void resume() noexcept;
   void apply(const std::vector<lang::SetAction>& actions) noexcept;
   void list_axes() noexcept;
+  ActiveAxis active_axis(const Origin& origin) noexcept;
+  int braking_direction(const lang::Group& group, const lang::AxisStatements& axis) const noexcept;
   void capture_here(ActiveAxis& a) noexcept;
 
   // Step 7: the constraints in force.
   void track_losses() noexcept;
   void start_blend() noexcept;
   void put_constraints() noexcept;
+  void list_wanted() noexcept;
+  void list_axis(const ActiveAxis& a) noexcept;
+  void list_fence(const ActiveAxis& a) noexcept;
   void want() noexcept;
-  Wanted& next_wanted() noexcept;
   void want_axis(const ActiveAxis& a) noexcept;
   solver::Driver driver_of(const ActiveAxis& a) const noexcept;
   bool is_lost(const ActiveAxis& a) const noexcept;
@@ -93,9 +103,6 @@ struct Scheduler::Parts final : Facts {
   double elapsed() const noexcept { return now - entered; }
   const lang::Group& group(const Origin& origin) const noexcept {
     return tasks[origin.task].groups[static_cast<std::size_t>(origin.group)];
-  }
-  const lang::AxisStatements& statements(const ActiveAxis& a) const noexcept {
-    return group(a.origin).axes[static_cast<std::size_t>(a.origin.axis)];
   }
   const ActiveAxis* find(const Origin& origin) const noexcept;
   ActiveAxis* find(const Origin& origin) noexcept;
@@ -117,7 +124,9 @@ struct Scheduler::Parts final : Facts {
   solver::Vector3 effective_mass;  ///< of the base along x, y and rz [kg, kg, kg m^2]
   solver::Vector3 braking;         ///< what the ranges in force leave along them [m/s^2, m/s^2, rad/s^2]
   std::vector<RegionFence> fences;
-  std::vector<std::vector<int>> fence_of;  ///< by task and group; -1: not `inside`
+  // By task and group.
+  std::vector<std::vector<int>> fence_of;               ///< -1: not `inside`
+  std::vector<std::vector<std::size_t>> first_axis_of;  ///< among those of its task
   const int start;
 
   Phase phase = Phase::running;
@@ -139,7 +148,6 @@ struct Scheduler::Parts final : Facts {
   std::size_t always_axes = 0;
   std::vector<double> scratch;
   std::vector<Wanted> wanted;
-  std::size_t wanted_count = 0;  ///< so many of this tick stand in `wanted`
   std::vector<InForce> in_force;
   std::optional<Blend> blend;
   std::optional<solver::ConstraintSet> set;

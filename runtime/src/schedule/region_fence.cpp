@@ -14,7 +14,8 @@ using solver::Vector3;
 
 constexpr double far = std::numeric_limits<double>::infinity();
 // Beyond a corner that the region does not turn around, both edges hold already: none may come as a surprise.
-constexpr double look_ahead = 1.0;  // [m]
+constexpr double look_ahead = 1.0;     // [m]
+constexpr double no_direction = 1e-6;  // [m] between points that are one
 
 Eigen::Vector2d flat(const Vector3& v) {
   return v.head<2>();
@@ -36,6 +37,16 @@ solver::Pose side_pose(const Eigen::Vector2d& begin, const Eigen::Vector2d& y) {
   pose.rotation.col(1) = high(y);
   pose.rotation.col(2) = Vector3::UnitZ();
   return pose;
+}
+
+/// The motion of `f` against `t`, in the axes of `t`: of a point at `arm` from the origin of `f`
+///   v = linear + angular x arm.
+solver::FrameMotion seen_from(const solver::FrameMotion& t, const solver::FrameMotion& f) {
+  const solver::Matrix3 to_axes = t.pose.rotation.transpose();
+  const Vector3 offset = f.pose.position - t.pose.position;
+  return {{to_axes * f.pose.rotation, to_axes * offset},
+          to_axes * (f.angular - t.angular),
+          to_axes * (f.linear - t.linear - t.angular.cross(offset))};
 }
 
 solver::Pose point_pose(const Vector3& p) {
@@ -130,81 +141,124 @@ void RegionFence::update(const solver::AttachedFrame& move, const solver::FrameM
   margin_ = margin;
   to_world_ = in_motion.pose.rotation;
   move_to_world_ = move_motion.pose.rotation;
-  // The velocity of the moved body's point that is at p, less that of the parent's.
-  const auto relative = [&](const Vector3& p) {
-    const Vector3 moved = move_motion.linear + move_motion.angular.cross(p - move_motion.pose.position);
-    const Vector3 carried = in_motion.linear + in_motion.angular.cross(p - in_motion.pose.position);
-    return Vector3(moved - carried);
-  };
+  const solver::FrameMotion move_seen = seen_from(in_motion, move_motion);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const Vector3 p = move_motion.pose * corners_[i];
-    Moving& now = corner_now_[i];
-    const Vector3 seen = in_motion.pose.inverse() * p;
-    now.place = flat(seen);
-    now.height = seen.z();
-    now.velocity = flat(to_world_.transpose() * relative(p));
-    now.inside = polygon_.empty() || contains(polygon_, now.place);
-    now.nearest = now.inside ? -1 : nearest_side(edges_, now.place);
+    const Vector3 arm = move_seen.pose.rotation * corners_[i];
+    const Vector3 place = move_seen.pose.position + arm;
+    corner_now_[i] = {flat(place), place.z(), flat(move_seen.linear + move_seen.angular.cross(arm))};
   }
-  for (std::size_t i = 0; i < reflex_.size(); ++i) {
-    const Vector3 p = in_motion.pose * high(polygon_[static_cast<std::size_t>(reflex_[i])]);
-    Moving& now = vertex_now_[i];
-    now.place = flat(move_motion.pose.inverse() * p);
-    now.velocity = flat(move_to_world_.transpose() * Vector3(-relative(p)));
-    now.inside = contains(outline_, now.place);
-    now.nearest = now.inside ? nearest_side(sides_, now.place) : -1;
+  if (!reflex_.empty()) {
+    const solver::FrameMotion in_seen = seen_from(move_motion, in_motion);
+    for (std::size_t i = 0; i < reflex_.size(); ++i) {
+      const Vector3 arm = in_seen.pose.rotation * high(polygon_[static_cast<std::size_t>(reflex_[i])]);
+      const Vector3 place = in_seen.pose.position + arm;
+      vertex_now_[i] = {flat(place), place.z(), flat(in_seen.linear + in_seen.angular.cross(arm))};
+    }
   }
   for (std::size_t i = 0; i < pairs_.size(); ++i) approaches_[i] = look(pairs_[i]);
 }
 
+const RegionFence::Moving& RegionFence::located_corner(std::size_t corner) noexcept {
+  Moving& now = corner_now_[corner];
+  if (now.is_located) return now;
+  now.is_located = true;
+  now.inside = polygon_.empty() || contains(polygon_, now.place);
+  now.nearest = now.inside ? -1 : nearest_side(edges_, now.place);
+  return now;
+}
+
+const RegionFence::Moving& RegionFence::located_vertex(std::size_t vertex) noexcept {
+  Moving& now = vertex_now_[vertex];
+  if (now.is_located) return now;
+  now.is_located = true;
+  now.inside = contains(outline_, now.place);
+  now.nearest = now.inside ? nearest_side(sides_, now.place) : -1;
+  return now;
+}
+
 RegionFence::Approach RegionFence::look(const Pair& pair) const noexcept {
-  Approach result;
-  result.left = far;
   const auto first = static_cast<std::size_t>(pair.first);
   const auto second = static_cast<std::size_t>(pair.second);
-  const auto set = [&](double left, double rate, const Vector3& normal) { result = {left, -rate, normal}; };
   switch (pair.kind) {
     case PairKind::corner_edge: {
       const Moving& c = corner_now_[first];
       const Side& e = edges_[second];
-      const double along = e.along.dot(c.place - e.begin);
-      const double d = e.left.dot(c.place - e.begin);
-      const bool faces =
-          c.inside ? d >= 0.0 && along >= -e.before && along <= e.length + e.after : c.nearest == pair.second;
-      if (faces) set(d - margin_, e.left.dot(c.velocity), to_world_ * high(e.left));
-      break;
+      return {e.left.dot(c.place - e.begin) - margin_, -e.left.dot(c.velocity)};
     }
     case PairKind::corner_vertex: {
       const Moving& c = corner_now_[first];
-      const auto v = static_cast<std::size_t>(reflex_[second]);
-      const Side& after = edges_[v];
-      const Side& before = edges_[(v + edges_.size() - 1) % edges_.size()];
-      const Point offset = c.place - polygon_[v];
-      const bool faces = c.inside && after.along.dot(offset) < 0.0 && before.along.dot(offset) > 0.0;
+      const Point offset = c.place - polygon_[static_cast<std::size_t>(reflex_[second])];
       const double d = offset.norm();
-      if (faces && d > 1e-6) set(d - margin_, offset.dot(c.velocity) / d, to_world_ * high(offset / d));
+      if (d > no_direction) return {d - margin_, -(offset.dot(c.velocity) / d)};
       break;
     }
     case PairKind::vertex_side: {
       const Moving& v = vertex_now_[first];
       const Side& s = sides_[second];
-      const double along = s.along.dot(v.place - s.begin);
-      const double d = -s.left.dot(v.place - s.begin);
-      const bool faces = v.inside ? v.nearest == pair.second : d >= 0.0 && along >= 0.0 && along <= s.length;
-      if (faces) set(d - margin_, -s.left.dot(v.velocity), move_to_world_ * high(s.left));
-      break;
+      return {-s.left.dot(v.place - s.begin) - margin_, s.left.dot(v.velocity)};
     }
     case PairKind::corner_circle: {
       const Moving& c = corner_now_[first];
-      const Point offset = c.place - Point(region_.centre[0], region_.centre[1]);
+      const Point offset = c.place - centre();
       const double d = offset.norm();
-      if (d > 1e-6) {
-        set(region_.radius - margin_ - d, -offset.dot(c.velocity) / d, to_world_ * high(-offset / d));
-      }
+      if (d > no_direction) return {region_.radius - margin_ - d, offset.dot(c.velocity) / d};
       break;
     }
   }
-  return result;
+  return {far, 0.0};
+}
+
+bool RegionFence::faces(std::size_t index) noexcept {
+  const Pair& pair = pairs_[index];
+  const auto first = static_cast<std::size_t>(pair.first);
+  const auto second = static_cast<std::size_t>(pair.second);
+  switch (pair.kind) {
+    case PairKind::corner_edge: {
+      const Moving& c = located_corner(first);
+      if (!c.inside) return c.nearest == pair.second;
+      const Side& e = edges_[second];
+      const double along = e.along.dot(c.place - e.begin);
+      return e.left.dot(c.place - e.begin) >= 0.0 && along >= -e.before && along <= e.length + e.after;
+    }
+    case PairKind::corner_vertex: {
+      const Moving& c = located_corner(first);
+      const auto v = static_cast<std::size_t>(reflex_[second]);
+      const Side& after = edges_[v];
+      const Side& before = edges_[(v + edges_.size() - 1) % edges_.size()];
+      const Point offset = c.place - polygon_[v];
+      return c.inside && after.along.dot(offset) < 0.0 && before.along.dot(offset) > 0.0;
+    }
+    case PairKind::vertex_side: {
+      const Moving& v = located_vertex(first);
+      if (v.inside) return v.nearest == pair.second;
+      const Side& s = sides_[second];
+      const double along = s.along.dot(v.place - s.begin);
+      return -s.left.dot(v.place - s.begin) >= 0.0 && along >= 0.0 && along <= s.length;
+    }
+    case PairKind::corner_circle:
+      break;
+  }
+  return true;
+}
+
+Vector3 RegionFence::normal(std::size_t index) const noexcept {
+  const Pair& pair = pairs_[index];
+  const auto first = static_cast<std::size_t>(pair.first);
+  const auto second = static_cast<std::size_t>(pair.second);
+  switch (pair.kind) {
+    case PairKind::corner_edge:
+      return to_world_ * high(edges_[second].left);
+    case PairKind::corner_vertex: {
+      const Point offset = corner_now_[first].place - polygon_[static_cast<std::size_t>(reflex_[second])];
+      return to_world_ * high(offset / offset.norm());
+    }
+    case PairKind::vertex_side:
+      return move_to_world_ * high(sides_[second].left);
+    case PairKind::corner_circle:
+      break;
+  }
+  const Point offset = corner_now_[first].place - centre();
+  return to_world_ * high(-offset / offset.norm());
 }
 
 std::string RegionFence::name(std::size_t index) const {
@@ -251,7 +305,7 @@ solver::AxisConstraint RegionFence::constraint(std::size_t index) const noexcept
     case PairKind::corner_circle:
       c.measure = solver::Measure::distance;
       c.move = carried(move_, point_pose(corners_[first]));
-      c.in = carried(in_, level_with(first, {region_.centre[0], region_.centre[1]}));
+      c.in = carried(in_, level_with(first, centre()));
       c.position = solver::Range{-solver::infinity, region_.radius - margin_};
       break;
   }

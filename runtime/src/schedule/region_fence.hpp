@@ -30,14 +30,17 @@ class RegionFence {
   void update(const solver::AttachedFrame& move, const solver::FrameMotion& move_motion,
               const solver::AttachedFrame& in, const solver::FrameMotion& in_motion, double margin) noexcept;
 
-  /// The distance that is left before `margin`, how fast it shrinks, and the direction in the world in which
-  /// what moves would brake. Infinitely far: the pair does not face each other.
+  /// The distance that is left before `margin`, and how fast it shrinks; of pairs that do not face each
+  /// other, too.
   struct Approach {
     double left = 0.0;   ///< [m]
     double speed = 0.0;  ///< [m/s]
-    solver::Vector3 normal = solver::Vector3::Zero();
   };
   const Approach& approach(std::size_t pair) const noexcept { return approaches_[pair]; }
+  /// Only pairs that face each other have to be kept apart.
+  bool faces(std::size_t pair) noexcept;
+  /// The direction in the world in which what moves would brake.
+  solver::Vector3 normal(std::size_t pair) const noexcept;
   /// "edge2", "vertex3", "circle": the feature of the region, counted from 1 as they are written. Allocates.
   std::string name(std::size_t pair) const;
   /// The pair's constraint, without level, braking and fading.
@@ -56,10 +59,21 @@ class RegionFence {
     double length = 0.0;
     double before = 0.0, after = 0.0;  ///< how far it also counts beyond its ends [m]
   };
+  struct Moving {
+    Point place = Point::Zero();     ///< seen from the other frame
+    double height = 0.0;             ///< likewise
+    Point velocity = Point::Zero();  ///< of the two against each other, in the other frame's axes
+    bool is_located = false;         ///< the rest is looked up when it is asked for
+    bool inside = true;              ///< of the other polygon
+    int nearest = -1;                ///< side of the other polygon
+  };
   static std::vector<Side> sides_of(const std::vector<Point>& polygon);
   static bool contains(const std::vector<Point>& polygon, const Point& p) noexcept;
   static int nearest_side(const std::vector<Side>& sides, const Point& p) noexcept;
   Approach look(const Pair& pair) const noexcept;
+  const Moving& located_corner(std::size_t corner) noexcept;
+  const Moving& located_vertex(std::size_t vertex) noexcept;
+  Point centre() const noexcept { return {region_.centre[0], region_.centre[1]}; }
   solver::Pose level_with(std::size_t corner, const Point& p) const noexcept;
 
   lang::Region region_;
@@ -76,13 +90,6 @@ class RegionFence {
   solver::Matrix3 to_world_ = solver::Matrix3::Identity();  ///< from the region's parent
   solver::Matrix3 move_to_world_ = solver::Matrix3::Identity();
   double margin_ = 0.0;
-  struct Moving {
-    Point place = Point::Zero();     ///< seen from the other frame
-    double height = 0.0;             ///< likewise
-    Point velocity = Point::Zero();  ///< of the two against each other, in the other frame's axes
-    bool inside = true;              ///< of the other polygon
-    int nearest = -1;                ///< side of the other polygon
-  };
   std::vector<Moving> corner_now_;  ///< in the region's parent
   std::vector<Moving> vertex_now_;  ///< reflex vertices in the moved frame
   std::vector<Approach> approaches_;

@@ -99,10 +99,14 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
     if (t.require) follow_paths(*t.require);
     for (const lang::Exit& exit : t.exits) follow_paths(exit.when);
     fence_of.emplace_back();
+    first_axis_of.emplace_back();
+    std::size_t axes_before = 0;
     for (const lang::Group& g : t.groups) {
       const bool can_move = frames.attached(g.move).body >= 0;
       if (!can_move) throw std::invalid_argument("scheduler: `" + g.name + "` moves a frame of the world");
       fence_of.back().push_back(-1);
+      first_axis_of.back().push_back(axes_before);
+      axes_before += g.axes.size();
       if (g.moves_footprint && given.robot.footprint.empty()) {
         throw std::invalid_argument("scheduler: `" + g.name +
                                     "` moves a footprint that the robot does not have");

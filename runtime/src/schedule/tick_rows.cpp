@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "schedule/braking.hpp"
 #include "schedule/parts.hpp"
@@ -45,14 +46,9 @@ void Scheduler::Parts::find_braking() noexcept {
   braking.setConstant(solver::infinity);
   const auto tighten = [&](int i, double most) { braking(i) = std::min(braking(i), most); };
   for (const ActiveAxis& a : axes) {
-    const AxisStatements& s = statements(a);
-    const lang::Group& g = group(a.origin);
-    if (!(s.acceleration || (s.force && !s.driver))) continue;
-    const bool on_base = g.kind == lang::GroupKind::axes && !s.is_planar_speed &&
-                         is_base(declarations, g.move) && is_base(declarations, g.in);
-    if (!on_base) continue;
-    if (s.axis != Axis::x && s.axis != Axis::y && s.axis != Axis::rz) continue;
-    const int i = is_rotation(s.axis) ? 2 : static_cast<int>(s.axis);
+    const int i = a.brakes;
+    if (i < 0) continue;
+    const AxisStatements& s = *a.says;
     if (s.acceleration) {
       const Range range = value(*s.acceleration);
       tighten(i, std::min(-range.low, range.high));
@@ -99,7 +95,7 @@ double Scheduler::Parts::braking_of(const solver::AxisConstraint& c, const AxisS
 /// The driver as the task has it; where its axes or its value are not known, one that stands still with the
 /// same force, or one that lets go.
 solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
-  const AxisStatements& s = statements(a);
+  const AxisStatements& s = *a.says;
   solver::Driver driver;
   driver.quantity = *s.driver;
   driver.time_constant = s.time_constant.evaluate(parameters);
@@ -119,114 +115,144 @@ solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
   return driver;
 }
 
-void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
-  const AxisStatements& s = statements(a);
-  const lang::Group& g = group(a.origin);
-  Wanted& w = next_wanted();
+/// What does not change of the axis's constraint until the next switch.
+void Scheduler::Parts::list_axis(const ActiveAxis& a) noexcept {
+  const lang::Group& g = *a.group;
+  Wanted& w = wanted.emplace_back();
   w.origin = a.origin;
   w.always = a.origin.task == tasks.always();
   w.move = {g.move, frames.settings_of(g.move)};
   w.in = a.entry_axes ? FrameKey{} : FrameKey{g.in, frames.settings_of(g.in)};
-  solver::AxisConstraint& c = w.constraint;
-  c = measured(g, s, &a);
-  c.level = s.level;
+  w.constraint = measured(g, *a.says, &a);
+  w.constraint.level = a.says->level;
+}
+
+/// The present values of the axis's constraint.
+void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
+  const AxisStatements& s = *a.says;
+  const lang::Group& g = *a.group;
+  solver::AxisConstraint& c = wanted[a.wanted].constraint;
+  if (a.hangs_on_signal) {
+    c.move = frames.attached(g.move);
+    c.in = axes_frame(g, &a);
+  }
   if (s.weight) c.weight = s.weight->evaluate(parameters);
   if (s.acceleration) c.acceleration = value(*s.acceleration);
   if (s.driver) c.driver = driver_of(a);
   if (s.force && !s.driver) c.force = value(*s.force);
+  if (!s.position && !s.velocity) return;
   // In axes that nobody knows, a range of places or of speeds allows no motion.
   const bool blind = !is_known(g.in) || !is_known(g.move);
+  const bool stands_by_driver = s.driver && *s.driver != Quantity::force;
+  c.position.reset();
+  c.velocity.reset();
   if (s.position && !blind) c.position = value(*s.position);
   if (s.velocity && !blind) c.velocity = value(*s.velocity);
-  const bool stands_by_driver = s.driver && *s.driver != Quantity::force;
-  if (blind && (s.position || s.velocity) && !stands_by_driver) c.velocity = Range{0.0, 0.0};
+  if (blind && !stands_by_driver) c.velocity = Range{0.0, 0.0};
   if (c.position) c.braking = braking_of(c, s);
+}
+
+/// A place for every pair of features that may come near.
+void Scheduler::Parts::list_fence(const ActiveAxis& a) noexcept {
+  const std::size_t pairs = fences[static_cast<std::size_t>(a.fence)].pair_count();
+  for (std::size_t i = 0; i < pairs; ++i) {
+    Wanted& w = wanted.emplace_back();
+    w.origin = a.origin;
+    w.origin.part = static_cast<int>(i);
+    w.always = a.origin.task == tasks.always();
+  }
 }
 
 /// The nearest of the pairs of features that what is in force now could not keep apart much faster.
 void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexcept {
-  const lang::Group& g = group(a.origin);
+  const lang::Group& g = *a.group;
+  const std::span<Wanted> pairs(&wanted[a.wanted], fence.pair_count());
+  for (Wanted& w : pairs) w.far = true;
   const solver::AttachedFrame& move = frames.attached(g.move);
   const solver::AttachedFrame& in = frames.attached(g.in);
+  if (a.lost) {
+    Wanted& standing = pairs.front();
+    standing.constraint.move = move;
+    standing.constraint.in = in;
+    standing.constraint.measure = solver::Measure::speed;
+    standing.constraint.velocity = Range{0.0, lost_speed};
+    standing.constraint.level = g.level;
+    standing.far = false;
+    return;
+  }
   fence.update(move, frames.motions().of(move), in, frames.motions().of(in), g.margin.evaluate(parameters));
+  const auto is_far = [&](const RegionFence::Approach& approach, double a_brk) {
+    const double allowed = solver::braking_speed(approach.left, a_brk, solver::ConstraintSet::horizon);
+    return !(allowed < approach.speed + near_speed);
+  };
+  const double weakest_brake = braking.head<2>().minCoeff();
   std::array<std::size_t, RegionFence::most_near> nearest{};
   std::size_t count = 0;
-  const std::size_t first = wanted_count;
-  for (std::size_t i = 0; i < fence.pair_count(); ++i) {
-    Wanted& w = next_wanted();
-    w.origin = a.origin;
-    w.origin.part = static_cast<int>(i);
-    w.always = a.origin.task == tasks.always();
-    w.far = true;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
     const RegionFence::Approach& approach = fence.approach(i);
-    if (std::isfinite(approach.left) && !a.lost) {
-      const double a_brk = braking_along(approach.normal);
-      const double allowed = solver::braking_speed(approach.left, a_brk, solver::ConstraintSet::horizon);
-      if (allowed < approach.speed + near_speed) {
-        w.constraint = fence.constraint(i);
-        w.constraint.level = g.level;
-        w.constraint.braking = a_brk;
-        // Sorted by what is left; the farthest gives way.
-        std::size_t at = count;
-        while (at > 0 && fence.approach(nearest[at - 1]).left > approach.left) --at;
-        if (count < nearest.size()) ++count;
-        for (std::size_t j = count; j-- > at + 1;) nearest[j] = nearest[j - 1];
-        if (at < count) nearest[at] = i;
-      }
-    }
-    if (a.lost && i == 0) {
-      w.constraint.move = move;
-      w.constraint.in = in;
-      w.constraint.measure = solver::Measure::speed;
-      w.constraint.velocity = Range{0.0, lost_speed};
-      w.constraint.level = g.level;
-      w.far = false;
+    // A stronger brake allows more: most pairs are done here.
+    if (is_far(approach, weakest_brake) || !fence.faces(i)) continue;
+    const double a_brk = braking_along(fence.normal(i));
+    if (is_far(approach, a_brk)) continue;
+    solver::AxisConstraint& c = pairs[i].constraint;
+    c = fence.constraint(i);
+    c.level = g.level;
+    c.braking = a_brk;
+    // Sorted by what is left; the farthest gives way.
+    std::size_t at = count;
+    while (at > 0 && fence.approach(nearest[at - 1]).left > approach.left) --at;
+    if (count < nearest.size()) ++count;
+    for (std::size_t j = count; j-- > at + 1;) nearest[j] = nearest[j - 1];
+    if (at < count) nearest[at] = i;
+  }
+  for (std::size_t i = 0; i < count; ++i) pairs[nearest[i]].far = false;
+}
+
+/// The constraints of `always` and of the active task. As many, and in the same order, until the next switch.
+void Scheduler::Parts::list_wanted() noexcept {
+  wanted.clear();
+  for (ActiveAxis& a : axes) {
+    a.wanted = wanted.size();
+    if (a.fence >= 0) {
+      list_fence(a);
+    } else if (says_something(*a.says)) {
+      list_axis(a);
     }
   }
-  for (std::size_t i = 0; i < count; ++i) wanted[first + nearest[i]].far = false;
 }
 
-/// The place of the next constraint, with what the last tick left in it.
-Wanted& Scheduler::Parts::next_wanted() noexcept {
-  if (wanted_count == wanted.size()) wanted.emplace_back();
-  return wanted[wanted_count++];
-}
-
-/// The constraints of `always` and of the active task, with the present values of the parameters. As many,
-/// and in the same order, until the next switch.
+/// Their present values, as parameters, signals and distances have them.
 void Scheduler::Parts::want() noexcept {
-  wanted_count = 0;
   find_braking();
   for (const ActiveAxis& a : axes) {
-    const int fence =
-        fence_of[static_cast<std::size_t>(a.origin.task)][static_cast<std::size_t>(a.origin.group)];
-    if (fence >= 0) {
-      want_fence(a, fences[static_cast<std::size_t>(fence)]);
-    } else if (says_something(statements(a))) {
+    if (a.fence >= 0) {
+      want_fence(a, fences[static_cast<std::size_t>(a.fence)]);
+    } else if (says_something(*a.says)) {
       want_axis(a);
     }
   }
 }
 
 bool Scheduler::Parts::is_lost(const ActiveAxis& a) const noexcept {
-  const lang::Group& g = group(a.origin);
-  const int value_signal = statements(a).target.signal;
+  const lang::Group& g = *a.group;
+  const int value_signal = a.says->target.signal;
   return !is_known(g.in) || !is_known(g.move) || (value_signal >= 0 && !signals.known(value_signal));
 }
 
 void Scheduler::Parts::start_blend() noexcept {
   for (ActiveAxis& a : axes) a.lost = is_lost(a);
-  wanted.clear();
+  list_wanted();
   want();
   switched = now;
   blend_time = active().blend.evaluate(parameters);
-  blend->start(wanted, blend_time);
+  blend->start(wanted, blend_time, *set);
 }
 
 /// A signal that is lost or found changes what drives an axis. That is a switch like any other.
 void Scheduler::Parts::track_losses() noexcept {
   bool changed = false;
   for (ActiveAxis& a : axes) {
+    if (!a.hangs_on_signal) continue;
     const bool lost = is_lost(a);
     changed = changed || lost != a.lost;
     if (!lost) capture_here(a);
@@ -246,7 +272,7 @@ void Scheduler::Parts::put_constraints() noexcept {
 void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
   const std::vector<solver::Row>& rows = set->rows();
   for (ActiveAxis& a : axes) {
-    if (!statements(a).driver) a.reading = {};
+    if (!a.says->driver) a.reading = {};
   }
   const std::size_t count = std::min(rows.size(), solution.rows.size());
   int last = -1;  // the rows of a constraint stand together
@@ -262,8 +288,7 @@ void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
     AxisReading& reading = axis->reading;
     if (rows[i].kind == solver::RowKind::driver || rows[i].kind == solver::RowKind::force) {
       reading = {solution.rows[i].nu, solution.rows[i].residual, solution.rows[i].saturated};
-    } else if (!statements(*axis).driver &&
-               std::abs(solution.rows[i].residual) > std::abs(reading.residual)) {
+    } else if (!axis->says->driver && std::abs(solution.rows[i].residual) > std::abs(reading.residual)) {
       reading.residual = solution.rows[i].residual;
     }
   }

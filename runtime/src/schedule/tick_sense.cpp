@@ -128,12 +128,13 @@ solver::Coordinate Scheduler::Parts::coordinate_of(const lang::Group& group, con
 }
 
 const ActiveAxis* Scheduler::Parts::find(const Origin& origin) const noexcept {
-  for (const ActiveAxis& a : axes) {
-    if (a.origin.task == origin.task && a.origin.group == origin.group && a.origin.axis == origin.axis) {
-      return &a;
-    }
-  }
-  return nullptr;
+  const bool in_always = origin.task == tasks.always();
+  if (axes.empty() || !(in_always || origin.task == task)) return nullptr;
+  const std::vector<std::size_t>& first = first_axis_of[static_cast<std::size_t>(origin.task)];
+  const auto group = static_cast<std::size_t>(origin.group);
+  if (group >= first.size()) return nullptr;
+  const std::size_t i = (in_always ? 0 : always_axes) + first[group] + static_cast<std::size_t>(origin.axis);
+  return i < axes.size() && axes[i].origin.group == origin.group ? &axes[i] : nullptr;
 }
 
 ActiveAxis* Scheduler::Parts::find(const Origin& origin) noexcept {

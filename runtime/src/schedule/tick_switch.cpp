@@ -1,4 +1,5 @@
 // Step 6 of the tick: the switch, `set`, and every `here`.
+#include "schedule/braking.hpp"
 #include "schedule/parts.hpp"
 
 namespace zwang::runtime {
@@ -109,10 +110,8 @@ void Scheduler::Parts::list_axes() noexcept {
     const lang::Task& t = tasks[owner];
     for (std::size_t g = 0; g < t.groups.size(); ++g) {
       for (std::size_t i = 0; i < t.groups[g].axes.size(); ++i) {
-        ActiveAxis a;
-        a.origin = {owner, static_cast<int>(g), static_cast<int>(i)};
-        capture_here(a);
-        axes.push_back(a);
+        axes.push_back(active_axis({owner, static_cast<int>(g), static_cast<int>(i)}));
+        capture_here(axes.back());
       }
     }
   };
@@ -125,9 +124,39 @@ void Scheduler::Parts::list_axes() noexcept {
   list(task);
 }
 
+ActiveAxis Scheduler::Parts::active_axis(const Origin& origin) noexcept {
+  ActiveAxis a;
+  a.origin = origin;
+  a.group = &group(origin);
+  a.says = &a.group->axes[static_cast<std::size_t>(origin.axis)];
+  a.fence = fence_of[static_cast<std::size_t>(origin.task)][static_cast<std::size_t>(origin.group)];
+  a.brakes = braking_direction(*a.group, *a.says);
+  a.hangs_on_signal = frames.signal_of(a.group->in) >= 0 || frames.signal_of(a.group->move) >= 0 ||
+                      a.says->target.signal >= 0;
+  return a;
+}
+
+/// Acceleration and force ranges on the base itself leave less for braking along their axis.
+int Scheduler::Parts::braking_direction(const lang::Group& g, const lang::AxisStatements& s) const noexcept {
+  if (!(s.acceleration || (s.force && !s.driver))) return -1;
+  const bool on_base = g.kind == lang::GroupKind::axes && !s.is_planar_speed &&
+                       is_base(declarations, g.move) && is_base(declarations, g.in);
+  if (!on_base) return -1;
+  switch (s.axis) {
+    case solver::Axis::x:
+      return 0;
+    case solver::Axis::y:
+      return 1;
+    case solver::Axis::rz:
+      return 2;
+    default:
+      return -1;
+  }
+}
+
 void Scheduler::Parts::capture_here(ActiveAxis& a) noexcept {
-  const lang::AxisStatements& s = statements(a);
-  const lang::Group& g = group(a.origin);
+  const lang::AxisStatements& s = *a.says;
+  const lang::Group& g = *a.group;
   if (!s.here || a.has_here || !is_known(g.in)) return;
   const solver::AttachedFrame& move = frames.attached(g.move);
   const solver::AttachedFrame& in = frames.attached(g.in);
