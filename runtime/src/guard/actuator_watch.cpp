@@ -63,7 +63,7 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer,
   for (Motor& motor : motors_) {
     const auto T = motions.joint.row(motor.joint).head(m);
     const double s = T.squaredNorm();
-    if (!(s > 0.0) || !is_distinct(motor, motions)) continue;
+    if (!(s > 0.0)) continue;
     const double u = p.dot(T.transpose());
     const Fit fit{
         .f = u / s, .tau = observer.torque()(motor.joint), .s = s, .rest = all - u * u / s, .all = all};
@@ -78,7 +78,8 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer,
     });
     if (!is_suspected) motor.is_armed = false;
     for (std::size_t kind = 0; kind < kind_count && !sure; ++kind) {
-      if (is_sure(motor, static_cast<Kind>(kind), fit, at)) sure = static_cast<Kind>(kind);
+      if (is_sure(motor, static_cast<Kind>(kind), fit, at) && is_distinct(motor, motions))
+        sure = static_cast<Kind>(kind);
     }
   }
   if (!sure) return std::nullopt;

@@ -61,11 +61,13 @@ double MotorBesideContact::broken_part(const DisturbanceObserver& observer, cons
 /// P = <p p'>, a = <p tau>, b = <tau^2>, s = |T|^2.
 double MotorBesideContact::find_gamma(const Since& since, const Motor& motor,
                                       const Vector& T) const noexcept {
-  const double trace = p_p_.trace();
-  const double N0 = 0.5 * (trace * trace - p_p_.squaredNorm());
+  const double trace = trace_;
+  const double N0 = off_line_;
   const Vector& a = since.p_tau;
   const double b = since.tau_tau;
   const double s = T.squaredNorm();
+  const bool may_be_felt = most_gamma * most_gamma * b > motor.threshold * motor.threshold;
+  if (!may_be_felt || !(N0 > visible * least_gamma * least_gamma * b * s * trace)) return 0.0;
   const Vector PT = p_p_ * T;
   const double a_T = a.dot(T);
   const double N1 = 2.0 * (trace * a_T - a.dot(PT));
@@ -87,6 +89,8 @@ std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observe
   const Vector p = observer.force().head<freedoms>();
   const std::array parts = {1.0, broken_part(observer, p)};
   p_p_ += part_ * (p * p.transpose() - p_p_);
+  trace_ = p_p_.trace();
+  off_line_ = 0.5 * (trace_ * trace_ - p_p_.squaredNorm());
   std::optional<Event> found;
   for (Motor& motor : motors_) {
     const Vector T = motions.joint.row(motor.joint).head<freedoms>().transpose();

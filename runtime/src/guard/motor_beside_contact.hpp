@@ -64,6 +64,8 @@ class MotorBesideContact {
   std::vector<Motor> motors_;
   Matrix p_p_ = Matrix::Zero();    ///< <p p'>
   Vector line_ = Vector::UnitX();  ///< n
+  double trace_ = 0.0;             ///< of it
+  double off_line_ = 0.0;          ///< N0
   double part_;
   int dwell_ticks_;
   int ticks_on_line_ = 0, ticks_off_line_ = 0;
