@@ -35,6 +35,8 @@ DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
   }
   qd_ = expected_ = sent_ = torque_ = Eigen::VectorXd::Zero(joints);
   excess_ = watched_rates_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(watched_.size()));
+  excesses_ = Eigen::MatrixXd::Zero(excess_.size(), window);
+  torques_ = Eigen::MatrixXd::Zero(joints, window);
   const int most = joints + 6;
   p_ = right_ = w_ = yd_ = Eigen::VectorXd::Zero(most);
   gram_ = Eigen::MatrixXd::Zero(most, most);
@@ -80,21 +82,34 @@ void DisturbanceObserver::take_motions(const solver::Solver& solver) noexcept {
 
 bool DisturbanceObserver::compare(const solver::State& state, double time) noexcept {
   const double dt = time - time_;
-  if (!expects_ || !(dt > 0.0) || dt > longest_step) return expects_ = false;
-  expects_ = false;
-  const double part = 1.0 - std::exp(-dt / quick);
-  for (std::size_t i = 0; i < watched_.size(); ++i) {
-    const int j = watched_[i];
-    const double e = (state.qd(j) - qd_(j)) / dt - expected_(j);
-    double& excess = excess_(static_cast<Eigen::Index>(i));
-    excess += part * (e - excess);
-    torque_(j) += part * (sent_(j) - torque_(j));
+  if (!expects_ || !(dt > 0.0) || dt > longest_step) {
+    known_ = 0;
+    return expects_ = false;
   }
+  expects_ = false;
+  remember(state, dt);
   least_squares(excess_, p_);
   const solver::Vector3 w = on_base();
-  if (!w.allFinite()) return false;
-  filtered_ += (1.0 - std::exp(-dt / (time_constant - quick))) * (w - filtered_);
+  if (!w.allFinite()) {
+    known_ = 0;
+    return false;
+  }
+  const double mean_age = std::min(0.5 * window * dt, 0.5 * time_constant);
+  filtered_ += (1.0 - std::exp(-dt / (time_constant - mean_age))) * (w - filtered_);
   return true;
+}
+
+/// e and tau of the last comparisons, and their means.
+void DisturbanceObserver::remember(const solver::State& state, double dt) noexcept {
+  column_ = known_ == 0 ? 0 : (column_ + 1) % window;
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    const int j = watched_[i];
+    excesses_(static_cast<Eigen::Index>(i), column_) = (state.qd(j) - qd_(j)) / dt - expected_(j);
+  }
+  torques_.col(column_) = sent_;
+  known_ = std::min(known_ + 1, window);
+  excess_ = excesses_.leftCols(known_).rowwise().sum() / known_;
+  torque_ = torques_.leftCols(known_).rowwise().sum() / known_;
 }
 
 double DisturbanceObserver::kinetic_energy(const Eigen::VectorXd& qd) noexcept {

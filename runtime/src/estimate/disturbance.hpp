@@ -36,14 +36,14 @@ class DisturbanceObserver {
 
   /// On the base at its origin, in its axes: x, y [N] and rz [N m]; low-passed.
   const solver::Vector3& base_force() const noexcept { return filtered_; }
-  /// p of the last comparison, low-passed with `quick`; `motions().count` entries.
+  /// p of the last comparisons, their mean over `window`; `motions().count` entries.
   const Eigen::VectorXd& force() const noexcept { return p_; }
   const solver::FreeMotions& motions() const noexcept { return motions_; }
-  /// Low-passed with `quick`, as p is: what the motors were told [N m] or [N].
+  /// The same mean of what the motors were told [N m] or [N].
   const Eigen::VectorXd& torque() const noexcept { return torque_; }
 
   static constexpr double time_constant = 0.02;  ///< [s] T_r
-  static constexpr double quick = 0.005;         ///< [s] before the faults of motors are looked for
+  static constexpr int window = 10;              ///< comparisons: what is over is soon forgotten for good
   static constexpr double longest_step = 0.005;  ///< [s] between samples that are compared
 
  private:
@@ -52,6 +52,7 @@ class DisturbanceObserver {
   void least_squares(const Eigen::VectorXd& watched, Eigen::VectorXd& y) noexcept;
   void take_motions(const solver::Solver& solver) noexcept;
   solver::Vector3 on_base() noexcept;
+  void remember(const solver::State& state, double dt) noexcept;
   void solve(int size, const Eigen::VectorXd& right, Eigen::VectorXd& out) noexcept;
 
   std::vector<lang::JointFriction> friction_;
@@ -63,6 +64,9 @@ class DisturbanceObserver {
   Eigen::MatrixXd T_;         ///< of the joints that are watched
   Eigen::MatrixXd C_turned_;  ///< C'
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> gram_;
+  Eigen::MatrixXd excesses_, torques_;  ///< rings: a column a comparison
+  int column_ = 0;                      ///< of the last comparison
+  int known_ = 0;                       ///< comparisons since the last pause, `window` at most
   Eigen::VectorXd right_, w_, yd_;
   solver::Vector3 filtered_ = solver::Vector3::Zero();
   double time_ = 0.0;

@@ -14,19 +14,22 @@ int ticks_of(double time, double period) {
   return std::max(1, static_cast<int>(std::lround(time / period)));
 }
 
+constexpr std::array codes = {EventCode::torque_lost, EventCode::torque_flipped, EventCode::torque_stuck};
+
 }  // namespace
 
 ActuatorWatch::ActuatorWatch(const lang::Robot& robot, double period)
-    : part_(1.0 - std::exp(-period / memory)),
-      dwell_ticks_(ticks_of(dwell, period)),
+    : dwell_ticks_(ticks_of(dwell, period)),
       entry_ticks_(ticks_of(entry, period)),
-      quiet_ticks_(ticks_of(quiet, period)) {
+      quiet_ticks_(ticks_of(quiet, period)),
+      close_ticks_(ticks_of(close_dwell, period)) {
   for (const solver::Wheel& wheel : robot.model.wheels()) {
     const int j = wheel.body - 1;
     const solver::Joint& joint = robot.model.joint(j);
     if (!joint.actuated || !std::isfinite(joint.max_effort)) continue;
     Motor motor;
     motor.joint = j;
+    motor.radius = wheel.radius;
     // Where a joint stands, its dry friction may be anything up to its bound, either way.
     const auto i = static_cast<std::size_t>(j);
     const double coulomb = i < robot.friction.size() ? robot.friction[i].coulomb : 0.0;
@@ -36,8 +39,8 @@ ActuatorWatch::ActuatorWatch(const lang::Robot& robot, double period)
 }
 
 void ActuatorWatch::reset() noexcept {
-  p_p_ = 0.0;
-  for (Motor& motor : motors_) motor = Motor{.joint = motor.joint, .threshold = motor.threshold};
+  for (Motor& motor : motors_)
+    motor = Motor{.joint = motor.joint, .radius = motor.radius, .threshold = motor.threshold};
 }
 
 /// Whether some other wheel pushes in another direction.
@@ -50,38 +53,57 @@ bool ActuatorWatch::is_distinct(const Motor& motor, const solver::FreeMotions& m
   });
 }
 
-std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer) noexcept {
+std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer,
+                                         const Eigen::VectorXd& q) noexcept {
   const solver::FreeMotions& motions = observer.motions();
   const int m = motions.count;
   const auto p = observer.force().head(m);
-  const auto follow = [this](double& mean, double value) { mean += part_ * (value - mean); };
-  follow(p_p_, p.squaredNorm());
-  std::optional<Event> found;
+  const double all = p.squaredNorm();
+  std::optional<Kind> sure;
   for (Motor& motor : motors_) {
     const auto T = motions.joint.row(motor.joint).head(m);
     const double s = T.squaredNorm();
-    if (!(s > 0.0) || !is_distinct(motor, motions)) continue;
+    if (!(s > 0.0)) continue;
     const double u = p.dot(T.transpose());
-    const double tau = observer.torque()(motor.joint);
-    const double f = u / s;
-    follow(motor.u_tau, -u * tau);
-    follow(motor.tau_tau_s, tau * tau * s);
-    follow(motor.f, f);
-    follow(motor.f_f, f * f);
-    follow(motor.f_tau, f * tau);
-    follow(motor.tau, tau);
-    follow(motor.tau_tau, tau * tau);
-    follow(motor.explained, u * f);
-    follow_onset(motor, motor.threshold * std::sqrt(s), p.norm());
-    const EventCode suspicion = suspect(motor);
-    motor.ticks = suspicion != EventCode::none && suspicion == motor.suspicion ? motor.ticks + 1 : 0;
-    motor.suspicion = suspicion;
-    if (motor.ticks == 0 && motor.loud_ticks > entry_ticks_) motor.is_armed = false;
-    if (motor.is_armed && motor.ticks >= dwell_ticks_ && !found) {
-      found = Event{suspicion, 0.0, event_signal::of_joint(motor.joint, event_signal::tau), motor.f};
+    const Fit fit{
+        .f = u / s, .tau = observer.torque()(motor.joint), .s = s, .rest = all - u * u / s, .all = all};
+    motor.f = fit.f;
+    follow_onset(motor, motor.threshold * std::sqrt(s), std::sqrt(all));
+    const double at = q(motor.joint);
+    follow(motor, lost, fit, -fit.tau, off * std::abs(fit.tau), at);
+    follow(motor, flipped, fit, -2.0 * fit.tau, off * std::abs(fit.tau), at);
+    follow_stuck(motor, fit, at);
+    const bool is_suspected = std::any_of(motor.claims.begin(), motor.claims.end(), [&](const Claim& claim) {
+      return claim.ticks > motor.loud_ticks - entry_ticks_;
+    });
+    if (!is_suspected) motor.is_armed = false;
+    for (std::size_t kind = 0; kind < kind_count && !sure; ++kind) {
+      if (is_sure(motor, static_cast<Kind>(kind), fit, at) && is_distinct(motor, motions))
+        sure = static_cast<Kind>(kind);
     }
   }
-  return found;
+  if (!sure) return std::nullopt;
+  // Wheels that push alike are suspected together: it is the one that explains most.
+  const Motor* best = nullptr;
+  for (const Motor& motor : motors_) {
+    const Claim& claim = motor.claims[*sure];
+    if (claim.ticks > 0 && (best == nullptr || claim.left < best->claims[*sure].left)) best = &motor;
+  }
+  if (best == nullptr) return std::nullopt;
+  return Event{codes[*sure], 0.0, event_signal::of_joint(best->joint, event_signal::tau), best->f};
+}
+
+/// Out of quiet, or closely while the wheel rolls. A stuck motor needs a command that varies, and twice the
+/// time to tell its steady torque from one that only changes slowly.
+bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, double q) const noexcept {
+  const Claim& claim = motor.claims[kind];
+  const double told = motor.high_tau - motor.low_tau;
+  if (kind == stuck && !(told > varied * std::abs(fit.f))) return false;
+  if (motor.is_armed && claim.ticks >= dwell_ticks_) return true;
+  const bool has_rolled = std::abs(q - claim.q) * motor.radius > travel;
+  if (kind != stuck) return claim.close_ticks >= close_ticks_ && has_rolled;
+  const bool is_steady = motor.high_sum - motor.low_sum < closely * told;
+  return std::min(claim.ticks, claim.close_ticks) >= 2 * close_ticks_ && has_rolled && is_steady;
 }
 
 /// A motor is armed by a quiet while, and a force that begins then starts its clock.
@@ -95,20 +117,38 @@ void ActuatorWatch::follow_onset(Motor& motor, double threshold, double force) c
   }
 }
 
-/// With <> the mean: f = -gamma tau fits best with gamma = <-u tau> / <tau^2 s>, and leaves of <p^2> the part
-/// 1 - <-u tau>^2 / (<tau^2 s> <p^2>). A stuck motor's f has the slope -1 over tau.
-EventCode ActuatorWatch::suspect(const Motor& m) const noexcept {
-  if (!(m.f_f > m.threshold * m.threshold) || !(m.explained > (1.0 - most_unexplained) * p_p_))
-    return EventCode::none;
-  const bool fits = m.u_tau * m.u_tau > (1.0 - most_unexplained) * m.tau_tau_s * p_p_;
-  const double gamma = m.tau_tau_s > 0.0 ? m.u_tau / m.tau_tau_s : 0.0;
-  if (fits && std::abs(gamma - 1.0) < off) return EventCode::torque_lost;
-  if (fits && std::abs(gamma - 2.0) < off) return EventCode::torque_flipped;
-  const double variance = m.tau_tau - m.tau * m.tau;
-  const double slope = (m.f_tau - m.f * m.tau) / std::max(variance, 1e-300);
-  const bool varies = variance > 0.04 * m.threshold * m.threshold;
-  if (varies && std::abs(slope + 1.0) < off) return EventCode::torque_stuck;
-  return EventCode::none;
+/// A force T_j f, expected of a motor, leaves of p: |p - T_j f|^2 = |p - T_j f_p|^2 + |T_j|^2 (f - f_p)^2.
+void ActuatorWatch::follow(Motor& motor, Kind kind, const Fit& fit, double f, double slack,
+                           double q) const noexcept {
+  Claim& claim = motor.claims[kind];
+  const bool is_felt = std::abs(fit.f) > motor.threshold;
+  const bool fits = is_felt && fit.rest < most_unexplained * fit.all && std::abs(f - fit.f) < slack;
+  claim.ticks = fits ? claim.ticks + 1 : 0;
+  const double left = fit.rest + fit.s * (f - fit.f) * (f - fit.f);
+  claim.left = left;
+  const bool is_close = std::abs(fit.f) > late * motor.threshold && left < closely * closely * fit.all;
+  claim.close_ticks = is_close ? claim.close_ticks + 1 : 0;
+  if (claim.close_ticks <= 1) claim.q = q;
+}
+
+/// Its torque, tau + f, stays the same while the command changes.
+void ActuatorWatch::follow_stuck(Motor& motor, const Fit& fit, double q) const noexcept {
+  const Claim& claim = motor.claims[stuck];
+  const double sum = fit.tau + fit.f;
+  if (claim.ticks == 0) {
+    motor.low_tau = motor.high_tau = fit.tau;
+    motor.low_sum = motor.high_sum = sum;
+  }
+  motor.low_tau = std::min(motor.low_tau, fit.tau);
+  motor.high_tau = std::max(motor.high_tau, fit.tau);
+  motor.low_sum = std::min(motor.low_sum, sum);
+  motor.high_sum = std::max(motor.high_sum, sum);
+  const double middle = 0.5 * (motor.low_sum + motor.high_sum);
+  const double varied_sum = motor.high_sum - motor.low_sum;
+  const double told = motor.high_tau - motor.low_tau;
+  const bool is_constant = varied_sum < std::max(off * told, 0.5 * closely * std::abs(fit.f));
+  const double slack = is_constant ? solver::infinity : -1.0;
+  follow(motor, stuck, fit, middle - fit.tau, slack, q);
 }
 
 }  // namespace zwang::runtime

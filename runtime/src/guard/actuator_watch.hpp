@@ -1,6 +1,7 @@
 /// Finds wheels whose motor does not do what it is told.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -16,49 +17,71 @@ namespace zwang::runtime {
 ///   flipped  f = -2 tau_j
 ///   stuck    f = const - tau_j
 /// from the instant on at which it differs from nothing. Contact can have that direction, too: the corner of
-/// a differential base, as far out as its wheel. But it grows from nothing through that size to another one,
-/// so a force that did not have the size `entry` after it began is nobody's motor, until it is gone. For the
-/// same reason a motor that breaks while the robot touches something is not found before that. What cannot be
-/// told apart: where all driven wheels push in the same direction, as those of a car do; they are not
-/// watched. A motor without torque that is told to give none is not noticed, and does no harm. Does not
-/// allocate, lock, throw or print after construction.
+/// a differential base, as far out as its wheel. Two things tell them apart.
+///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
+///    began out of quiet is a motor's.
+///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
+///    gives way or grows. A force that keeps to direction and size `closely` the while is a motor's, whenever
+///    it began: a motor that failed while it was told nothing is so found between two hits.
+/// What cannot be told apart: a wheel that stands, against a wall that bears what it does not give; and where
+/// all driven wheels push in the same direction, as those of a car do. They are not watched. A motor without
+/// torque that is told to give none is not noticed, and does no harm. Does not allocate, lock, throw or print
+/// after construction.
 class ActuatorWatch {
  public:
   ActuatorWatch(const lang::Robot& robot, double period);
 
   void reset() noexcept;
-  /// After each comparison of the observer.
-  std::optional<Event> look(const DisturbanceObserver& observer) noexcept;
+  /// After each comparison of the observer; `q` are the joints' positions.
+  std::optional<Event> look(const DisturbanceObserver& observer, const Eigen::VectorXd& q) noexcept;
 
-  static constexpr double memory = 0.005;  ///< [s] of the means
-  static constexpr double entry = 0.03;    ///< [s] from the begin of a force to the suspicion
-  static constexpr double dwell = 0.04;    ///< [s] that a suspicion must last
-  static constexpr double quiet = 0.01;    ///< [s] without a force, until the next one counts
+  static constexpr double entry = 0.03;  ///< [s] from the begin of a force to the suspicion
+  static constexpr double dwell = 0.04;  ///< [s] that a suspicion must last
+  static constexpr double quiet = 0.01;  ///< [s] without a force, until the next one counts
   static constexpr double most_unexplained = 0.1;
-  static constexpr double off = 0.25;        ///< of the size that the command tells
-  static constexpr double smallest = 0.015;  ///< torque that is missed, of the motor's limit
+  static constexpr double off = 0.25;          ///< of the size that the command tells
+  static constexpr double smallest = 0.015;    ///< torque that is missed, of the motor's limit
+  static constexpr double closely = 0.1;       ///< of the force, both in direction and size
+  static constexpr double late = 4.0;          ///< thresholds that such a force is worth
+  static constexpr double close_dwell = 0.03;  ///< [s] that a force keeps close
+  static constexpr double travel = 0.5e-3;     ///< [m] of the wheel's rim
+  static constexpr double varied = 0.2;  ///< of f: a command that differs by that much proves a stuck motor
 
  private:
-  /// Means over the memory, of u = p . T_j and s = |T_j|^2.
+  /// That a motor has one kind of fault.
+  struct Claim {
+    int ticks = 0;        ///< that it has held
+    int close_ticks = 0;  ///< that it has held closely
+    double q = 0.0;       ///< [rad] where that began
+    double left = 0.0;    ///< of |p|^2 that it does not explain
+  };
+  enum Kind { lost, flipped, stuck, kind_count };
   struct Motor {
     int joint = 0;
+    double radius = 0.0;     ///< [m]
     double threshold = 0.0;  ///< [N m] of f
-    double u_tau = 0.0, tau_tau_s = 0.0;
-    double f = 0.0, f_f = 0.0, f_tau = 0.0, tau = 0.0, tau_tau = 0.0, explained = 0.0;
-    EventCode suspicion = EventCode::none;
-    int ticks = 0;
-    int loud_ticks = 0;   ///< since a force began
-    int quiet_ticks = 0;  ///< without one
+    double f = 0.0;          ///< [N m] that it differs by, if it is this motor
+    std::array<Claim, kind_count> claims;
+    double low_tau = 0.0, high_tau = 0.0;  ///< [N m] since it may be stuck
+    double low_sum = 0.0, high_sum = 0.0;  ///< [N m] of tau + f
+    int loud_ticks = 0;                    ///< since a force began
+    int quiet_ticks = 0;                   ///< without one
     bool is_armed = false;
   };
+  /// What is left of a force when a motor explains it.
+  struct Fit {
+    double f = 0.0, tau = 0.0;     ///< [N m]
+    double s = 0.0;                ///< |T_j|^2
+    double rest = 0.0, all = 0.0;  ///< |p - T_j f|^2 and |p|^2
+  };
   void follow_onset(Motor& motor, double threshold, double force) const noexcept;
-  EventCode suspect(const Motor& motor) const noexcept;
+  void follow(Motor& motor, Kind kind, const Fit& fit, double f, double slack, double q) const noexcept;
+  void follow_stuck(Motor& motor, const Fit& fit, double q) const noexcept;
+  bool is_sure(const Motor& motor, Kind kind, const Fit& fit, double q) const noexcept;
   bool is_distinct(const Motor& motor, const solver::FreeMotions& motions) const noexcept;
 
   std::vector<Motor> motors_;
-  double part_ = 0.0;
-  int dwell_ticks_ = 0, entry_ticks_ = 0, quiet_ticks_ = 0;
-  double p_p_ = 0.0;
+  int dwell_ticks_ = 0, entry_ticks_ = 0, quiet_ticks_ = 0, close_ticks_ = 0;
 };
 
 }  // namespace zwang::runtime

@@ -19,7 +19,7 @@ double outside(double velocity, double low, double high) noexcept {
   return std::max(low - velocity, velocity - high);
 }
 
-/// By how much the velocity is more than the constraint drives or allows, less the margin.
+/// How many margins the velocity is beyond what the constraint drives or allows.
 double excess(const AxisConstraint& c, double velocity) noexcept {
   double low = -solver::infinity, high = solver::infinity;
   if (c.velocity) {
@@ -33,7 +33,18 @@ double excess(const AxisConstraint& c, double velocity) noexcept {
   const double bound = velocity < 0.0 ? low : high;
   if (std::isinf(bound)) return -solver::infinity;
   const double margin = is_turn(c) ? RunawayWatch::turn_margin : RunawayWatch::margin;
-  return outside(velocity, low, high) - std::max(margin, RunawayWatch::share * std::abs(bound));
+  return outside(velocity, low, high) / std::max(margin, RunawayWatch::share * std::abs(bound));
+}
+
+/// The largest of the constraints that are in force, wholly and still.
+double largest_excess(const solver::ConstraintSet& set) noexcept {
+  const std::vector<AxisConstraint>& all = set.constraints();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < all.size() && i < set.coordinates().size(); ++i) {
+    if (all[i].alpha < 1.0 || all[i].progress < 1.0) continue;
+    largest = std::max(largest, excess(all[i], set.coordinates()[i].velocity));
+  }
+  return largest;
 }
 
 }  // namespace
@@ -43,44 +54,58 @@ RunawayWatch::RunawayWatch(int joints, double period)
       part_(1.0 - std::exp(-period / quick)),
       ticks_between_looks_(std::max(1, static_cast<int>(std::lround(look_every / period)))),
       rates_(Eigen::VectorXd::Zero(joints)),
-      work_(rates_) {}
+      beyond_{.work = rates_},
+      steady_{.work = rates_},
+      steady_force_(Eigen::VectorXd::Zero(joints + 6)) {}
 
 void RunawayWatch::reset() noexcept {
   is_exceeded_ = false;
-  rising_ = 0;
+  beyond_.forget();
+  steady_.forget();
+  force_size_ = 0;
 }
 
 bool RunawayWatch::follow(const Eigen::VectorXd& sent, const Eigen::VectorXd& qd) noexcept {
   rates_ += part_ * (qd - rates_);
-  work_ += period_ * sent.cwiseProduct(qd);
+  beyond_.work += period_ * sent.cwiseProduct(qd);
+  steady_.work += period_ * sent.cwiseProduct(qd);
   if (++ticks_ < ticks_between_looks_) return false;
   ticks_ = 0;
   return true;
 }
 
-bool RunawayWatch::is_exceeded(const solver::ConstraintSet& set) noexcept {
-  const std::vector<AxisConstraint>& all = set.constraints();
-  for (std::size_t i = 0; i < all.size() && i < set.coordinates().size(); ++i) {
-    if (all[i].alpha < 1.0 || all[i].progress < 1.0) continue;  // not in force yet, or no more
-    if (excess(all[i], set.coordinates()[i].velocity) > 0.0) return true;
-  }
-  return false;
+/// Whether the force is still what it was; if not, from now on it is to be this one.
+bool RunawayWatch::keeps(Force force) noexcept {
+  auto steady = steady_force_.head(force.size());
+  const bool is_same = force.size() == force_size_ &&
+                       (force - steady).squaredNorm() < steadily * steadily * force.squaredNorm();
+  if (!is_same) steady = force;
+  force_size_ = force.size();
+  return is_same;
 }
 
-std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double kinetic_energy) noexcept {
-  const bool exceeds = is_exceeded(set);
+std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double kinetic_energy,
+                                        Force force) noexcept {
+  const double margins = largest_excess(set);
+  const bool exceeds = margins > 1.0;
   if (exceeds && !is_exceeded_) {
     largest_before_ = *std::max_element(energies_.begin(), energies_.end());
-    work_.setZero();
+    beyond_.forget();
   }
-  const bool grows = kinetic_energy > growth * last_energy_ && kinetic_energy > largest_before_;
-  rising_ = exceeds && is_exceeded_ && grows && work_.sum() < 0.0 ? rising_ + 1 : 0;
+  const bool grows = kinetic_energy > growth * last_energy_;
+  beyond_.follow(exceeds && is_exceeded_ && grows && kinetic_energy > largest_before_);
+  if (keeps(force) && grows) {
+    steady_.follow(true);
+  } else {
+    steady_.forget();
+  }
   is_exceeded_ = exceeds;
   last_energy_ = kinetic_energy;
   energies_[looks_++ % energies_.size()] = kinetic_energy;
-  if (rising_ < dwell) return std::nullopt;
+  const bool is_driven = steady_.rising >= dwell && margins > driven;
+  if (beyond_.rising < dwell && !is_driven) return std::nullopt;
   Eigen::Index hardest = 0;
-  work_.minCoeff(&hardest);
+  (is_driven ? steady_ : beyond_).work.minCoeff(&hardest);
   const int joint = static_cast<int>(hardest);
   return Event{EventCode::runaway, 0.0, event_signal::of_joint(joint, event_signal::qd), rates_(hardest)};
 }

@@ -12,15 +12,20 @@ namespace zwang::runtime {
 
 /// A world that only takes energy leaves the robot's kinetic energy, whatever its mass,
 ///   T(t) <= T(t0) + E(t0) + W,   W = integral of tau . qd from t0 to t,
-/// tau what its motors are told and E what contacts have stored by t0. A bounce gives back less than the
-/// robot had before it; so E(t0) + T(t0) is at most the largest T of the last second. Where W < 0 and T is
-/// larger than that, somebody else does the work: a motor that pushes where it is told to brake, or a push
-/// from outside that the robot may not resist. The second is no fault as long as the base keeps the speeds
-/// that its task drives and allows; the first soon does not keep them. A limit that is tightened under way,
-/// a contact that turns the base, a motion that rows bring about together: in each of them T falls, or W > 0.
+/// tau what its motors are told and E what contacts have stored by t0. Where an axis is faster than its task
+/// drives or allows, W < 0 and T grows all the same, somebody else does the work: a motor that pushes where
+/// it is told to brake, or a push from outside that the robot may not resist. Contacts that give back what
+/// they stored do it, too, and are told apart in one of two ways.
+///  - A bounce gives back less than the robot had before it: T(t0) + E(t0) is at most the largest T of the
+///    last second.
+///  - A contact gives back by slackening, k times less force for k times less way. A force that keeps its
+///    direction and size while it drives the robot is no contact's.
+/// A limit that is tightened under way, a contact that turns the base, a motion that rows bring about
+/// together: in each of them T falls, or W > 0. The hit of another robot is over before `dwell`.
 /// Does not allocate, lock, throw or print after construction.
 class RunawayWatch {
  public:
+  using Force = Eigen::Ref<const Eigen::VectorXd>;
   RunawayWatch(int joints, double period);
 
   /// Forgets what was.
@@ -30,13 +35,16 @@ class RunawayWatch {
   bool follow(const Eigen::VectorXd& sent, const Eigen::VectorXd& qd) noexcept;
   /// Low-passed: the rates whose kinetic energy `look` wants.
   const Eigen::VectorXd& rates() const noexcept { return rates_; }
-  /// The event names the motor that brakes hardest by what it is told: a wheel that drives itself has the
-  /// largest share of the motion. Its value is that wheel's rate.
-  std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy) noexcept;
+  /// `force` is what the observer makes of the world's, in coordinates of free motion. The event names the
+  /// motor that brakes hardest by what it is told: a wheel that drives itself has the largest share of the
+  /// motion. Its value is that wheel's rate.
+  std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force) noexcept;
 
-  static constexpr double margin = 0.03;        ///< [m/s] beyond a speed that is driven or allowed
-  static constexpr double turn_margin = 0.1;    ///< [rad/s] the same of rotations
+  static constexpr double margin = 0.01;        ///< [m/s] beyond a speed that is driven or allowed
+  static constexpr double turn_margin = 0.05;   ///< [rad/s] the same of rotations
   static constexpr double share = 0.1;          ///< of the speed itself, where that is more
+  static constexpr double driven = 0.5;         ///< of all these, where a steady force drives
+  static constexpr double steadily = 0.15;      ///< of a force: what it may change by and be steady
   static constexpr double look_every = 0.01;    ///< [s]
   static constexpr double memory = 1.0;         ///< [s] of the largest T: longer than contacts keep energy
   static constexpr double quick = 0.01;         ///< [s] of the rates' low pass
@@ -45,18 +53,30 @@ class RunawayWatch {
   static constexpr int remembered_looks = 100;  ///< memory / look_every
 
  private:
-  static bool is_exceeded(const solver::ConstraintSet& set) noexcept;
+  /// Somebody who does work on the robot while its motors are told to brake.
+  struct Driver {
+    Eigen::VectorXd work;  ///< [J] by what each motor was told, since it may be at work
+    int rising = 0;        ///< looks that T has grown
+    void forget() noexcept {
+      work.setZero();
+      rising = 0;
+    }
+    void follow(bool drives) noexcept { rising = drives && work.sum() < 0.0 ? rising + 1 : 0; }
+  };
+  bool keeps(Force force) noexcept;
 
   double period_, part_;
   int ticks_between_looks_, ticks_ = 0;
   Eigen::VectorXd rates_;
-  Eigen::VectorXd work_;  ///< [J] by what each motor was told, since the speed was exceeded
+  Driver beyond_;  ///< since a speed was exceeded
+  Driver steady_;  ///< since the force is what it is and T grows
+  Eigen::VectorXd steady_force_;
+  Eigen::Index force_size_ = 0;
   std::array<double, remembered_looks> energies_{};  ///< [J] a ring
   std::size_t looks_ = 0;
   double largest_before_ = 0.0;  ///< [J]
   double last_energy_ = 0.0;     ///< [J]
   bool is_exceeded_ = false;
-  int rising_ = 0;  ///< looks
 };
 
 }  // namespace zwang::runtime

@@ -7,6 +7,7 @@
 #include "estimate/friction.hpp"
 #include "estimate/weight.hpp"
 #include "guard/actuator_watch.hpp"
+#include "guard/motor_beside_contact.hpp"
 #include "guard/runaway_watch.hpp"
 #include "guard/slip_watch.hpp"
 #include "run/limit_table.hpp"
@@ -65,6 +66,7 @@ struct Runner::Parts {
         weight(model),
         disturbance(program.robot),
         actuators(program.robot, settings.period),
+        beside_contact(program.robot, settings.period),
         runaway(model.joint_count(), settings.period),
         slip(model),
         signals(program.signals),
@@ -115,6 +117,7 @@ struct Runner::Parts {
   WeightFeedForward weight;
   DisturbanceObserver disturbance;
   ActuatorWatch actuators;
+  MotorBesideContact beside_contact;
   RunawayWatch runaway;
   SlipWatch slip;
   const std::vector<lang::Signal> signals;
@@ -212,6 +215,7 @@ void Runner::Parts::compare() noexcept {
   if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
   if (!disturbance.compare(sample.state, sample.time)) {
     actuators.reset();
+    beside_contact.reset();
     runaway.reset();
     return;
   }
@@ -219,15 +223,20 @@ void Runner::Parts::compare() noexcept {
   // A wheel that slides gives the ground less than its motor gives the wheel.
   if (slip.doubtful()) {
     actuators.reset();
+    beside_contact.reset();
     runaway.reset();
     return;
   }
-  if (const auto fault = actuators.look(disturbance)) {
+  if (const auto fault = actuators.look(disturbance, sample.state.q)) {
+    guard.stop(fault->code, fault->signal, fault->value);
+  }
+  if (const auto fault = beside_contact.look(disturbance)) {
     guard.stop(fault->code, fault->signal, fault->value);
   }
   if (runaway.follow(tau, sample.state.qd)) {
     const double energy = disturbance.kinetic_energy(runaway.rates());
-    if (const auto fault = runaway.look(scheduler.constraints(), energy))
+    if (const auto fault = runaway.look(scheduler.constraints(), energy,
+                                        disturbance.force().head(disturbance.motions().count)))
       guard.stop(fault->code, fault->signal, fault->value);
   }
 }
@@ -335,6 +344,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   std::swap(now.event_count, before.event_count);
   now.disturbance.pause();
   now.actuators.reset();
+  now.beside_contact.reset();
   now.runaway.reset();
   now.tau = before.tau;
   now.handed_over_for = 0.0;

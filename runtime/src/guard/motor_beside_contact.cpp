@@ -1,0 +1,112 @@
+#include "guard/motor_beside_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zwang::runtime {
+
+namespace {
+
+EventCode kind_of(double gamma) noexcept {
+  if (std::abs(gamma - 1.0) < MotorBesideContact::near) return EventCode::torque_lost;
+  if (std::abs(gamma - 2.0) < 2.0 * MotorBesideContact::near) return EventCode::torque_flipped;
+  return EventCode::torque_stuck;
+}
+
+}  // namespace
+
+MotorBesideContact::MotorBesideContact(const lang::Robot& robot, double period)
+    : part_(1.0 - std::exp(-period / memory)),
+      dwell_ticks_(std::max(1, static_cast<int>(std::lround(dwell / period)))) {
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const int j = wheel.body - 1;
+    const solver::Joint& joint = robot.model.joint(j);
+    if (!joint.actuated || !std::isfinite(joint.max_effort)) continue;
+    const auto i = static_cast<std::size_t>(j);
+    const double coulomb = i < robot.friction.size() ? robot.friction[i].coulomb : 0.0;
+    motors_.push_back(
+        {.joint = j, .threshold = std::max(smallest * joint.max_effort, 2.0 * coulomb), .since = {}});
+  }
+}
+
+void MotorBesideContact::reset() noexcept {
+  p_p_.setZero();
+  ticks_on_line_ = 0;
+  for (Motor& motor : motors_) motor.since = {};
+}
+
+/// How much of the comparisons that the observer's means are about came after p had left its line.
+double MotorBesideContact::broken_part(const DisturbanceObserver& observer, const Vector& p) noexcept {
+  const Vector next = p_p_ * line_;
+  const double length = next.norm();
+  if (length > 0.0) line_ = next / length;
+  const Motor& motor = motors_.front();
+  const double s = observer.motions().joint.row(motor.joint).head<freedoms>().squaredNorm();
+  const double along = p.dot(line_);
+  if (p.squaredNorm() - along * along < motor.threshold * motor.threshold * s) {
+    ++ticks_on_line_;
+  } else {
+    if (ticks_on_line_ >= quiet) {
+      ticks_off_line_ = 0;
+      for (Motor& m : motors_) m.since[1] = {};
+    }
+    ticks_on_line_ = 0;
+  }
+  ticks_off_line_ = std::min(ticks_off_line_ + 1, DisturbanceObserver::window);
+  return static_cast<double>(ticks_off_line_) / DisturbanceObserver::window;
+}
+
+/// The gamma that takes off N what it can; 0 where that is not nearly all.
+///   N1 = 2 tr(P) a.T - 2 a'P T,   N2 = (a.T)^2 + tr(P) b s - |a|^2 s - b T'P T,
+/// P = <p p'>, a = <p tau>, b = <tau^2>, s = |T|^2.
+double MotorBesideContact::find_gamma(const Since& since, const Motor& motor,
+                                      const Vector& T) const noexcept {
+  const double trace = trace_;
+  const double N0 = off_line_;
+  const Vector& a = since.p_tau;
+  const double b = since.tau_tau;
+  const double s = T.squaredNorm();
+  const bool may_be_felt = most_gamma * most_gamma * b > motor.threshold * motor.threshold;
+  if (!may_be_felt || !(N0 > visible * least_gamma * least_gamma * b * s * trace)) return 0.0;
+  const Vector PT = p_p_ * T;
+  const double a_T = a.dot(T);
+  const double N1 = 2.0 * (trace * a_T - a.dot(PT));
+  const double N2 = a_T * a_T + trace * b * s - a.squaredNorm() * s - b * T.dot(PT);
+  if (!(N2 > visible * visible * trace * b * s)) return 0.0;
+  const double gamma = -0.5 * N1 / N2;
+  if (gamma < least_gamma || gamma > most_gamma) return 0.0;
+  // Of a motor that is stuck gamma may be anything: what fits has to fit better.
+  const double strictly = kind_of(gamma) == EventCode::torque_stuck ? strict : 1.0;
+  const double f_f = gamma * gamma * b;
+  const bool is_felt = f_f > strictly * motor.threshold * motor.threshold && N0 > visible * f_f * s * trace;
+  const bool explains = strictly * (N0 - 0.25 * N1 * N1 / N2) < left * N0;
+  return is_felt && explains ? gamma : 0.0;
+}
+
+std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observer) noexcept {
+  const solver::FreeMotions& motions = observer.motions();
+  if (motions.count != freedoms || motors_.empty()) return std::nullopt;
+  const Vector p = observer.force().head<freedoms>();
+  const std::array parts = {1.0, broken_part(observer, p)};
+  p_p_ += part_ * (p * p.transpose() - p_p_);
+  trace_ = p_p_.trace();
+  off_line_ = 0.5 * (trace_ * trace_ - p_p_.squaredNorm());
+  std::optional<Event> found;
+  for (Motor& motor : motors_) {
+    const Vector T = motions.joint.row(motor.joint).head<freedoms>().transpose();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Since& since = motor.since[i];
+      const double tau = parts[i] * observer.torque()(motor.joint);
+      since.p_tau += part_ * (tau * p - since.p_tau);
+      since.tau_tau += part_ * (tau * tau - since.tau_tau);
+      const double gamma = find_gamma(since, motor, T);
+      since.ticks = gamma != 0.0 ? since.ticks + 1 : 0;
+      if (since.ticks < dwell_ticks_ || found) continue;
+      found =
+          Event{kind_of(gamma), 0.0, event_signal::of_joint(motor.joint, event_signal::tau), -gamma * tau};
+    }
+  }
+  return found;
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,74 @@
+/// Finds a motor that does not do what it is told while the robot touches something.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "estimate/disturbance.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/runtime/event.hpp"
+
+namespace zwang::runtime {
+
+/// One contact presses along one line: however hard, its force p = n f(t) on the free motions keeps to n. A
+/// motor j that gives (1 - gamma) tau_j adds - gamma tau_j T_j and takes p off that line. With <> the mean
+/// over the last while, r = p + gamma tau_j T_j, R = <r r'>,
+///   N(gamma) = (tr(R)^2 - |R|^2) / 2 = N0 + N1 gamma + N2 gamma^2
+/// is the sum of R's principal minors, and 0 where r keeps to a line. The gamma that makes it smallest is 1
+/// for a motor that gives nothing, 2 for one that gives the opposite, another one for a motor that is stuck.
+/// Where next to nothing is left of N0, it is motor j beside one contact: friction turns n, too, but not by
+/// what one motor is told while f varies. As long as f does not vary, p is on a line in any case, and nothing
+/// is told: unless the motor breaks then, and p leaves the line that it had. So gamma is sought twice, for a
+/// motor that has been broken all the while, and for one that broke when p last left its line. For robots
+/// with three free motions: with two, two contacts can do what a motor does. Does not allocate, lock, throw
+/// or print after construction.
+class MotorBesideContact {
+ public:
+  MotorBesideContact(const lang::Robot& robot, double period);
+
+  void reset() noexcept;
+  /// After each comparison of the observer.
+  std::optional<Event> look(const DisturbanceObserver& observer) noexcept;
+
+  static constexpr double memory = 0.02;      ///< [s] of the means
+  static constexpr double dwell = 0.015;      ///< [s] that a motor must explain the force
+  static constexpr double left = 1.0 / 30.0;  ///< of N0: the most that a motor may leave
+  static constexpr double visible = 0.1;      ///< of the motor's own square: the least that is off the line
+  static constexpr double least_gamma = 0.4;  ///< less may be the model's error,
+  static constexpr double most_gamma = 2.4;   ///< and more than twice the command is no motor's
+  static constexpr double strict = 10.0;      ///< times as well a stuck motor has to fit
+  static constexpr double near = 0.2;         ///< of gamma, to what it is for a kind of fault
+  static constexpr double smallest = 0.03;    ///< torque that is missed, of the motor's limit
+  static constexpr int quiet = 10;            ///< ticks on a line, before p can leave it
+
+ private:
+  static constexpr int freedoms = 3;
+  using Vector = Eigen::Matrix<double, freedoms, 1>;
+  using Matrix = Eigen::Matrix<double, freedoms, freedoms>;
+  /// Over the time that a motor may have been broken.
+  struct Since {
+    Vector p_tau = Vector::Zero();  ///< <p tau_j>
+    double tau_tau = 0.0;           ///< <tau_j^2>
+    int ticks = 0;                  ///< that it has explained the force
+  };
+  struct Motor {
+    int joint = 0;
+    double threshold = 0.0;      ///< [N m]
+    std::array<Since, 2> since;  ///< all the while; since p left its line
+  };
+  double broken_part(const DisturbanceObserver& observer, const Vector& p) noexcept;
+  double find_gamma(const Since& since, const Motor& motor, const Vector& T) const noexcept;
+
+  std::vector<Motor> motors_;
+  Matrix p_p_ = Matrix::Zero();    ///< <p p'>
+  Vector line_ = Vector::UnitX();  ///< n
+  double trace_ = 0.0;             ///< of it
+  double off_line_ = 0.0;          ///< N0
+  double part_;
+  int dwell_ticks_;
+  int ticks_on_line_ = 0, ticks_off_line_ = 0;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,239 @@
+// Motors that give nothing, keep what they gave, or push the wrong way, on every kind of drive that presses
+// against a wall, from each moment of that task: when each was felt and found, and what the plant measured.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+using lang::FaultKind;
+
+constexpr double period = 1e-3;
+constexpr double deadline = 0.1;        // [s]
+constexpr double push = 20.0;           // [N] that the task asks for
+constexpr double allowed_speed = 0.08;  // [m/s] by the task
+constexpr double beyond = 1.1;          // of every bound
+constexpr double stiffness = 100e3;     // [N/m] the wall's
+constexpr double wall_at = 1.2;         // [m] its face
+constexpr double gap = 0.08;            // [m] to it, at the start
+constexpr double start_yaw = 5.0 * M_PI / 180.0;
+
+lang::Program load(const std::string& robot) {
+  const std::string specs = ZWANG_SOURCE_DIR "/specs/";
+  lang::Diagnostics diagnostics;
+  lang::LoadOptions options;
+  options.robot = specs + "robots/" + robot + "_base.yaml";
+  options.scene = specs + "scenes/wall_far.yaml";
+  auto program = lang::load(specs + "wall_align.yaml", options, diagnostics);
+  if (!program) throw std::runtime_error("specs/wall_align.yaml does not load with " + robot);
+  return *program;
+}
+
+const char* word(FaultKind kind) {
+  if (kind == FaultKind::torque_lost) return "lost";
+  return kind == FaultKind::torque_stuck ? "stuck" : "flipped";
+}
+
+/// What a motor gives less than it is told.
+class MissedTorque {
+ public:
+  MissedTorque(FaultKind kind, double at) : kind_(kind), at_(at) {}
+  double operator()(double time, double told) {
+    if (time < at_) return 0.0;
+    if (!kept_) kept_ = told;
+    if (kind_ == FaultKind::torque_lost) return told;
+    return kind_ == FaultKind::torque_flipped ? 2.0 * told : told - *kept_;
+  }
+
+ private:
+  FaultKind kind_;
+  double at_;
+  std::optional<double> kept_;
+};
+
+struct Outcome {
+  double touched = -1.0;  ///< [s]
+  double felt = -1.0;     ///< [s] more than 3 % of the motor's torque is missed
+  double found = -1.0;    ///< [s]
+  double unseen = 0.0;    ///< [s] the longest that it was missed without a break while nothing was touched
+  double fastest = 0.0;   ///< [m/s] since the fault
+  double hardest = 0.0;   ///< [N] on the wall, since the fault
+  double corner = 0.0;    ///< [m/s] the largest speed of a corner towards the wall
+  double ended = 0.0;     ///< [s]
+  std::string code;
+};
+
+class Pressing {
+ public:
+  explicit Pressing(const std::string& robot) : name_(robot), program_(load(robot)) {}
+
+  Outcome run(const lang::Fault* fault, double until) const {
+    ScenePlantOptions options;
+    double front = 0.0;
+    for (const auto& corner : program_.robot.footprint)
+      front = std::max(front, corner.x() * std::cos(start_yaw) - corner.y() * std::sin(start_yaw));
+    options.simulation.start_at = {wall_at - gap - front, 0.0};
+    options.simulation.start_yaw = start_yaw;
+    if (fault != nullptr) options.faults.push_back(*fault);
+    ScenePlant plant(program_, options);
+    Runner runner(program_, {.period = period});
+    Sensed sensed(program_.robot.model, program_.signals.size());
+    const int joint = fault != nullptr ? joint_named(fault->joint) : -1;
+    MissedTorque missed(fault != nullptr ? fault->kind : FaultKind::torque_lost,
+                        fault != nullptr ? fault->at : 0.0);
+    Outcome out;
+    double unseen = 0.0;
+    while (!runner.finished() && plant.truth().time < until) {
+      if (plant.sense(sensed) != PlantStatus::ok) throw std::runtime_error("no sample");
+      const double now = plant.truth().time;
+      const Eigen::VectorXd& tau = runner.step(sensed);
+      const bool touches = plant.truth().objects[0].force > 0.0;
+      if (runner.guard().stopped() && out.found < 0.0) {
+        out.found = now;
+        out.code = to_string(runner.guard().stop_event().code);
+      }
+      if (joint >= 0 && out.found < 0.0) {
+        const bool is_felt =
+            std::abs(missed(now, tau(joint))) > 0.03 * program_.robot.model.joint(joint).max_effort;
+        if (is_felt && out.felt < 0.0) out.felt = now;
+        unseen = is_felt && !touches ? unseen + period : 0.0;
+        out.unseen = std::max(out.unseen, unseen);
+      }
+      if (plant.apply(tau) != PlantStatus::ok) throw std::runtime_error("no plant");
+      const Truth& truth = plant.truth();
+      if (truth.objects[0].touched && out.touched < 0.0) out.touched = truth.time;
+      out.corner = std::max(out.corner, corner_speed(truth));
+      // A stuck motor that the others cannot hold drives the base until somebody takes its power away.
+      const bool can_brake = fault == nullptr || fault->kind != FaultKind::torque_stuck || has_spare_motors();
+      if ((fault == nullptr || truth.time >= fault->at) && (can_brake || out.found < 0.0)) {
+        out.fastest = std::max(out.fastest, truth.velocity.head<2>().norm());
+        out.hardest = std::max(out.hardest, truth.objects[0].force);
+      }
+    }
+    out.ended = plant.truth().time;
+    return out;
+  }
+
+  /// More motors than the three freedoms of a base; a differential one has two of both.
+  bool has_spare_motors() const {
+    int motors = 0;
+    for (const solver::Wheel& wheel : program_.robot.model.wheels())
+      motors += program_.robot.model.joint(wheel.body - 1).actuated ? 1 : 0;
+    return motors > 3;
+  }
+  /// [kg] that a hit meets at most: the base's, and what turns with its wheels.
+  double mass() const {
+    double m = program_.robot.model.total_mass();
+    for (const solver::Wheel& wheel : program_.robot.model.wheels()) {
+      const solver::Joint& joint = program_.robot.model.joint(wheel.body - 1);
+      m += joint.rotor_inertia / (wheel.radius * wheel.radius);
+    }
+    return m;
+  }
+
+ private:
+  int joint_named(const std::string& wheel) const {
+    for (int j = 0; j < program_.robot.model.joint_count(); ++j) {
+      if (program_.robot.model.joint(j).name == wheel) return j;
+    }
+    throw std::runtime_error(name_ + " has no " + wheel);
+  }
+  double corner_speed(const Truth& truth) const {
+    double fastest = 0.0;
+    for (const auto& corner : program_.robot.footprint) {
+      const double vx = truth.velocity.x() - truth.velocity.z() * corner.y();
+      const double vy = truth.velocity.y() + truth.velocity.z() * corner.x();
+      fastest = std::max(fastest, vx * std::cos(truth.yaw) - vy * std::sin(truth.yaw));
+    }
+    return fastest;
+  }
+
+  std::string name_;
+  lang::Program program_;
+};
+
+struct Drive {
+  const char* robot;
+  std::vector<const char*> wheels;
+};
+
+void PrintTo(const Drive& drive, std::ostream* out) {
+  *out << drive.robot;
+}
+
+class MotorFaults : public testing::TestWithParam<Drive> {};
+
+TEST_P(MotorFaults, AreFoundInTimeAndForceAndSpeedStayBounded) {
+  const Drive& drive = GetParam();
+  const Pressing pressing(drive.robot);
+  const Outcome sound = pressing.run(nullptr, 30.0);
+  ASSERT_GT(sound.touched, 0.0);
+  ASSERT_LT(sound.found, 0.0) << sound.code;
+  struct Moment {
+    const char* name;
+    double at;
+  };
+  const Moment standing{"standing", 0.0}, cruising{"cruising", 0.6}, onset{"onset", sound.touched + 0.02},
+      pressed{"pressing", sound.ended - 1.0};
+  ASSERT_LT(cruising.at, sound.touched - 0.1);
+  std::printf("%s: touches after %.2f s, %.0f N at most\n", drive.robot, sound.touched, sound.hardest);
+  for (const char* wheel : drive.wheels) {
+    for (const FaultKind kind :
+         {FaultKind::torque_lost, FaultKind::torque_stuck, FaultKind::torque_flipped}) {
+      for (const Moment& moment : {standing, cruising, onset, pressed}) {
+        const lang::Fault fault{.kind = kind, .at = moment.at, .joint = wheel};
+        const Outcome out = pressing.run(&fault, moment.at + 5.0);
+        std::printf(
+            "  %-17s %-8s %-9s at %5.2f s: felt %6.3f s, %-14s %6.3f s, unseen %3.0f ms, %.4f m/s, %5.1f N\n",
+            wheel, word(kind), moment.name, moment.at, out.felt,
+            out.found < 0.0 ? "not found" : out.code.c_str(), out.found, 1e3 * out.unseen, out.fastest,
+            out.hardest);
+        SCOPED_TRACE(std::string(drive.robot) + " " + wheel + " " + word(kind) + " " + moment.name);
+        // One that is stuck pushes on until it is found, as hard as the task had it push; nobody may be able
+        // to brake it.
+        const bool is_held = kind != FaultKind::torque_stuck || pressing.has_spare_motors();
+        const double more = is_held ? 0.0 : deadline * push / pressing.mass();
+        EXPECT_LE(out.fastest, beyond * allowed_speed + more);
+        // F + sqrt(F^2 + K m v^2), the most that a contact of stiffness K can press with.
+        const double energy = stiffness * pressing.mass() * out.corner * out.corner;
+        EXPECT_LE(out.hardest, beyond * (push + std::sqrt(push * push + energy)));
+        if (moment.name == pressed.name) {
+          EXPECT_LE(out.hardest, beyond * push);
+        }
+        // Whether a torque that stays is stuck shows when the command has changed.
+        if (kind != FaultKind::torque_stuck || moment.name == standing.name) {
+          EXPECT_LE(out.unseen, deadline + period);
+        }
+        if (kind == FaultKind::torque_flipped && moment.name == pressed.name && out.felt >= 0.0) {
+          EXPECT_GE(out.found, 0.0);
+          EXPECT_LE(out.found - out.felt, deadline);
+        }
+        // Where a motor is lost of as many as there are freedoms, one motion of the base has no brake.
+        if (out.found >= 0.0 && (kind == FaultKind::torque_flipped || pressing.has_spare_motors())) {
+          EXPECT_LE(out.ended - out.found, 2.0) << "it stands";
+        }
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Drives, MotorFaults,
+                         testing::Values(Drive{"mecanum", {"front_left_wheel", "rear_right_wheel"}},
+                                         Drive{"omni",
+                                               {"front_left_wheel", "rear_wheel", "front_right_wheel"}},
+                                         Drive{"diff", {"left_wheel", "right_wheel"}},
+                                         Drive{"kelo_two", {"front_left_hub", "rear_right_hub"}}),
+                         [](const auto& tested) { return std::string(tested.param.robot); });
+
+}  // namespace
+}  // namespace zwang::runtime
