@@ -23,7 +23,8 @@ constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"run.slipped", dimension::time}};
 constexpr TruthQuantity of_object[] = {{"force", dimension::force},  {"peak", dimension::force},
                                        {"touched", dimension::time}, {"x", dimension::length},
-                                       {"y", dimension::length},     {"yaw", dimension::angle}};
+                                       {"y", dimension::length},     {"yaw", dimension::angle},
+                                       {"latched", dimension::time}, {"pull", dimension::force}};
 constexpr TruthQuantity of_robot[] = {{"speed", dimension::velocity},
                                       {"turn", dimension::angular_velocity},
                                       {"torque", dimension::none},

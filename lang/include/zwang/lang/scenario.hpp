@@ -75,6 +75,8 @@ enum TruthOfObject {
   truth_object_x,
   truth_object_y,
   truth_object_yaw,
+  truth_latched,  ///< [s] when a hook latched in its dock
+  truth_pull,     ///< [N] with which the hook pulls the dock outwards; 0 while it is not latched
   truth_object_count
 };
 /// Of another robot: what an object has, and
