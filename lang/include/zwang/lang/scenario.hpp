@@ -50,7 +50,8 @@ struct Expectation {
   double within = 0.0;  ///< [s]
   int of = -1;          ///< index into `truth_names`, a time; -1: the start
   Condition that;
-  std::string text;  ///< for reports
+  std::vector<std::string> units;  ///< SI, of what each node of `that` is or compares; "" of the others
+  std::string text;                ///< for reports
   Span span;
 };
 
