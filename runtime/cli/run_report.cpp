@@ -110,13 +110,17 @@ std::string truth_table(const RunReport& report) {
   std::string text = "truth, as the plant measured it\n";
   Table table({false, false});
   for (const ObjectReport& o : report.objects) {
+    if (o.latched) {
+      table.add({o.name, "hooked on at " + seconds(*o.latched) + ", pulled with " +
+                             with_unit(o.pull, "N", 5) + " by the hook at the end"});
+    }
     if (!o.touched) {
-      table.add({o.name, "not touched"});
+      table.add({o.latched ? "" : o.name, "not touched"});
       continue;
     }
-    table.add({o.name, "touched at " + seconds(*o.touched) + ", pressed with " +
-                           with_unit(o.steady_force, "N", 5) + " at the end, with " +
-                           with_unit(o.peak_force, "N", 4) + " at most"});
+    table.add({o.latched ? "" : o.name, "touched at " + seconds(*o.touched) + ", pressed with " +
+                                            with_unit(o.steady_force, "N", 5) + " at the end, with " +
+                                            with_unit(o.peak_force, "N", 4) + " at most"});
   }
   for (const AskedForce& a : report.asked) {
     table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
@@ -176,6 +180,7 @@ void TruthWatch::look(const runtime::Truth& truth, bool in_task) {
     Watched& w = watched_[i];
     if (truth.objects[i].touched && !w.yaw_at_touch) w.yaw_at_touch = truth.yaw;
     if (!in_task) continue;
+    w.pull = truth.objects[i].pull;
     if (w.last_forces.size() < window_) {
       w.last_forces.push_back(truth.objects[i].force);
     } else {
@@ -192,7 +197,8 @@ std::vector<ObjectReport> TruthWatch::objects(const runtime::Truth& truth) const
     const std::vector<double>& forces = watched_[i].last_forces;
     const double sum = std::accumulate(forces.begin(), forces.end(), 0.0);
     reports.push_back({o.name, o.touched, watched_[i].yaw_at_touch,
-                       forces.empty() ? 0.0 : sum / static_cast<double>(forces.size()), o.peak_force});
+                       forces.empty() ? 0.0 : sum / static_cast<double>(forces.size()), o.peak_force,
+                       o.latched, watched_[i].pull});
   }
   return reports;
 }
@@ -260,10 +266,9 @@ std::string json_report(const RunReport& report, const runtime::Runner& runner,
   }
   ordered_json truth = ordered_json::object();
   for (const ObjectReport& o : report.objects) {
-    truth[o.name] = {{"touched", number_or_null(o.touched)},
-                     {"steady_force", o.steady_force},
-                     {"peak_force", o.peak_force},
-                     {"yaw_at_touch", number_or_null(o.yaw_at_touch)}};
+    truth[o.name] = {{"touched", number_or_null(o.touched)}, {"steady_force", o.steady_force},
+                     {"peak_force", o.peak_force},           {"yaw_at_touch", number_or_null(o.yaw_at_touch)},
+                     {"latched", number_or_null(o.latched)}, {"pull", o.pull}};
   }
   truth["base"] = {{"x", report.x}, {"y", report.y}, {"yaw", report.yaw}};
   ordered_json asked = ordered_json::array();

@@ -20,6 +20,8 @@ struct ObjectReport {
   std::optional<double> yaw_at_touch;  ///< [rad]
   double steady_force = 0.0;           ///< [N] mean of the last 0.5 s in which a task was active
   double peak_force = 0.0;             ///< [N]
+  std::optional<double> latched;       ///< [s] when the hook caught in its dock
+  double pull = 0.0;                   ///< [N] of the hook, outwards, when the last task ended
 };
 
 /// A force driver that was in force when the last task ended.
@@ -41,6 +43,7 @@ class TruthWatch {
   struct Watched {
     std::vector<double> last_forces;  ///< a ring
     std::optional<double> yaw_at_touch;
+    double pull = 0.0;
   };
   std::vector<Watched> watched_;
   std::size_t window_;

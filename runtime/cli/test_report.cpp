@@ -29,9 +29,24 @@ std::string percent(double share) {
   return number(100.0 * share, 1) + " %";
 }
 
+/// `0.0031 N, `: the figure that a margin is of. What is small is written with its power of ten.
+std::string value_text(const ExpectationResult& result) {
+  if (!result.value) return {};
+  const double size = std::abs(*result.value);
+  std::string text = with_unit(*result.value, result.unit, 5);
+  if (size > 0.0 && size < 1e-3) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%.1e", *result.value);
+    text = number;
+    text.append(" ").append(result.unit);
+  }
+  while (text.back() == ' ') text.pop_back();
+  return text + ", ";
+}
+
 std::string margin_text(const ExpectationResult& result) {
   if (!result.margin) return {};
-  return "margin " + percent(*result.margin) + " at " + seconds_of(result.time, 3);
+  return value_text(result) + "margin " + percent(*result.margin) + " at " + seconds_of(result.time, 3);
 }
 
 std::string outcome_text(const CellResult& cell) {
@@ -49,6 +64,7 @@ struct Summary {
   std::string text;
   std::size_t held = 0, count = 0;
   std::optional<double> margin;
+  std::string value;  ///< of that margin
   std::string where;  ///< the run with the least margin
 };
 
@@ -64,6 +80,7 @@ std::vector<Summary> summarise(const ScenarioReport& report) {
       summary.held += result.held ? 1U : 0U;
       if (!result.margin || (summary.margin && *summary.margin <= *result.margin)) continue;
       summary.margin = result.margin;
+      summary.value = value_text(result);
       summary.where = cell.name;
     }
   }
@@ -91,7 +108,9 @@ void describe(const ScenarioReport& report, std::ostream& out) {
   for (const Summary& summary : summarise(report)) {
     out << "  " << padded_left(std::to_string(summary.held) + "/" + std::to_string(summary.count), 7) << "  "
         << summary.text;
-    if (summary.margin) out << "   least margin " << percent(*summary.margin) << " (" << summary.where << ")";
+    if (summary.margin)
+      out << "   " << summary.value << "least margin " << percent(*summary.margin) << " (" << summary.where
+          << ")";
     out << "\n";
   }
 }
@@ -130,6 +149,8 @@ nlohmann::ordered_json json_of(const CellResult& cell) {
   for (const ExpectationResult& result : cell.expectations) {
     nlohmann::ordered_json one = {{"text", result.text}, {"held", result.held}};
     if (result.margin && std::isfinite(*result.margin)) one["margin"] = *result.margin;
+    if (result.value) one["value"] = *result.value;
+    if (result.value) one["unit"] = result.unit;
     one["time"] = result.time;
     expectations.push_back(std::move(one));
   }

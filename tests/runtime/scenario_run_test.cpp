@@ -50,6 +50,41 @@ TEST(ScenarioRun, TheWallAlignmentKeepsWhatIsExpectedOfIt) {
   for (const ExpectationResult& expected : result.expectations) EXPECT_TRUE(expected.held) << expected.text;
   ASSERT_TRUE(result.expectations[1].margin);
   EXPECT_GT(*result.expectations[1].margin, 0.5);
+  // `within` says how long it took, of a share of 3 s the margin is the rest.
+  ASSERT_TRUE(result.expectations[2].value);
+  EXPECT_EQ(result.expectations[2].unit, "s");
+  EXPECT_NEAR(*result.expectations[2].value, 3.0 * (1.0 - *result.expectations[2].margin), 1e-9);
+  ASSERT_TRUE(result.expectations[3].value);
+  EXPECT_EQ(result.expectations[3].unit, "m/s");
+  EXPECT_NEAR(*result.expectations[3].value, 0.12 * (1.0 - *result.expectations[3].margin), 1e-12);
+}
+
+// `elapsed > ...` opens a window; outside of it nothing is asked, and nothing is a margin.
+TEST(ScenarioRun, AWindowOfTimeHasTheMarginOfWhatIsAskedInIt) {
+  const CellResult result = run_scenario(R"(start_yaw: 0 deg
+expect:
+  - {always: elapsed < 1 s or truth.base.speed > 4 cm/s or elapsed > 2 s}
+  - {always: not (elapsed > 1 s and elapsed < 2 s) or truth.base.x < 10 cm}
+  - {always: elapsed < 500 s or truth.base.x < -1 m}
+  - {always: elapsed < 100 s}
+  - {always: 1 m > truth.base.x}
+  - {at: end, that: truth.base.speed < 1 m/s and abs(truth.wall.force) < 40 N}
+)");
+  ASSERT_EQ(result.expectations.size(), 6u);
+  const std::vector<ExpectationResult>& expected = result.expectations;
+  EXPECT_TRUE(expected[0].held);
+  ASSERT_TRUE(expected[0].value);
+  EXPECT_EQ(expected[0].unit, "m/s");
+  EXPECT_NEAR(*expected[0].margin, *expected[0].value / 0.04 - 1.0, 1e-12);
+  EXPECT_NEAR(*expected[1].margin, 1.0 - *expected[1].value / 0.10, 1e-12);
+  EXPECT_NEAR(expected[1].time, 1.999, 2e-3) << "ever nearer, to the window's end";
+  EXPECT_TRUE(expected[2].held);
+  EXPECT_FALSE(expected[2].margin) << "never asked";
+  EXPECT_NEAR(*expected[3].value, result.simulated, 2e-3) << "time alone is what is asked for";
+  EXPECT_EQ(*expected[4].unit.c_str(), 'm') << "the side that may change";
+  EXPECT_LT(*expected[4].value, 1.0);
+  EXPECT_EQ(expected[5].unit, "N") << "nearer to its limit";
+  EXPECT_NEAR(*expected[5].value, 20.0, 0.1);
 }
 
 TEST(ScenarioRun, WhatDoesNotHoldIsMissedWithItsMargin) {

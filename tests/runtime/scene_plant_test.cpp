@@ -254,10 +254,15 @@ signals: {latch: {latch: dock}}
     }
   });
   ASSERT_GT(latched_at, 0.0);
-  EXPECT_TRUE(plant.truth().objects[0].latched);
+  ASSERT_TRUE(plant.truth().objects[0].latched);
+  EXPECT_NEAR(*plant.truth().objects[0].latched, latched_at, 1.5 * period)
+      << "the signal comes with the tick";
+  EXPECT_NEAR(plant.truth().objects[0].pull, -20.0, 0.1) << "still pushing";
+  EXPECT_EQ(plant.truth().objects[0].force, 0.0) << "no contact";
   const double before = plant.truth().x;
   follow(plant, program, 1.0, push(30.0), [](const Sensed&, PlantStatus) {});
   EXPECT_NEAR(plant.truth().x, before, 2e-3);
+  EXPECT_NEAR(plant.truth().objects[0].pull, 30.0, 0.1);
 }
 
 ScenePlantOptions with_fault(lang::FaultKind kind, double at, double duration, const char* joint = "",

@@ -71,7 +71,7 @@ class ConditionCheck {
   ConditionCheck(CheckContext& context, const ConditionText& text, const std::vector<GroupText>& groups)
       : context_(context), text_(text), groups_(groups) {}
 
-  std::optional<Condition> check(Dimension* compared) {
+  std::optional<Condition> check(Dimension* compared, std::vector<Dimension>* of_nodes) {
     Condition condition;
     condition.text = text_.text;
     condition.span = text_.span;
@@ -90,6 +90,9 @@ class ConditionCheck {
     }
     const int left = text_.nodes.back().left;
     if (compared != nullptr && left >= 0) *compared = type(left).dimension;
+    if (of_nodes != nullptr) {
+      for (const Type& type : types_) of_nodes->push_back(type.dimension);
+    }
     return condition;
   }
 
@@ -385,8 +388,9 @@ class ConditionCheck {
 }  // namespace
 
 std::optional<Condition> check_condition(CheckContext& context, const ConditionText& text,
-                                         const std::vector<GroupText>& groups, Dimension* compared) {
-  return ConditionCheck(context, text, groups).check(compared);
+                                         const std::vector<GroupText>& groups, Dimension* compared,
+                                         std::vector<Dimension>* of_nodes) {
+  return ConditionCheck(context, text, groups).check(compared, of_nodes);
 }
 
 }  // namespace zwang::lang

@@ -51,9 +51,11 @@ void check_release(CheckContext& context, const ExitText& exit, const Condition&
 /// E505: a condition that the signs of its parts alone decide.
 void check_is_open(CheckContext& context, const Condition& condition);
 void check_sets(CheckContext& context, const std::vector<SetText>& sets);
-/// nullopt on an error. `compared` takes what the two sides of a single comparison measure.
+/// nullopt on an error. `compared` takes what the two sides of a single comparison measure, `of_nodes` what
+/// each node does.
 std::optional<Condition> check_condition(CheckContext& context, const ConditionText& text,
-                                         const std::vector<GroupText>& groups, Dimension* compared = nullptr);
+                                         const std::vector<GroupText>& groups, Dimension* compared = nullptr,
+                                         std::vector<Dimension>* of_nodes = nullptr);
 /// As `check_value`, where a number signal may drive as well.
 bool check_driver_value(CheckContext& context, const ValueText& value, const Dimension& expected,
                         const std::string& what);

@@ -23,7 +23,8 @@ constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"run.slipped", dimension::time}};
 constexpr TruthQuantity of_object[] = {{"force", dimension::force},  {"peak", dimension::force},
                                        {"touched", dimension::time}, {"x", dimension::length},
-                                       {"y", dimension::length},     {"yaw", dimension::angle}};
+                                       {"y", dimension::length},     {"yaw", dimension::angle},
+                                       {"latched", dimension::time}, {"pull", dimension::force}};
 constexpr TruthQuantity of_robot[] = {{"speed", dimension::velocity},
                                       {"turn", dimension::angular_velocity},
                                       {"torque", dimension::none},
@@ -109,6 +110,17 @@ std::string text_of(const ExpectationText& text) {
   return "always: " + text.that.text;
 }
 
+std::vector<std::string> units_of(const Condition& condition, const std::vector<Dimension>& dimensions) {
+  std::vector<std::string> units;
+  for (std::size_t i = 0; i < condition.nodes.size(); ++i) {
+    const Op op = condition.nodes[i].op;
+    const bool compares =
+        op == Op::less || op == Op::less_equal || op == Op::greater || op == Op::greater_equal;
+    units.push_back(usual_unit(dimensions[compares ? static_cast<std::size_t>(condition.nodes[i].left) : i]));
+  }
+  return units;
+}
+
 }  // namespace
 
 std::vector<std::string> truth_names(const Scene& scene) {
@@ -140,7 +152,11 @@ std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& f
       expected.of = find_time(text.of, symbols, diagnostics);
     }
     if (has_condition && !text.that.is_bad) {
-      if (auto that = check_condition(context, text.that, {})) expected.that = std::move(*that);
+      std::vector<Dimension> dimensions;
+      if (auto that = check_condition(context, text.that, {}, nullptr, &dimensions)) {
+        expected.units = units_of(*that, dimensions);
+        expected.that = std::move(*that);
+      }
     }
     expectations.push_back(std::move(expected));
   }

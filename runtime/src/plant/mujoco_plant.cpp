@@ -165,7 +165,20 @@ struct MujocoPlant::Simulation {
       Eigen::Map<Vector3>(model->eq_data + mjNEQDATA * dock.equality + 3) =
           matrix_of(data->xquat + 4 * dock.body).transpose() * (hook - vector_of(data->xpos + 3 * dock.body));
       model->eq_active[dock.equality] = 1;
-      truth.objects[dock.owner].latched = true;
+      truth.objects[dock.owner].latched = time();
+    }
+  }
+
+  /// MuJoCo's tie pushes the hook with `f`, and so the dock with -f: pull = -f . n, n outwards.
+  void read_pulls() noexcept {
+    for (const SimulatedDock& dock : docks) {
+      ObjectTruth& owner = truth.objects[dock.owner];
+      const double outwards = owner.yaw + std::atan2(dock.dock.at[1], dock.dock.at[0]);
+      for (int row = 0; row + 2 < data->ne; row += 3) {
+        if (data->efc_id[row] != dock.equality) continue;
+        const mjtNum* f = data->efc_force + row;
+        owner.pull = -(f[0] * std::cos(outwards) + f[1] * std::sin(outwards));
+      }
     }
   }
 
@@ -361,6 +374,7 @@ struct MujocoPlant::Simulation {
     for (MovingRobot& robot : robots) robot.read(*model, *data);
     read_contacts(before);
     read_objects();
+    read_pulls();
     latch_hooks();
     return PlantStatus::ok;
   }

@@ -134,7 +134,7 @@ SceneSignals::PlanarPose SceneSignals::pose_of(const Truth& truth, int number) c
 bool SceneSignals::is_latched(const Truth& truth, int number) const noexcept {
   const auto objects = static_cast<int>(scene_.objects.size());
   if (number == objects) return false;
-  return truth.objects[static_cast<std::size_t>(number < objects ? number : number - 1)].latched;
+  return truth.objects[static_cast<std::size_t>(number < objects ? number : number - 1)].latched.has_value();
 }
 
 SceneSignals::PlanarPose SceneSignals::seen_pose(const Truth& truth, int number) const noexcept {

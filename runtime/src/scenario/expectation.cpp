@@ -17,79 +17,112 @@ double distance(double below, double above, double scale) {
   return std::isnan(margin) ? not_at_all : margin;
 }
 
+/// The side of a comparison that may change.
+const Reading& measured(const lang::Condition& condition, const std::vector<Reading>& readings,
+                        int comparison) {
+  const lang::ExpressionNode& node = condition.nodes[static_cast<std::size_t>(comparison)];
+  const Op left = condition.nodes[static_cast<std::size_t>(node.left)].op;
+  const bool is_fixed = left == Op::constant || left == Op::parameter;
+  return readings[static_cast<std::size_t>(is_fixed ? node.right : node.left)];
+}
+
+/// One of two sides holds: the better one; beside a window of time the other one, while the window is open.
+const Reading& either(const Reading& a, const Reading& b) {
+  if (a.is_of_time == b.is_of_time) return a.margin >= b.margin ? a : b;
+  return a.is_of_time ? b : a;
+}
+
+bool is_shut(const Reading& a, const Reading& b) {
+  return a.is_of_time != b.is_of_time && (a.is_of_time ? a : b).margin >= 0.0;
+}
+
+Reading read_node(const lang::ExpressionNode& node, int number, const Reading& a, const Reading& b,
+                  const TrueFacts& facts) noexcept {
+  Reading out;
+  out.decisive = number;
+  out.is_of_time = a.is_of_time && (node.right < 0 || b.is_of_time);
+  switch (node.op) {
+    case Op::constant:
+      out.value = node.number;
+      out.is_of_time = true;
+      break;
+    case Op::abs:
+      out.value = std::abs(a.value);
+      break;
+    case Op::negate:
+      out.value = -a.value;
+      break;
+    case Op::add:
+      out.value = a.value + b.value;
+      break;
+    case Op::subtract:
+      out.value = a.value - b.value;
+      break;
+    case Op::multiply:
+      out.value = a.value * b.value;
+      break;
+    case Op::divide:
+      out.value = a.value / b.value;
+      break;
+    case Op::less:
+    case Op::less_equal:
+      out.margin = distance(a.value, b.value, b.value);
+      break;
+    case Op::greater:
+    case Op::greater_equal:
+      out.margin = distance(b.value, a.value, b.value);
+      break;
+    case Op::logical_and: {
+      const Reading& least = a.margin <= b.margin ? a : b;
+      out.margin = least.margin;
+      out.decisive = least.decisive;
+      break;
+    }
+    case Op::logical_or:
+      out.margin = is_shut(a, b) ? not_asked : either(a, b).margin;
+      out.decisive = is_shut(a, b) ? -1 : either(a, b).decisive;
+      break;
+    case Op::logical_not:
+      out.margin = -a.margin;
+      out.decisive = a.decisive;
+      break;
+    default:
+      out.value = facts.look_up(node);
+      out.is_of_time = node.op == Op::elapsed || node.op == Op::parameter;
+      break;
+  }
+  return out;
+}
+
 }  // namespace
 
-double margin_of(const lang::Condition& condition, const TrueFacts& facts, std::vector<double>& values,
-                 std::vector<double>& margins) noexcept {
+void read_condition(const lang::Condition& condition, const TrueFacts& facts,
+                    std::vector<Reading>& readings) noexcept {
   for (std::size_t i = 0; i < condition.nodes.size(); ++i) {
     const lang::ExpressionNode& node = condition.nodes[i];
-    const auto left = static_cast<std::size_t>(std::max(node.left, 0));
-    const auto right = static_cast<std::size_t>(std::max(node.right, 0));
-    const double a = values[left], b = values[right];
-    double value = 0.0, margin = 0.0;
-    switch (node.op) {
-      case Op::constant:
-        value = node.number;
-        break;
-      case Op::abs:
-        value = std::abs(a);
-        break;
-      case Op::negate:
-        value = -a;
-        break;
-      case Op::add:
-        value = a + b;
-        break;
-      case Op::subtract:
-        value = a - b;
-        break;
-      case Op::multiply:
-        value = a * b;
-        break;
-      case Op::divide:
-        value = a / b;
-        break;
-      case Op::less:
-      case Op::less_equal:
-        margin = distance(a, b, b);
-        break;
-      case Op::greater:
-      case Op::greater_equal:
-        margin = distance(b, a, b);
-        break;
-      case Op::logical_and:
-        margin = std::min(margins[left], margins[right]);
-        break;
-      case Op::logical_or:
-        margin = std::max(margins[left], margins[right]);
-        break;
-      case Op::logical_not:
-        margin = -margins[left];
-        break;
-      default:
-        value = facts.look_up(node);
-        break;
-    }
-    values[i] = value;
-    margins[i] = margin;
+    const Reading& a = readings[static_cast<std::size_t>(std::max(node.left, 0))];
+    const Reading& b = readings[static_cast<std::size_t>(std::max(node.right, 0))];
+    readings[i] = read_node(node, static_cast<int>(i), a, b, facts);
   }
-  return margins.back();
 }
 
 ExpectationWatch::ExpectationWatch(const lang::Expectation& expectation)
-    : expectation_(expectation),
-      values_(std::max<std::size_t>(1, expectation.that.nodes.size()), 0.0),
-      margins_(values_) {}
+    : expectation_(expectation), readings_(std::max<std::size_t>(1, expectation.that.nodes.size())) {}
+
+void ExpectationWatch::note_worst(double time) noexcept {
+  worst_ = readings_.back().margin;
+  worst_time_ = time;
+  decisive_ = readings_.back().decisive;
+  if (decisive_ >= 0) worst_value_ = measured(expectation_.that, readings_, decisive_).value;
+}
 
 void ExpectationWatch::look(const TrueFacts& facts, double time, bool in_task) noexcept {
   if (expectation_.that.nodes.empty()) return;
   if (expectation_.kind != ExpectationKind::always && !in_task) return;
-  const double margin = margin_of(expectation_.that, facts, values_, margins_);
+  read_condition(expectation_.that, facts, readings_);
+  const double margin = readings_.back().margin;
   last_time_ = time;
-  if (expectation_.kind == ExpectationKind::at_end || margin < worst_) {
-    worst_ = margin;
-    worst_time_ = time;
-  }
+  if (expectation_.kind == ExpectationKind::at_end || margin < worst_) note_worst(time);
   was_looked_at_ = true;
   if (expectation_.kind != ExpectationKind::within) return;
   if (begin_ < 0.0) {
@@ -124,8 +157,12 @@ ExpectationResult ExpectationWatch::result(const std::string& outcome,
     case ExpectationKind::at_end:
     case ExpectationKind::always:
       result.held = was_looked_at_ && worst_ >= 0.0;
-      if (was_looked_at_) result.margin = worst_;
       result.time = worst_time_;
+      if (!was_looked_at_ || worst_ == not_asked) return result;
+      result.margin = worst_;
+      if (decisive_ < 0 || !std::isfinite(worst_value_)) return result;
+      result.value = worst_value_;
+      result.unit = expectation_.units[static_cast<std::size_t>(decisive_)];
       return result;
     case ExpectationKind::within:
       break;
@@ -138,6 +175,8 @@ ExpectationResult ExpectationWatch::result(const std::string& outcome,
   const double deadline = begin_ + expectation_.within;
   result.held = held_since_ <= deadline;
   result.margin = (deadline - held_since_) / (expectation_.within > 0.0 ? expectation_.within : 1.0);
+  result.value = held_since_ - begin_;
+  result.unit.append("s");  // GCC bug 105651
   result.time = held_since_;
   return result;
 }

@@ -9,11 +9,23 @@
 
 namespace zwang::runtime {
 
+/// What a node of a condition comes to at one instant.
+struct Reading {
+  double value = 0.0;       ///< of a quantity
+  double margin = 0.0;      ///< of a truth value
+  int decisive = -1;        ///< the comparison that the margin is of
+  bool is_of_time = false;  ///< asks for nothing but `elapsed`
+};
+
+/// A condition that does not ask now: `elapsed < 2 s or ...` before 2 s.
+inline constexpr double not_asked = 1e300;
+
 /// How far a condition is from changing: positive where it holds. Of a comparison the distance between its
-/// sides as a share of the right one (of 1, where that is 0); `and` takes the least, `or` the largest. What
-/// nobody knows does not hold. Allocates nothing: `values` and `margins` hold one number for each node.
-double margin_of(const lang::Condition& condition, const TrueFacts& facts, std::vector<double>& values,
-                 std::vector<double>& margins) noexcept;
+/// sides as a share of the right one (of 1, where that is 0); `and` takes the least, `or` the largest, but
+/// beside a window of time the other side alone. What nobody knows does not hold. Allocates nothing:
+/// `readings` holds one for each node, and the last is the condition's.
+void read_condition(const lang::Condition& condition, const TrueFacts& facts,
+                    std::vector<Reading>& readings) noexcept;
 
 class ExpectationWatch {
  public:
@@ -26,9 +38,13 @@ class ExpectationWatch {
                            const std::vector<std::string>& codes) const;
 
  private:
+  void note_worst(double time) noexcept;
+
   const lang::Expectation& expectation_;
-  std::vector<double> values_, margins_;
-  double worst_ = 1e300;
+  std::vector<Reading> readings_;
+  double worst_ = not_asked;
+  double worst_value_ = 0.0;
+  int decisive_ = -1;
   double worst_time_ = 0.0;
   bool was_looked_at_ = false;
   double begin_ = -1.0;       ///< [s] of `within`

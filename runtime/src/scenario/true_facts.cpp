@@ -16,6 +16,8 @@ void put_object(const ObjectTruth& object, double* values) noexcept {
   values[lang::truth_object_x] = object.x;
   values[lang::truth_object_y] = object.y;
   values[lang::truth_object_yaw] = object.yaw;
+  values[lang::truth_latched] = object.latched.value_or(unknown);
+  values[lang::truth_pull] = object.pull;
 }
 
 }  // namespace

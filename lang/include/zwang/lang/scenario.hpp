@@ -50,7 +50,8 @@ struct Expectation {
   double within = 0.0;  ///< [s]
   int of = -1;          ///< index into `truth_names`, a time; -1: the start
   Condition that;
-  std::string text;  ///< for reports
+  std::vector<std::string> units;  ///< SI, of what each node of `that` is or compares; "" of the others
+  std::string text;                ///< for reports
   Span span;
 };
 
@@ -75,6 +76,8 @@ enum TruthOfObject {
   truth_object_x,
   truth_object_y,
   truth_object_yaw,
+  truth_latched,  ///< [s] when a hook latched in its dock
+  truth_pull,     ///< [N] with which the hook pulls the dock outwards; 0 while it is not latched
   truth_object_count
 };
 /// Of another robot: what an object has, and

@@ -20,7 +20,8 @@ struct ObjectTruth {
   std::optional<double> touched;       ///< [s] time of the first contact
   double peak_force = 0.0;             ///< [N] largest `force` so far
   double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the object's `at`, of a robot's base
-  bool latched = false;                ///< a hook holds in its dock
+  std::optional<double> latched;       ///< [s] since when a hook holds in its dock
+  double pull = 0.0;  ///< [N] with which that hook pulls the dock outwards, now; negative: inwards
 };
 
 /// Of another robot, beside what is an object's.

@@ -15,6 +15,10 @@ struct ExpectationResult {
   bool held = false;
   /// What was left, as a share of the threshold (of `within`, of its time): negative when it was not held.
   std::optional<double> margin;
+  /// The figure behind it: what the comparison that decided compares, then. Of `within`, how long it took
+  /// [s].
+  std::optional<double> value;
+  std::string unit;   ///< of `value`, SI
   double time = 0.0;  ///< [s] of the run, when the margin was least
 };
 
