@@ -146,8 +146,10 @@ struct Solver::Workspace {
   }
 
   /// The first row before `row` that acts along the same axis, as the two ends of a range do; -1 for none.
+  /// Mostly it is along the last one.
   int twin_of(const Row& row, const std::vector<Row>& rows) const noexcept {
-    for (const int i : axes) {
+    for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
+      const int i = *axis;
       const Row& other = rows[static_cast<std::size_t>(i)];
       if (other.body == row.body && other.reference_body == row.reference_body && is_same(other.a, row.a) &&
           (row.reference_body < 0 || is_same(other.a_reference, row.a_reference)))

@@ -22,7 +22,9 @@ WheelOdometry::WheelOdometry(const Model& model) : model_(model) {
                      direction.sideways});
     is_rigid_ = is_rigid_ && body.parent == 0;
   });
-  if (is_rigid_) rigid_normal_ = normal(State(model));
+  if (!is_rigid_) return;
+  rigid_normal_ = normal(State(model));
+  for (const Held& held : held_) rigid_lines_.push_back(line(held, State(model)));
 }
 
 WheelOdometry::Line WheelOdometry::line(const Held& held, const State& state) const noexcept {
@@ -33,9 +35,9 @@ WheelOdometry::Line WheelOdometry::line(const Held& held, const State& state) co
   const Vector3 centre = carrier.pose.rotation * held.centre;
   const Vector3 down = -held.radius * Vector3::UnitZ();
   const Vector3 P = carrier.pose.position + centre + down;
-  const Vector3 slip = carrier.linear + carrier.angular.cross(Vector3(centre + down)) +
-                       state.qd(held.joint) * axis.cross(down);
-  return {{u.x(), u.y(), P.x() * u.y() - P.y() * u.x()}, u.dot(slip), P.head<2>().squaredNorm()};
+  const Vector3 carried = carrier.linear + carrier.angular.cross(Vector3(centre + down));
+  return {
+      {u.x(), u.y(), P.x() * u.y() - P.y() * u.x()}, u, carried, axis.cross(down), P.head<2>().squaredNorm()};
 }
 
 WheelOdometry::Normal WheelOdometry::normal(const State& state) const noexcept {
@@ -65,18 +67,22 @@ WheelTwist WheelOdometry::twist(const State& state) const noexcept {
   if (held_.empty()) return result;
   const Normal now = is_rigid_ ? rigid_normal_ : normal(state);
   const Vector3 scale(1.0, 1.0, 1.0 / now.length);
+  const auto for_each_line = [&](auto&& visit) {
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      const double rate = state.qd(held_[i].joint);
+      if (is_rigid_) visit(rigid_lines_[i], rate);
+      if (!is_rigid_) visit(line(held_[i], state), rate);
+    }
+  };
   Vector3 Jtr = Vector3::Zero();
-  for (const Held& held : held_) {
-    const Line l = line(held, state);
-    Jtr -= l.direction.cwiseProduct(scale) * l.slip_of_joints;
-  }
+  for_each_line(
+      [&](const Line& l, double rate) { Jtr -= l.direction.cwiseProduct(scale) * l.slip_of_joints(rate); });
   const Vector3 V = (now.pseudo_inverse * Jtr).cwiseProduct(scale);  // (vx, vy, w)
   double square_slip = 0.0;
-  for (const Held& held : held_) {
-    const Line l = line(held, state);
-    const double slip = l.direction.dot(V) + l.slip_of_joints;
+  for_each_line([&](const Line& l, double rate) {
+    const double slip = l.direction.dot(V) + l.slip_of_joints(rate);
     square_slip += slip * slip;
-  }
+  });
   result.rank = now.rank;
   result.slip = std::sqrt(square_slip / static_cast<double>(held_.size()));
   result.twist.linear = {V.x(), V.y(), 0.0};

@@ -98,7 +98,8 @@ Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, c
 }
 
 Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept {
-  return measure(constraint, motions.of(constraint.move), motions.of(constraint.in)).now;
+  FrameMotion move, in;
+  return measure(constraint, motions.of(constraint.move, move), motions.of(constraint.in, in)).now;
 }
 
 Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis, const Model& model,
@@ -154,8 +155,9 @@ bool ConstraintSet::fill(BodyMotions& motions) noexcept {
 
 bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
   const AxisConstraint& constraint = constraints_[static_cast<std::size_t>(index)];
-  const FrameMotion f = motions.of(constraint.move);
-  const FrameMotion t = motions.of(constraint.in);
+  FrameMotion move, in;
+  const FrameMotion& f = motions.of(constraint.move, move);
+  const FrameMotion& t = motions.of(constraint.in, in);
   const Measurement along = measure(constraint, f, t);
   const Coordinate& now = along.now;
   coordinates_.push_back(now);

@@ -82,9 +82,15 @@ const FrameMotion& BodyMotions::of(int body) noexcept {
 }
 
 FrameMotion BodyMotions::of(const AttachedFrame& frame) noexcept {
-  if (frame.body < 0) return motion_in_world(frame);
+  FrameMotion place;
+  return of(frame, place);
+}
+
+const FrameMotion& BodyMotions::of(const AttachedFrame& frame, FrameMotion& place) noexcept {
+  if (frame.body < 0) return place = motion_in_world(frame);
   const FrameMotion& body = of(frame.body);
-  return is_origin(frame.pose) ? body : body.at(frame.pose);
+  if (!is_origin(frame.pose)) return place = body.at(frame.pose);
+  return &body == &forgotten_.motion ? place = body : body;
 }
 
 }  // namespace zwang::solver

@@ -43,6 +43,8 @@ class BodyMotions {
   /// To be read before the next question.
   const FrameMotion& of(int body) noexcept;
   FrameMotion of(const AttachedFrame& frame) noexcept;
+  /// Without a copy where the frame is a body's own; else in `place`.
+  const FrameMotion& of(const AttachedFrame& frame, FrameMotion& place) noexcept;
 
  private:
   struct Known {

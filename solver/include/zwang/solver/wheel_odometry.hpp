@@ -38,9 +38,13 @@ class WheelOdometry {
     double rolling = 0.0, sideways = 0.0;  ///< the direction's parts
   };
   struct Line {
-    Vector3 direction;  ///< (u_x, u_y, (z x P) . u), lengths in m
-    double slip_of_joints = 0.0;
+    Vector3 direction;             ///< (u_x, u_y, (z x P) . u), lengths in m
+    Vector3 held;                  ///< u
+    Vector3 carried;               ///< velocity of P, but for the wheel's turning, that the joints give it
+    Vector3 rim;                   ///< velocity of P for each rad/s of the wheel
     double square_distance = 0.0;  ///< of P from the base's origin
+
+    double slip_of_joints(double wheel_rate) const { return held.dot(carried + wheel_rate * rim); }
   };
   /// (J'J)^+ and what goes with it.
   struct Normal {
@@ -55,6 +59,7 @@ class WheelOdometry {
   std::vector<Held> held_;
   bool is_rigid_ = true;  ///< all wheels turn on the base itself: J never changes
   Normal rigid_normal_;
+  std::vector<Line> rigid_lines_;
 };
 
 }  // namespace zwang::solver
