@@ -152,13 +152,19 @@ bool passed(const ScenarioReport& report) {
 
 std::string human_report(const std::vector<ScenarioReport>& reports, double seconds) {
   std::ostringstream out;
-  std::size_t runs = 0, good = 0;
+  std::size_t runs = 0, good = 0, unreadable = 0;
   for (const ScenarioReport& report : reports) {
     describe(report, out);
+    if (!report.readable) {
+      ++unreadable;
+      continue;
+    }
     runs += report.cells.size();
-    good += report.cells.size() - (report.readable ? failures(report) : 0);
+    good += report.cells.size() - failures(report);
   }
-  out << good << " of " << runs << " runs as expected, in " << seconds_of(seconds, 1) << "\n";
+  out << good << " of " << runs << " runs as expected";
+  if (unreadable > 0) out << ", and " << count(unreadable, "file") << " with errors";
+  out << ", in " << seconds_of(seconds, 1) << "\n";
   return out.str();
 }
 
@@ -190,7 +196,8 @@ std::string junit_report(const std::vector<ScenarioReport>& reports) {
       lang::render_human(report.diagnostics, text);
       out << "    <testcase name=\"the scenario file\" classname=\"" << escaped(report.path)
           << "\" time=\"0\"><failure message=\"not readable\">" << escaped(text.str())
-          << "</failure></testcase>\n";
+          << "</failure></testcase>\n  </testsuite>\n";
+      continue;
     }
     for (const CellResult& cell : report.cells) {
       out << "    <testcase name=\"" << escaped(cell.name) << "\" classname=\"" << escaped(report.path)

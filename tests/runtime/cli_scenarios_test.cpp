@@ -1,0 +1,59 @@
+// `zwang test`: which files it takes, and what it says of those that it cannot run.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace zwang {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using test::read;
+using test::Result;
+
+std::size_t times(const std::string& text, const std::string& words) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(words); at != std::string::npos; at = text.find(words, at + 1)) ++found;
+  return found;
+}
+
+/// A folder with a task that is done after 0.1 s, and a scenario of it.
+class Scenarios : public test::Program {
+ protected:
+  Scenarios() {
+    fs::copy(fs::path(ZWANG_SOURCE_DIR) / "specs/robots", folder_ / "robots", fs::copy_options::recursive);
+    write("scene.yaml",
+          "zwang_scene: 1\nobjects: {crate: {box: [1 m, 1 m, 1 m], at: [3 m, 0 m], mass: 20 kg}}\n");
+    write("task.yaml", R"(zwang: 1
+robot: robots/mecanum_base.yaml
+scene: scene.yaml
+start: stand
+tasks:
+  stand:
+    constraints: {still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
+    timeout: {after: 0.1 s, goto: done}
+)");
+    write("good.yaml", scenario("zwang_scenario", "truth.crate.force < 1 N"));
+  }
+  static std::string scenario(const std::string& key, const std::string& that) {
+    return key + ": 1\ntask: task.yaml\nexpect: [{outcome: done}, {at: end, that: " + that + "}]\n";
+  }
+};
+
+TEST_F(Scenarios, AFileThatCannotBeRunIsNoRunThatWentAsExpected) {
+  write("bad.yaml", scenario("zwang_scenario", "truth.crat.force < 1 N"));
+  const Result r = zwang({"test", "good.yaml", "bad.yaml", "--junit", "junit.xml"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_NE(r.out.find("\n1 of 1 runs as expected, and 1 file with errors, in "), std::string::npos) << r.out;
+  const std::string junit = read(folder_ / "junit.xml");
+  EXPECT_EQ(times(junit, "<testcase "), 2u) << junit;
+  EXPECT_EQ(times(junit, "<failure "), 1u) << junit;
+  EXPECT_NE(junit.find("bad.yaml\" tests=\"1\" failures=\"1\""), std::string::npos) << junit;
+  const Result alone = zwang({"test", "bad.yaml"});
+  EXPECT_NE(alone.out.find("\n0 of 0 runs as expected, and 1 file with errors"), std::string::npos)
+      << alone.out;
+}
+
+}  // namespace
+}  // namespace zwang
