@@ -55,5 +55,39 @@ TEST_F(Scenarios, AFileThatCannotBeRunIsNoRunThatWentAsExpected) {
       << alone.out;
 }
 
+TEST_F(Scenarios, AFolderHidesNoBrokenScenario) {
+  fs::create_directory(folder_ / "claims");
+  const auto claim = [](std::string key) {
+    std::string text = scenario(key, "truth.crate.force < 1 N");
+    return text.replace(text.find("task.yaml"), 9, "../task.yaml");
+  };
+  write(".zwang-root", "");
+  write("claims/good.yaml", claim("zwang_scenario"));
+  const char* const broken[] = {"zwang_scenaro", "zwang_scenarios", "zwang-scenario", "\tzwang_scenario",
+                                "zwang_scneario"};
+  for (const char* key : broken) {
+    write("claims/other.yml", claim(key));
+    const Result r = zwang({"test", "claims"});
+    EXPECT_EQ(r.code, 1) << key;
+    EXPECT_NE(r.out.find("claims/other.yml:1:1: error E10"), std::string::npos) << key << "\n" << r.out;
+    EXPECT_NE(r.out.find("1 of 1 runs as expected, and 1 file with errors"), std::string::npos) << r.out;
+    EXPECT_EQ(zwang({"validate", "claims"}).code, 1) << key;
+  }
+  for (const char* key : {"\"zwang_scenario\"", "'zwang_scenario'"}) {
+    write("claims/other.yml", claim(key));
+    const Result r = zwang({"test", "claims"});
+    EXPECT_EQ(r.code, 0) << key << r.out;
+    EXPECT_NE(r.out.find("2 of 2 runs as expected, in "), std::string::npos) << r.out;
+  }
+}
+
+TEST_F(Scenarios, WhatIsPassedOverInAFolderIsNamed) {
+  write("compose.yaml", "services: {}\n");
+  const Result r = zwang({"test", "."});
+  EXPECT_EQ(r.code, 0) << r.out;
+  EXPECT_NE(r.err.find("compose.yaml is passed over"), std::string::npos) << r.err;
+  EXPECT_EQ(times(r.err, "\n"), 1u) << "the task, the scene and the robots are no surprise: " << r.err;
+}
+
 }  // namespace
 }  // namespace zwang
