@@ -194,5 +194,19 @@ TEST_F(FromOutside, AFullDiskLeavesTheRunAloneAndTheExitStatusSaysSo) {
   EXPECT_NE(read(folder_ / "err").find("the log is incomplete"), std::string::npos);
 }
 
+/// Linux keeps a file that is open; its folder and its name are gone all the same, and so is the log.
+TEST_F(FromOutside, AFolderThatIsRemovedLeavesTheRunAloneAndTheExitStatusSaysSo) {
+  const pid_t child = start_endless();
+  fs::remove_all(folder_ / "log");
+  kill(child, SIGINT);
+  const Result r = finish(child);
+  EXPECT_EQ(r.code, 2);
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["outcome"], "stopped") << "by the signal: control went on";
+  EXPECT_FALSE(j["log_complete"]);
+  EXPECT_NE(r.err.find("the log is incomplete: the log is gone: log/log.mcap was removed"), std::string::npos)
+      << r.err;
+}
+
 }  // namespace
 }  // namespace zwang
