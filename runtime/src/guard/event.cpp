@@ -36,6 +36,8 @@ const char* to_string(EventCode code) noexcept {
       return "clock_refused";
     case EventCode::slip:
       return "slip";
+    case EventCode::wrench_refused:
+      return "wrench_refused";
   }
   return "?";
 }
@@ -74,6 +76,8 @@ const char* describe(EventCode code) noexcept {
       return "a force is measured before anything has moved";
     case EventCode::slip:
       return "a wheel slides that should roll";
+    case EventCode::wrench_refused:
+      return "a force from outside lies along an axis whose force is limited; the solver is not told";
   }
   return "?";
 }

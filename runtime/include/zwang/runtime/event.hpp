@@ -27,6 +27,7 @@ enum class EventCode {
   clock_refused,
   sensor_bias,  ///< a force is measured before anything has moved
   slip,
+  wrench_refused,  ///< along an axis whose force is limited, f_ext is not for the solver
 };
 const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".
