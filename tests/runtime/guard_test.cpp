@@ -110,6 +110,28 @@ TEST(Guard, BoundsTheSlewOfEveryTorqueIncludingTheStops) {
   EXPECT_EQ(bench.tau, Eigen::Vector4d(2, -2, 0, 0));
 }
 
+/// Of each joint its own, and the stop keeps to it on its first tick.
+TEST(Guard, KeepsToTheSlewOfTheRobotFile) {
+  lang::Robot robot = mecanum_robot();
+  robot.slew = Eigen::Vector4d(1000.0, 2000.0, 3000.0, solver::infinity);
+  SafetyGuard guard(robot);
+  PlanarBase base;
+  base.V = {0.5, 0.0, 0.0};
+  Sensed sensed(robot.model);
+  base.sense(sensed);
+  Eigen::VectorXd tau = Eigen::VectorXd::Zero(4);
+  ASSERT_EQ(guard.admit(sensed), SampleStatus::good);
+  EXPECT_EQ(guard.output(sensed, Eigen::Vector4d::Constant(5.0), tau), GuardStatus::slewed);
+  EXPECT_EQ(tau, Eigen::Vector4d(1, 2, 3, 5));
+  guard.stop(EventCode::requested);
+  EXPECT_EQ(guard.output(sensed, Eigen::Vector4d::Constant(5.0), tau), GuardStatus::stopped);
+  // The brake asks for less than 0 at once: 80 N over four wheels of 75 mm, 1.5 N m.
+  EXPECT_EQ(tau.head<3>(), Eigen::Vector3d(0, 0, 0));
+  EXPECT_LT(tau(3), -0.5);
+  for (int i = 0; i < 3; ++i) guard.output(sensed, tau, tau);
+  EXPECT_LT(tau.maxCoeff(), -0.5) << "within a few ticks they all brake";
+}
+
 TEST(Guard, AClockThatStandsGoesBackOrJumpsIsRefusedAndCounted) {
   Bench bench;
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);

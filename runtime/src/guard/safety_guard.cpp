@@ -68,6 +68,7 @@ const char* to_string(GuardStatus status) noexcept {
 SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings)
     : settings_(settings),
       limit_(Eigen::VectorXd::Zero(robot.model.joint_count())),
+      step_(Eigen::VectorXd::Constant(limit_.size(), settings.max_slew * settings.period)),
       last_(limit_),
       next_(limit_),
       last_q_(limit_),
@@ -80,6 +81,7 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
   const solver::Model& model = robot.model;
   for (int j = 0; j < model.joint_count(); ++j) {
     if (model.joint(j).actuated) limit_(j) = model.joint(j).max_effort;
+    if (robot.slew.size() == limit_.size()) step_(j) = std::min(step_(j), robot.slew(j) * settings.period);
   }
 }
 
@@ -222,10 +224,9 @@ GuardStatus SafetyGuard::output_blind(Eigen::VectorXd& tau) noexcept {
 }
 
 GuardStatus SafetyGuard::send(Eigen::VectorXd& tau, GuardStatus status) noexcept {
-  const double step = settings_.max_slew * settings_.period;
   bool slewed = false;
   for (Eigen::Index j = 0; j < next_.size(); ++j) {
-    const double cut = std::clamp(next_(j), last_(j) - step, last_(j) + step);
+    const double cut = std::clamp(next_(j), last_(j) - step_(j), last_(j) + step_(j));
     slewed = slewed || cut != next_(j);
     next_(j) = cut;
   }
