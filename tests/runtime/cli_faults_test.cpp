@@ -223,6 +223,24 @@ TEST_F(FromOutside, AFullDiskLeavesTheRunAloneAndTheExitStatusSaysSo) {
   EXPECT_NE(read(folder_ / "err").find("the log is incomplete"), std::string::npos);
 }
 
+TEST_F(FromOutside, InfoReadsWellWithALongNameAndAParameter) {
+  fs::copy(specs, folder_ / "specs", fs::copy_options::recursive);
+  std::string task = read(folder_ / "specs/wall_align.yaml");
+  for (std::size_t at; (at = task.find("push")) != std::string::npos;)
+    task.replace(at, 4, "gentle_final_approach");
+  write("specs/wall_align.yaml", task);
+  ASSERT_EQ(
+      zwang({"run", "specs/wall_align.yaml", "-p", "gentle_final_approach=21 N", "--log", "log", "--quiet"})
+          .code,
+      0);
+  const std::string text = zwang({"info", "log/log.mcap"}).out;
+  EXPECT_NE(text.find("\n  params.gentle_final_approach  21\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n  task                          specs/wall_align.yaml\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("\n  command line                  -p gentle_final_approach=21 N\n"), std::string::npos)
+      << text;
+}
+
 /// Linux keeps a file that is open; its folder and its name are gone all the same, and so is the log.
 TEST_F(FromOutside, AFolderThatIsRemovedLeavesTheRunAloneAndTheExitStatusSaysSo) {
   const pid_t child = start_endless();
