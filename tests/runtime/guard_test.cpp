@@ -132,6 +132,30 @@ TEST(Guard, KeepsToTheSlewOfTheRobotFile) {
   EXPECT_LT(tau.maxCoeff(), -0.5) << "within a few ticks they all brake";
 }
 
+TEST(Guard, EventsHaveTheTimeOfTheirSample) {
+  Bench nan_at;
+  ASSERT_EQ(nan_at.admit_after(2.0), SampleStatus::good);
+  nan_at.sensed.state.qd(1) = nan;
+  EXPECT_EQ(nan_at.admit_after(period), SampleStatus::not_finite);
+  EXPECT_EQ(nan_at.guard.stop_event().time, nan_at.sensed.time);
+
+  Bench no_time;
+  ASSERT_EQ(no_time.admit_after(2.0), SampleStatus::good);
+  no_time.sensed.time = nan;
+  EXPECT_EQ(no_time.guard.admit(no_time.sensed), SampleStatus::not_finite);
+  EXPECT_NEAR(no_time.guard.stop_event().time, 2.0 + period, 1e-9) << "when it was due";
+
+  Bench lost;
+  ASSERT_EQ(lost.admit_after(2.0), SampleStatus::good);
+  for (int i = 1; i <= 3; ++i) {
+    EXPECT_EQ(lost.admit_after(0.0), SampleStatus::bad_clock);
+    EXPECT_EQ(lost.guard.refusal().code, EventCode::sample_lost);
+    EXPECT_NEAR(lost.guard.refusal().time, 2.0 + i * period, 1e-9);
+  }
+  EXPECT_EQ(lost.admit_after(-0.5), SampleStatus::bad_clock);
+  EXPECT_EQ(lost.guard.refusal().code, EventCode::clock_refused);
+}
+
 TEST(Guard, AClockThatStandsGoesBackOrJumpsIsRefusedAndCounted) {
   Bench bench;
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);

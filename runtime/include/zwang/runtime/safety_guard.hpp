@@ -87,7 +87,9 @@ class SafetyGuard {
   const Event& refusal() const noexcept { return refusal_; }
 
  private:
+  double due() const noexcept;
   Event find_bad_entry(const Sensed& sensed) const noexcept;
+  void latch(const Event& event) noexcept;
   void brake(const Sensed& sensed) noexcept;
   void clamp_next() noexcept;
   void watch_for_a_frozen_state(const solver::State& state) noexcept;
