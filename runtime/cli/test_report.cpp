@@ -30,7 +30,7 @@ std::string percent(double share) {
 }
 
 std::string margin_text(const ExpectationResult& result) {
-  if (!result.margin) return {};
+  if (!result.margin || !std::isfinite(*result.margin)) return {};
   return "margin " + percent(*result.margin) + " at " + seconds_of(result.time, 3);
 }
 
@@ -62,7 +62,9 @@ std::vector<Summary> summarise(const ScenarioReport& report) {
       if (summary.text.empty()) summary.text = result.text;
       ++summary.count;
       summary.held += result.held ? 1U : 0U;
-      if (!result.margin || (summary.margin && *summary.margin <= *result.margin)) continue;
+      if (!result.margin || !std::isfinite(*result.margin) ||
+          (summary.margin && *summary.margin <= *result.margin))
+        continue;
       summary.margin = result.margin;
       summary.where = cell.name;
     }
@@ -94,6 +96,14 @@ void describe(const ScenarioReport& report, std::ostream& out) {
     if (summary.margin) out << "   least margin " << percent(*summary.margin) << " (" << summary.where << ")";
     out << "\n";
   }
+}
+
+/// What a continuous integration shows of it: the first expectation that was missed.
+std::string failure_of(const CellResult& cell) {
+  for (const ExpectationResult& result : cell.expectations) {
+    if (!result.held) return "missed: " + result.text + " (the run ended: " + outcome_text(cell) + ")";
+  }
+  return outcome_text(cell);
 }
 
 std::string escaped(const std::string& text) {
@@ -207,8 +217,7 @@ std::string junit_report(const std::vector<ScenarioReport>& reports) {
         for (const ExpectationResult& result : cell.expectations) {
           if (!result.held) missed += result.text + "  " + margin_text(result) + "\n";
         }
-        out << "<failure message=\"" << escaped(outcome_text(cell)) << "\">" << escaped(missed)
-            << "</failure>";
+        out << "<failure message=\"" << escaped(failure_of(cell)) << "\">" << escaped(missed) << "</failure>";
       }
       out << "</testcase>\n";
     }

@@ -89,5 +89,29 @@ TEST_F(Scenarios, WhatIsPassedOverInAFolderIsNamed) {
   EXPECT_EQ(times(r.err, "\n"), 1u) << "the task, the scene and the robots are no surprise: " << r.err;
 }
 
+TEST_F(Scenarios, JUnitNamesWhatWasMissed) {
+  write("good.yaml", scenario("zwang_scenario", "truth.crate.x < 2 m"));
+  EXPECT_EQ(zwang({"test", "good.yaml", "--junit", "junit.xml"}).code, 1);
+  const std::string junit = read(folder_ / "junit.xml");
+  EXPECT_NE(junit.find("<failure message=\"missed: at end: truth.crate.x &lt; 2 m (the run ended: done)\">"),
+            std::string::npos)
+      << junit;
+}
+
+/// The crate stands 3 m away: 3 m more than 0 m, and by which share is not to be said.
+TEST_F(Scenarios, NothingIsAShareOfZero) {
+  write("good.yaml", scenario("zwang_scenario", "truth.crate.x > 0 m"));
+  Result r = zwang({"test", "good.yaml"});
+  EXPECT_EQ(r.code, 0) << r.out;
+  EXPECT_EQ(r.out.find("margin"), std::string::npos) << r.out;
+  write("good.yaml", scenario("zwang_scenario", "truth.crate.x > 0 m and truth.crate.x < 4 m"));
+  r = zwang({"test", "good.yaml"});
+  EXPECT_NE(r.out.find("least margin 25.0 %"), std::string::npos) << r.out;
+  write("good.yaml", scenario("zwang_scenario", "truth.crate.x < 0 m"));
+  r = zwang({"test", "good.yaml"});
+  EXPECT_EQ(r.code, 1) << r.out;
+  EXPECT_EQ(r.out.find("margin"), std::string::npos) << r.out;
+}
+
 }  // namespace
 }  // namespace zwang

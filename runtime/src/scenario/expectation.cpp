@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace zwang::runtime {
 
@@ -13,8 +14,11 @@ namespace {
 constexpr double not_at_all = -1.0;  ///< margin of what nobody knows
 
 double distance(double below, double above, double scale) {
-  const double margin = (above - below) / (scale != 0.0 ? std::abs(scale) : 1.0);
-  return std::isnan(margin) ? not_at_all : margin;
+  const double left = above - below;
+  if (std::isnan(left)) return not_at_all;
+  // Of a threshold of 0 nothing is a share.
+  if (scale == 0.0) return left == 0.0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), left);
+  return left / std::abs(scale);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 /// One expectation, followed through a run.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "scenario/true_facts.hpp"
@@ -10,7 +11,7 @@
 namespace zwang::runtime {
 
 /// How far a condition is from changing: positive where it holds. Of a comparison the distance between its
-/// sides as a share of the right one (of 1, where that is 0); `and` takes the least, `or` the largest. What
+/// sides as a share of the right one (infinite, where that is 0); `and` takes the least, `or` the largest. What
 /// nobody knows does not hold. Allocates nothing: `values` and `margins` hold one number for each node.
 double margin_of(const lang::Condition& condition, const TrueFacts& facts, std::vector<double>& values,
                  std::vector<double>& margins) noexcept;
@@ -28,7 +29,7 @@ class ExpectationWatch {
  private:
   const lang::Expectation& expectation_;
   std::vector<double> values_, margins_;
-  double worst_ = 1e300;
+  double worst_ = std::numeric_limits<double>::infinity();
   double worst_time_ = 0.0;
   bool was_looked_at_ = false;
   double begin_ = -1.0;       ///< [s] of `within`
