@@ -97,7 +97,14 @@ TEST_F(FromOutside, ATaskFileThatChangesIsReloadedAndReplays) {
   EXPECT_TRUE(said("reloaded at")) << read(folder_ / "err");
   const Result r = finish(child);
   EXPECT_EQ(r.code, 0) << r.out << r.err;
-  EXPECT_EQ(json::parse(r.out)["outcome"], "done");
+  const json report = json::parse(r.out);
+  EXPECT_EQ(report["outcome"], "done");
+  EXPECT_EQ(report["logs"], json({"log/log.csv", "log/log-reload-1.csv"}));
+  ASSERT_EQ(report["before"].size(), 1u) << "what the first program did is told as well";
+  EXPECT_EQ(report["before"][0]["transitions"][0]["to"], "stand");
+  EXPECT_EQ(report["transitions"].back()["to"], "done");
+  EXPECT_EQ(report["transitions"][0]["time"], report["before"][0]["until"]) << "at the tick of the swap";
+  EXPECT_FALSE(report["before"][0]["limits"].empty());
   json whole;
   for (const char* log : {"log/log.mcap", "log/log-reload-1.mcap"}) {
     const Result again = zwang({"replay", log, "--format", "json"});
