@@ -113,5 +113,44 @@ TEST_F(Scenarios, NothingIsAShareOfZero) {
   EXPECT_EQ(r.out.find("margin"), std::string::npos) << r.out;
 }
 
+/// What the world presses with, as joints and torques tell it, ends the task; the plant's own force is the
+/// judge. At 20 N of push 12 N come and 30 N never do.
+TEST_F(Scenarios, AConditionOnTheEstimatedForceFiresWhereTheForceIs) {
+  fs::create_directory(folder_ / "scenes");
+  fs::copy(fs::path(ZWANG_SOURCE_DIR) / "specs/scenes/wall_far.yaml", folder_ / "scenes/wall.yaml");
+  std::string arm = read(folder_ / "robots/mecanum_arm_base.yaml");
+  arm.replace(arm.find("posture: {"), 10, "posture: {arm_1: 180 deg, ");  // away from the wall
+  write("robots/mecanum_arm_base.yaml", arm);
+  write("press.yaml", R"(zwang: 1
+robot: robots/mecanum_base.yaml
+scene: scenes/wall.yaml
+params: {least: 12 N}
+start: press
+tasks:
+  press:
+    constraints:
+      go: {move: base_link, in: base_link, x: {force: 20 N, velocity: +-0.15 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: estimated.force.x < -$least, for: 0.5 s, goto: done}]
+    timeout: {after: 12 s, goto: failed}
+)");
+  const std::string head = R"(zwang_scenario: 1
+task: press.yaml
+matrix:
+  robot: [robots/mecanum_base.yaml, robots/diff_base.yaml, robots/kelo_base.yaml, robots/kelo_two_base.yaml, robots/mecanum_arm_base.yaml]
+  start_yaw: [0 deg]
+)";
+  write("fires.yaml", head + R"(expect:
+  - outcome: done
+  - {at: end, that: abs(truth.wall.force - 20 N) < 2 N}
+)");
+  write("never.yaml", head + "params: {least: 30 N}\n" + R"(expect:
+  - outcome: failed
+  - {at: end, that: abs(truth.wall.force - 20 N) < 0.5 N}
+)");
+  const Result r = zwang({"test", "fires.yaml", "never.yaml"});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  EXPECT_NE(r.out.find("10 of 10 runs as expected"), std::string::npos) << r.out;
+}
+
 }  // namespace
 }  // namespace zwang
