@@ -11,8 +11,8 @@
 namespace zwang::runtime {
 
 /// How far a condition is from changing: positive where it holds. Of a comparison the distance between its
-/// sides as a share of the right one (infinite, where that is 0); `and` takes the least, `or` the largest. What
-/// nobody knows does not hold. Allocates nothing: `values` and `margins` hold one number for each node.
+/// sides as a share of the right one (infinite, where that is 0); `and` takes the least, `or` the largest.
+/// What nobody knows does not hold. Allocates nothing: `values` and `margins` hold one number for each node.
 double margin_of(const lang::Condition& condition, const TrueFacts& facts, std::vector<double>& values,
                  std::vector<double>& margins) noexcept;
 
