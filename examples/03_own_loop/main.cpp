@@ -1,14 +1,14 @@
 // A task file in a loop of one's own: sense, step, apply, with a parameter that changes while it runs.
 //
-//   03_own_loop TASK.yaml        for example specs/wall_align.yaml
+//   03_own_loop TASK.yaml        specs/wall_align.yaml, or specs/docking.yaml, which has to see its partner
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <optional>
 
 #include "zwang/lang/program.hpp"
-#include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
 
 namespace {
 
@@ -31,8 +31,9 @@ int run(const lang::Program& program, runtime::Plant& plant) {
   runtime::Sensed sensed(program.robot.model, program.signals.size());
   bool pushed_harder = false;
   while (!runner.finished() && sensed.time < 60.0) {
-    if (plant.sense(sensed) != runtime::PlantStatus::ok) break;
-    // Signals would be filled in here: sensed.signals[i] = {.valid = true, .stamp = ..., .number = ...}.
+    // A robot fills in its signals, too: sensed.signals[i] = {.valid = true, .stamp = ..., .number = ...}. A
+    // sample that does not come is the runner's to count: it is shown the last one again.
+    if (plant.sense(sensed) == runtime::PlantStatus::diverged) break;
     if (sensed.time > 4.0 && !pushed_harder) {
       pushed_harder = true;
       const bool taken = runner.set_parameter("push", 30.0);
@@ -57,7 +58,7 @@ int main(int argc, char** argv) try {
   }
   const std::optional<lang::Program> program = load(argv[1]);
   if (!program) return 2;
-  runtime::MujocoPlant plant(program->robot, *program->scene);
+  runtime::ScenePlant plant(*program);  // what the scene lets a robot know, and no more
   return run(*program, plant);
 } catch (const std::exception& e) {
   std::cerr << e.what() << '\n';

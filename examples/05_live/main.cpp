@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "zwang/lang/program.hpp"
-#include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
 #include "zwang/runtime/watchdog.hpp"
 
 namespace {
@@ -32,14 +32,14 @@ int main(int argc, char** argv) try {
   }
   const auto program = load(argv[1]), other = load(argv[2]);
   if (!program || !program->scene || !other) return 2;
-  runtime::MujocoPlant plant(program->robot, *program->scene);
+  runtime::ScenePlant plant(*program);
   runtime::Runner runner(*program), next(*other);  // both are ready before the loop begins
   runtime::Sensed sensed(program->robot.model, program->signals.size());
   // On a robot it would cut the motors' current: the thread that should do it is the one that is blocked.
   runtime::Watchdog watchdog(1.0, [] { std::fputs("the loop is blocked\n", stderr); });
   while (!runner.finished()) {
     watchdog.feed();
-    if (plant.sense(sensed) != runtime::PlantStatus::ok) return 1;
+    if (plant.sense(sensed) == runtime::PlantStatus::diverged) return 1;
     const long tick = std::lround(sensed.time * 1e3);
     if (tick == 500) std::printf("push 30 N: %s\n", runner.set_parameter("push", 30.0) ? "taken" : "refused");
     if (tick == 600)

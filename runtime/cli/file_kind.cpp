@@ -1,7 +1,9 @@
 #include "file_kind.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 
 #include "output.hpp"
 #include "verbs.hpp"
@@ -37,6 +39,51 @@ const char* word_of(FileKind kind) {
   return "scenario";
 }
 
+namespace {
+
+struct FirstKey {
+  std::string_view key;
+  FileKind kind;
+};
+constexpr FirstKey first_keys[] = {{"zwang", FileKind::task},
+                                   {"zwang_robot", FileKind::robot},
+                                   {"zwang_scene", FileKind::scene},
+                                   {"zwang_scenario", FileKind::scenario}};
+constexpr std::size_t is_another_word = 3;
+
+/// How many letters have to be written again for one word to become the other, if they stand together.
+std::size_t letters_between(std::string_view a, std::string_view b) {
+  const std::size_t longest = std::max(a.size(), b.size()), shortest = std::min(a.size(), b.size());
+  std::size_t before = 0, behind = 0;
+  while (before < shortest && a[before] == b[before]) ++before;
+  while (before + behind < shortest && a[a.size() - 1 - behind] == b[b.size() - 1 - behind]) ++behind;
+  return longest - before - behind;
+}
+
+/// A key with a letter too many, too few, wrong or swapped is the one that it is nearest to.
+std::optional<FileKind> kind_of_key(std::string_view key) {
+  std::size_t least = is_another_word;
+  std::optional<FileKind> kind;
+  for (const FirstKey& first : first_keys) {
+    const std::size_t letters = letters_between(key, first.key);
+    // Of a short word more would be left than is told by it.
+    if (letters >= least || (first.kind == FileKind::task && letters > 1)) continue;
+    least = letters;
+    kind = first.kind;
+  }
+  return kind;
+}
+
+/// The key that a line begins with, whatever stands around it; empty for a comment and the like.
+std::string_view key_of(std::string_view line) {
+  const std::size_t begin = line.find_first_not_of(" \t\r{\"'");
+  if (begin == std::string_view::npos || line[begin] == '#' || line.substr(begin, 3) == "---") return {};
+  line.remove_prefix(begin);
+  return line.substr(0, line.find_first_of(" \t\r:\"'"));
+}
+
+}  // namespace
+
 std::optional<FileKind> kind_by_key(const std::string& path) {
   std::string start(16 * 1024, '\0');
   std::ifstream file(path, std::ios::binary);
@@ -45,13 +92,7 @@ std::optional<FileKind> kind_by_key(const std::string& path) {
   if (start.starts_with("\xEF\xBB\xBF")) start.erase(0, 3);
   std::istringstream in(start);
   for (std::string line; std::getline(in, line);) {
-    const std::size_t begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string::npos || line[begin] == '#' || line.compare(begin, 3, "---") == 0) continue;
-    if (line.compare(begin, 11, "zwang_robot") == 0) return FileKind::robot;
-    if (line.compare(begin, 14, "zwang_scenario") == 0) return FileKind::scenario;
-    if (line.compare(begin, 11, "zwang_scene") == 0) return FileKind::scene;
-    if (line.compare(begin, 6, "zwang:") == 0) return FileKind::task;
-    return std::nullopt;
+    if (const std::string_view key = key_of(line); !key.empty()) return kind_of_key(key);
   }
   return std::nullopt;
 }

@@ -11,7 +11,8 @@ namespace zwang::cli {
 enum class FileKind { task, robot, scene, scenario };
 
 const char* word_of(FileKind kind);
-/// By the file's first key. nullopt when it is none of zwang's.
+/// By the file's first key, a misspelt one, too: its reader says what is wrong. nullopt when it is none of
+/// zwang's.
 std::optional<FileKind> kind_by_key(const std::string& path);
 /// What was read, in a few words; nothing when it is bad. `options` are a task file's. `with_notes`: notes
 /// are looked for, too.

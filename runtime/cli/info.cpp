@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -10,6 +11,9 @@ namespace zwang::cli {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr std::size_t narrowest = 20;            // of the column of names
+constexpr const char* from_command_line = "-p";  // what a log calls the text of that option
 
 struct TaskBegin {
   double time = 0.0;  ///< [s]
@@ -57,16 +61,25 @@ std::string as_text(const std::string& file, const runtime::LogContents& log,
   out << file << ": " << (log.closed && log.damage.empty() ? "whole" : "damaged") << ", " << log.records
       << " records from " << with_unit(log.begin, "s") << " to " << with_unit(log.end, "s") << "\n";
   for (const std::string& what : log.damage) out << "  " << what << "\n";
-  for (const auto& [name, value] : log.context.facts) out << "  " << padded(name, 20) << value << "\n";
+  std::size_t width = narrowest;
+  for (const auto& [name, value] : log.context.facts) width = std::max(width, name.size() + 2);
+  const auto line = [&](const std::string& name) -> std::ostream& {
+    return out << "  " << padded(name, width);
+  };
+  for (const auto& [name, value] : log.context.facts) line(name) << value << "\n";
   for (const lang::Source& s : log.context.sources) {
-    out << "  " << padded("file", 20) << s.path << " (" << s.text.size() << " bytes)\n";
+    if (s.path == from_command_line) {
+      line("command line") << s.path << " " << s.text << "\n";
+    } else {
+      line("file") << s.path << " (" << s.text.size() << " bytes)\n";
+    }
   }
   for (const TaskBegin& t : tasks) {
-    out << "  " << padded("from " + with_unit(t.time, "s"), 20) << "task `" << t.task << "`\n";
+    line("from " + with_unit(t.time, "s")) << "task `" << t.task << "`\n";
   }
   for (const ToldEvent& e : events) {
-    out << "  " << padded("at " + with_unit(e.time, "s", 6), 20) << "event " << e.code
-        << (e.signal.empty() ? "" : ", " + e.signal) << "\n";
+    line("at " + with_unit(e.time, "s", 6))
+        << "event " << e.code << (e.signal.empty() ? "" : ", " + e.signal) << "\n";
   }
   return out.str();
 }

@@ -21,6 +21,7 @@ Reloads::Reloads(const RunArguments& arguments, fs::path folder, const lang::Pro
     : arguments_(arguments),
       folder_(std::move(folder)),
       program_(program),
+      first_(diagnostics),
       settings_(settings),
       recorders_(recorders) {
   for (const lang::Source& source : diagnostics.sources()) {
@@ -31,8 +32,22 @@ Reloads::Reloads(const RunArguments& arguments, fs::path folder, const lang::Pro
 }
 
 Reloads::~Reloads() {
+  end();
+}
+
+void Reloads::end() {
   is_over_ = true;
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
+}
+
+std::vector<Chapter> Reloads::before() const {
+  std::vector<Chapter> chapters;
+  const lang::Diagnostics* of_files = &first_;
+  for (const auto& loaded : past_) {
+    chapters.push_back({loaded->at, loaded->runner.get(), of_files});
+    of_files = &loaded->diagnostics;
+  }
+  return chapters;
 }
 
 Reloads::Stamps Reloads::stamps() const {
@@ -110,11 +125,14 @@ void Reloads::look(runtime::Runner& runner, double time) {
   if (is_over || !runner.swap_program(*next->runner))
     return print_error("zwang: " + arguments_.file + " was not reloaded: " +
                        (is_over ? "the task is over" : "its robot is another") + "\n");
-  const std::string name = "log-reload-" + std::to_string(log_count_++);
+  const std::string name = "log-reload-" + std::to_string(past_.size() + 1);
   runtime::LogContext context = context_of(arguments_, *next->program, next->diagnostics);
   context.facts["continues"] = last_log_;
   recorders_.push_back(record(runner, folder_, name, std::move(context)));
   last_log_ = name + ".mcap";
+  logs_.push_back((folder_ / (name + ".csv")).string());
+  next->at = time;
+  past_.push_back(std::move(next));
   print_error("zwang: " + arguments_.file + " reloaded at " + with_unit(time, "s") + "; " + last_log_ +
               " goes on\n");
 }

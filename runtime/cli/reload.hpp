@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "run_log.hpp"
+#include "run_report.hpp"
 
 namespace zwang::cli {
 
@@ -29,6 +30,15 @@ class Reloads {
   Reloads(const Reloads&) = delete;
   Reloads& operator=(const Reloads&) = delete;
 
+  /// Looks no more.
+  void end();
+  /// Of the program that runs now.
+  const lang::Diagnostics& diagnostics() const { return past_.empty() ? first_ : past_.back()->diagnostics; }
+  /// Those that ran before it.
+  std::vector<Chapter> before() const;
+  /// Its logs, beside the first.
+  const std::vector<std::string>& logs() const { return logs_; }
+
   /// Between two ticks. Keeps the run at the pace of real time, too, so that somebody can watch it.
   void look(runtime::Runner& runner, double time);
 
@@ -36,7 +46,8 @@ class Reloads {
   struct Loaded {
     std::optional<lang::Program> program;
     lang::Diagnostics diagnostics;
-    std::unique_ptr<runtime::Runner> runner;
+    std::unique_ptr<runtime::Runner> runner;  ///< once swapped in, the one before it
+    double at = 0.0;                          ///< [s] when it was
   };
   using Stamps = std::vector<std::filesystem::file_time_type>;
 
@@ -48,12 +59,14 @@ class Reloads {
   const RunArguments& arguments_;
   const std::filesystem::path folder_;
   const lang::Program& program_;
+  const lang::Diagnostics& first_;
   const runtime::RunnerSettings& settings_;
   Recorders& recorders_;
   std::vector<std::string> files_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::string last_log_ = "log.mcap";
-  int log_count_ = 1;
+  std::vector<std::unique_ptr<Loaded>> past_;  ///< those that were swapped in
+  std::vector<std::string> logs_;
   std::mutex mutex_;
   std::unique_ptr<Loaded> loaded_;  ///< by the watching thread, for the next tick
   std::atomic<bool> is_loaded_ = false, is_over_ = false;

@@ -200,27 +200,34 @@ int run(const RunArguments& arguments) {
   Live live(talks);
   RunReport report;
   report.seed = arguments.seed;
-  report.log = (folder / "log.csv").string();
+  report.logs.push_back((folder / "log.csv").string());
   catch_signals();
   const auto begin = Clock::now();
   std::optional<Reloads> reloads;
   if (arguments.watch) reloads.emplace(arguments, folder, *program, diagnostics, settings, recorders);
   control(plant, runner, recorders, *program, arguments.watchdog, reloads ? &*reloads : nullptr, live,
           report);
-  reloads.reset();
+  if (reloads) {
+    reloads->end();
+    report.before = reloads->before();
+    report.logs.insert(report.logs.end(), reloads->logs().begin(), reloads->logs().end());
+  }
   report.wall_time = std::chrono::duration<double>(Clock::now() - begin).count();
   for (const auto& recorder : recorders) recorder->close();
   live.end();
 
-  report.records = recorders.front()->status().written;
-  for (const auto& recorder : recorders) {
-    const runtime::RecorderStatus log = recorder->status();
+  const std::size_t partner_logs = plant.partners().size();
+  for (std::size_t i = 0; i < recorders.size(); ++i) {
+    const runtime::RecorderStatus log = recorders[i]->status();
+    // The first robot's stand before and behind the partners'.
+    if (i == 0 || i > partner_logs) report.records += log.written;
     if (report.log_error.empty()) report.log_error = log.error;
     if (report.log_error.empty() && !log.complete())
       report.log_error = std::to_string(log.dropped) + " records were dropped";
   }
-  print(arguments.format == Format::json ? json_report(report, runner, diagnostics)
-                                         : human_report(report, runner, diagnostics));
+  const lang::Diagnostics& of_files = reloads ? reloads->diagnostics() : diagnostics;
+  print(arguments.format == Format::json ? json_report(report, runner, of_files)
+                                         : human_report(report, runner, of_files));
   if (!report.log_error.empty()) {
     print_error("zwang: the log is incomplete: " + report.log_error + "\n");
     return exit_impossible;

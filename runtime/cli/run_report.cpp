@@ -156,6 +156,20 @@ ordered_json json_transitions(const runtime::Runner& runner, const lang::Diagnos
   return all;
 }
 
+ordered_json json_limits(const runtime::Runner& runner, const lang::Diagnostics& diagnostics) {
+  ordered_json limits = ordered_json::array();
+  for (const LimitReport& l : runner.limits()) {
+    limits.push_back({{"row", l.row},
+                      {"line", l.span.exists() ? ordered_json(l.span.begin.line) : ordered_json(nullptr)},
+                      {"limit", l.limit},
+                      {"worst", l.worst},
+                      {"margin", l.margin},
+                      {"unit", l.unit},
+                      {"where", place(diagnostics, l.span)}});
+  }
+  return limits;
+}
+
 ordered_json json_events(const runtime::Runner& runner) {
   ordered_json all = ordered_json::array();
   for (const runtime::Event& e : runner.events()) {
@@ -244,9 +258,17 @@ std::string human_report(const RunReport& report, const runtime::Runner& runner,
                          const lang::Diagnostics& diagnostics) {
   std::string text = report.outcome + " after " + seconds(report.elapsed);
   if (!report.because.empty()) text += ": " + report.because;
-  text += "\n\n" + transitions_table(runner, diagnostics) + "\n" + events_table(runner) +
+  text += "\n\n";
+  for (const Chapter& chapter : report.before) {
+    text += "until the task file was loaded again at " + seconds(chapter.until) + ": " +
+            transitions_table(*chapter.runner, *chapter.diagnostics) + "\n" +
+            limits_table(*chapter.runner, *chapter.diagnostics) + "\n";
+  }
+  text += transitions_table(runner, diagnostics) + "\n" + events_table(runner) +
           limits_table(runner, diagnostics) + "\n" + truth_table(report) + "\n";
-  text += "log    " + report.log + ", " + std::to_string(report.records) + " records";
+  text += "log    ";
+  for (const std::string& log : report.logs) text += log + ", ";
+  text += std::to_string(report.records) + " records";
   if (!report.log_error.empty()) text += ", INCOMPLETE: " + report.log_error;
   text += "\nspeed  " + with_unit(report.elapsed / std::max(report.wall_time, 1e-9), "x real time", 3) + "\n";
   return text;
@@ -254,16 +276,6 @@ std::string human_report(const RunReport& report, const runtime::Runner& runner,
 
 std::string json_report(const RunReport& report, const runtime::Runner& runner,
                         const lang::Diagnostics& diagnostics) {
-  ordered_json limits = ordered_json::array();
-  for (const LimitReport& l : runner.limits()) {
-    limits.push_back({{"row", l.row},
-                      {"line", l.span.exists() ? ordered_json(l.span.begin.line) : ordered_json(nullptr)},
-                      {"limit", l.limit},
-                      {"worst", l.worst},
-                      {"margin", l.margin},
-                      {"unit", l.unit},
-                      {"where", place(diagnostics, l.span)}});
-  }
   ordered_json truth = ordered_json::object();
   for (const ObjectReport& o : report.objects) {
     truth[o.name] = {{"touched", number_or_null(o.touched)}, {"steady_force", o.steady_force},
@@ -279,13 +291,19 @@ std::string json_report(const RunReport& report, const runtime::Runner& runner,
                         {"elapsed", report.elapsed},
                         {"transitions", json_transitions(runner, diagnostics)},
                         {"events", json_events(runner)},
-                        {"limits", limits},
+                        {"limits", json_limits(runner, diagnostics)},
                         {"asked", asked},
                         {"truth", truth},
                         {"seed", report.seed},
-                        {"log", report.log},
+                        {"log", report.logs.front()},
+                        {"logs", report.logs},
                         {"log_complete", report.log_error.empty()},
                         {"wall_time", report.wall_time}};
+  for (const Chapter& chapter : report.before) {
+    whole["before"].push_back({{"until", chapter.until},
+                               {"transitions", json_transitions(*chapter.runner, *chapter.diagnostics)},
+                               {"limits", json_limits(*chapter.runner, *chapter.diagnostics)}});
+  }
   if (!report.because.empty()) whole["because"] = report.because;
   for (const PartnerReport& p : report.partners)
     whole["robots"][p.name] = {{"outcome", p.outcome}, {"because", p.because}, {"task", p.task}};

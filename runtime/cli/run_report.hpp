@@ -59,13 +59,21 @@ struct PartnerReport {
 };
 PartnerReport partner_report(const runtime::ScenePartner& partner);
 
+/// A program that ran before the file was loaded again.
+struct Chapter {
+  double until = 0.0;                              ///< [s]
+  const runtime::Runner* runner = nullptr;         ///< as it stood then
+  const lang::Diagnostics* diagnostics = nullptr;  ///< of its files
+};
+
 struct RunReport {
   std::string outcome;     ///< done, failed, stopped, diverged; the first robot's
   std::string because;     ///< of a stop; empty otherwise
   double elapsed = 0.0;    ///< [s]
   double wall_time = 0.0;  ///< [s] that it took
   std::uint64_t seed = 0;
-  std::string log;
+  std::vector<std::string> logs;  ///< of the first robot, one after the other
+  std::vector<Chapter> before;
   std::uint64_t records = 0;
   std::string log_error;  ///< empty when the log is complete
   std::vector<AskedForce> asked;

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <thread>
 
+#include "file_kind.hpp"
 #include "output.hpp"
 #include "test_report.hpp"
 #include "verbs.hpp"
@@ -20,14 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+/// A file of a folder. What is none of zwang's is named: it may have been meant as a scenario.
 bool is_scenario(const fs::path& path) {
-  if (path.extension() != ".yaml") return false;
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    return line.rfind("zwang_scenario", 0) == 0;
-  }
-  return false;
+  if (path.extension() != ".yaml" && path.extension() != ".yml") return false;
+  const std::optional<FileKind> kind = kind_by_key(path.string());
+  if (!kind) print_error("zwang: " + path.string() + " is passed over: its first key is none of zwang's\n");
+  return kind == FileKind::scenario;
 }
 
 /// In the order given; those of a folder by name.

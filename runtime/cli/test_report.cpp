@@ -45,8 +45,9 @@ std::string value_text(const ExpectationResult& result) {
 }
 
 std::string margin_text(const ExpectationResult& result) {
-  if (!result.margin) return {};
-  return value_text(result) + "margin " + percent(*result.margin) + " at " + seconds_of(result.time, 3);
+  std::string text = value_text(result);
+  if (result.margin) text += "margin " + percent(*result.margin) + " ";
+  return text.empty() ? text : text + "at " + seconds_of(result.time, 3);
 }
 
 std::string outcome_text(const CellResult& cell) {
@@ -115,6 +116,14 @@ void describe(const ScenarioReport& report, std::ostream& out) {
   }
 }
 
+/// What a continuous integration shows of it: the first expectation that was missed.
+std::string failure_of(const CellResult& cell) {
+  for (const ExpectationResult& result : cell.expectations) {
+    if (!result.held) return "missed: " + result.text + " (the run ended: " + outcome_text(cell) + ")";
+  }
+  return outcome_text(cell);
+}
+
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -148,7 +157,7 @@ nlohmann::ordered_json json_of(const CellResult& cell) {
   nlohmann::ordered_json expectations = nlohmann::ordered_json::array();
   for (const ExpectationResult& result : cell.expectations) {
     nlohmann::ordered_json one = {{"text", result.text}, {"held", result.held}};
-    if (result.margin && std::isfinite(*result.margin)) one["margin"] = *result.margin;
+    if (result.margin) one["margin"] = *result.margin;
     if (result.value) one["value"] = *result.value;
     if (result.value) one["unit"] = result.unit;
     one["time"] = result.time;
@@ -173,13 +182,19 @@ bool passed(const ScenarioReport& report) {
 
 std::string human_report(const std::vector<ScenarioReport>& reports, double seconds) {
   std::ostringstream out;
-  std::size_t runs = 0, good = 0;
+  std::size_t runs = 0, good = 0, unreadable = 0;
   for (const ScenarioReport& report : reports) {
     describe(report, out);
+    if (!report.readable) {
+      ++unreadable;
+      continue;
+    }
     runs += report.cells.size();
-    good += report.cells.size() - (report.readable ? failures(report) : 0);
+    good += report.cells.size() - failures(report);
   }
-  out << good << " of " << runs << " runs as expected, in " << seconds_of(seconds, 1) << "\n";
+  out << good << " of " << runs << " runs as expected";
+  if (unreadable > 0) out << ", and " << count(unreadable, "file") << " with errors";
+  out << ", in " << seconds_of(seconds, 1) << "\n";
   return out.str();
 }
 
@@ -211,7 +226,8 @@ std::string junit_report(const std::vector<ScenarioReport>& reports) {
       lang::render_human(report.diagnostics, text);
       out << "    <testcase name=\"the scenario file\" classname=\"" << escaped(report.path)
           << "\" time=\"0\"><failure message=\"not readable\">" << escaped(text.str())
-          << "</failure></testcase>\n";
+          << "</failure></testcase>\n  </testsuite>\n";
+      continue;
     }
     for (const CellResult& cell : report.cells) {
       out << "    <testcase name=\"" << escaped(cell.name) << "\" classname=\"" << escaped(report.path)
@@ -221,8 +237,7 @@ std::string junit_report(const std::vector<ScenarioReport>& reports) {
         for (const ExpectationResult& result : cell.expectations) {
           if (!result.held) missed += result.text + "  " + margin_text(result) + "\n";
         }
-        out << "<failure message=\"" << escaped(outcome_text(cell)) << "\">" << escaped(missed)
-            << "</failure>";
+        out << "<failure message=\"" << escaped(failure_of(cell)) << "\">" << escaped(missed) << "</failure>";
       }
       out << "</testcase>\n";
     }

@@ -28,6 +28,8 @@ for program in "$place"/build/[0-9]*/[0-9]*; do
       */05_live) arguments=("$source/specs/wall_align.yaml" "$source/specs/obstacle.yaml") ;;
     esac
     step "run $(basename "$program")" "$program" "${arguments[@]}"
+    # A task that a robot without signals cannot do.
+    [[ $program != */03_own_loop ]] || step "run it with signals" "$program" "$source/specs/docking.yaml"
     ran=$((ran + 1))
   fi
 done

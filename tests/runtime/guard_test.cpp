@@ -110,6 +110,52 @@ TEST(Guard, BoundsTheSlewOfEveryTorqueIncludingTheStops) {
   EXPECT_EQ(bench.tau, Eigen::Vector4d(2, -2, 0, 0));
 }
 
+/// Of each joint its own, and the stop keeps to it on its first tick.
+TEST(Guard, KeepsToTheSlewOfTheRobotFile) {
+  lang::Robot robot = mecanum_robot();
+  robot.slew = Eigen::Vector4d(1000.0, 2000.0, 3000.0, solver::infinity);
+  SafetyGuard guard(robot);
+  PlanarBase base;
+  base.V = {0.5, 0.0, 0.0};
+  Sensed sensed(robot.model);
+  base.sense(sensed);
+  Eigen::VectorXd tau = Eigen::VectorXd::Zero(4);
+  ASSERT_EQ(guard.admit(sensed), SampleStatus::good);
+  EXPECT_EQ(guard.output(sensed, Eigen::Vector4d::Constant(5.0), tau), GuardStatus::slewed);
+  EXPECT_EQ(tau, Eigen::Vector4d(1, 2, 3, 5));
+  guard.stop(EventCode::requested);
+  EXPECT_EQ(guard.output(sensed, Eigen::Vector4d::Constant(5.0), tau), GuardStatus::stopped);
+  // The brake asks for less than 0 at once: 80 N over four wheels of 75 mm, 1.5 N m.
+  EXPECT_EQ(tau.head<3>(), Eigen::Vector3d(0, 0, 0));
+  EXPECT_LT(tau(3), -0.5);
+  for (int i = 0; i < 3; ++i) guard.output(sensed, tau, tau);
+  EXPECT_LT(tau.maxCoeff(), -0.5) << "within a few ticks they all brake";
+}
+
+TEST(Guard, EventsHaveTheTimeOfTheirSample) {
+  Bench nan_at;
+  ASSERT_EQ(nan_at.admit_after(2.0), SampleStatus::good);
+  nan_at.sensed.state.qd(1) = nan;
+  EXPECT_EQ(nan_at.admit_after(period), SampleStatus::not_finite);
+  EXPECT_EQ(nan_at.guard.stop_event().time, nan_at.sensed.time);
+
+  Bench no_time;
+  ASSERT_EQ(no_time.admit_after(2.0), SampleStatus::good);
+  no_time.sensed.time = nan;
+  EXPECT_EQ(no_time.guard.admit(no_time.sensed), SampleStatus::not_finite);
+  EXPECT_NEAR(no_time.guard.stop_event().time, 2.0 + period, 1e-9) << "when it was due";
+
+  Bench lost;
+  ASSERT_EQ(lost.admit_after(2.0), SampleStatus::good);
+  for (int i = 1; i <= 3; ++i) {
+    EXPECT_EQ(lost.admit_after(0.0), SampleStatus::bad_clock);
+    EXPECT_EQ(lost.guard.refusal().code, EventCode::sample_lost);
+    EXPECT_NEAR(lost.guard.refusal().time, 2.0 + i * period, 1e-9);
+  }
+  EXPECT_EQ(lost.admit_after(-0.5), SampleStatus::bad_clock);
+  EXPECT_EQ(lost.guard.refusal().code, EventCode::clock_refused);
+}
+
 TEST(Guard, AClockThatStandsGoesBackOrJumpsIsRefusedAndCounted) {
   Bench bench;
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);

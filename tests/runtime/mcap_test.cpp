@@ -20,8 +20,8 @@ namespace zwang::runtime {
 namespace {
 
 constexpr double period = 1e-3;
-constexpr std::size_t stride = 7;                  // [bytes], prime to the lengths of fields
-constexpr std::uint64_t records_in_a_chunk = 100;  // 100 ms
+constexpr std::size_t stride = 7;                 // [bytes], prime to the lengths of fields
+constexpr std::uint64_t records_in_a_chunk = 50;  // 50 ms
 
 struct Folder {
   zwang::test::TemporaryFolder temporary;

@@ -93,6 +93,70 @@ TEST(Runner, ReportsEachLimitsWorstValueAndMargin) {
   EXPECT_NEAR(torque.worst, expected, 1e-3 * expected);
 }
 
+/// What a host measures at the bumper, from the first tick on.
+struct PressedLoop : Loop {
+  using Loop::Loop;
+  void tick(const solver::Vector3& force) {
+    base.sense(sensed);
+    sensed.state.f_ext[0].linear = force;
+    base.step(runner.step(sensed));
+  }
+  double pushes(Axis axis) const {  // [N] of the row that drives the axis
+    const auto& rows = runner.scheduler().constraints().rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto& c =
+          runner.scheduler().constraints().constraints()[static_cast<std::size_t>(rows[i].constraint)];
+      if (rows[i].kind == solver::RowKind::driver && c.axis == axis) return runner.solution().rows[i].nu;
+    }
+    ADD_FAILURE() << "no such row";
+    return 0.0;
+  }
+};
+
+/// The row that knew of the 15 N would press 15 N harder to get its acceleration.
+TEST(ForceFromOutside, IsRefusedAlongAnAxisWhoseForceIsLimited) {
+  lang::Task go = task("go", {drive("go.x", Axis::x, Quantity::velocity, 0.05),
+                              drive("go.y", Axis::y, Quantity::velocity, 0.0),
+                              drive("go.rz", Axis::rz, Quantity::velocity, 0.0)});
+  go.groups[0].axes[0].force = between(-40, 40);
+  go.blend.constant = 0.0;
+  const lang::Program p = program({go});
+  PressedLoop free(p), ahead(p), across(p);
+  across.tick({0, -15, 0});
+  for (int i = 0; i < 5; ++i) {
+    free.tick({0, 0, 0});
+    ahead.tick({-15, 0, 0});
+  }
+  EXPECT_GT(free.pushes(Axis::x), 1.0);
+  EXPECT_NEAR(ahead.pushes(Axis::x), free.pushes(Axis::x), 1e-9);
+  ASSERT_EQ(ahead.runner.events().size(), 1u) << "once, not on every tick";
+  const Event& event = ahead.runner.events()[0];
+  EXPECT_EQ(event.code, EventCode::wrench_refused);
+  EXPECT_EQ(ahead.runner.event_signal(event), "base_link.f_ext");
+  EXPECT_NEAR(event.value, 15.0, 1e-9);
+  EXPECT_EQ(ahead.runner.state(), RunState::running);
+  EXPECT_NEAR(across.pushes(Axis::y), free.pushes(Axis::y) + 15.0, 1e-6) << "known, and made up for";
+  EXPECT_TRUE(across.runner.events().empty());
+}
+
+/// In axes of the world, and the base has turned: what lies ahead of it lies across the row.
+TEST(ForceFromOutside, IsRefusedInTheAxesOfTheRow) {
+  lang::Task go =
+      task("go",
+           {drive("go.x", Axis::x, Quantity::velocity, 0.05), drive("go.y", Axis::y, Quantity::velocity, 0.0),
+            drive("go.rz", Axis::rz, Quantity::velocity, 0.0)},
+           base_link, world_frame);
+  go.groups[0].axes[0].force = between(-40, 40);
+  PressedLoop free(program({go})), pressed(program({go}));
+  free.base.pose.z() = pressed.base.pose.z() = 0.5 * std::numbers::pi;
+  free.tick({0, 0, 0});
+  pressed.tick({-20, 15, 0});  // in the world x -15 N, y -20 N
+  ASSERT_EQ(pressed.runner.events().size(), 1u);
+  EXPECT_NEAR(pressed.runner.events()[0].value, 15.0, 1e-9);
+  EXPECT_NEAR(pressed.pushes(Axis::x), free.pushes(Axis::x), 1e-6);
+  EXPECT_NEAR(pressed.pushes(Axis::y), free.pushes(Axis::y) + 20.0, 1e-6);
+}
+
 /// Knows the wheels only, and where the base stands in the first tick.
 struct ReckoningLoop : Loop {
   using Loop::Loop;

@@ -53,6 +53,7 @@ const lang::Program& program() {
 struct Observed {
   int ticks_to_stop = -1;
   double worst_share = 0.0;  ///< of a torque's limit
+  double worst_step = 0.0;   ///< of a torque in a tick, of what its slew allows
   bool always_finite = true;
   double speed_at_end = 0.0, moved_after_rest = 0.0;
   PlantStatus status = PlantStatus::ok;
@@ -70,6 +71,8 @@ Observed run_with(const Injected& injected, Runner& runner) {
   Sensed sensed(program().robot.model, program().signals.size());
   Observed observed;
   double x_at_rest = 0.0;
+  const Eigen::VectorXd most = period * program().robot.slew;
+  Eigen::VectorXd last = Eigen::VectorXd::Zero(most.size());
   bool stood = false;
   // Two seconds behind the fault; the brake from 0.08 m/s takes a tenth.
   for (int i = 0; i < 4000; ++i) {
@@ -79,6 +82,9 @@ Observed run_with(const Injected& injected, Runner& runner) {
     const Eigen::VectorXd& tau = runner.step(sensed);
     const int since = i - static_cast<int>(std::lround(begin / period));
     if (runner.guard().stopped() && !was_stopped) observed.ticks_to_stop = since;
+    observed.worst_step =
+        std::max(observed.worst_step, ((tau - last).cwiseAbs().cwiseQuotient(most)).maxCoeff());
+    last = tau;
     for (Eigen::Index j = 0; j < tau.size(); ++j) {
       observed.always_finite = observed.always_finite && std::isfinite(tau(j));
       observed.worst_share =
@@ -105,11 +111,14 @@ TEST_P(SafetyUnder, AFault) {
   const Injected& injected = GetParam();
   Runner runner(program(), {.period = period});
   const Observed observed = run_with(injected, runner);
-  std::printf("%s: %s after %d ticks, torque at most %.0f %% of its limit, %.1f mm moved after rest\n",
-              injected.name, describe(runner.guard().reason()), observed.ticks_to_stop,
-              100.0 * observed.worst_share, 1e3 * observed.moved_after_rest);
+  std::printf(
+      "%s: %s after %d ticks, torque at most %.0f %% of its limit and %.0f %% of its slew, %.1f mm moved "
+      "after rest\n",
+      injected.name, describe(runner.guard().reason()), observed.ticks_to_stop, 100.0 * observed.worst_share,
+      100.0 * observed.worst_step, 1e3 * observed.moved_after_rest);
   EXPECT_TRUE(observed.always_finite);
   EXPECT_LE(observed.worst_share, 1.0 + 1e-12);
+  EXPECT_LE(observed.worst_step, 1.0 + 1e-9);
   EXPECT_EQ(runner.guard().reason(), injected.reason) << describe(runner.guard().reason());
   if (injected.reason == EventCode::none) {
     EXPECT_EQ(runner.state(), RunState::running);

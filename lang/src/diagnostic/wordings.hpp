@@ -44,6 +44,8 @@ Diagnostic too_many_tasks(const Span& span, std::size_t limit);
 Diagnostic too_many_groups(const Span& span, std::size_t limit);
 Diagnostic other_version(const Span& span, const std::string& key, const std::string& version);
 Diagnostic missing_version(const Span& span, const std::string& what, const std::string& key);
+/// `what` is wanted, and the file begins with the key of another kind of file.
+Diagnostic another_kind_of_file(const Span& span, const std::string& what, const std::string& key);
 /// `missing` are keys that would have to be there: one of them may be what was meant.
 Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,
                        const std::string& meant, const std::vector<std::string>& known,

@@ -73,6 +73,14 @@ Diagnostic no_motor_along(const Span& span, const std::string& axis, bool can_tu
                         : "leave the axis out, or write it as a range");
 }
 
+Diagnostic no_motor_across(const Span& span, const std::string& axis, const std::string& in, bool can_turn) {
+  return error(
+      "E404", span,
+      "no motor of this robot pushes along `" + axis + "` of `" + in + "` where the base stands across it",
+      can_turn ? "turn the base with `rz` and drive ahead along `x` in its own axes, not in `" + in + "`"
+               : "leave the axis out, or write it as a range");
+}
+
 Diagnostic tied_axes(const Span& span, const std::string& axis, const std::string& move, int freedoms,
                      const std::string& frame_ahead) {
   return error("E404", span,

@@ -15,6 +15,9 @@ Diagnostic held_axis(const Span& span, const std::string& axis);
 Diagnostic axis_held_by_wheels(const Span& span, const std::string& axis, const std::string& frame_ahead);
 /// `can_turn`: what cannot go sideways can be turned and driven ahead.
 Diagnostic no_motor_along(const Span& span, const std::string& axis, bool can_turn);
+/// The same of an axis of a frame in the world, `in`: it lies across the base wherever the base has turned
+/// so.
+Diagnostic no_motor_across(const Span& span, const std::string& axis, const std::string& in, bool can_turn);
 Diagnostic tied_axes(const Span& span, const std::string& axis, const std::string& move, int freedoms,
                      const std::string& frame_ahead);
 Diagnostic too_many_rows(const Span& span, int rows, int level, int freedoms, bool is_base,

@@ -187,6 +187,22 @@ Diagnostic missing_version(const Span& span, const std::string& what, const std:
                "start with `" + key + ": 1`");
 }
 
+Diagnostic another_kind_of_file(const Span& span, const std::string& what, const std::string& key) {
+  const bool is_task_wanted = what == "a task file";
+  std::string is = "a task file", help = "name " + what + " here";
+  if (key == "zwang_scene") {
+    is = "a scene file";
+    if (is_task_wanted) help = "give the task file; this one is for its `scene`, or for `--scene`";
+  } else if (key == "zwang_robot") {
+    is = "a robot file";
+    if (is_task_wanted) help = "give the task file; this one is for its `robot`, or for `--robot`";
+  } else if (key == "zwang_scenario") {
+    is = "a scenario file";
+    if (is_task_wanted) help = "`zwang test` runs it";
+  }
+  return error("E103", span, "this is " + is + ", not " + what, help);
+}
+
 Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,
                        const std::string& meant, const std::vector<std::string>& known,
                        const std::vector<std::string>& missing) {

@@ -101,6 +101,7 @@ bool measure_axis(const CheckContext& context, const GroupText& group, const Axi
   const std::optional<solver::Axis> named = axis_named(text.name.text);
   if (!move || !in || !named) return false;
   axis.move_name = group.move.text;
+  axis.in_name = group.in.text;
   axis.axis = *named;
   stand_between(axis, place_of(context.symbols, *move), place_of(context.symbols, *in));
   return true;

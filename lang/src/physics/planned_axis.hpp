@@ -18,6 +18,7 @@ struct PlannedAxis {
   const AxisText* text = nullptr;  ///< nullptr: a limit of the robot file
   std::string group;               ///< name of its group; empty under `always`
   std::string move_name;           ///< of the moved frame
+  std::string in_name;             ///< of the frame whose axes they are; empty for a feature
   solver::AttachedFrame move, in;
   bool in_world = false;  ///< `in` stands in the world: how it lies to the base changes while the base moves
   solver::Measure measure = solver::Measure::axis;

@@ -35,7 +35,9 @@ void ask_reach(PlannedTask& plan, Probe& probe, Remarks& remarks) {
     if (probe.is_out_of_plane(axis)) {
       remarks.add(wording::held_axis(span, word));
     } else if (!figures->is_held) {
-      remarks.add(wording::no_motor_along(span, word, is_sideways && probe.turns_and_drives()));
+      const bool can_turn = is_sideways && probe.turns_and_drives();
+      remarks.add(axis.in_world && is_sideways ? wording::no_motor_across(span, word, axis.in_name, can_turn)
+                                               : wording::no_motor_along(span, word, can_turn));
     } else {
       remarks.add(wording::axis_held_by_wheels(span, word, is_sideways ? probe.frame_ahead() : ""));
     }

@@ -87,19 +87,25 @@ class RobotBuilder {
       UrdfJoint* joint = moving_joint(actuator.joint);
       if (joint == nullptr) continue;
       const bool slides = joint->joint.type == solver::JointType::prismatic;
-      const std::string what = "actuator `" + actuator.joint.text + "`'s effort";
+      const Dimension expected = slides ? dimension::force : dimension::torque;
+      const std::string whose = "actuator `" + actuator.joint.text + "`'s ";
       joint->joint.actuated = true;
       joint->joint.rotor_inertia = actuator.gear * actuator.gear * actuator.rotor_inertia;
+      if (actuator.slew_text)
+        require_positive(*actuator.slew_text, expected / dimension::time, whose + "slew");
       if (actuator.effort_text) {
-        const Dimension expected = slides ? dimension::force : dimension::torque;
-        if (!require_quantity(*actuator.effort_text, expected, what, diagnostics_)) continue;
-        const double effort = actuator.effort_text->quantity.value;
-        if (effort <= 0.0) diagnostics_.add(wording::not_positive(actuator.effort_text->span, what, false));
-        joint->joint.max_effort = effort;
+        if (require_positive(*actuator.effort_text, expected, whose + "effort"))
+          joint->joint.max_effort = actuator.effort_text->quantity.value;
       } else if (!std::isfinite(joint->joint.max_effort)) {
         diagnostics_.add(wording::no_effort(actuator.joint.span, actuator.joint.text, joint->span));
       }
     }
+  }
+
+  bool require_positive(const ValueText& value, const Dimension& expected, const std::string& what) {
+    if (!require_quantity(value, expected, what, diagnostics_)) return false;
+    if (value.quantity.value <= 0.0) diagnostics_.add(wording::not_positive(value.span, what, false));
+    return true;
   }
 
   void check_posture() {
@@ -233,11 +239,15 @@ class RobotBuilder {
     for (const PostureText& posture : file_.posture) {
       robot.posture(*robot.model.find_joint(posture.joint.text)) = posture.value.quantity.value;
     }
+    robot.slew = Eigen::VectorXd::Constant(robot.model.joint_count(), solver::infinity);
     for (int j = 0; j < robot.model.joint_count(); ++j) {
       const std::string& name = robot.model.joint(j).name;
+      if (robot.model.joint(j).actuated) robot.slew(j) = robot.model.joint(j).max_effort / full_torque_within;
       Span span = urdf_.find_joint(name)->span;
       for (const ActuatorText& actuator : file_.actuators) {
-        if (actuator.joint.text == name) span = actuator.joint.span;
+        if (actuator.joint.text != name) continue;
+        span = actuator.joint.span;
+        if (actuator.slew_text) robot.slew(j) = actuator.slew_text->quantity.value;
       }
       robot.joint_spans.push_back(span);
       JointFriction friction;

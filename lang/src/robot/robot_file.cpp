@@ -64,6 +64,9 @@ ActuatorText parse_actuator(const Entry& entry, Diagnostics& diagnostics) {
   if (const Node* effort = map.optional("effort")) {
     actuator.effort_text = parse_value(*effort, what + "'s effort", diagnostics);
   }
+  if (const Node* slew = map.optional("slew")) {
+    actuator.slew_text = parse_value(*slew, what + "'s slew", diagnostics);
+  }
   if (const Node* gear = map.optional("gear")) {
     actuator.gear =
         parse_positive(*gear, dimension::none, what + "'s gear", false, diagnostics).value_or(1.0);

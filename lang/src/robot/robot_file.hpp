@@ -23,6 +23,7 @@ struct WheelText {
 struct ActuatorText {
   Word joint;
   std::optional<ValueText> effort_text;  ///< a torque or a force, as the joint says
+  std::optional<ValueText> slew_text;    ///< of the same, per second
   double gear = 1.0;
   double rotor_inertia = 0.0;  ///< [kg m^2], the rotor's own
 };

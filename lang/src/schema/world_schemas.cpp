@@ -30,6 +30,7 @@ Json robot_frame() {
 Json actuator() {
   return object("",
                 {{"effort", reference("quantity", "largest torque on the joint's side; default the URDF's")},
+                 {"slew", reference("quantity", "how fast it may change; default all of it within 5 ms")},
                  {"gear", reference("quantity", "turns of the motor for one of the joint")},
                  {"rotor_inertia", reference("quantity", "of the rotor alone, before the gear")}});
 }

@@ -204,6 +204,12 @@ std::optional<std::vector<double>> parse_vector(const Node& node, const Dimensio
 bool check_version(MapReader& map, const std::string& key, Diagnostics& diagnostics) {
   const Node* version = map.optional(key);
   if (version == nullptr) {
+    for (const char* other : {"zwang", "zwang_robot", "zwang_scene", "zwang_scenario"}) {
+      const Node* given = map.optional(other);
+      if (given == nullptr) continue;
+      diagnostics.add(wording::another_kind_of_file(map.node().span, map.what(), other));
+      return false;
+    }
     diagnostics.add(wording::missing_version(map.node().span, map.what(), key));
     return false;
   }

@@ -67,6 +67,8 @@ constexpr std::array named_dimensions{
     NamedDimension{dimension::damping, "a damping", "N s/m"},
     NamedDimension{dimension::angular_stiffness, "an angular stiffness", "N m/rad"},
     NamedDimension{dimension::angular_damping, "an angular damping", "N m s/rad"},
+    NamedDimension{{2, 1, -3, 0}, "a torque per time", "N m/s"},
+    NamedDimension{{1, 1, -3, 0}, "a force per time", "N/s"},
     NamedDimension{{2, 0, 0, 0}, "an area", "m^2"},
 };
 

@@ -34,8 +34,12 @@ const char* to_string(EventCode code) noexcept {
       return "sensor_bias";
     case EventCode::clock_refused:
       return "clock_refused";
+    case EventCode::sample_lost:
+      return "sample_lost";
     case EventCode::slip:
       return "slip";
+    case EventCode::wrench_refused:
+      return "wrench_refused";
   }
   return "?";
 }
@@ -70,10 +74,14 @@ const char* describe(EventCode code) noexcept {
       return "the base gets faster than it may while its motors are told to brake";
     case EventCode::clock_refused:
       return "a sample's time was refused";
+    case EventCode::sample_lost:
+      return "no sample arrived";
     case EventCode::sensor_bias:
       return "a force is measured before anything has moved";
     case EventCode::slip:
       return "a wheel slides that should roll";
+    case EventCode::wrench_refused:
+      return "a force from outside lies along an axis whose force is limited; the solver is not told";
   }
   return "?";
 }

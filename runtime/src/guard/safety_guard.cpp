@@ -68,6 +68,7 @@ const char* to_string(GuardStatus status) noexcept {
 SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings)
     : settings_(settings),
       limit_(Eigen::VectorXd::Zero(robot.model.joint_count())),
+      step_(Eigen::VectorXd::Constant(limit_.size(), settings.max_slew * settings.period)),
       last_(limit_),
       next_(limit_),
       last_q_(limit_),
@@ -80,6 +81,7 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
   const solver::Model& model = robot.model;
   for (int j = 0; j < model.joint_count(); ++j) {
     if (model.joint(j).actuated) limit_(j) = model.joint(j).max_effort;
+    if (robot.slew.size() == limit_.size()) step_(j) = std::min(step_(j), robot.slew(j) * settings.period);
   }
 }
 
@@ -87,13 +89,20 @@ SafetyGuard::~SafetyGuard() = default;
 SafetyGuard::SafetyGuard(SafetyGuard&&) noexcept = default;
 SafetyGuard& SafetyGuard::operator=(SafetyGuard&&) noexcept = default;
 
+/// When the present tick is, whatever its sample says.
+double SafetyGuard::due() const noexcept {
+  return has_time_ ? last_time_ + (lost_ticks_ + 1) * settings_.period : 0.0;
+}
+
 /// The first entry that no robot can have; code `none` when there is none.
 Event SafetyGuard::find_bad_entry(const Sensed& sensed) const noexcept {
   using namespace event_signal;
   const solver::State& s = sensed.state;
   const auto joints = static_cast<int>(limit_.size());
+  const double step = sensed.time - last_time_;
+  const bool is_timely = plausible(sensed.time) && (!has_time_ || (step > 0.0 && step <= settings_.max_step));
   const auto bad = [&](int signal, double value) {
-    return Event{EventCode::bad_sample, has_time_ ? last_time_ : 0.0, signal, value};
+    return Event{EventCode::bad_sample, is_timely ? sensed.time : due(), signal, value};
   };
   if (!plausible(sensed.time)) return bad(event_signal::time, sensed.time);
   if (s.q.size() != joints || s.qd.size() != joints || s.tau_ff.size() != joints) {
@@ -124,7 +133,7 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
   if (const Event bad = find_bad_entry(sensed); bad.code != EventCode::none) {
     ++counters_.refused_values;
     refusal_ = bad;
-    stop(EventCode::bad_sample, bad.signal, bad.value);
+    latch(bad);
     return SampleStatus::not_finite;
   }
   if (!has_time_) {
@@ -135,12 +144,16 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
   }
   const double step = sensed.time - last_time_;
   if (step > (settings_.max_lost_ticks + clock_rounding) * settings_.period) {
-    stop(EventCode::lost_ticks, event_signal::time, step);
+    latch({EventCode::lost_ticks, sensed.time, event_signal::time, step});
   }
   if (step <= 0.0 || step > settings_.max_step) {
     ++counters_.refused_clock;
-    refusal_ = {EventCode::clock_refused, last_time_, event_signal::time, sensed.time};
-    if (++lost_ticks_ >= settings_.max_lost_ticks) stop(EventCode::lost_ticks, event_signal::time, step);
+    // Where no sample arrives, the last one is shown again.
+    const EventCode code = step == 0.0 ? EventCode::sample_lost : EventCode::clock_refused;
+    const double now = due();
+    refusal_ = {code, now, event_signal::time, sensed.time};
+    if (++lost_ticks_ >= settings_.max_lost_ticks)
+      latch({EventCode::lost_ticks, now, event_signal::time, step});
     // After a jump ahead the clock goes on from there; a clock that went back has to catch up first.
     if (step > settings_.max_step) last_time_ = sensed.time;
     return SampleStatus::bad_clock;
@@ -222,10 +235,9 @@ GuardStatus SafetyGuard::output_blind(Eigen::VectorXd& tau) noexcept {
 }
 
 GuardStatus SafetyGuard::send(Eigen::VectorXd& tau, GuardStatus status) noexcept {
-  const double step = settings_.max_slew * settings_.period;
   bool slewed = false;
   for (Eigen::Index j = 0; j < next_.size(); ++j) {
-    const double cut = std::clamp(next_(j), last_(j) - step, last_(j) + step);
+    const double cut = std::clamp(next_(j), last_(j) - step_(j), last_(j) + step_(j));
     slewed = slewed || cut != next_(j);
     next_(j) = cut;
   }
@@ -239,11 +251,15 @@ GuardStatus SafetyGuard::send(Eigen::VectorXd& tau, GuardStatus status) noexcept
 }
 
 void SafetyGuard::stop(EventCode reason, int signal, double value) noexcept {
-  if (stopped() || !latches_the_stop(reason)) return;
-  stop_event_ = {reason, has_time_ ? last_time_ : 0.0, signal, value};
-  const bool is_found = reason >= EventCode::torque_lost && reason <= EventCode::torque_flipped;
-  const bool names_motor = is_found || reason == EventCode::runaway;
-  brake_->begin(names_motor ? event_signal::joint_of(signal) : -1, is_found);
+  latch({reason, has_time_ ? last_time_ : 0.0, signal, value});
+}
+
+void SafetyGuard::latch(const Event& event) noexcept {
+  if (stopped() || !latches_the_stop(event.code)) return;
+  stop_event_ = event;
+  const bool is_found = event.code >= EventCode::torque_lost && event.code <= EventCode::torque_flipped;
+  const bool names_motor = is_found || event.code == EventCode::runaway;
+  brake_->begin(names_motor ? event_signal::joint_of(event.signal) : -1, is_found);
 }
 
 void SafetyGuard::reset() noexcept {

@@ -1,6 +1,8 @@
 /// A file that is only ever appended to, and words for what goes wrong with it.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -29,15 +31,22 @@ class LogFile {
   std::string flush() { return std::fflush(file_) == 0 ? "" : failed("written"); }
   std::string close() {
     if (file_ == nullptr) return "";
+    const bool is_there = has_a_name();
     const bool closed = std::fclose(file_) == 0;
     file_ = nullptr;
-    return closed ? "" : failed("closed");
+    if (!closed) return failed("closed");
+    return is_there ? "" : "the log is gone: " + path_.string() + " was removed while it was written";
   }
 
   bool is_open() const { return file_ != nullptr; }
   std::size_t size() const { return size_; }  ///< [bytes] appended so far
 
  private:
+  /// A file without a name takes what is written, and is gone when it is closed.
+  bool has_a_name() const {
+    struct stat facts = {};
+    return ::fstat(::fileno(file_), &facts) == 0 && facts.st_nlink > 0;
+  }
   std::string failed(const char* what) const {
     return std::string("the log could not be ") + what + ": " + path_.string() + ": " + std::strerror(errno);
   }

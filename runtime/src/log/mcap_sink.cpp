@@ -14,7 +14,8 @@ namespace {
 using mcap::Content;
 using mcap::Opcode;
 
-constexpr std::uint64_t chunk_span = 100'000'000;         // [ns]
+// A killed run loses at most one chunk and what is on the way to it: not more than 100 ms together.
+constexpr std::uint64_t chunk_span = 50'000'000;          // [ns]
 constexpr std::size_t chunk_room = std::size_t{1} << 20;  // [bytes]
 constexpr std::uint16_t tick_id = 1;                      // of the schema and of the channel
 

@@ -10,6 +10,7 @@
 #include "guard/motor_beside_contact.hpp"
 #include "guard/runaway_watch.hpp"
 #include "guard/slip_watch.hpp"
+#include "guard/wrench_refusal.hpp"
 #include "run/limit_table.hpp"
 #include "run/log_layout.hpp"
 #include "run/shortfall.hpp"
@@ -69,6 +70,7 @@ struct Runner::Parts {
         beside_contact(program.robot, settings.period),
         runaway(model.joint_count(), settings.period),
         slip(model),
+        wrenches(model),
         signals(program.signals),
         signal_words(event_signals(model, signal_names(program))),
         guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
@@ -120,6 +122,7 @@ struct Runner::Parts {
   MotorBesideContact beside_contact;
   RunawayWatch runaway;
   SlipWatch slip;
+  WrenchRefusal wrenches;
   const std::vector<lang::Signal> signals;
   const std::vector<std::string> signal_words;  ///< of events
   std::vector<bool> is_judged;                  ///< of each signal: it was looked at when the run began
@@ -178,9 +181,10 @@ bool Runner::Parts::control() noexcept {
     ++transition_count;
     if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
   }
-  solver_status = scheduler.fill_constraints()
-                      ? solver.solve(sample.state, scheduler.constraints().rows(), solution)
-                      : solver::Status::capacity_exceeded;
+  const bool is_filled = scheduler.fill_constraints();
+  if (const auto refused = wrenches.look(scheduler.constraints(), sample.state, sample.time)) tell(*refused);
+  solver_status = is_filled ? solver.solve(sample.state, scheduler.constraints().rows(), solution)
+                            : solver::Status::capacity_exceeded;
   if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
   is_solution_of_rows = true;
   scheduler.observe(solution);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace zwang::runtime {
 
@@ -13,8 +14,11 @@ namespace {
 constexpr double not_at_all = -1.0;  ///< margin of what nobody knows
 
 double distance(double below, double above, double scale) {
-  const double margin = (above - below) / (scale != 0.0 ? std::abs(scale) : 1.0);
-  return std::isnan(margin) ? not_at_all : margin;
+  const double left = above - below;
+  if (std::isnan(left)) return not_at_all;
+  // Of a threshold of 0 nothing is a share.
+  if (scale == 0.0) return left == 0.0 ? 0.0 : std::copysign(std::numeric_limits<double>::infinity(), left);
+  return left / std::abs(scale);
 }
 
 /// The side of a comparison that may change.
@@ -159,7 +163,7 @@ ExpectationResult ExpectationWatch::result(const std::string& outcome,
       result.held = was_looked_at_ && worst_ >= 0.0;
       result.time = worst_time_;
       if (!was_looked_at_ || worst_ == not_asked) return result;
-      result.margin = worst_;
+      if (std::isfinite(worst_)) result.margin = worst_;
       if (decisive_ < 0 || !std::isfinite(worst_value_)) return result;
       result.value = worst_value_;
       result.unit = expectation_.units[static_cast<std::size_t>(decisive_)];

@@ -33,6 +33,9 @@ struct JointFriction {
   double compensate = 0.0;  ///< fraction in [0, 1)
 };
 
+/// Where a robot file gives no `slew`, a motor takes as long for all of its torque. [s]
+inline constexpr double full_torque_within = 5e-3;
+
 struct Robot {
   std::string name;
   solver::Model model;
@@ -42,11 +45,13 @@ struct Robot {
   std::vector<solver::Vector3>
       footprint;                        ///< polygon corners in the base frame [m], z = 0, counter-clockwise
   std::vector<JointFriction> friction;  ///< of each joint
-  Eigen::VectorXd posture;              ///< q at the start [rad] or [m]; empty: all 0
-  std::vector<std::string> supports;    ///< passive links that hold nothing in the plane
-  double bumper_height = 0.15;          ///< [m] above the ground where the footprint touches the world
-  double bumper_stiffness = 20e3;       ///< [N/m]
-  std::vector<Span> joint_spans;        ///< where each joint's limits come from
+  /// How fast each joint's torque may change [N m/s] or [N/s]; infinite without a motor. Empty: not limited.
+  Eigen::VectorXd slew;
+  Eigen::VectorXd posture;            ///< q at the start [rad] or [m]; empty: all 0
+  std::vector<std::string> supports;  ///< passive links that hold nothing in the plane
+  double bumper_height = 0.15;        ///< [m] above the ground where the footprint touches the world
+  double bumper_stiffness = 20e3;     ///< [N/m]
+  std::vector<Span> joint_spans;      ///< where each joint's limits come from
 };
 
 /// How the robot stands before it moves: at the world's origin, its joints in their posture.

@@ -24,9 +24,11 @@ enum class EventCode {
   torque_flipped,
   runaway,  ///< faster than the task allows, and ever faster while the motors are told to brake
   // Those that are only told.
-  clock_refused,
-  sensor_bias,  ///< a force is measured before anything has moved
+  clock_refused,  ///< time went backwards, or jumped
+  sample_lost,    ///< none has arrived since the last tick
+  sensor_bias,    ///< a force is measured before anything has moved
   slip,
+  wrench_refused,  ///< along an axis whose force is limited, f_ext is not for the solver
 };
 const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".
@@ -37,7 +39,7 @@ inline constexpr bool latches_the_stop(EventCode code) {
 
 struct Event {
   EventCode code = EventCode::none;
-  double time = 0.0;   ///< [s] of the sample
+  double time = 0.0;   ///< [s] of the sample; where it has no good time, when it was due
   int signal = -1;     ///< index into `event_signals`
   double value = 0.0;  ///< what the signal read, or what is wrong with it; SI
 };

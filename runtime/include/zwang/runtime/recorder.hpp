@@ -46,7 +46,7 @@ class LogSink {
 std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path);
 
 /// MCAP (https://mcap.dev): messages of the channel `/tick` with a JSON schema, numbers in full, in
-/// compressed chunks of at most 100 ms; the context's sources are its attachments. Cut anywhere, all whole
+/// compressed chunks of at most 50 ms; the context's sources are its attachments. Cut anywhere, all whole
 /// chunks before the cut can be read. Wants a first column `time` in seconds.
 std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context);
 

@@ -33,7 +33,8 @@ struct GuardSettings {
   double period = 1e-3;     ///< [s] control period
   double max_step = 0.1;    ///< [s] a longer step of time is refused
   int max_lost_ticks = 20;  ///< as many without a good sample, or with a frozen one, stop the robot
-  double max_slew = std::numeric_limits<double>::infinity();  ///< [N m/s] or [N/s] of a joint
+  /// [N m/s] or [N/s] of every joint, beside the robot's own `slew`
+  double max_slew = std::numeric_limits<double>::infinity();
 };
 
 struct GuardCounters {
@@ -86,7 +87,9 @@ class SafetyGuard {
   const Event& refusal() const noexcept { return refusal_; }
 
  private:
+  double due() const noexcept;
   Event find_bad_entry(const Sensed& sensed) const noexcept;
+  void latch(const Event& event) noexcept;
   void brake(const Sensed& sensed) noexcept;
   void clamp_next() noexcept;
   void watch_for_a_frozen_state(const solver::State& state) noexcept;
@@ -94,6 +97,7 @@ class SafetyGuard {
 
   GuardSettings settings_;
   Eigen::VectorXd limit_;  ///< [N m] of each joint, 0 where there is no motor
+  Eigen::VectorXd step_;   ///< [N m] that each may change by in a tick
   Eigen::VectorXd last_;   ///< sent last
   Eigen::VectorXd next_;
   Eigen::VectorXd last_q_;  ///< of the last good sample, as is the position
