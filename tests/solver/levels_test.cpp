@@ -255,6 +255,19 @@ TEST_F(Contradictions, OfTwoEqualitiesOnTwoLevelsTheHigherOneHolds) {
   expect(1, RowStatus::force_limited, 20.0, {});
 }
 
+TEST_F(Contradictions, EqualitiesWithoutBoundsOfTheirOwnConflict) {
+  // Each ends at what the motor can do, which nobody intended.
+  solve({equal(1.0, unlimited), equal(-1.0, unlimited)}, 30.0);
+  EXPECT_NEAR(acceleration(), 0.0, 1e-12);
+  expect(0, RowStatus::conflict, 30.0, {1});
+  expect(1, RowStatus::conflict, -30.0, {0});
+}
+
+TEST_F(Contradictions, ADriverWithoutBoundsOfItsOwnIsTorqueLimited) {
+  solve({equal(5.0, unlimited)}, 30.0);
+  expect(0, RowStatus::torque_limited, 30.0, {});
+}
+
 TEST_F(Contradictions, TwoLimitsOfOneForceCancel) {
   solve({at_most(-1.0, 500.0), at_least(1.0, 500.0)});
   EXPECT_NEAR(acceleration(), 0.0, 1e-12);

@@ -62,25 +62,27 @@ class StatusOracle {
     if (want_.rows[i].unreachable) return Bound::free;
     return bound(i, rows_[i].lo / rows_[i].fade, rows_[i].hi / rows_[i].fade);
   }
-  /// Whether a motor or a sum may have stood at its bound when the row's level was solved, and left it since.
-  bool may_have_been_limited(int level) const {
-    return level < lowest_ && (has_limits_ || std::any_of(rows_.begin(), rows_.end(), [&](const auto& row) {
-                                 return row.kind == solver::RowKind::sum && row.level <= level;
-                               }));
-  }
   bool is_below_limits(int level) const {
     return std::any_of(rows_.begin(), rows_.end(), [&](const solver::Row& row) {
       return (row.kind == solver::RowKind::upper || row.kind == solver::RowKind::lower) && row.level < level;
     });
   }
-  /// Whether a sum that the row adds to may be at its bound.
+  bool has_sum(int level) const {
+    return std::any_of(rows_.begin(), rows_.end(), [&](const solver::Row& row) {
+      return row.kind == solver::RowKind::sum && row.level <= level;
+    });
+  }
+  /// Whether a sum that the row adds to may be at its bound, or was when the row's level was solved: what a
+  /// lower level moved away since, the final torques do not tell.
   bool may_sum_hold(int level) const {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const bool counts = rows_[k].kind == solver::RowKind::sum && rows_[k].level <= level;
-      if (counts && bound_of_sum(k) != Bound::free) return true;
+      if (counts && (level < lowest_ || bound_of_sum(k) != Bound::free)) return true;
     }
     return false;
   }
+  /// The same of a motor.
+  bool may_motor_hold(int level) const { return motor_ != Bound::free || (level < lowest_ && has_limits_); }
 
   Statuses of_sum(std::size_t i) const {
     Statuses out;
@@ -100,8 +102,9 @@ class StatusOracle {
       out.add(w.unreachable ? Status::unreachable : Status::blocked);
       return out;
     }
-    if (motor_ != Bound::free) out.add(Status::torque_limited);
-    if (motor_ != Bound::reached || may_sum_hold(rows_[i].level)) out.add(Status::force_limited);
+    // The motion of its own level comes after it and may move motors and sums away from their bounds.
+    if (has_limits_) out.add(Status::torque_limited);
+    if (has_sum(rows_[i].level) || !want_.motors_reach_all) out.add(Status::force_limited);
     return out;
   }
 
@@ -135,11 +138,11 @@ class StatusOracle {
     if (std::isfinite(row.weight) || row.fade < 1.0) {
       out.add(Status::held);  // with its share of what it asks
     } else {
-      if (motor_ != Bound::free) out.add(Status::torque_limited);
+      if (may_motor_hold(row.level)) out.add(Status::torque_limited);
       // A force that the motors make only together with others is left over, too.
-      // So are the force of another level's bound, and that of a sum that acts by way of a limit above.
-      const bool is_left_over = !is_known || !want_.motors_reach_all || may_have_been_limited(row.level) ||
-                                (by_sum && is_below_limits(row.level));
+      // So is the force of a sum that acts by way of a limit above.
+      const bool is_left_over =
+          !is_known || !want_.motors_reach_all || (by_sum && is_below_limits(row.level));
       if (is_left_over) out.add(Status::conflict);
     }
     return out;

@@ -107,6 +107,8 @@ void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
   e.level = row.level;
   e.lo = row.lo;
   e.hi = row.hi;
+  e.bounded_below = std::isfinite(row.lo);
+  e.bounded_above = std::isfinite(row.hi);
   e.weight = row.weight;
   e.fade = std::clamp(row.fade, 0.0, 1.0);
   e.force = e.fade * row.force;

@@ -83,6 +83,10 @@ class BoundedProblem {
     bool is_idle = false;         ///< a limit that has nothing to do beside another one of its level
     bool blocked = false;         ///< the levels above leave it no freedom
     bool out = false;             ///< unreachable: takes no part
+    bool bounded_below = false;   ///< by the row's own lo, not by what the motors can do
+    bool bounded_above = false;
+    bool motor_limited = false;  ///< a motor stood at its limit when the row's level was solved
+    bool sum_limited = false;    ///< and so did a sum against it
     RowStatus status = RowStatus::held;
     double nu = 0.0, phi = 0.0;
   };
@@ -145,6 +149,8 @@ class BoundedProblem {
   void report_force(int i, bool motor_at_limit, RowSolution& row) noexcept;
   void report_sum(int i, RowSolution& row) noexcept;
   void report_motion(int i, bool motor_at_limit, RowSolution& row) noexcept;
+  bool is_at_limit(const Vector& tau) const noexcept;
+  void note_limits(int level) noexcept;
   bool is_sum_at_bound(int i, double direction) noexcept;
   bool is_held_by_sum(int i, double wanted) noexcept;
   double opposition(int k, int i, double wanted, double miss) noexcept;

@@ -26,13 +26,31 @@ int side_of(double nu, double lo, double hi) {
 
 }  // namespace
 
-void BoundedProblem::report() noexcept {
-  bool motor_at_limit = false;
+/// Whether a motor is.
+bool BoundedProblem::is_at_limit(const Vector& tau) const noexcept {
   for (int j = 0; j < motors_; ++j) {
     const double width = bound_tolerance * (tau_hi_(j) - tau_lo_(j));
     if (!std::isfinite(width)) continue;
-    motor_at_limit = motor_at_limit || tau_(j) <= tau_lo_(j) + width || tau_(j) >= tau_hi_(j) - width;
+    if (tau(j) <= tau_lo_(j) + width || tau(j) >= tau_hi_(j) - width) return true;
   }
+  return false;
+}
+
+/// What stands in the way of the rows of a level that is solved: a lower one may move it away again. Of
+/// motors that share a motion the least torques tell; where motors do not make every motion, the last level's
+/// do.
+void BoundedProblem::note_limits(int level) noexcept {
+  const bool motor_limited = motors_reach_all_ && is_at_limit(torques_for(p_) ? candidate_ : tau_);
+  for (const int i : posed_) {
+    Entry& e = entry(i);
+    if (e.level != level) continue;
+    e.motor_limited = motor_limited;
+    e.sum_limited = is_held_by_sum(i, e.kind == RowKind::force ? e.force : d_(i) - along(i, p_));
+  }
+}
+
+void BoundedProblem::report() noexcept {
+  const bool motor_at_limit = is_at_limit(tau_);
   for (const int i : idle_) solutions_[static_cast<std::size_t>(i)] = {};
   for (const int i : awake_) {
     RowSolution& row = solutions_[static_cast<std::size_t>(i)];
@@ -60,7 +78,8 @@ void BoundedProblem::report_force(int i, bool motor_at_limit, RowSolution& row) 
   } else if (e.blocked) {
     row.status = RowStatus::blocked;
   } else if (row.saturated) {
-    const bool by_sum = !motor_at_limit || is_held_by_sum(i, e.force);
+    const bool by_motor = motor_at_limit || e.motor_limited;
+    const bool by_sum = !by_motor || e.sum_limited || is_held_by_sum(i, e.force);
     row.status = by_sum ? RowStatus::force_limited : RowStatus::torque_limited;
   }
 }
@@ -80,21 +99,25 @@ void BoundedProblem::report_motion(int i, bool motor_at_limit, RowSolution& row)
   row.residual = e.kind == RowKind::upper   ? std::max(s, 0.0)
                  : e.kind == RowKind::lower ? std::min(s, 0.0)
                                             : s;
-  row.saturated = !e.out && side_of(e.nu, e.lo, e.hi) != 0;
+  const int side = e.out ? 0 : side_of(e.nu, e.lo, e.hi);
+  row.saturated = side != 0;
+  const bool is_bounded = side < 0 ? e.bounded_below : side > 0 && e.bounded_above;
   const bool met = std::abs(row.residual) <= residual_tolerance * (1.0 + std::abs(d_(i)));
   if (met || e.out) {
     row.status = met ? RowStatus::held : e.status;
-  } else if (!row.saturated && is_held_by_sum(i, -row.residual)) {
+  } else if (!row.saturated && (e.sum_limited || is_held_by_sum(i, -row.residual))) {
     row.saturated = true;
     row.status = RowStatus::force_limited;
   } else if (e.blocked) {
     row.status = RowStatus::blocked;
   } else if (is_soft(i) && !row.saturated) {
     row.status = RowStatus::held;
-  } else if (row.saturated) {
-    row.status = is_one_sided(i) ? RowStatus::conflict : RowStatus::force_limited;
+  } else if (is_bounded && !is_one_sided(i)) {
+    row.status = RowStatus::force_limited;
+  } else if (row.saturated && is_one_sided(i)) {
+    row.status = RowStatus::conflict;
   } else {
-    row.status = motor_at_limit ? RowStatus::torque_limited : RowStatus::conflict;
+    row.status = motor_at_limit || e.motor_limited ? RowStatus::torque_limited : RowStatus::conflict;
   }
 }
 

@@ -79,6 +79,7 @@ bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
   }
   torques_are_least_ = full;
   copy(work_, p_);
+  if (!full) note_limits(level);
   return exact;
 }
 
@@ -280,6 +281,7 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   torques_are_least_ = possible;
   take_multipliers(level);
   copy(work_, p_);
+  if (!possible) note_limits(level);
   exact = least_multipliers(level, max_iterations) && exact;
   unfold_limits();
   take_offsets(level);
