@@ -194,7 +194,7 @@ TEST_F(Physics, a_damping_is_as_hard_as_the_tick_can_follow) {
 }
 
 TEST_F(Physics, a_boundary_brakes_with_its_share_of_the_acceleration) {
-  const double a = force / (0.8 * mass);
+  const double a = force / (0.75 * mass);
   const auto axes = [](double braking) {
     return "x: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-" + number(braking, "m/s^2") + "}";
   };

@@ -2,6 +2,7 @@
 // products of dds = a.(A_k - A_c) + gamma. And the rows that regions, features and speed limits need.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -210,6 +211,48 @@ TEST_F(PlanarRows, ACornerOfTheFootprintAtAnEdge) {
   EXPECT_NEAR(only().position, d, 1e-12);
   EXPECT_EQ(set.rows()[0].kind, RowKind::lower);
   EXPECT_NEAR(set.rows()[0].b, -solver::braking_speed(d - 0.1, 0.5, 0.010) / 0.010, 1e-9);
+}
+
+constexpr double horizon = 0.010;  // [s]
+
+// Along the curve v dv/dd is the deceleration: 0.75 of what may be used, less where d < d0 = 16 a h^2.
+TEST(BrakingCurve, DeceleratesWithItsShareAndStopsAtTheBound) {
+  const double most = 0.5, a = 0.75 * most, d0 = 16.0 * a * horizon * horizon;
+  const auto v = [&](double d) { return solver::braking_speed(d, most, horizon); };
+  for (const double d : {1.01 * d0, 2.0 * d0, 0.1, 1.0, 10.0}) {
+    EXPECT_NEAR(d, 0.5 * v(d) * v(d) / a + 0.5 * d0, 1e-12 * d) << "v^2 / 2a, and the end";
+    const double step = 1e-5 * d;
+    EXPECT_NEAR(v(d) * (v(d + step) - v(d - step)) / (2.0 * step), a, 1e-6 * a);
+  }
+  EXPECT_NEAR(v(0.5 * d0), 0.5 * d0 / (4.0 * horizon), 1e-15);
+  EXPECT_NEAR(v(d0 * (1.0 - 1e-9)), v(d0 * (1.0 + 1e-9)), 1e-10);
+  EXPECT_EQ(v(0.0), 0.0);
+  EXPECT_EQ(v(-0.3), -v(0.3));
+}
+
+/// How far a base gets past a bound when it does 1/heavier of what its row asks for, which is not more than
+/// `most`. [m]
+double past_the_bound(double heavier, double most) {
+  const double tick = 0.001;
+  double d = 1.0, v = 0.5, least = d;
+  for (int i = 0; i < 10000; ++i) {
+    const double asked = (solver::braking_speed(d, most, horizon) - v) / horizon;
+    v += tick * std::clamp(asked, -most, 0.0) / heavier;
+    d -= tick * v;
+    least = std::min(least, d);
+  }
+  EXPECT_LT(least, 0.01) << "it never came there";
+  return std::max(0.0, -least);
+}
+
+TEST(BrakingCurve, LeavesABaseThatIsThirtyPercentHeavierEnoughToFollowIt) {
+  EXPECT_LE(past_the_bound(1.3, 0.5), 1e-3);
+  EXPECT_LE(past_the_bound(1.25, 1.0), 1e-3) << "30 % of a base of which wheels and rotors are a sixth";
+  for (const double most : {0.3, 0.5, 1.0, 2.0}) {
+    EXPECT_LE(past_the_bound(1.0, most), 1e-4) << most;
+    EXPECT_LE(past_the_bound(0.7, most), 1e-4) << most;
+    EXPECT_GT(past_the_bound(1.5, most), 1e-3) << "1.5 x 0.75 is more than the range, " << most;
+  }
 }
 
 TEST_F(PlanarRows, ACornerOfTheRegionAtAnEdgeOfTheFootprint) {

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "diagnostic/make.hpp"
+#include "zwang/solver/constraint.hpp"
 
 namespace zwang::lang::wording {
 
@@ -223,9 +224,11 @@ Diagnostic beyond_the_motors(const Span& span, const std::string& axis, bool tur
 Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool turns, double mass,
                              double braking, double force, double enough) {
   const Units u = units(turns);
+  constexpr double share = solver::braking_share;
   return warning("W607", span,
-                 "the boundary of `" + axis + "` brakes with up to " + figure(0.8 * braking * mass, u.force) +
-                     " (0.8 x " + product(mass, braking, u) + "), the motors make " + figure(force, u.force) +
+                 "the boundary of `" + axis + "` brakes with up to " +
+                     figure(share * braking * mass, u.force) + " (" + figure(share, "") + " x " +
+                     product(mass, braking, u) + "), the motors make " + figure(force, u.force) +
                      ": it can be overrun",
                  "limit the acceleration to `+-" + at_most(enough, u.acceleration) + "`");
 }

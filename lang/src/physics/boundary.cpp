@@ -3,12 +3,13 @@
 // A boundary counts on the deceleration a_brk: the axis's acceleration range, else the robot file's (else its
 // `stop`), and no more than the axis's force range over the effective mass. It uses
 //
-//   0.8 a_brk m        m: the effective mass
+//   braking_share a_brk m        m: the effective mass
 #include <algorithm>
 #include <cmath>
 
 #include "diagnostic/wordings_physics.hpp"
 #include "physics/questions.hpp"
+#include "zwang/solver/constraint.hpp"
 
 namespace zwang::lang {
 
@@ -30,8 +31,9 @@ void ask_axis(const PlannedTask& plan, const PlannedAxis& axis, const Span& span
     if (const auto& range = axis[solver::Quantity::force]) {
       a = std::min(a, std::min(range->high, -range->low) / mass);
     }
-    if (0.8 * a * mass <= force * (1.0 + 1e-6)) continue;
-    remarks.add(wording::boundary_not_held(span, what, axis.turns(), mass, a, force, force / (0.8 * mass)));
+    const double used = solver::braking_share * mass;
+    if (used * a <= force * (1.0 + 1e-6)) continue;
+    remarks.add(wording::boundary_not_held(span, what, axis.turns(), mass, a, force, force / used));
     return;
   }
 }

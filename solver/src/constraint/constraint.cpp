@@ -84,7 +84,7 @@ double mix(double before, double now, double progress) {
 }  // namespace
 
 double braking_speed(double distance, double braking, double h) noexcept {
-  const double a = 0.8 * braking;
+  const double a = braking_share * braking;
   const double T = 4.0 * h;
   const double d0 = a * T * T;
   const double d = std::abs(distance);
