@@ -194,7 +194,7 @@ TEST_F(Physics, a_damping_is_as_hard_as_the_tick_can_follow) {
 }
 
 TEST_F(Physics, a_boundary_brakes_with_its_share_of_the_acceleration) {
-  const double a = force / (0.75 * mass);
+  const double a = force / (0.72 * mass);
   const auto axes = [](double braking) {
     return "x: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-" + number(braking, "m/s^2") + "}";
   };
@@ -357,14 +357,14 @@ TEST_F(Physics, a_push_over_casters_is_capped_between_two_masses) {
     const std::string text =
         "zwang: 1\nrobot: robots/casters.yaml\nstart: go\ntasks:\n  go:\n    constraints:\n      go: {move: "
         "base_link, in: base_link, x: {force: " +
-        number(f, "N") + ", acceleration: +-0.3 m/s^2}}\n    timeout: {after: 9 s, goto: failed}\n";
+        number(f, "N") + ", acceleration: +-0.2 m/s^2}}\n    timeout: {after: 9 s, goto: failed}\n";
     load_with_notes(folder_.write("task.yaml", text), {}, diagnostics);
     return diagnostics;
   };
-  EXPECT_TRUE(about(0.3 * trailing * 0.999).all().empty()) << test::rendered(about(0.3 * trailing * 0.999));
-  only_outside("W601", about(0.3 * trailing * 0.999), about(0.3 * trailing * 1.001));
-  const std::string text = only_outside("E601", about(0.3 * across * 0.999), about(0.3 * across * 1.001));
-  expect_number(text, "16.1 N (53.5 kg x 0.3 m/s^2)");
+  EXPECT_TRUE(about(0.2 * trailing * 0.999).all().empty()) << test::rendered(about(0.2 * trailing * 0.999));
+  only_outside("W601", about(0.2 * trailing * 0.999), about(0.2 * trailing * 1.001));
+  const std::string text = only_outside("E601", about(0.2 * across * 0.999), about(0.2 * across * 1.001));
+  expect_number(text, "10.7 N (53.5 kg x 0.2 m/s^2)");
   EXPECT_NEAR(across, 53.5, 0.05);
 }
 

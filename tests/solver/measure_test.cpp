@@ -215,9 +215,9 @@ TEST_F(PlanarRows, ACornerOfTheFootprintAtAnEdge) {
 
 constexpr double horizon = 0.010;  // [s]
 
-// Along the curve v dv/dd is the deceleration: 0.75 of what may be used, less where d < d0 = 16 a h^2.
+// Along the curve v dv/dd is the deceleration: 0.72 of what may be used, less where d < d0 = 16 a h^2.
 TEST(BrakingCurve, DeceleratesWithItsShareAndStopsAtTheBound) {
-  const double most = 0.5, a = 0.75 * most, d0 = 16.0 * a * horizon * horizon;
+  const double most = 0.5, a = 0.72 * most, d0 = 16.0 * a * horizon * horizon;
   const auto v = [&](double d) { return solver::braking_speed(d, most, horizon); };
   for (const double d : {1.01 * d0, 2.0 * d0, 0.1, 1.0, 10.0}) {
     EXPECT_NEAR(d, 0.5 * v(d) * v(d) / a + 0.5 * d0, 1e-12 * d) << "v^2 / 2a, and the end";
@@ -246,12 +246,11 @@ double past_the_bound(double heavier, double most) {
 }
 
 TEST(BrakingCurve, LeavesABaseThatIsThirtyPercentHeavierEnoughToFollowIt) {
-  EXPECT_LE(past_the_bound(1.3, 0.5), 1e-3);
-  EXPECT_LE(past_the_bound(1.25, 1.0), 1e-3) << "30 % of a base of which wheels and rotors are a sixth";
   for (const double most : {0.3, 0.5, 1.0, 2.0}) {
+    EXPECT_LE(past_the_bound(1.3, most), 1e-3) << most;
     EXPECT_LE(past_the_bound(1.0, most), 1e-4) << most;
     EXPECT_LE(past_the_bound(0.7, most), 1e-4) << most;
-    EXPECT_GT(past_the_bound(1.5, most), 1e-3) << "1.5 x 0.75 is more than the range, " << most;
+    EXPECT_GT(past_the_bound(1.5, most), 1e-3) << "1.5 x 0.72 is more than the range, " << most;
   }
 }
 

@@ -160,10 +160,9 @@ Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, c
 Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept;
 
 /// What the braking curve uses of the acceleration that a range leaves. A base that weighs 30 % more than its
-/// model says slows down by a when it is asked for 1.3 a: 1.3 x 0.75 = 0.975 of the range. It is late by
-/// 1.3 a h, for which the last millimetres ask for more than the range: past the bound by up to 0.9 mm
-/// with 0.5 m/s^2, in proportion to the range, and by less where wheels and rotors are part of what moves.
-inline constexpr double braking_share = 0.75;
+/// model says slows down by a when it is asked for 1.3 a: 1.3 x 0.72 = 0.94 of the range. The rest is for
+/// the last millimetres, where it is late by 1.3 a h: with 1/1.3 = 0.77 it would get past its bound.
+inline constexpr double braking_share = 0.72;
 
 /// The braking curve of position limits and boundaries: the fastest approach speed at distance d that stops
 /// at 0 without decelerating harder than `braking`: v = d/T for d < d0, else sqrt(2 a (d - d0/2)); odd in d.
