@@ -22,6 +22,7 @@ signals:
   near: {type: number, unit: m, stale_after: 1 s}
   latch: {type: bool, stale_after: 1 s}
   loaded: {type: bool, stale_after: 1 s}
+  felt: {type: number, unit: N, stale_after: 1 s}
 start: stand
 tasks:
   stand:
@@ -208,6 +209,56 @@ TEST(ScenePlant, NoiseAndDropoutsAreAsLargeAsTheSceneSays) {
   EXPECT_NEAR(noisy.mean, 4.5, 4.0 * 0.02 / 56.0);
   EXPECT_NEAR(noisy.deviation, 0.02, 0.05 * 0.02);
   EXPECT_NEAR(noisy.share_valid, 0.8, 0.026);
+}
+
+/// What a base feels that presses on a wall with 20 N, from 3 s on: then it rests.
+Statistics forces(const std::string& how) {
+  const lang::Program program = program_with(R"(objects:
+  wall: {wall: {length: 4 m, thickness: 0.1 m, height: 1 m}, at: [0.42 m, 0 m], fixed: true, damping: 1}
+signals: {felt: {force_of: wall)" + how + "}}\n");
+  ScenePlant plant(program);
+  Statistics s;
+  int ticks = 0;
+  follow(plant, program, 7.0, Eigen::VectorXd::Constant(4, 20.0 * 0.0759 / 4.0),
+         [&](const Sensed& sensed, PlantStatus) {
+           if (sensed.time < 3.0) return;
+           ++ticks;
+           if (sensed.signals[4].valid) s.values.push_back(sensed.signals[4].number);
+         });
+  const auto count = static_cast<double>(s.values.size());
+  for (const double v : s.values) s.mean += v / count;
+  for (const double v : s.values) s.deviation += (v - s.mean) * (v - s.mean) / count;
+  s.deviation = std::sqrt(s.deviation);
+  s.share_valid = count / ticks;
+  return s;
+}
+
+TEST(ScenePlant, AForceIsFeltAsBadlyAsTheSceneSays) {
+  const Statistics clean = forces("");
+  EXPECT_NEAR(clean.mean, 20.0, 0.02) << "what the wheels push with";
+  EXPECT_LT(clean.deviation, 0.02);
+  const Statistics biased = forces(", bias: -30 N");
+  EXPECT_NEAR(biased.mean, clean.mean - 30.0, 1e-9);
+  const Statistics noisy = forces(", bias: 30 N, noise: 2 N, dropouts: 20 %");
+  EXPECT_NEAR(noisy.mean, 50.0, 0.02 + 4.0 * 2.0 / 56.0);
+  EXPECT_NEAR(noisy.deviation, 2.0, 0.05 * 2.0);
+  EXPECT_NEAR(noisy.share_valid, 0.8, 0.026);
+}
+
+// The first contact is felt as late as the scene says.
+TEST(ScenePlant, AForceIsFeltAfterItsDelay) {
+  const lang::Program program = program_with(R"(objects:
+  wall: {wall: {length: 4 m, thickness: 0.1 m, height: 1 m}, at: [0.42 m, 0 m], fixed: true}
+signals: {felt: {force_of: wall, delay: 50 ms}}
+)");
+  ScenePlant plant(program);
+  double felt = -1.0;
+  follow(plant, program, 1.0, Eigen::VectorXd::Constant(4, 20.0 * 0.0759 / 4.0),
+         [&](const Sensed& sensed, PlantStatus) {
+           if (felt < 0.0 && sensed.signals[4].valid && sensed.signals[4].number > 0.0) felt = sensed.time;
+         });
+  ASSERT_TRUE(plant.truth().objects[0].touched);
+  EXPECT_NEAR(felt - *plant.truth().objects[0].touched, 0.05, 2.5 * period);
 }
 
 TEST(ScenePlant, OneSeedIsOneRun) {

@@ -243,6 +243,7 @@ Diagnostic times_not_rising(const Span& span, const std::string& what);
 Diagnostic one_signal_source(const Span& span, const std::string& signal);
 Diagnostic all_dropped(const Span& span);
 Diagnostic nothing_latches(const Span& span, const std::string& name);
+Diagnostic not_felt(const Span& span, const std::string& name);
 Diagnostic delayed_too_long(const Span& span, const std::string& what, double most);
 Diagnostic fix_of_measured(const Span& span, const std::string& key, const Span& measured);
 Diagnostic too_many_robots(const Span& span, std::size_t most);

@@ -150,7 +150,7 @@ Diagnostic times_not_rising(const Span& span, const std::string& what) {
 
 Diagnostic one_signal_source(const Span& span, const std::string& signal) {
   return error("E908", span, "signal " + in_ticks(signal) + " needs exactly one source",
-               "give it a `script`, `pose_of`, `distance_to` or `latch`");
+               "give it a `script`, `pose_of`, `distance_to`, `latch` or `force_of`");
 }
 
 Diagnostic all_dropped(const Span& span) {
@@ -159,6 +159,12 @@ Diagnostic all_dropped(const Span& span) {
 
 Diagnostic nothing_latches(const Span& span, const std::string& name) {
   return error("E908", span, in_ticks(name) + " has no dock that a hook could latch in", "give it a `dock`");
+}
+
+Diagnostic not_felt(const Span& span, const std::string& name) {
+  return error(
+      "E908", span, "nobody feels " + in_ticks(name) + " here",
+      "the first robot feels what it touches: give its own `signals` a `force_of` an object or a robot");
 }
 
 Diagnostic delayed_too_long(const Span& span, const std::string& what, double most) {

@@ -79,12 +79,14 @@ Json scene_object() {
 }
 
 Json scene_signal() {
-  return object("has one source: script, pose_of, distance_to or latch",
+  return object("has one source: script, pose_of, distance_to, latch or force_of",
                 {{"script", filled(list("pairs of a time and a value", Json{{"type", "array"}}))},
                  {"pose_of", word("an object or a robot; `base` is the first one")},
                  {"distance_to", word("an object or a robot")},
                  {"latch", word("an object or a robot with a dock")},
+                 {"force_of", word("an object or a robot that the first one touches")},
                  {"noise", reference("quantity", "standard deviation")},
+                 {"bias", reference("quantity", "of a force: how much too large it is measured")},
                  {"angle_noise", reference("quantity", "standard deviation")},
                  {"delay", reference("quantity")},
                  {"rate", reference("quantity")},
