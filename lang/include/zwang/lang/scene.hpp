@@ -103,13 +103,16 @@ struct StateNoise {
 enum class FaultKind {
   samples_lost,     ///< no sample arrives
   samples_nan,      ///< an entry of the state is not a number
+  samples_inf,      ///< it is infinite
+  samples_huge,     ///< it is 1e300
   samples_frozen,   ///< the state of the fault's begin, with the clock running on
   clock_backwards,  ///< samples are stamped 10 ms before the fault's begin
   torque_lost,      ///< of `joint`: the motor gives none
   torque_stuck,     ///< it keeps what it gave at the fault's begin
   torque_flipped,   ///< it gives the opposite
-  floor_friction,   ///< the floor's friction is `value`
-  payload,          ///< the base weighs `value` [kg] more, where its centre of mass is
+  floor_friction,   ///< the floor's friction is `value`, under the wheel `joint` or under all wheels
+  payload,          ///< the base weighs `value` [kg] more, where its centre of mass is; negative: less
+  centre_of_mass,   ///< the base's own centre of mass lies `value` [m] farther ahead
   plant_diverges,   ///< the simulation leaves the finite numbers
 };
 
