@@ -279,6 +279,10 @@ signals:
       {"time: 3 s", "time: 1 s", "E908", 3},
       {"pose_of: cart", "pose_of: car", "E301", 6},
       {"pose_of: cart", "pose_of: cart, latch: cart", "E908", 6},
+      {"pose_of: cart", "force_of: base", "E908", 6},
+      {"pose_of: cart", "force_of: cart, bias: 3 mm", "E202", 6},
+      {"pose_of: cart", "force_of: cart, noise: 3 mm", "E202", 6},
+      {"pose_of: cart", "pose_of: cart, bias: 3 N", "E101", 6},
       {"dropouts: 5 %", "dropouts: 100 %", "E908", 6},
       {"dropouts: 5 %", "rate: 0 Hz", "E105", 6},
 

@@ -134,6 +134,8 @@ INSTANTIATE_TEST_SUITE_P(
     Injected, SafetyUnder,
     testing::Values(
         Injected{"nan for one sample", FaultKind::samples_nan, 0.001, "", 0.0, EventCode::bad_sample, 0},
+        Injected{"infinity for one sample", FaultKind::samples_inf, 0.001, "", 0.0, EventCode::bad_sample, 0},
+        Injected{"1e300 for one sample", FaultKind::samples_huge, 0.001, "", 0.0, EventCode::bad_sample, 0},
         Injected{"4 samples lost", FaultKind::samples_lost, 0.004},
         Injected{"19 samples lost", FaultKind::samples_lost, 0.019},
         Injected{"100 samples lost", FaultKind::samples_lost, 0.100, "", 0.0, EventCode::lost_ticks, 20},
@@ -142,7 +144,8 @@ INSTANTIATE_TEST_SUITE_P(
         Injected{"clock backwards for 5 ms", FaultKind::clock_backwards, 0.005},
         Injected{"clock backwards", FaultKind::clock_backwards, 0.100, "", 0.0, EventCode::lost_ticks, 20},
         Injected{"floor of ice for 1 s", FaultKind::floor_friction, 1.0, "", 0.05},
-        Injected{"23 kg of payload", FaultKind::payload, 10.0, "", 23.0}),
+        Injected{"23 kg of payload", FaultKind::payload, 10.0, "", 23.0},
+        Injected{"23 kg less", FaultKind::payload, 10.0, "", -23.0}),
     [](const auto& tested) {
       std::string name;
       for (const char c : std::string(tested.param.name))

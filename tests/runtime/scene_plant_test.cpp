@@ -22,6 +22,7 @@ signals:
   near: {type: number, unit: m, stale_after: 1 s}
   latch: {type: bool, stale_after: 1 s}
   loaded: {type: bool, stale_after: 1 s}
+  felt: {type: number, unit: N, stale_after: 1 s}
 start: stand
 tasks:
   stand:
@@ -210,6 +211,56 @@ TEST(ScenePlant, NoiseAndDropoutsAreAsLargeAsTheSceneSays) {
   EXPECT_NEAR(noisy.share_valid, 0.8, 0.026);
 }
 
+/// What a base feels that presses on a wall with 20 N, from 3 s on: then it rests.
+Statistics forces(const std::string& how) {
+  const lang::Program program = program_with(R"(objects:
+  wall: {wall: {length: 4 m, thickness: 0.1 m, height: 1 m}, at: [0.42 m, 0 m], fixed: true, damping: 1}
+signals: {felt: {force_of: wall)" + how + "}}\n");
+  ScenePlant plant(program);
+  Statistics s;
+  int ticks = 0;
+  follow(plant, program, 7.0, Eigen::VectorXd::Constant(4, 20.0 * 0.0759 / 4.0),
+         [&](const Sensed& sensed, PlantStatus) {
+           if (sensed.time < 3.0) return;
+           ++ticks;
+           if (sensed.signals[4].valid) s.values.push_back(sensed.signals[4].number);
+         });
+  const auto count = static_cast<double>(s.values.size());
+  for (const double v : s.values) s.mean += v / count;
+  for (const double v : s.values) s.deviation += (v - s.mean) * (v - s.mean) / count;
+  s.deviation = std::sqrt(s.deviation);
+  s.share_valid = count / ticks;
+  return s;
+}
+
+TEST(ScenePlant, AForceIsFeltAsBadlyAsTheSceneSays) {
+  const Statistics clean = forces("");
+  EXPECT_NEAR(clean.mean, 20.0, 0.02) << "what the wheels push with";
+  EXPECT_LT(clean.deviation, 0.02);
+  const Statistics biased = forces(", bias: -30 N");
+  EXPECT_NEAR(biased.mean, clean.mean - 30.0, 1e-9);
+  const Statistics noisy = forces(", bias: 30 N, noise: 2 N, dropouts: 20 %");
+  EXPECT_NEAR(noisy.mean, 50.0, 0.02 + 4.0 * 2.0 / 56.0);
+  EXPECT_NEAR(noisy.deviation, 2.0, 0.05 * 2.0);
+  EXPECT_NEAR(noisy.share_valid, 0.8, 0.026);
+}
+
+// The first contact is felt as late as the scene says.
+TEST(ScenePlant, AForceIsFeltAfterItsDelay) {
+  const lang::Program program = program_with(R"(objects:
+  wall: {wall: {length: 4 m, thickness: 0.1 m, height: 1 m}, at: [0.42 m, 0 m], fixed: true}
+signals: {felt: {force_of: wall, delay: 50 ms}}
+)");
+  ScenePlant plant(program);
+  double felt = -1.0;
+  follow(plant, program, 1.0, Eigen::VectorXd::Constant(4, 20.0 * 0.0759 / 4.0),
+         [&](const Sensed& sensed, PlantStatus) {
+           if (felt < 0.0 && sensed.signals[4].valid && sensed.signals[4].number > 0.0) felt = sensed.time;
+         });
+  ASSERT_TRUE(plant.truth().objects[0].touched);
+  EXPECT_NEAR(felt - *plant.truth().objects[0].touched, 0.05, 2.5 * period);
+}
+
 TEST(ScenePlant, OneSeedIsOneRun) {
   const char* const measured = "distance_to: post, noise: 20 mm, dropouts: 20 %";
   EXPECT_EQ(distances(measured, 7).values, distances(measured, 7).values);
@@ -276,8 +327,9 @@ ScenePlantOptions with_fault(lang::FaultKind kind, double at, double duration, c
 TEST(ScenePlant, SamplesAreLostSpoiltAndFrozenForAsLongAsTheFaultLasts) {
   const lang::Program program = program_with("");
   using lang::FaultKind;
-  for (const FaultKind kind : {FaultKind::samples_lost, FaultKind::samples_nan, FaultKind::samples_frozen,
-                               FaultKind::clock_backwards}) {
+  for (const FaultKind kind :
+       {FaultKind::samples_lost, FaultKind::samples_nan, FaultKind::samples_inf, FaultKind::samples_huge,
+        FaultKind::samples_frozen, FaultKind::clock_backwards}) {
     ScenePlant plant(program, with_fault(kind, 0.1, 0.05));
     double frozen = 0.0;
     follow(plant, program, 0.2, push(20.0), [&](const Sensed& sensed, PlantStatus status) {
@@ -287,6 +339,8 @@ TEST(ScenePlant, SamplesAreLostSpoiltAndFrozenForAsLongAsTheFaultLasts) {
       if (tick == 100) frozen = vx;
       EXPECT_EQ(status == PlantStatus::unreachable, faulty && kind == FaultKind::samples_lost) << tick;
       EXPECT_EQ(std::isnan(vx), faulty && kind == FaultKind::samples_nan) << tick;
+      EXPECT_EQ(std::isinf(vx), faulty && kind == FaultKind::samples_inf) << tick;
+      EXPECT_EQ(vx == 1e300, faulty && kind == FaultKind::samples_huge) << tick;
       if (faulty && kind == FaultKind::samples_frozen) {
         EXPECT_EQ(vx, frozen);
       }
@@ -326,10 +380,50 @@ TEST(ScenePlant, APayloadMakesTheBaseHeavierAndASlipperyFloorLetsItSlip) {
   EXPECT_NEAR(light, 20.0 / apparent * 0.5, 0.01 * light);
   const double heavy = speed(with_fault(lang::FaultKind::payload, 0.0, 10.0, "", 15.0), 20.0);
   EXPECT_NEAR(heavy, 20.0 / (apparent + 15.0) * 0.5, 0.01 * heavy);
+  const double half = speed(with_fault(lang::FaultKind::payload, 0.0, 10.0, "", -23.0), 20.0);
+  EXPECT_NEAR(half, 20.0 / (apparent - 23.0) * 0.5, 0.01 * half);
   // 60 N asked of a floor that gives 0.05 m g = 22.6 N.
   const double slipping = speed(with_fault(lang::FaultKind::floor_friction, 0.0, 10.0, "", 0.05), 60.0);
   EXPECT_LT(slipping, 1.15 * 0.05 * 9.81 * 0.5);
   EXPECT_GT(slipping, 0.5 * 0.05 * 9.81 * 0.5);
+}
+
+// With the centre of mass c ahead, a force F sideways at the base's origin turns the base as well: the first
+// row of M (vy, wz) = (F t, 0) about that origin is m vy + m_b c wz = F t, of which m_b is the base link's
+// part.
+TEST(ScenePlant, ACentreOfMassFartherAheadTurnsABaseThatIsPushedSideways) {
+  const lang::Program program = program_with("");
+  ASSERT_NEAR(program.robot.model.bodies().front().inertia.mass, 36.8, 1e-9);
+  Eigen::VectorXd left = push(20.0);
+  for (const char* joint : {"front_left_wheel", "rear_right_wheel"})
+    left[*program.robot.model.find_joint(joint)] *= -1.0;
+  const auto pushed = [&](double ahead) {
+    ScenePlant plant(program, with_fault(lang::FaultKind::centre_of_mass, 0.0, 10.0, "", ahead));
+    follow(plant, program, 0.1, left, [](const Sensed&, PlantStatus) {});
+    return plant.truth().velocity;
+  };
+  const double apparent = 46.0 + 4.0 * (0.0066249 + 676.0 * 13.5e-6) / (0.0759 * 0.0759);
+  const double straight = pushed(0.0).z();
+  EXPECT_NEAR(apparent * pushed(0.0).y(), 2.0, 0.02 * 2.0);
+  for (const double ahead : {0.1, -0.1}) {
+    const Eigen::Vector3d v = pushed(ahead);
+    EXPECT_GT(std::abs(36.8 * ahead * v.z()), 0.02) << "it tells";
+    EXPECT_LT((v.z() - straight) * ahead, 0.0) << "the end with the mass lags behind";
+    EXPECT_NEAR(apparent * v.y() + 36.8 * ahead * v.z(), 2.0, 0.02 * 2.0);
+  }
+}
+
+// Three wheels push on a dry floor, the one on ice gives 0.02 of what it carries.
+TEST(ScenePlant, OneWheelOnIceSlipsAlone) {
+  const lang::Program program = program_with("");
+  ScenePlant plant(program, with_fault(lang::FaultKind::floor_friction, 0.0, 10.0, "front_left_wheel", 0.02));
+  Sensed last(program.robot.model, program.signals.size());
+  follow(plant, program, 0.1, push(100.0), [&](const Sensed& sensed, PlantStatus) { last = sensed; });
+  const auto slid = [&](int wheel) { return last.state.qd[wheel] * 0.0759 - plant.truth().velocity.x(); };
+  const Eigen::Index icy = *program.robot.model.find_joint("front_left_wheel");
+  const Eigen::Index dry = *program.robot.model.find_joint("rear_left_wheel");
+  EXPECT_GT(slid(static_cast<int>(icy)), 0.5) << "it spins";
+  EXPECT_LT(std::abs(slid(static_cast<int>(dry))), 0.1);
 }
 
 TEST(ScenePlant, ADivergedPlantStaysDiverged) {

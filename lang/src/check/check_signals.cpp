@@ -13,6 +13,7 @@ namespace {
 /// What a number of the scene's signal measures; nullopt where it gives none.
 std::optional<Dimension> number_of(const SceneSignal& signal) {
   if (signal.kind == SceneSignalKind::distance) return dimension::length;
+  if (signal.kind == SceneSignalKind::force) return dimension::force;
   const bool is_number = signal.kind == SceneSignalKind::script && signal.script_kind == ScriptKind::number;
   if (!is_number) return std::nullopt;
   return Dimension{signal.powers[0], signal.powers[1], signal.powers[2], signal.powers[3]};

@@ -234,6 +234,7 @@ Diagnostic unknown_fault(const Span& span, const std::string& key, const std::st
                          const std::vector<std::string>& known);
 /// Of a motor that is none: nothing would go wrong.
 Diagnostic fault_without_motor(const Span& span, const std::string& joint);
+Diagnostic too_light(const Span& span, double most);
 Diagnostic script_step(const Span& span);
 Diagnostic mixed_script(const Span& span, const std::string& what, bool starts_with_number,
                         const Span& first);
@@ -243,6 +244,7 @@ Diagnostic times_not_rising(const Span& span, const std::string& what);
 Diagnostic one_signal_source(const Span& span, const std::string& signal);
 Diagnostic all_dropped(const Span& span);
 Diagnostic nothing_latches(const Span& span, const std::string& name);
+Diagnostic not_felt(const Span& span, const std::string& name);
 Diagnostic delayed_too_long(const Span& span, const std::string& what, double most);
 Diagnostic fix_of_measured(const Span& span, const std::string& key, const Span& measured);
 Diagnostic too_many_robots(const Span& span, std::size_t most);

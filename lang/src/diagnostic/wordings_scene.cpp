@@ -102,8 +102,9 @@ Diagnostic unasked_cells(const Span& span, const std::string& cell) {
 }
 
 Diagnostic one_fault(const Span& span) {
-  return error("E907", span, "a fault says exactly one thing that goes wrong",
-               "`samples`, `clock`, `wheel` with `torque`, `floor_friction`, `payload` or `plant`");
+  return error(
+      "E907", span, "a fault says exactly one thing that goes wrong",
+      "`samples`, `clock`, `wheel` with `torque`, `floor_friction`, `payload`, `centre_of_mass` or `plant`");
 }
 
 Diagnostic fault_of_all(const Span& span) {
@@ -119,6 +120,11 @@ Diagnostic unknown_fault(const Span& span, const std::string& key, const std::st
 Diagnostic fault_without_motor(const Span& span, const std::string& joint) {
   return error("E907", span, "no motor turns " + in_ticks(joint) + ": its torque cannot fail",
                "name a joint of the robot file's `actuated`");
+}
+
+Diagnostic too_light(const Span& span, double most) {
+  return error("E907", span, "a negative `payload` takes off more than there is",
+               "take off at most three quarters of the base link's mass, " + format_number(most) + " kg");
 }
 
 Diagnostic script_step(const Span& span) {
@@ -150,7 +156,7 @@ Diagnostic times_not_rising(const Span& span, const std::string& what) {
 
 Diagnostic one_signal_source(const Span& span, const std::string& signal) {
   return error("E908", span, "signal " + in_ticks(signal) + " needs exactly one source",
-               "give it a `script`, `pose_of`, `distance_to` or `latch`");
+               "give it a `script`, `pose_of`, `distance_to`, `latch` or `force_of`");
 }
 
 Diagnostic all_dropped(const Span& span) {
@@ -159,6 +165,12 @@ Diagnostic all_dropped(const Span& span) {
 
 Diagnostic nothing_latches(const Span& span, const std::string& name) {
   return error("E908", span, in_ticks(name) + " has no dock that a hook could latch in", "give it a `dock`");
+}
+
+Diagnostic not_felt(const Span& span, const std::string& name) {
+  return error(
+      "E908", span, "nobody feels " + in_ticks(name) + " here",
+      "the first robot feels what it touches: give its own `signals` a `force_of` an object or a robot");
 }
 
 Diagnostic delayed_too_long(const Span& span, const std::string& what, double most) {

@@ -37,7 +37,7 @@ std::vector<std::string> motors_of(const solver::Model& model) {
 void check_motor(const Fault& fault, const Robot& robot, Diagnostics& diagnostics) {
   const std::vector<std::string> motors = motors_of(robot.model);
   const bool is_known = std::find(motors.begin(), motors.end(), fault.joint) != motors.end();
-  if (fault.joint.empty() || is_known) return;
+  if (is_known) return;
   if (robot.model.find_joint(fault.joint)) {
     diagnostics.add(wording::fault_without_motor(fault.joint_span, fault.joint));
   } else {
@@ -45,11 +45,38 @@ void check_motor(const Fault& fault, const Robot& robot, Diagnostics& diagnostic
   }
 }
 
+/// The floor is slippery under a wheel, whether a motor turns it or not.
+void check_wheel(const Fault& fault, const Robot& robot, Diagnostics& diagnostics) {
+  std::vector<std::string> wheels;
+  for (const solver::Wheel& wheel : robot.model.wheels())
+    wheels.push_back(robot.model.joint(wheel.body - 1).name);
+  const bool is_known = std::find(wheels.begin(), wheels.end(), fault.joint) != wheels.end();
+  if (!is_known) diagnostics.add(wording::unknown_name(fault.joint_span, "wheel", fault.joint, wheels));
+}
+
+constexpr double least_share = 0.25;  ///< of the base link's mass that a negative payload leaves
+
+void check_payload(const Fault& fault, const Robot& robot, Diagnostics& diagnostics) {
+  const double mass = robot.model.bodies().front().inertia.mass;
+  if (fault.value < -(1.0 - least_share) * mass)
+    diagnostics.add(wording::too_light(fault.span, (1.0 - least_share) * mass));
+}
+
+void check_fault(const Fault& fault, const Robot& robot, Diagnostics& diagnostics) {
+  if (fault.kind == FaultKind::payload) check_payload(fault, robot, diagnostics);
+  if (fault.joint.empty()) return;
+  if (fault.kind == FaultKind::floor_friction) {
+    check_wheel(fault, robot, diagnostics);
+  } else {
+    check_motor(fault, robot, diagnostics);
+  }
+}
+
 }  // namespace
 
 void check_faults_for(const std::vector<Fault>& faults, const Robot& robot, Diagnostics& diagnostics) {
   for (const Fault& fault : faults) {
-    if (fault.robot.empty()) check_motor(fault, robot, diagnostics);
+    if (fault.robot.empty()) check_fault(fault, robot, diagnostics);
   }
 }
 
@@ -65,7 +92,7 @@ void check_faults_of_partners(const std::vector<Fault>& faults, const Scene& sce
       continue;
     }
     const SceneRobot& robot = scene.robots[static_cast<std::size_t>(named - names.begin())];
-    if (robot.program) check_motor(fault, robot.program->robot, diagnostics);
+    if (robot.program) check_fault(fault, robot.program->robot, diagnostics);
   }
 }
 

@@ -17,6 +17,8 @@ struct FaultWord {
 constexpr std::array words{
     FaultWord{"samples", "lost", FaultKind::samples_lost},
     FaultWord{"samples", "nan", FaultKind::samples_nan},
+    FaultWord{"samples", "inf", FaultKind::samples_inf},
+    FaultWord{"samples", "huge", FaultKind::samples_huge},
     FaultWord{"samples", "frozen", FaultKind::samples_frozen},
     FaultWord{"clock", "backwards", FaultKind::clock_backwards},
     FaultWord{"torque", "lost", FaultKind::torque_lost},
@@ -78,14 +80,20 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
   if (const Node* payload = map.optional("payload")) {
     ++found;
     fault.kind = FaultKind::payload;
-    fault.value = positive(*payload, dimension::mass, "`payload`", false, diagnostics);
+    fault.value = parse_plain(*payload, dimension::mass, "`payload`", diagnostics).value_or(0.0);
+  }
+  if (const Node* offset = map.optional("centre_of_mass")) {
+    ++found;
+    fault.kind = FaultKind::centre_of_mass;
+    fault.value = parse_plain(*offset, dimension::length, "`centre_of_mass`", diagnostics).value_or(0.0);
   }
   const bool names_wheel = map.optional("torque") != nullptr;
   if (found != 1 && !map.has_unread_keys()) diagnostics.add(wording::one_fault(node.span));
   if (found == 1 && names_wheel && wheel == nullptr) map.required("wheel");
-  if (found == 1 && !names_wheel && wheel != nullptr) diagnostics.add(wording::one_fault(node.span));
-  const bool is_the_worlds =
-      fault.kind == FaultKind::floor_friction || fault.kind == FaultKind::plant_diverges;
+  const bool may_name_wheel = names_wheel || fault.kind == FaultKind::floor_friction;
+  if (found == 1 && !may_name_wheel && wheel != nullptr) diagnostics.add(wording::one_fault(node.span));
+  const bool is_the_floors = fault.kind == FaultKind::floor_friction && wheel == nullptr;
+  const bool is_the_worlds = is_the_floors || fault.kind == FaultKind::plant_diverges;
   if (found == 1 && is_the_worlds && robot != nullptr) diagnostics.add(wording::fault_of_all(robot->span));
   map.finish();
   return fault;

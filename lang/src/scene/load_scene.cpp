@@ -163,7 +163,7 @@ SceneRobot parse_robot(const Entry& entry, const std::vector<Seen>& seen, Diagno
   if (const Node* node = map.optional("dock"))
     robot.dock = parse_dock(*node, what + "'s `dock`", diagnostics);
   if (const Node* node = map.optional("signals"))
-    robot.signals = parse_scene_signals(*node, seen, diagnostics);
+    robot.signals = parse_scene_signals(*node, seen, false, diagnostics);
   const Node* state = map.optional("state");
   if (state != nullptr) robot.state = parse_state_noise(*state, diagnostics);
   robot.state.wheels_only = robot.state.wheels_only || state == nullptr;
@@ -244,7 +244,7 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
   if (const Node* node = map.optional("robots")) parse_robots(*node, scene, seen, diagnostics);
   if (map.has_misspelt({"objects", "robots"})) seen.push_back({});
   if (const Node* node = map.optional("signals")) {
-    scene.signals = parse_scene_signals(*node, seen, diagnostics);
+    scene.signals = parse_scene_signals(*node, seen, true, diagnostics);
   }
   const Node* state = map.optional("state");
   if (state != nullptr) scene.state = parse_state_noise(*state, diagnostics);

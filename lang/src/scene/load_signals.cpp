@@ -83,7 +83,7 @@ void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostic
 constexpr double longest_delay = 1.9;      // [s]
 constexpr double longest_fix_delay = 0.4;  // [s]
 
-void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<Seen>& seen,
+void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<Seen>& seen, bool is_first,
                        Diagnostics& diagnostics) {
   const Word word = parse_word(node, "signal `" + signal.name + "`", diagnostics);
   if (!word.exists()) return;
@@ -100,12 +100,17 @@ void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<
   } else if (signal.kind == SceneSignalKind::latch &&
              !seen[static_cast<std::size_t>(signal.object)].has_dock) {
     diagnostics.add(wording::nothing_latches(word.span, word.text));
+  } else if (signal.kind == SceneSignalKind::force && (!is_first || word.text == "base")) {
+    diagnostics.add(wording::not_felt(word.span, word.text));
   }
 }
 
-/// `noise`, `angle_noise`, `delay`, `rate`, `dropouts`.
+/// `noise`, `bias`, `angle_noise`, `delay`, `rate`, `dropouts`.
 void parse_quality(MapReader& map, SceneSignal& signal, double most_delay, Diagnostics& diagnostics) {
-  signal.noise = not_negative(map, "noise", dimension::length, diagnostics);
+  const bool is_force = signal.kind == SceneSignalKind::force;
+  signal.noise = not_negative(map, "noise", is_force ? dimension::force : dimension::length, diagnostics);
+  if (const Node* node = is_force ? map.optional("bias") : nullptr)
+    signal.bias = parse_plain(*node, dimension::force, map.what() + "'s `bias`", diagnostics).value_or(0.0);
   signal.angle_noise = not_negative(map, "angle_noise", dimension::angle, diagnostics);
   signal.delay = not_negative(map, "delay", dimension::time, diagnostics);
   if (signal.delay > most_delay)
@@ -120,7 +125,8 @@ void parse_quality(MapReader& map, SceneSignal& signal, double most_delay, Diagn
   if (signal.dropouts >= 1.0) diagnostics.add(wording::all_dropped(map.optional("dropouts")->span));
 }
 
-SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diagnostics& diagnostics) {
+SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, bool is_first,
+                         Diagnostics& diagnostics) {
   SceneSignal signal;
   signal.name = parse_name(entry.key, "a signal's name", diagnostics).text;
   signal.span = entry.key.span;
@@ -134,7 +140,8 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diag
   int found = 0;
   for (const Source& source :
        {Source{"script", SceneSignalKind::script}, Source{"pose_of", SceneSignalKind::pose},
-        Source{"distance_to", SceneSignalKind::distance}, Source{"latch", SceneSignalKind::latch}}) {
+        Source{"distance_to", SceneSignalKind::distance}, Source{"latch", SceneSignalKind::latch},
+        Source{"force_of", SceneSignalKind::force}}) {
     const Node* node = map.optional(source.key);
     if (node == nullptr) continue;
     ++found;
@@ -145,7 +152,7 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diag
   if (found == 1 && signal.kind == SceneSignalKind::script) {
     parse_script(*given, signal, diagnostics);
   } else if (found == 1) {
-    parse_object_name(*given, signal, seen, diagnostics);
+    parse_object_name(*given, signal, seen, is_first, diagnostics);
   }
   parse_quality(map, signal, longest_delay, diagnostics);
   // An unknown key may have been the source's.
@@ -157,12 +164,12 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, Diag
 
 }  // namespace
 
-std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<Seen>& seen,
+std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<Seen>& seen, bool is_first,
                                              Diagnostics& diagnostics) {
   std::vector<SceneSignal> signals;
   if (!require_mapping(node, "`signals`", diagnostics)) return signals;
   for (const Entry& entry : node.entries) {
-    if (!entry.key.is_bad) signals.push_back(parse_signal(entry, seen, diagnostics));
+    if (!entry.key.is_bad) signals.push_back(parse_signal(entry, seen, is_first, diagnostics));
   }
   return signals;
 }

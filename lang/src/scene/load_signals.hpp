@@ -14,9 +14,10 @@ struct Seen {
   bool has_dock = false;
 };
 
-/// `{name: {script: ..} | {pose_of: ..} | {distance_to: ..} | {latch: ..}, + how it is measured}`
-/// `seen` are the objects and robots of the scene, in the order of SceneSignal::object.
-std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<Seen>& seen,
+/// `{name: {script: ..} | {pose_of: ..} | {distance_to: ..} | {latch: ..} | {force_of: ..}, + how it is
+/// measured}` `seen` are the objects and robots of the scene, in the order of SceneSignal::object. Only the
+/// first robot feels what it touches.
+std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<Seen>& seen, bool is_first,
                                              Diagnostics& diagnostics);
 /// `[{time, at, yaw}, ..]`
 std::vector<Waypoint> parse_motion(const Node& node, const std::string& what, Diagnostics& diagnostics);

@@ -79,12 +79,14 @@ Json scene_object() {
 }
 
 Json scene_signal() {
-  return object("has one source: script, pose_of, distance_to or latch",
+  return object("has one source: script, pose_of, distance_to, latch or force_of",
                 {{"script", filled(list("pairs of a time and a value", Json{{"type", "array"}}))},
                  {"pose_of", word("an object or a robot; `base` is the first one")},
                  {"distance_to", word("an object or a robot")},
                  {"latch", word("an object or a robot with a dock")},
+                 {"force_of", word("an object or a robot that the first one touches")},
                  {"noise", reference("quantity", "standard deviation")},
+                 {"bias", reference("quantity", "of a force: how much too large it is measured")},
                  {"angle_noise", reference("quantity", "standard deviation")},
                  {"delay", reference("quantity")},
                  {"rate", reference("quantity")},
@@ -125,16 +127,18 @@ Json scene_robot() {
 }
 
 Json fault() {
-  return object("one thing that goes wrong", {{"at", reference("quantity", "when it begins"), true},
-                                              {"for", reference("quantity", "to the end when absent")},
-                                              {"samples", one_of_words("", {"lost", "nan", "frozen"})},
-                                              {"clock", one_of_words("", {"backwards"})},
-                                              {"robot", word("one of `robots`; the first one when absent")},
-                                              {"wheel", word("a joint with a motor")},
-                                              {"torque", one_of_words("", {"lost", "stuck", "flipped"})},
-                                              {"floor_friction", reference("quantity")},
-                                              {"payload", reference("quantity")},
-                                              {"plant", one_of_words("", {"diverges"})}});
+  return object("one thing that goes wrong",
+                {{"at", reference("quantity", "when it begins"), true},
+                 {"for", reference("quantity", "to the end when absent")},
+                 {"samples", one_of_words("", {"lost", "nan", "inf", "huge", "frozen"})},
+                 {"clock", one_of_words("", {"backwards"})},
+                 {"robot", word("one of `robots`; the first one when absent")},
+                 {"wheel", word("a joint with a motor; of `floor_friction`, any wheel's")},
+                 {"torque", one_of_words("", {"lost", "stuck", "flipped"})},
+                 {"floor_friction", reference("quantity")},
+                 {"payload", reference("quantity", "of the base; negative: lighter")},
+                 {"centre_of_mass", reference("quantity", "of the base: how much farther ahead it lies")},
+                 {"plant", one_of_words("", {"diverges"})}});
 }
 
 Json start_pose() {

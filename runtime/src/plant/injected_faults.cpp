@@ -12,6 +12,7 @@ namespace {
 
 constexpr double clock_jump = 0.01;  ///< [s]
 constexpr double tick_rounding = 1e-9;
+constexpr double huge = 1e300;
 
 }  // namespace
 
@@ -32,9 +33,10 @@ bool InjectedFaults::in_force(const Fault& fault, double time) noexcept {
   return time >= fault.at - tick_rounding && time < fault.at + fault.duration - tick_rounding;
 }
 
-const Fault* InjectedFaults::find(FaultKind kind, double time) const noexcept {
+const Fault* InjectedFaults::find(FaultKind kind, double time, Eigen::Index joint) const noexcept {
   for (const Injected& injected : faults_) {
-    if (injected.fault.kind == kind && in_force(injected.fault, time)) return &injected.fault;
+    if (injected.fault.kind == kind && injected.joint == joint && in_force(injected.fault, time))
+      return &injected.fault;
   }
   return nullptr;
 }
@@ -52,8 +54,10 @@ void InjectedFaults::spoil(Sensed& sensed) noexcept {
   } else {
     is_frozen_ = false;
   }
-  if (active(FaultKind::samples_nan, time))
-    sensed.state.base_twist.linear.x() = std::numeric_limits<double>::quiet_NaN();
+  double& spoilt = sensed.state.base_twist.linear.x();
+  if (active(FaultKind::samples_nan, time)) spoilt = std::numeric_limits<double>::quiet_NaN();
+  if (active(FaultKind::samples_inf, time)) spoilt = -std::numeric_limits<double>::infinity();
+  if (active(FaultKind::samples_huge, time)) spoilt = huge;
   if (const Fault* fault = find(FaultKind::clock_backwards, time)) sensed.time = fault->at - clock_jump;
 }
 

@@ -15,8 +15,8 @@ class InjectedFaults {
   InjectedFaults(std::vector<lang::Fault> faults, const solver::Model& model);
 
   bool active(lang::FaultKind kind, double time) const noexcept;
-  /// The first fault of the kind in force, or none.
-  const lang::Fault* find(lang::FaultKind kind, double time) const noexcept;
+  /// The first fault of the kind in force, or none; of those that name a joint, this one's.
+  const lang::Fault* find(lang::FaultKind kind, double time, Eigen::Index joint = -1) const noexcept;
   /// What arrives of a true sample; allocates nothing.
   void spoil(Sensed& sensed) noexcept;
   /// What the motors make of the command.

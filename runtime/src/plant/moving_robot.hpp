@@ -44,6 +44,9 @@ class MovingRobot {
   bool needs_loads() const noexcept { return !side_friction_.empty(); }
   std::vector<double>& wheel_loads() noexcept { return wheel_loads_; }
   void set_floor_friction(double coefficient) noexcept { side_friction_.set_coefficient(coefficient); }
+  void set_floor_friction(double coefficient, std::size_t wheel) noexcept {
+    side_friction_.set_coefficient(coefficient, wheel);
+  }
   void forget_bristles() noexcept { side_friction_.reset(); }
 
   void sense(const mjModel_& m, const mjData_& d, solver::State& state) const noexcept;

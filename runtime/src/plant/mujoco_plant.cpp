@@ -68,7 +68,10 @@ struct MujocoPlant::Simulation {
     }
     find_objects(scene);
     find_docks(scene);
-    for (const MovingRobot& moving : robots) base_mass.push_back(model->body_mass[moving.base_body()]);
+    for (const MovingRobot& moving : robots) {
+      base_mass.push_back(model->body_mass[moving.base_body()]);
+      base_centre.push_back(model->body_ipos[3 * moving.base_body()]);
+    }
     std::vector<Start> starts{
         {options.start_at.value_or(scene.start_at), options.start_yaw.value_or(scene.start_yaw)}};
     for (const lang::SceneRobot& other : scene.robots) starts.push_back({other.at, other.yaw});
@@ -200,14 +203,31 @@ struct MujocoPlant::Simulation {
 
   void set_floor_friction(double coefficient) noexcept {
     for (int p = 0; p < model->npair; ++p) {
-      const int wheel = std::max(owner_of(model->pair_geom1[p]).wheel, owner_of(model->pair_geom2[p]).wheel);
-      if (wheel < 0) continue;
-      mjtNum* friction = model->pair_friction + 5 * p;
-      // Skidding wheels have next to none in the second direction.
-      if (friction[1] == friction[0]) friction[1] = coefficient;
-      friction[0] = coefficient;
+      if (rolling_in(p).wheel >= 0) set_pair_friction(p, coefficient);
     }
     for (MovingRobot& robot : robots) robot.set_floor_friction(coefficient);
+  }
+
+  void set_wheel_friction(std::size_t robot, std::size_t wheel, double coefficient) noexcept {
+    for (int p = 0; p < model->npair; ++p) {
+      const GeomOwner& rolling = rolling_in(p);
+      if (rolling.wheel == static_cast<int>(wheel) && rolling.robot == static_cast<int>(robot))
+        set_pair_friction(p, coefficient);
+    }
+    robots[robot].set_floor_friction(coefficient, wheel);
+  }
+
+  /// Of a pair of geoms that may touch the one that rolls, if any does.
+  const GeomOwner& rolling_in(int pair) const {
+    const GeomOwner& one = owner_of(model->pair_geom1[pair]);
+    return one.wheel >= 0 ? one : owner_of(model->pair_geom2[pair]);
+  }
+
+  void set_pair_friction(int pair, double coefficient) noexcept {
+    mjtNum* friction = model->pair_friction + 5 * pair;
+    // Skidding wheels have next to none in the second direction.
+    if (friction[1] == friction[0]) friction[1] = coefficient;
+    friction[0] = coefficient;
   }
 
   void set_payload(std::size_t robot, double mass) noexcept {
@@ -216,6 +236,13 @@ struct MujocoPlant::Simulation {
     model->body_mass[body] += change;
     model->body_subtreemass[body] += change;
     model->body_subtreemass[0] += change;
+  }
+
+  void shift_centre_of_mass(std::size_t robot, double ahead) noexcept {
+    const int body = robots[robot].base_body();
+    // Else the simulator takes the body's own frame for the one of its inertia.
+    model->body_sameframe[body] = 0;
+    model->body_ipos[3 * body] = base_centre[robot] + ahead;
   }
 
   const GeomOwner& owner_of(int geom) const { return owners[static_cast<std::size_t>(geom)]; }
@@ -394,7 +421,8 @@ struct MujocoPlant::Simulation {
   std::vector<GeomOwner> owners;  ///< by geom
   std::vector<SimulatedObject> objects;
   std::vector<SimulatedDock> docks;
-  std::vector<double> base_mass;  ///< [kg] of each robot's base, without a payload
+  std::vector<double> base_mass;    ///< [kg] of each robot's base, without a payload
+  std::vector<double> base_centre;  ///< [m] of its mass, ahead of its origin, unshifted
   Vector3 velocity = Vector3::Zero();
   Truth truth;
   std::int64_t steps_since_start = 0;
@@ -437,6 +465,14 @@ void MujocoPlant::set_payload(double mass) noexcept {
 
 void MujocoPlant::set_partner_payload(std::size_t partner, double mass) noexcept {
   if (partner + 1 < simulation_->robots.size()) simulation_->set_payload(partner + 1, mass);
+}
+
+void MujocoPlant::set_wheel_friction(std::size_t robot, std::size_t wheel, double coefficient) noexcept {
+  if (robot < simulation_->robots.size()) simulation_->set_wheel_friction(robot, wheel, coefficient);
+}
+
+void MujocoPlant::shift_centre_of_mass(std::size_t robot, double ahead) noexcept {
+  if (robot < simulation_->robots.size()) simulation_->shift_centre_of_mass(robot, ahead);
 }
 
 void MujocoPlant::diverge() noexcept {

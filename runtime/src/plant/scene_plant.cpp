@@ -24,10 +24,41 @@ std::vector<lang::Fault> faults_of(const std::string& robot, const lang::Scene& 
   return faults;
 }
 
-double payload_of(const InjectedFaults& faults, double time) noexcept {
-  const lang::Fault* payload = faults.find(FaultKind::payload, time);
-  return payload != nullptr ? payload->value : 0.0;
-}
+/// What faults made of a robot's body and of the floor below it, kept to tell a change.
+class Changes {
+ public:
+  /// `robot` is its number in the simulation.
+  Changes(std::size_t robot, const solver::Model& model, double floor_friction)
+      : robot_(robot), friction_(model.wheels().size(), floor_friction) {
+    for (const solver::Wheel& wheel : model.wheels()) joints_.push_back(wheel.body - 1);
+  }
+
+  void make(MujocoPlant& simulation, const InjectedFaults& faults, double floor_friction,
+            double time) noexcept {
+    const lang::Fault* payload = faults.find(FaultKind::payload, time);
+    const double mass = payload != nullptr ? payload->value : 0.0;
+    if (mass != payload_ && robot_ == 0) simulation.set_payload(mass);
+    if (mass != payload_ && robot_ > 0) simulation.set_partner_payload(robot_ - 1, mass);
+    payload_ = mass;
+    const lang::Fault* shifted = faults.find(FaultKind::centre_of_mass, time);
+    const double ahead = shifted != nullptr ? shifted->value : 0.0;
+    if (ahead != ahead_) simulation.shift_centre_of_mass(robot_, ahead);
+    ahead_ = ahead;
+    for (std::size_t w = 0; w < friction_.size(); ++w) {
+      const lang::Fault* slip = faults.find(FaultKind::floor_friction, time, joints_[w]);
+      const double friction = slip != nullptr ? slip->value : floor_friction;
+      if (friction != friction_[w]) simulation.set_wheel_friction(robot_, w, friction);
+      friction_[w] = friction;
+    }
+  }
+
+ private:
+  std::size_t robot_;
+  std::vector<Eigen::Index> joints_;  ///< of the wheels
+  std::vector<double> friction_;      ///< under them
+  double payload_ = 0.0;              ///< [kg]
+  double ahead_ = 0.0;                ///< [m] of the centre of mass
+};
 
 const lang::Scene& scene_of(const lang::Program& program) {
   if (!program.scene) throw std::invalid_argument("plant: the program has no scene");
@@ -53,7 +84,7 @@ struct ScenePlant::Parts {
     InjectedFaults faults;
     Sensed actual, sensed;
     Eigen::VectorXd torque;  ///< what its motors make of the command
-    double payload = 0.0;
+    Changes changes;
   };
 
   Parts(const lang::Program& program, const ScenePlantOptions& options)
@@ -61,6 +92,7 @@ struct ScenePlant::Parts {
         simulation(program.robot, scene, options.simulation),
         senses(program, scene, 0, program.robot, options.seed),
         faults(faults_of({}, scene, options.faults), program.robot.model),
+        changes(0, program.robot.model, scene.floor_friction),
         actual(program.robot.model),
         torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())) {
     static_cast<void>(simulation.sense(actual));
@@ -74,21 +106,21 @@ struct ScenePlant::Parts {
       told.push_back({RobotSenses(own, scene, static_cast<int>(i) + 1, program.robot, options.seed),
                       InjectedFaults(faults_of(partners.back().name, scene, options.faults), own.robot.model),
                       Sensed(own.robot.model), Sensed(own.robot.model, own.signals.size()),
-                      partners.back().torque});
+                      partners.back().torque, Changes(i + 1, own.robot.model, scene.floor_friction)});
       static_cast<void>(simulation.sense_partner(i, told.back().actual));
       told.back().senses.start_at(told.back().actual.state.base_pose);
     }
   }
 
-  /// Floor, payload and the simulation itself.
-  void change_world(double time) noexcept {
+  /// What the floor's friction is where no fault names a wheel.
+  double floor_friction(double time) const noexcept {
     const lang::Fault* slip = faults.find(FaultKind::floor_friction, time);
-    const double friction = slip != nullptr ? slip->value : scene.floor_friction;
-    if (friction != present_friction) simulation.set_floor_friction(friction);
-    present_friction = friction;
-    const double mass = payload_of(faults, time);
-    if (mass != present_payload) simulation.set_payload(mass);
-    present_payload = mass;
+    return slip != nullptr ? slip->value : scene.floor_friction;
+  }
+
+  /// Floor, the first robot's body and the simulation itself.
+  void change_world(double time) noexcept {
+    changes.make(simulation, faults, floor_friction(time), time);
     if (faults.active(FaultKind::plant_diverges, time)) simulation.diverge();
   }
 
@@ -99,8 +131,7 @@ struct ScenePlant::Parts {
     if (simulation.sense_partner(i, of.actual) != PlantStatus::ok) return;
     of.senses.measure(simulation.truth(), of.actual.state);
     const double time = of.actual.time;
-    if (const double mass = payload_of(of.faults, time); mass != of.payload)
-      simulation.set_partner_payload(i, of.payload = mass);
+    of.changes.make(simulation, of.faults, floor_friction(time), time);
     // A sample that does not arrive leaves the last one: the guard counts it.
     if (!of.faults.active(FaultKind::samples_lost, time)) {
       of.senses.tell(of.actual, of.sensed);
@@ -118,12 +149,11 @@ struct ScenePlant::Parts {
   MujocoPlant simulation;
   RobotSenses senses;
   InjectedFaults faults;
+  Changes changes;
   Sensed actual;
   Eigen::VectorXd torque;  ///< what the motors make of the command
   std::vector<ScenePartner> partners;
   std::vector<Told> told;  ///< parallel to `partners`
-  double present_friction = scene.floor_friction;
-  double present_payload = 0.0;
 };
 
 ScenePlant::ScenePlant(const lang::Program& program, const ScenePlantOptions& options)

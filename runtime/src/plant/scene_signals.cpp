@@ -27,6 +27,7 @@ bool gives(SceneSignalKind kind, SignalType type) {
     case SceneSignalKind::pose:
       return type == SignalType::pose;
     case SceneSignalKind::distance:
+    case SceneSignalKind::force:
       return type == SignalType::number;
     case SceneSignalKind::latch:
       return type == SignalType::boolean;
@@ -137,6 +138,12 @@ bool SceneSignals::is_latched(const Truth& truth, int number) const noexcept {
   return truth.objects[static_cast<std::size_t>(number < objects ? number : number - 1)].latched.has_value();
 }
 
+double SceneSignals::force(const Truth& truth, int number) const noexcept {
+  const auto objects = static_cast<int>(scene_.objects.size());
+  if (number == objects) return 0.0;
+  return truth.objects[static_cast<std::size_t>(number < objects ? number : number - 1)].force;
+}
+
 SceneSignals::PlanarPose SceneSignals::seen_pose(const Truth& truth, int number) const noexcept {
   const PlanarPose at = pose_of(truth, number);
   const auto* dock = dock_of(scene_, number);
@@ -184,6 +191,9 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
     }
     case SceneSignalKind::latch:
       sample.boolean = is_latched(truth, number);
+      break;
+    case SceneSignalKind::force:
+      sample.number = force(truth, number) + signal.bias + signal.noise * source.noise.normal();
       break;
     case SceneSignalKind::distance:
       sample.number = std::max(0.0, distance(truth, number, state) + signal.noise * source.noise.normal());

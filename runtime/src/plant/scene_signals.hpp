@@ -66,6 +66,8 @@ class SceneSignals {
   PlanarPose pose_of(const Truth& truth, int number) const noexcept;
   /// The same, or the pose of its dock: there x points from the socket at the origin.
   PlanarPose seen_pose(const Truth& truth, int number) const noexcept;
+  /// [N] that the first robot presses on it with.
+  double force(const Truth& truth, int number) const noexcept;
   bool is_latched(const Truth& truth, int number) const noexcept;
   double distance(const Truth& truth, int number, const solver::State& state) const noexcept;
 

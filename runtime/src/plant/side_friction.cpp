@@ -12,7 +12,7 @@ constexpr double damping_ratio = 0.7;  ///< while the bristles hold
 
 }  // namespace
 
-SideFriction::SideFriction(const solver::Model& model, double coefficient) : coefficient_(coefficient) {
+SideFriction::SideFriction(const solver::Model& model, double coefficient) {
   for (std::size_t w = 0; w < model.wheels().size(); ++w) {
     const solver::Wheel& wheel = model.wheels()[w];
     if (wheel.roller_angle || wheel.holds_sideways) continue;
@@ -21,6 +21,7 @@ SideFriction::SideFriction(const solver::Model& model, double coefficient) : coe
       throw std::invalid_argument("plant: the skidding wheel `" + body.name + "` is not on the base");
     Bristle bristle;
     bristle.wheel = w;
+    bristle.coefficient = coefficient;
     bristle.axis = body.pose_in_parent.rotation * body.joint.axis;
     bristle.contact = body.pose_in_parent.position - solver::Vector3(0.0, 0.0, wheel.radius);
     wheels_.push_back(bristle);
@@ -35,7 +36,7 @@ solver::ForceVector SideFriction::step(const solver::MotionVector& twist, const 
                                        double period) noexcept {
   solver::ForceVector wrench;
   for (Bristle& bristle : wheels_) {
-    const double limit = coefficient_ * loads[bristle.wheel];
+    const double limit = bristle.coefficient * loads[bristle.wheel];
     const double v = bristle.axis.dot(twist.linear + twist.angular.cross(bristle.contact));
     const double longest = limit / stiffness_;
     bristle.stretch = std::clamp(bristle.stretch + period * v, -longest, longest);
@@ -43,6 +44,16 @@ solver::ForceVector SideFriction::step(const solver::MotionVector& twist, const 
     wrench += {bristle.contact.cross(f * bristle.axis), f * bristle.axis};
   }
   return wrench;
+}
+
+void SideFriction::set_coefficient(double coefficient) noexcept {
+  for (Bristle& bristle : wheels_) bristle.coefficient = coefficient;
+}
+
+void SideFriction::set_coefficient(double coefficient, std::size_t wheel) noexcept {
+  for (Bristle& bristle : wheels_) {
+    if (bristle.wheel == wheel) bristle.coefficient = coefficient;
+  }
 }
 
 void SideFriction::reset() noexcept {

@@ -17,7 +17,9 @@ class SideFriction {
   SideFriction(const solver::Model& model, double coefficient);
 
   bool empty() const noexcept { return wheels_.empty(); }
-  void set_coefficient(double coefficient) noexcept { coefficient_ = coefficient; }
+  /// Under all wheels, or under the one with this number in the model.
+  void set_coefficient(double coefficient) noexcept;
+  void set_coefficient(double coefficient, std::size_t wheel) noexcept;
   /// The wrench on the base, in base axes and about its origin, at the base's twist in the same. `loads` are
   /// the wheels' N by their number. Moves the bristles by one step of `period` [s].
   solver::ForceVector step(const solver::MotionVector& twist, const std::vector<double>& loads,
@@ -29,10 +31,10 @@ class SideFriction {
     std::size_t wheel = 0;
     solver::Vector3 axis;     ///< in base axes
     solver::Vector3 contact;  ///< [m] in the base frame
-    double stretch = 0.0;     ///< [m]
+    double coefficient = 0.0;
+    double stretch = 0.0;  ///< [m]
   };
   std::vector<Bristle> wheels_;
-  double coefficient_;
   double stiffness_ = 0.0;  ///< k [N/m]
   double damping_ = 0.0;    ///< c [N s/m]
 };

@@ -67,6 +67,7 @@ enum class SceneSignalKind {
   pose,      ///< of the object or robot, in the frame that the task file's signal is seen from
   distance,  ///< of the object's or robot's edge from the seeing robot's base frame, in the plane [m]
   latch,     ///< whether the hook holds in the dock of the object or robot
+  force,     ///< that the first robot and the object or robot press each other with [N]
 };
 
 /// Where a signal of the task file with this name comes from, and how well it is measured.
@@ -78,7 +79,8 @@ struct SceneSignal {
   std::array<int, 4> powers{};  ///< of length, mass, time and angle, in what a script's numbers measure
   Span source_span{};           ///< of what is seen; of a script its first value
   int object = -1;              ///< what is seen: an index into Scene::objects, or of a robot (`seen_robot`)
-  double noise = 0.0;           ///< [m] standard deviation of a distance and of a pose's x and y
+  double noise = 0.0;           ///< [m], [N] standard deviation of a distance, a pose's x and y, a force
+  double bias = 0.0;            ///< [N] that a force is measured too large
   double angle_noise = 0.0;     ///< [rad] of a pose's yaw
   double delay = 0.0;           ///< [s] from the measurement to its arrival
   double period = 0.0;          ///< [s] between measurements; 0: every tick
@@ -101,13 +103,16 @@ struct StateNoise {
 enum class FaultKind {
   samples_lost,     ///< no sample arrives
   samples_nan,      ///< an entry of the state is not a number
+  samples_inf,      ///< it is infinite
+  samples_huge,     ///< it is 1e300
   samples_frozen,   ///< the state of the fault's begin, with the clock running on
   clock_backwards,  ///< samples are stamped 10 ms before the fault's begin
   torque_lost,      ///< of `joint`: the motor gives none
   torque_stuck,     ///< it keeps what it gave at the fault's begin
   torque_flipped,   ///< it gives the opposite
-  floor_friction,   ///< the floor's friction is `value`
-  payload,          ///< the base weighs `value` [kg] more, where its centre of mass is
+  floor_friction,   ///< the floor's friction is `value`, under the wheel `joint` or under all wheels
+  payload,          ///< the base weighs `value` [kg] more, where its centre of mass is; negative: less
+  centre_of_mass,   ///< the base's own centre of mass lies `value` [m] farther ahead
   plant_diverges,   ///< the simulation leaves the finite numbers
 };
 

@@ -74,9 +74,16 @@ class MujocoPlant : public Plant {
   const Truth& truth() const noexcept;
   /// From now on; kept finite and positive by the caller.
   void set_floor_friction(double coefficient) noexcept;
-  /// The base weighs this much [kg] more than its model says, where its centre of mass is.
+  /// The same under one wheel, by its number in the model. `robot`: 0 is the first one, others follow in the
+  /// order of the scene.
+  void set_wheel_friction(std::size_t robot, std::size_t wheel, double coefficient) noexcept;
+  /// The base weighs this much [kg] more than its model says, where its centre of mass is; negative: less,
+  /// and the caller leaves it some.
   void set_payload(double mass) noexcept;
   void set_partner_payload(std::size_t partner, double mass) noexcept;
+  /// The base's own centre of mass, without the wheels and arms, lies this much [m] farther ahead than its
+  /// model says. `robot` as above.
+  void shift_centre_of_mass(std::size_t robot, double ahead) noexcept;
   /// As if the simulation had failed.
   void diverge() noexcept;
   /// The MJCF that was compiled, for inspection.
