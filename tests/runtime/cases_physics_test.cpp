@@ -427,8 +427,10 @@ TEST(Switches, OfTheFourCasesStepByTheBlendsShareOnThePlantAndHarderWithoutIt) {
     EXPECT_LE(smooth.at_switch, share + c.capped) << c.file;
     EXPECT_LE(smooth.in_blend, 2.0 * share * (1.0 + 1e-6)) << c.file;
     // From `press` to `hold` the same push goes on: nothing of it steps either way.
+    // Without a blend a force steps as far as the slew of the motors lets it.
     if (std::string(c.file) != "wall_align.yaml") {
-      EXPECT_GT(hard.at_switch, 3.0 * smooth.at_switch) << c.file;
+      EXPECT_GT(hard.at_switch, smooth.at_switch) << c.file;
+      EXPECT_GT(hard.at_switch, 3.0 * faded.at_switch) << c.file;
     }
   }
 }

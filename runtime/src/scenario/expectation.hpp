@@ -22,8 +22,8 @@ struct Reading {
 inline constexpr double not_asked = 1e300;
 
 /// How far a condition is from changing: positive where it holds. Of a comparison the distance between its
-/// sides as a share of the right one (infinite, where that is 0); `and` takes the least, `or` the largest, but
-/// beside a window of time the other side alone. What nobody knows does not hold. Allocates nothing:
+/// sides as a share of the right one (infinite, where that is 0); `and` takes the least, `or` the largest,
+/// but beside a window of time the other side alone. What nobody knows does not hold. Allocates nothing:
 /// `readings` holds one for each node, and the last is the condition's.
 void read_condition(const lang::Condition& condition, const TrueFacts& facts,
                     std::vector<Reading>& readings) noexcept;
