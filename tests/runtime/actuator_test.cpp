@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -18,22 +19,10 @@ namespace zwang::runtime {
 namespace {
 
 using lang::FaultKind;
+using test::shipped_program;
+using test::specs;
 
 constexpr double period = 1e-3;
-
-std::string specs(const std::string& name) {
-  return ZWANG_SOURCE_DIR "/specs/" + name;
-}
-
-lang::Program load(const std::string& task, const std::string& robot, const std::string& scene = "") {
-  lang::Diagnostics diagnostics;
-  lang::LoadOptions options;
-  options.robot = specs("robots/" + robot + "_base.yaml");
-  if (!scene.empty()) options.scene = specs("scenes/" + scene + ".yaml");
-  auto program = lang::load(specs(task), options, diagnostics);
-  if (!program) throw std::runtime_error(task + " does not load with " + robot);
-  return *program;
-}
 
 struct Broken {
   const char* robot;
@@ -50,7 +39,7 @@ class Motor : public testing::TestWithParam<Broken> {};
 
 TEST_P(Motor, ThatDoesNotObeyIsFoundWithin100Milliseconds) {
   const Broken& broken = GetParam();
-  const lang::Program program = load(broken.task, broken.robot);
+  const lang::Program program = shipped_program(broken.task, broken.robot);
   ScenePlantOptions options;
   const double at = 0.1;
   lang::Fault fault{.kind = broken.kind, .at = at, .joint = broken.wheel};
@@ -99,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// own error, the difference between the torques' wrench and the wall's.
 TEST(EstimatedForce, OfASteadyPushIsThePlantsOwn) {
   for (const char* robot : {"mecanum", "omni", "diff"}) {
-    const lang::Program program = load("wall_align.yaml", robot, "wall");
+    const lang::Program program = shipped_program("wall_align.yaml", robot, "wall");
     ScenePlantOptions options;
     options.simulation.start_yaw = 0.0;
     ScenePlant plant(program, options);
@@ -128,7 +117,7 @@ TEST(EstimatedForce, OfASteadyPushIsThePlantsOwn) {
 
 /// One wheel that turns by itself while the base and the others stand; then all of them.
 TEST(Slip, OfOneWheelAndOfAllIsToldOnceAndWithinASecond) {
-  const lang::Program program = load("wall_align.yaml", "mecanum", "wall_far");
+  const lang::Program program = shipped_program("wall_align.yaml", "mecanum", "wall_far");
   for (const int slipping : {1, 4}) {
     Runner runner(program, {.period = period});
     Sensed sensed(program.robot.model, program.signals.size());
@@ -156,7 +145,7 @@ TEST(Slip, OfOneWheelAndOfAllIsToldOnceAndWithinASecond) {
 /// A force sensor that touches nothing and reads 30 N is told of with the first sample, either way; 2 N are
 /// not.
 TEST(SensorBias, IsToldAtTheStart) {
-  lang::Program program = load("wall_align.yaml", "mecanum", "wall_far");
+  lang::Program program = shipped_program("wall_align.yaml", "mecanum", "wall_far");
   lang::Signal bumper;
   bumper.name = "bumper";
   bumper.type = lang::SignalType::number;
@@ -188,7 +177,7 @@ TEST(SensorBias, IsToldAtTheStart) {
 /// A task file that changes under way: the new one takes over between two ticks without a jump of a torque;
 /// one that does not load is no program, and the old one runs on.
 TEST(HotReload, SwapsAtATickWithoutAJump) {
-  const lang::Program drive = load("obstacle.yaml", "mecanum");
+  const lang::Program drive = shipped_program("obstacle.yaml", "mecanum");
   lang::Program faster = drive;
   ASSERT_EQ(faster.parameters[0].name, "cruise");
   faster.parameters[0].value = 0.4;
@@ -219,7 +208,7 @@ TEST(HotReload, SwapsAtATickWithoutAJump) {
   // All that fades at a switch is less than the largest torque; it has 0.2 s to do so, twice over.
   EXPECT_LE(after, 2.0 * 2.0 * apart * period / Runner::handover);
 
-  Runner other(load("obstacle.yaml", "omni"), {.period = period});
+  Runner other(shipped_program("obstacle.yaml", "omni"), {.period = period});
   EXPECT_FALSE(runner.swap_program(other));
 }
 
@@ -232,7 +221,7 @@ TEST(HotReload, AHalfWrittenFileIsRefusedOrWholeInItself) {
   options.root = "/";
   options.robot = specs("robots/mecanum_base.yaml");
   options.scene = specs("scenes/obstacle.yaml");
-  const lang::Program drive = load("obstacle.yaml", "mecanum");
+  const lang::Program drive = shipped_program("obstacle.yaml", "mecanum");
   int refused = 0, read = 0;
   for (std::size_t size = 0; size < whole.size(); size += 97) {
     std::ofstream(file) << whole.substr(0, size);
@@ -311,7 +300,7 @@ TEST(WrongModel, KeepsItsForceAndArrives) {
         Case{"centre of mass 10 cm off", 1.0, 0.1}}) {
     const WrongRobot robot(wrong.scale, wrong.ahead);
     const lang::Program believed = robot.program();
-    const lang::Program actual = load("wall_align.yaml", "mecanum");
+    const lang::Program actual = shipped_program("wall_align.yaml", "mecanum");
     ASSERT_TRUE(wrong.ahead != 0.0 ||
                 std::abs(believed.robot.model.total_mass() / actual.robot.model.total_mass() - 1.0) > 0.2);
     ScenePlant plant(actual);
@@ -332,7 +321,7 @@ TEST(WrongModel, KeepsItsForceAndArrives) {
 
 /// Without torque this arm would fall: 10 deg in a fifth of a second. The stop holds it, told or blind.
 TEST(ProtectiveStop, HoldsAnArmWhereItWas) {
-  const lang::Program program = load("obstacle.yaml", "mecanum_arm");
+  const lang::Program program = shipped_program("obstacle.yaml", "mecanum_arm");
   const int joints = program.robot.model.joint_count();
   for (const bool blind : {false, true}) {
     ScenePlant plant(program);

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -29,14 +30,7 @@ constexpr double gap = 0.08;            // [m] to it, at the start
 constexpr double start_yaw = 5.0 * M_PI / 180.0;
 
 lang::Program load(const std::string& robot) {
-  const std::string specs = ZWANG_SOURCE_DIR "/specs/";
-  lang::Diagnostics diagnostics;
-  lang::LoadOptions options;
-  options.robot = specs + "robots/" + robot + "_base.yaml";
-  options.scene = specs + "scenes/wall_far.yaml";
-  auto program = lang::load(specs + "wall_align.yaml", options, diagnostics);
-  if (!program) throw std::runtime_error("specs/wall_align.yaml does not load with " + robot);
-  return *program;
+  return test::shipped_program("wall_align.yaml", robot, "wall_far");
 }
 
 const char* word(FaultKind kind) {

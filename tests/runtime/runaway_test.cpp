@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "guard/runaway_watch.hpp"
+#include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -16,14 +17,7 @@ namespace {
 constexpr double period = 1e-3;
 
 lang::Program load(const std::string& robot) {
-  const std::string specs = ZWANG_SOURCE_DIR "/specs/";
-  lang::Diagnostics diagnostics;
-  lang::LoadOptions options;
-  options.robot = specs + "robots/" + robot + "_base.yaml";
-  options.scene = specs + "scenes/wall_far.yaml";
-  auto program = lang::load(specs + "wall_align.yaml", options, diagnostics);
-  if (!program) throw std::runtime_error("specs/wall_align.yaml does not load with " + robot);
-  return *program;
+  return test::shipped_program("wall_align.yaml", robot, "wall_far");
 }
 
 /// One mass on one wheel, told to stay between two speeds: v(t) and the force that it is told are given. What

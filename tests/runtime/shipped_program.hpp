@@ -1,0 +1,28 @@
+/// A program out of the files that ship with zwang.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "zwang/lang/program.hpp"
+
+namespace zwang::test {
+
+inline std::string specs(const std::string& name) {
+  return ZWANG_SOURCE_DIR "/specs/" + name;
+}
+
+/// A shipped task on a shipped base: `mecanum` is robots/mecanum_base.yaml. In the task's own scene where
+/// none is named.
+inline lang::Program shipped_program(const std::string& task, const std::string& robot,
+                                     const std::string& scene = "") {
+  lang::Diagnostics diagnostics;
+  lang::LoadOptions options;
+  options.robot = specs("robots/" + robot + "_base.yaml");
+  if (!scene.empty()) options.scene = specs("scenes/" + scene + ".yaml");
+  auto program = lang::load(specs(task), options, diagnostics);
+  if (!program) throw std::runtime_error(task + " does not load with " + robot);
+  return *program;
+}
+
+}  // namespace zwang::test
