@@ -114,6 +114,32 @@ TEST(RealTime, TheSameInputGivesTheSameBits) {
   EXPECT_EQ(std::memcmp(first.data(), second.data(), first.size() * sizeof(double)), 0);
 }
 
+/// Turning wheels keep what was computed of the robot only when their turning moves no mass.
+TEST(RealTime, AnEccentricWheelIsNotTakenForARoundOne) {
+  const auto tau_of_first_wheel = [](const test::MecanumFigures& figures,
+                                     std::initializer_list<double> angles) {
+    const Model model = test::mecanum(figures);
+    State state(model);
+    state.base_twist.angular.z() = 1.0;
+    std::mt19937 random(3);
+    ConstraintSet set;
+    pose(model, random, state, set);
+    Solver solver(model);
+    Solution solution(model);
+    for (const double angle : angles) {
+      state.q(0) = angle;
+      EXPECT_TRUE(set.fill(model, state));
+      EXPECT_EQ(solver.solve(state, set.rows(), solution), Status::ok);
+    }
+    return solution.tau(0);
+  };
+  const test::MecanumFigures round;
+  EXPECT_EQ(tau_of_first_wheel(round, {0.0, 1.0}), tau_of_first_wheel(round, {0.0}));
+  const test::MecanumFigures eccentric{.eccentricity = 0.02};
+  EXPECT_EQ(tau_of_first_wheel(eccentric, {0.0, 1.0}), tau_of_first_wheel(eccentric, {1.0}));
+  EXPECT_NE(tau_of_first_wheel(eccentric, {0.0, 1.0}), tau_of_first_wheel(eccentric, {0.0}));
+}
+
 /// A random robot of its kind with rows of every kind, solved in two states in turn.
 struct BusyRobot : oracle::LawProblem {
   BusyRobot(oracle::Robot robot, std::uint64_t seed)

@@ -14,6 +14,7 @@ struct MecanumFigures {
   double wheel_mass = 1.5, radius = 0.1, spin_inertia = 0.0075;  // [kg], [m], [kg m^2]
   double yaw_inertia_wheel = 0.004, rotor_inertia = 0.001;       // [kg m^2]
   double lx = 0.25, ly = 0.22;                                   // [m]
+  double eccentricity = 0.0;                                     // [m] of a wheel's centre of mass
   double effort = 8.0;                                           // [N m]
 
   double spin() const { return spin_inertia + rotor_inertia; }
@@ -47,7 +48,7 @@ inline Model mecanum(const MecanumFigures& f) {
     joint.actuated = true;
     joint.max_effort = f.effort;
     builder.add_link(w.name, "base_link", {Matrix3::Identity(), {w.x * f.lx, w.y * f.ly, 0.0}}, joint,
-                     RigidInertia::from_com(f.wheel_mass, Vector3::Zero(), inertia));
+                     RigidInertia::from_com(f.wheel_mass, {f.eccentricity, 0.0, 0.0}, inertia));
     Wheel wheel;
     wheel.radius = f.radius;
     wheel.roller_angle = w.angle * M_PI / 180.0;

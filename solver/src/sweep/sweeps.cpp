@@ -64,6 +64,15 @@ void move(double qd, const BodySweep& parent, BodySweep& sweep) {
   sweep.c.tail<3>() = parent.c.tail<3>() + w.cross(joint_v) + v.cross(joint_w);
 }
 
+/// The same all around the joint's axis e: its centre of mass is on it and J_B = across 1 + (along - across)
+/// e e'.
+bool is_round_about(const Vector3& e, const Vector3& com, const Matrix3& J) {
+  const double along = e.dot(J * e);
+  const double across = 0.5 * (J.trace() - along);
+  const Matrix3 round = across * Matrix3::Identity() + (along - across) * e * e.transpose();
+  return com.cross(e).norm() <= 1e-14 && (J - round).norm() <= 1e-14 * J.norm();
+}
+
 /// The inertia about the centre of mass in the base's axes: J = R J_B R'. With the principal moments x, y, z
 /// about the body's own axes, the columns of R, that is  z 1 + (x - z) R_x R_x' + (y - z) R_y R_y'.
 void turn_inertia(BodySweep& sweep) {
@@ -86,6 +95,46 @@ void turn_inertia(BodySweep& sweep) {
   const double zy = half.row(2).dot(R.row(1));
   const double zz = half.row(2).dot(R.row(2));
   sweep.J << xx, yx, zx, yx, yy, zy, zx, zy, zz;
+}
+
+/// Where the mass of a body is. That of a round one stays where it is when the body turns, to the last bit.
+void place_mass(BodySweep& sweep) {
+  sweep.com = sweep.p;
+  if (!sweep.is_round) {
+    sweep.com.noalias() += sweep.R * sweep.com_in_body;
+    turn_inertia(sweep);
+    return;
+  }
+  const Vector3 e = sweep.S.head<3>();
+  sweep.com += sweep.com_on_axis * e;
+  sweep.J.noalias() = (sweep.inertia_along_axis - sweep.inertia_across_axis) * e * e.transpose();
+  sweep.J.diagonal().array() += sweep.inertia_across_axis;
+}
+
+/// Poses and masses where the joints are now. Where round bodies alone have turned, only their axes do.
+void place_bodies(const Model& model, const Eigen::VectorXd& q, Sweeps& sweeps) {
+  bool moved = false;
+  for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+    const auto j = static_cast<Eigen::Index>(i) - 1;
+    const bool is_placed = !std::isnan(sweeps.placed_at(j));
+    moved = moved || (q(j) != sweeps.placed_at(j) && !(sweeps.bodies[i].is_round && is_placed));
+  }
+  if (moved) sweeps.is_articulated = false;
+  // Ahead of the walk, where each body would wait for them: these do not wait for one another.
+  for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+    const double angle = q(static_cast<Eigen::Index>(i) - 1);
+    sweeps.bodies[i].cosine = std::cos(angle);
+    sweeps.bodies[i].sine = std::sin(angle);
+  }
+  for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+    const Body& body = model.bodies()[i];
+    BodySweep& sweep = sweeps.bodies[i];
+    if (!moved && !sweep.is_round) continue;
+    place(body, q(static_cast<Eigen::Index>(i) - 1), sweeps.bodies[static_cast<std::size_t>(body.parent)],
+          sweep);
+    if (moved) place_mass(sweep);
+  }
+  sweeps.placed_at = q;
 }
 
 /// The rigid body's inertia about the base's origin, by the parallel axis theorem:
@@ -182,16 +231,24 @@ Sweeps::Sweeps(const Model& model, int robot_row_capacity, int task_row_capacity
     for (int k = 0; k < 3; ++k) {
       if (body.joint.axis == Vector3::Unit(k)) sweep.axis_column = k;
     }
+    const Vector3& e = body.joint.axis;
+    sweep.com_on_axis = e.dot(sweep.com_in_body);
+    sweep.inertia_along_axis = e.dot(sweep.inertia_in_body * e);
+    sweep.inertia_across_axis = 0.5 * (sweep.inertia_in_body.trace() - sweep.inertia_along_axis);
+    sweep.is_round = i > 0 && body.joint.type != JointType::prismatic &&
+                     is_round_about(e, sweep.com_in_body, sweep.inertia_in_body);
+    if (i > 0) bodies[static_cast<std::size_t>(body.parent)].is_round = false;
   }
+  BodySweep& base = bodies.front();
+  base.R.setIdentity();
+  base.p.setZero();
+  base.com = base.com_in_body;
+  base.J = base.inertia_in_body;
 }
 
 void outward_kinematics(const Model& model, const State& state, const Vector6& base_acceleration,
                         Sweeps& sweeps) noexcept {
   BodySweep& base = sweeps.bodies.front();
-  base.R.setIdentity();
-  base.p.setZero();
-  base.com = base.com_in_body;
-  base.J = base.inertia_in_body;
   base.v.setZero();
   base.c.setZero();
   if (model.has_fixed_base()) {
@@ -199,29 +256,10 @@ void outward_kinematics(const Model& model, const State& state, const Vector6& b
   } else {
     base.v = state.base_twist.vector();
   }
-  const bool moved = sweeps.placed_at != state.q;
-  if (moved) {
-    sweeps.placed_at = state.q;
-    sweeps.is_articulated = false;
-  }
-  // Ahead of the walk, where each body would wait for them: these do not wait for one another.
-  for (std::size_t i = 1; moved && i < sweeps.bodies.size(); ++i) {
-    const double q = state.q(static_cast<Eigen::Index>(i) - 1);
-    sweeps.bodies[i].cosine = std::cos(q);
-    sweeps.bodies[i].sine = std::sin(q);
-  }
+  if (sweeps.placed_at != state.q) place_bodies(model, state.q, sweeps);
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
-    const Body& body = model.bodies()[i];
-    const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
-    BodySweep& sweep = sweeps.bodies[i];
-    const auto j = static_cast<Eigen::Index>(i) - 1;
-    if (moved) {
-      place(body, state.q(j), parent, sweep);
-      sweep.com = sweep.p;
-      sweep.com.noalias() += sweep.R * sweep.com_in_body;
-      turn_inertia(sweep);
-    }
-    move(state.qd(j), parent, sweep);
+    const auto parent = static_cast<std::size_t>(model.bodies()[i].parent);
+    move(state.qd(static_cast<Eigen::Index>(i) - 1), sweeps.bodies[parent], sweeps.bodies[i]);
   }
 }
 

@@ -58,6 +58,12 @@ struct BodySweep {
   bool has_principal_axes = false;  ///< inertia_in_body is diagonal
   int axis_column = -1;  ///< the body's own axis that the joint turns about or slides along; -1: some other
   bool turned_in_parent = false;  ///< at q = 0
+  /// A body that carries no other and is the same all around its joint's axis, as wheels are: its turning
+  /// moves no mass.
+  bool is_round = false;
+  double com_on_axis = 0.0;          ///< [m] from the body's origin
+  double inertia_along_axis = 0.0;   ///< [kg m^2] about the centre of mass
+  double inertia_across_axis = 0.0;  ///< [kg m^2] of a round body
 
   // Kinematics.
   double cosine = 1.0;  ///< of the joint's angle
@@ -109,7 +115,8 @@ struct Sweeps {
   Eigen::VectorXd free_motion;  ///< h: the acceleration by dimension that no constraint changes
   /// What depends on the joints' positions alone is kept while they stay, as from project_velocity to solve:
   /// with these positions the poses, and when is_articulated the articulated inertias and W of the
-  /// robot_rows.
+  /// robot_rows. These stay while nothing but round bodies turns, all along the run of a base on plain
+  /// wheels.
   Eigen::VectorXd placed_at;
   bool is_articulated = false;
   /// F, the inverse of a Cholesky factor: IA_0^-1 = F'F. Its lines are the base's dimensions; under wheels z,
