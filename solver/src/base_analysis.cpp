@@ -29,16 +29,17 @@ struct WhitenedRobot {
     outward_kinematics(model, state, Vector6::Zero(), sweeps);
     load_bodies_at_rest(sweeps);
     add_ground_rows(ground_rows, sweeps, [](int, const GroundRow&) {});
-    for (int i = 0; i < base; ++i) sweeps.robot_rows.add_row(0, Vector6::Unit(i));
+    for (int i = 0; i < base; ++i) {
+      sweeps.robot_rows.add_row(0);
+      sweeps.robot_rows.last_column() = Vector6::Unit(i);
+    }
     for (int j = 0; j < model.joint_count(); ++j) sweeps.robot_rows.add_joint_row(j);
     if (row != nullptr) add_row(*row, sweeps);
     const Eigen::VectorXd no_torque = Eigen::VectorXd::Zero(model.joint_count());
-    if (!inward_inertia(model, no_torque, sweeps)) {
+    if (!sweep_inward(model, no_torque, sweeps)) {
       throw std::invalid_argument("analysis: an inertia of the model cannot be inverted");
     }
-    inward_rows(model, sweeps, sweeps.robot_rows);
     rows.factorise(sweeps.robot_rows, ground);
-    inward_rows(model, sweeps, sweeps.task_rows);
     rows.turn(sweeps.task_rows);
   }
 

@@ -9,6 +9,15 @@ namespace zwang::solver {
 using Pair = Eigen::Map<Eigen::Array2d>;
 using ConstPair = Eigen::Map<const Eigen::Array2d>;
 
+/// Two numbers in one register, which go in and out of functions there.
+typedef double Two __attribute__((vector_size(16), may_alias));
+inline Two* aligned_two(double* x) {
+  return static_cast<Two*>(static_cast<void*>(x));
+}
+inline const Two* aligned_two(const double* x) {
+  return static_cast<const Two*>(static_cast<const void*>(x));
+}
+
 /// More than `columns`, and an odd multiple of 8: lines of that length start on different sets of the cache.
 constexpr int spaced(int columns) {
   return 8 * ((columns + 8) / 8 | 1);

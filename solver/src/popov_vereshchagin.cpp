@@ -48,7 +48,7 @@ struct PopovVereshchagin::Workspace {
         ground_bias(Eigen::VectorXd::Zero(ground)),
         wanted(Eigen::VectorXd::Zero(options.row_capacity)),
         nu(Eigen::VectorXd::Zero(options.row_capacity)),
-        p(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions())),
+        p(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions() + 1)),
         motion(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions() + 1)),
         qdd(Eigen::VectorXd::Zero(robot.joint_count())),
         wrenches(static_cast<std::size_t>(robot.body_count()), Vector6::Zero()) {}
@@ -66,7 +66,6 @@ struct PopovVereshchagin::Workspace {
   /// nu = L^-1 (b - g), line 21: the ground's rows are held, the given ones then met as well as that leaves.
   /// The rank is that of L, damped or not.
   void solve_base() noexcept {
-    const int r = whitened.mobility();
     const int m = sweeps.task_rows.rows();
     whitened.hold_ground(sweeps.free_motion, ground_bias);
     for (int i = 0; i < m; ++i) wanted(i) -= whitened.acceleration(i);
@@ -74,24 +73,32 @@ struct PopovVereshchagin::Workspace {
     rank = sweeps.task_rows.held_dimensions() + whitened.ground_rank() + given.rank();
     if (settings.damping > 0.0) factorise_given(settings.damping * settings.damping);
     given.solve(wanted.data(), nu.data());
-    set_zero(r, p.data());
-    for (int i = 0; i < m; ++i) add_multiple(r, nu(i), whitened.B(i), p.data());
+    whitened.add_up(nu.data(), p.data());
     whitened.motion(p.data(), motion);
   }
 
-  /// L of the given rows where the ground is held: B B'.
-  void factorise_given(double damping) noexcept {
+  /// B B'
+  template <class Product>
+  void form_L(Product product) noexcept {
     const int count = sweeps.task_rows.rows();
-    const int r = (whitened.mobility() + 1) & ~1;  // lines have a 0 to spare
-    const bool is_short = ground == 0 && sweeps.task_rows.W.cols() == short_line;
-    const bool is_held = whitened.mobility() < sweeps.task_rows.dimensions();
-    given.resize(count);
     for (int i = 0; i < count; ++i) {
       const double* const B = whitened.B(i);
-      for (int k = 0; k <= i; ++k) {
-        const double* const other = whitened.B(k);
-        given.L(i, k) = is_short ? dot<short_line>(B, other) : dot(r, B, other);
-      }
+      double* const line = &given.L(i, 0);
+      for (int k = 0; k <= i; ++k) line[k] = product(B, whitened.B(k));
+    }
+  }
+
+  /// L of the given rows where the ground is held.
+  void factorise_given(double damping) noexcept {
+    const bool is_held = whitened.mobility() < sweeps.task_rows.dimensions();
+    given.resize(sweeps.task_rows.rows());
+    if (ground == 0 && sweeps.task_rows.W.cols() == short_line) {
+      form_L([](const double* one, const double* other) { return dot<short_line>(one, other); });
+    } else {
+      const int r = (whitened.mobility() + 1) & ~1;  // lines have a 0 to spare
+      form_L([r](const double* one, const double* other) { return dot(r, one, other); });
+    }
+    for (int i = 0; i < sweeps.task_rows.rows(); ++i) {
       given.size(i) = (is_held ? whitened.free_square(i) : given.L(i, i)) + damping;
       given.L(i, i) += damping;
     }
@@ -103,11 +110,17 @@ struct PopovVereshchagin::Workspace {
   void carry_wrenches(ConstrainedMotion& result) noexcept {
     for (Vector6& wrench : wrenches) wrench.setZero();
     sweeps.task_rows.add_wrenches(nu, wrenches);
+    Vector6 carried = Vector6::Zero();  // of the body before, to the next one where that is its parent
     for (std::size_t i = wrenches.size() - 1; i > 0; --i) {
-      result.tau_control(static_cast<Eigen::Index>(i) - 1) += sweeps.bodies[i].S.dot(wrenches[i]);
-      wrenches[static_cast<std::size_t>(model.bodies()[i].parent)] += wrenches[i];
+      carried += wrenches[i];
+      result.tau_control(static_cast<Eigen::Index>(i) - 1) += sweeps.bodies[i].S.dot(carried);
+      const auto parent = static_cast<std::size_t>(model.bodies()[i].parent);
+      if (parent + 1 == i) continue;
+      wrenches[parent] += carried;
+      carried.setZero();
     }
-    result.base_wrench = {wrenches.front().head<3>(), wrenches.front().tail<3>()};
+    carried += wrenches.front();
+    result.base_wrench = {carried.head<3>(), carried.tail<3>()};
   }
 
   Status solve(const State& state, const std::vector<AccelerationRow>& rows, const Vector6& base_acceleration,
@@ -150,33 +163,31 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
   load_bodies(model, state, gravity, sweeps);
   add_rows(rows);
   const bool ground_stays = sweeps.is_articulated;
-  if (!inward_inertia(model, state.tau_ff, sweeps)) return Status::degenerate_model;
-  if (!ground_stays) {
-    inward_rows(model, sweeps, sweeps.robot_rows);
-    whitened.factorise(sweeps.robot_rows, ground);
-  }
-  inward_rows(model, sweeps, sweeps.task_rows);
+  if (!sweep_inward(model, state.tau_ff, sweeps)) return Status::degenerate_model;
+  if (!ground_stays) whitened.factorise(sweeps.robot_rows, ground);
   sweeps.task_rows.find_drift(sweeps.bodies);
   whitened.turn(sweeps.task_rows);
   solve_base();
   outward_accelerations(model, motion, sweeps, qdd);
-  if (finite_sum(qdd) + finite_sum(nu.head(count)) != 0.0) return Status::degenerate_model;
+  const int row_count = static_cast<int>(count);
+  if (finite_sum(qdd) + finite_sum(nu.data(), rows.size()) != 0.0) return Status::degenerate_model;
 
   copy(model.joint_count(), qdd.data(), result.qdd.data());
-  copy(static_cast<int>(count), nu.data(), result.nu.data());
+  copy(row_count, nu.data(), result.nu.data());
   result.rank = rank;
-  for (std::size_t i = 0; i < sweeps.bodies.size(); ++i) {
+  const std::size_t bodies = sweeps.bodies.size();
+  for (std::size_t i = 0; i < bodies; ++i) {
     sweeps.bodies[i].from_base(sweeps.bodies[i].a, result.acceleration[i]);
   }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const AccelerationRow& row = rows[i];
+  for (int i = 0; i < row_count; ++i) {
+    const AccelerationRow& row = rows[static_cast<std::size_t>(i)];
     double acceleration = dot(row.a, result.acceleration[static_cast<std::size_t>(row.body)]);
     if (row.reference_body >= 0) {
       acceleration -= dot(row.a_reference, result.acceleration[static_cast<std::size_t>(row.reference_body)]);
     }
-    result.residual(static_cast<Eigen::Index>(i)) = acceleration - row.b;
+    result.residual(i) = acceleration - row.b;
   }
-  for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+  for (std::size_t i = 1; i < bodies; ++i) {
     const int k = sweeps.task_rows.dimension_of(i);
     result.constraint_torque(static_cast<Eigen::Index>(i) - 1) =
         sweeps.bodies[i].root_D * (motion(k) - sweeps.free_motion(k));

@@ -128,7 +128,10 @@ struct Solver::Workspace {
   void add_robot_rows(Bias bias) noexcept {
     add_ground_rows(ground_rows, sweeps, [&](int i, const GroundRow& row) { ground_bias(i) = bias(row); });
     if (sweeps.is_articulated) return;
-    for (int i = 0; i < base; ++i) sweeps.robot_rows.add_row(0, base_freedom(model, i));
+    for (int i = 0; i < base; ++i) {
+      sweeps.robot_rows.add_row(0);
+      sweeps.robot_rows.last_column() = base_freedom(model, i);
+    }
     for (int j = 0; j < model.joint_count(); ++j) sweeps.robot_rows.add_joint_row(j);
   }
 
@@ -166,12 +169,11 @@ struct Solver::Workspace {
     }
   }
 
-  /// Phase 2, with ground and motors, which stay while the joints do.
-  bool sweep_inward() noexcept {
+  /// Phase 2, and the ground and the motors, which stay while the joints do.
+  bool sweep_and_factorise() noexcept {
     const bool robot_stays = sweeps.is_articulated;
-    if (!inward_inertia(model, tau_ff, sweeps)) return false;
+    if (!sweep_inward(model, tau_ff, sweeps)) return false;
     if (robot_stays) return true;
-    inward_rows(model, sweeps, sweeps.robot_rows);
     whitened.factorise(sweeps.robot_rows, ground);
     problem.clear_motors(whitened.mobility());
     for (const int j : motors) problem.add_motor(whitened.robot_B(first_joint_row() + j));
@@ -179,9 +181,8 @@ struct Solver::Workspace {
     return true;
   }
 
-  /// The same for the task.
-  void sweep_task_inward() noexcept {
-    inward_rows(model, sweeps, sweeps.task_rows);
+  /// The task's rows and the free motion under what the ground holds.
+  void hold_ground() noexcept {
     sweeps.task_rows.find_drift(sweeps.bodies);
     whitened.turn(sweeps.task_rows);
     whitened.hold_ground(sweeps.free_motion, ground_bias);
@@ -260,8 +261,8 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   load_bodies(w.model, state, w.gravity(state), w.sweeps);
   w.add_robot_rows([&w](const GroundRow& row) { return row.bias - row.a.dot(w.body_sweep(row.body).c); });
   w.add_task_rows(rows);
-  if (!w.sweep_inward()) return Status::degenerate_model;
-  w.sweep_task_inward();
+  if (!w.sweep_and_factorise()) return Status::degenerate_model;
+  w.hold_ground();
   w.pose_problem(rows);
   const bool exact = w.problem.solve(w.settings.max_iterations);
   w.whitened.motion(w.problem.p(), w.motion);
@@ -315,8 +316,9 @@ Status Solver::project_velocity(State& state) noexcept {
   w.add_robot_rows([&w](const GroundRow& row) { return -row.a.dot(w.body_sweep(row.body).v); });
   const Vector6 twist = w.body_sweep(0).v;
   load_bodies_at_rest(w.sweeps);
+  w.sweeps.task_rows.clear();
   w.tau_ff.setZero();
-  if (!w.sweep_inward()) return Status::degenerate_model;
+  if (!w.sweep_and_factorise()) return Status::degenerate_model;
   w.whitened.hold_ground(w.sweeps.free_motion, w.ground_bias, held_base_force(w.sweeps, -twist));
   w.whitened.motion(nullptr, w.motion);
   outward_accelerations(w.model, w.motion, w.sweeps, w.qdd);

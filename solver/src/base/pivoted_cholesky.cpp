@@ -10,6 +10,8 @@ namespace zwang::solver {
 
 PivotedCholesky::PivotedCholesky(int row_capacity)
     : W_(RowMajorMatrix::Zero(row_capacity + 1, spaced(row_capacity))),
+      G_(RowMajorMatrix::Zero(row_capacity, spaced(row_capacity))),
+      inverse_D_(Eigen::VectorXd::Zero(row_capacity)),
       gram_(RowMajorMatrix::Zero(row_capacity, row_capacity)),
       size_(Eigen::VectorXd::Zero(row_capacity)),
       left_(Eigen::VectorXd::Zero(row_capacity + 1)),
@@ -20,6 +22,8 @@ PivotedCholesky::PivotedCholesky(int row_capacity)
       row_at_(static_cast<std::size_t>(row_capacity)) {}
 
 void PivotedCholesky::factorise(double tolerance) noexcept {
+  is_in_order_ = factorise_in_order();
+  if (is_in_order_) return;
   rank_ = 0;
   for (int i = 0; i < rows_; ++i) {
     left_(i) = W_(i, i);
@@ -29,6 +33,31 @@ void PivotedCholesky::factorise(double tolerance) noexcept {
   set_zero(rows_, &W_(rows_, 0));
   column_(rows_) = 0.0;
   eliminate(tolerance);
+}
+
+/// Row by row, with t = G_i D:
+///   t_k = L_ik - sum_c<k t_c G_kc        G_ik = t_k / D_k        D_i = L_ii - sum_k<i t_k G_ik
+/// False, and L is as it was, where the rows before leave too little of one to be sure of the rank.
+bool PivotedCholesky::factorise_in_order() noexcept {
+  constexpr double ample = 1e-3;
+  double* const t = column_.data();
+  for (int i = 0; i < rows_; ++i) {
+    const double* const L = &W_(i, 0);
+    double* const line = &G_(i, 0);
+    double left = L[i];
+    for (int k = 0; k < i; ++k) {
+      const double* const G = &G_(k, 0);
+      double rest = L[k];
+      for (int c = 0; c < k; ++c) rest -= t[c] * G[c];
+      t[k] = rest;
+      line[k] = rest * inverse_D_(k);
+      left -= rest * line[k];
+    }
+    if (!(left > ample * size_(i))) return false;
+    inverse_D_(i) = 1.0 / left;
+  }
+  rank_ = rows_;
+  return true;
 }
 
 /// The next line if the columns so far leave an ample share of it; else the one of which they
@@ -86,9 +115,24 @@ void PivotedCholesky::exchange(int c, int k) noexcept {
   for (int i = k + 1; i < rows_; ++i) std::swap(W_(i, c), W_(i, k));
 }
 
+void PivotedCholesky::substitute_in_order(const double* rhs, double* nu) noexcept {
+  for (int k = 0; k < rows_; ++k) {
+    const double* const G = &G_(k, 0);
+    double rest = rhs[k];
+    for (int c = 0; c < k; ++c) rest -= G[c] * nu[c];
+    nu[k] = rest;
+  }
+  for (int k = 0; k < rows_; ++k) nu[k] *= inverse_D_(k);
+  for (int k = rows_ - 1; k > 0; --k) add_multiple(k, -nu[k], &G_(k, 0), nu);
+}
+
 /// By substitution where every row is a pivot, one number after the other: a pair with the y that was stored
 /// a moment ago would wait for it.
 void PivotedCholesky::solve(const double* rhs, double* nu) noexcept {
+  if (is_in_order_) {
+    substitute_in_order(rhs, nu);
+    return;
+  }
   if (rank_ < rows_) {
     least_squares(rhs, nu);
     return;

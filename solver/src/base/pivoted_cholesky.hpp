@@ -1,8 +1,9 @@
-/// L nu = rhs for a symmetric positive semidefinite L of any rank: Cholesky with pivoting, L = W W'. A row is
-/// taken as it comes while the ones before leave a tenth of it.
+/// L nu = rhs for a symmetric positive semidefinite L of any rank.
 ///
-/// W stands where L was, its lines in the order of elimination: line k < rank() is the row that was the k-th
-/// pivot, so the pivots' lines are a lower triangle.
+/// Mostly every row has an ample share of its own: then L = G D G' as the rows come, with G a lower triangle
+/// of diagonal 1, and nothing has to be searched, exchanged or rooted. Where one has not, Cholesky with
+/// pivoting finds the rank, L = W W'. W stands where L was, its lines in the order of elimination: line k <
+/// rank() is the row that was the k-th pivot, so the pivots' lines are a lower triangle.
 #pragma once
 
 #include <Eigen/Core>
@@ -29,13 +30,18 @@ class PivotedCholesky {
   void solve(const double* rhs, double* nu) noexcept;
 
  private:
+  bool factorise_in_order() noexcept;
+  void substitute_in_order(const double* rhs, double* nu) noexcept;
   int row_at(int line) const noexcept { return row_at_[static_cast<std::size_t>(line)]; }
   int next_pivot(double tolerance) const noexcept;
   void eliminate(double tolerance) noexcept;
   void exchange(int c, int k) noexcept;
   void least_squares(const double* rhs, double* nu) noexcept;
 
-  RowMajorMatrix W_;  ///< columns from rank() on: what the ones before leave of L; a line to spare
+  RowMajorMatrix W_;           ///< columns from rank() on: what the ones before leave of L; a line to spare
+  RowMajorMatrix G_;           ///< below its diagonal
+  bool is_in_order_ = false;   ///< L = G D G', else W W'
+  Eigen::VectorXd inverse_D_;  ///< by row
   RowMajorMatrix gram_;
   Eigen::VectorXd size_;              ///< by row
   Eigen::VectorXd left_;              ///< by line: the diagonal of what is left of L

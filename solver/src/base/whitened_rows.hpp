@@ -57,6 +57,8 @@ class WhitenedRows {
   double acceleration(int row) const noexcept {
     return task_->drift(row) + dot(dimensions_, line(row), held_motion_.data());
   }
+  /// sum B_i f_i of the forces f along the task's rows. (p has a number to spare.)
+  void add_up(const double* f, double* p) const noexcept;
   /// The motion by dimension of the sweeps when the forces p act on the motions that are left; none
   /// without p. (`motion` has
   /// a number to spare.)

@@ -14,7 +14,10 @@ void add_ground_rows(const Ground& ground, Sweeps& sweeps, Take take) noexcept {
   const int count = ground.row_count();
   for (int i = 0; i < count; ++i) {
     const GroundRow row = ground.row(i, sweeps);
-    if (!sweeps.is_articulated) sweeps.robot_rows.add_row(row.body, row.a);
+    if (!sweeps.is_articulated) {
+      sweeps.robot_rows.add_row(row.body);
+      sweeps.robot_rows.last_column() = row.a;
+    }
     take(i, row);
   }
 }
@@ -22,12 +25,14 @@ void add_ground_rows(const Ground& ground, Sweeps& sweeps, Take take) noexcept {
 /// A row of the public headers, whose forces are written in the coordinates of their bodies; returns its id.
 template <class BodyRow>
 int add_row(const BodyRow& row, Sweeps& sweeps) noexcept {
-  const auto in_base = [&sweeps](int body, const ForceVector& a) {
-    return sweeps.bodies[static_cast<std::size_t>(body)].to_base(a);
+  const auto write = [&sweeps](int body, const ForceVector& a) {
+    sweeps.bodies[static_cast<std::size_t>(body)].to_base(a, sweeps.task_rows.last_column());
   };
-  const int id = sweeps.task_rows.add_row(row.body, in_base(row.body, row.a));
+  const int id = sweeps.task_rows.add_row(row.body);
+  write(row.body, row.a);
   if (row.reference_body >= 0) {
-    sweeps.task_rows.extend_last_row(row.reference_body, in_base(row.reference_body, -row.a_reference));
+    sweeps.task_rows.extend_last_row(row.reference_body);
+    write(row.reference_body, -row.a_reference);
   }
   return id;
 }

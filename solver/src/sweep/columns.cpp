@@ -61,28 +61,6 @@ void Columns::clear() noexcept {
   count_ = 0;
 }
 
-void Columns::add(int body, int row, bool of_joint, const Vector6& a) noexcept {
-  own_.col(count_) = a;
-  Column& column = columns_[index(count_++)];
-  if (column.body == body && column.row == row && column.of_joint == of_joint) return;
-  column = {body, row, of_joint};
-  laid_out_ = -1;
-}
-
-int Columns::add_row(int body, const Vector6& a) noexcept {
-  add(body, rows_, false, a);
-  return rows_++;
-}
-
-void Columns::extend_last_row(int body, const Vector6& a) noexcept {
-  add(body, rows_ - 1, false, a);
-}
-
-int Columns::add_joint_row(int joint) noexcept {
-  add(joint + 1, rows_, true, Vector6::Zero());
-  return rows_++;
-}
-
 void Columns::lay_out() noexcept {
   laid_out_ = count_;
   for (Range& range : ranges_) range = Range{};
@@ -107,18 +85,11 @@ void Columns::lay_out() noexcept {
   }
 }
 
-void Columns::sweep_inward(const std::vector<BodySweep>& bodies,
-                           const Matrix6* base_inverse_factor) noexcept {
+/// Columns in the order of the walk.
+void Columns::start_sweep() noexcept {
   if (rows_ == 0) return;
-  arrange();
-  for (std::size_t i = bodies.size() - 1; i > 0; --i) carry(i, bodies[i]);
-  if (base_inverse_factor != nullptr) finish(*base_inverse_factor);
-}
-
-/// In the order of the walk.
-void Columns::arrange() noexcept {
   if (laid_out_ != count_) lay_out();
-  for (int i = 0; i < rows_; ++i) set_zero(dimensions_, &W(i, 0));
+  std::fill_n(W.data(), rows_ * W.outerStride(), 0.0);
   for (int k = 0; k < count_; ++k) A_.col(columns_[index(k)].place) = own_.col(k);
 }
 
@@ -131,30 +102,60 @@ void Columns::find_drift(const std::vector<BodySweep>& bodies) noexcept {
   }
 }
 
-/// Takes the columns of body i through its joint: (8) and (9).
-void Columns::carry(std::size_t i, const BodySweep& sweep) noexcept {
+namespace {
+
+/// S, or what else a joint does to columns: three pairs in registers.
+struct Factor {
+  explicit Factor(const Vector6& x)
+      : first(*aligned_two(x.data())),
+        second(*aligned_two(x.data() + 2)),
+        third(*aligned_two(x.data() + 4)) {}
+  Two first, second, third;
+};
+
+/// Terms of the product with a column: two, to be added.
+inline Two terms(const Factor& S, const double* A) {
+  return S.first * *aligned_two(A) + S.second * *aligned_two(A + 2) + S.third * *aligned_two(A + 4);
+}
+
+/// A += factor along
+inline void add(const Factor& factor, double along, double* A) {
+  *aligned_two(A) += factor.first * along;
+  *aligned_two(A + 2) += factor.second * along;
+  *aligned_two(A + 4) += factor.third * along;
+}
+
+}  // namespace
+
+/// Takes the columns of body i through its joint, (8) and (9), two at a time; where nothing inboard moves,
+/// (9) alone.
+void Columns::carry_range(std::size_t i, const BodySweep& sweep, bool goes_on) noexcept {
   const Range& range = ranges_[i];
-  if (range.first == range.last) return;
   const double root = sweep.root_D_inverse;
   double* const axis = W.data() + dimension_of_[i];
   const Eigen::Index stride = W.outerStride();
-  Eigen::Array2d S[3], factor[3];
-  for (int r = 0; r < 3; ++r) {
-    S[r] = ConstPair(sweep.S.data() + 2 * r);
-    factor[r] = ConstPair(sweep.UD.data() + 2 * r);
-  }
+  const Factor S(sweep.S), factor(sweep.UD);
   double* A = A_.data() + 6 * range.first;
-  for (int k = range.first; k < range.last; ++k, A += 6) {
-    const int row = row_of_[index(k)];
-    const Eigen::Array2d sum = S[0] * ConstPair(A) + S[1] * ConstPair(A + 2) + S[2] * ConstPair(A + 4);
-    const double along = sum(0) + sum(1);
-    for (int r = 0; r < 3; ++r) Pair(A + 2 * r) -= along * factor[r];
-    axis[row * stride] += root * along;
+  int k = range.first;
+  for (; k + 2 <= range.last; k += 2, A += 12) {
+    const Two one = terms(S, A), other = terms(S, A + 6);
+    const Two along = Two{one[0], other[0]} + Two{one[1], other[1]};
+    const Two whitened = along * root, less = -along;
+    axis[row_of_[index(k)] * stride] += whitened[0];
+    axis[row_of_[index(k + 1)] * stride] += whitened[1];
+    if (!goes_on) continue;
+    solver::add(factor, less[0], A);
+    solver::add(factor, less[1], A + 6);
+  }
+  if (k < range.last) {
+    const Two both = terms(S, A);
+    const double along = both[0] + both[1];
+    axis[row_of_[index(k)] * stride] += root * along;
+    if (goes_on) solver::add(factor, -along, A);
   }
   if (range.joint >= 0) {
-    const int row = row_of_[index(range.joint)];
     A_.col(range.joint) = -sweep.UD;
-    axis[row * stride] = root;
+    axis[row_of_[index(range.joint)] * stride] = root;
   }
 }
 

@@ -43,15 +43,29 @@ class Columns {
   int dimension_of(std::size_t body) const noexcept { return dimension_of_[body]; }
 
   void clear() noexcept;
-  /// Adds a row that acts on the body with the constraint force `a` (base coordinates); returns its id.
-  int add_row(int body, const Vector6& a) noexcept;
-  /// The row added last also acts on a second body.
-  void extend_last_row(int body, const Vector6& a) noexcept;
+  /// Adds a row that acts on the body; returns its id. last_column() is then to be set.
+  int add_row(int body) noexcept {
+    add(body, rows_, false);
+    return rows_++;
+  }
+  /// The row added last also acts on a second body, with another column.
+  void extend_last_row(int body) noexcept { add(body, rows_ - 1, false); }
+  /// The constraint force of the column added last, in base coordinates: written where it stays, as a copy
+  /// would wait for its numbers.
+  auto last_column() noexcept { return own_.col(count_ - 1); }
   /// Adds the row of a joint's own acceleration: A = 0, and S'A = 1 at that joint.
-  int add_joint_row(int joint) noexcept;
+  int add_joint_row(int joint) noexcept {
+    add(joint + 1, rows_, true);
+    last_column().setZero();
+    return rows_++;
+  }
 
-  /// The inward sweep, with a base that moves to its end.
-  void sweep_inward(const std::vector<BodySweep>& bodies, const Matrix6* base_inverse_factor) noexcept;
+  /// The inward sweep: from the last body to the first through its joint, and through a base that moves.
+  void start_sweep() noexcept;
+  void carry(std::size_t body, const BodySweep& sweep, bool goes_on) noexcept {
+    if (ranges_[body].first != ranges_[body].last && rows_ > 0) carry_range(body, sweep, goes_on);
+  }
+  void finish(const Matrix6& base_inverse_factor) noexcept;
   /// What velocities alone do along the rows.
   void find_drift(const std::vector<BodySweep>& bodies) noexcept;
 
@@ -79,11 +93,14 @@ class Columns {
     int joint = -1;  ///< the column of the joint's own row
   };
   static std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
-  void add(int body, int row, bool of_joint, const Vector6& a) noexcept;
+  void add(int body, int row, bool of_joint) noexcept {
+    Column& column = columns_[index(count_++)];
+    if (column.body == body && column.row == row && column.of_joint == of_joint) return;
+    column = {body, row, of_joint};
+    laid_out_ = -1;
+  }
   void number_dimensions(const Model& model);
-  void arrange() noexcept;
-  void carry(std::size_t i, const BodySweep& sweep) noexcept;
-  void finish(const Matrix6& F) noexcept;
+  void carry_range(std::size_t i, const BodySweep& sweep, bool goes_on) noexcept;
   void lay_out() noexcept;
 
   int rows_ = 0;

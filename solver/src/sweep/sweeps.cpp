@@ -28,6 +28,13 @@ void turn_about_axis(const Vector3& axis_in_base, double cosine, double sine, Ma
   }
 }
 
+/// S of a joint that turns about an axis through the body's origin. (Number by number, as it is read.)
+void write_turn(const double* axis, BodySweep& sweep) {
+  const double x = axis[0], y = axis[1], z = axis[2];
+  const double px = sweep.p.x(), py = sweep.p.y(), pz = sweep.p.z();
+  sweep.S << x, y, z, py * z - pz * y, pz * x - px * z, px * y - py * x;
+}
+
 /// Pose and joint motion of body i from its parent's.
 void place(const Body& body, double q, const BodySweep& parent, BodySweep& sweep) {
   if (sweep.turned_in_parent) sweep.R.noalias() = parent.R * body.pose_in_parent.rotation;
@@ -35,20 +42,20 @@ void place(const Body& body, double q, const BodySweep& parent, BodySweep& sweep
   sweep.p = parent.p;
   sweep.p.noalias() += parent.R * body.pose_in_parent.position;
   const int k = sweep.axis_column;
-  const Vector3 axis = k >= 0 ? Vector3(R.col(k)) : Vector3(R * body.joint.axis);
+  if (body.joint.type != JointType::prismatic && k >= 0) {
+    turn_about_column(R, k, sweep.cosine, sweep.sine, sweep.R);
+    write_turn(R.data() + 3 * k, sweep);
+    return;
+  }
+  const Vector3 axis = R * body.joint.axis;
+  sweep.R = R;
   if (body.joint.type == JointType::prismatic) {
-    sweep.R = R;
     sweep.p += q * axis;
     sweep.S << Vector3::Zero(), axis;
     return;
   }
-  if (k >= 0) {
-    turn_about_column(R, k, sweep.cosine, sweep.sine, sweep.R);
-  } else {
-    sweep.R = R;
-    turn_about_axis(axis, sweep.cosine, sweep.sine, sweep.R);
-  }
-  sweep.S << axis, sweep.p.cross(axis);
+  turn_about_axis(axis, sweep.cosine, sweep.sine, sweep.R);
+  write_turn(axis.data(), sweep);
 }
 
 /// Twist and velocity products of a body from its parent's:  v = v_p + S qd,  c = c_p + v_p x S qd
@@ -162,8 +169,13 @@ void write_bias(const Vector3& gravity, const ForceVector& f_ext, BodySweep& swe
   const Vector3 a_com = sweep.c.tail<3>() + alpha.cross(com) + w.cross(v_com);
   const Vector3 force = sweep.mass * (a_com - gravity);
   const Vector3 spin = sweep.J * w;
-  sweep.pA << sweep.J * alpha + w.cross(spin) + com.cross(force), force;
-  if (!f_ext.is_zero()) sweep.pA -= sweep.to_base(f_ext);
+  const Vector3 turning = sweep.J * alpha;
+  const Vector3 moment = turning + w.cross(spin) + com.cross(force);
+  sweep.pA << moment.x(), moment.y(), moment.z(), force.x(), force.y(), force.z();
+  if (f_ext.is_zero()) return;
+  Vector6 external;
+  sweep.to_base(f_ext, external);
+  sweep.pA -= external;
 }
 
 /// U = IA S and D = d + S'U; false where D is not positive.
@@ -279,39 +291,44 @@ void load_bodies_at_rest(Sweeps& sweeps) noexcept {
   }
 }
 
-bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept {
+bool sweep_inward(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept {
   const bool base_moves = !model.has_fixed_base();
+  const bool robot_stays = sweeps.is_articulated;
+  sweeps.is_articulated = false;
+  if (!robot_stays) sweeps.robot_rows.start_sweep();
+  sweeps.task_rows.start_sweep();
   for (std::size_t i = sweeps.bodies.size() - 1; i > 0; --i) {
     const Body& body = model.bodies()[i];
     BodySweep& sweep = sweeps.bodies[i];
     BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(body.parent)];
+    const bool goes_on = base_moves || body.parent > 0;
 
-    if (!sweeps.is_articulated && !divide_by_inertia(body.joint.rotor_inertia, sweep)) return false;
+    if (!robot_stays && !divide_by_inertia(body.joint.rotor_inertia, sweep)) return false;
     const double u = tau(static_cast<Eigen::Index>(i) - 1) - sweep.S.dot(sweep.pA);
     sweeps.free_motion(sweeps.task_rows.dimension_of(i)) = sweep.root_D_inverse * u;
-    if (base_moves || body.parent > 0) {
-      if (!sweeps.is_articulated) {
+    if (goes_on) {
+      if (!robot_stays) {
         for (int k = 0; k < 6; ++k) parent.IA.col(k) += sweep.IA.col(k) - sweep.UD * sweep.U(k);
       }
       parent.pA += sweep.pA + sweep.UD * u;
     }
+    if (!robot_stays) sweeps.robot_rows.carry(i, sweep, goes_on);
+    sweeps.task_rows.carry(i, sweep, goes_on);
   }
   if (base_moves) {
     const BodySweep& base = sweeps.bodies.front();
     const int held = sweeps.task_rows.held_dimensions();
     const auto& order = held > 0 ? planar_first : all_freedoms;
     Matrix6& F = sweeps.base_inverse_factor;
-    if (!sweeps.is_articulated && !invert_factor(base.IA, order, held, F)) return false;
+    if (!robot_stays && !invert_factor(base.IA, order, held, F)) return false;
     // The dimensions that the ground holds do not follow pA.
     sweeps.free_motion.head<6>() = -(F * base.pA);
     sweeps.free_motion.head(held).setZero();
+    if (!robot_stays) sweeps.robot_rows.finish(F);
+    sweeps.task_rows.finish(F);
   }
   sweeps.is_articulated = true;
   return true;
-}
-
-void inward_rows(const Model& model, const Sweeps& sweeps, Columns& rows) noexcept {
-  rows.sweep_inward(sweeps.bodies, model.has_fixed_base() ? nullptr : &sweeps.base_inverse_factor);
 }
 
 void outward_accelerations(const Model& model, const Eigen::VectorXd& motion, Sweeps& sweeps,
@@ -321,15 +338,19 @@ void outward_accelerations(const Model& model, const Eigen::VectorXd& motion, Sw
   // IA_0 da_0 = A_0 nu - pA_0
   if (!model.has_fixed_base()) base.da.noalias() = sweeps.base_inverse_factor.transpose() * motion.head<6>();
   base.a = base.c + base.da;
-  for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+  const std::size_t count = sweeps.bodies.size();
+  Vector6 da = base.da;  // of the body before
+  for (std::size_t i = 1; i < count; ++i) {
     BodySweep& sweep = sweeps.bodies[i];
-    const BodySweep& parent = sweeps.bodies[static_cast<std::size_t>(model.bodies()[i].parent)];
+    const auto parent = static_cast<std::size_t>(model.bodies()[i].parent);
+    if (parent + 1 != i) da = sweeps.bodies[parent].da;
     // D^-1 (u - U'da_p + (S'A) nu)
-    const double acceleration = sweep.root_D_inverse * motion(sweeps.task_rows.dimension_of(i)) -
-                                sweep.D_inverse * sweep.U.dot(parent.da);
+    const double acceleration =
+        sweep.root_D_inverse * motion(sweeps.task_rows.dimension_of(i)) - sweep.UD.dot(da);
     qdd(static_cast<Eigen::Index>(i) - 1) = acceleration;
-    sweep.da = parent.da + sweep.S * acceleration;
-    sweep.a = sweep.c + sweep.da;
+    da += sweep.S * acceleration;
+    sweep.da = da;
+    sweep.a = sweep.c + da;
   }
 }
 

@@ -89,11 +89,11 @@ struct BodySweep {
   Vector6 a;   ///< spatial acceleration: c + da
 
   /// A wrench in the body's coordinates, written in the base's.
-  Vector6 to_base(const ForceVector& f) const {
+  template <class Result>
+  void to_base(const ForceVector& f, Result&& result) const {
     const Vector3 force = R * f.linear;
-    Vector6 result;
-    result << R * f.angular + p.cross(force), force;
-    return result;
+    result.template tail<3>() = force;
+    result.template head<3>() = R * f.angular + p.cross(force);
   }
   /// A motion in the base's coordinates, written in the body's. (To where it belongs: a copy would wait for
   /// it.)
@@ -131,10 +131,10 @@ void outward_kinematics(const Model& model, const State& state, const Vector6& b
 void load_bodies(const Model& model, const State& state, const Vector3& gravity, Sweeps& sweeps) noexcept;
 /// The same for a robot that rests in free space where it is, and answers to multipliers only.
 void load_bodies_at_rest(Sweeps& sweeps) noexcept;
-/// Phase 2, with the base's inertia factorised at the end. False where an inertia cannot be inverted.
-bool inward_inertia(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept;
-/// And what it does to the robot's or the task's rows.
-void inward_rows(const Model& model, const Sweeps& sweeps, Columns& rows) noexcept;
+/// Phase 2: bodies, task_rows and, where the joints have moved, robot_rows; the base's inertia factorised at
+/// the end. Body by body and not kind by kind: rows give the processor something to do while the next body
+/// waits for a division. False where an inertia cannot be inverted.
+bool sweep_inward(const Model& model, const Eigen::VectorXd& tau, Sweeps& sweeps) noexcept;
 /// Phase 4. `motion` = h + W'nu, by dimension; writes `a` of every body and qdd.
 void outward_accelerations(const Model& model, const Eigen::VectorXd& motion, Sweeps& sweeps,
                            Eigen::VectorXd& qdd) noexcept;
