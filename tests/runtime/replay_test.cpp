@@ -24,8 +24,9 @@ lang::Program wall_alignment() {
 }
 
 /// [m] where the base came to; the host sets `push` on the way, unless it is not positive.
-solver::Vector3 run(const lang::Program& program, double push, const std::filesystem::path& log) {
-  ScenePlant plant(program);
+solver::Vector3 run(const lang::Program& program, double push, const std::filesystem::path& log,
+                    const ScenePlantOptions& options = {}) {
+  ScenePlant plant(program, options);
   Runner runner(program, {.period = period});
   std::vector<std::unique_ptr<LogSink>> sinks;
   sinks.push_back(mcap_sink(log, {}));
@@ -56,6 +57,20 @@ TEST(Replay, KnowsTheParametersThatAHostSetDuringTheRun) {
     EXPECT_EQ(result.records, ticks);
     EXPECT_EQ(result.equal, result.records) << name;
   }
+}
+
+/// The brake leaves out a motor that is found at fault, and sends it 0 of either sign.
+TEST(Replay, KnowsANegativeZeroFromZero) {
+  const test::TemporaryFolder folder;
+  const lang::Program program = wall_alignment();
+  ScenePlantOptions options;
+  options.faults.push_back(
+      lang::Fault{.kind = lang::FaultKind::torque_lost, .at = 0.1, .joint = "front_left_wheel"});
+  const std::filesystem::path log = folder.path() / "log.mcap";
+  run(program, 0.0, log, options);
+  const ReplayResult result = replay(log, program, period);
+  EXPECT_EQ(result.records, ticks);
+  EXPECT_EQ(result.equal, result.records);
 }
 
 }  // namespace

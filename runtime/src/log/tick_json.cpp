@@ -76,6 +76,8 @@ const std::string& TickJson::of(std::span<const double> values) {
       line_ += value >= 0.0 && word < words_[i].size() ? words_[i][word] : "\"\"";
     } else if (std::isinf(value)) {
       line_ += "null";
+    } else if (value == 0.0 && std::signbit(value)) {
+      line_ += "-0.0";  // readers take -0 for the whole number 0
     } else {
       char digits[longest_number];
       line_.append(digits, std::to_chars(digits, digits + longest_number, value).ptr);

@@ -98,6 +98,7 @@ struct Runner::Parts {
   bool has_the_joints_of(const Parts& other) const noexcept;
   void judge_sensors(const Sensed& sensed) noexcept;
   void tell(const Event& event) noexcept;
+  void tell_refusal(SampleStatus status) noexcept;
   void brake_protectively(bool good_sample) noexcept;
   /// Of the last tick that was solved.
   Shortfall find_shortfall() const noexcept;
@@ -129,7 +130,8 @@ struct Runner::Parts {
   std::vector<Event> events;
   std::uint64_t event_count = 0;
   bool stop_is_told = false;
-  Event event;  ///< of this tick; code `none` when there is none
+  EventCode told_refusal = EventCode::none;  ///< of the last sample; `none` when it was taken
+  Event event;                               ///< of this tick; code `none` when there is none
   SafetyGuard guard;
   StatementTable statements;
   LimitTable limits;
@@ -215,6 +217,13 @@ void Runner::Parts::tell(const Event& told) noexcept {
   if (event.code == EventCode::none || is_stop) event = told;
 }
 
+/// Samples that are refused one after the other for one reason are one event.
+void Runner::Parts::tell_refusal(SampleStatus status) noexcept {
+  const EventCode refusal = status == SampleStatus::bad_clock ? guard.refusal().code : EventCode::none;
+  if (refusal != EventCode::none && refusal != told_refusal) tell(guard.refusal());
+  told_refusal = refusal;
+}
+
 void Runner::Parts::compare() noexcept {
   if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
   if (!disturbance.compare(sample.state, sample.time)) {
@@ -287,7 +296,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   const SampleStatus status = p.guard.admit(sensed);
   const bool good = status == SampleStatus::good;
   bool solved = false;
-  if (status == SampleStatus::bad_clock) p.tell(p.guard.refusal());
+  p.tell_refusal(status);
   if (good) {
     p.estimate(sensed);
     p.judge_sensors(sensed);
