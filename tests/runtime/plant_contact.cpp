@@ -115,6 +115,62 @@ TEST(PlantContact, StaticPushGivesThePushAndItsSpringsDeflection) {
   }
 }
 
+/// A base that presses with 20 N against a wall of friction 0.3, and pulls along it.
+struct Slide {
+  Slide(double pull, double damping)
+      : robot(mecanum_base(symmetric_design())),
+        reference(robot.model),
+        plant(robot, scene_of(rough(damping))) {
+    run(plant, reference.torque_of_wrench({press, 0.0, 0.0}), 1.0);
+    torque = reference.torque_of_wrench({press, pull, 0.0});
+  }
+  static lang::SceneObject rough(double damping) {
+    lang::SceneObject wall = wall_at(front + 0.002);
+    wall.stiffness = 5e4;
+    wall.damping = damping;
+    wall.friction = 0.3;
+    return wall;
+  }
+  static constexpr double press = 20.0;
+  static constexpr double friction = 0.3 * press;
+  lang::Robot robot;
+  PlanarReference reference;
+  MujocoPlant plant;
+  Eigen::VectorXd torque;
+};
+
+// Newton: the wall takes mu N along it, as much at any speed, and the press arrives while it does.
+TEST(PlantContact, SlidingTakesItsFrictionAndPressesSteadily) {
+  for (const double damping : {0.3, 1.0}) {
+    Slide slide(11.0, damping);
+    run(slide.plant, slide.torque, 0.2);
+    const double before = slide.plant.truth().velocity.y();
+    double least = 100.0, most = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+      ASSERT_EQ(slide.plant.apply(slide.torque), PlantStatus::ok);
+      least = std::min(least, slide.plant.truth().objects[0].force);
+      most = std::max(most, slide.plant.truth().objects[0].force);
+    }
+    const double gained = slide.plant.truth().velocity.y() - before;
+    const double expected = (11.0 - Slide::friction) / slide.reference.apparent_mass({0.0, 1.0, 0.0});
+    std::printf("damping %.1f: %.4f to %.4f N, speed gained %.5f m/s, expected %.5f\n", damping, least, most,
+                gained, expected);
+    EXPECT_NEAR(gained, expected, 0.02 * expected);
+    EXPECT_NEAR(least, Slide::press, 0.2);
+    EXPECT_NEAR(most, Slide::press, 0.2);
+  }
+}
+
+TEST(PlantContact, FrictionHoldsWithoutCreep) {
+  Slide slide(5.0, 0.3);
+  run(slide.plant, slide.torque, 1.0);
+  const double before = slide.plant.truth().y;
+  run(slide.plant, slide.torque, 5.0);
+  EXPECT_NEAR(slide.plant.truth().y, before, 1e-6);
+  // The base turns on the springs at its corners; where it touches it stays.
+  EXPECT_NEAR(slide.plant.truth().y + front * slide.plant.truth().yaw, 0.0, 2e-5);
+}
+
 // Undamped, blocked at speed v under the push F: energy gives the peak F + sqrt(F^2 + n K m v^2).
 TEST(PlantContact, UndampedImpactPeakIsThatOfTheSpring) {
   for (const double stiffness : {1e4, 1e5, 1e6}) {

@@ -15,9 +15,6 @@ Touchable::Skin skin_of(const Touched& object, const char* kind) {
   if (!(object.stiffness > 0.0) || !(object.damping >= 0.0) || !(object.friction >= 0.0)) {
     refuse("stiffness, damping or friction is out of range");
   }
-  // The contact's damping is also what resists sliding until the friction limit is reached.
-  if (object.friction > 0.0 && object.damping < 0.01)
-    refuse("friction needs a damping ratio of at least 0.01");
   return {object.stiffness, object.damping, object.friction};
 }
 

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "contact_friction.hpp"
 #include "moving_robot.hpp"
 #include "simulated_object.hpp"
 #include "simulator.hpp"
@@ -59,6 +60,7 @@ struct MujocoPlant::Simulation {
     for (const SimulatedRobot& one : described) require_as_written(*model, one);
     owners = find_owners(*model, described);
     set_springs(*model, owners, scene, described);
+    contact_friction = ContactFriction(*model, owners);
     truth.corner_forces.assign(robot.footprint.size(), 0.0);
     for (const lang::SceneObject& object : scene.objects)
       truth.objects.push_back({object.name, 0.0, {}, 0.0});
@@ -321,6 +323,7 @@ struct MujocoPlant::Simulation {
       follow_script(object, time(), data->qpos, data->qvel);
       add_floor_friction(object, model->opt.timestep, data->qvel, data->qfrc_applied);
     }
+    contact_friction.push(*model, *data);
     if (!guarded(mj_step, model.get(), data.get())) return false;
     read_loads();
     const double elapsed = data->time - before;
@@ -419,6 +422,7 @@ struct MujocoPlant::Simulation {
   ModelPointer model;
   DataPointer data;
   std::vector<GeomOwner> owners;  ///< by geom
+  ContactFriction contact_friction;
   std::vector<SimulatedObject> objects;
   std::vector<SimulatedDock> docks;
   std::vector<double> base_mass;    ///< [kg] of each robot's base, without a payload

@@ -258,8 +258,7 @@ void set_springs(mjModel& model, const std::vector<GeomOwner>& owners, const lan
     const int one = model.pair_geom1[p];
     const int other = model.pair_geom2[p];
     const GeomOwner &first = owner_of(owners, one), &second = owner_of(owners, other);
-    const bool on_floor = (first.object < 0 && first.robot < 0) || (second.object < 0 && second.robot < 0);
-    if (on_floor) continue;
+    if (first.is_floor() || second.is_floor()) continue;
     const ContactSpring spring = contact_spring(touchable(first), touchable(second));
     const double inverse_mass = model.body_invweight0[2 * model.geom_bodyid[one]] +
                                 model.body_invweight0[2 * model.geom_bodyid[other]];

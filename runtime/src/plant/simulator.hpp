@@ -47,6 +47,8 @@ struct GeomOwner {
   bool touches = false;  ///< of a robot: its outline or a tip
   int corner = -1;       ///< of the robot's footprint
   int wheel = -1;
+
+  bool is_floor() const noexcept { return object < 0 && robot < 0; }
 };
 
 /// By geom. The corners of the outline are the footprint's.

@@ -1,0 +1,43 @@
+/// Dry friction where robots touch objects and each other, as floor_friction.hpp has it under objects, and
+/// for its reason: a contact of MuJoCo's that slides at v is in balance only where it is mu v B/K less deep
+/// than it is at rest, and chatters where that is more than its depth. So these contacts press along their
+/// normal only, and in the contact's plane an elastic bristle yields: with stretch s, ds/dt = v,
+///     f = -(k s + c v), |f| <= mu N, and |k s| <= mu N by cutting s.
+/// k = m w^2 with w = 100 1/s and m what MuJoCo estimates to move at the contact.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "simulator.hpp"
+
+namespace zwang::runtime {
+
+class ContactFriction {
+ public:
+  ContactFriction() = default;
+  /// Of all pairs of geoms but those with the floor. `owners` by geom.
+  ContactFriction(const mjModel_& model, const std::vector<GeomOwner>& owners);
+
+  /// Sets `xfrc_applied` to the friction of the contacts that the last step found. Moves the bristles by one
+  /// step.
+  void push(const mjModel_& model, mjData_& data) noexcept;
+
+ private:
+  /// Of all contacts of one pair of geoms.
+  struct Bristle {
+    int geoms[2] = {-1, -1};
+    int bodies[2] = {-1, -1};
+    double coefficient = 0.0;                           ///< mu
+    double stiffness = 0.0;                             ///< k [N/m]
+    double damping = 0.0;                               ///< c [N s/m]
+    Eigen::Vector3d stretch = Eigen::Vector3d::Zero();  ///< s [m], of the second body past the first
+    double load = 0.0;                                  ///< N [N]
+    Eigen::Vector3d loaded_point, loaded_normal;        ///< sums over the contacts, each times its N
+  };
+  void find_loads(const mjModel_& model, const mjData_& data) noexcept;
+
+  std::vector<Bristle> bristles_;
+};
+
+}  // namespace zwang::runtime
