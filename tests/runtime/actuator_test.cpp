@@ -174,6 +174,23 @@ TEST(SensorBias, IsToldAtTheStart) {
   }
 }
 
+/// A task that requires its sensor to be quiet is not entered: that has an event of its own, beside the bias.
+TEST(SensorBias, ThatATaskDoesNotAllowIsARefusalWithItsOwnCode) {
+  const lang::Program program = shipped_program("feel_wall.yaml", "mecanum", "wall_felt_more");
+  ScenePlant plant(program);
+  Runner runner(program, {.period = period});
+  Sensed sensed(program.robot.model, program.signals.size());
+  ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+  runner.step(sensed);
+  EXPECT_EQ(runner.state(), RunState::failed);
+  ASSERT_EQ(runner.event_count(), 2U);
+  EXPECT_EQ(runner.events()[0].code, EventCode::sensor_bias);
+  EXPECT_EQ(runner.events()[1].code, EventCode::entry_refused);
+  EXPECT_EQ(runner.events()[1].time, sensed.time);
+  const auto refused = static_cast<std::size_t>(runner.events()[1].value);
+  EXPECT_EQ(runner.scheduler().tasks().at(refused).name, "approach");
+}
+
 /// A task file that changes under way: the new one takes over between two ticks without a jump of a torque;
 /// one that does not load is no program, and the old one runs on.
 TEST(HotReload, SwapsAtATickWithoutAJump) {

@@ -413,6 +413,28 @@ TEST(ScenePlant, ACentreOfMassFartherAheadTurnsABaseThatIsPushedSideways) {
   }
 }
 
+// A torque T_z about the vertical for a time t turns the base by J w = T_z t, J that of the base link, of the
+// wheels where they stand and of what turns with them: the wheel's and its rotor's, seen from the base with
+// the squared ratio of the rates (lx + ly) / R.
+TEST(ScenePlant, AnotherInertiaTurnsTheBaseOtherwiseAndPushesItTheSame) {
+  const lang::Program program = program_with("");
+  const auto after = [&](double more, const Eigen::VectorXd& torque) {
+    ScenePlant plant(program, with_fault(lang::FaultKind::inertia, 0.0, 10.0, "", more));
+    follow(plant, program, 0.2, torque, [](const Sensed&, PlantStatus) {});
+    return plant.truth().velocity;
+  };
+  Eigen::VectorXd turn = push(20.0);
+  for (const char* joint : {"front_left_wheel", "rear_left_wheel"})
+    turn[*program.robot.model.find_joint(joint)] *= -1.0;
+  const double slow = after(0.5, turn).z(), as_said = after(0.0, turn).z(), fast = after(-0.5, turn).z();
+  // T_z t / w = J, and the base link's own part of it is half as much more, or less.
+  const double own = 2.15157;
+  const double impulse = 20.0 * (0.27 + 0.22) * 0.2;  // four wheels at 45 deg: lx + ly is the arm of each rim
+  EXPECT_NEAR(impulse / slow - impulse / as_said, 0.5 * own, 0.02 * own);
+  EXPECT_NEAR(impulse / as_said - impulse / fast, 0.5 * own, 0.02 * own);
+  EXPECT_NEAR(after(0.5, push(20.0)).x(), after(0.0, push(20.0)).x(), 1e-6);
+}
+
 // Three wheels push on a dry floor, the one on ice gives 0.02 of what it carries.
 TEST(ScenePlant, OneWheelOnIceSlipsAlone) {
   const lang::Program program = program_with("");

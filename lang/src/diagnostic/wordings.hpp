@@ -235,6 +235,7 @@ Diagnostic unknown_fault(const Span& span, const std::string& key, const std::st
 /// Of a motor that is none: nothing would go wrong.
 Diagnostic fault_without_motor(const Span& span, const std::string& joint);
 Diagnostic too_light(const Span& span, double most);
+Diagnostic too_nimble(const Span& span);
 Diagnostic script_step(const Span& span);
 Diagnostic mixed_script(const Span& span, const std::string& what, bool starts_with_number,
                         const Span& first);

@@ -102,9 +102,9 @@ Diagnostic unasked_cells(const Span& span, const std::string& cell) {
 }
 
 Diagnostic one_fault(const Span& span) {
-  return error(
-      "E907", span, "a fault says exactly one thing that goes wrong",
-      "`samples`, `clock`, `wheel` with `torque`, `floor_friction`, `payload`, `centre_of_mass` or `plant`");
+  return error("E907", span, "a fault says exactly one thing that goes wrong",
+               "`samples`, `clock`, `wheel` with `torque`, `floor_friction`, `payload`, `centre_of_mass`, "
+               "`inertia` or `plant`");
 }
 
 Diagnostic fault_of_all(const Span& span) {
@@ -125,6 +125,11 @@ Diagnostic fault_without_motor(const Span& span, const std::string& joint) {
 Diagnostic too_light(const Span& span, double most) {
   return error("E907", span, "a negative `payload` takes off more than there is",
                "take off at most three quarters of the base link's mass, " + format_number(most) + " kg");
+}
+
+Diagnostic too_nimble(const Span& span) {
+  return error("E907", span, "a negative `inertia` takes off more than there is",
+               "it is a share of the base link's own, -75 % at least");
 }
 
 Diagnostic script_step(const Span& span) {

@@ -69,7 +69,7 @@ std::span<const Explanation> scenes() {
           .code = "E907",
           .title = "a fault that is none",
           .why = "A fault is one thing that goes wrong at one time: of the samples, the clock, a wheel's "
-                 "torque, the floor, the payload, the centre of mass or the plant.",
+                 "torque, the floor, the payload, the centre of mass, the inertia or the plant.",
           .fix = "Name one thing, and give each other one an entry of its own.",
           .part = ExcerptOf::scene,
           .example = "faults:\n  - {at: 2 s, samples: nan, clock: backwards}",

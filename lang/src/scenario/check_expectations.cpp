@@ -16,6 +16,8 @@ struct TruthQuantity {
 constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"truth.base.y", dimension::length},
                                      {"truth.base.yaw", dimension::angle},
+                                     {"truth.base.vx", dimension::velocity},
+                                     {"truth.base.vy", dimension::velocity},
                                      {"truth.base.speed", dimension::velocity},
                                      {"truth.base.turn", dimension::angular_velocity},
                                      {"truth.base.torque", dimension::none},

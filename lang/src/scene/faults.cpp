@@ -41,6 +41,8 @@ void parse_word_of(const char* key, const Node& node, Fault& fault, int& found, 
   if (!node.is_bad) diagnostics.add(wording::unknown_fault(node.span, key, node.text, known));
 }
 
+constexpr double most_inertia_less = 0.75;
+
 double positive(const Node& node, const Dimension& expected, const std::string& what, bool zero_allowed,
                 Diagnostics& diagnostics) {
   const double value = parse_plain(node, expected, what, diagnostics).value_or(1.0);
@@ -86,6 +88,12 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
     ++found;
     fault.kind = FaultKind::centre_of_mass;
     fault.value = parse_plain(*offset, dimension::length, "`centre_of_mass`", diagnostics).value_or(0.0);
+  }
+  if (const Node* share = map.optional("inertia")) {
+    ++found;
+    fault.kind = FaultKind::inertia;
+    fault.value = parse_plain(*share, dimension::none, "`inertia`", diagnostics).value_or(0.0);
+    if (fault.value < -most_inertia_less) diagnostics.add(wording::too_nimble(share->span));
   }
   const bool names_wheel = map.optional("torque") != nullptr;
   if (found != 1 && !map.has_unread_keys()) diagnostics.add(wording::one_fault(node.span));

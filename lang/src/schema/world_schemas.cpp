@@ -127,18 +127,20 @@ Json scene_robot() {
 }
 
 Json fault() {
-  return object("one thing that goes wrong",
-                {{"at", reference("quantity", "when it begins"), true},
-                 {"for", reference("quantity", "to the end when absent")},
-                 {"samples", one_of_words("", {"lost", "nan", "inf", "huge", "frozen"})},
-                 {"clock", one_of_words("", {"backwards"})},
-                 {"robot", word("one of `robots`; the first one when absent")},
-                 {"wheel", word("a joint with a motor; of `floor_friction`, any wheel's")},
-                 {"torque", one_of_words("", {"lost", "stuck", "flipped"})},
-                 {"floor_friction", reference("quantity")},
-                 {"payload", reference("quantity", "of the base; negative: lighter")},
-                 {"centre_of_mass", reference("quantity", "of the base: how much farther ahead it lies")},
-                 {"plant", one_of_words("", {"diverges"})}});
+  return object(
+      "one thing that goes wrong",
+      {{"at", reference("quantity", "when it begins"), true},
+       {"for", reference("quantity", "to the end when absent")},
+       {"samples", one_of_words("", {"lost", "nan", "inf", "huge", "frozen"})},
+       {"clock", one_of_words("", {"backwards"})},
+       {"robot", word("one of `robots`; the first one when absent")},
+       {"wheel", word("a joint with a motor; of `floor_friction`, any wheel's")},
+       {"torque", one_of_words("", {"lost", "stuck", "flipped"})},
+       {"floor_friction", reference("quantity")},
+       {"payload", reference("quantity", "of the base; negative: lighter")},
+       {"centre_of_mass", reference("quantity", "of the base: how much farther ahead it lies")},
+       {"inertia", reference("quantity", "of the base: as a share of its own how much more it has")},
+       {"plant", one_of_words("", {"diverges"})}});
 }
 
 Json start_pose() {

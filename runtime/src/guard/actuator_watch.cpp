@@ -68,6 +68,7 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer,
     const Fit fit{
         .f = u / s, .tau = observer.torque()(motor.joint), .s = s, .rest = all - u * u / s, .all = all};
     motor.f = fit.f;
+    motor.obedience.follow(fit.f, fit.tau, motor.threshold);
     follow_onset(motor, motor.threshold * std::sqrt(s), std::sqrt(all));
     const double at = q(motor.joint);
     follow(motor, lost, fit, -fit.tau, off * std::abs(fit.tau), at);
@@ -100,6 +101,7 @@ bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, doubl
   const double told = motor.high_tau - motor.low_tau;
   if (kind == stuck && !(told > varied * std::abs(fit.f))) return false;
   if (motor.is_armed && claim.ticks >= dwell_ticks_) return true;
+  if (motor.obedience.is_seen()) return false;
   const bool has_rolled = std::abs(q - claim.q) * motor.radius > travel;
   if (kind != stuck) return claim.close_ticks >= close_ticks_ && has_rolled;
   const bool is_steady = motor.high_sum - motor.low_sum < closely * told;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "estimate/disturbance.hpp"
+#include "guard/obedience.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/event.hpp"
 
@@ -23,6 +24,8 @@ namespace zwang::runtime {
 ///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
 ///    gives way or grows. A force that keeps to direction and size `closely` the while is a motor's, whenever
 ///    it began: a motor that failed while it was told nothing is so found between two hits.
+///    Not one that was seen to obey since it is told something (Obedience): what is as large as its command
+///    is something else then.
 /// What cannot be told apart: a wheel that stands, against a wall that bears what it does not give; and where
 /// all driven wheels push in the same direction, as those of a car do. They are not watched. A motor without
 /// torque that is told to give none is not noticed, and does no harm. Does not allocate, lock, throw or print
@@ -67,6 +70,7 @@ class ActuatorWatch {
     int loud_ticks = 0;                    ///< since a force began
     int quiet_ticks = 0;                   ///< without one
     bool is_armed = false;
+    Obedience obedience;
   };
   /// What is left of a force when a motor explains it.
   struct Fit {

@@ -40,6 +40,8 @@ const char* to_string(EventCode code) noexcept {
       return "slip";
     case EventCode::wrench_refused:
       return "wrench_refused";
+    case EventCode::entry_refused:
+      return "entry_refused";
   }
   return "?";
 }
@@ -82,6 +84,8 @@ const char* describe(EventCode code) noexcept {
       return "a wheel slides that should roll";
     case EventCode::wrench_refused:
       return "a force from outside lies along an axis whose force is limited; the solver is not told";
+    case EventCode::entry_refused:
+      return "what a task requires to be entered does not hold";
   }
   return "?";
 }

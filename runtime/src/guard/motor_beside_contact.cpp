@@ -24,15 +24,20 @@ MotorBesideContact::MotorBesideContact(const lang::Robot& robot, double period)
     if (!joint.actuated || !std::isfinite(joint.max_effort)) continue;
     const auto i = static_cast<std::size_t>(j);
     const double coulomb = i < robot.friction.size() ? robot.friction[i].coulomb : 0.0;
-    motors_.push_back(
-        {.joint = j, .threshold = std::max(smallest * joint.max_effort, 2.0 * coulomb), .since = {}});
+    motors_.push_back({.joint = j,
+                       .threshold = std::max(smallest * joint.max_effort, 2.0 * coulomb),
+                       .since = {},
+                       .obedience = {}});
   }
 }
 
 void MotorBesideContact::reset() noexcept {
   p_p_.setZero();
   ticks_on_line_ = 0;
-  for (Motor& motor : motors_) motor.since = {};
+  for (Motor& motor : motors_) {
+    motor.since = {};
+    motor.obedience = {};
+  }
 }
 
 /// How much of the comparisons that the observer's means are about came after p had left its line.
@@ -94,12 +99,15 @@ std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observe
   std::optional<Event> found;
   for (Motor& motor : motors_) {
     const Vector T = motions.joint.row(motor.joint).head<freedoms>().transpose();
+    const double told = observer.torque()(motor.joint);
+    motor.obedience.follow(p.dot(T) / T.squaredNorm(), told, motor.threshold);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       Since& since = motor.since[i];
-      const double tau = parts[i] * observer.torque()(motor.joint);
+      const double tau = parts[i] * told;
       since.p_tau += part_ * (tau * p - since.p_tau);
       since.tau_tau += part_ * (tau * tau - since.tau_tau);
-      const double gamma = find_gamma(since, motor, T);
+      const bool is_possible = i > 0 || !motor.obedience.is_seen();
+      const double gamma = is_possible ? find_gamma(since, motor, T) : 0.0;
       since.ticks = gamma != 0.0 ? since.ticks + 1 : 0;
       if (since.ticks < dwell_ticks_ || found) continue;
       found =

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "estimate/disturbance.hpp"
+#include "guard/obedience.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/event.hpp"
 
@@ -21,9 +22,9 @@ namespace zwang::runtime {
 /// Where next to nothing is left of N0, it is motor j beside one contact: friction turns n, too, but not by
 /// what one motor is told while f varies. As long as f does not vary, p is on a line in any case, and nothing
 /// is told: unless the motor breaks then, and p leaves the line that it had. So gamma is sought twice, for a
-/// motor that has been broken all the while, and for one that broke when p last left its line. For robots
-/// with three free motions: with two, two contacts can do what a motor does. Does not allocate, lock, throw
-/// or print after construction.
+/// motor that has been broken all the while, not one that was seen to obey (Obedience), and for one that
+/// broke when p last left its line. For robots with three free motions: with two, two contacts can do what a
+/// motor does. Does not allocate, lock, throw or print after construction.
 class MotorBesideContact {
  public:
   MotorBesideContact(const lang::Robot& robot, double period);
@@ -57,6 +58,7 @@ class MotorBesideContact {
     int joint = 0;
     double threshold = 0.0;      ///< [N m]
     std::array<Since, 2> since;  ///< all the while; since p left its line
+    Obedience obedience;
   };
   double broken_part(const DisturbanceObserver& observer, const Vector& p) noexcept;
   double find_gamma(const Since& since, const Motor& motor, const Vector& T) const noexcept;

@@ -70,14 +70,26 @@ struct MujocoPlant::Simulation {
     }
     find_objects(scene);
     find_docks(scene);
-    for (const MovingRobot& moving : robots) {
-      base_mass.push_back(model->body_mass[moving.base_body()]);
-      base_centre.push_back(model->body_ipos[3 * moving.base_body()]);
-    }
+    for (std::size_t r = 0; r < robots.size(); ++r)
+      remember_base(robots[r].base_body(), described[r].robot.model.bodies().front().inertia);
     std::vector<Start> starts{
         {options.start_at.value_or(scene.start_at), options.start_yaw.value_or(scene.start_yaw)}};
     for (const lang::SceneRobot& other : scene.robots) starts.push_back({other.at, other.yaw});
     start(starts);
+  }
+
+  /// As it is before any fault. Its body also has the yaw inertia by which the forms of the wheels differ.
+  void remember_base(int body, const solver::RigidInertia& own) {
+    base_mass.push_back(model->body_mass[body]);
+    base_centre.push_back(model->body_ipos[3 * body]);
+    const Eigen::Matrix3d to_centre =
+        own.mass > 0.0
+            ? solver::RigidInertia::from_com(own.mass, own.first_moment / own.mass, Eigen::Matrix3d::Zero())
+                  .rotational
+            : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
+    const Eigen::Matrix3d axes = matrix_of(model->body_iquat + 4 * body);
+    base_inertia.push_back({Vector3(model->body_inertia + 3 * body),
+                            (axes.transpose() * (own.rotational - to_centre) * axes).diagonal()});
   }
 
   static std::vector<SimulatedRobot> describe_robots(const lang::Robot& robot, const lang::Scene& scene,
@@ -245,6 +257,13 @@ struct MujocoPlant::Simulation {
     // Else the simulator takes the body's own frame for the one of its inertia.
     model->body_sameframe[body] = 0;
     model->body_ipos[3 * body] = base_centre[robot] + ahead;
+  }
+
+  void scale_inertia(std::size_t robot, double factor) noexcept {
+    const int body = robots[robot].base_body();
+    const BaseInertia& base = base_inertia[robot];
+    for (int i = 0; i < 3; ++i)
+      model->body_inertia[3 * body + i] = base.whole[i] + (factor - 1.0) * base.own[i];
   }
 
   const GeomOwner& owner_of(int geom) const { return owners[static_cast<std::size_t>(geom)]; }
@@ -425,7 +444,12 @@ struct MujocoPlant::Simulation {
   ContactFriction contact_friction;
   std::vector<SimulatedObject> objects;
   std::vector<SimulatedDock> docks;
-  std::vector<double> base_mass;    ///< [kg] of each robot's base, without a payload
+  std::vector<double> base_mass;  ///< [kg] of each robot's base, without a payload
+  /// [kg m^2] about the principal axes of the body, which those of its own are parallel to
+  struct BaseInertia {
+    Vector3 whole, own;
+  };
+  std::vector<BaseInertia> base_inertia;
   std::vector<double> base_centre;  ///< [m] of its mass, ahead of its origin, unshifted
   Vector3 velocity = Vector3::Zero();
   Truth truth;
@@ -477,6 +501,10 @@ void MujocoPlant::set_wheel_friction(std::size_t robot, std::size_t wheel, doubl
 
 void MujocoPlant::shift_centre_of_mass(std::size_t robot, double ahead) noexcept {
   if (robot < simulation_->robots.size()) simulation_->shift_centre_of_mass(robot, ahead);
+}
+
+void MujocoPlant::scale_inertia(std::size_t robot, double factor) noexcept {
+  if (robot < simulation_->robots.size()) simulation_->scale_inertia(robot, factor);
 }
 
 void MujocoPlant::diverge() noexcept {

@@ -44,6 +44,10 @@ class Changes {
     const double ahead = shifted != nullptr ? shifted->value : 0.0;
     if (ahead != ahead_) simulation.shift_centre_of_mass(robot_, ahead);
     ahead_ = ahead;
+    const lang::Fault* turns_otherwise = faults.find(FaultKind::inertia, time);
+    const double more = turns_otherwise != nullptr ? turns_otherwise->value : 0.0;
+    if (more != inertia_more_) simulation.scale_inertia(robot_, 1.0 + more);
+    inertia_more_ = more;
     for (std::size_t w = 0; w < friction_.size(); ++w) {
       const lang::Fault* slip = faults.find(FaultKind::floor_friction, time, joints_[w]);
       const double friction = slip != nullptr ? slip->value : floor_friction;
@@ -58,6 +62,7 @@ class Changes {
   std::vector<double> friction_;      ///< under them
   double payload_ = 0.0;              ///< [kg]
   double ahead_ = 0.0;                ///< [m] of the centre of mass
+  double inertia_more_ = 0.0;         ///< of the base's own
 };
 
 const lang::Scene& scene_of(const lang::Program& program) {

@@ -36,6 +36,8 @@ void TrueFacts::update(const Truth& truth, const solver::State& state, double to
   values_[lang::truth_x] = truth.x;
   values_[lang::truth_y] = truth.y;
   values_[lang::truth_yaw] = truth.yaw;
+  values_[lang::truth_vx] = truth.velocity.x();
+  values_[lang::truth_vy] = truth.velocity.y();
   values_[lang::truth_speed] = truth.velocity.head<2>().norm();
   values_[lang::truth_turn] = truth.velocity.z();
   values_[lang::truth_torque] = torque_share;

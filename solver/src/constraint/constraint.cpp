@@ -56,9 +56,9 @@ double driver_force(const Driver& driver, const Coordinate& now, const AxisConst
   return f;
 }
 
-/// The accelerations that a range allows now.
-Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
-                         double h) {
+/// The accelerations with which a range is kept, or met again within h.
+Range acceleration_range_within(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
+                                double h) {
   Range range;
   if (quantity == Quantity::acceleration && constraint.acceleration) return *constraint.acceleration;
   if (quantity == Quantity::velocity && constraint.velocity) {
@@ -72,6 +72,18 @@ Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, co
     range.low = (-braking_speed(to_low, constraint.braking, h) - now.velocity) / h;
   }
   return range;
+}
+
+/// The accelerations that a range allows now. One that is new, h longer than the horizon, has time to stop
+/// what is beyond it; what is inside it holds back no more than later: max(e/h, e/h0) of what is left, e >= 0
+/// or not.
+Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
+                         double h) {
+  constexpr double h0 = ConstraintSet::horizon;
+  const Range in_time = acceleration_range_within(constraint, quantity, now, h);
+  if (h <= h0) return in_time;
+  const Range at_once = acceleration_range_within(constraint, quantity, now, h0);
+  return {std::min(in_time.low, at_once.low), std::max(in_time.high, at_once.high)};
 }
 
 /// Later ones win where ranges contradict.

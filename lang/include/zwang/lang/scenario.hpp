@@ -62,6 +62,8 @@ enum TruthOfBase {
   truth_x,
   truth_y,
   truth_yaw,
+  truth_vx,  ///< [m/s] along the base's own axes, as is
+  truth_vy,
   truth_speed,
   truth_turn,
   truth_torque,

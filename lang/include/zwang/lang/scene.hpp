@@ -113,6 +113,7 @@ enum class FaultKind {
   floor_friction,   ///< the floor's friction is `value`, under the wheel `joint` or under all wheels
   payload,          ///< the base weighs `value` [kg] more, where its centre of mass is; negative: less
   centre_of_mass,   ///< the base's own centre of mass lies `value` [m] farther ahead
+  inertia,          ///< the base turns `value` times its own inertia harder; negative: more easily
   plant_diverges,   ///< the simulation leaves the finite numbers
 };
 

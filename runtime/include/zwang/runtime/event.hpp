@@ -29,6 +29,7 @@ enum class EventCode {
   sensor_bias,    ///< a force is measured before anything has moved
   slip,
   wrench_refused,  ///< along an axis whose force is limited, f_ext is not for the solver
+  entry_refused,   ///< what a task requires to be entered does not hold; `value` is the task's number
 };
 const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".

@@ -84,6 +84,9 @@ class MujocoPlant : public Plant {
   /// The base's own centre of mass, without the wheels and arms, lies this much [m] farther ahead than its
   /// model says. `robot` as above.
   void shift_centre_of_mass(std::size_t robot, double ahead) noexcept;
+  /// The base's own inertia about its centre of mass is that of its model times `factor`, > 0. `robot` as
+  /// above.
+  void scale_inertia(std::size_t robot, double factor) noexcept;
   /// As if the simulation had failed.
   void diverge() noexcept;
   /// The MJCF that was compiled, for inspection.
