@@ -94,7 +94,8 @@ void expect_derivatives(const Moving& robot, AxisConstraint c, const std::string
     const auto at = [&](double t) { return robot.coordinate(c, t).*quantity; };
     return (8.0 * (at(h) - at(-h)) - (at(2.0 * h) - at(-2.0 * h))) / (12.0 * h);
   };
-  if (c.measure != Measure::speed) {
+  const bool has_position = c.measure != Measure::speed && c.in.body != c.move.body;
+  if (has_position) {
     EXPECT_NEAR(derivative(&solver::Coordinate::position), now.velocity, 1e-8) << what;
   }
   const double dds = derivative(&solver::Coordinate::velocity);
@@ -129,7 +130,6 @@ TEST(Measures, HaveTheDerivativesThatTheirRowsSay) {
       const std::string where = std::string(pair.name) + ", seed " + std::to_string(seed) + ": ";
       c.measure = Measure::speed;
       expect_derivatives(robot, c, where + "speed");
-      if (own) continue;
       c.measure = Measure::axis;
       for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
         c.axis = axis;
@@ -138,12 +138,48 @@ TEST(Measures, HaveTheDerivativesThatTheirRowsSay) {
       c.measure = Measure::direction;
       c.coefficients = {0.6, -0.3, 0.2, 0.0, 0.0, 0.0};
       expect_derivatives(robot, c, where + "direction");
+      if (own) continue;
       c.measure = Measure::distance;
       expect_derivatives(robot, c, where + "distance");
       c.measure = Measure::angle;
       c.axis = Axis::z;
       c.other_axis = Axis::x;
       expect_derivatives(robot, c, where + "angle");
+    }
+  }
+}
+
+// Axes that the body carries move as fixed ones do that coincide with them now; where they are counts for
+// nothing.
+TEST(Measures, AlongCarriedAxesAreTheVelocityAlongFixedOnes) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Moving robot(seed);
+    const AttachedFrame carried{robot.hand.body, robot.fixed.pose};
+    const solver::FrameMotion now = motion_of(carried, robot.model, robot.start);
+    AxisConstraint c;
+    c.move = robot.hand;
+    for (int axis = 0; axis < 6; ++axis) {
+      c.axis = static_cast<Axis>(axis);
+      c.in = carried;
+      const solver::Coordinate own = coordinate_of(c, robot.model, robot.start);
+      c.in = {-1, now.pose};
+      EXPECT_NEAR(own.velocity, coordinate_of(c, robot.model, robot.start).velocity, 1e-12) << axis;
+      EXPECT_EQ(own.position, 0.0);
+    }
+  }
+}
+
+TEST(Measures, ThePositionAloneIsThatOfTheCoordinate) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Moving robot(seed);
+    solver::BodyMotions motions(2);
+    motions.start(robot.model, robot.start);
+    for (const AttachedFrame& in : {robot.object, robot.elbow, AttachedFrame{robot.hand.body, {}}}) {
+      for (int axis = 0; axis < 6; ++axis) {
+        const auto along = static_cast<Axis>(axis);
+        EXPECT_NEAR(position_of(robot.hand, in, along, motions),
+                    coordinate_of(robot.hand, in, along, robot.model, robot.start).position, 1e-13);
+      }
     }
   }
 }
@@ -228,6 +264,15 @@ TEST(BrakingCurve, DeceleratesWithItsShareAndStopsAtTheBound) {
   EXPECT_NEAR(v(d0 * (1.0 - 1e-9)), v(d0 * (1.0 + 1e-9)), 1e-10);
   EXPECT_EQ(v(0.0), 0.0);
   EXPECT_EQ(v(-0.3), -v(0.3));
+}
+
+TEST(BrakingCurve, IsReadTheOtherWayByTheDistance) {
+  for (const double braking : {0.05, 0.5, 3.0}) {
+    for (const double v : {0.0, 1e-4, 0.003, 0.02, 0.3, 2.0, -0.3}) {
+      const double d = solver::braking_distance(v, braking, horizon);
+      EXPECT_NEAR(solver::braking_speed(d, braking, horizon), v, 1e-12 * std::abs(v)) << braking << " " << v;
+    }
+  }
 }
 
 /// How far a base gets past a bound when it does 1/heavier of what its row asks for, which is not more than

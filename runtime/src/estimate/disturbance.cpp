@@ -141,25 +141,22 @@ solver::Vector3 DisturbanceObserver::on_base() noexcept {
   return w_.head<3>();
 }
 
-/// By Cholesky, in place of `gram_`: small, and nothing to pivot for.
+/// By Cholesky, G = L L' in place of `gram_`, on its diagonal 1 / L_aa: small, and nothing to pivot for.
 void DisturbanceObserver::solve(int size, const Eigen::VectorXd& right, Eigen::VectorXd& out) noexcept {
+  const Eigen::Index stride = gram_.cols();
+  const auto row = [&, G = gram_.data()](int a) { return G + a * stride; };
   double trace = 0.0;
-  for (int a = 0; a < size; ++a) trace += gram_(a, a);
+  for (int a = 0; a < size; ++a) trace += row(a)[a];
   for (int a = 0; a < size; ++a) {
-    for (int b = 0; b <= a; ++b) {
-      double rest = gram_(a, b) + (a == b ? damping * trace : 0.0);
-      for (int c = 0; c < b; ++c) rest -= gram_(a, c) * gram_(b, c);
-      gram_(a, b) = a == b ? std::sqrt(rest) : rest / gram_(b, b);
-    }
+    double* L_a = row(a);
+    for (int b = 0; b < a; ++b) L_a[b] = (L_a[b] - dot(L_a, row(b), b)) * row(b)[b];
+    L_a[a] = 1.0 / std::sqrt(L_a[a] + damping * trace - dot(L_a, L_a, a));
   }
-  for (int a = 0; a < size; ++a) {
-    double rest = right(a);
-    for (int c = 0; c < a; ++c) rest -= gram_(a, c) * out(c);
-    out(a) = rest / gram_(a, a);
-  }
+  double* x = out.data();
+  for (int a = 0; a < size; ++a) x[a] = (right(a) - dot(row(a), x, a)) * row(a)[a];
   for (int a = size - 1; a >= 0; --a) {
-    for (int c = a + 1; c < size; ++c) out(a) -= gram_(c, a) * out(c);
-    out(a) /= gram_(a, a);
+    x[a] *= row(a)[a];
+    for (int b = 0; b < a; ++b) x[b] -= row(a)[b] * x[a];
   }
 }
 

@@ -12,8 +12,11 @@ using solver::Matrix3;
 using solver::Pose;
 using solver::Vector3;
 
-Matrix3 turn(double angle) {
-  return Eigen::AngleAxisd(angle, Vector3::UnitZ()).toRotationMatrix();
+/// About z.
+Matrix3 turn(double sine, double cosine) {
+  Matrix3 R;
+  R << cosine, -sine, 0.0, sine, cosine, 0.0, 0.0, 0.0, 1.0;
+  return R;
 }
 
 /// The way along a constant planar twist for dt: the exponential of SE(2),
@@ -22,11 +25,13 @@ Matrix3 turn(double angle) {
 Pose way_along(const solver::MotionVector& twist, double dt) {
   const double a = twist.angular.z() * dt;
   const double small = a * a;
-  const double s = std::abs(a) < 1e-4 ? 1.0 - small / 6.0 : std::sin(a) / a;
-  const double c = std::abs(a) < 1e-4 ? a / 2.0 : (1.0 - std::cos(a)) / a;
+  const double sine = std::sin(a);
+  const double cosine = std::cos(a);
+  const double s = std::abs(a) < 1e-4 ? 1.0 - small / 6.0 : sine / a;
+  const double c = std::abs(a) < 1e-4 ? a / 2.0 : (1.0 - cosine) / a;
   const double x = twist.linear.x() * dt;
   const double y = twist.linear.y() * dt;
-  return {turn(a), {s * x - c * y, c * x + s * y, 0.0}};
+  return {turn(sine, cosine), {s * x - c * y, c * x + s * y, 0.0}};
 }
 
 bool finite(const Pose& pose) {
@@ -94,7 +99,7 @@ bool Odometry::correct(double stamp, const Pose& measured) noexcept {
   const Vector3 shift = (measured.position - then->pose.position).cwiseProduct(Vector3(1.0, 1.0, 0.0));
   // About the point where the base was then: turn by the angle's part, shift by the way's.
   const Vector3 pivot = then->pose.position;
-  const Pose made_good{turn(part * angle), Vector3::Zero()};
+  const Pose made_good{turn(std::sin(part * angle), std::cos(part * angle)), Vector3::Zero()};
   const auto move = [&](Pose& pose) {
     pose.position = made_good.rotation * (pose.position - pivot) + pivot + part * shift;
     pose.rotation = made_good.rotation * pose.rotation;

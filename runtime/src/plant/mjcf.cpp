@@ -224,8 +224,8 @@ class MjcfWriter {
   /// ContactFriction reads the coefficient.
   void write_spring(const std::string& one, const std::string& other, double friction) {
     const double d = spring_impedance;
-    text_ += "<pair" + attribute("geom1", one) + attribute("geom2", other) +
-             attribute("condim", "1") + attribute("solimp", list_of(d, d, 0.001)) +
+    text_ += "<pair" + attribute("geom1", one) + attribute("geom2", other) + attribute("condim", "1") +
+             attribute("solimp", list_of(d, d, 0.001)) +
              attribute("friction", list_of(friction, friction, 0.0, 0.0, 0.0)) + "/>\n";
   }
 

@@ -85,8 +85,9 @@ void LimitTable::compare(int index, double value, double low, double high, bool 
     limit.report.margin = margin;
     limit.seen = true;
   }
-  // A force driver is meant to be at its force: it shows only when nothing else is at its limit.
   const double range = std::isfinite(high - low) ? high - low : one_sided_range;
+  if (!wanted && margin > 2.0 * at_limit_share * range) return;  // far from it, as most are
+  // A force driver is meant to be at its force: it shows only when nothing else is at its limit.
   const double share = std::max(margin / range, wanted ? 0.99 * at_limit_share : 0.0);
   if (share < at_limit_share && (tightest_ < 0 || share < tightest_share_)) {
     tightest_ = index;
@@ -103,13 +104,14 @@ void LimitTable::update(const StatementTable& statements, const solver::Constrai
   tightest_ = -1;
   const std::vector<solver::AxisConstraint>& constraints = set.constraints();
   const std::size_t rows = std::min(set.rows().size(), solution.rows.size());
+  const std::size_t known = in_force.size();
   int last = -1;  // the rows of a constraint stand together
   for (std::size_t r = 0; r < rows; ++r) {
     const solver::Row& row = set.rows()[r];
     const auto i = static_cast<std::size_t>(row.constraint);
     const bool is_end_of_range = row.kind == solver::RowKind::upper || row.kind == solver::RowKind::lower;
     if (row.constraint == last && is_end_of_range) continue;  // its range is compared by now
-    if (i >= in_force.size() || !in_force[i].active) continue;
+    if (i >= known || !in_force[i].active) continue;
     const solver::AxisConstraint& c = constraints[i];
     if (c.alpha < 1.0 || c.progress < 1.0) continue;
     const Indices& of = of_statement_[static_cast<std::size_t>(statements.id(in_force[i].origin))];

@@ -111,6 +111,7 @@ void Blend::recall(const solver::ConstraintSet& set) noexcept {
 void Blend::start(const std::vector<Wanted>& wanted, double duration,
                   const solver::ConstraintSet& set) noexcept {
   recall(set);
+  is_put_ = false;
   duration_ = duration;
   if (!(duration > 0.0)) {
     settle(wanted);
@@ -165,6 +166,15 @@ int Blend::match(const Wanted& wanted) const noexcept {
     if (best < 0 || alpha > before_[static_cast<std::size_t>(best)].present.alpha) best = static_cast<int>(i);
   }
   return best;
+}
+
+/// A boundary that goes out of reach is remembered as it was put last.
+void Blend::recall_what_goes_far(const std::vector<Wanted>& wanted,
+                                 const solver::ConstraintSet& set) noexcept {
+  for (Part& part : parts_) {
+    if (part.place < 0 || part.wanted < 0 || !wanted[static_cast<std::size_t>(part.wanted)].far) continue;
+    part.present = set.constraints()[static_cast<std::size_t>(part.place)];
+  }
 }
 
 /// The wanted constraint `index` speaks of the axis of `from`.
@@ -293,6 +303,8 @@ void Blend::fade(const Part& part, double progress, AxisConstraint& c) const noe
 void Blend::put(const std::vector<Wanted>& wanted, double progress, solver::ConstraintSet& set,
                 std::vector<InForce>& in_force) noexcept {
   if (progress >= 1.0 && !settled_) settle(wanted);
+  recall_what_goes_far(wanted, set);
+  is_put_ = true;
   set.clear();
   in_force.clear();
   for (Part& part : parts_) {
@@ -305,8 +317,16 @@ void Blend::put(const std::vector<Wanted>& wanted, double progress, solver::Cons
     part.place = static_cast<int>(in_force.size());
     fade(part, progress, set[part.place]);
     in_force.push_back({part.origin, !leaves, part.drives});
-    // A boundary that goes out of reach is remembered.
-    if (part.origin.part >= 0) part.present = set[part.place];
+  }
+}
+
+void Blend::renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed,
+                  solver::ConstraintSet& set) const noexcept {
+  for (const int i : renewed) {
+    const Part& part = parts_[static_cast<std::size_t>(i)];
+    if (part.place < 0) continue;
+    set[part.place] = wanted[static_cast<std::size_t>(i)].constraint;
+    fade(part, 1.0, set[part.place]);
   }
 }
 

@@ -42,6 +42,12 @@ class Blend {
   /// Fades from what is in force to `wanted`, over `duration` [s]; 0 switches at once. `wanted` keeps its
   /// length until the next switch. `set`: as the last `put` left it.
   void start(const std::vector<Wanted>& wanted, double duration, const solver::ConstraintSet& set) noexcept;
+  /// Whether nothing fades, and the last `put` says so: until what is wanted comes into reach or goes out of
+  /// it, `renew` does what `put` would do.
+  bool rests() const noexcept { return settled_ && is_put_; }
+  /// Writes those of `wanted` that have new values, by their indices.
+  void renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed,
+             solver::ConstraintSet& set) const noexcept;
   /// Puts the constraints in force at `progress` (0 to 1, > 0) into `set`.
   void put(const std::vector<Wanted>& wanted, double progress, solver::ConstraintSet& set,
            std::vector<InForce>& in_force) noexcept;
@@ -70,6 +76,7 @@ class Blend {
   static Part part_of(const std::vector<Wanted>& wanted, int index) noexcept;
   void settle(const std::vector<Wanted>& wanted) noexcept;
   void recall(const solver::ConstraintSet& set) noexcept;
+  void recall_what_goes_far(const std::vector<Wanted>& wanted, const solver::ConstraintSet& set) noexcept;
   void add_entering(const std::vector<Wanted>& wanted, int index, bool drives, Ranges ranges) noexcept;
   void add_persisting(const std::vector<Wanted>& wanted, int index, const Part& from, bool drives,
                       Ranges ranges) noexcept;
@@ -90,7 +97,8 @@ class Blend {
   double force_scale_;
   double torque_scale_;
   double duration_ = 0.0;
-  bool settled_ = true;
+  bool settled_ = true;  ///< nothing fades: one part for each that is wanted, in their order
+  bool is_put_ = false;  ///< the parts, as they are
 };
 
 }  // namespace zwang::runtime

@@ -32,6 +32,7 @@ bool Guards::is_due(const std::vector<lang::Exit>& exits, std::size_t exit,
                     const std::vector<double>& parameters) const noexcept {
   const GuardState& state = states_[exit];
   if (state.at_once) return true;
+  if (state.true_ticks == 0) return false;
   const double needed = std::ceil(exits[exit].dwell.evaluate(parameters) / period_ - clock_rounding);
   return state.true_ticks >= std::max(1.0, needed);
 }

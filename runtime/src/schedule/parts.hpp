@@ -2,8 +2,10 @@
 /// tick_rows.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "schedule/blend.hpp"
@@ -25,12 +27,19 @@ struct ActiveAxis {
   int fence = -1;   ///< of a group `inside`: index into `fences`
   int brakes = -1;  ///< of the base's x, y and rz the one whose braking its ranges limit; -1: none
   bool hangs_on_signal = false;                     ///< its frames or its value do: it can be lost
+  bool varies = false;                              ///< what it wants is not up to the parameters alone
   std::optional<solver::AttachedFrame> entry_axes;  ///< `here` in axes of the moved body: the axes on entry
   double here = 0.0;
   bool has_here = false;
   std::size_t wanted = 0;  ///< index in `wanted` of its constraint, or of its first one
   bool lost = false;  ///< its axes hang on a pose signal that is not known now, or its value on such a signal
   AxisReading reading;
+};
+
+/// The pairs of features of a fence that are in force, by their indices.
+struct InReach {
+  std::array<std::size_t, RegionFence::most_near> pairs{};
+  std::size_t count = 0;
 };
 
 /// Where `back` leads.
@@ -54,6 +63,8 @@ struct Scheduler::Parts final : Facts {
                                   const ActiveAxis* active_axis) const noexcept;
   solver::Coordinate coordinate_of(const lang::Group& group, const lang::AxisStatements& axis,
                                    const ActiveAxis* active_axis) const noexcept;
+  double position_of(const lang::Group& group, const lang::AxisStatements& axis,
+                     const ActiveAxis* active_axis) const noexcept;
 
   // Steps 4 and 5: guards, and at most one transition.
   struct Choice {
@@ -92,11 +103,14 @@ struct Scheduler::Parts final : Facts {
   solver::Driver driver_of(const ActiveAxis& a) const noexcept;
   bool is_lost(const ActiveAxis& a) const noexcept;
   void want_fence(const ActiveAxis& a, RegionFence& fence) noexcept;
+  void want_standstill(const ActiveAxis& a) noexcept;
+  InReach find_nearest(const ActiveAxis& a, RegionFence& fence) noexcept;
+  void keep_in_reach(const ActiveAxis& a, InReach nearest) noexcept;
   double braking_of(const solver::AxisConstraint& c, const lang::AxisStatements& s) const noexcept;
   double braking_along(const solver::Vector3& direction) const noexcept;
   void find_braking() noexcept;
   solver::Range value(const lang::ValueRange& range) const noexcept;
-  solver::AttachedFrame axes_frame(const lang::Group& group, const ActiveAxis* a) const noexcept;
+  const solver::AttachedFrame& axes_frame(const lang::Group& group, const ActiveAxis* a) const noexcept;
   void read(const solver::Solution& solution) noexcept;
 
   const lang::Task& active() const noexcept { return tasks[task]; }
@@ -124,6 +138,7 @@ struct Scheduler::Parts final : Facts {
   solver::Vector3 effective_mass;  ///< of the base along x, y and rz [kg, kg, kg m^2]
   solver::Vector3 braking;         ///< what the ranges in force leave along them [m/s^2, m/s^2, rad/s^2]
   std::vector<RegionFence> fences;
+  std::vector<InReach> in_reach;  ///< of each fence
   // By task and group.
   std::vector<std::vector<int>> fence_of;               ///< -1: not `inside`
   std::vector<std::vector<std::size_t>> first_axis_of;  ///< among those of its task
@@ -148,7 +163,11 @@ struct Scheduler::Parts final : Facts {
   std::size_t always_axes = 0;
   std::vector<double> scratch;
   std::vector<Wanted> wanted;
+  std::vector<int> renewed;    ///< those of `wanted` with values that the last tick did not have
+  bool values_are_due = true;  ///< of all that is wanted: another list, or other parameters
+  bool reach_changed = true;   ///< another pair of features is in force, or one no more
   std::vector<InForce> in_force;
+  std::vector<ActiveAxis*> sources;  ///< of each in force its axis; null while it fades out
   std::optional<Blend> blend;
   std::optional<solver::ConstraintSet> set;
 };

@@ -133,50 +133,7 @@ int RegionFence::nearest_side(const std::vector<Side>& sides, const Point& p) no
   return nearest;
 }
 
-void RegionFence::update(const solver::AttachedFrame& move, const solver::FrameMotion& move_motion,
-                         const solver::AttachedFrame& in, const solver::FrameMotion& in_motion,
-                         double margin) noexcept {
-  move_ = move;
-  in_ = in;
-  margin_ = margin;
-  to_world_ = in_motion.pose.rotation;
-  move_to_world_ = move_motion.pose.rotation;
-  const solver::FrameMotion move_seen = seen_from(in_motion, move_motion);
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    const Vector3 arm = move_seen.pose.rotation * corners_[i];
-    const Vector3 place = move_seen.pose.position + arm;
-    corner_now_[i] = {flat(place), place.z(), flat(move_seen.linear + move_seen.angular.cross(arm))};
-  }
-  if (!reflex_.empty()) {
-    const solver::FrameMotion in_seen = seen_from(move_motion, in_motion);
-    for (std::size_t i = 0; i < reflex_.size(); ++i) {
-      const Vector3 arm = in_seen.pose.rotation * high(polygon_[static_cast<std::size_t>(reflex_[i])]);
-      const Vector3 place = in_seen.pose.position + arm;
-      vertex_now_[i] = {flat(place), place.z(), flat(in_seen.linear + in_seen.angular.cross(arm))};
-    }
-  }
-  for (std::size_t i = 0; i < pairs_.size(); ++i) approaches_[i] = look(pairs_[i]);
-}
-
-const RegionFence::Moving& RegionFence::located_corner(std::size_t corner) noexcept {
-  Moving& now = corner_now_[corner];
-  if (now.is_located) return now;
-  now.is_located = true;
-  now.inside = polygon_.empty() || contains(polygon_, now.place);
-  now.nearest = now.inside ? -1 : nearest_side(edges_, now.place);
-  return now;
-}
-
-const RegionFence::Moving& RegionFence::located_vertex(std::size_t vertex) noexcept {
-  Moving& now = vertex_now_[vertex];
-  if (now.is_located) return now;
-  now.is_located = true;
-  now.inside = contains(outline_, now.place);
-  now.nearest = now.inside ? nearest_side(sides_, now.place) : -1;
-  return now;
-}
-
-RegionFence::Approach RegionFence::look(const Pair& pair) const noexcept {
+inline RegionFence::Approach RegionFence::look(const Pair& pair) const noexcept {
   const auto first = static_cast<std::size_t>(pair.first);
   const auto second = static_cast<std::size_t>(pair.second);
   switch (pair.kind) {
@@ -206,6 +163,50 @@ RegionFence::Approach RegionFence::look(const Pair& pair) const noexcept {
     }
   }
   return {far, 0.0};
+}
+
+void RegionFence::update(const solver::FrameMotion& move, const solver::FrameMotion& in,
+                         double margin) noexcept {
+  margin_ = margin;
+  to_world_ = in.pose.rotation;
+  move_to_world_ = move.pose.rotation;
+  const solver::FrameMotion move_seen = seen_from(in, move);
+  for (std::size_t i = 0; i < corners_.size(); ++i) {
+    const Vector3 arm = move_seen.pose.rotation * corners_[i];
+    const Vector3 place = move_seen.pose.position + arm;
+    corner_now_[i] = {flat(place), place.z(), flat(move_seen.linear + move_seen.angular.cross(arm))};
+  }
+  if (!reflex_.empty()) {
+    const solver::FrameMotion in_seen = seen_from(move, in);
+    for (std::size_t i = 0; i < reflex_.size(); ++i) {
+      const Vector3 arm = in_seen.pose.rotation * high(polygon_[static_cast<std::size_t>(reflex_[i])]);
+      const Vector3 place = in_seen.pose.position + arm;
+      vertex_now_[i] = {flat(place), place.z(), flat(in_seen.linear + in_seen.angular.cross(arm))};
+    }
+  }
+  fastest_ = 0.0;
+  for (std::size_t i = 0; i < pairs_.size(); ++i) {
+    approaches_[i] = look(pairs_[i]);
+    fastest_ = std::max(fastest_, approaches_[i].speed);
+  }
+}
+
+const RegionFence::Moving& RegionFence::located_corner(std::size_t corner) noexcept {
+  Moving& now = corner_now_[corner];
+  if (now.is_located) return now;
+  now.is_located = true;
+  now.inside = polygon_.empty() || contains(polygon_, now.place);
+  now.nearest = now.inside ? -1 : nearest_side(edges_, now.place);
+  return now;
+}
+
+const RegionFence::Moving& RegionFence::located_vertex(std::size_t vertex) noexcept {
+  Moving& now = vertex_now_[vertex];
+  if (now.is_located) return now;
+  now.is_located = true;
+  now.inside = contains(outline_, now.place);
+  now.nearest = now.inside ? nearest_side(sides_, now.place) : -1;
+  return now;
 }
 
 bool RegionFence::faces(std::size_t index) noexcept {
@@ -281,7 +282,8 @@ solver::Pose RegionFence::level_with(std::size_t corner, const Point& p) const n
   return point_pose({p.x(), p.y(), corner_now_[corner].height});
 }
 
-solver::AxisConstraint RegionFence::constraint(std::size_t index) const noexcept {
+solver::AxisConstraint RegionFence::constraint(std::size_t index, const solver::AttachedFrame& move,
+                                               const solver::AttachedFrame& in) const noexcept {
   const Pair& pair = pairs_[index];
   const auto first = static_cast<std::size_t>(pair.first);
   const auto second = static_cast<std::size_t>(pair.second);
@@ -290,22 +292,22 @@ solver::AxisConstraint RegionFence::constraint(std::size_t index) const noexcept
   c.position = solver::Range{margin_, solver::infinity};
   switch (pair.kind) {
     case PairKind::corner_edge:
-      c.move = carried(move_, point_pose(corners_[first]));
-      c.in = carried(in_, side_pose(edges_[second].begin, edges_[second].left));
+      c.move = carried(move, point_pose(corners_[first]));
+      c.in = carried(in, side_pose(edges_[second].begin, edges_[second].left));
       break;
     case PairKind::corner_vertex:
       c.measure = solver::Measure::distance;
-      c.move = carried(move_, point_pose(corners_[first]));
-      c.in = carried(in_, level_with(first, polygon_[static_cast<std::size_t>(reflex_[second])]));
+      c.move = carried(move, point_pose(corners_[first]));
+      c.in = carried(in, level_with(first, polygon_[static_cast<std::size_t>(reflex_[second])]));
       break;
     case PairKind::vertex_side:
-      c.move = carried(in_, point_pose(high(polygon_[static_cast<std::size_t>(reflex_[first])])));
-      c.in = carried(move_, side_pose(sides_[second].begin, -sides_[second].left));
+      c.move = carried(in, point_pose(high(polygon_[static_cast<std::size_t>(reflex_[first])])));
+      c.in = carried(move, side_pose(sides_[second].begin, -sides_[second].left));
       break;
     case PairKind::corner_circle:
       c.measure = solver::Measure::distance;
-      c.move = carried(move_, point_pose(corners_[first]));
-      c.in = carried(in_, level_with(first, centre()));
+      c.move = carried(move, point_pose(corners_[first]));
+      c.in = carried(in, level_with(first, centre()));
       c.position = solver::Range{-solver::infinity, region_.radius - margin_};
       break;
   }

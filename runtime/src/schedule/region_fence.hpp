@@ -26,9 +26,8 @@ class RegionFence {
   /// The most pairs that are put in force at once: the nearest.
   static constexpr int most_near = 12;
 
-  /// Looks where everything is. `move` and `in`: the moved frame and the region's parent.
-  void update(const solver::AttachedFrame& move, const solver::FrameMotion& move_motion,
-              const solver::AttachedFrame& in, const solver::FrameMotion& in_motion, double margin) noexcept;
+  /// Looks where everything is. `move` and `in`: of the moved frame and of the region's parent.
+  void update(const solver::FrameMotion& move, const solver::FrameMotion& in, double margin) noexcept;
 
   /// The distance that is left before `margin`, and how fast it shrinks; of pairs that do not face each
   /// other, too.
@@ -37,14 +36,17 @@ class RegionFence {
     double speed = 0.0;  ///< [m/s]
   };
   const Approach& approach(std::size_t pair) const noexcept { return approaches_[pair]; }
+  /// The largest speed of them all, 0 when all pairs drift apart. [m/s]
+  double fastest() const noexcept { return fastest_; }
   /// Only pairs that face each other have to be kept apart.
   bool faces(std::size_t pair) noexcept;
   /// The direction in the world in which what moves would brake.
   solver::Vector3 normal(std::size_t pair) const noexcept;
   /// "edge2", "vertex3", "circle": the feature of the region, counted from 1 as they are written. Allocates.
   std::string name(std::size_t pair) const;
-  /// The pair's constraint, without level, braking and fading.
-  solver::AxisConstraint constraint(std::size_t pair) const noexcept;
+  /// The pair's constraint between the two frames, without level, braking and fading.
+  solver::AxisConstraint constraint(std::size_t pair, const solver::AttachedFrame& move,
+                                    const solver::AttachedFrame& in) const noexcept;
 
  private:
   using Point = Eigen::Vector2d;
@@ -86,13 +88,13 @@ class RegionFence {
   std::vector<Pair> pairs_;
 
   // As of the last update.
-  solver::AttachedFrame move_, in_;
   solver::Matrix3 to_world_ = solver::Matrix3::Identity();  ///< from the region's parent
   solver::Matrix3 move_to_world_ = solver::Matrix3::Identity();
   double margin_ = 0.0;
   std::vector<Moving> corner_now_;  ///< in the region's parent
   std::vector<Moving> vertex_now_;  ///< reflex vertices in the moved frame
   std::vector<Approach> approaches_;
+  double fastest_ = 0.0;
 };
 
 }  // namespace zwang::runtime

@@ -119,13 +119,16 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       most_pairs += fences.back().pair_count();
     }
   }
+  in_reach.resize(fences.size());
   const std::size_t most_wanted = tasks.most_axes + most_pairs;
   axes.reserve(tasks.most_axes);
   wanted.reserve(most_wanted);
+  renewed.reserve(most_wanted);
   scratch.resize(tasks.most_nodes);
   const double force_scale = force_scale_of(model);
   blend.emplace(most_wanted, 3 * tasks.most_rows, force_scale, force_scale * radius);
   in_force.reserve(blend->capacity());
+  sources.reserve(blend->capacity());
   set.emplace(static_cast<int>(blend->capacity()), 4 * tasks.most_rows);
 }
 
@@ -213,6 +216,7 @@ bool Scheduler::set_parameter(int index, double value) noexcept {
   const auto& range = p.parameter_ranges[static_cast<std::size_t>(index)];
   if (range && (value < range->low || value > range->high)) return false;
   p.parameters[static_cast<std::size_t>(index)] = value;
+  p.values_are_due = true;
   return true;
 }
 bool Scheduler::signal_known(int signal) const noexcept {

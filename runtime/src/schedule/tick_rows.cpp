@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
+#include <utility>
 
 #include "schedule/braking.hpp"
 #include "schedule/parts.hpp"
@@ -31,8 +31,8 @@ constexpr double lost_speed = 0.001;  // [m/s] inside a region that nobody knows
 
 }  // namespace
 
-solver::AttachedFrame Scheduler::Parts::axes_frame(const lang::Group& group,
-                                                   const ActiveAxis* a) const noexcept {
+const solver::AttachedFrame& Scheduler::Parts::axes_frame(const lang::Group& group,
+                                                          const ActiveAxis* a) const noexcept {
   if (a != nullptr && a->entry_axes) return *a->entry_axes;
   return frames.attached(group.in);
 }
@@ -154,63 +154,91 @@ void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
 
 /// A place for every pair of features that may come near.
 void Scheduler::Parts::list_fence(const ActiveAxis& a) noexcept {
-  const std::size_t pairs = fences[static_cast<std::size_t>(a.fence)].pair_count();
-  for (std::size_t i = 0; i < pairs; ++i) {
+  const auto fence = static_cast<std::size_t>(a.fence);
+  for (std::size_t i = 0; i < fences[fence].pair_count(); ++i) {
     Wanted& w = wanted.emplace_back();
     w.origin = a.origin;
     w.origin.part = static_cast<int>(i);
     w.always = a.origin.task == tasks.always();
+    w.far = true;
+  }
+  in_reach[fence] = {};
+}
+
+void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexcept {
+  if (a.lost) {
+    want_standstill(a);
+    keep_in_reach(a, {.count = 1});
+  } else {
+    keep_in_reach(a, find_nearest(a, fence));
   }
 }
 
-/// The nearest of the pairs of features that what is in force now could not keep apart much faster.
-void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexcept {
+/// Inside a region that nobody knows where it is: the first pair's constraint.
+void Scheduler::Parts::want_standstill(const ActiveAxis& a) noexcept {
   const lang::Group& g = *a.group;
-  const std::span<Wanted> pairs(&wanted[a.wanted], fence.pair_count());
-  for (Wanted& w : pairs) w.far = true;
+  solver::AxisConstraint& c = wanted[a.wanted].constraint;
+  c.move = frames.attached(g.move);
+  c.in = frames.attached(g.in);
+  c.measure = solver::Measure::speed;
+  c.velocity = Range{0.0, lost_speed};
+  c.level = g.level;
+}
+
+/// The nearest of the pairs of features that what is in force now could not keep apart much faster.
+InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) noexcept {
+  const lang::Group& g = *a.group;
   const solver::AttachedFrame& move = frames.attached(g.move);
   const solver::AttachedFrame& in = frames.attached(g.in);
-  if (a.lost) {
-    Wanted& standing = pairs.front();
-    standing.constraint.move = move;
-    standing.constraint.in = in;
-    standing.constraint.measure = solver::Measure::speed;
-    standing.constraint.velocity = Range{0.0, lost_speed};
-    standing.constraint.level = g.level;
-    standing.far = false;
-    return;
-  }
-  fence.update(move, frames.motions().of(move), in, frames.motions().of(in), g.margin.evaluate(parameters));
-  const auto is_far = [&](const RegionFence::Approach& approach, double a_brk) {
+  solver::FrameMotion move_place, in_place;
+  fence.update(frames.motions().of(move, move_place), frames.motions().of(in, in_place),
+               g.margin.evaluate(parameters));
+  const auto is_far = [](const RegionFence::Approach& approach, double a_brk) {
     const double allowed = solver::braking_speed(approach.left, a_brk, solver::ConstraintSet::horizon);
     return !(allowed < approach.speed + near_speed);
   };
+  // From there even the fastest could brake in time, with the weakest brake: most pairs are done by that.
   const double weakest_brake = braking.head<2>().minCoeff();
-  std::array<std::size_t, RegionFence::most_near> nearest{};
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
+  const double out_of_reach =
+      solver::braking_distance(fence.fastest() + near_speed, weakest_brake, solver::ConstraintSet::horizon);
+  InReach nearest;
+  for (std::size_t i = 0; i < fence.pair_count(); ++i) {
     const RegionFence::Approach& approach = fence.approach(i);
-    // A stronger brake allows more: most pairs are done here.
-    if (is_far(approach, weakest_brake) || !fence.faces(i)) continue;
+    if (approach.left > out_of_reach || is_far(approach, weakest_brake) || !fence.faces(i)) continue;
     const double a_brk = braking_along(fence.normal(i));
     if (is_far(approach, a_brk)) continue;
-    solver::AxisConstraint& c = pairs[i].constraint;
-    c = fence.constraint(i);
+    solver::AxisConstraint& c = wanted[a.wanted + i].constraint;
+    c = fence.constraint(i, move, in);
     c.level = g.level;
     c.braking = a_brk;
     // Sorted by what is left; the farthest gives way.
-    std::size_t at = count;
-    while (at > 0 && fence.approach(nearest[at - 1]).left > approach.left) --at;
-    if (count < nearest.size()) ++count;
-    for (std::size_t j = count; j-- > at + 1;) nearest[j] = nearest[j - 1];
-    if (at < count) nearest[at] = i;
+    std::size_t at = nearest.count;
+    while (at > 0 && fence.approach(nearest.pairs[at - 1]).left > approach.left) --at;
+    if (nearest.count < nearest.pairs.size()) ++nearest.count;
+    for (std::size_t j = nearest.count; j-- > at + 1;) nearest.pairs[j] = nearest.pairs[j - 1];
+    if (at < nearest.count) nearest.pairs[at] = i;
   }
-  for (std::size_t i = 0; i < count; ++i) pairs[nearest[i]].far = false;
+  return nearest;
+}
+
+/// These pairs are in force, and no others.
+void Scheduler::Parts::keep_in_reach(const ActiveAxis& a, InReach nearest) noexcept {
+  const auto pairs_of = [](InReach& reach) { return std::span(reach.pairs.data(), reach.count); };
+  InReach& last = in_reach[static_cast<std::size_t>(a.fence)];
+  std::ranges::sort(pairs_of(nearest));
+  if (!std::ranges::equal(pairs_of(last), pairs_of(nearest))) {
+    for (const std::size_t i : pairs_of(last)) wanted[a.wanted + i].far = true;
+    for (const std::size_t i : pairs_of(nearest)) wanted[a.wanted + i].far = false;
+    last = nearest;
+    reach_changed = true;
+  }
+  for (const std::size_t i : pairs_of(last)) renewed.push_back(static_cast<int>(a.wanted + i));
 }
 
 /// The constraints of `always` and of the active task. As many, and in the same order, until the next switch.
 void Scheduler::Parts::list_wanted() noexcept {
   wanted.clear();
+  values_are_due = true;
   for (ActiveAxis& a : axes) {
     a.wanted = wanted.size();
     if (a.fence >= 0) {
@@ -221,14 +249,18 @@ void Scheduler::Parts::list_wanted() noexcept {
   }
 }
 
-/// Their present values, as parameters, signals and distances have them.
+/// Their present values, as parameters, signals and distances have them: of those that have other ones than
+/// before.
 void Scheduler::Parts::want() noexcept {
-  find_braking();
+  const bool all = std::exchange(values_are_due, false);
+  renewed.clear();
+  if (all) find_braking();
   for (const ActiveAxis& a : axes) {
     if (a.fence >= 0) {
       want_fence(a, fences[static_cast<std::size_t>(a.fence)]);
-    } else if (says_something(*a.says)) {
+    } else if ((all || a.varies) && says_something(*a.says)) {
       want_axis(a);
+      renewed.push_back(static_cast<int>(a.wanted));
     }
   }
 }
@@ -262,10 +294,17 @@ void Scheduler::Parts::track_losses() noexcept {
 
 void Scheduler::Parts::put_constraints() noexcept {
   want();
+  const bool is_same_list = !std::exchange(reach_changed, false);
+  if (is_same_list && blend->rests()) {
+    blend->renew(wanted, renewed, *set);
+    return;
+  }
   // The tick of the switch already goes one tick's way, so that no alpha is ever 0.
   double progress = blend_time > 0.0 ? (now - switched + period) / blend_time : 1.0;
   if ((1.0 - progress) * blend_time < clock_rounding * period) progress = 1.0;
   blend->put(wanted, progress, *set, in_force);
+  sources.clear();
+  for (const InForce& f : in_force) sources.push_back(f.active ? find(f.origin) : nullptr);
 }
 
 /// What the solver made of the rows, for the guards of the next tick.
@@ -275,21 +314,17 @@ void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
     if (!a.says->driver) a.reading = {};
   }
   const std::size_t count = std::min(rows.size(), solution.rows.size());
-  int last = -1;  // the rows of a constraint stand together
-  ActiveAxis* axis = nullptr;
   for (std::size_t i = 0; i < count; ++i) {
-    const int c = rows[i].constraint;
-    if (c < 0 || static_cast<std::size_t>(c) >= in_force.size()) continue;
-    const InForce& source = in_force[static_cast<std::size_t>(c)];
-    if (!source.active) continue;
-    if (c != last) axis = find(source.origin);
-    last = c;
+    const solver::Row& row = rows[i];
+    const solver::RowSolution& answer = solution.rows[i];
+    if (row.constraint < 0 || static_cast<std::size_t>(row.constraint) >= sources.size()) continue;
+    ActiveAxis* axis = sources[static_cast<std::size_t>(row.constraint)];
     if (axis == nullptr) continue;
     AxisReading& reading = axis->reading;
-    if (rows[i].kind == solver::RowKind::driver || rows[i].kind == solver::RowKind::force) {
-      reading = {solution.rows[i].nu, solution.rows[i].residual, solution.rows[i].saturated};
-    } else if (!axis->says->driver && std::abs(solution.rows[i].residual) > std::abs(reading.residual)) {
-      reading.residual = solution.rows[i].residual;
+    if (row.kind == solver::RowKind::driver || row.kind == solver::RowKind::force) {
+      reading = {answer.nu, answer.residual, answer.saturated};
+    } else if (!axis->says->driver && std::abs(answer.residual) > std::abs(reading.residual)) {
+      reading.residual = answer.residual;
     }
   }
 }

@@ -66,9 +66,11 @@ Fact Scheduler::Parts::coordinate(const lang::ExpressionNode& node, int owner) c
       break;
   }
   const lang::Group& g = group(origin);
-  const solver::Coordinate c = coordinate_of(g, g.axes[static_cast<std::size_t>(node.axis)], a);
+  const lang::AxisStatements& axis = g.axes[static_cast<std::size_t>(node.axis)];
   if (!is_known(g.move)) return of_frame(g.move, 0.0);
-  return of_frame(g.in, node.what == lang::CoordinateQuantity::position ? c.position : c.velocity);
+  if (node.what == lang::CoordinateQuantity::velocity)
+    return of_frame(g.in, coordinate_of(g, axis, a).velocity);
+  return of_frame(g.in, position_of(g, axis, a));
 }
 
 namespace {
@@ -125,6 +127,14 @@ solver::AxisConstraint Scheduler::Parts::measured(const lang::Group& group, cons
 solver::Coordinate Scheduler::Parts::coordinate_of(const lang::Group& group, const lang::AxisStatements& axis,
                                                    const ActiveAxis* active_axis) const noexcept {
   return solver::coordinate_of(measured(group, axis, active_axis), frames.motions());
+}
+
+double Scheduler::Parts::position_of(const lang::Group& group, const lang::AxisStatements& axis,
+                                     const ActiveAxis* active_axis) const noexcept {
+  const bool is_one_axis = group.kind != lang::GroupKind::feature && !axis.is_planar_speed;
+  if (!is_one_axis) return coordinate_of(group, axis, active_axis).position;
+  return solver::position_of(frames.attached(group.move), axes_frame(group, active_axis), axis.axis,
+                             frames.motions());
 }
 
 const ActiveAxis* Scheduler::Parts::find(const Origin& origin) const noexcept {

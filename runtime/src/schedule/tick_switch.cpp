@@ -133,6 +133,8 @@ ActiveAxis Scheduler::Parts::active_axis(const Origin& origin) noexcept {
   a.brakes = braking_direction(*a.group, *a.says);
   a.hangs_on_signal = frames.signal_of(a.group->in) >= 0 || frames.signal_of(a.group->move) >= 0 ||
                       a.says->target.signal >= 0;
+  // How hard a range of places may brake hangs on where the base points.
+  a.varies = a.hangs_on_signal || a.says->position;
   return a;
 }
 
@@ -162,7 +164,7 @@ void Scheduler::Parts::capture_here(ActiveAxis& a) noexcept {
   const solver::AttachedFrame& in = frames.attached(g.in);
   // Axes that the moved body carries cannot tell where it is: they stay where they were on entry.
   if (in.body >= 0 && in.body == move.body) a.entry_axes = solver::AttachedFrame{-1, frames.pose(g.in), {}};
-  a.here = coordinate_of(g, s, &a).position;
+  a.here = position_of(g, s, &a);
   a.has_here = true;
 }
 

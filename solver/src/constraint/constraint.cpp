@@ -18,9 +18,8 @@ double wrap_to_pi(double angle) {
 /// The unit constraint force of a measurement at F's origin, in the coordinates of a body and about its
 /// origin.
 ForceVector on_body(const Measurement& along, const Vector3& origin, const Pose& body) {
-  const Vector3 force = body.rotation.transpose() * along.force;
-  const Vector3 arm = body.rotation.transpose() * (origin - body.position);
-  return {body.rotation.transpose() * along.moment + arm.cross(force), force};
+  const Vector3 moment = along.moment + (origin - body.position).cross(along.force);
+  return {body.rotation.transpose() * moment, body.rotation.transpose() * along.force};
 }
 
 double position_error(double target, const Coordinate& now, const AxisConstraint& constraint) {
@@ -56,22 +55,31 @@ double driver_force(const Driver& driver, const Coordinate& now, const AxisConst
   return f;
 }
 
-/// The accelerations with which a range is kept, or met again within h.
+bool has_range(const AxisConstraint& constraint, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::position:
+      return constraint.position.has_value();
+    case Quantity::velocity:
+      return constraint.velocity.has_value();
+    case Quantity::acceleration:
+      return constraint.acceleration.has_value();
+    case Quantity::force:
+      break;
+  }
+  return false;
+}
+
+/// The accelerations with which a range that the constraint has is kept, or met again within h.
 Range acceleration_range_within(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
                                 double h) {
-  Range range;
-  if (quantity == Quantity::acceleration && constraint.acceleration) return *constraint.acceleration;
-  if (quantity == Quantity::velocity && constraint.velocity) {
-    range.low = (constraint.velocity->low - now.velocity) / h;
-    range.high = (constraint.velocity->high - now.velocity) / h;
+  if (quantity == Quantity::acceleration) return *constraint.acceleration;
+  if (quantity == Quantity::velocity) {
+    return {(constraint.velocity->low - now.velocity) / h, (constraint.velocity->high - now.velocity) / h};
   }
-  if (quantity == Quantity::position && constraint.position) {
-    const double to_high = constraint.position->high - now.position;
-    const double to_low = now.position - constraint.position->low;
-    range.high = (braking_speed(to_high, constraint.braking, h) - now.velocity) / h;
-    range.low = (-braking_speed(to_low, constraint.braking, h) - now.velocity) / h;
-  }
-  return range;
+  const double to_high = constraint.position->high - now.position;
+  const double to_low = now.position - constraint.position->low;
+  return {(-braking_speed(to_low, constraint.braking, h) - now.velocity) / h,
+          (braking_speed(to_high, constraint.braking, h) - now.velocity) / h};
 }
 
 /// The accelerations that a range allows now. One that is new, h longer than the horizon, has time to stop
@@ -93,6 +101,38 @@ double mix(double before, double now, double progress) {
   return before + progress * (now - before);
 }
 
+/// What `ask` makes of the driver, on the way from the one before.
+template <typename Ask>
+double asked_now(const AxisConstraint& constraint, const Coordinate& now, Ask ask) {
+  const double asked = ask(*constraint.driver, now, constraint);
+  return constraint.before ? mix(ask(*constraint.before, now, constraint), asked, constraint.progress)
+                           : asked;
+}
+
+Coordinate carried_coordinate(const AxisConstraint& constraint, const MotionVector& V) {
+  return {.velocity = dot(carried_force(constraint, V), V)};
+}
+
+/// Puts into `row` the bodies that a constraint's unit force acts on, and the force.
+/// False where it acts on none: nothing but the world is in it.
+bool put_force(const AxisConstraint& constraint, const Measurement& along, const Vector3& origin,
+               BodyMotions& motions, Row& row) {
+  const auto unit_force = [&](int body) { return on_body(along, origin, motions.of(body).pose); };
+  const bool is_relative = constraint.in.body >= 0 && !only_orients(constraint.move, constraint.in);
+  if (constraint.move.body >= 0) {
+    row.body = constraint.move.body;
+    row.a = unit_force(row.body);
+    if (is_relative) {
+      row.reference_body = constraint.in.body;
+      row.a_reference = unit_force(row.reference_body);
+    }
+  } else if (is_relative) {  // F belongs to the world: only T's body can follow
+    row.body = constraint.in.body;
+    row.a = -unit_force(row.body);
+  }
+  return constraint.move.body >= 0 || is_relative;
+}
+
 }  // namespace
 
 double braking_speed(double distance, double braking, double h) noexcept {
@@ -104,12 +144,27 @@ double braking_speed(double distance, double braking, double h) noexcept {
   return std::copysign(speed, distance);
 }
 
+/// For v >= d0/T: v^2 = 2 a (d - d0/2).
+double braking_distance(double speed, double braking, double h) noexcept {
+  const double a = braking_share * braking;
+  const double T = 4.0 * h;
+  const double d0 = a * T * T;
+  const double v = std::abs(speed);
+  const double distance = v * T < d0 ? v * T : 0.5 * (v * v / a + d0);
+  return std::copysign(distance, speed);
+}
+
 Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept {
+  if (is_carried(constraint)) {
+    const FrameMotion body = motion_of({constraint.move.body, {}, {}}, model, state);
+    return carried_coordinate(constraint, body.own_twist());
+  }
   return measure(constraint, motion_of(constraint.move, model, state), motion_of(constraint.in, model, state))
       .now;
 }
 
 Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept {
+  if (is_carried(constraint)) return carried_coordinate(constraint, motions.twist_of(constraint.move.body));
   FrameMotion move, in;
   return measure(constraint, motions.of(constraint.move, move), motions.of(constraint.in, in)).now;
 }
@@ -121,6 +176,13 @@ Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axi
   constraint.in = in;
   constraint.axis = axis;
   return coordinate_of(constraint, model, state);
+}
+
+double position_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis,
+                   BodyMotions& motions) noexcept {
+  if (only_orients(move, in)) return 0.0;
+  Pose f, t;
+  return measure_position(axis, motions.pose_of(move, f), motions.pose_of(in, t));
 }
 
 ConstraintSet::ConstraintSet(int constraint_capacity, int row_capacity)
@@ -145,10 +207,10 @@ bool ConstraintSet::add(const AxisConstraint& constraint) noexcept {
   return true;
 }
 
-bool ConstraintSet::push(const Row& row) noexcept {
-  if (rows_.size() == rows_.capacity()) return false;
+Row* ConstraintSet::push(const Row& row) noexcept {
+  if (rows_.size() == rows_.capacity()) return nullptr;
   rows_.push_back(row);
-  return true;
+  return &rows_.back();
 }
 
 bool ConstraintSet::fill(const Model& model, const State& state) noexcept {
@@ -167,105 +229,101 @@ bool ConstraintSet::fill(BodyMotions& motions) noexcept {
 
 bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
   const AxisConstraint& constraint = constraints_[static_cast<std::size_t>(index)];
-  FrameMotion move, in;
-  const FrameMotion& f = motions.of(constraint.move, move);
-  const FrameMotion& t = motions.of(constraint.in, in);
-  const Measurement along = measure(constraint, f, t);
-  const Coordinate& now = along.now;
-  coordinates_.push_back(now);
+  Row along;
+  bool acts = true;
+  Coordinate& now = coordinates_.emplace_back();
+  if (is_carried(constraint)) {
+    along.body = constraint.move.body;
+    const MotionVector V = motions.twist_of(along.body);
+    along.a = carried_force(constraint, V);
+    now.velocity = dot(along.a, V);
+  } else {
+    FrameMotion move, in;
+    const FrameMotion& f = motions.of(constraint.move, move);
+    const Measurement measured = measure(constraint, f, motions.of(constraint.in, in));
+    now = measured.now;
+    acts = put_force(constraint, measured, f.pose.position, motions, along);
+  }
   const bool gone = constraint.leaving && constraint.alpha <= 0.0;
   const bool at_rest = constraint.measure == Measure::speed &&
                        !(constraint.velocity && now.velocity >= 0.5 * constraint.velocity->high);
-  if (gone || at_rest) return true;
-
-  Row row;
-  row.constraint = index;
-  row.level = constraint.level;
-  row.weight = constraint.weight;
-  const auto unit_force = [&](int body) { return on_body(along, f.pose.position, motions.of(body).pose); };
-  const bool relative = constraint.in.body >= 0 && !only_orients(constraint.move, constraint.in);
-  if (constraint.move.body >= 0) {
-    row.body = constraint.move.body;
-    row.a = unit_force(row.body);
-    if (relative) {
-      row.reference_body = constraint.in.body;
-      row.a_reference = unit_force(row.reference_body);
-    }
-  } else if (relative) {  // F belongs to the world: only T's body can follow
-    row.body = constraint.in.body;
-    row.a = -unit_force(row.body);
-  } else {
-    return true;
-  }
+  if (gone || at_rest || !acts) return true;
+  along.constraint = index;
+  along.level = constraint.level;
+  along.weight = constraint.weight;
+  along.fade = constraint.leaving ? constraint.alpha : 1.0;
 
   // One-sided rows enter at once, with a longer horizon while they are new, and leave softly.
   const double h =
       constraint.leaving ? horizon : std::max(horizon, (1.0 - constraint.alpha) * constraint.blend);
-  if (constraint.driver && constraint.alpha > 0.0 && !push_driver(constraint, now, h, row)) return false;
+  if (constraint.driver && constraint.alpha > 0.0 && !push_driver(constraint, now, h, along)) return false;
   const bool folds = constraint.driver && !constraint.driver->makes_force();
   if (folds) return true;
-  row.fade = constraint.leaving ? constraint.alpha : 1.0;
   if (constraint.force && !constraint.driver) {
-    Row sum = row;
-    sum.kind = RowKind::sum;
-    sum.quantity = Quantity::force;
-    sum.lo = constraint.force->low;
-    sum.hi = constraint.force->high;
-    if (!push(sum)) return false;
+    Row* sum = push(along);
+    if (sum == nullptr) return false;
+    sum->kind = RowKind::sum;
+    sum->quantity = Quantity::force;
+    sum->lo = constraint.force->low;
+    sum->hi = constraint.force->high;
   }
-  return push_ranges(constraint, now, h, row);
+  return push_ranges(constraint, now, h, along);
 }
 
 /// The row of the driver, the ranges of its axis folded into a motion driver.
 bool ConstraintSet::push_driver(const AxisConstraint& constraint, const Coordinate& now, double h,
-                                Row row) noexcept {
+                                const Row& along) noexcept {
+  Row* row = push(along);
+  if (row == nullptr) return false;
   const Driver& driver = *constraint.driver;
-  const Driver& before = constraint.before ? *constraint.before : driver;
-  const double progress = constraint.before ? constraint.progress : 1.0;
-  row.quantity = driver.quantity;
-  row.fade = constraint.alpha;
-  row.lo = std::max(driver.force.low, before.force.low);
-  row.hi = std::min(driver.force.high, before.force.high);
+  row->quantity = driver.quantity;
+  row->fade = constraint.alpha;
+  row->lo = driver.force.low;
+  row->hi = driver.force.high;
+  if (constraint.before) {
+    row->lo = std::max(row->lo, constraint.before->force.low);
+    row->hi = std::min(row->hi, constraint.before->force.high);
+  }
   if (constraint.force) {
-    row.lo = std::max(row.lo, constraint.force->low);
-    row.hi = std::min(row.hi, constraint.force->high);
+    row->lo = std::max(row->lo, constraint.force->low);
+    row->hi = std::min(row->hi, constraint.force->high);
   }
   if (driver.makes_force()) {
-    row.kind = RowKind::force;
-    row.force = mix(driver_force(before, now, constraint), driver_force(driver, now, constraint), progress);
-    return push(row);
+    row->kind = RowKind::force;
+    row->force = asked_now(constraint, now, driver_force);
+    return true;
   }
-  double b = mix(driver_acceleration(before, now, constraint), driver_acceleration(driver, now, constraint),
-                 progress);
+  double b = asked_now(constraint, now, driver_acceleration);
   for (const Quantity quantity : ranges_in_rising_rank) {
+    if (!has_range(constraint, quantity)) continue;
     const Range range = acceleration_range(constraint, quantity, now, h);
     b = std::max(range.low, std::min(b, range.high));
   }
-  row.kind = RowKind::driver;
-  row.b = b - now.acceleration_bias;
-  return push(row);
+  row->kind = RowKind::driver;
+  row->b = b - now.acceleration_bias;
+  return true;
 }
 
 /// Two one-sided rows a range.
 bool ConstraintSet::push_ranges(const AxisConstraint& constraint, const Coordinate& now, double h,
-                                Row row) noexcept {
+                                const Row& along) noexcept {
+  const auto push_end = [&](Quantity quantity, RowKind kind, double b, double lo, double hi) {
+    Row* row = push(along);
+    if (row == nullptr) return false;
+    row->quantity = quantity;
+    row->kind = kind;
+    row->b = b - now.acceleration_bias;
+    row->lo = lo;
+    row->hi = hi;
+    return true;
+  };
   for (const Quantity quantity : ranges_in_rising_rank) {
+    if (!has_range(constraint, quantity)) continue;
     const Range range = acceleration_range(constraint, quantity, now, h);
-    row.quantity = quantity;
-    if (std::isfinite(range.high)) {
-      row.kind = RowKind::upper;
-      row.b = range.high - now.acceleration_bias;
-      row.lo = -infinity;
-      row.hi = 0.0;
-      if (!push(row)) return false;
-    }
-    if (std::isfinite(range.low) && constraint.measure != Measure::speed) {
-      row.kind = RowKind::lower;
-      row.b = range.low - now.acceleration_bias;
-      row.lo = 0.0;
-      row.hi = infinity;
-      if (!push(row)) return false;
-    }
+    if (std::isfinite(range.high) && !push_end(quantity, RowKind::upper, range.high, -infinity, 0.0))
+      return false;
+    const bool has_low = std::isfinite(range.low) && constraint.measure != Measure::speed;
+    if (has_low && !push_end(quantity, RowKind::lower, range.low, 0.0, infinity)) return false;
   }
   return true;
 }

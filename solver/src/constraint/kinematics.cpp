@@ -19,8 +19,10 @@ bool is_origin(const Pose& pose) {
   return pose.position == Vector3::Zero() && pose.rotation == Matrix3::Identity();
 }
 
-FrameMotion motion_in_world(const AttachedFrame& frame) {
-  return {frame.pose, frame.pose.rotation * frame.twist.angular, frame.pose.rotation * frame.twist.linear};
+void put_motion_in_world(const AttachedFrame& frame, FrameMotion& motion) {
+  motion.pose = frame.pose;
+  motion.angular.noalias() = frame.pose.rotation * frame.twist.angular;
+  motion.linear.noalias() = frame.pose.rotation * frame.twist.linear;
 }
 
 }  // namespace
@@ -51,7 +53,11 @@ FrameMotion motion_of_body(int index, const Model& model, const State& state,
 }
 
 FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept {
-  if (frame.body < 0) return motion_in_world(frame);
+  FrameMotion motion;
+  if (frame.body < 0) {
+    put_motion_in_world(frame, motion);
+    return motion;
+  }
   return motion_of_body(frame.body, model, state, motion_of_base(model, state)).at(frame.pose);
 }
 
@@ -81,16 +87,31 @@ const FrameMotion& BodyMotions::of(int body) noexcept {
   return known_.back().motion;
 }
 
+MotionVector BodyMotions::twist_of(int body) noexcept {
+  if (body > 0) return of(body).own_twist();
+  return model_->has_fixed_base() ? MotionVector{} : state_->base_twist;
+}
+
 FrameMotion BodyMotions::of(const AttachedFrame& frame) noexcept {
   FrameMotion place;
   return of(frame, place);
 }
 
 const FrameMotion& BodyMotions::of(const AttachedFrame& frame, FrameMotion& place) noexcept {
-  if (frame.body < 0) return place = motion_in_world(frame);
+  if (frame.body < 0) {
+    put_motion_in_world(frame, place);
+    return place;
+  }
   const FrameMotion& body = of(frame.body);
   if (!is_origin(frame.pose)) return place = body.at(frame.pose);
   return &body == &forgotten_.motion ? place = body : body;
+}
+
+const Pose& BodyMotions::pose_of(const AttachedFrame& frame, Pose& place) noexcept {
+  if (frame.body < 0) return frame.pose;
+  const FrameMotion& body = of(frame.body);
+  if (!is_origin(frame.pose)) return place = body.pose * frame.pose;
+  return &body == &forgotten_.motion ? place = body.pose : body.pose;
 }
 
 }  // namespace zwang::solver

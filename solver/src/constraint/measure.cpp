@@ -8,14 +8,11 @@ namespace {
 
 constexpr double degenerate = 1e-9;  // a distance, or the sine of an angle, that has no direction
 
-int direction_of(Axis axis) {
-  return static_cast<int>(axis) % 3;
-}
-
-/// The angle of the rotation R about its own axis `k` alone (the twist of a swing-twist decomposition).
-double twist_angle(const Matrix3& R, int k) {
+/// The angle of R = T' F about its own axis `k` alone (the twist of a swing-twist decomposition).
+double twist_angle(const Matrix3& T, const Matrix3& F, int k) {
   const int i = (k + 1) % 3;
   const int j = (k + 2) % 3;
+  const auto R = [&](int row, int column) { return T.col(row).dot(F.col(column)); };
   return std::atan2(R(j, i) - R(i, j), R(i, i) + R(j, j));
 }
 
@@ -25,19 +22,14 @@ double twist_angle(const Matrix3& R, int k) {
 /// where e turns with T. With the origin of the coordinates at p_F and T on body c,
 ///   translation  gamma = (v_F x e).(w_k - w_c) + (w_c x e).(v_F - v_c(p_F))
 ///   rotation     gamma = (w_c x e).w_k
-/// Axes of the moved body itself give gamma = 0: the two products cancel.
-Measurement along_axis(const FrameMotion& f, const FrameMotion& t, Axis axis, bool own_axes) {
+Measurement along_axis(const FrameMotion& f, const FrameMotion& t, Axis axis) {
   const int k = direction_of(axis);
   const Vector3 e = t.pose.rotation.col(k);
   Measurement result;
   Coordinate& now = result.now;
   (is_rotation(axis) ? result.moment : result.force) = e;
-  if (own_axes) {
-    now.velocity = e.dot(is_rotation(axis) ? f.angular : f.linear);
-    return result;
-  }
   if (is_rotation(axis)) {
-    now.position = twist_angle(t.pose.rotation.transpose() * f.pose.rotation, k);
+    now.position = twist_angle(t.pose.rotation, f.pose.rotation, k);
     now.velocity = e.dot(f.angular - t.angular);
     now.acceleration_bias = t.angular.cross(e).dot(f.angular);
     return result;
@@ -53,12 +45,12 @@ Measurement along_axis(const FrameMotion& f, const FrameMotion& t, Axis axis, bo
 
 /// Everything about a direction is linear in the axes.
 Measurement along_direction(const FrameMotion& f, const FrameMotion& t,
-                            const std::array<double, 6>& coefficients, bool own_axes) {
+                            const std::array<double, 6>& coefficients) {
   Measurement result;
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
     const double weight = coefficients[i];
     if (weight == 0.0) continue;
-    const Measurement part = along_axis(f, t, static_cast<Axis>(i), own_axes);
+    const Measurement part = along_axis(f, t, static_cast<Axis>(i));
     result.now.position += weight * part.now.position;
     result.now.velocity += weight * part.now.velocity;
     result.now.acceleration_bias += weight * part.now.acceleration_bias;
@@ -111,35 +103,70 @@ Measurement along_angle(const FrameMotion& f, const FrameMotion& t, Axis axis, A
 }
 
 /// ds = |v| in T's plane, and d|v|/dt = v.dv/dt / |v|: the direction of the present motion.
-Measurement along_motion(const FrameMotion& f, const FrameMotion& t, bool own_axes) {
-  const double vx = along_axis(f, t, Axis::x, own_axes).now.velocity;
-  const double vy = along_axis(f, t, Axis::y, own_axes).now.velocity;
+Measurement along_motion(const FrameMotion& f, const FrameMotion& t) {
+  const double vx = along_axis(f, t, Axis::x).now.velocity;
+  const double vy = along_axis(f, t, Axis::y).now.velocity;
   const double speed = std::hypot(vx, vy);
   if (!(speed > 0.0)) return {};
-  Measurement result = along_direction(f, t, {vx / speed, vy / speed, 0.0, 0.0, 0.0, 0.0}, own_axes);
+  Measurement result = along_direction(f, t, {vx / speed, vy / speed, 0.0, 0.0, 0.0, 0.0});
   result.now.position = 0.0;
   return result;
 }
 
+/// Along an axis e that the body carries, at the origin p of F:
+///   translation  a = (p x e, e)    rotation  a = (e, 0)
+ForceVector carried_axis(const AttachedFrame& move, const AttachedFrame& in, Axis axis) {
+  const Vector3 e = in.pose.rotation.col(direction_of(axis));
+  if (is_rotation(axis)) return {e, Vector3::Zero()};
+  return {move.pose.position.cross(e), e};
+}
+
+ForceVector carried_direction(const AxisConstraint& c) {
+  ForceVector a;
+  for (std::size_t i = 0; i < c.coefficients.size(); ++i) {
+    const double weight = c.coefficients[i];
+    if (weight != 0.0) a += carried_axis(c.move, c.in, static_cast<Axis>(i)) * weight;
+  }
+  return a;
+}
+
+/// As `along_motion`.
+ForceVector carried_motion(const AxisConstraint& c, const MotionVector& V) {
+  const ForceVector x = carried_axis(c.move, c.in, Axis::x);
+  const ForceVector y = carried_axis(c.move, c.in, Axis::y);
+  const double vx = dot(x, V);
+  const double vy = dot(y, V);
+  const double speed = std::hypot(vx, vy);
+  if (!(speed > 0.0)) return {};
+  return x * (vx / speed) + y * (vy / speed);
+}
+
 }  // namespace
 
-bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noexcept {
-  return in.body >= 0 && in.body == move.body;
+ForceVector carried_force(const AxisConstraint& c, const MotionVector& V) noexcept {
+  if (c.measure == Measure::direction) return carried_direction(c);
+  if (c.measure == Measure::speed) return carried_motion(c, V);
+  return carried_axis(c.move, c.in, c.axis);
+}
+
+double measure_position(Axis axis, const Pose& f, const Pose& t) noexcept {
+  const int k = direction_of(axis);
+  return is_rotation(axis) ? twist_angle(t.rotation, f.rotation, k)
+                           : t.rotation.col(k).dot(f.position - t.position);
 }
 
 Measurement measure(const AxisConstraint& constraint, const FrameMotion& f, const FrameMotion& t) noexcept {
-  const bool own_axes = only_orients(constraint.move, constraint.in);
   switch (constraint.measure) {
     case Measure::axis:
-      return along_axis(f, t, constraint.axis, own_axes);
+      return along_axis(f, t, constraint.axis);
     case Measure::direction:
-      return along_direction(f, t, constraint.coefficients, own_axes);
+      return along_direction(f, t, constraint.coefficients);
     case Measure::distance:
       return along_distance(f, t);
     case Measure::angle:
       return along_angle(f, t, constraint.axis, constraint.other_axis);
     case Measure::speed:
-      return along_motion(f, t, own_axes);
+      return along_motion(f, t);
   }
   return {};
 }

@@ -9,6 +9,11 @@ inline bool is_rotation(Axis axis) {
   return axis >= Axis::rx;
 }
 
+/// Of x, y and z the one along or about which.
+inline int direction_of(Axis axis) {
+  return static_cast<int>(axis) % 3;
+}
+
 /// The unit constraint force acts on F at its origin and the opposite one on T's body at the same point, both
 /// in world axes: a . (V_k - V_c) = ds and a . (A_k - A_c) + gamma = dds.
 struct Measurement {
@@ -18,9 +23,25 @@ struct Measurement {
 };
 
 /// Frames on one body: `in` only orients and motion counts relative to the world.
-bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noexcept;
+inline bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noexcept {
+  return in.body >= 0 && in.body == move.body;
+}
 
-/// `f` and `t` are the motions of the constraint's frames `move` and `in`.
+/// What the constraint measures, it measures along axes that the moved body carries. Motion counts relative
+/// to the world, and the unit force a stays as it is in the body: ds = a . V and dds = a . A.
+inline bool is_carried(const AxisConstraint& constraint) noexcept {
+  const bool has_axes = constraint.measure != Measure::distance && constraint.measure != Measure::angle;
+  return has_axes && only_orients(constraint.move, constraint.in);
+}
+
+/// That force, in the body's coordinates and about its origin. V is the body's twist there; a speed of 0 has
+/// no direction and no force.
+ForceVector carried_force(const AxisConstraint& constraint, const MotionVector& V) noexcept;
+
+/// Where the moved body does not carry them. `f` and `t` are the motions of the frames `move` and `in`.
 Measurement measure(const AxisConstraint& constraint, const FrameMotion& f, const FrameMotion& t) noexcept;
+
+/// The position of `f` along or about one axis of `t`, by their poses.
+double measure_position(Axis axis, const Pose& f, const Pose& t) noexcept;
 
 }  // namespace zwang::solver

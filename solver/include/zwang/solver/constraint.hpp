@@ -141,9 +141,11 @@ class ConstraintSet {
 
  private:
   bool fill_one(int index, BodyMotions& motions) noexcept;
-  bool push_driver(const AxisConstraint& constraint, const Coordinate& now, double horizon, Row row) noexcept;
-  bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, double horizon, Row row) noexcept;
-  bool push(const Row& row) noexcept;
+  bool push_driver(const AxisConstraint& constraint, const Coordinate& now, double horizon,
+                   const Row& along) noexcept;
+  bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, double horizon,
+                   const Row& along) noexcept;
+  Row* push(const Row& row) noexcept;  ///< null when full
 
   std::vector<AxisConstraint> constraints_;
   std::vector<Coordinate> coordinates_;
@@ -159,6 +161,10 @@ Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axi
 Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept;
 Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept;
 
+/// Of `move` along `axis` of `in`, nothing but the position. [m] or [rad]
+double position_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis,
+                   BodyMotions& motions) noexcept;
+
 /// What the braking curve uses of the acceleration that a range leaves. A base that weighs 30 % more than its
 /// model says slows down by a when it is asked for 1.3 a: 1.3 x 0.72 = 0.94 of the range. The rest is for
 /// the last millimetres, where it is late by 1.3 a h: with 1/1.3 = 0.77 it would get past its bound.
@@ -168,5 +174,7 @@ inline constexpr double braking_share = 0.72;
 /// at 0 without decelerating harder than `braking`: v = d/T for d < d0, else sqrt(2 a (d - d0/2)); odd in d.
 /// a = braking_share braking, T = 4 h, d0 = a T^2. [m, m/s^2 -> m/s]
 double braking_speed(double distance, double braking, double horizon) noexcept;
+/// The distance at which that speed is the one that the curve allows. [m/s, m/s^2 -> m]
+double braking_distance(double speed, double braking, double horizon) noexcept;
 
 }  // namespace zwang::solver

@@ -23,6 +23,11 @@ struct FrameMotion {
   Vector3 angular = Vector3::Zero();  ///< [rad/s]
   Vector3 linear = Vector3::Zero();   ///< [m/s]
 
+  /// In the frame's own axes, at its origin.
+  MotionVector own_twist() const {
+    return {pose.rotation.transpose() * angular, pose.rotation.transpose() * linear};
+  }
+
   /// Of a frame that this one carries at X_FG.
   FrameMotion at(const Pose& pose_in_frame) const {
     const Vector3 arm = pose.rotation * pose_in_frame.position;
@@ -43,8 +48,11 @@ class BodyMotions {
   /// To be read before the next question.
   const FrameMotion& of(int body) noexcept;
   FrameMotion of(const AttachedFrame& frame) noexcept;
+  /// A body's, in its own axes and at its origin.
+  MotionVector twist_of(int body) noexcept;
   /// Without a copy where the frame is a body's own; else in `place`.
   const FrameMotion& of(const AttachedFrame& frame, FrameMotion& place) noexcept;
+  const Pose& pose_of(const AttachedFrame& frame, Pose& place) noexcept;
 
  private:
   struct Known {
