@@ -120,9 +120,9 @@ class QuadraticProgram {
   RowMajorMatrix follow_;         ///< how the basic variables follow, a row a superbasic one
   RowMajorMatrix reduced_V_;      ///< a row a superbasic variable
   RowMajorMatrix hessian_;        ///< the reduced Hessian; lower triangle
-  RowMajorMatrix factor_;         ///< its Cholesky factor
+  RowMajorMatrix factor_;         ///< its Cholesky factor; of the blocks G, and D on its diagonal
   Eigen::VectorXd curvature_;     ///< the diagonal of H
-  Eigen::VectorXd inverse_root_;  ///< of the blocks' factor: 1 over its diagonal
+  Eigen::VectorXd inverse_D_;     ///< of the blocks' factor: 1 over its diagonal
   int factorised_ = 0;            ///< rows of the blocks' factor that are those of the free variables
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
   Eigen::VectorXd image_;         ///< V z
