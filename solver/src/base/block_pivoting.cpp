@@ -106,8 +106,8 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   factorised_ = 0;
   compute_image();
   for (int k = 0; k < variables_; ++k) {
-    curvature_(k) = hessian(k, k);
-    step_(k) = 1.0 / curvature_(k);
+    curvature_(k) = 1.0 + R_(k);
+    step_(k) = R_(k) == 0.0 ? 1.0 : 1.0 / curvature_(k);
   }
   for (int k = 0; k < variables_; ++k) {
     const double start = z_(k);

@@ -36,7 +36,7 @@ class QuadraticProgram {
   /// bounds are left to set.
   void resize(int variables, int curvature_rows, int equality_rows) noexcept;
 
-  /// A column of V: `scale` times the `count` numbers of `x`, the rest 0.
+  /// A column of V: `scale` times the `count` numbers of `x`, the rest 0. Its length is to be 1.
   void set_V(int variable, int count, double scale, const double* x) noexcept;
   double* E(int variable) noexcept { return &E_(variable, 0); }  ///< a column of E
   double& R(int variable) noexcept { return R_(variable); }
@@ -69,8 +69,8 @@ class QuadraticProgram {
   void fill_columns() noexcept;
   /// An entry of H.
   double hessian(int k, int l) const noexcept {
-    const double entry = dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
-    return k == l ? entry + R_(k) : entry;
+    if (k == l) return curvature_(k);
+    return dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
   }
   void compute_image() noexcept;
   /// A row of H z, by way of V z.
