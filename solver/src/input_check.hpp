@@ -14,28 +14,37 @@ double finite_sum(const Eigen::MatrixBase<Derived>& numbers) {
   return (numbers * 0.0).sum();
 }
 
-inline bool is_finite(const MotionVector& v) {
-  return finite_sum(v.angular) + finite_sum(v.linear) == 0.0;
-}
-inline bool is_finite(const ForceVector& f) {
-  return finite_sum(f.angular) + finite_sum(f.linear) == 0.0;
-}
-
 /// The same, of `count` numbers side by side.
 inline double finite_sum(const double* numbers, std::size_t count) {
-  Eigen::Array2d sum = Eigen::Array2d::Zero();
+  Two sum = {}, other = {};  // neither waits for the other
   std::size_t k = 0;
-  for (; k + 2 <= count; k += 2) sum += ConstPair(numbers + k) * 0.0;
+  for (; k + 4 <= count; k += 4) {
+    sum += two(numbers + k) * 0.0;
+    other += two(numbers + k + 2) * 0.0;
+  }
+  sum += other;
+  for (; k + 2 <= count; k += 2) sum += two(numbers + k) * 0.0;
   const double rest = k < count ? numbers[k] * 0.0 : 0.0;
-  return sum(0) + sum(1) + rest;
+  return sum[0] + sum[1] + rest;
 }
 
 inline double finite_sum(const Eigen::VectorXd& numbers) {
   return finite_sum(numbers.data(), static_cast<std::size_t>(numbers.size()));
 }
 
+static_assert(sizeof(ForceVector) == 6 * sizeof(double));  // so that its numbers lie side by side
+
+/// Of the forces of a row and its b.
+template <class BodyRow>
+bool has_finite_axis(const BodyRow& row) {
+  const double* const a = row.a.angular.data();
+  const double* const other = row.a_reference.angular.data();
+  const Two sum = two(a) * 0.0 + two(a + 2) * 0.0 + two(a + 4) * 0.0 + two(other) * 0.0 +
+                  two(other + 2) * 0.0 + two(other + 4) * 0.0;
+  return sum[0] + sum[1] + row.b * 0.0 == 0.0;
+}
+
 inline bool is_finite(const State& state) {
-  static_assert(sizeof(ForceVector) == 6 * sizeof(double));  // so that the wrenches lie side by side
   double sum = finite_sum(state.q) + finite_sum(state.qd) + finite_sum(state.tau_ff) +
                finite_sum(state.base_pose.rotation) + finite_sum(state.base_pose.position) +
                finite_sum(state.base_twist.angular) + finite_sum(state.base_twist.linear);

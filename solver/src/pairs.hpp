@@ -9,8 +9,13 @@ namespace zwang::solver {
 using Pair = Eigen::Map<Eigen::Array2d>;
 using ConstPair = Eigen::Map<const Eigen::Array2d>;
 
-/// Two numbers in one register, which go in and out of functions there.
+/// Two numbers in one register. (An Eigen::Array2d of which single numbers are wanted goes through memory for
+/// them.)
 typedef double Two __attribute__((vector_size(16), may_alias));
+typedef double UnalignedTwo __attribute__((vector_size(16), aligned(8), may_alias));
+inline Two two(const double* x) {
+  return *static_cast<const UnalignedTwo*>(static_cast<const void*>(x));
+}
 inline Two* aligned_two(double* x) {
   return static_cast<Two*>(static_cast<void*>(x));
 }
@@ -47,7 +52,14 @@ inline void scaled_copy(int count, double s, const double* x, double* y) {
 /// y += s x, for `count` numbers.
 inline void add_multiple(int count, double s, const double* x, double* y) {
   int k = 0;
-  for (; k + 2 <= count; k += 2) Pair(y + k) += s * ConstPair(x + k);
+  for (; k + 4 <= count; k += 4) {
+    Pair(y + k) += s * ConstPair(x + k);
+    Pair(y + k + 2) += s * ConstPair(x + k + 2);
+  }
+  if (k + 2 <= count) {
+    Pair(y + k) += s * ConstPair(x + k);
+    k += 2;
+  }
   if (k < count) y[k] += s * x[k];
 }
 
@@ -82,18 +94,26 @@ inline void add_square(int first, int last, double s, const double* x, double* m
 /// x . y, for an even number of numbers that the compiler knows.
 template <int count>
 double dot(const double* x, const double* y) {
-  Eigen::Array2d sum = ConstPair(x) * ConstPair(y);
-  for (int k = 2; k < count; k += 2) sum += ConstPair(x + k) * ConstPair(y + k);
-  return sum(0) + sum(1);
+  Two sum = two(x) * two(y);
+  for (int k = 2; k < count; k += 2) sum += two(x + k) * two(y + k);
+  return sum[0] + sum[1];
 }
 
 /// x . y, for `count` numbers.
 inline double dot(int count, const double* x, const double* y) {
-  Eigen::Array2d sum = Eigen::Array2d::Zero();
+  Two sum = {}, other = {};  // neither waits for the other
   int k = 0;
-  for (; k + 2 <= count; k += 2) sum += ConstPair(x + k) * ConstPair(y + k);
+  for (; k + 4 <= count; k += 4) {
+    sum += two(x + k) * two(y + k);
+    other += two(x + k + 2) * two(y + k + 2);
+  }
+  sum += other;
+  if (k + 2 <= count) {
+    sum += two(x + k) * two(y + k);
+    k += 2;
+  }
   const double rest = k < count ? x[k] * y[k] : 0.0;
-  return sum(0) + sum(1) + rest;
+  return sum[0] + sum[1] + rest;
 }
 
 }  // namespace zwang::solver

@@ -155,8 +155,7 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
     if (!is_body(row.body, model) || (row.reference_body != -1 && !is_body(row.reference_body, model))) {
       return Status::wrong_size;
     }
-    if (!is_finite(row.a) || !is_finite(row.a_reference) || !std::isfinite(row.b))
-      return Status::invalid_input;
+    if (!has_finite_axis(row)) return Status::invalid_input;
   }
 
   outward_kinematics(model, state, base_acceleration, sweeps);

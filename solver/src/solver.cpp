@@ -86,8 +86,8 @@ bool is_same(const ForceVector& one, const ForceVector& other) {
 }
 
 bool is_valid(const Row& row) {
-  return is_finite(row.a) && is_finite(row.a_reference) && std::isfinite(row.b) && std::isfinite(row.force) &&
-         std::isfinite(row.fade) && row.weight > 0.0 && row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
+  return has_finite_axis(row) && row.force * 0.0 + row.fade * 0.0 == 0.0 && row.weight > 0.0 &&
+         row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
 }
 
 }  // namespace

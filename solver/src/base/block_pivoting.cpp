@@ -43,23 +43,27 @@ void QuadraticProgram::compute_gradient() noexcept {
   tolerance_ = relative_gradient_tolerance * scale;
 }
 
-/// Cholesky's factor of the free variables' part of H, row by row; the first rows are those of the round
-/// before where the variables are. inverse_root_ is 0 for a variable without curvature of its own, which
-/// stays where it is.
+/// H_FF = G D G' of the free variables, with G of diagonal 1, row by row; the first rows are those of the
+/// round before where the variables are. D stands on the diagonal of factor_; inverse_D_ is 0 for a variable
+/// without curvature of its own, which stays where it is. (Number by number: see CMakeLists.txt.)
 void QuadraticProgram::factorise_free() noexcept {
   const auto n = static_cast<int>(superbasics_.size());
+  double* const t = work_.data();  // G_s D
   for (int s = factorised_; s < n; ++s) {
     double* const line = &factor_(s, 0);
     const int variable = superbasics_[index(s)];
     const double own = curvature_(variable);
     double pivot = own;
     for (int c = 0; c < s; ++c) {
-      const double h = hessian(variable, superbasics_[index(c)]);
-      line[c] = (h - dot(c, line, &factor_(c, 0))) * inverse_root_(c);
-      pivot -= line[c] * line[c];
+      const double* const other = &factor_(c, 0);
+      double rest = hessian(variable, superbasics_[index(c)]);
+      for (int e = 0; e < c; ++e) rest -= t[e] * other[e];
+      t[c] = rest;
+      line[c] = rest * inverse_D_(c);
+      pivot -= rest * line[c];
     }
     line[s] = pivot;
-    inverse_root_(s) = pivot > ample_curvature * own ? 1.0 / std::sqrt(pivot) : 0.0;
+    inverse_D_(s) = pivot > ample_curvature * own ? 1.0 / pivot : 0.0;
   }
   factorised_ = n;
 }
@@ -67,12 +71,17 @@ void QuadraticProgram::factorise_free() noexcept {
 /// x := H_FF^-1 x
 void QuadraticProgram::divide_by_free(double* x) const noexcept {
   const auto n = static_cast<int>(superbasics_.size());
-  for (int s = 0; s < n; ++s) {
-    x[s] = (x[s] - dot(s, &factor_(s, 0), x)) * inverse_root_(s);
+  for (int s = 1; s < n; ++s) {
+    const double* const line = &factor_(s, 0);
+    double rest = x[s];
+    for (int c = 0; c < s; ++c) rest -= line[c] * x[c];
+    x[s] = rest;
   }
-  for (int s = n - 1; s >= 0; --s) {
-    x[s] *= inverse_root_(s);
-    add_multiple(s, -x[s], &factor_(s, 0), x);
+  for (int s = 0; s < n; ++s) x[s] *= inverse_D_(s);
+  for (int s = n - 1; s > 0; --s) {
+    const double* const line = &factor_(s, 0);
+    const double own = x[s];
+    for (int c = 0; c < s; ++c) x[c] -= line[c] * own;
   }
 }
 
@@ -97,8 +106,8 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
   factorised_ = 0;
   compute_image();
   for (int k = 0; k < variables_; ++k) {
-    curvature_(k) = hessian(k, k);
-    step_(k) = 1.0 / curvature_(k);
+    curvature_(k) = 1.0 + R_(k);
+    step_(k) = R_(k) == 0.0 ? 1.0 : 1.0 / curvature_(k);
   }
   for (int k = 0; k < variables_; ++k) {
     const double start = z_(k);
@@ -151,7 +160,7 @@ void QuadraticProgram::solve_free() noexcept {
 int QuadraticProgram::flat_one_that_wants_away() const noexcept {
   for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) {
     const int k = superbasics_[index(s)];
-    if (inverse_root_(s) == 0.0 && std::abs(reduced_(k)) > tolerance_ && has_room(k)) return s;
+    if (inverse_D_(s) == 0.0 && std::abs(reduced_(k)) > tolerance_ && has_room(k)) return s;
   }
   return -1;
 }
@@ -190,9 +199,9 @@ bool QuadraticProgram::slide(int flat) noexcept {
   for (int s = 0; s < n; ++s) z_(superbasics_[index(s)]) += length * step_(s);
   const int parking = superbasics_[index(blocking)];
   z_(parking) = step_(blocking) > 0.0 ? hi_(parking) : lo_(parking);
-  if (blocking != flat) inverse_root_(flat) = 1.0;  // it stays
+  if (blocking != flat) inverse_D_(flat) = 1.0;  // it stays
   factorised_ = std::min(factorised_, flat);
-  inverse_root_(blocking) = 0.0;
+  inverse_D_(blocking) = 0.0;
   compute_gradient();
   return true;
 }
@@ -201,7 +210,7 @@ void QuadraticProgram::park_flat_ones() noexcept {
   int curved = 0;
   for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) {
     const int k = superbasics_[index(s)];
-    if (inverse_root_(s) == 0.0) {
+    if (inverse_D_(s) == 0.0) {
       place_[index(k)] = Place::parked;
       factorised_ = std::min(factorised_, s);
     } else {
@@ -237,7 +246,7 @@ void QuadraticProgram::change_places() noexcept {
 double QuadraticProgram::slope_of_curved() const noexcept {
   double slope = 0.0;
   for (int s = 0; s < static_cast<int>(superbasics_.size()); ++s) {
-    if (inverse_root_(s) > 0.0) slope = std::max(slope, std::abs(reduced_(superbasics_[index(s)])));
+    if (inverse_D_(s) > 0.0) slope = std::max(slope, std::abs(reduced_(superbasics_[index(s)])));
   }
   return slope;
 }

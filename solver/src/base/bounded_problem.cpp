@@ -46,7 +46,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       tau_hi_(Vector::Zero(motors)),
       candidate_(Vector::Zero(motors)),
       tau_slack_(Vector::Zero(motors)),
-      motor_length_(Vector::Zero(motors)),
+      motor_square_(Vector::Zero(motors)),
       motor_extents_(static_cast<std::size_t>(motors)),
       last_of_(static_cast<std::size_t>(dimension)),
       p_(Vector::Zero(dimension)),
@@ -56,6 +56,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       F_(RowMajorMatrix::Zero(dimension, dimension)),
       frozen_(RowMajorMatrix::Zero(dimension, dimension)),
       gram_(RowMajorMatrix::Zero(dimension, spaced(dimension))),
+      inverse_gram_(Vector::Zero(dimension)),
       entries_(static_cast<std::size_t>(rows)),
       solutions_(static_cast<std::size_t>(rows)),
       last_on_axis_(static_cast<std::size_t>(rows)),
@@ -79,12 +80,13 @@ void BoundedProblem::clear_motors(int dimension) noexcept {
 
 void BoundedProblem::set_row(int i, const Row& row, const double* B, double held) noexcept {
   Entry& e = entry(i);
-  e = Entry{};
+  e.twin = -1;
   solver::copy(dimension_, B, &B_(i, 0));
   e.B = &B_(i, 0);
   e.extent = extent_of(e.B);
   const double squared = dot(e.extent, e.B, e.B);
   e.length = std::sqrt(squared);
+  e.inverse_length = squared > 0.0 ? e.length * (1.0 / squared) : 0.0;
   e.reachable = squared >= unreachable_share * (squared + held) && squared > 0.0;
   take_source(e, row);
 }
@@ -92,16 +94,18 @@ void BoundedProblem::set_row(int i, const Row& row, const double* B, double held
 void BoundedProblem::set_twin(int i, const Row& row, int twin) noexcept {
   Entry& e = entry(i);
   const Entry& other = entry(twin);
-  e = Entry{};
   e.twin = twin;
   e.B = other.B;
   e.extent = other.extent;
   e.length = other.length;
+  e.inverse_length = other.inverse_length;
   e.reachable = other.reachable;
   take_source(e, row);
 }
 
+/// All that set_row and set_twin have not set.
 void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
+  static_cast<Standing&>(e) = Standing{};
   e.kind = row.kind;
   e.quantity = row.quantity;
   e.level = row.level;
@@ -109,17 +113,25 @@ void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
   e.hi = row.hi;
   e.bounded_below = std::isfinite(row.lo);
   e.bounded_above = std::isfinite(row.hi);
-  e.weight = row.weight;
   e.fade = std::clamp(row.fade, 0.0, 1.0);
+  take_softness(e, row.weight);
   e.force = e.fade * row.force;
   if (e.kind == RowKind::sum && e.fade > 0.0) {
     e.lo /= e.fade;
     e.hi /= e.fade;
   }
-  if (!e.reachable || e.fade == 0.0) {
-    e.out = true;
-    e.status = RowStatus::unreachable;
-  }
+  e.out = !e.reachable || e.fade == 0.0;
+  e.status = e.out ? RowStatus::unreachable : RowStatus::held;
+}
+
+/// R = 1/w + L_jj (1 - alpha)/alpha. A weight decides how much of b is worth reaching; what was reached is
+/// kept firmly against the levels below. A fading row lets go in the measure that it fades, so that it never
+/// does in one step.
+void BoundedProblem::take_softness(Entry& e, double weight) noexcept {
+  e.held_softness = e.fade < 1.0 ? e.length * e.length * (1.0 - e.fade) / e.fade : 0.0;
+  e.softness = e.held_softness;
+  const bool is_motion = is_one_sided(e.kind) || e.kind == RowKind::driver;
+  if (is_motion && std::isfinite(weight)) e.softness += 1.0 / weight;
 }
 
 void BoundedProblem::limit_motor(int motor, double lowest, double highest) noexcept {
@@ -188,7 +200,7 @@ void BoundedProblem::factorise_motors() noexcept {
     const int extent = extent_of(T(j));
     motor_extents_[static_cast<std::size_t>(j)] = extent;
     const double squared = dot(extent, T(j), T(j));
-    motor_length_(j) = std::sqrt(squared);
+    motor_square_(j) = squared;
     trace += squared;
     if (extent == 0) continue;
     int& last = last_of_[static_cast<std::size_t>(extent - 1)];
@@ -212,6 +224,7 @@ void BoundedProblem::factorise_motors() noexcept {
     add_square(0, extent, 1.0, T(j), gram_.data(), gram_.outerStride());
   }
   motors_reach_all_ = cholesky(gram_, open, least);
+  for (int k = 0; k < open && motors_reach_all_; ++k) inverse_gram_(k) = 1.0 / gram_(k, k);
 }
 
 /// A line is 0 from here on: the whitened axes come from joints, one after the other.
@@ -263,11 +276,12 @@ double BoundedProblem::largest_force(int i) noexcept {
   if (entry(i).twin >= 0 && entry(entry(i).twin).largest_force >= 0.0)
     return entry(entry(i).twin).largest_force;
   const double length = entry(i).length;
+  const double least = driven_share * driven_share * length * length;
   double sum = 0.0;
   for (int j = 0; j < motors_; ++j) {
     const int extent = motor_extents_[static_cast<std::size_t>(j)];
     const double share = std::abs(dot(std::min(extent, entry(i).extent), B(i), T(j)));
-    if (share > driven_share * motor_length_(j) * length) sum += share * std::max(-tau_lo_(j), tau_hi_(j));
+    if (share * share > least * motor_square_(j)) sum += share * std::max(-tau_lo_(j), tau_hi_(j));
   }
   return length > 0.0 ? sum / (length * length) : 0.0;
 }
@@ -285,6 +299,7 @@ void BoundedProblem::project_rows(int level) noexcept {
       e.P = twin.P;
       e.reach_extent = twin.reach_extent;
       e.reach = twin.reach;
+      e.inverse_reach = twin.inverse_reach;
       if (e.level == level) e.blocked = twin.reach == 0.0;
       continue;
     }
@@ -293,6 +308,7 @@ void BoundedProblem::project_rows(int level) noexcept {
       e.V = e.P = e.B;
       e.reach_extent = e.extent;
       e.reach = e.length;
+      e.inverse_reach = e.inverse_length;
       continue;
     }
     double* const V = &V_(i, 0);
@@ -306,6 +322,7 @@ void BoundedProblem::project_rows(int level) noexcept {
     const bool blocked = squared <= blocked_share * e.length * e.length;
     if (e.level == level) e.blocked = blocked;
     e.reach = blocked ? 0.0 : std::sqrt(squared);
+    e.inverse_reach = blocked ? 0.0 : 1.0 / e.reach;
     for (int k = 0; k < dimension_; ++k) P[k] = blocked ? 0.0 : dot(dimension_, V, &F_(k, 0));
   }
 }
@@ -315,20 +332,6 @@ Range BoundedProblem::bounds_at(int i, int level) const noexcept {
   const Entry& e = entries_[static_cast<std::size_t>(i)];
   if (e.level == level) return {e.lo, e.hi};
   return {e.kind == RowKind::lower ? 0.0 : -infinity, e.kind == RowKind::upper ? 0.0 : infinity};
-}
-
-/// R = 1/w + L_jj (1 - alpha)/alpha, at the row's own level.
-double BoundedProblem::softness(int i) const noexcept {
-  const Entry& e = entries_[static_cast<std::size_t>(i)];
-  return (is_motion(i) ? 1.0 / e.weight : 0.0) + held_softness(i);
-}
-
-/// Of what a row keeps against the levels below it. A weight decides how much of b is worth reaching; what
-/// was reached is kept firmly. A fading row lets go in the measure that it fades, so that it never does in
-/// one step.
-double BoundedProblem::held_softness(int i) const noexcept {
-  const Entry& e = entries_[static_cast<std::size_t>(i)];
-  return e.fade < 1.0 ? e.length * e.length * (1.0 - e.fade) / e.fade : 0.0;
 }
 
 /// What the level's equality and force rows achieved, saturated or not, stays for the levels below:
@@ -353,7 +356,7 @@ void BoundedProblem::freeze(int level) noexcept {
     }
     const double left = dot(dimension_, v, v);
     if (left <= dependent_share * e.length * e.length) continue;
-    const double R = held_softness(i);
+    const double R = e.held_softness;
     if (R == 0.0) {
       double* const frozen = &frozen_(frozen_count_++, 0);
       std::fill_n(frozen, dimension_, 0.0);

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -58,37 +59,43 @@ class BoundedProblem {
   int opposing(int row, std::span<int> out) noexcept;
 
  private:
-  struct Entry {
+  /// What the stages find out about a row.
+  struct Standing {
+    double reach = 0.0;  ///< |V_i|, at the present level
+    double inverse_reach = 0.0;
+    const double* V = nullptr;    ///< B_i F: the row in the metric that the levels above leave
+    const double* P = nullptr;    ///< B_i K: the motion that a unit force along the row makes
+    double largest_force = -1.0;  ///< that the motors make along the row; negative before it is known
+    double above = 0.0;           ///< of a sum: B_S.p / |B_S|^2 of the levels above
+    double offset = 0.0;          ///< how far beyond b its own level left a violated one-sided row
+    double nu = 0.0, phi = 0.0;
+    int reach_extent = 0;        ///< of V_i and P_i
+    int projected_at = -1;       ///< level of V_i and P_i
+    int limit_before = -1;       ///< along the same axis
+    bool is_idle = false;        ///< a limit that has nothing to do beside another one of its level
+    bool blocked = false;        ///< the levels above leave it no freedom
+    bool motor_limited = false;  ///< a motor stood at its limit when the row's level was solved
+    bool sum_limited = false;    ///< and so did a sum against it
+  };
+  struct Entry : Standing {
     RowKind kind = RowKind::driver;
     Quantity quantity = Quantity::velocity;
     int level = 1;
-    double lo = 0.0, hi = 0.0;  ///< of nu, in its own unit, fading included; finite (but on a sum)
-    double force = 0.0;         ///< f, fading included
-    double fade = 1.0;
-    double weight = infinity;
-    const double* B = nullptr;
-    int extent = 0;               ///< of B_i: the rest is 0
-    double length = 0.0;          ///< |B_i|
-    bool reachable = false;       ///< the ground leaves some of it
-    double reach = 0.0;           ///< |V_i|, at the present level
-    double largest_force = -1.0;  ///< that the motors make along the row; negative before it is known
-    int twin = -1;                ///< an earlier row with the same B
-    int projected_at = -1;        ///< level of V_i and P_i
-    const double* V = nullptr;    ///< B_i F: the row in the metric that the levels above leave
-    const double* P = nullptr;    ///< B_i K: the motion that a unit force along the row makes
-    int reach_extent = 0;         ///< of V_i and P_i
-    double above = 0.0;           ///< of a sum: B_S.p / |B_S|^2 of the levels above
-    double offset = 0.0;          ///< how far beyond b its own level left a violated one-sided row
-    int limit_before = -1;        ///< along the same axis
-    bool is_idle = false;         ///< a limit that has nothing to do beside another one of its level
-    bool blocked = false;         ///< the levels above leave it no freedom
-    bool out = false;             ///< unreachable: takes no part
-    bool bounded_below = false;   ///< by the row's own lo, not by what the motors can do
+    double lo = 0.0, hi = 0.0;   ///< of nu, in its own unit, fading included; finite (but on a sum)
+    bool bounded_below = false;  ///< by the row's own lo, not by what the motors can do
     bool bounded_above = false;
-    bool motor_limited = false;  ///< a motor stood at its limit when the row's level was solved
-    bool sum_limited = false;    ///< and so did a sum against it
+    double force = 0.0;  ///< f, fading included
+    double fade = 1.0;
+    double softness = 0.0;       ///< R at the row's own level
+    double held_softness = 0.0;  ///< and below it
+    const double* B = nullptr;
+    int extent = 0;       ///< of B_i: the rest is 0
+    int twin = -1;        ///< an earlier row with the same B
+    double length = 0.0;  ///< |B_i|
+    double inverse_length = 0.0;
+    bool reachable = false;  ///< the ground leaves some of it
+    bool out = false;        ///< unreachable: takes no part
     RowStatus status = RowStatus::held;
-    double nu = 0.0, phi = 0.0;
   };
   using Vector = Eigen::VectorXd;
   /// B_i . p, the acceleration that p makes along row i.
@@ -109,24 +116,25 @@ class BoundedProblem {
   const double* P(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].P; }
   const double* T(int motor) const noexcept { return T_[static_cast<std::size_t>(motor)]; }
   Entry& entry(int i) noexcept { return entries_[static_cast<std::size_t>(i)]; }
-  bool is_one_sided(int i) const noexcept {
-    const RowKind kind = entries_[static_cast<std::size_t>(i)].kind;
-    return kind == RowKind::upper || kind == RowKind::lower;
-  }
+  static bool is_one_sided(RowKind kind) noexcept { return kind == RowKind::upper || kind == RowKind::lower; }
+  bool is_one_sided(int i) const noexcept { return is_one_sided(entries_[static_cast<std::size_t>(i)].kind); }
   bool is_motion(int i) const noexcept {
     return is_one_sided(i) || entries_[static_cast<std::size_t>(i)].kind == RowKind::driver;
   }
-  bool is_soft(int i) noexcept { return softness(i) > 0.0; }
+  bool is_soft(int i) noexcept { return entry(i).softness > 0.0; }
   /// A row takes part in a stage while something of it is left free.
   bool takes_part(int i) const noexcept {
     const Entry& e = entries_[static_cast<std::size_t>(i)];
     return !e.out && e.reach > 0.0;
   }
   Range bounds_at(int i, int level) const noexcept;
-  double softness(int i) const noexcept;
-  double held_softness(int i) const noexcept;
+  double softness_at(int i, int level) const noexcept {
+    const Entry& e = entries_[static_cast<std::size_t>(i)];
+    return e.level == level ? e.softness : e.held_softness;
+  }
   int extent_of(const double* x) const noexcept;
   void take_source(Entry& e, const Row& row) noexcept;
+  void take_softness(Entry& e, double weight) noexcept;
   double largest_demand() noexcept;
   double largest_force(int row) noexcept;
   int next_level(int after) const noexcept;
@@ -213,7 +221,8 @@ class BoundedProblem {
   std::vector<const double*> T_;
   Vector d_, tau_, tau_lo_, tau_hi_, candidate_;
   Vector tau_slack_;     ///< by how much rounding may take a torque beyond its limits
-  Vector motor_length_;  ///< |T_j|
+  Vector motor_square_;  ///< |T_j|^2
+  double motor_length(int motor) const noexcept { return std::sqrt(motor_square_(motor)); }
   std::vector<int> motor_extents_;
   /// A motor that alone drives a dimension, the last one of those still open.
   struct Sole {
@@ -232,6 +241,7 @@ class BoundedProblem {
   int frozen_count_ = 0;
   bool all_free_ = true;  ///< F is still 1
   RowMajorMatrix gram_;   ///< Cholesky factor of T'T, of the shared motors
+  Vector inverse_gram_;   ///< 1 over its diagonal
   bool motors_reach_all_ = false;
   bool motors_drive_all_ = false;   ///< and each of them can push
   bool torques_are_least_ = false;  ///< tau_ are the least ones that make p_

@@ -85,7 +85,7 @@ double BoundedProblem::target_of(int i) const noexcept {
 }
 
 bool BoundedProblem::is_firm_limit(int i, int level) noexcept {
-  return is_one_sided(i) && (entry(i).level == level ? softness(i) : held_softness(i)) == 0.0;
+  return is_one_sided(i) && softness_at(i, level) == 0.0;
 }
 
 /// Of the firm limits along each axis those that leave the least room, by side, of this level and above.
@@ -176,7 +176,7 @@ bool BoundedProblem::limits_above_hold(int first) noexcept {
 /// How far a limit is from what it must keep, with its present multiplier; negative where it does not.
 double BoundedProblem::room_of(int i, const Vector& p) noexcept {
   const Entry& e = entry(i);
-  const double s = along(i, p) + held_softness(i) * e.nu - d_(i) - e.offset;
+  const double s = along(i, p) + e.held_softness * e.nu - d_(i) - e.offset;
   return e.kind == RowKind::upper ? -s : s;
 }
 
@@ -227,8 +227,7 @@ BoundedProblem::Push BoundedProblem::push_alone(int first, int level, Vector& p)
   }
   if (push.row < 0) return {};
   const Entry& e = entry(push.row);
-  const double softness_here = e.level == level ? softness(push.row) : held_softness(push.row);
-  push.nu = miss / (e.reach * e.reach + softness_here);
+  push.nu = miss / (e.reach * e.reach + softness_at(push.row, level));
   const Range bounds = bounds_at(push.row, level);
   if (push.nu < bounds.low || push.nu > bounds.high) return {};
   this->push(push.row, push.nu, p);

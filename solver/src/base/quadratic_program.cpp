@@ -34,7 +34,7 @@ QuadraticProgram::QuadraticProgram(int n, int d, int m)
       hessian_(RowMajorMatrix::Zero(n, n)),
       factor_(RowMajorMatrix::Zero(n, n)),
       curvature_(Eigen::VectorXd::Zero(n)),
-      inverse_root_(Eigen::VectorXd::Zero(n)),
+      inverse_D_(Eigen::VectorXd::Zero(n)),
       image_(Eigen::VectorXd::Zero(d)),
       place_(index(n)),
       stuck_(index(n)) {

@@ -36,7 +36,7 @@ class QuadraticProgram {
   /// bounds are left to set.
   void resize(int variables, int curvature_rows, int equality_rows) noexcept;
 
-  /// A column of V: `scale` times the `count` numbers of `x`, the rest 0.
+  /// A column of V: `scale` times the `count` numbers of `x`, the rest 0. Its length is to be 1.
   void set_V(int variable, int count, double scale, const double* x) noexcept;
   double* E(int variable) noexcept { return &E_(variable, 0); }  ///< a column of E
   double& R(int variable) noexcept { return R_(variable); }
@@ -69,8 +69,8 @@ class QuadraticProgram {
   void fill_columns() noexcept;
   /// An entry of H.
   double hessian(int k, int l) const noexcept {
-    const double entry = dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
-    return k == l ? entry + R_(k) : entry;
+    if (k == l) return curvature_(k);
+    return dot(std::min(extents_[index(k)], extents_[index(l)]), V(k), V(l));
   }
   void compute_image() noexcept;
   /// A row of H z, by way of V z.
@@ -120,9 +120,9 @@ class QuadraticProgram {
   RowMajorMatrix follow_;         ///< how the basic variables follow, a row a superbasic one
   RowMajorMatrix reduced_V_;      ///< a row a superbasic variable
   RowMajorMatrix hessian_;        ///< the reduced Hessian; lower triangle
-  RowMajorMatrix factor_;         ///< its Cholesky factor
+  RowMajorMatrix factor_;         ///< its Cholesky factor; of the blocks G, and D on its diagonal
   Eigen::VectorXd curvature_;     ///< the diagonal of H
-  Eigen::VectorXd inverse_root_;  ///< of the blocks' factor: 1 over its diagonal
+  Eigen::VectorXd inverse_D_;     ///< of the blocks' factor: 1 over its diagonal
   int factorised_ = 0;            ///< rows of the blocks' factor that are those of the free variables
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
   Eigen::VectorXd image_;         ///< V z

@@ -99,7 +99,7 @@ bool BoundedProblem::brake(int forces, int level, int max_iterations) noexcept {
 void BoundedProblem::take_limits(int first) noexcept {
   for (int k = first; k < static_cast<int>(posed_.size()); ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
-    entry(i).nu = program_.z(k - first) / entry(i).reach;
+    entry(i).nu = program_.z(k - first) * entry(i).inverse_reach;
   }
 }
 
@@ -135,7 +135,7 @@ bool BoundedProblem::share_torque(int forces, int level, int max_iterations) noe
     if (k < forces) {
       entry(i).phi = program_.z(k) / program_.hi(k);
     } else {
-      entry(i).nu = program_.z(k) / entry(i).reach;
+      entry(i).nu = program_.z(k) * entry(i).inverse_reach;
     }
   }
   return exact;
@@ -164,7 +164,7 @@ void BoundedProblem::pose_multiplier(int k, int level) noexcept {
   const int i = posed_[static_cast<std::size_t>(k)];
   const double length = entry(i).reach;
   const Range bounds = bounds_at(i, level);
-  units_.push_back(1.0 / length);
+  units_.push_back(entry(i).inverse_reach);
   program_.lo(k) = bounds.low * length;
   program_.hi(k) = bounds.high * length;
   program_.z(k) = is_one_sided(i) ? entry(i).nu * length : 0.0;
@@ -178,7 +178,7 @@ void BoundedProblem::pose_motors(int n, int level) noexcept {
                  program_.E(k));
   }
   for (int j = 0; j < motors_; ++j) {
-    const double length = nonzero(motor_length_(j));
+    const double length = nonzero(motor_length(j));
     add_multiple(dimension_, 1.0 / length, T(j), program_.E(n + j));
     program_.lo(n + j) = tau_lo_(j) * length;
     program_.hi(n + j) = tau_hi_(j) * length;
@@ -195,7 +195,7 @@ void BoundedProblem::pose_motors(int n, int level) noexcept {
       const double share = dot(dimension_, V(i), V(posed_[static_cast<std::size_t>(other)]));
       program_.E(other)[equation] = sign * share * units_[static_cast<std::size_t>(other)] / length;
     }
-    program_.E(k)[equation] += sign * held_softness(i) / (length * length);
+    program_.E(k)[equation] += sign * entry(i).held_softness / (length * length);
     const int room = n + motors_ + limit++;
     program_.E(room)[equation] = 1.0;
     program_.lo(room) = 0.0;
@@ -225,7 +225,7 @@ void BoundedProblem::pose_sums(int n, int level, int variable, int equation) noe
 
 void BoundedProblem::take_motors(int first) noexcept {
   for (int j = 0; j < motors_; ++j) {
-    tau_(j) = std::clamp(program_.z(first + j) / nonzero(motor_length_(j)), tau_lo_(j), tau_hi_(j));
+    tau_(j) = std::clamp(program_.z(first + j) / nonzero(motor_length(j)), tau_lo_(j), tau_hi_(j));
   }
 }
 
@@ -293,10 +293,10 @@ void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
   for (int k = 0; k < n; ++k) {
     const int i = posed_[static_cast<std::size_t>(k)];
     const Entry& e = entry(i);
-    const double unit = 1.0 / e.reach;
+    const double unit = e.inverse_reach;
     program_.set_V(k, e.reach_extent, unit, V(i));
     program_.g(k) = (d_(i) + e.offset - along(i, fixed_)) * unit;
-    program_.R(k) = (e.level == level ? softness(i) : held_softness(i)) * unit * unit;
+    program_.R(k) = softness_at(i, level) * unit * unit;
     pose_multiplier(k, level);
   }
   if (with_motors) pose_motors(n, level);
@@ -319,7 +319,7 @@ void BoundedProblem::take_multipliers(int level) noexcept {
     const int variable = static_cast<int>(k);
     const int i = posed_[k];
     Entry& e = entry(i);
-    e.nu = program_.z(variable) / e.reach;
+    e.nu = program_.z(variable) * e.inverse_reach;
     if (e.level == level) e.nu = std::clamp(e.nu, e.lo, e.hi);
     if (program_.R(variable) > 0.0) continue;
     const bool free = program_.is_free(variable);
@@ -348,7 +348,7 @@ bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
   const bool exact = program_.solve(max_iterations, iterations_);
   for (int k = 0; k < n; ++k) {
     const int i = tied_[static_cast<std::size_t>(k)];
-    entry(i).nu = program_.z(k) / entry(i).reach;
+    entry(i).nu = program_.z(k) * entry(i).inverse_reach;
   }
   return exact;
 }
@@ -373,8 +373,14 @@ bool BoundedProblem::torques_for(const Vector& p) noexcept {
     if (!take_torque(sole.motor, torque)) return false;
     add_multiple(open, -torque, T(sole.motor), rest);
   }
-  solve_lower(gram_, shared_dimensions_, rest);
-  solve_upper(gram_, shared_dimensions_, rest);
+  for (int k = 0; k < shared_dimensions_; ++k) {
+    for (int c = 0; c < k; ++c) rest[k] -= gram_(k, c) * rest[c];
+    rest[k] *= inverse_gram_(k);
+  }
+  for (int k = shared_dimensions_ - 1; k >= 0; --k) {
+    const double x = rest[k] *= inverse_gram_(k);
+    for (int c = 0; c < k; ++c) rest[c] -= gram_(k, c) * x;
+  }
   for (const int j : shared_motors_) {
     if (!take_torque(j, dot(motor_extents_[static_cast<std::size_t>(j)], T(j), rest))) return false;
   }
@@ -392,7 +398,7 @@ bool BoundedProblem::least_torques(int max_iterations) noexcept {
   posed_.clear();
   pose_motors(0, -1);
   for (int j = 0; j < motors_; ++j) {
-    const double length = nonzero(motor_length_(j));
+    const double length = nonzero(motor_length(j));
     program_.R(j) = 1.0 / (length * length);
   }
   const bool exact = program_.solve(max_iterations, iterations_);

@@ -43,13 +43,14 @@ void WhitenedRows::turn(Columns& task) noexcept {
   turn_from(0, task);
 }
 
-/// The lines of this row and those behind it.
+/// The lines of this row and those behind it. One reflection after the other, as a line has to wait for each.
 void WhitenedRows::turn_from(int row, Columns& rows) noexcept {
-  for (; row + 2 <= rows.rows(); row += 2) {
-    for (int k = 0; k < rank_; ++k) turn_two(k, &rows.W(row, 0), &rows.W(row + 1, 0));
+  const int count = rows.rows();
+  for (int k = 0; k < rank_; ++k) {
+    int i = row;
+    for (; i + 2 <= count; i += 2) turn_two(k, &rows.W(i, 0), &rows.W(i + 1, 0));
+    if (i < count) turn(k, &rows.W(i, 0));
   }
-  if (row == rows.rows()) return;
-  for (int k = 0; k < rank_; ++k) turn(k, &rows.W(row, 0));
 }
 
 /// The next row if the pivots so far leave an ample share of it; else the one of which they leave the
@@ -96,9 +97,9 @@ void WhitenedRows::reflect(int pivot, int first, int ground) noexcept {
 void WhitenedRows::turn(int reflection, double* y) const noexcept {
   const double* const v = &reflections_(reflection, 0);
   const int first = (base_ + reflection) & ~1;
-  Eigen::Array2d sum = Eigen::Array2d::Zero();
-  for (int k = first; k < ground_end_; k += 2) sum += ConstPair(v + k) * ConstPair(y + k);
-  add_to_line(-scale_(reflection) * (sum(0) + sum(1)), v, first, ground_end_, y);
+  Two sum = {};
+  for (int k = first; k < ground_end_; k += 2) sum += two(v + k) * two(y + k);
+  add_to_line(-scale_(reflection) * (sum[0] + sum[1]), v, first, ground_end_, y);
 }
 
 /// The same of two.
@@ -106,13 +107,13 @@ void WhitenedRows::turn_two(int reflection, double* one, double* other) const no
   const double* const v = &reflections_(reflection, 0);
   const double scale = -scale_(reflection);
   const int first = (base_ + reflection) & ~1;
-  Eigen::Array2d sum = Eigen::Array2d::Zero(), other_sum = Eigen::Array2d::Zero();
+  Two sum = {}, other_sum = {};
   for (int k = first; k < ground_end_; k += 2) {
-    const Eigen::Array2d pair = ConstPair(v + k);
-    sum += pair * ConstPair(one + k);
-    other_sum += pair * ConstPair(other + k);
+    const Two pair = two(v + k);
+    sum += pair * two(one + k);
+    other_sum += pair * two(other + k);
   }
-  add_to_two_lines(scale * (sum(0) + sum(1)), scale * (other_sum(0) + other_sum(1)), v, first, ground_end_,
+  add_to_two_lines(scale * (sum[0] + sum[1]), scale * (other_sum[0] + other_sum[1]), v, first, ground_end_,
                    one, other);
 }
 

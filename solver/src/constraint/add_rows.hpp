@@ -26,6 +26,10 @@ void add_ground_rows(const Ground& ground, Sweeps& sweeps, Take take) noexcept {
 template <class BodyRow>
 int add_row(const BodyRow& row, Sweeps& sweeps) noexcept {
   const auto write = [&sweeps](int body, const ForceVector& a) {
+    if (body == 0) {  // whose coordinates are the base's
+      sweeps.task_rows.last_column() << a.angular, a.linear;
+      return;
+    }
     sweeps.bodies[static_cast<std::size_t>(body)].to_base(a, sweeps.task_rows.last_column());
   };
   const int id = sweeps.task_rows.add_row(row.body);

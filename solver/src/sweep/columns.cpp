@@ -88,8 +88,18 @@ void Columns::lay_out() noexcept {
 /// Columns in the order of the walk.
 void Columns::start_sweep() noexcept {
   if (rows_ == 0) return;
-  if (laid_out_ != count_) lay_out();
-  std::fill_n(W.data(), rows_ * W.outerStride(), 0.0);
+  is_single_ = count_ == rows_;
+  if (laid_out_ != count_) {
+    lay_out();
+    W.topRows(rows_).setZero();
+  }
+  // Where rows have two columns the sweep adds. Else it writes, the same places as the last time; the others
+  // are 0 but for those that the ground turns.
+  const int last = is_single_ ? ground_end_ : dimensions_;
+  for (int i = 0; i < rows_; ++i) {
+    double* const line = &W(i, 0);
+    for (int k = 0; k < last; ++k) line[k] = 0.0;
+  }
   for (int k = 0; k < count_; ++k) A_.col(columns_[index(k)].place) = own_.col(k);
 }
 
@@ -129,11 +139,16 @@ inline void add(const Factor& factor, double along, double* A) {
 
 /// Takes the columns of body i through its joint, (8) and (9), two at a time; where nothing inboard moves,
 /// (9) alone.
+template <bool is_single>
 void Columns::carry_range(std::size_t i, const BodySweep& sweep, bool goes_on) noexcept {
   const Range& range = ranges_[i];
   const double root = sweep.root_D_inverse;
   double* const axis = W.data() + dimension_of_[i];
   const Eigen::Index stride = W.outerStride();
+  const auto write = [&](int place, double number) {
+    double& entry = axis[row_of_[index(place)] * stride];
+    entry = is_single ? number : entry + number;
+  };
   const Factor S(sweep.S), factor(sweep.UD);
   double* A = A_.data() + 6 * range.first;
   int k = range.first;
@@ -141,8 +156,8 @@ void Columns::carry_range(std::size_t i, const BodySweep& sweep, bool goes_on) n
     const Two one = terms(S, A), other = terms(S, A + 6);
     const Two along = Two{one[0], other[0]} + Two{one[1], other[1]};
     const Two whitened = along * root, less = -along;
-    axis[row_of_[index(k)] * stride] += whitened[0];
-    axis[row_of_[index(k + 1)] * stride] += whitened[1];
+    write(k, whitened[0]);
+    write(k + 1, whitened[1]);
     if (!goes_on) continue;
     solver::add(factor, less[0], A);
     solver::add(factor, less[1], A + 6);
@@ -150,13 +165,18 @@ void Columns::carry_range(std::size_t i, const BodySweep& sweep, bool goes_on) n
   if (k < range.last) {
     const Two both = terms(S, A);
     const double along = both[0] + both[1];
-    axis[row_of_[index(k)] * stride] += root * along;
+    write(k, root * along);
     if (goes_on) solver::add(factor, -along, A);
   }
   if (range.joint >= 0) {
     A_.col(range.joint) = -sweep.UD;
     axis[row_of_[index(range.joint)] * stride] = root;
   }
+}
+
+void Columns::carry(std::size_t i, const BodySweep& sweep, bool goes_on) noexcept {
+  if (rows_ == 0 || ranges_[i].first == ranges_[i].last) return;
+  is_single_ ? carry_range<true>(i, sweep, goes_on) : carry_range<false>(i, sweep, goes_on);
 }
 
 /// A floating base, (12), with IA_0^-1 = F'F: its dimensions of W are F's lines.

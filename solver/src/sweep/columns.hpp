@@ -62,9 +62,7 @@ class Columns {
 
   /// The inward sweep: from the last body to the first through its joint, and through a base that moves.
   void start_sweep() noexcept;
-  void carry(std::size_t body, const BodySweep& sweep, bool goes_on) noexcept {
-    if (ranges_[body].first != ranges_[body].last && rows_ > 0) carry_range(body, sweep, goes_on);
-  }
+  void carry(std::size_t body, const BodySweep& sweep, bool goes_on) noexcept;
   void finish(const Matrix6& base_inverse_factor) noexcept;
   /// What velocities alone do along the rows.
   void find_drift(const std::vector<BodySweep>& bodies) noexcept;
@@ -100,6 +98,7 @@ class Columns {
     laid_out_ = -1;
   }
   void number_dimensions(const Model& model);
+  template <bool is_single>
   void carry_range(std::size_t i, const BodySweep& sweep, bool goes_on) noexcept;
   void lay_out() noexcept;
 
@@ -112,7 +111,8 @@ class Columns {
   std::vector<int> parents_, walk_;
 
   // Of the bodies on which the rows act.
-  int laid_out_ = 0;  ///< columns that stand in the present order
+  int laid_out_ = 0;       ///< columns that stand in the present order
+  bool is_single_ = true;  ///< every row has one column
   std::vector<Range> ranges_;
   std::vector<int> row_of_;  ///< by place
 

@@ -203,7 +203,7 @@ bool invert_factor(const Matrix6& inertia, const int (&order)[6], int shift, Mat
       pivot -= G[k][c] * G[k][c];
     }
     if (!(pivot > 1e-14 * inertia(order[k], order[k]))) return false;
-    G[k][k] = 1.0 / std::sqrt(pivot);
+    G[k][k] = std::sqrt(pivot) * (1.0 / pivot);  // neither waits for the other
   }
   F.setZero();
   for (int c = 0; c < 6; ++c) {
