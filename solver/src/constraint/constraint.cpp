@@ -69,6 +69,10 @@ bool has_range(const AxisConstraint& constraint, Quantity quantity) {
   return false;
 }
 
+bool contains(const Range& range, double value) {
+  return range.low <= value && value <= range.high;
+}
+
 /// The accelerations with which a range that the constraint has is kept, or met again within h.
 Range acceleration_range_within(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
                                 double h) {
@@ -218,9 +222,20 @@ bool ConstraintSet::fill(const Model& model, const State& state) noexcept {
   return fill(motions_);
 }
 
+/// Ranges beside a motion driver are kept by clamping what it asks for, as long as nobody else drives its
+/// axis. Who stands outside of a position range is driven back into it: then they are rows of their own, too.
 bool ConstraintSet::fill(BodyMotions& motions) noexcept {
+  folds_ = true;
+  if (!fill_all(motions)) return false;
+  folds_ = !(is_driven_back_ && has_folded_);
+  return folds_ || fill_all(motions);
+}
+
+bool ConstraintSet::fill_all(BodyMotions& motions) noexcept {
   coordinates_.clear();
   rows_.clear();
+  is_driven_back_ = false;
+  has_folded_ = false;
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     if (!fill_one(static_cast<int>(i), motions)) return false;
   }
@@ -257,8 +272,10 @@ bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
   const double h =
       constraint.leaving ? horizon : std::max(horizon, (1.0 - constraint.alpha) * constraint.blend);
   if (constraint.driver && constraint.alpha > 0.0 && !push_driver(constraint, now, h, along)) return false;
-  const bool folds = constraint.driver && !constraint.driver->makes_force();
-  if (folds) return true;
+  if (constraint.driver && !constraint.driver->makes_force() && folds_) {
+    has_folded_ = has_folded_ || constraint.position || constraint.velocity || constraint.acceleration;
+    return true;
+  }
   if (constraint.force && !constraint.driver) {
     Row* sum = push(along);
     if (sum == nullptr) return false;
@@ -317,6 +334,7 @@ bool ConstraintSet::push_ranges(const AxisConstraint& constraint, const Coordina
     row->hi = hi;
     return true;
   };
+  is_driven_back_ = is_driven_back_ || (constraint.position && !contains(*constraint.position, now.position));
   for (const Quantity quantity : ranges_in_rising_rank) {
     if (!has_range(constraint, quantity)) continue;
     const Range range = acceleration_range(constraint, quantity, now, h);

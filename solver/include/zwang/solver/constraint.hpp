@@ -140,6 +140,7 @@ class ConstraintSet {
   static constexpr double horizon = 0.010;  ///< h [s], within which limits act
 
  private:
+  bool fill_all(BodyMotions& motions) noexcept;
   bool fill_one(int index, BodyMotions& motions) noexcept;
   bool push_driver(const AxisConstraint& constraint, const Coordinate& now, double horizon,
                    const Row& along) noexcept;
@@ -150,6 +151,9 @@ class ConstraintSet {
   std::vector<AxisConstraint> constraints_;
   std::vector<Coordinate> coordinates_;
   std::vector<Row> rows_;
+  bool folds_ = true;
+  bool has_folded_ = false;      ///< a motion driver has ranges beside it
+  bool is_driven_back_ = false;  ///< somebody is outside of a position range
   BodyMotions motions_;
 };
 
