@@ -60,8 +60,8 @@ RunawayWatch::RunawayWatch(int joints, double period)
 
 void RunawayWatch::reset() noexcept {
   is_exceeded_ = false;
-  beyond_.forget();
-  steady_.forget();
+  beyond_.forget(last_energy_);
+  steady_.forget(last_energy_);
   force_size_ = 0;
 }
 
@@ -90,20 +90,23 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
   const bool exceeds = margins > 1.0;
   if (exceeds && !is_exceeded_) {
     largest_before_ = *std::max_element(energies_.begin(), energies_.end());
-    beyond_.forget();
+    beyond_.forget(kinetic_energy);
   }
   const bool grows = kinetic_energy > growth * last_energy_;
   beyond_.follow(exceeds && is_exceeded_ && grows && kinetic_energy > largest_before_);
   if (keeps(force) && grows) {
     steady_.follow(true);
   } else {
-    steady_.forget();
+    steady_.forget(kinetic_energy);
   }
   is_exceeded_ = exceeds;
   last_energy_ = kinetic_energy;
   energies_[looks_++ % energies_.size()] = kinetic_energy;
-  const bool is_driven = steady_.rising >= dwell && margins > driven;
-  if (beyond_.rising < dwell && !is_driven) return std::nullopt;
+  const auto is_at_work = [&](const Driver& driver) {
+    return driver.rising >= dwell && driver.may_be_a_motor(kinetic_energy);
+  };
+  const bool is_driven = margins > driven && is_at_work(steady_);
+  if (!is_driven && !is_at_work(beyond_)) return std::nullopt;
   Eigen::Index hardest = 0;
   (is_driven ? steady_ : beyond_).work.minCoeff(&hardest);
   const int joint = static_cast<int>(hardest);

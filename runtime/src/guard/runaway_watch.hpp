@@ -14,13 +14,16 @@ namespace zwang::runtime {
 ///   T(t) <= T(t0) + E(t0) + W,   W = integral of tau . qd from t0 to t,
 /// tau what its motors are told and E what contacts have stored by t0. Where an axis is faster than its task
 /// drives or allows, W < 0 and T grows all the same, somebody else does the work: a motor that pushes where
-/// it is told to brake, or a push from outside that the robot may not resist. Contacts that give back what
+/// it is told to brake, or a push from outside. Contacts that give back what
 /// they stored do it, too, and are told apart in one of two ways.
 ///  - A bounce gives back less than the robot had before it: T(t0) + E(t0) is at most the largest T of the
 ///    last second.
 ///  - A contact gives back by slackening, k times less force for k times less way. A force that keeps its
 ///    direction and size while it drives the robot is no contact's.
-/// A limit that is tightened under way, a contact that turns the base, a motion that rows bring about
+/// A motor that does the opposite of what it is told gives twice the work that it is told to take, and no
+/// contact adds to it. Where no motor's share comes near what was done, T(t) - T(t0) - W, the robot gives way
+/// to a push from outside, as a force range has it, and that is no fault. (Of two motors each may be all of
+/// it.) A limit that is tightened under way, a contact that turns the base, a motion that rows bring about
 /// together: in each of them T falls, or W > 0. The hit of another robot is over before `dwell`.
 /// Does not allocate, lock, throw or print after construction.
 class RunawayWatch {
@@ -45,6 +48,7 @@ class RunawayWatch {
   static constexpr double share = 0.1;          ///< of the speed itself, where that is more
   static constexpr double driven = 0.5;         ///< of all these, where a steady force drives
   static constexpr double steadily = 0.15;      ///< of a force: what it may change by and be steady
+  static constexpr double explained = 0.8;      ///< of the work done: the least that one motor has to give
   static constexpr double look_every = 0.01;    ///< [s]
   static constexpr double memory = 1.0;         ///< [s] of the largest T: longer than contacts keep energy
   static constexpr double quick = 0.01;         ///< [s] of the rates' low pass
@@ -56,10 +60,15 @@ class RunawayWatch {
   /// Somebody who does work on the robot while its motors are told to brake.
   struct Driver {
     Eigen::VectorXd work;  ///< [J] by what each motor was told, since it may be at work
+    double energy = 0.0;   ///< [J] T then
     int rising = 0;        ///< looks that T has grown
-    void forget() noexcept {
+    void forget(double kinetic_energy) noexcept {
       work.setZero();
+      energy = kinetic_energy;
       rising = 0;
+    }
+    bool may_be_a_motor(double kinetic_energy) const noexcept {
+      return -2.0 * work.minCoeff() > explained * (kinetic_energy - energy - work.sum());
     }
     void follow(bool drives) noexcept { rising = drives && work.sum() < 0.0 ? rising + 1 : 0; }
   };
