@@ -183,6 +183,12 @@ void SafetyGuard::brake(const Sensed& sensed) noexcept {
   arm_->hold(sensed.state, next_);
 }
 
+void SafetyGuard::brake_blind() noexcept {
+  next_.setZero();
+  brake_->brake_blind(next_);
+  arm_->hold_blind(next_);
+}
+
 void SafetyGuard::clamp_next() noexcept {
   next_ = next_.cwiseMax(-limit_).cwiseMin(limit_);
 }
@@ -202,11 +208,11 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
            wanted(bad));
     }
   }
+  const bool is_frozen = frozen_ticks_ > believed_frozen_ticks;
+  if (!is_frozen) brake_->remember(sensed.state);
   if (stopped()) {
-    // A brake that believes a speed of the past drives the robot backwards.
-    if (frozen_ticks_ > believed_frozen_ticks) {
-      next_.setZero();
-      arm_->hold_blind(next_);
+    if (is_frozen) {
+      brake_blind();
     } else {
       brake(sensed);
     }
@@ -225,8 +231,7 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
 
 GuardStatus SafetyGuard::output_blind(Eigen::VectorXd& tau) noexcept {
   if (stopped()) {
-    next_.setZero();
-    arm_->hold_blind(next_);
+    brake_blind();
     clamp_next();
     return send(tau, GuardStatus::stopped);
   }

@@ -7,12 +7,17 @@
 namespace zwang::runtime {
 
 WheelBrake::WheelBrake(const lang::Robot& robot, double period)
-    : ticks_between_looks_(std::max(1, static_cast<int>(std::lround(look_every / period)))) {
+    : inertia_(planar_inertia(robot.model)),
+      period_(period),
+      last_qd_(Eigen::VectorXd::Zero(robot.model.joint_count())),
+      ticks_between_looks_(std::max(1, static_cast<int>(std::lround(look_every / period)))) {
   for (const solver::Wheel& wheel : robot.model.wheels()) {
     const int j = wheel.body - 1;
     const solver::Joint& joint = robot.model.joint(j);
-    if (joint.actuated && joint.max_effort > 0.0)
-      wheels_.push_back({.joint = j, .radius = wheel.radius, .limit = joint.max_effort});
+    if (!joint.actuated || !(joint.max_effort > 0.0)) continue;
+    const solver::Body& body = robot.model.bodies()[static_cast<std::size_t>(wheel.body)];
+    const double spin = joint.axis.dot(body.inertia.rotational * joint.axis) + joint.rotor_inertia;
+    wheels_.push_back({.joint = j, .radius = wheel.radius, .limit = joint.max_effort, .spin = spin});
   }
   const double force = robot.stop.force / std::max<double>(1.0, static_cast<double>(wheels_.size()));
   for (DrivenWheel& wheel : wheels_) wheel.limit = std::min(wheel.limit, force * wheel.radius);
@@ -58,12 +63,68 @@ void WheelBrake::brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept
     ticks_ = 0;
     look(qd);
   }
+  put(qd, 1.0, tau);
+}
+
+/// The torques against `share` of the rates.
+void WheelBrake::put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& tau) const noexcept {
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     const DrivenWheel& wheel = wheels_[i];
-    const double damped = -wheel.limit / full_brake_speed * qd(wheel.joint);
+    const double damped = -wheel.limit / full_brake_speed * share * qd(wheel.joint);
     const double sense = static_cast<int>(i) == left_out_ ? sense_ : 1.0;
     tau(wheel.joint) = sense * std::clamp(damped, -wheel.limit, wheel.limit);
   }
+}
+
+void WheelBrake::remember(const solver::State& state) noexcept {
+  last_qd_ = state.qd;
+  last_twist_ = state.base_twist;
+  blind_for_ = 0.0;
+}
+
+void WheelBrake::brake_blind(Eigen::VectorXd& tau) noexcept {
+  if (blind_for_ <= 0.0) {
+    double power = 0.0;
+    for (const DrivenWheel& wheel : wheels_) power += wheel.limit * std::abs(last_qd_(wheel.joint));
+    blind_stop_ = power > 0.0 ? 2.0 * kinetic_energy() / power : 0.0;
+  }
+  if (blind_for_ < trusted * blind_stop_) put(last_qd_, 1.0 - blind_for_ / blind_stop_, tau);
+  blind_for_ += period_;
+}
+
+/// Of the last sample: T = 1/2 m v.v + v.(w x h) + 1/2 J w^2 with the first moment h, and what the wheels
+/// spin.
+double WheelBrake::kinetic_energy() const noexcept {
+  const Eigen::Vector2d v = last_twist_.linear.head<2>();
+  const double w = last_twist_.angular.z();
+  const Eigen::Vector2d& h = inertia_.first_moment;
+  double twice =
+      inertia_.mass * v.squaredNorm() + 2.0 * w * (v.y() * h.x() - v.x() * h.y()) + inertia_.yaw * w * w;
+  for (const DrivenWheel& wheel : wheels_)
+    twice += wheel.spin * last_qd_(wheel.joint) * last_qd_(wheel.joint);
+  return 0.5 * twice;
+}
+
+WheelBrake::PlanarInertia WheelBrake::planar_inertia(const solver::Model& model) {
+  PlanarInertia sum;
+  std::vector<solver::Pose> poses;
+  for (const solver::Body& body : model.bodies()) {
+    solver::Pose pose = body.pose_in_parent;
+    if (!poses.empty()) {
+      const solver::Pose& parent = poses[static_cast<std::size_t>(body.parent)];
+      pose.position = parent.position + parent.rotation * pose.position;
+      pose.rotation = parent.rotation * pose.rotation;
+    }
+    poses.push_back(pose);
+    const solver::Matrix3& R = pose.rotation;
+    const Eigen::Vector2d p = pose.position.head<2>();
+    const Eigen::Vector2d h = (R * body.inertia.first_moment).head<2>();
+    sum.mass += body.inertia.mass;
+    sum.first_moment += h + body.inertia.mass * p;
+    sum.yaw += R.row(2).dot(body.inertia.rotational * R.row(2).transpose()) + 2.0 * p.dot(h) +
+               body.inertia.mass * p.squaredNorm();
+  }
+  return sum;
 }
 
 }  // namespace zwang::runtime

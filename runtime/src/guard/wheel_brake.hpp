@@ -14,7 +14,10 @@ namespace zwang::runtime {
 /// is left out, and where the wheels get faster under the brake, one after the other is, until they do not.
 /// Few wheels cannot brake every motion without it: where they roll on evenly its torque is turned around,
 /// and left out for good should that make them faster.
-/// Does not allocate, lock, throw or print after construction.
+/// Where samples stay away the brake goes on from the last one: the kinetic energy T that the robot had then
+/// is gone after 2 T / P, P the power of the brakes at that moment, when nothing else acts. It stops short of
+/// that by what the model may be wrong by, for a brake that believes a speed of the past drives the robot
+/// backwards. Does not allocate, lock, throw or print after construction.
 class WheelBrake {
  public:
   /// All wheels together press the ground with `robot.stop.force` at most.
@@ -23,8 +26,12 @@ class WheelBrake {
   /// `suspect`: a joint whose motor the stop is about; -1: none. `is_sure`: it is that one and no other.
   void begin(int suspect, bool is_sure) noexcept;
   void brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept;
+  /// A tick without a sample; the first one after any tick with one says where to go on from.
+  void brake_blind(Eigen::VectorXd& tau) noexcept;
+  void remember(const solver::State& state) noexcept;
 
   static constexpr double full_brake_speed = 0.5;  ///< [rad/s] the torque shrinks with the rate below it
+  static constexpr double trusted = 0.75;          ///< of 2 T / P: masses may be a quarter less
   static constexpr double look_every = 0.02;       ///< [s]
   static constexpr double growth = 1.1;            ///< of the sum of squared speeds at the rims
   static constexpr double evenly = 0.95;           ///< of the same sum: less is braking
@@ -37,10 +44,26 @@ class WheelBrake {
     int joint = 0;
     double radius = 0.0;  ///< [m]
     double limit = 0.0;   ///< [N m]
+    double spin = 0.0;    ///< [kg m^2] about its axle, with its rotor
   };
+  /// Of the whole robot at its joints' zero, seen from above, about the base's origin.
+  struct PlanarInertia {
+    double mass = 0.0;                                       ///< [kg]
+    Eigen::Vector2d first_moment = Eigen::Vector2d::Zero();  ///< [kg m]
+    double yaw = 0.0;                                        ///< [kg m^2]
+  };
+  static PlanarInertia planar_inertia(const solver::Model& model);
   void look(const Eigen::VectorXd& qd) noexcept;
+  void put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& tau) const noexcept;
+  double kinetic_energy() const noexcept;
 
   std::vector<DrivenWheel> wheels_;
+  PlanarInertia inertia_;
+  double period_;
+  Eigen::VectorXd last_qd_;  ///< of the last sample, as is the twist
+  solver::MotionVector last_twist_;
+  double blind_for_ = 0.0;   ///< [s]
+  double blind_stop_ = 0.0;  ///< [s] 2 T / P
   int ticks_between_looks_;
   int ticks_ = 0;
   int left_out_ = -1;   ///< index into `wheels_`; -1: none

@@ -65,11 +65,11 @@ class SafetyGuard {
   SampleStatus admit(const Sensed& sensed) noexcept;
 
   /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew;
-  /// the brake's when the stop is latched, and none on a frozen sample; an arm is held where it was. `tau`
+  /// the brake's when the stop is latched, from memory on a frozen sample; an arm is held where it was. `tau`
   /// keeps its size. Call it when `admit` said good.
   GuardStatus output(const Sensed& sensed, const Eigen::VectorXd& wanted, Eigen::VectorXd& tau) noexcept;
-  /// The torques to send when `admit` refused the sample: the last ones, or when the stop is latched none but
-  /// those that bear an arm.
+  /// The torques to send when `admit` refused the sample: the last ones, or when the stop is latched those
+  /// that brake what the last good sample said, and bear an arm.
   GuardStatus output_blind(Eigen::VectorXd& tau) noexcept;
 
   /// Latches the protective stop, for one of the codes that do. The first reason is kept. What told it, and
@@ -91,6 +91,7 @@ class SafetyGuard {
   Event find_bad_entry(const Sensed& sensed) const noexcept;
   void latch(const Event& event) noexcept;
   void brake(const Sensed& sensed) noexcept;
+  void brake_blind() noexcept;
   void clamp_next() noexcept;
   void watch_for_a_frozen_state(const solver::State& state) noexcept;
   GuardStatus send(Eigen::VectorXd& tau, GuardStatus status) noexcept;
