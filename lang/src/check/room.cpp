@@ -15,7 +15,8 @@ namespace zwang::lang {
 
 namespace {
 
-constexpr int most_squares = 4000;
+/// Of a square from an edge, in one question: a file may be hostile.
+constexpr std::size_t most_distances = 50000;
 
 double depth_of(const Corners& polygon, double x, double y) {
   double nearest = std::numeric_limits<double>::infinity();
@@ -48,8 +49,8 @@ bool has_room(const Corners& polygon, double margin) {
   };
   std::deque<Square> open{{0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]),
                            0.5 * std::max(high[0] - low[0], high[1] - low[1])}};
-  for (int looked = 0; !open.empty(); ++looked) {
-    if (looked > most_squares) return true;
+  for (std::size_t looked = 0; !open.empty(); looked += polygon.size()) {
+    if (looked > most_distances) return true;
     const Square s = open.front();
     open.pop_front();
     const double depth = depth_of(polygon, s.x, s.y);
