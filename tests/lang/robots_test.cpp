@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "check/room.hpp"
 #include "robot/urdf.hpp"
 #include "support.hpp"
 
@@ -40,6 +43,37 @@ TEST_F(RealRobots, an_unexpanded_macro_is_refused_at_its_place) {
     EXPECT_EQ(d.code, "E855") << rendered(diagnostics);
     EXPECT_EQ(d.span.begin.line, 97);
   }
+}
+
+// Grippers whose fingers follow one of them, in a file of another maker: read with what each follows.
+TEST_F(RealRobots, fingers_that_mimic_another_are_read_with_their_leader) {
+  Diagnostics diagnostics;
+  const auto urdf = read_urdf(folder / "eddie.urdf", {}, diagnostics);
+  ASSERT_TRUE(urdf) << rendered(diagnostics);
+  int followers = 0;
+  for (const UrdfJoint& joint : urdf->joints) {
+    if (!joint.mimic) continue;
+    ++followers;
+    EXPECT_NE(joint.joint.type, solver::JointType::fixed);
+    EXPECT_NE(urdf->find_joint(joint.mimic->joint), nullptr) << joint.joint.name;
+    EXPECT_GT(joint.mimic->span.begin.line, joint.span.begin.line);
+  }
+  EXPECT_EQ(followers, 10);
+}
+
+// An angle of two corridors 1 wide: the deepest point is as far from the outer walls as from the inner
+// corner, r = sqrt(2) (1 - r). Of a square it is the middle.
+TEST(Room, ends_at_the_deepest_point) {
+  const Corners angle{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+  const double deepest = std::sqrt(2.0) / (1.0 + std::sqrt(2.0));
+  EXPECT_TRUE(has_room(angle, deepest - 1e-3));
+  EXPECT_FALSE(has_room(angle, deepest + 1e-3));
+  EXPECT_FALSE(is_convex(angle));
+  const Corners square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  EXPECT_TRUE(has_room(square, 1.0 - 1e-3));
+  EXPECT_FALSE(has_room(square, 1.0 + 1e-3));
+  EXPECT_TRUE(is_convex(square));
+  EXPECT_NEAR(circle_within({{0.3, 0.2, 0}, {-0.3, 0.2, 0}, {-0.3, -0.2, 0}, {0.3, -0.2, 0}}), 0.2, 1e-12);
 }
 
 }  // namespace

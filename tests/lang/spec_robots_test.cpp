@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "robot/wheel_speed.hpp"
 #include "support.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/solver/base_analysis.hpp"
@@ -174,6 +175,25 @@ TEST(SpecRobots, rollers_turn_their_wheels_by_the_formula) {
       EXPECT_NEAR(rolling.state.qd(wheel.body - 1), expected, 1e-9) << name << ' ' << body.name;
     }
     EXPECT_GT(rolling.state.qd.norm(), 0.1);
+  }
+}
+
+// The wheel that is nearest to its limit, by the velocities that the solver's ground rows leave.
+TEST(SpecRobots, the_wheels_bound_the_speed_of_the_base) {
+  for (const char* name : {"mecanum_base", "omni_base", "diff_base"}) {
+    const Robot robot = shipped(name);
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      const RollingState rolling(robot, seed);
+      double least = solver::infinity;
+      for (const solver::Wheel& wheel : robot.model.wheels()) {
+        const solver::Joint& joint = robot.model.joint(wheel.body - 1);
+        if (joint.actuated)
+          least = std::min(least, joint.max_velocity / std::abs(rolling.state.qd(wheel.body - 1)));
+      }
+      const WheelSpeed speed = wheel_speed(robot, rolling.velocity_at(0.0, 0.0), rolling.turn());
+      ASSERT_TRUE(std::isfinite(least)) << name;
+      EXPECT_NEAR(speed.most, least, 1e-6 * least) << name << ' ' << seed;
+    }
   }
 }
 

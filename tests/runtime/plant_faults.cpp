@@ -106,7 +106,7 @@ std::string refusal(const lang::Robot& robot, const lang::Scene& scene = {},
 
 TEST(PlantFaults, RefusesWhatItCannotSimulateAndSaysWhy) {
   EXPECT_EQ(refusal(mecanum_base()), "");
-  EXPECT_NE(refusal(mecanum_base(), scene_with_wall(0.3)).find("inside `wall`"), std::string::npos);
+  EXPECT_NE(refusal(mecanum_base(), scene_with_wall(0.3)).find("inside `wall` by "), std::string::npos);
 
   lang::Scene flat = scene_with_wall(1.0);
   flat.objects[0].size[1] = 0.0;

@@ -75,8 +75,16 @@ faults:
 }
 
 TEST(TwoRobots, NobodyStartsInsideAnother) {
-  const lang::Program program =
-      program_with("robots: {partner: {task: task.yaml, at: [0.6 m, 0 m], yaw: 90 deg}}\n");
+  const std::string partner = "robots: {partner: {task: task.yaml, yaw: 90 deg, at: ";
+  try {
+    program_with(partner + "[0.6 m, 0 m]}}\n");
+    FAIL() << "0.4 m and 0.28 m reach farther than 0.6 m";
+  } catch (const std::runtime_error& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("E913"), std::string::npos) << refusal.what();
+    EXPECT_NE(std::string(refusal.what()).find("overlap by"), std::string::npos) << refusal.what();
+  }
+  lang::Program program = program_with(partner + "[1 m, 0 m]}}\n");
+  program.scene->robots[0].at = {0.6, 0.0};  // as `--start-at` may put them
   try {
     const ScenePlant plant(program);
     FAIL() << "0.4 m and 0.28 m reach farther than 0.6 m";

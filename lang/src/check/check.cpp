@@ -199,6 +199,11 @@ std::optional<int> check_frame(CheckContext& context, const Word& name) {
     context.diagnostics.add(wording::footprint_is_no_frame(name.span));
     return std::nullopt;
   }
+  const std::optional<int> signal = index ? std::nullopt : context.symbols.find_signal(name.text);
+  if (signal && context.symbols.signals[static_cast<std::size_t>(*signal)].signal.type == SignalType::pose) {
+    context.diagnostics.add(wording::signal_is_no_frame(name.span, name.text));
+    return std::nullopt;
+  }
   if (!index) {
     if (context.symbols.has_robot) {
       context.diagnostics.add(
@@ -269,7 +274,10 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   }
   check_flow(context, checked.conditions);
   check_physics(context, scene, budget);
-  if (scene && !diagnostics.has_errors()) check_scene_names(context, *scene);
+  if (scene && !diagnostics.has_errors()) {
+    check_scene_names(context, *scene);
+    check_unfed_signals(context, *scene);
+  }
   if (diagnostics.has_errors() || !robot) return std::nullopt;
   checked.robot = std::move(*robot);
   checked.scene = std::move(scene);

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "check/context.hpp"
+#include "check/room.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 
@@ -181,6 +182,27 @@ class AxisCheck {
   std::optional<int> move_, in_;
 };
 
+/// E414: a point, or a circle within the footprint, that has no place inside. Corners may stand around a
+/// notch, so a footprint is only asked about where there is none.
+void check_room(CheckContext& context, const GroupText& group, const Region& region) {
+  const std::optional<double> margin =
+      group.margin ? known_value(context, *group.margin, dimension::length) : 0.0;
+  if (!margin || *margin < 0.0) return;
+  const auto has_place = [&](double needed) {
+    return region.radius > 0.0 ? region.radius > needed : has_room(region.polygon, needed);
+  };
+  const Span& span = group.margin ? group.margin->span : group.region.span;
+  if (*margin > 0.0 && !has_place(*margin)) {
+    context.diagnostics.add(wording::no_inside(span, region.name, *margin, 0.0, region.span));
+    return;
+  }
+  const bool moves_footprint = group.move.text == "footprint" && context.robot.has_value();
+  const double circle =
+      moves_footprint && is_convex(region.polygon) ? circle_within(context.robot->footprint) : 0.0;
+  if (circle > 0.0 && !has_place(*margin + circle))
+    context.diagnostics.add(wording::no_inside(span, region.name, *margin, circle, region.span));
+}
+
 void check_inside(CheckContext& context, const GroupText& group) {
   const std::optional<int> region = context.symbols.find_region(group.region.text);
   if (region) {
@@ -200,6 +222,7 @@ void check_inside(CheckContext& context, const GroupText& group) {
       present_value(context, *group.margin) < 0.0) {
     context.diagnostics.add(wording::not_positive(group.margin->span, what, true));
   }
+  if (region) check_room(context, group, context.symbols.regions[static_cast<std::size_t>(*region)].region);
 }
 
 void check_feature_group(CheckContext& context, const GroupText& group) {

@@ -95,6 +95,28 @@ void check_age(CheckContext& context, const SceneSignal& signal, int index) {
       wording::signal_too_old(signal.span, signal.name, signal.delay, signal.period, age, stale_after->span));
 }
 
+/// Where a condition first reads it: always's exits, then task by task.
+const Span* first_read(const TaskFile& file, const std::string& name) {
+  const auto find = [&](const ConditionText& condition) -> const Span* {
+    for (const ExpressionText& node : condition.nodes) {
+      if (node.kind == ExpressionKind::name && node.word == name) return &node.span;
+    }
+    return nullptr;
+  };
+  for (const ExitText& exit : file.always_exits) {
+    if (const Span* span = find(exit.when)) return span;
+  }
+  for (const TaskText& task : file.tasks) {
+    if (task.require) {
+      if (const Span* span = find(*task.require)) return span;
+    }
+    for (const ExitText& exit : task.exits) {
+      if (const Span* span = find(exit.when)) return span;
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 void check_scene_signals(CheckContext& context, const Scene& scene) {
@@ -116,6 +138,21 @@ void check_scene_signals(CheckContext& context, const Scene& scene) {
 void check_scene_names(CheckContext& context, const Scene& scene) {
   for (const SceneSignal& signal : scene.signals) {
     if (!context.symbols.find_signal(signal.name)) check_name(context, scene, signal);
+  }
+}
+
+void check_unfed_signals(CheckContext& context, const Scene& scene) {
+  std::vector<std::string> unheard;  // W302 says of these what they may be meant for
+  for (const SceneSignal& signal : scene.signals) {
+    if (!context.symbols.find_signal(signal.name)) unheard.push_back(signal.name);
+  }
+  for (const SignalSymbol& symbol : context.symbols.signals) {
+    const std::string& name = symbol.signal.name;
+    const bool is_fed = std::any_of(scene.signals.begin(), scene.signals.end(),
+                                    [&](const SceneSignal& signal) { return signal.name == name; });
+    if (is_fed || symbol.is_bad || !nearest(name, unheard).empty()) continue;
+    const Span* read = first_read(context.file, name);
+    if (read != nullptr) context.diagnostics.add(wording::unfed_signal(*read, name, symbol.signal.span));
   }
 }
 

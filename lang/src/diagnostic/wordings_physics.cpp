@@ -247,4 +247,16 @@ Diagnostic unasked(const Span& span, const std::string& task) {
               "split the file");
 }
 
+Diagnostic stands_still(const Span& span, const std::string& axis, const std::string& limit,
+                        const std::string& quantity, const Span& range) {
+  return with_related(warning("W610", span,
+                              "nothing will move along `" + axis + "`: " +
+                                  (limit.empty()                          ? "its own range"
+                                   : limit.find(' ') == std::string::npos ? "`" + limit + "`"
+                                                                          : limit) +
+                                  " allows no " + quantity + " that way",
+                              "widen the range; to stand still write `velocity: 0 m/s`"),
+                      range, "the range is here");
+}
+
 }  // namespace zwang::lang::wording

@@ -78,6 +78,10 @@ Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool tur
 /// `elsewhere`: its wheels hold it where they stand at the start, and not however they are steered.
 Diagnostic free_and_held(const Span& span, const std::string& axis, bool elsewhere);
 
+/// `limit`: whose range it is; empty: the driver's own axis. `quantity`: what the range allows nothing of.
+Diagnostic stands_still(const Span& span, const std::string& axis, const std::string& limit,
+                        const std::string& quantity, const Span& range);
+
 /// From this task on nothing was asked of the robot's model.
 Diagnostic unasked(const Span& span, const std::string& task);
 

@@ -246,4 +246,35 @@ Diagnostic urdf_for_robot_file(const Span& span) {
                "`zwang robot init` writes the robot file that goes with it");
 }
 
+Diagnostic unfed_signal(const Span& span, const std::string& name, const Span& declared) {
+  return with_related(
+      warning("W509", span, "the scene gives nothing for the signal " + in_ticks(name) + ", which this reads",
+              "give it a source under `signals` of the scene; never measured, it lets an exit of `always` "
+              "fire once its `stale_after` is over, and any other never"),
+      declared, "it is declared here");
+}
+
+Diagnostic signal_is_no_frame(const Span& span, const std::string& name) {
+  std::string frame = name;
+  frame += "_frame";
+  return error("E301", span, "no frame named " + in_ticks(name) + ": that is a signal",
+               "give the signal a frame, `frames: {" + frame + ": {parent: " + name + "}}`, and name that");
+}
+
+Diagnostic level_of_always(const Span& span, const std::string& what) {
+  return error("E105", span, what + " must be a whole number from 1 to 9: level 0 is that of `always`");
+}
+
+Diagnostic no_inside(const Span& span, const std::string& region, double margin, double footprint,
+                     const Span& declared) {
+  std::string message = "a margin of " + figure(margin, "m") + " leaves nothing of " + in_ticks(region);
+  if (footprint > 0.0)
+    message = "within " + in_ticks(region) +
+              (margin > 0.0 ? ", less " + figure(margin, "m") + " of margin" : "") +
+              ", there is no room for the footprint";
+  return with_related(
+      error("E414", span, std::move(message), "make the margin smaller, or the region larger"), declared,
+      "the region is declared here");
+}
+
 }  // namespace zwang::lang::wording

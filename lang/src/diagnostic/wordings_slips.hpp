@@ -74,6 +74,15 @@ Diagnostic signal_too_old(const Span& span, const std::string& name, double dela
                           const Span& stale_after);
 /// Of the scene, and the task file has none of this name.
 Diagnostic unheard_signal(const Span& span, const std::string& name, const std::string& meant);
+/// A condition reads a signal for which the scene in use gives nothing.
+Diagnostic unfed_signal(const Span& span, const std::string& name, const Span& declared);
+/// A pose signal's name where a frame belongs.
+Diagnostic signal_is_no_frame(const Span& span, const std::string& name);
+/// `level: 0` outside of `always`.
+Diagnostic level_of_always(const Span& span, const std::string& what);
+/// The margin eats the region up. `footprint`: of what has to be inside, the widest circle's radius. [m]
+Diagnostic no_inside(const Span& span, const std::string& region, double margin, double footprint,
+                     const Span& declared);
 /// A line that begins with `%`.
 Diagnostic directive(const Span& span);
 Diagnostic urdf_for_robot_file(const Span& span);

@@ -219,6 +219,28 @@ tasks:
     constraints:
       near: {feature: gap, position: 0.2 m}
     timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "E414",
+          .title = "a boundary with no inside",
+          .why =
+              R"~(A point stays farther inside than the `margin`, a footprint with all its corners. No point of this region lies
+that deep, so the opposite edges push against each other and the base swings between them.)~",
+          .fix = "Make the margin smaller or the region larger.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(regions:
+  hall: {polygon: [[-1 m, -1 m], [1 m, -1 m], [1 m, 1 m], [-1 m, 1 m]]}
+tasks:
+  go:
+    constraints:
+      stay: {move: footprint, inside: hall, margin: 3 m}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(regions:
+  hall: {polygon: [[-1 m, -1 m], [1 m, -1 m], [1 m, 1 m], [-1 m, 1 m]]}
+tasks:
+  go:
+    constraints:
+      stay: {move: footprint, inside: hall, margin: 0.3 m}
+    timeout: {after: 10 s, goto: failed})~"},
   };
   return entries;
 }

@@ -125,6 +125,15 @@ way, so there is nothing to go back to.)~",
           .part = ExcerptOf::task,
           .example = "exits:\n  - {when: elapsed > 2 s, goto: back}",
           .instead = "exits:\n  - {when: elapsed > 2 s, goto: done}"},
+      Explanation{
+          .code = "W509",
+          .title = "a signal that the scene does not give",
+          .why =
+              R"~(A condition reads it, and in this scene it is never measured: it stays unknown. Under `always` that
+counts as true once its `stale_after` is over, in a task it never fires. Either way the run says nothing about the condition.)~",
+          .fix =
+              R"~(Give the signal a source under `signals` of the scene. A condition that is about its absence asks
+`valid(signal)`.)~"},
   };
   return entries;
 }

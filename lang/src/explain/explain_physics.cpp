@@ -145,6 +145,27 @@ while nobody steers: nothing is said where a row of the task does.)~",
 four wheels, much on a robot with a hundred joints. Checking always ends within two seconds; past that nothing is said
 about what the robot can do.)~",
           .fix = "Split the file: a task file is one action, and a mission is made of several above it."},
+      Explanation{
+          .code = "W610",
+          .title = "a driver that may not move anything",
+          .why =
+              R"~(A range of accelerations or forces that ends at 0, or next to it, in the direction of the driver holds before the
+driver does: the axis stands still for ever, and nothing fails. So does a range of velocities of 0 beside a position
+to go to.)~",
+          .fix = "Widen the range. To stand still write `velocity: 0 m/s`.",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: 0.1 m/s, acceleration: [0 m/s^2, 0 m/s^2]}",
+          .instead = "x: {velocity: 0.1 m/s, acceleration: [0 m/s^2, 0.5 m/s^2]}"},
+      Explanation{
+          .code = "W611",
+          .title = "a speed that the wheels do not turn to",
+          .why =
+              R"~(The `<limit velocity>` of the URDF says how fast a wheel's motor turns. To go this fast along the axis a wheel would
+have to turn faster: a real motor does not, while zwang plans and simulates as if it did.)~",
+          .fix = "Stay within the speed of the message, or correct the URDF.",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: 4 m/s, time_constant: 2 s}",
+          .instead = "x: {velocity: 1 m/s, time_constant: 2 s}"},
   };
   return entries;
 }

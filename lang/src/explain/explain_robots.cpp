@@ -31,7 +31,7 @@ joint `continuous` there.)~",
           .title = "a wheel that could not work",
           .why =
               R"~(A wheel turns on its own joint and holds some direction on the ground: its roller's axis, or rolling
-and sideways. This one slides, is named twice, holds what no wheel can hold, or has rollers that would let it
+and sideways. This one slides, is named twice, turns about an axis that points up, holds what no wheel can hold, or has rollers that would let it
 drive nothing.)~",
           .fix =
               R"~(Give mecanum and omni wheels a `roller`, the angle about the base's +z from the wheel's axis to the
@@ -89,7 +89,7 @@ soon as the friction is a little lower than was measured.)~",
       Explanation{.code = "E806",
                   .title = "a limit that forbids standing still",
                   .why = "Limits of the robot hold at all times. A range without zero would demand motion "
-                         "even when nothing runs.",
+                         "even when nothing runs; one that is nothing but zero would never let it move.",
                   .fix = "Write a range through 0, for example `+-1 m/s`.",
                   .part = ExcerptOf::robot,
                   .example = "limits: {velocity: {x: [0.1 m/s, 1 m/s]}}",
@@ -126,11 +126,23 @@ m (b^2 + c^2) / 12, and so on.)~",
     <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.001"/>
   </inertial>
 </link>)~"},
+      Explanation{.code = "E809",
+                  .title = "a joint that starts outside its limits",
+                  .why = "`posture` is where the joints stand at the start, and what it does not name stands "
+                         "at 0. Beyond "
+                         "its limits a joint cannot stand: a simulation would throw it to its stop.",
+                  .fix = "Choose a value between the joint's limits in the URDF, or correct these."},
       Explanation{
-          .code = "E809",
-          .title = "a posture outside the joint's limits",
-          .why = "`posture` is where the joints stand at the start; beyond its limits a joint cannot stand.",
-          .fix = "Choose a value between the joint's limits in the URDF, or correct these."},
+          .code = "E810",
+          .title = "wheels that do not stand on one level",
+          .why =
+              R"~(All wheels touch one floor. Where each ends below the base follows from its joint's place in the URDF
+and its `radius`; 2 mm about the middle are levelled out, more is a wrong number.)~",
+          .fix = "Mend the radius, or the height of the joint's `<origin>`: origin z - radius is the same "
+                 "for all.",
+          .part = ExcerptOf::robot,
+          .example = "wheels: [{joint: left, radius: 200 mm}, {joint: right, radius: 100 mm}]",
+          .instead = "wheels: [{joint: left, radius: 100 mm}, {joint: right, radius: 100 mm}]"},
   };
   return entries;
 }

@@ -118,6 +118,15 @@ std::span<const Explanation> scenes() {
           .fix =
               "Leave the robot, the scene or the value out of the matrix; or, if that is the claim, expect "
               "`outcome: refused` or the `diagnostic` in a scenario of its own."},
+      Explanation{.code = "E913",
+                  .title = "a start inside of something",
+                  .why = "At the start the robot's footprint overlaps an object, or another robot's. What it "
+                         "could touch must "
+                         "stand clear of it: a wall through its middle would hold nothing, and nobody would "
+                         "feel it. Objects "
+                         "lower than the robot's `bumper` pass below it.",
+                  .fix = "Move the object, or the `start`. A wall's `at` lies on its face, which looks along "
+                         "its own -x."},
   };
   return entries;
 }

@@ -170,6 +170,38 @@ of is told in its own words: a complaint that is only printed is a fault that so
     <geometry><cylinder radius="0.1" length="0.05"/></geometry>
   </visual>
 </link>)~"},
+      Explanation{
+          .code = "E861",
+          .title = "a wheel or a motor that mimics another joint",
+          .why =
+              R"~(`<mimic>` says that a mechanism moves this joint together with another one. zwang knows each joint's own
+motion only: it would drive the two one against the other, and count on a mobility that the base does not have.)~",
+          .fix =
+              R"~(Where the joint has a motor of its own take the `<mimic>` out, it is often left over from a display. Where a
+mechanism moves it, leave it out of `wheels` and `actuated`, or make it `fixed`; two wheels on one axle are one wheel.)~",
+          .part = ExcerptOf::urdf,
+          .example = R"~(<joint name="left" type="continuous">
+  <parent link="base_link"/>
+  <child link="left_link"/>
+  <origin xyz="0 0.2 0.1"/>
+  <axis xyz="0 1 0"/>
+  <limit effort="5" velocity="10"/>
+  <mimic joint="right"/>
+</joint>)~",
+          .instead = R"~(<joint name="left" type="continuous">
+  <parent link="base_link"/>
+  <child link="left_link"/>
+  <origin xyz="0 0.2 0.1"/>
+  <axis xyz="0 1 0"/>
+  <limit effort="5" velocity="10"/>
+</joint>)~"},
+      Explanation{
+          .code = "W862",
+          .title = "joints that mimic others and swing freely",
+          .why =
+              R"~(The fingers of a gripper often follow one of them by a `<mimic>`. zwang couples no joints, so those that nothing
+drives swing as if they were loose. Mostly nobody minds: a finger weighs little.)~",
+          .fix = "Where it matters make the joints `fixed` in the URDF; else allow the warning."},
   };
   return entries;
 }

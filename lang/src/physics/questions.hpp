@@ -36,6 +36,10 @@ void ask_reach(PlannedTask& plan, Probe& probe, Remarks& remarks);
 void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W609: an axis that contact may move, and cannot.
 void ask_free(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W610: drivers that a range keeps from moving anything. Takes them out of the plan.
+void ask_still(PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W611: speeds that the wheels' motors cannot turn to.
+void ask_top_speed(const PlannedTask& plan, const Robot& robot, Remarks& remarks);
 /// E601, W601: force drivers and acceleration ranges.
 void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W602: a guard on `saturated` that never fires.

@@ -204,6 +204,12 @@ class Drafter {
       lines.push_back("what `" + joint +
                       "` does: it moves between the base and wheels; make it fixed, if it may be");
     }
+    std::string coupled;
+    for (const std::string& name : found_.others) {
+      if (urdf_.find_joint(name)->mimic) coupled += (coupled.empty() ? "`" : ", `") + name + "`";
+    }
+    if (!coupled.empty())
+      lines.push_back("what moves joints with a <mimic>, which zwang does not couple: " + coupled);
     std::string weightless;
     for (const std::string& link : without_inertia(urdf_))
       weightless += (weightless.empty() ? "`" : ", `") + link + "`";
@@ -257,6 +263,7 @@ class Drafter {
     }
     for (const std::string& name : found_.others) {
       const UrdfJoint* joint = urdf_.find_joint(name);
+      if (joint->mimic) continue;  // a mechanism moves it, and no motor of its own
       const bool slides = joint->joint.type == solver::JointType::prismatic;
       line(name, filling.effort == fill_in ? fill_in : slides ? "1 N" : "1 N m");
     }

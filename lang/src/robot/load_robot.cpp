@@ -7,8 +7,10 @@
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "robot/check_joints.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
+#include "robot/wheel_speed.hpp"
 #include "spec/polygon.hpp"
 #include "tree/file.hpp"
 
@@ -25,7 +27,9 @@ class RobotBuilder {
   std::optional<Robot> build() {
     check_base();
     apply_actuators();
+    check_couplings(file_, urdf_, diagnostics_);
     check_posture();
+    check_starts(file_, urdf_, diagnostics_);
     check_wheels();
     check_supports();
     check_frames();
@@ -34,7 +38,7 @@ class RobotBuilder {
     try {
       return assemble();
     } catch (const std::invalid_argument& error) {
-      diagnostics_.add(wording::impossible_model(span_of_complaint(error.what()), error.what()));
+      complain(error.what());
       return std::nullopt;
     }
   }
@@ -258,12 +262,20 @@ class RobotBuilder {
     }
   }
 
-  /// The link that the model builder names in its complaint, else the robot file's base.
-  Span span_of_complaint(const std::string& complaint) const {
+  /// Of a body that is made of several links the builder knows the first: the one at fault is named instead.
+  void complain(std::string complaint) {
     const std::size_t open = complaint.find('`');
     const std::size_t close = complaint.find('`', open + 1);
-    if (open == std::string::npos || close == std::string::npos) return file_.base.span;
-    const std::string name = complaint.substr(open + 1, close - open - 1);
+    std::string name;
+    if (close != std::string::npos) name = complaint.substr(open + 1, close - open - 1);
+    const bool is_of_inertia = complaint.find("triangle rule") != std::string::npos;
+    const UrdfLink* part = is_of_inertia ? impossible_part(urdf_, name) : nullptr;
+    if (part != nullptr) complaint.replace(open + 1, name.size(), part->name);
+    diagnostics_.add(wording::impossible_model(part != nullptr ? part->span : span_of(name), complaint));
+  }
+
+  /// The link that the model builder names in its complaint, else the robot file's base.
+  Span span_of(const std::string& name) const {
     if (const UrdfLink* link = urdf_.find_link(name)) return link->span;
     if (const UrdfJoint* joint = urdf_.find_joint(name)) return joint->span;
     for (const RobotFrameText& frame : file_.frames) {
@@ -302,9 +314,14 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   if (!file || !file->urdf.exists()) return std::nullopt;
   const auto urdf_path = resolve_path(file->urdf.text, path, root, file->urdf.span, diagnostics);
   if (!urdf_path) return std::nullopt;
-  std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics);
+  const std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics);
   if (!urdf) return std::nullopt;
-  return build_robot(*file, std::move(*urdf), errors_before, diagnostics);
+  std::optional<Robot> robot = build_robot(*file, *urdf, errors_before, diagnostics);
+  if (!robot) return std::nullopt;
+  check_wheels_stand(*file, *urdf, *robot, diagnostics);
+  if (diagnostics.error_count() > errors_before) return std::nullopt;
+  check_speed_limits(*robot, diagnostics);
+  return robot;
 }
 
 solver::State start_state(const Robot& robot) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_standing.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
 
@@ -122,8 +123,10 @@ void parse_limits(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
                            require_quantity(text.high, expected, path, diagnostics);
       if (!is_good) continue;
       const solver::Range values{text.low.quantity.value, text.high.quantity.value};
-      if (values.low > 0.0 || values.high < 0.0 || values.low == values.high) {
+      if (values.low > 0.0 || values.high < 0.0) {
         diagnostics.add(wording::limit_without_rest(range->span, path));
+      } else if (values.low == values.high) {
+        diagnostics.add(wording::limit_without_width(range->span, path));
       }
       file.limits.push_back({axis, quantity, values, range->span});
     }

@@ -4,6 +4,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -116,6 +117,17 @@ Span span_of(const std::vector<XmlElement>& elements, std::string_view kind, con
   return elements[0].span;
 }
 
+/// Of each element that has one, by its index.
+std::map<int, UrdfMimic> find_mimics(const std::vector<XmlElement>& elements) {
+  std::map<int, UrdfMimic> mimics;
+  for (const XmlElement& element : elements) {
+    if (element.name != "mimic") continue;
+    const XmlAttribute* joint = element.find("joint");
+    mimics.try_emplace(element.parent, UrdfMimic{joint != nullptr ? joint->value : "", element.span});
+  }
+  return mimics;
+}
+
 template <typename Items, typename Match>
 auto find_in(const Items& items, const Match& match) -> decltype(items.data()) {
   const auto it = std::find_if(items.begin(), items.end(), match);
@@ -172,12 +184,15 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics) {
   }
   // In the order of the text, which is the author's order of joints.
   std::set<std::string> done;
+  const std::map<int, UrdfMimic> mimics = find_mimics(*elements);
   for (const XmlElement& element : *elements) {
     if (element.parent != 0 || element.name != "joint") continue;
     const auto joint = model->joints_.find(element.find("name")->value);
     if (joint == model->joints_.end() || !done.insert(joint->first).second) continue;
     urdf.joints.push_back(to_joint(*joint->second));
     urdf.joints.back().span = element.span;
+    const auto mimic = mimics.find(static_cast<int>(&element - elements->data()));
+    if (mimic != mimics.end()) urdf.joints.back().mimic = mimic->second;
   }
   return urdf;
 }

@@ -20,11 +20,18 @@ struct UrdfLink {
   std::optional<double> radius;  ///< [m] of its largest cylinder or sphere, of what collides if there is any
 };
 
+/// A <mimic>: another joint that this one follows.
+struct UrdfMimic {
+  std::string joint;
+  Span span;
+};
+
 struct UrdfJoint {
   std::string parent;
   std::string child;
   solver::Pose origin;  ///< X_PC at q = 0
   solver::Joint joint;  ///< named; not actuated; max_effort infinite where the file gives none
+  std::optional<UrdfMimic> mimic;
   Span span;
 };
 

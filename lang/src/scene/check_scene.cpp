@@ -5,6 +5,7 @@
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "scene/check_start.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::lang {
@@ -101,6 +102,7 @@ void check_scene_for(const Scene& scene, const Robot& robot, Diagnostics& diagno
   for (const SceneObject& object : scene.objects) check_hook(object.dock, robot, diagnostics);
   for (const SceneRobot& other : scene.robots) check_hook(other.dock, robot, diagnostics);
   check_faults_for(scene.faults, robot, diagnostics);
+  check_start(scene, robot, diagnostics);
 }
 
 }  // namespace zwang::lang

@@ -8,7 +8,8 @@
 
 namespace zwang::lang {
 
-/// Hooks, wheels that fail, real rollers: E301, E907, E911. `robot` is the first one.
+/// Hooks, wheels that fail, real rollers, where the robots start: E301, E907, E911, E913. `robot` is the
+/// first one.
 void check_scene_for(const Scene& scene, const Robot& robot, Diagnostics& diagnostics);
 /// The joints of the first robot's faults.
 void check_faults_for(const std::vector<Fault>& faults, const Robot& robot, Diagnostics& diagnostics);

@@ -10,6 +10,16 @@ namespace {
 
 using solver::Quantity;
 
+/// Level 0 is that of `always` alone.
+std::optional<int> parse_level(const Node& node, const std::string& path, int lowest_level,
+                               Diagnostics& diagnostics) {
+  if (lowest_level > 0 && node.is_scalar() && trimmed(node.text) == "0") {
+    diagnostics.add(wording::level_of_always(node.span, path));
+    return std::nullopt;
+  }
+  return parse_integer(node, path, lowest_level, 9, diagnostics);
+}
+
 /// What a group or an axis may say besides its statements.
 void parse_manner(MapReader& map, const std::string& path, std::optional<ValueText>& time_constant,
                   std::optional<ValueText>& weight, std::optional<int>& level, int lowest_level,
@@ -19,7 +29,7 @@ void parse_manner(MapReader& map, const std::string& path, std::optional<ValueTe
   }
   if (const Node* node = map.optional("weight")) weight = parse_value(*node, path + ".weight", diagnostics);
   if (const Node* node = map.optional("level")) {
-    level = parse_integer(*node, path + ".level", lowest_level, 9, diagnostics);
+    level = parse_level(*node, path + ".level", lowest_level, diagnostics);
   }
 }
 
@@ -125,7 +135,7 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
       group.margin = parse_value(*node, path + ".margin", diagnostics);
     }
     if (const Node* node = map.optional("level")) {
-      group.level = parse_integer(*node, path + ".level", lowest_level, 9, diagnostics);
+      group.level = parse_level(*node, path + ".level", lowest_level, diagnostics);
     }
   } else {
     if (const Node* node = map.required("move")) group.move = parse_word(*node, "`move`", diagnostics);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
@@ -313,7 +314,10 @@ struct MujocoPlant::Simulation {
       const GeomOwner& robot = one.touches ? one : other;
       const GeomOwner& met = one.touches ? other : one;
       if (!robot.touches || contact.dist >= -start_overlap) continue;
-      if (met.object >= 0 || met.touches) refuse(name_of(robot) + " starts inside " + name_of(met));
+      if (met.object < 0 && !met.touches) continue;
+      char depth[32];
+      std::snprintf(depth, sizeof depth, " by %.3g mm", -contact.dist * 1e3);
+      refuse(name_of(robot) + " starts inside " + name_of(met) + depth);
     }
   }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "mjcf.hpp"
@@ -28,6 +29,12 @@ constexpr double max_wheel_lift = 0.002;  ///< [m]
   throw std::invalid_argument("plant: " + what);
 }
 
+std::string in_millimetres(double metres) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g mm", metres * 1e3);
+  return text;
+}
+
 /// The ground as the wheels' lowest points have it, on the average; small differences are levelled out.
 void level_wheels(const Model& model, SimulatedRobot& simulated) {
   std::vector<double> lowest;
@@ -39,12 +46,15 @@ void level_wheels(const Model& model, SimulatedRobot& simulated) {
   }
   if (lowest.empty()) refuse("a base on the ground needs wheels");
   for (const double z : lowest) simulated.ground += z / static_cast<double>(lowest.size());
-  for (const double z : lowest) {
-    simulated.wheel_lift.push_back(simulated.ground - z);
-    if (std::abs(simulated.ground - z) > max_wheel_lift) {
-      refuse("the wheels do not stand on one level: their lowest points differ by millimetres");
-    }
-  }
+  for (const double z : lowest) simulated.wheel_lift.push_back(simulated.ground - z);
+  const auto [low, high] = std::minmax_element(lowest.begin(), lowest.end());
+  if (std::max(simulated.ground - *low, *high - simulated.ground) <= max_wheel_lift) return;
+  const auto name = [&](std::vector<double>::const_iterator at) {
+    const auto w = static_cast<std::size_t>(at - lowest.cbegin());
+    return "`" + model.joint(model.wheels()[w].body - 1).name + "`";
+  };
+  refuse("the wheels do not stand on one level: " + name(high) + " ends " + in_millimetres(*high - *low) +
+         " above " + name(low));
 }
 
 /// A support stands on the ground straight below its link's origin.

@@ -1,0 +1,100 @@
+#include "diagnostic/wordings_standing.hpp"
+
+#include <cmath>
+
+#include "diagnostic/make.hpp"
+#include "diagnostic/wordings_physics.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang::wording {
+
+namespace {
+
+std::string in_length(double metres) {
+  return std::abs(metres) < 0.1 ? figure(metres * 1e3, "mm") : figure(metres, "m");
+}
+
+std::string follows(const Coupling& coupling) {
+  return "joint " + in_ticks(coupling.joint) + " follows " + in_ticks(coupling.leader) +
+         (coupling.has_leader ? " by a <mimic> of the URDF" : ", which the URDF does not have");
+}
+
+}  // namespace
+
+Diagnostic coupled_joint(const Span& span, const Coupling& coupling) {
+  const std::string reason = coupling.has_leader ? ", and zwang moves each joint by itself" : "";
+  return with_related(
+      error(
+          "E861", span, follows(coupling) + reason,
+          "take the <mimic> out of the URDF if the joint moves by itself; else leave it out of `wheels` and "
+          "`actuated`, or make it `fixed`"),
+      coupling.span, "it is coupled here");
+}
+
+Diagnostic loose_couplings(const Span& span, const std::vector<Coupling>& couplings) {
+  const std::size_t others = couplings.size() - 1;
+  std::string message = follows(couplings.front());
+  if (others > 0)
+    message += ", and " + std::to_string(others) + (others > 1 ? " more do so" : " more does so");
+  message += couplings.size() > 1 ? ": zwang couples no joints, they swing freely"
+                                  : ": zwang couples no joints, it swings freely";
+  Diagnostic result =
+      warning("W862", span, std::move(message), "where that matters make them `fixed` in the URDF");
+  for (const Coupling& coupling : couplings) {
+    if (&coupling == &couplings.front() || !coupling.has_leader)
+      result.related.push_back({coupling.span, follows(coupling)});
+  }
+  return result;
+}
+
+Diagnostic start_outside(const Span& span, const std::string& joint, bool slides, double lower, double upper,
+                         const Span& declared) {
+  const char* unit = slides ? "m" : "rad";
+  const double middle = 0.5 * (lower + upper);
+  return with_related(error("E809", span,
+                            "joint " + in_ticks(joint) + " starts at 0, and its travel is " +
+                                figure(lower, unit) + " to " + figure(upper, unit),
+                            "say where it starts: `posture: {" + joint + ": " + figure(middle, unit) + "}`"),
+                      declared, "its travel is given here");
+}
+
+Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span& declared) {
+  return with_related(
+      error("E802", span, "a wheel rolls about a level axis, but joint " + in_ticks(joint) + "'s points up",
+            "mend its <axis> or <origin> in the URDF; a swivel is not listed, only the wheel below it"),
+      declared, "it is declared here");
+}
+
+Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::string& other, double above,
+                         const Span& other_span) {
+  return with_related(
+      error("E810", span,
+            "the wheels do not stand on one level: " + in_ticks(wheel) + " ends " + in_length(above) +
+                " above " + in_ticks(other),
+            "mend a `radius`, or the height of the joint's <origin> in the URDF: where it ends is origin z - "
+            "radius"),
+      other_span, "this one reaches lowest");
+}
+
+Diagnostic limit_without_width(const Span& span, const std::string& what) {
+  return error("E806", span, what + " allows nothing but standing still", "give the range a width");
+}
+
+Diagnostic starts_inside(const Span& span, const std::string& robot, const std::string& other, double depth) {
+  return error("E913", span,
+               robot + " starts inside " + in_ticks(other) + ": they overlap by " + in_length(depth),
+               "move one of them: the footprint of a robot must be clear of what it could touch");
+}
+
+Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& wheel) {
+  const char* unit = fast.turns ? "rad/s" : "m/s";
+  return with_related(
+      warning("W611", span,
+              "`" + fast.axis + "` " + (fast.is_range ? "allows " : "asks for ") + figure(fast.asked, unit) +
+                  ", and the wheels' motors turn fast enough for " + figure(fast.most, unit) + ": " +
+                  in_ticks(fast.wheel) + " makes " + figure(fast.wheel_most, "rad/s") + " at most",
+              "stay within; zwang does not keep to a URDF's <limit velocity> by itself"),
+      wheel, "this wheel, by the <limit velocity> of the URDF");
+}
+
+}  // namespace zwang::lang::wording

@@ -1,0 +1,49 @@
+/// What is said about how a robot stands before it moves, and of joints that cannot be what the robot file
+/// makes of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang::wording {
+
+/// A <mimic> of the URDF.
+struct Coupling {
+  std::string joint;
+  std::string leader;      ///< that it follows
+  bool has_leader = true;  ///< false: the URDF has no joint of that name
+  Span span;               ///< of `<mimic`
+};
+/// Of a wheel or a motor, named at `span` in the robot file.
+Diagnostic coupled_joint(const Span& span, const Coupling& coupling);
+/// Of joints that nothing drives. Not empty.
+Diagnostic loose_couplings(const Span& span, const std::vector<Coupling>& couplings);
+
+/// The joint stands at 0, which its travel from `lower` to `upper` does not hold. [rad], or [m] where it
+/// slides
+Diagnostic start_outside(const Span& span, const std::string& joint, bool slides, double lower, double upper,
+                         const Span& declared);
+Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span& declared);
+/// `above`: by how much the wheel's lowest point is higher than that of `other`. [m]
+Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::string& other, double above,
+                         const Span& other_span);
+/// A limit of the robot file allows no motion at all.
+Diagnostic limit_without_width(const Span& span, const std::string& what);
+/// `depth`: how far one of the two has to move for them to part. [m]
+Diagnostic starts_inside(const Span& span, const std::string& robot, const std::string& other, double depth);
+
+/// A speed that the wheels cannot turn to.
+struct TooFast {
+  std::string axis;
+  bool turns = false;
+  double asked = 0.0;       ///< [m/s] or [rad/s]
+  double most = 0.0;        ///< [m/s] or [rad/s]
+  std::string wheel;        ///< the joint that is at its limit first
+  double wheel_most = 0.0;  ///< [rad/s]
+  bool is_range = false;    ///< it is allowed, not asked for
+};
+Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& wheel);
+
+}  // namespace zwang::lang::wording

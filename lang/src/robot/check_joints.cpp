@@ -1,0 +1,141 @@
+#include "robot/check_joints.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_standing.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// How far wheels may end from their average; a simulation levels so much out. [m]
+constexpr double most_wheel_lift = 0.002;
+/// Of a wheel's axis: the sine of its slope from which it counts as pointing up, 80 deg.
+constexpr double steepest_axis = 0.985;
+
+/// The link, and the joints above it that move, up to the base.
+void add_movers_above(const Urdf& urdf, const std::string& joint, std::set<std::string>& names) {
+  const UrdfJoint* above = urdf.find_joint(joint);
+  for (std::size_t i = 0; above != nullptr && i < most_links; ++i) {
+    names.insert(above->joint.name);
+    above = urdf.joint_above(above->parent);
+  }
+}
+
+/// In the base, where all joints stand at 0.
+solver::Pose pose_in_base(const solver::Model& model, int body) {
+  solver::Pose pose;
+  for (int b = body; b > 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) {
+    pose = model.bodies()[static_cast<std::size_t>(b)].pose_in_parent * pose;
+  }
+  return pose;
+}
+
+bool is_possible(const solver::RigidInertia& inertia) {
+  if (!(inertia.mass > 0.0)) return true;  // what it is fixed to may have the mass
+  const solver::Matrix3 c = solver::skew(inertia.first_moment / inertia.mass);
+  const solver::Vector3 moments =
+      Eigen::SelfAdjointEigenSolver<solver::Matrix3>(inertia.rotational + inertia.mass * c * c).eigenvalues();
+  return moments(0) + moments(1) >= moments(2) - 1e-6 * moments.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+void check_couplings(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics) {
+  std::set<std::string> carry_wheels;
+  for (const WheelText& wheel : file.wheels) add_movers_above(urdf, wheel.joint.text, carry_wheels);
+  const auto named_at = [&](const std::string& joint) -> std::optional<Span> {
+    for (const WheelText& wheel : file.wheels) {
+      if (wheel.joint.text == joint) return wheel.joint.span;
+    }
+    for (const ActuatorText& actuator : file.actuators) {
+      if (actuator.joint.text == joint) return actuator.joint.span;
+    }
+    if (carry_wheels.contains(joint)) return file.urdf.span;
+    return std::nullopt;
+  };
+  std::vector<wording::Coupling> loose;
+  for (const UrdfJoint& joint : urdf.joints) {
+    if (!joint.mimic || joint.joint.type == solver::JointType::fixed) continue;
+    const std::string& leader = joint.mimic->joint;
+    const wording::Coupling coupling{joint.joint.name, leader, urdf.find_joint(leader) != nullptr,
+                                     joint.mimic->span};
+    if (const std::optional<Span> span = named_at(joint.joint.name)) {
+      diagnostics.add(wording::coupled_joint(*span, coupling));
+    } else {
+      loose.push_back(coupling);
+    }
+  }
+  if (!loose.empty()) diagnostics.add(wording::loose_couplings(file.urdf.span, loose));
+}
+
+void check_starts(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics) {
+  std::set<std::string> named;
+  for (const PostureText& posture : file.posture) named.insert(posture.joint.text);
+  for (const UrdfJoint& joint : urdf.joints) {
+    const solver::Joint& j = joint.joint;
+    if (j.type == solver::JointType::fixed || named.contains(j.name)) continue;
+    if (j.lower <= 0.0 && j.upper >= 0.0) continue;
+    Span span = file.urdf.span;
+    for (const ActuatorText& actuator : file.actuators) {
+      if (actuator.joint.text == j.name) span = actuator.joint.span;
+    }
+    diagnostics.add(wording::start_outside(span, j.name, j.type == solver::JointType::prismatic, j.lower,
+                                           j.upper, joint.span));
+  }
+}
+
+void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& robot,
+                        Diagnostics& diagnostics) {
+  struct End {
+    const Word* joint;
+    double z;
+  };
+  std::vector<End> ends;
+  double mean = 0.0;
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const solver::Joint& joint = robot.model.joint(wheel.body - 1);
+    const auto text = std::find_if(file.wheels.begin(), file.wheels.end(),
+                                   [&](const WheelText& w) { return w.joint.text == joint.name; });
+    if (text == file.wheels.end()) continue;
+    const solver::Pose pose = pose_in_base(robot.model, wheel.body);
+    if (std::abs((pose.rotation * joint.axis).z()) > steepest_axis) {
+      diagnostics.add(
+          wording::upright_wheel(text->joint.span, joint.name, urdf.find_joint(joint.name)->span));
+    }
+    ends.push_back({&text->joint, pose.position.z() - wheel.radius});
+    mean += ends.back().z / static_cast<double>(robot.model.wheels().size());
+  }
+  if (ends.empty()) return;
+  const auto [lowest, highest] =
+      std::minmax_element(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.z < b.z; });
+  if (std::max(mean - lowest->z, highest->z - mean) <= most_wheel_lift) return;
+  diagnostics.add(wording::uneven_wheels(highest->joint->span, highest->joint->text, lowest->joint->text,
+                                         highest->z - lowest->z, lowest->joint->span));
+}
+
+const UrdfLink* impossible_part(const Urdf& urdf, const std::string& link) {
+  std::vector<std::string> open{link};
+  std::set<std::string> seen{link};
+  const auto reach = [&](const std::string& next) {
+    if (seen.insert(next).second) open.push_back(next);
+  };
+  while (!open.empty()) {
+    const UrdfLink* part = urdf.find_link(open.back());
+    open.pop_back();
+    if (part == nullptr) continue;
+    if (!is_possible(part->inertia)) return part;
+    for (const UrdfJoint& joint : urdf.joints) {
+      if (joint.joint.type != solver::JointType::fixed) continue;
+      if (joint.parent == part->name) reach(joint.child);
+      if (joint.child == part->name) reach(joint.parent);
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,20 @@
+/// Joints that a robot file takes for what the URDF says they are not.
+#pragma once
+
+#include "robot/robot_file.hpp"
+#include "robot/urdf.hpp"
+
+namespace zwang::lang {
+
+/// E861, W862: a <mimic> couples a joint to another one, which zwang does not.
+void check_couplings(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
+/// E809: a joint that the posture does not name starts at 0, outside of its travel.
+void check_starts(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
+/// E802, E810: wheels whose axis points up, and wheels that do not end at one height.
+void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& robot,
+                        Diagnostics& diagnostics);
+/// Of a link and those fixed to it the one whose own inertia no body can have, or nullptr. A model merges
+/// them, and complains of the merged body by its first link's name.
+const UrdfLink* impossible_part(const Urdf& urdf, const std::string& link);
+
+}  // namespace zwang::lang

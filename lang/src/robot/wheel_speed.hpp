@@ -1,0 +1,22 @@
+/// How fast a base can go by what its wheels' motors can turn: the URDF's <limit velocity>.
+#pragma once
+
+#include "zwang/lang/robot.hpp"
+
+namespace zwang::lang {
+
+/// What bounds a motion of the base.
+struct WheelSpeed {
+  double most = solver::infinity;  ///< [m/s] or [rad/s] of the base; infinite where nobody says
+  int joint = -1;                  ///< of the wheel that is at its limit first
+};
+
+/// Along `linear` or about `turn` in the base's own axes: a unit vector in the plane, or 1 with no `linear`.
+/// Nothing is known (infinite) where fixed wheels hold the motion.
+WheelSpeed wheel_speed(const Robot& robot, const solver::Vector3& linear, double turn);
+/// Along one of the base's own axes x, y, rz.
+WheelSpeed wheel_speed_along(const Robot& robot, solver::Axis axis);
+/// W611 of the robot file's own limits.
+void check_speed_limits(const Robot& robot, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

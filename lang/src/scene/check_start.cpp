@@ -1,0 +1,148 @@
+// Two convex outlines overlap where no line parts them. The line that comes nearest to it lies along an edge
+// of one of them:
+//
+//   depth = least over the edges' outward normals n of   max_a n'a - min_b n'b
+//
+// and is how far one has to move for them to part. A circle is its centre's depth plus its radius.
+#include "scene/check_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnostic/wordings_standing.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+using solver::Vector3;
+using Outline = std::vector<Vector3>;
+
+constexpr double touching = 1e-4;  ///< [m] by so much what touches may overlap
+
+struct Pose2 {
+  std::array<double, 2> at{};
+  double yaw = 0.0;
+};
+
+Outline placed(Outline corners, const Pose2& pose) {
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
+  for (Vector3& p : corners) {
+    p = Vector3(pose.at[0] + c * p.x() - s * p.y(), pose.at[1] + s * p.x() + c * p.y(), 0.0);
+  }
+  return corners;
+}
+
+double cross(const Vector3& a, const Vector3& b, const Vector3& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// Counter-clockwise, as a simulation closes its hollows.
+Outline convex_hull(Outline points) {
+  std::sort(points.begin(), points.end(), [](const Vector3& a, const Vector3& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
+  Outline hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t fixed = hull.size();
+    for (const Vector3& p : points) {
+      while (hull.size() >= fixed + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+/// The least way over the edges of `a` only; below 0 they are apart.
+double depth_by_edges(const Outline& a, const Outline& b) {
+  double least = solver::infinity;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Vector3 edge = a[(i + 1) % a.size()] - a[i];
+    if (edge.norm() < 1e-9) continue;
+    const Vector3 normal = Vector3(edge.y(), -edge.x(), 0.0).normalized();
+    double nearest = solver::infinity;
+    for (const Vector3& p : b) nearest = std::min(nearest, normal.dot(p - a[i]));
+    least = std::min(least, -nearest);
+  }
+  return least;
+}
+
+double depth(const Outline& a, const Outline& b) {
+  return std::min(depth_by_edges(a, b), depth_by_edges(b, a));
+}
+
+double depth(const Outline& a, const Vector3& centre, double radius) {
+  const double inside = depth_by_edges(a, {centre});
+  if (inside >= 0.0) return inside + radius;
+  double nearest = solver::infinity;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Vector3 edge = a[(i + 1) % a.size()] - a[i];
+    const double along = edge.dot(centre - a[i]) / std::max(edge.squaredNorm(), 1e-18);
+    nearest = std::min(nearest, (a[i] + std::clamp(along, 0.0, 1.0) * edge - centre).norm());
+  }
+  return radius - nearest;
+}
+
+/// As large as the object is; a wall's `at` lies on the face that looks along its -x.
+Outline outline_of(const SceneObject& object) {
+  const bool is_wall = object.shape == ShapeKind::wall;
+  const double x = object.size[is_wall ? 1 : 0], y = object.size[is_wall ? 0 : 1];
+  const double back = is_wall ? 0.0 : -0.5 * x;
+  return {{back, -0.5 * y, 0.0}, {back + x, -0.5 * y, 0.0}, {back + x, 0.5 * y, 0.0}, {back, 0.5 * y, 0.0}};
+}
+
+/// Where it stands at the start: a script that begins later holds its first place.
+Pose2 start_of(const SceneObject& object) {
+  if (object.motion.empty()) return {object.at, object.yaw};
+  return {object.motion.front().at, object.motion.front().yaw};
+}
+
+double depth(const Outline& robot, const SceneObject& object) {
+  const Pose2 pose = start_of(object);
+  if (object.shape == ShapeKind::cylinder) return depth(robot, {pose.at[0], pose.at[1], 0.0}, object.size[0]);
+  return depth(robot, placed(outline_of(object), pose));
+}
+
+struct Standing {
+  std::string words;  ///< "the robot", "`partner`"
+  std::string name;
+  const Robot* robot;
+  Outline outline;  ///< in the world
+  Span span;
+};
+
+}  // namespace
+
+void check_start(const Scene& scene, const Robot& first, Diagnostics& diagnostics) {
+  std::vector<Standing> robots;
+  const auto stand = [&](std::string words, const std::string& name, const Robot& robot, const Pose2& pose,
+                         const Span& span) {
+    if (robot.footprint.size() < 3) return;
+    robots.push_back({std::move(words), name, &robot, convex_hull(placed(robot.footprint, pose)), span});
+  };
+  stand("the robot", "", first, {scene.start_at, scene.start_yaw}, {});
+  for (const SceneRobot& other : scene.robots) {
+    if (other.program)
+      stand("robot `" + other.name + "`", other.name, other.program->robot, {other.at, other.yaw},
+            other.span);
+  }
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    const Standing& robot = robots[r];
+    for (const SceneObject& object : scene.objects) {
+      if (object.size[2] < robot.robot->bumper_height) continue;  // it passes below
+      const double overlap = depth(robot.outline, object);
+      if (overlap > touching)
+        diagnostics.add(wording::starts_inside(object.span, robot.words, object.name, overlap));
+    }
+    for (std::size_t other = r + 1; other < robots.size(); ++other) {
+      const double overlap = depth(robot.outline, robots[other].outline);
+      if (overlap > touching)
+        diagnostics.add(wording::starts_inside(robots[other].span, robot.words, robots[other].name, overlap));
+    }
+  }
+}
+
+}  // namespace zwang::lang
