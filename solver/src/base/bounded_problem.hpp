@@ -137,7 +137,7 @@ class BoundedProblem {
   void take_softness(Entry& e, double weight) noexcept;
   double largest_demand() noexcept;
   double largest_force(int row) noexcept;
-  int next_level(int after) const noexcept;
+  int first_level() const noexcept;
 
   void find_idle_limits() noexcept;
   bool idle_limits_rest(int level) noexcept;
@@ -147,6 +147,7 @@ class BoundedProblem {
   void bound_row(int i) noexcept;
   bool solve_levels(int max_iterations, bool& exact) noexcept;
   void project_rows(int level) noexcept;
+  void project_row(int i, int level) noexcept;
   bool solve_forces(int level, int max_iterations) noexcept;
   bool solve_motion(int level, int max_iterations) noexcept;
   bool least_multipliers(int level, int max_iterations) noexcept;
@@ -201,8 +202,8 @@ class BoundedProblem {
   double least_room(int i) noexcept;
   void take_out_limits(const Vector& p) noexcept;
   bool find_motion(int level, int max_iterations) noexcept;
-  void pose_rows(int level) noexcept;
-  void pose_limits_above(int level) noexcept;
+  void pose_rows() noexcept;
+  void pose_limits_above() noexcept;
   void resize_program(int n, int level, int curvature_rows, bool with_motors) noexcept;
   void pose_multiplier(int k, int level) noexcept;
   void pose_motion(int n, int level, bool with_motors) noexcept;
@@ -212,6 +213,7 @@ class BoundedProblem {
   void take_limits(int first) noexcept;
   void take_multipliers(int level) noexcept;
   void take_motors(int first) noexcept;
+  bool factorise_gram(int count, double least_pivot) noexcept;
   bool torques_for(const Vector& p) noexcept;
   bool take_torque(int motor, double torque) noexcept;
 
@@ -239,9 +241,9 @@ class BoundedProblem {
   RowMajorMatrix F_;       ///< K = F F': motion by force, under what the levels above have frozen
   RowMajorMatrix frozen_;  ///< orthonormal rows: F times them is 0
   int frozen_count_ = 0;
-  bool all_free_ = true;  ///< F is still 1
-  RowMajorMatrix gram_;   ///< Cholesky factor of T'T, of the shared motors
-  Vector inverse_gram_;   ///< 1 over its diagonal
+  bool all_free_ = true;   ///< F is still 1
+  RowMajorMatrix gram_;    ///< T'T of the shared motors is G D G': G^-1, whose diagonal is 1 and not written
+  Vector inverse_pivots_;  ///< 1 / D
   bool motors_reach_all_ = false;
   bool motors_drive_all_ = false;   ///< and each of them can push
   bool torques_are_least_ = false;  ///< tau_ are the least ones that make p_
@@ -249,6 +251,9 @@ class BoundedProblem {
   std::vector<RowSolution> solutions_;
   std::vector<int> awake_, idle_;  ///< all rows: those that take part, and limits without anything to do
   std::vector<int> sums_;
+  std::vector<int> forces_, motions_,
+      limits_above_;                    ///< rows of the present level that take part, by what they are
+  int next_level_ = 0;                  ///< the one below it
   std::vector<int> last_on_axis_;       ///< by axis: the last limit
   std::vector<int> posed_;              ///< row of each variable of the present stage
   std::vector<int> folded_;             ///< rows of the present stage that need not be solved for

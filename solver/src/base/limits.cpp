@@ -158,11 +158,9 @@ void BoundedProblem::unfold_limits() noexcept {
   folded_.clear();
 }
 
-/// Adds the limits of the levels above `level`: they are posed again.
-void BoundedProblem::pose_limits_above(int level) noexcept {
-  for (const int i : awake_) {
-    if (is_one_sided(i) && entry(i).level < level && takes_part(i)) posed_.push_back(i);
-  }
+/// Adds the limits of the levels above: they are posed again.
+void BoundedProblem::pose_limits_above() noexcept {
+  for (const int i : limits_above_) posed_.push_back(i);
 }
 
 /// Whether the posed limits hold at work_ with the multipliers that they have.
