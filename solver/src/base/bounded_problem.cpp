@@ -83,6 +83,8 @@ void BoundedProblem::clear_motors(int dimension) noexcept {
 void BoundedProblem::set_row(int i, const Row& row, const double* B, double held) noexcept {
   Entry& e = entry(i);
   e.twin = -1;
+  e.axis = i;
+  last_on_axis_[static_cast<std::size_t>(i)] = -1;
   solver::copy(dimension_, B, &B_(i, 0));
   e.B = &B_(i, 0);
   e.extent = extent_of(e.B);
@@ -96,7 +98,7 @@ void BoundedProblem::set_row(int i, const Row& row, const double* B, double held
 void BoundedProblem::set_twin(int i, const Row& row, int twin) noexcept {
   Entry& e = entry(i);
   const Entry& other = entry(twin);
-  e.twin = twin;
+  e.twin = e.axis = twin;
   e.B = other.B;
   e.extent = other.extent;
   e.length = other.length;
@@ -107,8 +109,9 @@ void BoundedProblem::set_twin(int i, const Row& row, int twin) noexcept {
 
 /// All that set_row and set_twin have not set.
 void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
-  static_cast<Standing&>(e) = Standing{};
+  e.reset();
   e.kind = row.kind;
+  e.is_limit = row.kind == RowKind::upper || row.kind == RowKind::lower;
   e.quantity = row.quantity;
   e.level = row.level;
   e.lo = row.lo;
@@ -132,7 +135,7 @@ void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
 void BoundedProblem::take_softness(Entry& e, double weight) noexcept {
   e.held_softness = e.fade < 1.0 ? e.length * e.length * (1.0 - e.fade) / e.fade : 0.0;
   e.softness = e.held_softness;
-  const bool is_motion = is_one_sided(e.kind) || e.kind == RowKind::driver;
+  const bool is_motion = e.is_limit || e.kind == RowKind::driver;
   if (is_motion && std::isfinite(weight)) e.softness += 1.0 / weight;
 }
 
@@ -320,7 +323,7 @@ void BoundedProblem::project_rows(int level) noexcept {
       continue;
     }
     const bool is_above = e.level < level;
-    if (e.out || (is_above && !is_one_sided(e.kind))) continue;
+    if (e.out || (is_above && !e.is_limit)) continue;
     project_row(i, level);
     if (e.reach == 0.0 || e.kind == RowKind::sum) continue;
     (is_above ? limits_above_ : e.kind == RowKind::force ? forces_ : motions_).push_back(i);
@@ -361,13 +364,6 @@ void BoundedProblem::project_row(int i, int level) noexcept {
   e.reach = blocked ? 0.0 : std::sqrt(squared);
   e.inverse_reach = blocked ? 0.0 : 1.0 / e.reach;
   for (int k = 0; k < dimension_; ++k) P[k] = blocked ? 0.0 : dot(dimension_, V, &F_(k, 0));
-}
-
-/// Below its own level a row holds what it reached with whatever that takes.
-Range BoundedProblem::bounds_at(int i, int level) const noexcept {
-  const Entry& e = entries_[static_cast<std::size_t>(i)];
-  if (e.level == level) return {e.lo, e.hi};
-  return {e.kind == RowKind::lower ? 0.0 : -infinity, e.kind == RowKind::upper ? 0.0 : infinity};
 }
 
 /// What the level's equality and force rows achieved, saturated or not, stays for the levels below:

@@ -48,6 +48,7 @@ void QuadraticProgram::resize(int variables, int curvature_rows, int equality_ro
   variables_ = variables;
   curvature_rows_ = curvature_rows;
   equality_rows_ = equality_rows;
+  if (equality_rows == 0) return;
   for (int k = 0; k < variables; ++k) {
     extents_[index(k)] = 0;
     set_zero(equality_rows, E(k));

@@ -32,8 +32,8 @@ class QuadraticProgram {
  public:
   QuadraticProgram(int variable_capacity, int curvature_capacity, int equality_capacity);
 
-  /// Sizes the problem: `variables` columns; V has `curvature_rows` rows, E `equality_rows`. Everything is 0,
-  /// bounds are left to set.
+  /// Sizes the problem: `variables` columns; V has `curvature_rows` rows, E `equality_rows`. With equations
+  /// everything is 0 and bounds are left to set; without, everything is.
   void resize(int variables, int curvature_rows, int equality_rows) noexcept;
 
   /// A column of V: `scale` times the `count` numbers of `x`, the rest 0. Its length is to be 1.
@@ -83,6 +83,7 @@ class QuadraticProgram {
   bool is_out_of_place(int variable) const noexcept;
   void divide_by_free(double* x) const noexcept;
   void solve_free() noexcept;
+  bool set_free() noexcept;
   int flat_one_that_wants_away() const noexcept;
   bool has_room(int variable) const noexcept;
   bool slide(int flat) noexcept;

@@ -156,14 +156,14 @@ void BoundedProblem::resize_program(int n, int level, int curvature_rows, bool w
 }
 
 /// The variable nu |V_i| of a motion row: its bounds, and where it stands.
-void BoundedProblem::pose_multiplier(int k, int level) noexcept {
+inline void BoundedProblem::pose_multiplier(int k, int level) noexcept {
   const int i = posed_[static_cast<std::size_t>(k)];
-  const double length = entry(i).reach;
+  const Entry& e = entry(i);
   const Range bounds = bounds_at(i, level);
-  units_.push_back(entry(i).inverse_reach);
-  program_.lo(k) = bounds.low * length;
-  program_.hi(k) = bounds.high * length;
-  program_.z(k) = is_one_sided(i) ? entry(i).nu * length : 0.0;
+  units_.push_back(e.inverse_reach);
+  program_.lo(k) = bounds.low * e.reach;
+  program_.hi(k) = bounds.high * e.reach;
+  program_.z(k) = e.is_limit ? e.nu * e.reach : 0.0;
 }
 
 /// The equations of the `n` row variables: torques make the motion, and the limits above stay kept,
@@ -286,9 +286,9 @@ void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
     const int i = posed_[static_cast<std::size_t>(k)];
     const Entry& e = entry(i);
     const double unit = e.inverse_reach;
-    program_.set_V(k, e.reach_extent, unit, V(i));
+    program_.set_V(k, e.reach_extent, unit, e.V);
     program_.g(k) = (d_(i) + e.offset - along(i, fixed_)) * unit;
-    program_.R(k) = softness_at(i, level) * unit * unit;
+    program_.R(k) = (e.level == level ? e.softness : e.held_softness) * unit * unit;
     pose_multiplier(k, level);
   }
   if (with_motors) pose_motors(n, level);
