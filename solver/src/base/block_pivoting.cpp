@@ -54,9 +54,16 @@ void QuadraticProgram::factorise_free() noexcept {
     const int variable = superbasics_[index(s)];
     const double own = curvature_(variable);
     double pivot = own;
+    const int extent = extents_[index(variable)];
+    int pairs = 0;
+    for (; pairs + 2 <= s; pairs += 2) {
+      dot_two(extent, V(variable), V(superbasics_[index(pairs)]), V(superbasics_[index(pairs + 1)]),
+              t + pairs);
+    }
+    if (pairs < s) t[pairs] = dot(extent, V(variable), V(superbasics_[index(pairs)]));
     for (int c = 0; c < s; ++c) {
       const double* const other = &factor_(c, 0);
-      double rest = hessian(variable, superbasics_[index(c)]);
+      double rest = t[c];
       for (int e = 0; e < c; ++e) rest -= t[e] * other[e];
       t[c] = rest;
       line[c] = rest * inverse_D_(c);

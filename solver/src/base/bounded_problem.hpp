@@ -232,6 +232,8 @@ class BoundedProblem {
   void take_motors(int first) noexcept;
   bool factorise_gram(int count, double least_pivot) noexcept;
   bool torques_for(const Vector& p) noexcept;
+  bool share(double* rest) noexcept;
+  bool share_three(const double* p) noexcept;
   bool take_torque(int motor, double torque) noexcept;
 
   int rows_ = 0, motors_ = 0, dimension_ = 0, iterations_ = 0;

@@ -66,7 +66,6 @@ class QuadraticProgram {
 
   bool pivot_blocks(int max_rounds, int& iterations) noexcept;
   const double* V(int variable) const noexcept { return &V_(variable, 0); }
-  void fill_columns() noexcept;
   /// An entry of H.
   double hessian(int k, int l) const noexcept {
     if (k == l) return curvature_(k);
@@ -127,7 +126,7 @@ class QuadraticProgram {
   int factorised_ = 0;            ///< rows of the blocks' factor that are those of the free variables
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
   Eigen::VectorXd image_;         ///< V z
-  std::vector<int> extents_;      ///< of the columns of V: the rest is 0, and not written before it is needed
+  std::vector<int> extents_;      ///< of the columns of V: the rest is 0
   std::vector<Place> place_;
   std::vector<char> stuck_;
   std::vector<int> basics_, superbasics_, rows_;

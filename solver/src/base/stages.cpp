@@ -365,7 +365,11 @@ bool BoundedProblem::torques_for(const Vector& p) noexcept {
     if (!take_torque(sole.motor, torque)) return false;
     add_multiple(open, -torque, T(sole.motor), rest);
   }
-  // W' D^-1 W, no sum waiting for another one
+  return shared_dimensions_ == 3 ? share_three(rest) : share(rest);
+}
+
+/// tau = T (W' D^-1 W) p of the shared motors, no sum waiting for another one. Writes over p.
+bool BoundedProblem::share(double* rest) noexcept {
   for (int k = shared_dimensions_ - 1; k >= 0; --k) {
     double sum = rest[k];
     for (int c = 0; c < k; ++c) sum += gram_(k, c) * rest[c];
@@ -380,6 +384,20 @@ bool BoundedProblem::torques_for(const Vector& p) noexcept {
     double torque = 0.0;  // number by number, as they were written
     for (int k = 0; k < extent; ++k) torque += own[k] * rest[k];
     if (!take_torque(j, torque)) return false;
+  }
+  return true;
+}
+
+/// The same of the three motions of a base that goes everywhere.
+bool BoundedProblem::share_three(const double* p) noexcept {
+  const double W10 = gram_(1, 0), W20 = gram_(2, 0), W21 = gram_(2, 1);
+  const double y = (p[1] + W10 * p[0]) * inverse_pivots_(1);
+  const double z = (p[2] + W20 * p[0] + W21 * p[1]) * inverse_pivots_(2);
+  const double x0 = p[0] * inverse_pivots_(0) + W10 * y + W20 * z;
+  const double x1 = y + W21 * z;
+  for (const int j : shared_motors_) {
+    const double* const own = T(j);
+    if (!take_torque(j, own[0] * x0 + own[1] * x1 + own[2] * z)) return false;
   }
   return true;
 }
