@@ -99,6 +99,20 @@ double dot(const double* x, const double* y) {
   return sum[0] + sum[1];
 }
 
+/// out = { x . y, x . z }, for `count` numbers.
+inline void dot_two(int count, const double* x, const double* y, const double* z, double* out) {
+  Two sum = {}, other = {};
+  int k = 0;
+  for (; k + 2 <= count; k += 2) {
+    const Two pair = two(x + k);
+    sum += pair * two(y + k);
+    other += pair * two(z + k);
+  }
+  const double rest = k < count ? x[k] * y[k] : 0.0, other_rest = k < count ? x[k] * z[k] : 0.0;
+  out[0] = sum[0] + sum[1] + rest;
+  out[1] = other[0] + other[1] + other_rest;
+}
+
 /// x . y, for `count` numbers.
 inline double dot(int count, const double* x, const double* y) {
   Two sum = {}, other = {};  // neither waits for the other

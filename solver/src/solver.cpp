@@ -81,6 +81,11 @@ Vector6 base_freedom(const Model& model, int index) {
   return Vector6::Unit(model.base_type() == BaseType::ground ? index + 2 : index);
 }
 
+/// a . x, number by number, as they have just been written.
+double along(const Vector6& a, const Vector6& x) {
+  return ((a(0) * x(0) + a(1) * x(1)) + (a(2) * x(2) + a(3) * x(3))) + (a(4) * x(4) + a(5) * x(5));
+}
+
 bool is_same(const ForceVector& one, const ForceVector& other) {
   return one.linear == other.linear && one.angular == other.angular;
 }
@@ -259,7 +264,7 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   w.clamp_feed_forward(state);
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
   load_bodies(w.model, state, w.gravity(state), w.sweeps);
-  w.add_robot_rows([&w](const GroundRow& row) { return row.bias - row.a.dot(w.body_sweep(row.body).c); });
+  w.add_robot_rows([&w](const GroundRow& row) { return row.bias - along(row.a, w.body_sweep(row.body).c); });
   w.add_task_rows(rows);
   if (!w.sweep_and_factorise()) return Status::degenerate_model;
   w.hold_ground();
@@ -313,7 +318,7 @@ Status Solver::project_velocity(State& state) noexcept {
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
-  w.add_robot_rows([&w](const GroundRow& row) { return -row.a.dot(w.body_sweep(row.body).v); });
+  w.add_robot_rows([&w](const GroundRow& row) { return -along(row.a, w.body_sweep(row.body).v); });
   const Vector6 twist = w.body_sweep(0).v;
   load_bodies_at_rest(w.sweeps);
   w.sweeps.task_rows.clear();

@@ -54,9 +54,16 @@ void QuadraticProgram::factorise_free() noexcept {
     const int variable = superbasics_[index(s)];
     const double own = curvature_(variable);
     double pivot = own;
+    const int extent = extents_[index(variable)];
+    int pairs = 0;
+    for (; pairs + 2 <= s; pairs += 2) {
+      dot_two(extent, V(variable), V(superbasics_[index(pairs)]), V(superbasics_[index(pairs + 1)]),
+              t + pairs);
+    }
+    if (pairs < s) t[pairs] = dot(extent, V(variable), V(superbasics_[index(pairs)]));
     for (int c = 0; c < s; ++c) {
       const double* const other = &factor_(c, 0);
-      double rest = hessian(variable, superbasics_[index(c)]);
+      double rest = t[c];
       for (int e = 0; e < c; ++e) rest -= t[e] * other[e];
       t[c] = rest;
       line[c] = rest * inverse_D_(c);
@@ -147,13 +154,38 @@ bool QuadraticProgram::pivot_blocks(int max_rounds, int& iterations) noexcept {
 
 /// To the minimum over the free variables.
 void QuadraticProgram::solve_free() noexcept {
-  for (const int k : superbasics_) reduced_(k) = pull_on(k) - g_(k);
   factorise_free();
-  for (int refinement = 0; refinement <= max_refinements; ++refinement) {
+  const bool is_set = set_free();
+  compute_gradient();
+  for (int step = is_set ? 1 : 0; step <= max_refinements; ++step) {
+    if (step > 0 && slope_of_curved() <= rounding_share * tolerance_) return;
     step_free();
     compute_gradient();
-    if (slope_of_curved() <= rounding_share * tolerance_) return;
   }
+}
+
+/// Where each free variable has curvature of its own:  z_F = H_FF^-1 (g_F - V_F'V z_P), from what the parked
+/// ones pull, which mostly is nothing.
+bool QuadraticProgram::set_free() noexcept {
+  const auto n = static_cast<int>(superbasics_.size());
+  for (int s = 0; s < n; ++s) {
+    if (inverse_D_(s) == 0.0) return false;
+  }
+  bool pulls = false;
+  for (int k = 0; k < variables_; ++k) {
+    if (place_[index(k)] == Place::superbasic || z_(k) == 0.0) continue;
+    if (!pulls) set_zero(curvature_rows_, image_.data());
+    pulls = true;
+    add_multiple(extents_[index(k)], z_(k), V(k), image_.data());
+  }
+  for (int s = 0; s < n; ++s) {
+    const int k = superbasics_[index(s)];
+    step_(s) = g_(k);
+    if (pulls) step_(s) -= dot(extents_[index(k)], V(k), image_.data());
+  }
+  divide_by_free(step_.data());
+  for (int s = 0; s < n; ++s) z_(superbasics_[index(s)]) = step_(s);
+  return true;
 }
 
 /// The place among the free ones of the first without curvature of its own that is not content; -1 for none.
@@ -232,9 +264,7 @@ void QuadraticProgram::change_places() noexcept {
       superbasics_.push_back(k);
     } else {
       place_[index(k)] = Place::parked;
-      const double bound = std::clamp(z_(k), lo_(k), hi_(k));
-      add_multiple(extents_[index(k)], bound - z_(k), V(k), image_.data());
-      z_(k) = bound;
+      z_(k) = std::clamp(z_(k), lo_(k), hi_(k));
     }
   }
   const auto is_parked = [this](int k) { return place_[index(k)] == Place::parked; };

@@ -9,7 +9,7 @@ namespace zwang::solver {
 namespace {
 
 constexpr double unreachable_share = 1e-8;  // A Mc A' over A M^-1 A'
-constexpr int no_level = std::numeric_limits<int>::min();
+constexpr int no_level = std::numeric_limits<int>::max();
 constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
 constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it
 constexpr double driven_share = 1e-8;           // |B.T| over |B||T|: below, the motor does not move the row
@@ -56,7 +56,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       F_(RowMajorMatrix::Zero(dimension, dimension)),
       frozen_(RowMajorMatrix::Zero(dimension, dimension)),
       gram_(RowMajorMatrix::Zero(dimension, spaced(dimension))),
-      inverse_gram_(Vector::Zero(dimension)),
+      inverse_pivots_(Vector::Zero(dimension)),
       entries_(static_cast<std::size_t>(rows)),
       solutions_(static_cast<std::size_t>(rows)),
       last_on_axis_(static_cast<std::size_t>(rows)),
@@ -67,6 +67,8 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
   awake_.reserve(static_cast<std::size_t>(rows));
   idle_.reserve(static_cast<std::size_t>(rows));
   sums_.reserve(static_cast<std::size_t>(rows));
+  for (std::vector<int>* of_level : {&forces_, &motions_, &limits_above_})
+    of_level->reserve(static_cast<std::size_t>(rows));
   units_.reserve(static_cast<std::size_t>(rows));
   tied_.reserve(static_cast<std::size_t>(rows));
   soles_.reserve(static_cast<std::size_t>(motors));
@@ -81,6 +83,8 @@ void BoundedProblem::clear_motors(int dimension) noexcept {
 void BoundedProblem::set_row(int i, const Row& row, const double* B, double held) noexcept {
   Entry& e = entry(i);
   e.twin = -1;
+  e.axis = i;
+  last_on_axis_[static_cast<std::size_t>(i)] = -1;
   solver::copy(dimension_, B, &B_(i, 0));
   e.B = &B_(i, 0);
   e.extent = extent_of(e.B);
@@ -94,7 +98,7 @@ void BoundedProblem::set_row(int i, const Row& row, const double* B, double held
 void BoundedProblem::set_twin(int i, const Row& row, int twin) noexcept {
   Entry& e = entry(i);
   const Entry& other = entry(twin);
-  e.twin = twin;
+  e.twin = e.axis = twin;
   e.B = other.B;
   e.extent = other.extent;
   e.length = other.length;
@@ -105,8 +109,9 @@ void BoundedProblem::set_twin(int i, const Row& row, int twin) noexcept {
 
 /// All that set_row and set_twin have not set.
 void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
-  static_cast<Standing&>(e) = Standing{};
+  e.reset();
   e.kind = row.kind;
+  e.is_limit = row.kind == RowKind::upper || row.kind == RowKind::lower;
   e.quantity = row.quantity;
   e.level = row.level;
   e.lo = row.lo;
@@ -130,7 +135,7 @@ void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
 void BoundedProblem::take_softness(Entry& e, double weight) noexcept {
   e.held_softness = e.fade < 1.0 ? e.length * e.length * (1.0 - e.fade) / e.fade : 0.0;
   e.softness = e.held_softness;
-  const bool is_motion = is_one_sided(e.kind) || e.kind == RowKind::driver;
+  const bool is_motion = e.is_limit || e.kind == RowKind::driver;
   if (is_motion && std::isfinite(weight)) e.softness += 1.0 / weight;
 }
 
@@ -150,7 +155,7 @@ bool BoundedProblem::solve(int max_iterations) noexcept {
   bound_rows();
   bool exact = true;
   if (!solve_levels(max_iterations, exact)) {
-    wake_idle_limits(next_level(no_level));
+    wake_idle_limits(first_level());
     for (Entry& e : entries_) e.nu = e.phi = e.offset = 0.0;
     solve_levels(max_iterations, exact);
   }
@@ -167,25 +172,21 @@ bool BoundedProblem::solve_levels(int max_iterations, bool& exact) noexcept {
   tau_.head(motors_).setZero();
   torques_are_least_ = true;
   exact = true;
-  for (int level = next_level(no_level), below = 0; level != no_level; level = below) {
-    below = next_level(level);
+  for (int level = first_level(); level != no_level; level = next_level_) {
     project_rows(level);
     start_sums(level);
     exact = solve_forces(level, max_iterations) && exact;
     exact = solve_motion(level, max_iterations) && exact;
     if (!idle_limits_rest(level)) return false;
-    if (below != no_level) freeze(level);
+    if (next_level_ != no_level) freeze(level);
   }
   return true;
 }
 
-int BoundedProblem::next_level(int after) const noexcept {
-  int next = no_level;
-  for (const int i : awake_) {
-    const int level = entries_[static_cast<std::size_t>(i)].level;
-    if (level > after && (next == no_level || level < next)) next = level;
-  }
-  return next;
+int BoundedProblem::first_level() const noexcept {
+  int first = no_level;
+  for (const int i : awake_) first = std::min(first, entries_[static_cast<std::size_t>(i)].level);
+  return first;
 }
 
 /// Torques of least norm for p = T'tau. T is nearly a triangle: the dimensions of joints that carry no wheels
@@ -223,8 +224,31 @@ void BoundedProblem::factorise_motors() noexcept {
     shared_motors_.push_back(j);
     add_square(0, extent, 1.0, T(j), gram_.data(), gram_.outerStride());
   }
-  motors_reach_all_ = cholesky(gram_, open, least);
-  for (int k = 0; k < open && motors_reach_all_; ++k) inverse_gram_(k) = 1.0 / gram_(k, k);
+  motors_reach_all_ = factorise_gram(open, least);
+}
+
+/// T'T = G D G', and G^-1 in the place of G:  W_kc = -G_kc - sum G_ke W_ec over c < e < k. False where a
+/// pivot is not above `least_pivot`.
+bool BoundedProblem::factorise_gram(int count, double least_pivot) noexcept {
+  for (int k = 0; k < count; ++k) {
+    double* const row = &gram_(k, 0);
+    double pivot = row[k];
+    // Row k of G D from W alone:  G D = T'T W'.
+    for (int c = k - 1; c >= 0; --c) {
+      double rest = row[c];
+      for (int e = 0; e < c; ++e) rest += gram_(c, e) * row[e];
+      row[c] = rest * inverse_pivots_(c);
+      pivot -= rest * row[c];
+    }
+    if (!(pivot > least_pivot)) return false;
+    inverse_pivots_(k) = 1.0 / pivot;
+    for (int c = 0; c < k; ++c) {
+      double sum = -row[c];
+      for (int e = c + 1; e < k; ++e) sum -= row[e] * gram_(e, c);
+      row[c] = sum;
+    }
+  }
+  return true;
 }
 
 /// A line is 0 from here on: the whitened axes come from joints, one after the other.
@@ -249,7 +273,8 @@ void BoundedProblem::bound_row(int i) noexcept {
     e.hi *= e.fade;
     return;
   }
-  double force = e.largest_force = largest_force(i);
+  const bool is_known = e.twin >= 0 && entry(e.twin).largest_force >= 0.0;
+  double force = e.largest_force = is_known ? entry(e.twin).largest_force : largest_force(i);
   if (force == 0.0) {
     e.out = true;
     e.status = RowStatus::unreachable;
@@ -273,8 +298,6 @@ double BoundedProblem::largest_demand() noexcept {
 
 /// Upper bound of |nu| with B_i nu = T'tau: both sides times B_i. 0 where no motor drives the row.
 double BoundedProblem::largest_force(int i) noexcept {
-  if (entry(i).twin >= 0 && entry(entry(i).twin).largest_force >= 0.0)
-    return entry(entry(i).twin).largest_force;
   const double length = entry(i).length;
   const double least = driven_share * driven_share * length * length;
   double sum = 0.0;
@@ -286,52 +309,61 @@ double BoundedProblem::largest_force(int i) noexcept {
   return length > 0.0 ? sum / (length * length) : 0.0;
 }
 
-/// V_i = F'B_i and P_i = F V_i = K B_i: the row as the levels above let it act.
+/// The rows of a level that take part, and V_i = F'B_i and P_i = F V_i = K B_i of them and of the limits
+/// above: the row as the levels above let it act.
 void BoundedProblem::project_rows(int level) noexcept {
+  forces_.clear();
+  motions_.clear();
+  limits_above_.clear();
+  next_level_ = no_level;
   for (const int i : awake_) {
-    Entry& e = entry(i);
-    const bool is_posed = e.level == level || (e.level < level && is_one_sided(i));
-    if (e.out || !is_posed) continue;
-    e.projected_at = level;
-    if (e.twin >= 0 && entry(e.twin).projected_at == level) {
-      const Entry& twin = entry(e.twin);
-      e.V = twin.V;
-      e.P = twin.P;
-      e.reach_extent = twin.reach_extent;
-      e.reach = twin.reach;
-      e.inverse_reach = twin.inverse_reach;
-      if (e.level == level) e.blocked = twin.reach == 0.0;
+    const Entry& e = entry(i);
+    if (e.level > level) {
+      next_level_ = std::min(next_level_, e.level);
       continue;
     }
-    if (all_free_) {
-      e.blocked = false;
-      e.V = e.P = e.B;
-      e.reach_extent = e.extent;
-      e.reach = e.length;
-      e.inverse_reach = e.inverse_length;
-      continue;
-    }
-    double* const V = &V_(i, 0);
-    double* const P = &P_(i, 0);
-    e.V = V;
-    e.P = P;
-    e.reach_extent = dimension_;
-    std::fill_n(V, dimension_, 0.0);
-    for (int k = 0; k < e.extent; ++k) add_multiple(dimension_, e.B[k], &F_(k, 0), V);
-    const double squared = dot(dimension_, V, V);
-    const bool blocked = squared <= blocked_share * e.length * e.length;
-    if (e.level == level) e.blocked = blocked;
-    e.reach = blocked ? 0.0 : std::sqrt(squared);
-    e.inverse_reach = blocked ? 0.0 : 1.0 / e.reach;
-    for (int k = 0; k < dimension_; ++k) P[k] = blocked ? 0.0 : dot(dimension_, V, &F_(k, 0));
+    const bool is_above = e.level < level;
+    if (e.out || (is_above && !e.is_limit)) continue;
+    project_row(i, level);
+    if (e.reach == 0.0 || e.kind == RowKind::sum) continue;
+    (is_above ? limits_above_ : e.kind == RowKind::force ? forces_ : motions_).push_back(i);
   }
 }
 
-/// Below its own level a row holds what it reached with whatever that takes.
-Range BoundedProblem::bounds_at(int i, int level) const noexcept {
-  const Entry& e = entries_[static_cast<std::size_t>(i)];
-  if (e.level == level) return {e.lo, e.hi};
-  return {e.kind == RowKind::lower ? 0.0 : -infinity, e.kind == RowKind::upper ? 0.0 : infinity};
+void BoundedProblem::project_row(int i, int level) noexcept {
+  Entry& e = entry(i);
+  e.projected_at = level;
+  if (all_free_) {
+    e.blocked = false;
+    e.V = e.P = e.B;
+    e.reach_extent = e.extent;
+    e.reach = e.length;
+    e.inverse_reach = e.inverse_length;
+    return;
+  }
+  if (e.twin >= 0 && entry(e.twin).projected_at == level) {
+    const Entry& twin = entry(e.twin);
+    e.V = twin.V;
+    e.P = twin.P;
+    e.reach_extent = twin.reach_extent;
+    e.reach = twin.reach;
+    e.inverse_reach = twin.inverse_reach;
+    if (e.level == level) e.blocked = twin.reach == 0.0;
+    return;
+  }
+  double* const V = &V_(i, 0);
+  double* const P = &P_(i, 0);
+  e.V = V;
+  e.P = P;
+  e.reach_extent = dimension_;
+  std::fill_n(V, dimension_, 0.0);
+  for (int k = 0; k < e.extent; ++k) add_multiple(dimension_, e.B[k], &F_(k, 0), V);
+  const double squared = dot(dimension_, V, V);
+  const bool blocked = squared <= blocked_share * e.length * e.length;
+  if (e.level == level) e.blocked = blocked;
+  e.reach = blocked ? 0.0 : std::sqrt(squared);
+  e.inverse_reach = blocked ? 0.0 : 1.0 / e.reach;
+  for (int k = 0; k < dimension_; ++k) P[k] = blocked ? 0.0 : dot(dimension_, V, &F_(k, 0));
 }
 
 /// What the level's equality and force rows achieved, saturated or not, stays for the levels below:

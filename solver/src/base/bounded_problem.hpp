@@ -69,6 +69,7 @@ class BoundedProblem {
     double above = 0.0;           ///< of a sum: B_S.p / |B_S|^2 of the levels above
     double offset = 0.0;          ///< how far beyond b its own level left a violated one-sided row
     double nu = 0.0, phi = 0.0;
+    double reached = 0.0;        ///< of the first row on an axis: B_i.p of the solution
     int reach_extent = 0;        ///< of V_i and P_i
     int projected_at = -1;       ///< level of V_i and P_i
     int limit_before = -1;       ///< along the same axis
@@ -76,6 +77,15 @@ class BoundedProblem {
     bool blocked = false;        ///< the levels above leave it no freedom
     bool motor_limited = false;  ///< a motor stood at its limit when the row's level was solved
     bool sum_limited = false;    ///< and so did a sum against it
+
+    /// As before the first level; what a level finds out about every row that it looks at may stay.
+    /// (One by one: for a whole struct GCC 12 emits a string instruction, which is slow to start.)
+    void reset() noexcept {
+      reach = above = offset = nu = phi = 0.0;
+      largest_force = -1.0;
+      projected_at = limit_before = -1;
+      is_idle = blocked = motor_limited = sum_limited = false;
+    }
   };
   struct Entry : Standing {
     RowKind kind = RowKind::driver;
@@ -89,9 +99,11 @@ class BoundedProblem {
     double softness = 0.0;       ///< R at the row's own level
     double held_softness = 0.0;  ///< and below it
     const double* B = nullptr;
-    int extent = 0;       ///< of B_i: the rest is 0
-    int twin = -1;        ///< an earlier row with the same B
-    double length = 0.0;  ///< |B_i|
+    int extent = 0;         ///< of B_i: the rest is 0
+    int twin = -1;          ///< an earlier row with the same B
+    int axis = 0;           ///< the first row with this B
+    bool is_limit = false;  ///< one-sided
+    double length = 0.0;    ///< |B_i|
     double inverse_length = 0.0;
     bool reachable = false;  ///< the ground leaves some of it
     bool out = false;        ///< unreachable: takes no part
@@ -116,18 +128,19 @@ class BoundedProblem {
   const double* P(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].P; }
   const double* T(int motor) const noexcept { return T_[static_cast<std::size_t>(motor)]; }
   Entry& entry(int i) noexcept { return entries_[static_cast<std::size_t>(i)]; }
-  static bool is_one_sided(RowKind kind) noexcept { return kind == RowKind::upper || kind == RowKind::lower; }
-  bool is_one_sided(int i) const noexcept { return is_one_sided(entries_[static_cast<std::size_t>(i)].kind); }
-  bool is_motion(int i) const noexcept {
-    return is_one_sided(i) || entries_[static_cast<std::size_t>(i)].kind == RowKind::driver;
-  }
+  bool is_one_sided(int i) const noexcept { return entries_[static_cast<std::size_t>(i)].is_limit; }
   bool is_soft(int i) noexcept { return entry(i).softness > 0.0; }
   /// A row takes part in a stage while something of it is left free.
   bool takes_part(int i) const noexcept {
     const Entry& e = entries_[static_cast<std::size_t>(i)];
     return !e.out && e.reach > 0.0;
   }
-  Range bounds_at(int i, int level) const noexcept;
+  /// Below its own level a row holds what it reached with whatever that takes.
+  Range bounds_at(int i, int level) const noexcept {
+    const Entry& e = entries_[static_cast<std::size_t>(i)];
+    if (e.level == level) return {e.lo, e.hi};
+    return {e.kind == RowKind::lower ? 0.0 : -infinity, e.kind == RowKind::upper ? 0.0 : infinity};
+  }
   double softness_at(int i, int level) const noexcept {
     const Entry& e = entries_[static_cast<std::size_t>(i)];
     return e.level == level ? e.softness : e.held_softness;
@@ -137,7 +150,7 @@ class BoundedProblem {
   void take_softness(Entry& e, double weight) noexcept;
   double largest_demand() noexcept;
   double largest_force(int row) noexcept;
-  int next_level(int after) const noexcept;
+  int first_level() const noexcept;
 
   void find_idle_limits() noexcept;
   bool idle_limits_rest(int level) noexcept;
@@ -147,6 +160,7 @@ class BoundedProblem {
   void bound_row(int i) noexcept;
   bool solve_levels(int max_iterations, bool& exact) noexcept;
   void project_rows(int level) noexcept;
+  void project_row(int i, int level) noexcept;
   bool solve_forces(int level, int max_iterations) noexcept;
   bool solve_motion(int level, int max_iterations) noexcept;
   bool least_multipliers(int level, int max_iterations) noexcept;
@@ -157,6 +171,7 @@ class BoundedProblem {
   void report_force(int i, bool motor_at_limit, RowSolution& row) noexcept;
   void report_sum(int i, RowSolution& row) noexcept;
   void report_motion(int i, bool motor_at_limit, RowSolution& row) noexcept;
+  RowStatus status_of_missed(int i, int side, bool motor_at_limit, RowSolution& row) noexcept;
   bool is_at_limit(const Vector& tau) const noexcept;
   void note_limits(int level) noexcept;
   bool is_sum_at_bound(int i, double direction) noexcept;
@@ -169,7 +184,12 @@ class BoundedProblem {
   bool sums_hold(int level, const Vector& p) noexcept;
   bool limits_above_hold(int first) noexcept;
   bool limits_rest(int level) noexcept;
-  double room_of(int i, const Vector& p) noexcept;
+  /// How far a limit is from what it must keep, with its present multiplier; negative where it does not.
+  double room_of(int i, const Vector& p) const noexcept {
+    const Entry& e = entries_[static_cast<std::size_t>(i)];
+    const double s = along(i, p) + e.held_softness * e.nu - d_(i) - e.offset;
+    return e.kind == RowKind::upper ? -s : s;
+  }
   bool brake(int forces, int level, int max_iterations) noexcept;
   bool share_torque(int forces, int level, int max_iterations) noexcept;
 
@@ -178,9 +198,7 @@ class BoundedProblem {
     int upper = -1, lower = -1, upper_above = -1, lower_above = -1;
   };
   /// Rows along the same axis share it.
-  std::size_t axis_of(int i) noexcept {
-    return static_cast<std::size_t>(entry(i).twin >= 0 ? entry(i).twin : i);
-  }
+  std::size_t axis_of(int i) noexcept { return static_cast<std::size_t>(entry(i).axis); }
   double target_of(int i) const noexcept;
   bool is_firm_limit(int i, int level) noexcept;
   void find_nearest_limits(int level) noexcept;
@@ -201,8 +219,8 @@ class BoundedProblem {
   double least_room(int i) noexcept;
   void take_out_limits(const Vector& p) noexcept;
   bool find_motion(int level, int max_iterations) noexcept;
-  void pose_rows(int level) noexcept;
-  void pose_limits_above(int level) noexcept;
+  void pose_rows() noexcept;
+  void pose_limits_above() noexcept;
   void resize_program(int n, int level, int curvature_rows, bool with_motors) noexcept;
   void pose_multiplier(int k, int level) noexcept;
   void pose_motion(int n, int level, bool with_motors) noexcept;
@@ -212,7 +230,10 @@ class BoundedProblem {
   void take_limits(int first) noexcept;
   void take_multipliers(int level) noexcept;
   void take_motors(int first) noexcept;
+  bool factorise_gram(int count, double least_pivot) noexcept;
   bool torques_for(const Vector& p) noexcept;
+  bool share(double* rest) noexcept;
+  bool share_three(const double* p) noexcept;
   bool take_torque(int motor, double torque) noexcept;
 
   int rows_ = 0, motors_ = 0, dimension_ = 0, iterations_ = 0;
@@ -239,9 +260,9 @@ class BoundedProblem {
   RowMajorMatrix F_;       ///< K = F F': motion by force, under what the levels above have frozen
   RowMajorMatrix frozen_;  ///< orthonormal rows: F times them is 0
   int frozen_count_ = 0;
-  bool all_free_ = true;  ///< F is still 1
-  RowMajorMatrix gram_;   ///< Cholesky factor of T'T, of the shared motors
-  Vector inverse_gram_;   ///< 1 over its diagonal
+  bool all_free_ = true;   ///< F is still 1
+  RowMajorMatrix gram_;    ///< T'T of the shared motors is G D G': G^-1, whose diagonal is 1 and not written
+  Vector inverse_pivots_;  ///< 1 / D
   bool motors_reach_all_ = false;
   bool motors_drive_all_ = false;   ///< and each of them can push
   bool torques_are_least_ = false;  ///< tau_ are the least ones that make p_
@@ -249,6 +270,9 @@ class BoundedProblem {
   std::vector<RowSolution> solutions_;
   std::vector<int> awake_, idle_;  ///< all rows: those that take part, and limits without anything to do
   std::vector<int> sums_;
+  std::vector<int> forces_, motions_,
+      limits_above_;                    ///< rows of the present level that take part, by what they are
+  int next_level_ = 0;                  ///< the one below it
   std::vector<int> last_on_axis_;       ///< by axis: the last limit
   std::vector<int> posed_;              ///< row of each variable of the present stage
   std::vector<int> folded_;             ///< rows of the present stage that need not be solved for

@@ -44,10 +44,9 @@ void BoundedProblem::find_idle_limits() noexcept {
 }
 
 void BoundedProblem::mark_idle_limits() noexcept {
-  for (int i = 0; i < rows_; ++i) last_on_axis_[axis_of(i)] = -1;
   for (int i = 0; i < rows_; ++i) {
     Entry& e = entry(i);
-    if (!is_firm_limit(i, e.level) || e.out) continue;
+    if (!e.is_limit || e.softness != 0.0 || e.out) continue;
     const double side = e.kind == RowKind::upper ? 1.0 : -1.0;
     int& last = last_on_axis_[axis_of(i)];
     for (int k = last; k >= 0 && !e.is_idle; k = entry(k).limit_before) {
@@ -158,11 +157,9 @@ void BoundedProblem::unfold_limits() noexcept {
   folded_.clear();
 }
 
-/// Adds the limits of the levels above `level`: they are posed again.
-void BoundedProblem::pose_limits_above(int level) noexcept {
-  for (const int i : awake_) {
-    if (is_one_sided(i) && entry(i).level < level && takes_part(i)) posed_.push_back(i);
-  }
+/// Adds the limits of the levels above: they are posed again.
+void BoundedProblem::pose_limits_above() noexcept {
+  for (const int i : limits_above_) posed_.push_back(i);
 }
 
 /// Whether the posed limits hold at work_ with the multipliers that they have.
@@ -171,13 +168,6 @@ bool BoundedProblem::limits_above_hold(int first) noexcept {
     if (room_of(posed_[k], work_) < 0.0) return false;
   }
   return true;
-}
-
-/// How far a limit is from what it must keep, with its present multiplier; negative where it does not.
-double BoundedProblem::room_of(int i, const Vector& p) noexcept {
-  const Entry& e = entry(i);
-  const double s = along(i, p) + e.held_softness * e.nu - d_(i) - e.offset;
-  return e.kind == RowKind::upper ? -s : s;
 }
 
 /// Of a limit that takes no share of what another one pushes.

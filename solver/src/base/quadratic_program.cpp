@@ -48,8 +48,10 @@ void QuadraticProgram::resize(int variables, int curvature_rows, int equality_ro
   variables_ = variables;
   curvature_rows_ = curvature_rows;
   equality_rows_ = equality_rows;
+  if (equality_rows == 0) return;
   for (int k = 0; k < variables; ++k) {
     extents_[index(k)] = 0;
+    set_zero(curvature_rows, &V_(k, 0));
     set_zero(equality_rows, E(k));
     R_(k) = g_(k) = z_(k) = 0.0;
   }
@@ -58,13 +60,7 @@ void QuadraticProgram::resize(int variables, int curvature_rows, int equality_ro
 void QuadraticProgram::set_V(int variable, int count, double scale, const double* x) noexcept {
   extents_[index(variable)] = count;
   scaled_copy(count, scale, x, &V_(variable, 0));
-}
-
-void QuadraticProgram::fill_columns() noexcept {
-  for (int k = 0; k < variables_; ++k) {
-    const int extent = extents_[index(k)];
-    std::fill_n(&V_(k, 0) + extent, curvature_rows_ - extent, 0.0);
-  }
+  set_zero(curvature_rows_ - count, &V_(variable, 0) + count);
 }
 
 bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
@@ -72,7 +68,6 @@ bool QuadraticProgram::solve(int max_iterations, int& iterations) noexcept {
   for (int k = 0; k < variables_; ++k) largest_g_ = std::max(largest_g_, std::abs(g_(k)));
   constexpr int rounds = 20;
   if (equality_rows_ == 0 && pivot_blocks(std::min(max_iterations, rounds), iterations)) return true;
-  fill_columns();
   choose_basis();
   if (!factorise_basis()) return false;
   choose_superbasics();

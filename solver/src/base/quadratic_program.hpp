@@ -32,8 +32,8 @@ class QuadraticProgram {
  public:
   QuadraticProgram(int variable_capacity, int curvature_capacity, int equality_capacity);
 
-  /// Sizes the problem: `variables` columns; V has `curvature_rows` rows, E `equality_rows`. Everything is 0,
-  /// bounds are left to set.
+  /// Sizes the problem: `variables` columns; V has `curvature_rows` rows, E `equality_rows`. With equations
+  /// everything is 0 and bounds are left to set; without, everything is.
   void resize(int variables, int curvature_rows, int equality_rows) noexcept;
 
   /// A column of V: `scale` times the `count` numbers of `x`, the rest 0. Its length is to be 1.
@@ -66,7 +66,6 @@ class QuadraticProgram {
 
   bool pivot_blocks(int max_rounds, int& iterations) noexcept;
   const double* V(int variable) const noexcept { return &V_(variable, 0); }
-  void fill_columns() noexcept;
   /// An entry of H.
   double hessian(int k, int l) const noexcept {
     if (k == l) return curvature_(k);
@@ -83,6 +82,7 @@ class QuadraticProgram {
   bool is_out_of_place(int variable) const noexcept;
   void divide_by_free(double* x) const noexcept;
   void solve_free() noexcept;
+  bool set_free() noexcept;
   int flat_one_that_wants_away() const noexcept;
   bool has_room(int variable) const noexcept;
   bool slide(int flat) noexcept;
@@ -126,7 +126,7 @@ class QuadraticProgram {
   int factorised_ = 0;            ///< rows of the blocks' factor that are those of the free variables
   bool curved_ = true;            ///< the newest superbasic variable adds curvature
   Eigen::VectorXd image_;         ///< V z
-  std::vector<int> extents_;      ///< of the columns of V: the rest is 0, and not written before it is needed
+  std::vector<int> extents_;      ///< of the columns of V: the rest is 0
   std::vector<Place> place_;
   std::vector<char> stuck_;
   std::vector<int> basics_, superbasics_, rows_;

@@ -14,10 +14,8 @@ constexpr double least_opposition = 0.01;    // of the strongest one's, to be na
 
 /// The side of its box that nu is at: -1, 1, or 0 for neither.
 int side_of(double nu, double lo, double hi) {
-  double size = 1.0;
-  for (const double bound : {lo, hi}) {
-    if (std::isfinite(bound)) size = std::max(size, std::abs(bound));
-  }
+  const auto size_of = [](double bound) { return std::isfinite(bound) ? std::abs(bound) : 0.0; };
+  const double size = std::max({1.0, size_of(lo), size_of(hi)});
   const double width = bound_tolerance * size;
   if (nu >= hi - width && hi > 0.0) return 1;
   if (nu <= lo + width && lo < 0.0) return -1;
@@ -52,6 +50,9 @@ void BoundedProblem::note_limits(int level) noexcept {
 void BoundedProblem::report() noexcept {
   const bool motor_at_limit = is_at_limit(tau_);
   for (const int i : idle_) solutions_[static_cast<std::size_t>(i)] = {};
+  for (int i = 0; i < rows_; ++i) {
+    if (entry(i).axis == i) entry(i).reached = along(i, p_);
+  }
   for (const int i : awake_) {
     RowSolution& row = solutions_[static_cast<std::size_t>(i)];
     row = {};
@@ -94,31 +95,33 @@ void BoundedProblem::report_sum(int i, RowSolution& row) noexcept {
 
 void BoundedProblem::report_motion(int i, bool motor_at_limit, RowSolution& row) noexcept {
   const Entry& e = entry(i);
-  const double s = along(i, p_) - d_(i);
-  row.nu = e.out ? 0.0 : e.nu;
-  row.residual = e.kind == RowKind::upper   ? std::max(s, 0.0)
-                 : e.kind == RowKind::lower ? std::min(s, 0.0)
-                                            : s;
-  const int side = e.out ? 0 : side_of(e.nu, e.lo, e.hi);
-  row.saturated = side != 0;
-  const bool is_bounded = side < 0 ? e.bounded_below : side > 0 && e.bounded_above;
+  const double s = entry(e.axis).reached - d_(i);
+  row.residual = s;
+  if (e.is_limit) row.residual = e.kind == RowKind::upper ? std::max(s, 0.0) : std::min(s, 0.0);
   const bool met = std::abs(row.residual) <= residual_tolerance * (1.0 + std::abs(d_(i)));
-  if (met || e.out) {
+  if (e.out) {
     row.status = met ? RowStatus::held : e.status;
-  } else if (!row.saturated && (e.sum_limited || is_held_by_sum(i, -row.residual))) {
-    row.saturated = true;
-    row.status = RowStatus::force_limited;
-  } else if (e.blocked) {
-    row.status = RowStatus::blocked;
-  } else if (is_soft(i) && !row.saturated) {
-    row.status = RowStatus::held;
-  } else if (is_bounded && !is_one_sided(i)) {
-    row.status = RowStatus::force_limited;
-  } else if (row.saturated && is_one_sided(i)) {
-    row.status = RowStatus::conflict;
-  } else {
-    row.status = motor_at_limit || e.motor_limited ? RowStatus::torque_limited : RowStatus::conflict;
+    return;
   }
+  row.nu = e.nu;
+  const int side = side_of(e.nu, e.lo, e.hi);
+  row.saturated = side != 0;
+  if (!met) row.status = status_of_missed(i, side, motor_at_limit, row);
+}
+
+/// Of a motion row that did not get what it asked, with its force at that side of its box.
+RowStatus BoundedProblem::status_of_missed(int i, int side, bool motor_at_limit, RowSolution& row) noexcept {
+  const Entry& e = entry(i);
+  const bool is_bounded = side < 0 ? e.bounded_below : side > 0 && e.bounded_above;
+  if (!row.saturated && (e.sum_limited || is_held_by_sum(i, -row.residual))) {
+    row.saturated = true;
+    return RowStatus::force_limited;
+  }
+  if (e.blocked) return RowStatus::blocked;
+  if (is_soft(i) && !row.saturated) return RowStatus::held;
+  if (is_bounded && !e.is_limit) return RowStatus::force_limited;
+  if (row.saturated && e.is_limit) return RowStatus::conflict;
+  return motor_at_limit || e.motor_limited ? RowStatus::torque_limited : RowStatus::conflict;
 }
 
 bool BoundedProblem::is_sum_at_bound(int i, double direction) noexcept {

@@ -49,16 +49,12 @@ bool BoundedProblem::sums_hold(int level, const Vector& p) noexcept {
 /// min sum (1 - phi)^2 with torques that make the motion, the limits above braking as they must. Mostly
 /// phi = 1 is possible: tried first with the limits as they are, then with what they need.
 bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
-  posed_.clear();
+  if (forces_.empty()) return true;
+  posed_ = forces_;
   copy(p_, work_);
-  for (const int i : awake_) {
-    if (entry(i).kind != RowKind::force || entry(i).level != level || !takes_part(i)) continue;
-    posed_.push_back(i);
-    push(i, entry(i).force, work_);
-  }
-  if (posed_.empty()) return true;
+  for (const int i : forces_) push(i, entry(i).force, work_);
   const int forces = static_cast<int>(posed_.size());
-  pose_limits_above(level);
+  pose_limits_above();
   bool exact = true;
   bool full = limits_above_hold(forces) && sums_hold(level, work_) && torques_for(work_);
   if (!full && static_cast<int>(posed_.size()) > forces && motors_reach_all_) {
@@ -74,7 +70,7 @@ bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
   } else {
     wake_idle_limits(level);
     posed_.resize(static_cast<std::size_t>(forces));
-    pose_limits_above(level);
+    pose_limits_above();
     exact = share_torque(forces, level, max_iterations) && exact;
   }
   torques_are_least_ = full;
@@ -160,14 +156,14 @@ void BoundedProblem::resize_program(int n, int level, int curvature_rows, bool w
 }
 
 /// The variable nu |V_i| of a motion row: its bounds, and where it stands.
-void BoundedProblem::pose_multiplier(int k, int level) noexcept {
+inline void BoundedProblem::pose_multiplier(int k, int level) noexcept {
   const int i = posed_[static_cast<std::size_t>(k)];
-  const double length = entry(i).reach;
+  const Entry& e = entry(i);
   const Range bounds = bounds_at(i, level);
-  units_.push_back(entry(i).inverse_reach);
-  program_.lo(k) = bounds.low * length;
-  program_.hi(k) = bounds.high * length;
-  program_.z(k) = is_one_sided(i) ? entry(i).nu * length : 0.0;
+  units_.push_back(e.inverse_reach);
+  program_.lo(k) = bounds.low * e.reach;
+  program_.hi(k) = bounds.high * e.reach;
+  program_.z(k) = e.is_limit ? e.nu * e.reach : 0.0;
 }
 
 /// The equations of the `n` row variables: torques make the motion, and the limits above stay kept,
@@ -230,14 +226,10 @@ void BoundedProblem::take_motors(int first) noexcept {
 }
 
 /// The level's own motion rows, and the limits of the levels above.
-void BoundedProblem::pose_rows(int level) noexcept {
-  posed_.clear();
+void BoundedProblem::pose_rows() noexcept {
   folded_.clear();
-  for (const int i : awake_) {
-    const Entry& e = entry(i);
-    if (e.level == level && is_motion(i) && takes_part(i)) posed_.push_back(i);
-  }
-  pose_limits_above(level);
+  posed_ = motions_;
+  pose_limits_above();
 }
 
 /// The motion in work_ with the posed rows, motors aside.
@@ -253,7 +245,7 @@ bool BoundedProblem::find_motion(int level, int max_iterations) noexcept {
 /// Most of the time no motor is at its limit: the problem is solved without the motors first, and stands when
 /// they can.
 bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
-  pose_rows(level);
+  pose_rows();
   if (posed_.empty() || limits_rest(level) || one_limit_settles(level)) return true;
   bool exact = true;
   bool possible = false;
@@ -270,7 +262,7 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
     tau_.head(motors_) = candidate_.head(motors_);
   } else {
     wake_idle_limits(level);
-    pose_rows(level);
+    pose_rows();
     take_out_limits(p_);
     const int n = static_cast<int>(posed_.size());
     pose_motion(n, level, true);
@@ -294,9 +286,9 @@ void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
     const int i = posed_[static_cast<std::size_t>(k)];
     const Entry& e = entry(i);
     const double unit = e.inverse_reach;
-    program_.set_V(k, e.reach_extent, unit, V(i));
+    program_.set_V(k, e.reach_extent, unit, e.V);
     program_.g(k) = (d_(i) + e.offset - along(i, fixed_)) * unit;
-    program_.R(k) = softness_at(i, level) * unit * unit;
+    program_.R(k) = (e.level == level ? e.softness : e.held_softness) * unit * unit;
     pose_multiplier(k, level);
   }
   if (with_motors) pose_motors(n, level);
@@ -365,7 +357,7 @@ inline bool BoundedProblem::take_torque(int motor, double torque) noexcept {
 /// (T'T)^-1 p. False when the motors do not reach p or a limit is in the way.
 bool BoundedProblem::torques_for(const Vector& p) noexcept {
   if (!motors_reach_all_) return false;
-  copy(p, solved_);
+  solver::copy(dimension_, p.data(), solved_.data());
   double* const rest = solved_.data();
   int open = dimension_;
   for (const Sole& sole : soles_) {
@@ -373,16 +365,39 @@ bool BoundedProblem::torques_for(const Vector& p) noexcept {
     if (!take_torque(sole.motor, torque)) return false;
     add_multiple(open, -torque, T(sole.motor), rest);
   }
-  for (int k = 0; k < shared_dimensions_; ++k) {
-    for (int c = 0; c < k; ++c) rest[k] -= gram_(k, c) * rest[c];
-    rest[k] *= inverse_gram_(k);
-  }
+  return shared_dimensions_ == 3 ? share_three(rest) : share(rest);
+}
+
+/// tau = T (W' D^-1 W) p of the shared motors, no sum waiting for another one. Writes over p.
+bool BoundedProblem::share(double* rest) noexcept {
   for (int k = shared_dimensions_ - 1; k >= 0; --k) {
-    const double x = rest[k] *= inverse_gram_(k);
-    for (int c = 0; c < k; ++c) rest[c] -= gram_(k, c) * x;
+    double sum = rest[k];
+    for (int c = 0; c < k; ++c) sum += gram_(k, c) * rest[c];
+    rest[k] = sum * inverse_pivots_(k);
+  }
+  for (int c = 0; c < shared_dimensions_; ++c) {
+    for (int k = c + 1; k < shared_dimensions_; ++k) rest[c] += gram_(k, c) * rest[k];
   }
   for (const int j : shared_motors_) {
-    if (!take_torque(j, dot(motor_extents_[static_cast<std::size_t>(j)], T(j), rest))) return false;
+    const double* const own = T(j);
+    const int extent = motor_extents_[static_cast<std::size_t>(j)];
+    double torque = 0.0;  // number by number, as they were written
+    for (int k = 0; k < extent; ++k) torque += own[k] * rest[k];
+    if (!take_torque(j, torque)) return false;
+  }
+  return true;
+}
+
+/// The same of the three motions of a base that goes everywhere.
+bool BoundedProblem::share_three(const double* p) noexcept {
+  const double W10 = gram_(1, 0), W20 = gram_(2, 0), W21 = gram_(2, 1);
+  const double y = (p[1] + W10 * p[0]) * inverse_pivots_(1);
+  const double z = (p[2] + W20 * p[0] + W21 * p[1]) * inverse_pivots_(2);
+  const double x0 = p[0] * inverse_pivots_(0) + W10 * y + W20 * z;
+  const double x1 = y + W21 * z;
+  for (const int j : shared_motors_) {
+    const double* const own = T(j);
+    if (!take_torque(j, own[0] * x0 + own[1] * x1 + own[2] * z)) return false;
   }
   return true;
 }
