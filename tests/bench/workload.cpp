@@ -191,6 +191,20 @@ Workload base_rows() {
   return unbounded("base, 10 rows", w);
 }
 
+Model base_on_eccentric_wheels() {
+  return test::mecanum({.eccentricity = 0.001});
+}
+
+Workload eccentric_base_rows() {
+  auto w = std::make_shared<Unbounded>(base_on_eccentric_wheels(), 2);
+  add_rows(0, {0, 1, 5}, w->rows);
+  return unbounded("eccentric base, 10 rows", w);
+}
+
+Workload eccentric_base_full() {
+  return full("eccentric base, full problem", std::make_shared<Full>(base_on_eccentric_wheels()));
+}
+
 Workload mobile_arm_rows() {
   auto w = std::make_shared<Unbounded>(base(Arm::joints), 2);
   add_rows(0, {0, 1, 5}, w->rows);

@@ -40,6 +40,9 @@ Workload arm_kdl(int rows);  ///< kdl_arm.cpp
 Workload arm_pinocchio();    ///< pinocchio_arm.cpp, where it is installed
 Workload base_rows();
 Workload base_full();
+/// The same base with wheels that are not round: what round ones keep from call to call is computed anew.
+Workload eccentric_base_rows();
+Workload eccentric_base_full();
 Workload base_with_rows();
 Workload base_tick();
 Workload mobile_arm_rows();

@@ -26,9 +26,10 @@ class WheelBrake {
   /// `suspect`: a joint whose motor the stop is about; -1: none. `is_sure`: it is that one and no other.
   void begin(int suspect, bool is_sure) noexcept;
   void brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept;
-  /// A tick without a sample; the first one after any tick with one says where to go on from.
-  void brake_blind(Eigen::VectorXd& tau) noexcept;
+  /// A tick with a sample that can be believed.
   void remember(const solver::State& state) noexcept;
+  /// A tick without one: goes on from what was remembered last. Leaves `tau` as it is when that is used up.
+  void brake_blind(Eigen::VectorXd& tau) noexcept;
 
   static constexpr double full_brake_speed = 0.5;  ///< [rad/s] the torque shrinks with the rate below it
   static constexpr double trusted = 0.75;          ///< of 2 T / P: masses may be a quarter less

@@ -78,7 +78,7 @@ struct AxisConstraint {
   double alpha = 1.0;
   bool leaving =
       false;  ///< one-sided rows and sums enter at once; they leave with R(alpha), or with bounds / alpha
-  double blend = 0.0;  ///< [s] entering one-sided rows act with the horizon max(h, (1 - alpha) blend)
+  double blend = 0.0;  ///< [s] what an entering range excludes is met within max(h, (1 - alpha) blend)
   /// A driver that persists over a switch: b (or f) goes from `before`'s to `driver`'s as `progress` goes
   /// from 0 to 1.
   std::optional<Driver> before;
