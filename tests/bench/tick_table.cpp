@@ -1,5 +1,6 @@
 // The whole tick of the runtime, from the sample to the torques, on recorded runs: each tick's least time
-// over several replays of the same recording, and beside it one step of the simulated plant.
+// over several replays of the same recording. Beside it one step of the simulated plant, timed after each
+// replay, as machines have fast and slow minutes: the share is the median of the replays' own.
 #include <sched.h>
 
 #include <algorithm>
@@ -48,28 +49,14 @@ std::vector<runtime::Sensed> record(const lang::Program& program, std::size_t mo
   return samples;
 }
 
-/// [us] of each tick: the least of the replays. What is left is the tick's own work.
-std::vector<double> least_times(const lang::Program& program, const std::vector<runtime::Sensed>& samples) {
-  std::vector<double> least(samples.size(), 1e12);
-  for (int replay = 0; replay < replays; ++replay) {
-    runtime::Runner runner(program, {.period = period});
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      const auto start = Clock::now();
-      runner.step(samples[i]);
-      least[i] = std::min(least[i], std::chrono::duration<double, std::micro>(Clock::now() - start).count());
-    }
-  }
-  return least;
-}
-
 double quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-/// [us] of one step, the median of the least of `replays` in each of many places.
+/// [us] of one step now, the median of many.
 double step_time() {
-  const bench::Workload step = bench::mujoco_step();
+  static const bench::Workload step = bench::mujoco_step();
   std::vector<double> times;
   for (std::size_t i = 0; i < 4000; ++i) {
     const auto start = Clock::now();
@@ -79,14 +66,39 @@ double step_time() {
   return quantile(times, 0.5);
 }
 
-void print(const char* name, const std::string& task, const std::string& robot, double goal, double step) {
+struct TickTimes {
+  std::vector<double> least;   ///< [us] of each tick over the replays: what is left is the tick's own work
+  std::vector<double> shares;  ///< by replay: its median tick beside a step right after it
+  std::vector<double> steps;   ///< [us] by replay
+};
+
+TickTimes time_ticks(const lang::Program& program, const std::vector<runtime::Sensed>& samples) {
+  TickTimes times;
+  times.least.assign(samples.size(), 1e12);
+  std::vector<double> of_replay(samples.size());
+  for (int replay = 0; replay < replays; ++replay) {
+    runtime::Runner runner(program, {.period = period});
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const auto start = Clock::now();
+      runner.step(samples[i]);
+      of_replay[i] = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+      times.least[i] = std::min(times.least[i], of_replay[i]);
+    }
+    times.steps.push_back(step_time());
+    times.shares.push_back(quantile(of_replay, 0.5) / times.steps.back());
+  }
+  return times;
+}
+
+void print(const char* name, const std::string& task, const std::string& robot, double goal, bool has_share) {
   const lang::Program program = load(task, robot);
   const std::vector<runtime::Sensed> samples = record(program, 20'000);
-  const std::vector<double> times = least_times(program, samples);
-  std::printf("%-34s %6zu %8.2f %8.2f %8.2f %6.0f", name, times.size(), quantile(times, 0.5),
-              quantile(times, 0.999), quantile(times, 1.0), goal);
-  if (step > 0.0)
-    std::printf("  %4.0f %% of a step (goal 50, stretch 35)", 100.0 * quantile(times, 0.5) / step);
+  const TickTimes times = time_ticks(program, samples);
+  std::printf("%-34s %6zu %8.2f %8.2f %8.2f %6.0f", name, times.least.size(), quantile(times.least, 0.5),
+              quantile(times.least, 0.999), quantile(times.least, 1.0), goal);
+  if (has_share)
+    std::printf("  %4.0f %% of a step of %.2f us (goal 50, stretch 35)", 100.0 * quantile(times.shares, 0.5),
+                quantile(times.steps, 0.5));
   std::printf("\n");
 }
 
@@ -97,12 +109,10 @@ int main() {
   CPU_ZERO(&core);
   CPU_SET(static_cast<std::size_t>(sched_getcpu()), &core);
   sched_setaffinity(0, sizeof(core), &core);
-  const double step = step_time();
   std::printf("the tick, sample to torques [us]: least of %d replays of each tick\n", replays);
   std::printf("%-34s %6s %8s %8s %8s %6s\n", "task, robot", "ticks", "median", "p99.9", "worst", "goal");
-  print("hospital, mecanum (4 wheels)", "hospital.yaml", "mecanum_base", 10.0, step);
-  print("wall_align, mecanum (4 wheels)", "wall_align.yaml", "mecanum_base", 10.0, step);
-  print("obstacle, mecanum with 7-joint arm", "obstacle.yaml", "mecanum_arm_base", 60.0, 0.0);
-  std::printf("one mj_step, set as the plant of the mecanum base: %.2f us\n", step);
+  print("hospital, mecanum (4 wheels)", "hospital.yaml", "mecanum_base", 10.0, true);
+  print("wall_align, mecanum (4 wheels)", "wall_align.yaml", "mecanum_base", 10.0, true);
+  print("obstacle, mecanum with 7-joint arm", "obstacle.yaml", "mecanum_arm_base", 60.0, false);
   return 0;
 }
