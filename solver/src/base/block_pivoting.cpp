@@ -50,10 +50,8 @@ void QuadraticProgram::factorise_free() noexcept {
   const auto n = static_cast<int>(superbasics_.size());
   double* const t = work_.data();  // G_s D
   for (int s = factorised_; s < n; ++s) {
-    double* const line = &factor_(s, 0);
     const int variable = superbasics_[index(s)];
     const double own = curvature_(variable);
-    double pivot = own;
     const int extent = extents_[index(variable)];
     int pairs = 0;
     for (; pairs + 2 <= s; pairs += 2) {
@@ -61,15 +59,8 @@ void QuadraticProgram::factorise_free() noexcept {
               t + pairs);
     }
     if (pairs < s) t[pairs] = dot(extent, V(variable), V(superbasics_[index(pairs)]));
-    for (int c = 0; c < s; ++c) {
-      const double* const other = &factor_(c, 0);
-      double rest = t[c];
-      for (int e = 0; e < c; ++e) rest -= t[e] * other[e];
-      t[c] = rest;
-      line[c] = rest * inverse_D_(c);
-      pivot -= rest * line[c];
-    }
-    line[s] = pivot;
+    const double pivot = eliminate_row(factor_, inverse_D_, s, own, t);
+    factor_(s, s) = pivot;
     inverse_D_(s) = pivot > ample_curvature * own ? 1.0 / pivot : 0.0;
   }
   factorised_ = n;
@@ -77,19 +68,7 @@ void QuadraticProgram::factorise_free() noexcept {
 
 /// x := H_FF^-1 x
 void QuadraticProgram::divide_by_free(double* x) const noexcept {
-  const auto n = static_cast<int>(superbasics_.size());
-  for (int s = 1; s < n; ++s) {
-    const double* const line = &factor_(s, 0);
-    double rest = x[s];
-    for (int c = 0; c < s; ++c) rest -= line[c] * x[c];
-    x[s] = rest;
-  }
-  for (int s = 0; s < n; ++s) x[s] *= inverse_D_(s);
-  for (int s = n - 1; s > 0; --s) {
-    const double* const line = &factor_(s, 0);
-    const double own = x[s];
-    for (int c = 0; c < s; ++c) x[c] -= line[c] * own;
-  }
+  substitute(factor_, inverse_D_, static_cast<int>(superbasics_.size()), x);
 }
 
 /// One Newton step of the free variables: z -= H_FF^-1 reduced.

@@ -45,4 +45,37 @@ inline void solve_upper(const RowMajorMatrix& G, int n, double* x) noexcept {
   }
 }
 
+/// A = G D G' without roots, G with ones on its diagonal, which are not written. Row k of G from `t`, which
+/// holds row k of A and then that of G D, the ones above being factorised. Returns what is left of `pivot`,
+/// A_kk.
+inline double eliminate_row(RowMajorMatrix& G, const Eigen::VectorXd& inverse_D, int k, double pivot,
+                            double* t) noexcept {
+  double* const row = &G(k, 0);
+  for (int c = 0; c < k; ++c) {
+    const double* const other = &G(c, 0);
+    double rest = t[c];
+    for (int e = 0; e < c; ++e) rest -= t[e] * other[e];
+    t[c] = rest;
+    row[c] = rest * inverse_D(c);
+    pivot -= rest * row[c];
+  }
+  return pivot;
+}
+
+/// x := (G D G')^-1 x. One number after the other: a pair with one that was stored a moment ago would wait.
+inline void substitute(const RowMajorMatrix& G, const Eigen::VectorXd& inverse_D, int n, double* x) noexcept {
+  for (int k = 1; k < n; ++k) {
+    const double* const row = &G(k, 0);
+    double rest = x[k];
+    for (int c = 0; c < k; ++c) rest -= row[c] * x[c];
+    x[k] = rest;
+  }
+  for (int k = 0; k < n; ++k) x[k] *= inverse_D(k);
+  for (int k = n - 1; k > 0; --k) {
+    const double* const row = &G(k, 0);
+    const double own = x[k];
+    for (int c = 0; c < k; ++c) x[c] -= row[c] * own;
+  }
+}
+
 }  // namespace zwang::solver

@@ -43,16 +43,8 @@ bool PivotedCholesky::factorise_in_order() noexcept {
   double* const t = column_.data();
   for (int i = 0; i < rows_; ++i) {
     const double* const L = &W_(i, 0);
-    double* const line = &G_(i, 0);
-    double left = L[i];
-    for (int k = 0; k < i; ++k) {
-      const double* const G = &G_(k, 0);
-      double rest = L[k];
-      for (int c = 0; c < k; ++c) rest -= t[c] * G[c];
-      t[k] = rest;
-      line[k] = rest * inverse_D_(k);
-      left -= rest * line[k];
-    }
+    std::copy_n(L, i, t);
+    const double left = eliminate_row(G_, inverse_D_, i, L[i], t);
     if (!(left > ample * size_(i))) return false;
     inverse_D_(i) = 1.0 / left;
   }
@@ -115,22 +107,12 @@ void PivotedCholesky::exchange(int c, int k) noexcept {
   for (int i = k + 1; i < rows_; ++i) std::swap(W_(i, c), W_(i, k));
 }
 
-void PivotedCholesky::substitute_in_order(const double* rhs, double* nu) noexcept {
-  for (int k = 0; k < rows_; ++k) {
-    const double* const G = &G_(k, 0);
-    double rest = rhs[k];
-    for (int c = 0; c < k; ++c) rest -= G[c] * nu[c];
-    nu[k] = rest;
-  }
-  for (int k = 0; k < rows_; ++k) nu[k] *= inverse_D_(k);
-  for (int k = rows_ - 1; k > 0; --k) add_multiple(k, -nu[k], &G_(k, 0), nu);
-}
-
 /// By substitution where every row is a pivot, one number after the other: a pair with the y that was stored
 /// a moment ago would wait for it.
 void PivotedCholesky::solve(const double* rhs, double* nu) noexcept {
   if (is_in_order_) {
-    substitute_in_order(rhs, nu);
+    std::copy_n(rhs, rows_, nu);
+    substitute(G_, inverse_D_, rows_, nu);
     return;
   }
   if (rank_ < rows_) {

@@ -31,7 +31,6 @@ class PivotedCholesky {
 
  private:
   bool factorise_in_order() noexcept;
-  void substitute_in_order(const double* rhs, double* nu) noexcept;
   int row_at(int line) const noexcept { return row_at_[static_cast<std::size_t>(line)]; }
   int next_pivot(double tolerance) const noexcept;
   void eliminate(double tolerance) noexcept;
