@@ -7,6 +7,8 @@
 #include <array>
 #include <utility>
 
+#include "cut.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -15,12 +17,6 @@ using Eigen::Vector3d;
 
 constexpr double frequency = 100.0;    ///< w [1/s]
 constexpr double damping_ratio = 0.7;  ///< while the bristles hold
-
-/// Shortens `v` to the length `limit`.
-void cut(Vector3d& v, double limit) {
-  const double length = v.norm();
-  if (length > limit) v *= limit / length;
-}
 
 /// Of the body's point at `point`, in world axes.
 Vector3d velocity_at(const mjModel& m, const mjData& d, int body, const Vector3d& point) {

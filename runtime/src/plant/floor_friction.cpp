@@ -3,19 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "cut.hpp"
+
 namespace zwang::runtime {
 
 namespace {
 
 constexpr double frequency = 200.0;  ///< w [1/s]
 constexpr double damping = 0.7;      ///< ratio, while the bristles hold
-
-/// Shortens `v` to the length `limit`.
-template <typename Vector>
-void cut(Vector&& v, double limit) {
-  const double length = v.norm();
-  if (length > limit) v *= limit / length;
-}
 
 }  // namespace
 
