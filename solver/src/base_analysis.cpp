@@ -28,7 +28,7 @@ struct WhitenedRobot {
         rows(sweeps.robot_rows) {
     outward_kinematics(model, state, Vector6::Zero(), sweeps);
     load_bodies_at_rest(sweeps);
-    add_ground_rows(ground_rows, sweeps, [](int, const GroundRow&) {});
+    add_ground_rows(ground_rows, sweeps);
     for (int i = 0; i < base; ++i) {
       sweeps.robot_rows.add_row(0);
       sweeps.robot_rows.last_column() = Vector6::Unit(i);

@@ -53,12 +53,9 @@ struct PopovVereshchagin::Workspace {
         qdd(Eigen::VectorXd::Zero(robot.joint_count())),
         wrenches(static_cast<std::size_t>(robot.body_count()), Vector6::Zero()) {}
 
-  const BodySweep& body_sweep(int i) const { return sweeps.bodies[static_cast<std::size_t>(i)]; }
-
   void add_rows(const std::vector<AccelerationRow>& rows) noexcept {
-    add_ground_rows(ground_rows, sweeps, [this](int i, const GroundRow& row) {
-      ground_bias(i) = row.bias - row.a.dot(body_sweep(row.body).c);
-    });
+    if (!sweeps.is_articulated) add_ground_rows(ground_rows, sweeps);
+    find_ground_bias(ground_rows, sweeps, ground_bias);
     sweeps.task_rows.clear();
     for (const AccelerationRow& row : rows) wanted(add_row(row, sweeps)) = row.b;
   }

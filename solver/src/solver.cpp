@@ -81,11 +81,6 @@ Vector6 base_freedom(const Model& model, int index) {
   return Vector6::Unit(model.base_type() == BaseType::ground ? index + 2 : index);
 }
 
-/// a . x, number by number, as they have just been written.
-double along(const Vector6& a, const Vector6& x) {
-  return ((a(0) * x(0) + a(1) * x(1)) + (a(2) * x(2) + a(3) * x(3))) + (a(4) * x(4) + a(5) * x(5));
-}
-
 bool is_same(const ForceVector& one, const ForceVector& other) {
   return one.linear == other.linear && one.angular == other.angular;
 }
@@ -128,11 +123,10 @@ struct Solver::Workspace {
   int first_base_row() const { return ground; }
   int first_joint_row() const { return ground + base; }
 
-  /// `bias` of a row of the ground: its wanted acceleration less what it has of itself.
-  template <class Bias>
-  void add_robot_rows(Bias bias) noexcept {
-    add_ground_rows(ground_rows, sweeps, [&](int i, const GroundRow& row) { ground_bias(i) = bias(row); });
+  /// They stay while the joints do.
+  void add_robot_rows() noexcept {
     if (sweeps.is_articulated) return;
+    add_ground_rows(ground_rows, sweeps);
     for (int i = 0; i < base; ++i) {
       sweeps.robot_rows.add_row(0);
       sweeps.robot_rows.last_column() = base_freedom(model, i);
@@ -184,6 +178,14 @@ struct Solver::Workspace {
     for (const int j : motors) problem.add_motor(whitened.robot_B(first_joint_row() + j));
     problem.factorise_motors();
     return true;
+  }
+
+  /// The same of the robot at rest, without rows of a task.
+  bool sweep_at_rest() noexcept {
+    load_bodies_at_rest(sweeps);
+    sweeps.task_rows.clear();
+    tau_ff.setZero();
+    return sweep_and_factorise();
   }
 
   /// The task's rows and the free motion under what the ground holds.
@@ -264,7 +266,8 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
   w.clamp_feed_forward(state);
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
   load_bodies(w.model, state, w.gravity(state), w.sweeps);
-  w.add_robot_rows([&w](const GroundRow& row) { return row.bias - along(row.a, w.body_sweep(row.body).c); });
+  w.add_robot_rows();
+  find_ground_bias(w.ground_rows, w.sweeps, w.ground_bias);
   w.add_task_rows(rows);
   if (!w.sweep_and_factorise()) return Status::degenerate_model;
   w.hold_ground();
@@ -318,21 +321,18 @@ Status Solver::project_velocity(State& state) noexcept {
   // dv = -M^-1 Jp' (Jp M^-1 Jp')^+ Jp v: the answer of the robot at rest to the multipliers that take Jp v
   // away.
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
-  w.add_robot_rows([&w](const GroundRow& row) { return -along(row.a, w.body_sweep(row.body).v); });
+  w.add_robot_rows();
+  find_ground_slip(w.ground_rows, w.sweeps, w.ground_bias);
   const Vector6 twist = w.body_sweep(0).v;
-  load_bodies_at_rest(w.sweeps);
-  w.sweeps.task_rows.clear();
-  w.tau_ff.setZero();
-  if (!w.sweep_and_factorise()) return Status::degenerate_model;
-  w.whitened.hold_ground(w.sweeps.free_motion, w.ground_bias, held_base_force(w.sweeps, -twist));
+  if (!w.sweeps.is_articulated && !w.sweep_at_rest()) return Status::degenerate_model;
+  w.whitened.hold_ground_at_rest(w.ground_bias, held_base_force(w.sweeps, -twist));
   w.whitened.motion(nullptr, w.motion);
   outward_accelerations(w.model, w.motion, w.sweeps, w.qdd);
   if (!w.qdd.allFinite()) return Status::degenerate_model;
   state.qd += w.qdd;
   if (w.model.has_fixed_base()) return Status::ok;
-  MotionVector change;
-  w.body_sweep(0).from_base(w.body_sweep(0).a, change);
-  state.base_twist += change;
+  const Vector6& change = w.body_sweep(0).da;
+  state.base_twist += {change.head<3>(), change.tail<3>()};
   return Status::ok;
 }
 

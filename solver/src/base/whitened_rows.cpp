@@ -122,12 +122,21 @@ double WhitenedRows::free_share(int row) const noexcept {
   return square > 0.0 ? motion(row).squaredNorm() / square : 0.0;
 }
 
-/// The triangle, dimension by dimension.
 void WhitenedRows::hold_ground(const Eigen::VectorXd& free_motion, const Eigen::VectorXd& bias,
                                const Vector3& base_motion) noexcept {
+  copy(dimensions_, free_motion.data(), held_motion_.data());
+  for (int k = 0; k < rank_; ++k) turn(k, held_motion_.data());
+  hold(bias, base_motion);
+}
+
+void WhitenedRows::hold_ground_at_rest(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept {
+  set_zero(dimensions_, held_motion_.data());
+  hold(bias, base_motion);
+}
+
+/// The triangle, dimension by dimension.
+void WhitenedRows::hold(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept {
   double* const x = held_motion_.data();
-  copy(dimensions_, free_motion.data(), x);
-  for (int k = 0; k < rank_; ++k) turn(k, x);
   for (int c = 0; c < base_; ++c) x[c] = base_motion(c);
   for (int c = base_; c < held_; ++c) {
     const int row = pivots_[static_cast<std::size_t>(c - base_)];

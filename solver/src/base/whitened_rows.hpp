@@ -53,6 +53,8 @@ class WhitenedRows {
   /// and pitch.
   void hold_ground(const Eigen::VectorXd& free_motion, const Eigen::VectorXd& bias,
                    const Vector3& base_motion = Vector3::Zero()) noexcept;
+  /// The same where h is 0.
+  void hold_ground_at_rest(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept;
   /// The acceleration along a row then, nobody pushing.
   double acceleration(int row) const noexcept {
     return task_->drift(row) + dot(dimensions_, line(row), held_motion_.data());
@@ -74,6 +76,7 @@ class WhitenedRows {
   void turn_from(int row, Columns& rows) noexcept;
   void turn(int reflection, double* y) const noexcept;
   void turn_two(int reflection, double* one, double* other) const noexcept;
+  void hold(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept;
 
   Columns* robot_ = nullptr;
   const Columns* task_ = nullptr;

@@ -15,19 +15,26 @@ Ground::Ground(const Model& model) {
 ///   with the wheel.
 /// As a wrench a = (P x u, u). Its rate of change gives, with the velocity v_C of the centre,
 ///   gamma = (v_C x u) . w + (w_c x u) . (v + w x P)
-GroundRow Ground::row(int index, const Sweeps& sweeps) const noexcept {
+Vector6 Ground::axis(int index, const Sweeps& sweeps) const noexcept {
   const Held& held = held_[static_cast<std::size_t>(index)];
   const BodySweep& sweep = sweeps.bodies[held.body];
   const Vector3 u = held.direction.along(sweep.S.head<3>());
+  const Vector3 P = sweep.p - held.radius * Vector3::UnitZ();
+  Vector6 a;
+  a << P.cross(u), u;
+  return a;
+}
+
+double Ground::bias(int index, const Eigen::Ref<const Vector6>& a, const Sweeps& sweeps) const noexcept {
+  const Held& held = held_[static_cast<std::size_t>(index)];
+  const BodySweep& sweep = sweeps.bodies[held.body];
+  const Vector3 u = a.tail<3>();
   const Vector3 P = sweep.p - held.radius * Vector3::UnitZ();
   const Vector3 w_c = sweeps.bodies[held.carrier].v.head<3>();
   const Vector3 w = sweep.v.head<3>();
   const Vector3 v = sweep.v.tail<3>();
   const Vector3 v_C = v + w.cross(sweep.p);
-  const double gamma = v_C.cross(u).dot(w) + w_c.cross(u).dot(v + w.cross(P));
-  GroundRow row{static_cast<int>(held.body), Vector6::Zero(), -gamma};
-  row.a << P.cross(u), u;
-  return row;
+  return -(v_C.cross(u).dot(w) + w_c.cross(u).dot(v + w.cross(P)));
 }
 
 }  // namespace zwang::solver

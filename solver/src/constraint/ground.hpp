@@ -40,22 +40,20 @@ void for_each_held_direction(const Model& model, const Visit& visit) {
   }
 }
 
-/// a . A = bias on the spatial acceleration A of `body`, in the base's axes and at its origin.
-struct GroundRow {
-  int body = 0;
-  Vector6 a;
-  double bias = 0.0;  ///< minus the velocity products
-};
-
-/// The rows of the ground of a model, wheel by wheel. (The base's own height, roll and pitch need none: they
-/// are no freedoms of it.)
+/// The rows a . A = bias of the ground of a model on the spatial accelerations A of its wheels, in the base's
+/// axes and at its origin, wheel by wheel. (The base's own height, roll and pitch need none: they are no
+/// freedoms of it.)
 class Ground {
  public:
   explicit Ground(const Model& model);
 
   int row_count() const noexcept { return static_cast<int>(held_.size()); }
-  /// Row `index` at the configuration and the twists in `sweeps`.
-  GroundRow row(int index, const Sweeps& sweeps) const noexcept;
+  /// The wheel on which row `index` acts.
+  std::size_t body(int index) const noexcept { return held_[static_cast<std::size_t>(index)].body; }
+  /// a of row `index`, where the bodies are in `sweeps`; it stays while the robot's rows there do.
+  Vector6 axis(int index, const Sweeps& sweeps) const noexcept;
+  /// Minus the velocity products of row `index`, whose axis is `a`, at the twists in `sweeps`.
+  double bias(int index, const Eigen::Ref<const Vector6>& a, const Sweeps& sweeps) const noexcept;
 
  private:
   struct Held {

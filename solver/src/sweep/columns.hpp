@@ -53,6 +53,8 @@ class Columns {
   /// The constraint force of the column added last, in base coordinates: written where it stays, as a copy
   /// would wait for its numbers.
   auto last_column() noexcept { return own_.col(count_ - 1); }
+  /// By order of adding.
+  auto column(int index) const noexcept { return own_.col(index); }
   /// Adds the row of a joint's own acceleration: A = 0, and S'A = 1 at that joint.
   int add_joint_row(int joint) noexcept {
     add(joint + 1, rows_, true);
