@@ -110,9 +110,9 @@ struct Solver::Workspace {
         motion(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions() + 1)),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
         qdd(Eigen::VectorXd::Zero(robot.joint_count())) {
-    ids.reserve(static_cast<std::size_t>(options.row_capacity));
-    twins.reserve(static_cast<std::size_t>(options.row_capacity));
-    axes.reserve(static_cast<std::size_t>(options.row_capacity));
+    ids.resize(static_cast<std::size_t>(options.row_capacity));
+    twins.resize(static_cast<std::size_t>(options.row_capacity));
+    axes.resize(static_cast<std::size_t>(options.row_capacity));
     for (int j = 0; j < robot.joint_count(); ++j) {
       if (robot.joint(j).actuated) motors.push_back(j);
     }
@@ -136,22 +136,19 @@ struct Solver::Workspace {
 
   void add_task_rows(const std::vector<Row>& rows) noexcept {
     sweeps.task_rows.clear();
-    twins.clear();
-    ids.clear();
-    axes.clear();
-    for (const Row& row : rows) {
-      const int twin = twin_of(row, rows);
-      twins.push_back(twin);
-      if (twin < 0) axes.push_back(static_cast<int>(ids.size()));
-      ids.push_back(twin < 0 ? add_row(row, sweeps) : ids[static_cast<std::size_t>(twin)]);
+    axis_count = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const int twin = twins[i] = twin_of(rows[i], rows);
+      if (twin < 0) axes[axis_count++] = static_cast<int>(i);
+      ids[i] = twin < 0 ? add_row(rows[i], sweeps) : ids[static_cast<std::size_t>(twin)];
     }
   }
 
   /// The first row before `row` that acts along the same axis, as the two ends of a range do; -1 for none.
   /// Mostly it is along the last one.
   int twin_of(const Row& row, const std::vector<Row>& rows) const noexcept {
-    for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
-      const int i = *axis;
+    for (std::size_t k = axis_count; k-- > 0;) {
+      const int i = axes[k];
       const Row& other = rows[static_cast<std::size_t>(i)];
       if (other.body == row.body && other.reference_body == row.reference_body && is_same(other.a, row.a) &&
           (row.reference_body < 0 || is_same(other.a_reference, row.a_reference)))
@@ -173,6 +170,7 @@ struct Solver::Workspace {
     const bool robot_stays = sweeps.is_articulated;
     if (!sweep_inward(model, tau_ff, sweeps)) return false;
     if (robot_stays) return true;
+    ++factorisation;
     whitened.factorise(sweeps.robot_rows, ground);
     problem.clear_motors(whitened.mobility());
     for (const int j : motors) problem.add_motor(whitened.robot_B(first_joint_row() + j));
@@ -227,11 +225,13 @@ struct Solver::Workspace {
   BoundedProblem problem;
   std::vector<int> motors;
   std::vector<int> ids, twins;  ///< by row of the task: its id in the sweeps, the first row along its axis
-  std::vector<int> axes;        ///< the first rows along each axis
+  std::vector<int> axes;        ///< the first rows along each axis, so many:
+  std::size_t axis_count = 0;
   Eigen::VectorXd ground_bias;  ///< by row of the ground
   Eigen::VectorXd free_acceleration;  ///< by row of the task: with the ground's answer, nobody pushing
   Eigen::VectorXd motion;             ///< by dimension of the sweeps
   Eigen::VectorXd tau_ff, qdd;
+  std::uint64_t factorisation = 0;  ///< of the robot: how often it was done
 };
 
 Solver::Solver(const Model& model, const Settings& settings) {
@@ -298,8 +298,10 @@ int Solver::opposing(int row, std::span<int> out) const noexcept {
   return workspace_->problem.opposing(row, out);
 }
 
-void Solver::free_motions(FreeMotions& out) const noexcept {
+bool Solver::free_motions(FreeMotions& out) const noexcept {
   const Workspace& w = *workspace_;
+  if (out.factorisation == w.factorisation) return false;
+  out.factorisation = w.factorisation;
   out.count = w.whitened.mobility();
   for (int j = 0; j < w.model.joint_count(); ++j) {
     out.joint.row(j).head(out.count) = w.whitened.robot_motion(w.first_joint_row() + j);
@@ -307,10 +309,11 @@ void Solver::free_motions(FreeMotions& out) const noexcept {
   // From the order rz, x, y on the ground, or rx, ry, rz, x, y, z.
   const bool on_ground = w.model.base_type() == BaseType::ground;
   const int first_linear = on_ground ? 1 : 3, turn = on_ground ? 0 : 2;
-  if (w.base < 3) return;
+  if (w.base < 3) return true;
   out.base.row(0).head(out.count) = w.whitened.robot_motion(w.first_base_row() + first_linear);
   out.base.row(1).head(out.count) = w.whitened.robot_motion(w.first_base_row() + first_linear + 1);
   out.base.row(2).head(out.count) = w.whitened.robot_motion(w.first_base_row() + turn);
+  return true;
 }
 
 Status Solver::project_velocity(State& state) noexcept {

@@ -39,7 +39,7 @@ DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
   torques_ = Eigen::MatrixXd::Zero(joints, window);
   const int most = joints + 6;
   p_ = right_ = w_ = yd_ = Eigen::VectorXd::Zero(most);
-  gram_ = Eigen::MatrixXd::Zero(most, most);
+  T_factor_ = C_factor_ = Eigen::MatrixXd::Zero(most, most);
   T_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(watched_.size()), most);
   C_turned_ = Eigen::MatrixXd::Zero(most, 3 + static_cast<Eigen::Index>(arm_.size()));
 }
@@ -70,7 +70,7 @@ void DisturbanceObserver::expect(const solver::Solver& solver, const solver::Sol
 }
 
 void DisturbanceObserver::take_motions(const solver::Solver& solver) noexcept {
-  solver.free_motions(motions_);
+  if (!solver.free_motions(motions_)) return;
   for (int a = 0; a < motions_.count; ++a) {
     for (std::size_t i = 0; i < watched_.size(); ++i)
       T_(static_cast<Eigen::Index>(i), a) = motions_.joint(watched_[i], a);
@@ -78,6 +78,8 @@ void DisturbanceObserver::take_motions(const solver::Solver& solver) noexcept {
     for (std::size_t i = 0; i < arm_.size(); ++i)
       C_turned_(a, 3 + static_cast<Eigen::Index>(i)) = motions_.joint(arm_[i], a);
   }
+  factorise(T_, T_.rows(), motions_.count, T_factor_);
+  factorise(C_turned_, motions_.count, C_turned_.cols(), C_factor_);
 }
 
 bool DisturbanceObserver::compare(const solver::State& state, double time) noexcept {
@@ -122,36 +124,40 @@ double DisturbanceObserver::kinetic_energy(const Eigen::VectorXd& qd) noexcept {
 /// (T'T) y = T'e.
 void DisturbanceObserver::least_squares(const Eigen::VectorXd& watched, Eigen::VectorXd& y) noexcept {
   const int m = motions_.count;
-  for (int a = 0; a < m; ++a) {
-    right_(a) = dot(T_.col(a).data(), watched.data(), T_.rows());
-    for (int b = 0; b <= a; ++b) gram_(a, b) = dot(T_.col(a).data(), T_.col(b).data(), T_.rows());
-  }
-  solve(m, right_, y);
+  for (int a = 0; a < m; ++a) right_(a) = dot(T_.col(a).data(), watched.data(), T_.rows());
+  substitute(T_factor_, m, right_, y);
 }
 
 /// w = (C C')^-1 C p.
 solver::Vector3 DisturbanceObserver::on_base() noexcept {
   const int m = motions_.count;
-  const int n = static_cast<int>(C_turned_.cols());
-  for (int a = 0; a < n; ++a) {
-    right_(a) = dot(C_turned_.col(a).data(), p_.data(), m);
-    for (int b = 0; b <= a; ++b) gram_(a, b) = dot(C_turned_.col(a).data(), C_turned_.col(b).data(), m);
-  }
-  solve(n, right_, w_);
+  const auto n = static_cast<int>(C_turned_.cols());
+  for (int a = 0; a < n; ++a) right_(a) = dot(C_turned_.col(a).data(), p_.data(), m);
+  substitute(C_factor_, n, right_, w_);
   return w_.head<3>();
 }
 
-/// By Cholesky, G = L L' in place of `gram_`, on its diagonal 1 / L_aa: small, and nothing to pivot for.
-void DisturbanceObserver::solve(int size, const Eigen::VectorXd& right, Eigen::VectorXd& out) noexcept {
-  const Eigen::Index stride = gram_.cols();
-  const auto row = [&, G = gram_.data()](int a) { return G + a * stride; };
+/// L of A'A = L L', A the first `rows` and `columns` of the matrix; on its diagonal 1 / L_aa. By Cholesky:
+/// small, and nothing to pivot for.
+void DisturbanceObserver::factorise(const Eigen::MatrixXd& A, Eigen::Index rows, Eigen::Index columns,
+                                    RowMajor& factor) noexcept {
   double trace = 0.0;
-  for (int a = 0; a < size; ++a) trace += row(a)[a];
-  for (int a = 0; a < size; ++a) {
+  for (Eigen::Index a = 0; a < columns; ++a) {
+    for (Eigen::Index b = 0; b <= a; ++b) factor(a, b) = dot(A.col(a).data(), A.col(b).data(), rows);
+    trace += factor(a, a);
+  }
+  const auto row = [&factor](Eigen::Index a) { return factor.data() + a * factor.cols(); };
+  for (Eigen::Index a = 0; a < columns; ++a) {
     double* L_a = row(a);
-    for (int b = 0; b < a; ++b) L_a[b] = (L_a[b] - dot(L_a, row(b), b)) * row(b)[b];
+    for (Eigen::Index b = 0; b < a; ++b) L_a[b] = (L_a[b] - dot(L_a, row(b), b)) * row(b)[b];
     L_a[a] = 1.0 / std::sqrt(L_a[a] + damping * trace - dot(L_a, L_a, a));
   }
+}
+
+/// L L' x = right.
+void DisturbanceObserver::substitute(const RowMajor& factor, int size, const Eigen::VectorXd& right,
+                                     Eigen::VectorXd& out) noexcept {
+  const auto row = [&factor](int a) { return factor.data() + a * factor.cols(); };
   double* x = out.data();
   for (int a = 0; a < size; ++a) x[a] = (right(a) - dot(row(a), x, a)) * row(a)[a];
   for (int a = size - 1; a >= 0; --a) {

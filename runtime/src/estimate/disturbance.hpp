@@ -53,7 +53,11 @@ class DisturbanceObserver {
   void take_motions(const solver::Solver& solver) noexcept;
   solver::Vector3 on_base() noexcept;
   void remember(const solver::State& state, double dt) noexcept;
-  void solve(int size, const Eigen::VectorXd& right, Eigen::VectorXd& out) noexcept;
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  static void factorise(const Eigen::MatrixXd& A, Eigen::Index rows, Eigen::Index columns,
+                        RowMajor& factor) noexcept;
+  static void substitute(const RowMajor& factor, int size, const Eigen::VectorXd& right,
+                         Eigen::VectorXd& out) noexcept;
 
   std::vector<lang::JointFriction> friction_;
   std::vector<double> taper_;
@@ -63,7 +67,7 @@ class DisturbanceObserver {
   Eigen::VectorXd qd_, expected_, sent_, torque_, excess_, watched_rates_, p_;
   Eigen::MatrixXd T_;         ///< of the joints that are watched
   Eigen::MatrixXd C_turned_;  ///< C'
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> gram_;
+  RowMajor T_factor_, C_factor_;  ///< of T'T and C C'
   Eigen::MatrixXd excesses_, torques_;  ///< rings: a column a comparison
   int column_ = 0;                      ///< of the last comparison
   int known_ = 0;                       ///< comparisons since the last pause, `window` at most

@@ -64,6 +64,7 @@ BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
       program_(2 * rows + motors, dimension, dimension + rows) {
   posed_.reserve(static_cast<std::size_t>(rows));
   folded_.reserve(static_cast<std::size_t>(rows));
+  waiting_.reserve(static_cast<std::size_t>(rows));
   awake_.reserve(static_cast<std::size_t>(rows));
   idle_.reserve(static_cast<std::size_t>(rows));
   sums_.reserve(static_cast<std::size_t>(rows));
@@ -259,13 +260,16 @@ int BoundedProblem::extent_of(const double* x) const noexcept {
 }
 
 /// No multiplier is unbounded: what the motors can do along a row bounds it, one-sided rows by a multiple of
-/// that.
+/// that. Where motors drive every motion, a row is bounded when it is posed; else those that no motor drives
+/// are to be known beforehand.
 void BoundedProblem::bound_rows() noexcept {
-  for (const int i : awake_) bound_row(i);
+  if (motors_drive_all_) return;
+  for (const int i : awake_) bound(i);
 }
 
 void BoundedProblem::bound_row(int i) noexcept {
   Entry& e = entry(i);
+  e.has_bounds = true;
   if (e.out || e.kind == RowKind::sum) return;
   const bool is_bounded = e.kind == RowKind::force || (std::isfinite(e.lo) && std::isfinite(e.hi));
   if (is_bounded && motors_drive_all_) {

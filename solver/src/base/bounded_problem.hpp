@@ -73,6 +73,7 @@ class BoundedProblem {
     int reach_extent = 0;        ///< of V_i and P_i
     int projected_at = -1;       ///< level of V_i and P_i
     int limit_before = -1;       ///< along the same axis
+    bool has_bounds = false;     ///< lo and hi are finite, but on a sum
     bool is_idle = false;        ///< a limit that has nothing to do beside another one of its level
     bool blocked = false;        ///< the levels above leave it no freedom
     bool motor_limited = false;  ///< a motor stood at its limit when the row's level was solved
@@ -84,14 +85,14 @@ class BoundedProblem {
       reach = above = offset = nu = phi = 0.0;
       largest_force = -1.0;
       projected_at = limit_before = -1;
-      is_idle = blocked = motor_limited = sum_limited = false;
+      has_bounds = is_idle = blocked = motor_limited = sum_limited = false;
     }
   };
   struct Entry : Standing {
     RowKind kind = RowKind::driver;
     Quantity quantity = Quantity::velocity;
     int level = 1;
-    double lo = 0.0, hi = 0.0;   ///< of nu, in its own unit, fading included; finite (but on a sum)
+    double lo = 0.0, hi = 0.0;   ///< of nu, in its own unit; with has_bounds fading included
     bool bounded_below = false;  ///< by the row's own lo, not by what the motors can do
     bool bounded_above = false;
     double force = 0.0;  ///< f, fading included
@@ -157,6 +158,10 @@ class BoundedProblem {
   void wake_idle_limits(int level) noexcept;
   void mark_idle_limits() noexcept;
   void bound_rows() noexcept;
+  /// Before a row's bounds are read.
+  void bound(int i) noexcept {
+    if (!entry(i).has_bounds) bound_row(i);
+  }
   void bound_row(int i) noexcept;
   bool solve_levels(int max_iterations, bool& exact) noexcept;
   void project_rows(int level) noexcept;
@@ -205,7 +210,11 @@ class BoundedProblem {
   bool gives_in(int i, int level) noexcept;
   bool is_slack_beside(int i) noexcept;
   void fold_limits(int level) noexcept;
+  bool recall_limits() noexcept;
+  void fold_driver_beyond(int limit) noexcept;
+  bool has_clear_room(int i) noexcept;
   bool folded_limits_rest() noexcept;
+  void release_drivers() noexcept;
   void unfold_limits() noexcept;
 
   /// What a limit pushes; no row: none does, alone.
@@ -276,6 +285,7 @@ class BoundedProblem {
   std::vector<int> last_on_axis_;       ///< by axis: the last limit
   std::vector<int> posed_;              ///< row of each variable of the present stage
   std::vector<int> folded_;             ///< rows of the present stage that need not be solved for
+  std::vector<int> waiting_;            ///< limits that join it when it would break them
   std::vector<NearestLimits> nearest_;  ///< by axis
   std::vector<double> units_;           ///< force of a unit of each variable
   std::vector<int> tied_;               ///< rows of the present stage whose multipliers are not unique

@@ -7,10 +7,15 @@
 //   a limit that contradicts one of a level above     pushes with all its force, and in vain
 //
 // Both are left out: the first from all that follows, where the other one is of its own level (it is idle),
-// else from a stage; the second from a stage, with its force, against which the limit above pushes. What was
-// said of them is looked at when the stage is solved, and where it does not hold, as when a limit's force did
-// not suffice, all take part. Limits that yield (fading, with a weight) and equal ones, which share their
-// force, stay.
+// else from a stage; the second from a stage, with its force, against which the limit above pushes. Of the
+// others most have room, and wait: the drivers are solved for alone, and the limits that they would break
+// join,
+//
+//   a driver that mostly wants what such a limit forbids    pushes with all its force, and in vain, too
+//
+// What was said of the rows left out is looked at when the stage is solved, and where it does not hold, as
+// when a limit's force did not suffice, all take part. Limits that yield (fading, with a weight) and equal
+// ones, which share their force, are never left out for another one.
 #include <algorithm>
 #include <cmath>
 
@@ -20,8 +25,9 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double tie = 1e-9;        // relative: limits closer than that are equal
-constexpr double rounding = 1e-12;  // the same, of a limit that stands where it pushes to
+constexpr double mostly_along = 0.7;  // a cosine
+constexpr double tie = 1e-9;          // relative: limits closer than that are equal
+constexpr double rounding = 1e-12;    // the same, of a limit that stands where it pushes to
 
 /// Whether `one` is clearly beyond `other`, seen from inside the range that `side` (1: upper) bounds.
 bool is_beyond(double one, double other, double side) {
@@ -71,7 +77,7 @@ bool BoundedProblem::idle_limits_rest(int level) noexcept {
 /// From this level on they take part.
 void BoundedProblem::wake_idle_limits(int level) noexcept {
   if (idle_.empty()) return;
-  for (const int i : idle_) bound_row(i);
+  for (const int i : idle_) bound(i);
   idle_.clear();
   awake_.clear();
   for (int i = 0; i < rows_; ++i) awake_.push_back(i);
@@ -111,6 +117,7 @@ bool BoundedProblem::gives_in(int i, int level) noexcept {
   const int opposite = is_upper ? nearest.lower_above : nearest.upper_above;
   if (e.level != level || opposite < 0) return false;
   if (!is_beyond(target_of(opposite), target_of(i), is_upper ? 1.0 : -1.0)) return false;
+  bound(i);
   e.nu = is_upper ? e.lo : e.hi;
   entry(opposite).nu -= e.nu;
   return true;
@@ -127,15 +134,18 @@ bool BoundedProblem::is_slack_beside(int i) noexcept {
                                 leaves_less(is_upper ? nearest.upper_above : nearest.lower_above));
 }
 
-/// Takes out of posed_ what need not be solved for.
+/// Takes out of posed_ what need not be solved for, and what may not have to.
 void BoundedProblem::fold_limits(int level) noexcept {
   folded_.clear();
+  waiting_.clear();
   find_nearest_limits(level);
   std::size_t kept = 0;
   for (const int i : posed_) {
     const bool is_folded = is_firm_limit(i, level) && (gives_in(i, level) || is_slack_beside(i));
     if (is_folded) {
       folded_.push_back(i);
+    } else if (is_one_sided(i) && entry(i).nu == 0.0) {
+      waiting_.push_back(i);
     } else {
       posed_[kept++] = i;
     }
@@ -143,13 +153,58 @@ void BoundedProblem::fold_limits(int level) noexcept {
   posed_.resize(kept);
 }
 
+/// Poses the waiting limits that the motion in work_ would break, and folds the others. False when it breaks
+/// none.
+bool BoundedProblem::recall_limits() noexcept {
+  const std::size_t before = posed_.size();
+  for (const int i : waiting_) (has_clear_room(i) ? folded_ : posed_).push_back(i);
+  waiting_.clear();
+  if (posed_.size() == before) return false;
+  for (std::size_t k = posed_.size(); k-- > before;) fold_driver_beyond(posed_[k]);
+  return true;
+}
+
+/// The first driver that mostly wants what a limit forbids.
+void BoundedProblem::fold_driver_beyond(int limit) noexcept {
+  const Entry& e = entry(limit);
+  for (std::size_t k = 0; k < posed_.size(); ++k) {
+    const int i = posed_[k];
+    Entry& driver = entry(i);
+    if (driver.kind != RowKind::driver || driver.softness > 0.0) continue;
+    const double cosine = dot(std::min(e.reach_extent, driver.reach_extent), e.V, driver.V) *
+                          e.inverse_reach * driver.inverse_reach;
+    if (std::abs(cosine) < mostly_along) continue;
+    driver.nu = (cosine > 0.0) == (e.kind == RowKind::upper) ? driver.hi : driver.lo;
+    if (driver.nu == 0.0) return;
+    folded_.push_back(i);
+    posed_.erase(posed_.begin() + static_cast<std::ptrdiff_t>(k));
+    return;
+  }
+}
+
 /// Whether the motion in work_ leaves the folded limits as was said: clearly room for those without force,
 /// clearly none for the others. Those in between may share a force with another one.
 bool BoundedProblem::folded_limits_rest() noexcept {
-  return std::all_of(folded_.begin(), folded_.end(), [this](int i) {
-    const double room = entry(i).nu == 0.0 ? room_of(i, work_) : -room_of(i, work_);
-    return room > tie * std::abs(target_of(i));
-  });
+  return std::all_of(folded_.begin(), folded_.end(), [this](int i) { return has_clear_room(i); });
+}
+
+/// Of a limit without force at work_; of a row that pushes in vain, that it clearly misses what it wants.
+bool BoundedProblem::has_clear_room(int i) noexcept {
+  const Entry& e = entry(i);
+  double room = 0.0;
+  if (e.is_limit) {
+    room = e.nu == 0.0 ? room_of(i, work_) : -room_of(i, work_);
+  } else {
+    room = std::copysign(1.0, e.nu) * (d_(i) - along(i, work_));
+  }
+  return room > tie * std::abs(target_of(i));
+}
+
+/// Drivers push what the next solution says.
+void BoundedProblem::release_drivers() noexcept {
+  for (const int i : folded_) {
+    if (!is_one_sided(i)) entry(i).nu = 0.0;
+  }
 }
 
 void BoundedProblem::unfold_limits() noexcept {
@@ -218,6 +273,7 @@ BoundedProblem::Push BoundedProblem::push_alone(int first, int level, Vector& p)
   if (push.row < 0) return {};
   const Entry& e = entry(push.row);
   push.nu = miss / (e.reach * e.reach + softness_at(push.row, level));
+  bound(push.row);
   const Range bounds = bounds_at(push.row, level);
   if (push.nu < bounds.low || push.nu > bounds.high) return {};
   this->push(push.row, push.nu, p);

@@ -159,6 +159,7 @@ void BoundedProblem::resize_program(int n, int level, int curvature_rows, bool w
 inline void BoundedProblem::pose_multiplier(int k, int level) noexcept {
   const int i = posed_[static_cast<std::size_t>(k)];
   const Entry& e = entry(i);
+  bound(i);
   const Range bounds = bounds_at(i, level);
   units_.push_back(e.inverse_reach);
   program_.lo(k) = bounds.low * e.reach;
@@ -232,10 +233,13 @@ void BoundedProblem::pose_rows() noexcept {
   pose_limits_above();
 }
 
-/// The motion in work_ with the posed rows, motors aside.
+/// The motion in work_ with the posed rows, and with the drivers that push in vain, motors aside.
 bool BoundedProblem::find_motion(int level, int max_iterations) noexcept {
   const int n = static_cast<int>(posed_.size());
   take_out_limits(p_);
+  for (const int i : folded_) {
+    if (!is_one_sided(i)) push(i, entry(i).nu, fixed_);
+  }
   pose_motion(n, level, false);
   const bool exact = program_.solve(max_iterations, iterations_);
   take_p(n);
@@ -252,7 +256,9 @@ bool BoundedProblem::solve_motion(int level, int max_iterations) noexcept {
   if (motors_reach_all_) {
     fold_limits(level);
     exact = find_motion(level, max_iterations);
+    if (recall_limits()) exact = find_motion(level, max_iterations);
     if (!folded_limits_rest()) {
+      release_drivers();
       unfold_limits();
       exact = find_motion(level, max_iterations);
     }

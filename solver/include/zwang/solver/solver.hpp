@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -61,6 +62,9 @@ struct FreeMotions {
   int count = 0;          ///< the mobility; of each matrix the first columns
   Eigen::MatrixXd joint;  ///< T: acceleration of the joints = T ydd
   Eigen::MatrixXd base;   ///< B: of the base along its own x, y and about its own z = B ydd
+
+  /// Of the solver that wrote them: they stay while no mass of the robot moves in the base's axes.
+  std::uint64_t factorisation = 0;
 };
 
 struct Settings {
@@ -88,8 +92,9 @@ class Solver {
   int opposing(int row, std::span<int> out) const noexcept;
 
   /// At the last solved problem; before the next `project_velocity`. `base` is 0 unless the settings ask for
-  /// it. Does not allocate, lock, throw or print.
-  void free_motions(FreeMotions& out) const noexcept;
+  /// it. False when `out` holds them already: it is always to be given to the same solver. Does not allocate,
+  /// lock, throw or print.
+  bool free_motions(FreeMotions& out) const noexcept;
 
   /// Takes out of the measured velocities what the ground does not allow (in the metric of kinetic energy).
   /// Do this first in every period: what is left is the robot's odometry, and slip noise never reaches the
