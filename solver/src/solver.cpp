@@ -227,7 +227,7 @@ struct Solver::Workspace {
   std::vector<int> ids, twins;  ///< by row of the task: its id in the sweeps, the first row along its axis
   std::vector<int> axes;        ///< the first rows along each axis, so many:
   std::size_t axis_count = 0;
-  Eigen::VectorXd ground_bias;  ///< by row of the ground
+  Eigen::VectorXd ground_bias;        ///< by row of the ground
   Eigen::VectorXd free_acceleration;  ///< by row of the task: with the ground's answer, nobody pushing
   Eigen::VectorXd motion;             ///< by dimension of the sweeps
   Eigen::VectorXd tau_ff, qdd;

@@ -97,6 +97,37 @@ TEST(Always, AnExitIsIgnoredWhileItsOwnTargetIsActive) {
   EXPECT_EQ(bench.transitions.size(), 2u) << "the start and one interruption";
 }
 
+/// Else two exits that are true at once would take turns, tick by tick.
+TEST(Always, ALowerExitWaitsWhileTheTargetOfATrueOneIsActive) {
+  lang::Program p = interrupted_work();
+  p.tasks.push_back(task("retreat", forward));
+  p.tasks[2].exits = {exit(after(1e6), to_done)};
+  p.always.exits.push_back(exit(when(below(1, 1.0)), to_task(2)));
+  Bench bench(p);
+  bench.hear(1, 0.5);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), 2) << "alone it fires";
+  bench.hear(0, 0.5);
+  bench.ticks_more(20);
+  EXPECT_EQ(bench.scheduler.task(), pause);
+  EXPECT_EQ(bench.transitions.size(), 3u) << "the start and two interruptions";
+  bench.hear(0, 1.5);  // above the first exit's 1, below what leads out of the pause
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), 2) << "nothing above it is true any more";
+}
+
+TEST(Always, AnExitThatEndsTheRunWaitsForNone) {
+  lang::Program p = interrupted_work();
+  p.always.exits.push_back(exit(when(below(1, 1.0)), to_failed));
+  Bench bench(p);
+  bench.hear(0, 0.5);
+  bench.ticks_more(5);
+  EXPECT_EQ(bench.scheduler.task(), pause);
+  bench.hear(1, 0.5);
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::failed);
+}
+
 TEST(Always, GuardsAreEvaluatedOnEveryTickAndKeepTheirTimersOverSwitches) {
   lang::Program p = interrupted_work();
   p.always.exits[0].dwell.constant = 0.010;

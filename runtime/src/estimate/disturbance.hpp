@@ -65,9 +65,9 @@ class DisturbanceObserver {
   std::vector<int> arm_;      ///< joints with a motor that carry no wheel
   solver::FreeMotions motions_;
   Eigen::VectorXd qd_, expected_, sent_, torque_, excess_, watched_rates_, p_;
-  Eigen::MatrixXd T_;         ///< of the joints that are watched
-  Eigen::MatrixXd C_turned_;  ///< C'
-  RowMajor T_factor_, C_factor_;  ///< of T'T and C C'
+  Eigen::MatrixXd T_;                   ///< of the joints that are watched
+  Eigen::MatrixXd C_turned_;            ///< C'
+  RowMajor T_factor_, C_factor_;        ///< of T'T and C C'
   Eigen::MatrixXd excesses_, torques_;  ///< rings: a column a comparison
   int column_ = 0;                      ///< of the last comparison
   int known_ = 0;                       ///< comparisons since the last pause, `window` at most

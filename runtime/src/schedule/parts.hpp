@@ -74,7 +74,9 @@ struct Scheduler::Parts final : Facts {
   void advance_guards() noexcept;
   std::optional<Choice> choose() noexcept;
   std::optional<Choice> choose_while_stopping() noexcept;
+  bool is_own_target(const lang::Target& target) const noexcept;
   bool is_heeded(const lang::Target& target) const noexcept;
+  int first_interruption() const noexcept;
   bool is_timed_out() const noexcept;
   void check_rest() noexcept;
 

@@ -19,10 +19,30 @@ void Scheduler::Parts::advance_guards() noexcept {
   if (task >= 0) guards.advance(active().exits, task, *this, parameters, scratch);
 }
 
+bool Scheduler::Parts::is_own_target(const lang::Target& target) const noexcept {
+  return target.kind == lang::TargetKind::task && target.task == task;
+}
+
 /// An exit of `always` is ignored while its own target is active, and `back` where nothing was interrupted.
 bool Scheduler::Parts::is_heeded(const lang::Target& target) const noexcept {
   if (target.kind == lang::TargetKind::back) return interruption.task >= 0;
-  return target.kind != lang::TargetKind::task || target.task != task;
+  return !is_own_target(target);
+}
+
+/// The exit of `always` that fires: the first that is due; -1 for none. While one that is due has its own
+/// target active, of those behind it only the ones that end the run count: else two that are due would take
+/// turns.
+int Scheduler::Parts::first_interruption() const noexcept {
+  const std::vector<lang::Exit>& exits = tasks[tasks.always()].exits;
+  bool stays = false;
+  for (std::size_t i = 0; i < exits.size(); ++i) {
+    const lang::Target& target = exits[i].target;
+    const bool ends = target.kind == lang::TargetKind::done || target.kind == lang::TargetKind::failed;
+    if ((stays && !ends) || !always_guards.is_due(exits, i, parameters)) continue;
+    if (is_heeded(target)) return static_cast<int>(i);
+    stays = stays || is_own_target(target);
+  }
+  return -1;
 }
 
 bool Scheduler::Parts::is_timed_out() const noexcept {
@@ -46,10 +66,12 @@ std::optional<Scheduler::Parts::Choice> Scheduler::Parts::choose() noexcept {
     return true;
   };
   const std::vector<lang::Exit>& interrupting = tasks[tasks.always()].exits;
-  for (std::size_t i = 0; i < interrupting.size(); ++i) {
-    const lang::Target& target = interrupting[i].target;
-    if (!is_heeded(target) || !always_guards.is_due(interrupting, i, parameters)) continue;
-    if (!offer(Cause::always, static_cast<int>(i), target)) mark(t.also_always, i);
+  const int first = first_interruption();
+  if (first >= 0) offer(Cause::always, first, interrupting[static_cast<std::size_t>(first)].target);
+  for (std::size_t i = any ? static_cast<std::size_t>(first) + 1 : interrupting.size();
+       i < interrupting.size(); ++i) {
+    if (is_heeded(interrupting[i].target) && always_guards.is_due(interrupting, i, parameters))
+      mark(t.also_always, i);
   }
   if (is_timed_out()) t.also_timeout = !offer(Cause::timeout, -1, active().timeout->target);
   const std::vector<lang::Exit>& exits = active().exits;
