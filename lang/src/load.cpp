@@ -47,7 +47,8 @@ struct Invitation {
 };
 
 std::optional<Program> load_phases(const fs::path& path, const LoadOptions& options, bool with_notes,
-                                   double& budget, Diagnostics& diagnostics, const Invitation& invited = {}) {
+                                   double& budget, Diagnostics& diagnostics, const Invitation& invited = {},
+                                   const Start& start = {}) {
   const fs::path root = options.root.value_or(root_of(path));
   const std::optional<int> source = read_file(path, yaml_size_limit, invited.task, diagnostics);
   if (!source) return std::nullopt;
@@ -58,6 +59,7 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
   std::optional<Robot> robot = load_robot_of(*file, path, root, options, invited.robot, diagnostics);
   std::optional<Scene> scene =
       invited.scene ? invited.scene : load_scene_of(*file, path, root, options, budget, diagnostics);
+  if (scene) put_start(start, *scene);
   if (scene && robot) check_scene_for(*scene, *robot, diagnostics);
   // Names of a section that could not be read would all be called unknown.
   if (file->is_incomplete) return std::nullopt;
@@ -118,16 +120,21 @@ solver::State start_state(const Robot& robot, const std::optional<Scene>& scene)
   return state;
 }
 
+void put_start(const Start& start, Scene& scene) {
+  scene.start_at = start.at.value_or(scene.start_at);
+  scene.start_yaw = start.yaw.value_or(scene.start_yaw);
+}
+
 std::optional<Program> load_within(double& budget, const fs::path& path, const LoadOptions& options,
-                                   Diagnostics& diagnostics) {
-  std::optional<Program> program = load_phases(path, options, false, budget, diagnostics);
+                                   const Start& start, Diagnostics& diagnostics) {
+  std::optional<Program> program = load_phases(path, options, false, budget, diagnostics, {}, start);
   diagnostics.settle();
   return program;
 }
 
 std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
   double budget = whole_budget;
-  return load_within(budget, path, options, diagnostics);
+  return load_within(budget, path, options, {}, diagnostics);
 }
 
 std::optional<Program> load_with_notes(const fs::path& path, const LoadOptions& options,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
 #include <sstream>
 
 #include "output.hpp"
@@ -84,7 +85,29 @@ bool Reloads::fits(const lang::Program& next) const {
                     });
 }
 
+/// The plant was built of the robot and scene files, and of what the task files of other robots say: the
+/// first of them whose text is another one now. Empty: none.
+std::string Reloads::changed_beside_the_task() const {
+  for (std::size_t i = 1; i < first_.sources().size(); ++i) {
+    const lang::Source& source = first_.sources()[i];
+    std::ifstream file(source.path, std::ios::binary);
+    if (!file) continue;
+    std::ostringstream bytes;
+    bytes << file.rdbuf();
+    std::string text = bytes.str();
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);  // as it was when it was read first
+    if (text != source.text) return source.path;
+  }
+  return {};
+}
+
+void Reloads::tell_refusal(const std::string& why) const {
+  print_error("zwang: " + arguments_.file + " was not reloaded, the old program goes on: " + why + "\n");
+}
+
 void Reloads::load() {
+  if (const std::string other = changed_beside_the_task(); !other.empty())
+    return tell_refusal(other + " has changed, which is read when a run starts: start it anew");
   auto next = std::make_unique<Loaded>();
   std::string refusal;
   try {
@@ -103,9 +126,7 @@ void Reloads::load() {
   } catch (const std::exception& error) {
     refusal = error.what();
   }
-  if (!refusal.empty())
-    return print_error("zwang: " + arguments_.file +
-                       " was not reloaded, the old program goes on: " + refusal + "\n");
+  if (!refusal.empty()) return tell_refusal(refusal);
   const std::lock_guard lock(mutex_);
   loaded_ = std::move(next);
   is_loaded_ = true;

@@ -19,7 +19,8 @@ namespace zwang::cli {
 /// Looks at the files of a run on a thread of its own. When one has changed, and has stayed as it is for a
 /// moment, all are loaded. With an error the diagnostics are printed and the old program goes on; else the
 /// new one is swapped in between two ticks, at its start task, and a new log goes on where the last one ends.
-/// The robot, the scene and the signals are those that the run began with.
+/// The robot, the scene and the signals are those that the run began with: where another file than the task's
+/// is not what it was then, that is told, and nothing is swapped in.
 class Reloads {
  public:
   /// What is referred to must outlive it.
@@ -55,6 +56,8 @@ class Reloads {
   void watch();
   void load();
   bool fits(const lang::Program& next) const;
+  std::string changed_beside_the_task() const;
+  void tell_refusal(const std::string& why) const;
 
   const RunArguments& arguments_;
   const std::filesystem::path folder_;

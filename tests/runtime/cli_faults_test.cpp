@@ -34,9 +34,10 @@ tasks:
     constraints: {still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
     timeout: {after: 100000 s, goto: failed}
 )");
+    write("scene.yaml", wall);
     std::vector<std::string> words{"run",      (folder_ / "task.yaml").string(),
                                    "--robot",  specs + "robots/mecanum_base.yaml",
-                                   "--scene",  specs + "scenes/wall.yaml",
+                                   "--scene",  (folder_ / "scene.yaml").string(),
                                    "--log",    "log",
                                    "--format", "json"};
     words.insert(words.end(), options.begin(), options.end());
@@ -46,6 +47,8 @@ tasks:
     }
     return child;
   }
+
+  const std::string wall = read(specs + "scenes/wall.yaml");
 
   /// [s] of the last whole line that is on disk.
   double last_time_in_csv() const {
@@ -76,8 +79,8 @@ TEST_F(FromOutside, ASignalEndsTheRunWithinHalfASecond) {
   }
 }
 
-/// What somebody does with an editor: a slip first, then what was meant. The run goes on with the old file,
-/// then with the new one, and both of its logs replay.
+/// What somebody does with an editor: a slip first, the scene, which is the plant's, then what was meant. The
+/// run goes on with the old file, then with the new one, and both of its logs replay.
 TEST_F(FromOutside, ATaskFileThatChangesIsReloadedAndReplays) {
   const pid_t child = start_endless({"--watch"});
   const std::string endless = read(folder_ / "task.yaml");
@@ -90,6 +93,9 @@ TEST_F(FromOutside, ATaskFileThatChangesIsReloadedAndReplays) {
   };
   write("task.yaml", endless.substr(0, endless.size() / 2));
   EXPECT_TRUE(said("was not reloaded, the old program goes on: it has errors")) << read(folder_ / "err");
+  write("scene.yaml", wall + "# looked at again\n");
+  EXPECT_TRUE(said("scene.yaml has changed, which is read when a run starts")) << read(folder_ / "err");
+  write("scene.yaml", wall);
   std::string other = endless;
   other.replace(other.find("x: {velocity: 0 m/s}"), 20, "x: {velocity: 0.05 m/s}");
   other.replace(other.find("100000 s, goto: failed"), 22, "0.5 s, goto: done");

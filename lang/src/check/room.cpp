@@ -7,9 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <limits>
 
-#include "spec/polygon.hpp"
+#include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
 
@@ -19,18 +18,9 @@ namespace {
 constexpr std::size_t most_distances = 50000;
 
 double depth_of(const Corners& polygon, double x, double y) {
-  double nearest = std::numeric_limits<double>::infinity();
-  bool is_inside = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const auto& a = polygon[i];
-    const auto& b = polygon[(i + 1) % polygon.size()];
-    const double dx = b[0] - a[0], dy = b[1] - a[1];
-    const double length = std::max(dx * dx + dy * dy, 1e-18);
-    const double along = std::clamp(((x - a[0]) * dx + (y - a[1]) * dy) / length, 0.0, 1.0);
-    nearest = std::min(nearest, std::hypot(x - a[0] - along * dx, y - a[1] - along * dy));
-    if ((a[1] > y) != (b[1] > y) && x < a[0] + (y - a[1]) / dy * dx) is_inside = !is_inside;
-  }
-  return is_inside ? nearest : -nearest;
+  const std::array<double, 2> p{x, y};
+  const double nearest = plane::distance_to_edges(polygon, p);
+  return plane::contains(polygon, p) ? nearest : -nearest;
 }
 
 }  // namespace
@@ -68,7 +58,7 @@ bool is_convex(const Corners& polygon) {
   bool turns_left = false, turns_right = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const double turn =
-        side(polygon[i], polygon[(i + 1) % polygon.size()], polygon[(i + 2) % polygon.size()]);
+        plane::side(polygon[i], polygon[(i + 1) % polygon.size()], polygon[(i + 2) % polygon.size()]);
     turns_left = turns_left || turn > 1e-9;
     turns_right = turns_right || turn < -1e-9;
   }

@@ -259,4 +259,14 @@ Diagnostic stands_still(const Span& span, const std::string& axis, const std::st
                       range, "the range is here");
 }
 
+Diagnostic arm_without_limit(const Span& span, const std::string& axis, const std::string& frame,
+                             const std::string& limited, const Span& limit) {
+  return with_related(
+      warning("W612", span,
+              "`" + axis + "` moves `" + frame + "` of the arm and has no limit of its force: what limits `" +
+                  limited + "` holds for the base alone",
+              "limit what the arm may press with as well: `force: +-20 N`"),
+      limit, "the base's force is limited here");
+}
+
 }  // namespace zwang::lang::wording

@@ -82,6 +82,10 @@ Diagnostic free_and_held(const Span& span, const std::string& axis, bool elsewhe
 Diagnostic stands_still(const Span& span, const std::string& axis, const std::string& limit,
                         const std::string& quantity, const Span& range);
 
+/// `limited`: the axis of the base whose force is limited, at `limit`.
+Diagnostic arm_without_limit(const Span& span, const std::string& axis, const std::string& frame,
+                             const std::string& limited, const Span& limit);
+
 /// From this task on nothing was asked of the robot's model.
 Diagnostic unasked(const Span& span, const std::string& task);
 

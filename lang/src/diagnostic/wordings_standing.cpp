@@ -91,7 +91,8 @@ Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& 
   return with_related(
       warning("W611", span,
               "`" + fast.axis + "` " + (fast.is_range ? "allows " : "asks for ") + figure(fast.asked, unit) +
-                  ", and the wheels' motors turn fast enough for " + figure(fast.most, unit) + ": " +
+                  ", and the wheels' motors turn fast enough for " + figure(fast.most, unit) +
+                  (fast.in_any_direction ? " at best, whatever way the base heads: " : ": ") +
                   in_ticks(fast.wheel) + " makes " + figure(fast.wheel_most, "rad/s") + " at most",
               "stay within; zwang does not keep to a URDF's <limit velocity> by itself"),
       wheel, "this wheel, by the <limit velocity> of the URDF");

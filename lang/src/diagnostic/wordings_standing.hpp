@@ -38,11 +38,12 @@ Diagnostic starts_inside(const Span& span, const std::string& robot, const std::
 struct TooFast {
   std::string axis;
   bool turns = false;
-  double asked = 0.0;       ///< [m/s] or [rad/s]
-  double most = 0.0;        ///< [m/s] or [rad/s]
-  std::string wheel;        ///< the joint that is at its limit first
-  double wheel_most = 0.0;  ///< [rad/s]
-  bool is_range = false;    ///< it is allowed, not asked for
+  double asked = 0.0;             ///< [m/s] or [rad/s]
+  double most = 0.0;              ///< [m/s] or [rad/s]
+  std::string wheel;              ///< the joint that is at its limit first
+  double wheel_most = 0.0;        ///< [rad/s]
+  bool is_range = false;          ///< it is allowed, not asked for
+  bool in_any_direction = false;  ///< `most` is that of the best one
 };
 Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& wheel);
 

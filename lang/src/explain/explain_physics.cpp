@@ -161,11 +161,22 @@ to go to.)~",
           .title = "a speed that the wheels do not turn to",
           .why =
               R"~(The `<limit velocity>` of the URDF says how fast a wheel's motor turns. To go this fast along the axis a wheel would
-have to turn faster: a real motor does not, while zwang plans and simulates as if it did.)~",
+have to turn faster: a real motor does not, while zwang plans and simulates as if it did. Along axes of the world, and of
+`speed`, nobody knows yet which way the base heads: there a speed is told that it reaches in no direction.)~",
           .fix = "Stay within the speed of the message, or correct the URDF.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 4 m/s, time_constant: 2 s}",
           .instead = "x: {velocity: 1 m/s, time_constant: 2 s}"},
+      Explanation{
+          .code = "W612",
+          .title = "an arm without the force limit that its base has",
+          .why =
+              R"~(A force range bounds what is pressed with at the frame that its group moves. A row that moves a frame of the arm
+against the world pushes with all motors, the wheels' too, and by as much as its own range allows: where it has none, an arm that
+meets something presses with its effective mass times the acceleration that it asks for, however gently the base may press. A row
+between the arm and the base presses no harder than the base for long: the base gives way.)~",
+          .fix = "Give the arm's axis a force range of its own, or a force range alone on that axis under "
+                 "`always`."},
   };
   return entries;
 }

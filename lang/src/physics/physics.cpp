@@ -53,6 +53,7 @@ void ask_task(const CheckContext& context, const TaskText& task, Probe& probe, R
   ask_free(plan, probe, remarks);
   ask_still(plan, probe, remarks);
   ask_top_speed(plan, *context.robot, remarks);
+  ask_arm_force(plan, *context.robot, remarks);
   ask_press(plan, probe, remarks);
   ask_dead_guard(context, plan, probe, remarks);
   ask_time_constant(plan, probe, remarks);

@@ -178,7 +178,7 @@ void plan_speed(const CheckContext& context, const GroupText& group, const AxisT
   const std::optional<double> most = known(context, velocity->high, dimension::velocity);
   const int body = place_of(context.symbols, *move).frame.body;
   if (!most || !(*most > 0.0) || body < 0) return;
-  speeds.push_back({(in_always ? "always." : "") + group.name.text + ".speed", body, *most});
+  speeds.push_back({(in_always ? "always." : "") + group.name.text + ".speed", body, *most, velocity->span});
 }
 
 void plan_groups(const CheckContext& context, const std::vector<GroupText>& groups, bool in_always,

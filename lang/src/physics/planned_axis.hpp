@@ -61,6 +61,7 @@ struct PlannedSpeed {
   std::string path;   ///< "always.manners.speed"
   int body = 0;       ///< that carries the frame
   double most = 0.0;  ///< [m/s]
+  Span span;          ///< of the range
 };
 
 struct PlannedTask {

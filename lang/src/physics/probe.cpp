@@ -8,6 +8,7 @@
 #include "diagnostic/wordings_physics.hpp"
 #include "zwang/lang/configurations.hpp"
 #include "zwang/solver/base_analysis.hpp"
+#include "zwang/solver/joint_loads.hpp"
 
 namespace zwang::lang {
 
@@ -66,6 +67,8 @@ Probe::Probe(const Robot& robot, const std::optional<Scene>& scene, double& budg
       equalities_(robot.model, {.row_capacity = most_rows}),
       motion_(robot.model, most_rows) {
   const solver::Model& model = robot.model;
+  solver::JointLoads arm(model);
+  for (solver::State& state : states_) arm.bear(state);  // as the runtime does
   for (const solver::State& state : states_) {
     if (!pay(1, 10.0)) break;
     const solver::BaseAnalysis base = solver::analyse_base(model, state);

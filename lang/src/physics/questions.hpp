@@ -40,6 +40,8 @@ void ask_free(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 void ask_still(PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W611: speeds that the wheels' motors cannot turn to.
 void ask_top_speed(const PlannedTask& plan, const Robot& robot, Remarks& remarks);
+/// W612: an arm that may press harder than the base may.
+void ask_arm_force(const PlannedTask& plan, const Robot& robot, Remarks& remarks);
 /// E601, W601: force drivers and acceleration ranges.
 void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W602: a guard on `saturated` that never fires.

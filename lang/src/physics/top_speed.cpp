@@ -1,5 +1,6 @@
-// W611: a speed along an axis of the base that its wheels' motors cannot turn to, by the <limit velocity> of
-// the URDF.
+// W611: a speed of the base that its wheels' motors cannot turn to, by the <limit velocity> of the URDF.
+// Along the base's own axes it is asked as it is. Along those of the world, and of the planar `speed`, the
+// direction in the base is any one: said is what is too fast in all of them.
 #include <algorithm>
 #include <cmath>
 
@@ -11,15 +12,21 @@ namespace zwang::lang {
 
 namespace {
 
-/// The base's own x, y or rz, of whatever is fixed to it; nullopt of other axes. Along the axes of the world
-/// the speed depends on the heading, which nobody knows yet.
-std::optional<solver::Axis> base_axis(const PlannedAxis& axis) {
-  const bool is_on_base = axis.move.body == 0 && axis.in.body == 0 && !axis.is_feature();
-  const bool is_aligned = axis.in.pose.rotation.isIdentity(1e-9);
-  if (!is_on_base || !is_aligned) return std::nullopt;
-  if (axis.axis == solver::Axis::rz) return axis.axis;
-  if (axis.axis == solver::Axis::x || axis.axis == solver::Axis::y) return axis.axis;
-  return std::nullopt;
+/// What the wheels can turn to along a planar axis of whatever is fixed to the base; nullopt of other axes.
+struct Attainable {
+  WheelSpeed speed;
+  bool in_any_direction = false;  ///< the best of them
+};
+
+std::optional<Attainable> attainable(const PlannedAxis& axis, const Robot& robot) {
+  using solver::Axis;
+  if (axis.move.body != 0 || axis.in.body > 0 || axis.is_feature()) return std::nullopt;
+  if (axis.axis == Axis::rz) return Attainable{wheel_speed_along(robot, Axis::rz)};
+  if (axis.axis != Axis::x && axis.axis != Axis::y) return std::nullopt;
+  if (axis.in.body < 0) return Attainable{wheel_speed_at_best(robot), true};
+  const solver::Vector3 along = axis.in.pose.rotation.col(axis.axis == Axis::x ? 0 : 1);
+  if (std::abs(along.z()) > 1e-9) return std::nullopt;
+  return Attainable{wheel_speed(robot, along, 0.0)};
 }
 
 void compare(const Robot& robot, const Span& span, wording::TooFast fast, const WheelSpeed& speed,
@@ -37,8 +44,8 @@ void compare(const Robot& robot, const Span& span, wording::TooFast fast, const 
 
 void ask_top_speed(const PlannedTask& plan, const Robot& robot, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
-    const std::optional<solver::Axis> along = base_axis(axis);
-    if (!along || axis.text == nullptr) continue;  // the robot file's own limits are asked with it
+    const std::optional<Attainable> can = attainable(axis, robot);
+    if (!can || axis.text == nullptr) continue;  // the robot file's own limits are asked with it
     const auto& range = axis[solver::Quantity::velocity];
     const bool drives = axis.driver == solver::Quantity::velocity && axis.target;
     if (!drives && !range) continue;
@@ -47,7 +54,17 @@ void ask_top_speed(const PlannedTask& plan, const Robot& robot, Remarks& remarks
     fast.turns = axis.turns();
     fast.is_range = !drives;
     fast.asked = drives ? std::abs(*axis.target) : std::max(range->high, -range->low);
-    compare(robot, axis.span(solver::Quantity::velocity), fast, wheel_speed_along(robot, *along), remarks);
+    fast.in_any_direction = can->in_any_direction;
+    compare(robot, axis.span(solver::Quantity::velocity), fast, can->speed, remarks);
+  }
+  for (const PlannedSpeed& speed : plan.speeds) {
+    if (speed.body != 0) continue;
+    wording::TooFast fast;
+    fast.axis = speed.path;
+    fast.is_range = true;
+    fast.asked = speed.most;
+    fast.in_any_direction = true;
+    compare(robot, speed.span, fast, wheel_speed_at_best(robot), remarks);
   }
 }
 

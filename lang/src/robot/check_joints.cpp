@@ -7,13 +7,12 @@
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_standing.hpp"
+#include "zwang/lang/wheel_level.hpp"
 
 namespace zwang::lang {
 
 namespace {
 
-/// How far wheels may end from their average; a simulation levels so much out. [m]
-constexpr double most_wheel_lift = 0.002;
 /// Of a wheel's axis: the sine of its slope from which it counts as pointing up, 80 deg.
 constexpr double steepest_axis = 0.985;
 
@@ -24,15 +23,6 @@ void add_movers_above(const Urdf& urdf, const std::string& joint, std::set<std::
     names.insert(above->joint.name);
     above = urdf.joint_above(above->parent);
   }
-}
-
-/// In the base, where all joints stand at 0.
-solver::Pose pose_in_base(const solver::Model& model, int body) {
-  solver::Pose pose;
-  for (int b = body; b > 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) {
-    pose = model.bodies()[static_cast<std::size_t>(b)].pose_in_parent * pose;
-  }
-  return pose;
 }
 
 bool is_possible(const solver::RigidInertia& inertia) {
@@ -91,31 +81,27 @@ void check_starts(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnost
 
 void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& robot,
                         Diagnostics& diagnostics) {
-  struct End {
-    const Word* joint;
-    double z;
+  const auto text_of = [&](const solver::Wheel& wheel) {
+    const std::string& joint = robot.model.joint(wheel.body - 1).name;
+    return std::find_if(file.wheels.begin(), file.wheels.end(),
+                        [&](const WheelText& w) { return w.joint.text == joint; });
   };
-  std::vector<End> ends;
-  double mean = 0.0;
-  for (const solver::Wheel& wheel : robot.model.wheels()) {
+  const std::vector<solver::Wheel>& wheels = robot.model.wheels();
+  for (const solver::Wheel& wheel : wheels) {
     const solver::Joint& joint = robot.model.joint(wheel.body - 1);
-    const auto text = std::find_if(file.wheels.begin(), file.wheels.end(),
-                                   [&](const WheelText& w) { return w.joint.text == joint.name; });
-    if (text == file.wheels.end()) continue;
     const solver::Pose pose = pose_in_base(robot.model, wheel.body);
     if (std::abs((pose.rotation * joint.axis).z()) > steepest_axis) {
       diagnostics.add(
-          wording::upright_wheel(text->joint.span, joint.name, urdf.find_joint(joint.name)->span));
+          wording::upright_wheel(text_of(wheel)->joint.span, joint.name, urdf.find_joint(joint.name)->span));
     }
-    ends.push_back({&text->joint, pose.position.z() - wheel.radius});
-    mean += ends.back().z / static_cast<double>(robot.model.wheels().size());
   }
-  if (ends.empty()) return;
-  const auto [lowest, highest] =
-      std::minmax_element(ends.begin(), ends.end(), [](const End& a, const End& b) { return a.z < b.z; });
-  if (std::max(mean - lowest->z, highest->z - mean) <= most_wheel_lift) return;
-  diagnostics.add(wording::uneven_wheels(highest->joint->span, highest->joint->text, lowest->joint->text,
-                                         highest->z - lowest->z, lowest->joint->span));
+  if (wheels.empty()) return;
+  const WheelLevel level = wheel_level(robot.model);
+  if (level.is_level()) return;
+  const Word& highest = text_of(wheels[level.highest])->joint;
+  const Word& lowest = text_of(wheels[level.lowest])->joint;
+  diagnostics.add(
+      wording::uneven_wheels(highest.span, highest.text, lowest.text, level.spread(), lowest.span));
 }
 
 const UrdfLink* impossible_part(const Urdf& urdf, const std::string& link) {

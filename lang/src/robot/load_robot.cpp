@@ -11,8 +11,8 @@
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_speed.hpp"
-#include "spec/polygon.hpp"
 #include "tree/file.hpp"
+#include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
 
@@ -170,7 +170,7 @@ class RobotBuilder {
     is_clockwise_ = area < 0.0;
     if (corners.size() >= 3 && std::abs(area) < 1e-6) {
       diagnostics_.add(wording::flat_polygon(file_.footprint_span, "footprint"));
-    } else if (crosses_itself(corners)) {
+    } else if (plane::crosses_itself(corners)) {
       diagnostics_.add(wording::crossing_edges("E807", file_.footprint_span, "the footprint"));
     }
   }

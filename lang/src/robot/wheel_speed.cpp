@@ -6,6 +6,7 @@
 #include "robot/wheel_speed.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "diagnostic/wordings_standing.hpp"
 
@@ -69,6 +70,17 @@ WheelSpeed wheel_speed_along(const Robot& robot, solver::Axis axis) {
   if (axis == solver::Axis::x) return wheel_speed(robot, Vector3::UnitX(), 0.0);
   if (axis == solver::Axis::y) return wheel_speed(robot, Vector3::UnitY(), 0.0);
   return axis == solver::Axis::rz ? wheel_speed(robot, Vector3::Zero(), 1.0) : WheelSpeed{};
+}
+
+WheelSpeed wheel_speed_at_best(const Robot& robot) {
+  constexpr int directions = 72;  // every 5 deg: axes, diagonals and those of three wheels are among them
+  WheelSpeed best{0.0, -1};
+  for (int i = 0; i < directions; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / directions;
+    const WheelSpeed speed = wheel_speed(robot, {std::cos(angle), std::sin(angle), 0.0}, 0.0);
+    if (std::isfinite(speed.most) && speed.most > best.most) best = speed;
+  }
+  return best.joint < 0 ? WheelSpeed{} : best;
 }
 
 void check_speed_limits(const Robot& robot, Diagnostics& diagnostics) {

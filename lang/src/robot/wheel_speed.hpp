@@ -16,6 +16,8 @@ struct WheelSpeed {
 WheelSpeed wheel_speed(const Robot& robot, const solver::Vector3& linear, double turn);
 /// Along one of the base's own axes x, y, rz.
 WheelSpeed wheel_speed_along(const Robot& robot, solver::Axis axis);
+/// In the direction in which the base is fastest: what it can reach whatever way it heads.
+WheelSpeed wheel_speed_at_best(const Robot& robot);
 /// W611 of the robot file's own limits.
 void check_speed_limits(const Robot& robot, Diagnostics& diagnostics);
 

@@ -11,6 +11,7 @@
 #include "load_within.hpp"
 #include "scenario/scenario_file.hpp"
 #include "scene/check_scene.hpp"
+#include "scene/check_start.hpp"
 #include "tree/file.hpp"
 
 namespace zwang::lang {
@@ -70,7 +71,8 @@ void check_named_parameters(const ScenarioFile& file, const fs::path& task, Diag
   }
 }
 
-/// What the task is loaded with: all that cells differ in before they run.
+/// What the task is loaded with: all that cells differ in before they run, but for where the robot starts. Of
+/// that nothing else is asked than E913.
 using World = std::tuple<std::string, std::string, std::map<std::string, std::string>>;
 
 World world_of(const ScenarioCell& cell) {
@@ -83,15 +85,18 @@ class CellChecker {
       : file_(file), scenario_(scenario), diagnostics_(diagnostics) {}
 
   void check_all() {
-    std::map<World, std::optional<Program>> programs;
+    std::map<World, Loaded> programs;
     for (const ScenarioCell& cell : scenario_.cells) {
       const World world = world_of(cell);
       auto known = programs.find(world);
       if (known == programs.end()) {
         if (is_exhausted()) return diagnostics_.add(wording::unasked_cells(file_.task.span, cell.name));
         known = programs.emplace(world, load_cell(cell)).first;
+      } else {
+        check_start_of(cell, known->second);
       }
-      if (known->second) check_faults(cell, *known->second, diagnostics_);
+      if (known->second.program) check_faults(cell, *known->second.program, diagnostics_);
+      if (known->second.is_bad_start) programs.erase(known);  // the next cell may start elsewhere
     }
     complain_of_refusals();
   }
@@ -102,24 +107,49 @@ class CellChecker {
     Diagnostic reason;
     std::string place;  ///< of the reason
   };
+  struct Loaded {
+    std::optional<Program> program;
+    Diagnostics diagnostics;
+    bool is_bad_start = false;
+  };
 
   bool is_exhausted() const { return budget_ <= 0.0 || bytes_ > most_bytes; }
 
-  std::optional<Program> load_cell(const ScenarioCell& cell) {
-    Diagnostics of_task;
-    std::optional<Program> program = load_within(budget_, scenario_.task, options_of(cell), of_task);
+  Loaded load_cell(const ScenarioCell& cell) {
+    Loaded loaded;
+    Diagnostics& of_task = loaded.diagnostics;
+    loaded.program = load_within(budget_, scenario_.task, options_of(cell), start_of(cell), of_task);
     for (const Source& source : of_task.sources()) bytes_ += source.text.size();
-    if (program) {
-      check_expectations(file_, *program, diagnostics_);
+    if (loaded.program) {
+      check_expectations(file_, *loaded.program, diagnostics_);
       accepted_.push_back(&cell);
-      return program;
+    } else {
+      refuse(cell, of_task);
+      loaded.is_bad_start = std::any_of(of_task.all().begin(), of_task.all().end(),
+                                        [](const Diagnostic& d) { return d.code == "E913"; });
     }
+    return loaded;
+  }
+
+  /// Of a cell whose task was loaded for another one.
+  void check_start_of(const ScenarioCell& cell, const Loaded& loaded) {
+    if (!loaded.program || !loaded.program->scene) return;
+    Diagnostics found;
+    Scene scene = *loaded.program->scene;
+    put_start(start_of(cell), scene);
+    check_start(scene, loaded.program->robot, found);
+    if (!found.has_errors()) return accepted_.push_back(&cell);
+    Diagnostics of_task = loaded.diagnostics;  // with the sources that what was found points into
+    for (const Diagnostic& d : found.all()) of_task.add(d);
+    refuse(cell, of_task);
+  }
+
+  void refuse(const ScenarioCell& cell, const Diagnostics& of_task) {
     std::vector<std::string> codes;
     for (const Diagnostic& d : of_task.all()) {
       if (d.severity == Severity::error) codes.push_back(d.code);
     }
     if (!expects_refusal(file_, codes)) note_refusal(cell, of_task);
-    return program;
   }
 
   void note_refusal(const ScenarioCell& cell, const Diagnostics& of_task) {
@@ -134,7 +164,7 @@ class CellChecker {
   /// What is wrong in any case is the task file's own matter.
   bool is_refused_alone() {
     Diagnostics of_task;
-    return !load_within(budget_, scenario_.task, {}, of_task);
+    return !load_within(budget_, scenario_.task, {}, {}, of_task);
   }
 
   void complain_of_refusals() {
@@ -159,7 +189,7 @@ class CellChecker {
         if (differ_in_one(cell, *other, key)) return span;
       }
     }
-    for (const char* key : {"robot", "scene"}) {
+    for (const char* key : {"robot", "scene", "start_at", "start_yaw"}) {
       const auto found = cell.spans.find(key);
       if (found != cell.spans.end()) return found->second;
     }
@@ -175,8 +205,10 @@ class CellChecker {
       of_a.erase(key.substr(7));
       of_b.erase(key.substr(7));
     }
-    return world_of(a) != world_of(b) && of_a == of_b && (key == "robot" || a.robot == b.robot) &&
-           (key == "scene" || a.scene == b.scene);
+    const bool differ = world_of(a) != world_of(b) || start_of(a) != start_of(b);
+    return differ && of_a == of_b && (key == "robot" || a.robot == b.robot) &&
+           (key == "scene" || a.scene == b.scene) && (key == "start_at" || a.start_at == b.start_at) &&
+           (key == "start_yaw" || a.start_yaw == b.start_yaw);
   }
 
   static constexpr std::size_t most_bytes = 2 << 20;
@@ -211,6 +243,10 @@ LoadOptions options_of(const ScenarioCell& cell) {
   options.scene = cell.scene;
   options.parameters = cell.parameters;
   return options;
+}
+
+Start start_of(const ScenarioCell& cell) {
+  return {cell.start_at, cell.start_yaw};
 }
 
 void check_faults(const ScenarioCell& cell, const Program& program, Diagnostics& diagnostics) {

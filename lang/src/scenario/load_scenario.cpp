@@ -1,3 +1,4 @@
+#include "check/check.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scenario/scenario_file.hpp"
 #include "tree/file.hpp"
@@ -159,7 +160,8 @@ std::optional<ScenarioRun> load_run(const fs::path& path, std::size_t cell, Diag
   if (!scenario) return std::nullopt;
   const ScenarioCell& chosen = scenario->cells.at(cell);
   ScenarioRun run;
-  run.program = load(scenario->task, options_of(chosen), of_task);
+  double budget = whole_budget;
+  run.program = load_within(budget, scenario->task, options_of(chosen), start_of(chosen), of_task);
   if (!run.program) {
     run.expectations = expectations_of_words(*file);
     return run;

@@ -27,6 +27,7 @@ std::string stem(const std::string& path) {
 std::optional<MatrixValue> parse_matrix_value(const std::string& name, const Node& node,
                                               Diagnostics& diagnostics) {
   MatrixValue value;
+  value.word.span = node.span;
   const std::string what = "`" + name + "`";
   if (name == "start_at") {
     const auto at = parse_vector(node, dimension::length, 2, 2, what, diagnostics);

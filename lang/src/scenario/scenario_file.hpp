@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "load_within.hpp"
 #include "spec/expression.hpp"
 #include "spec/value.hpp"
 #include "tree/read.hpp"
@@ -67,6 +68,7 @@ std::optional<Scenario> scenario_with_parameters(const ScenarioFile& file, const
 
 /// What a cell's task is loaded with.
 LoadOptions options_of(const ScenarioCell& cell);
+Start start_of(const ScenarioCell& cell);
 
 /// The robots that a cell's faults name, and their motors: E301, E907.
 void check_faults(const ScenarioCell& cell, const Program& program, Diagnostics& diagnostics);

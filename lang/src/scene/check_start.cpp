@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "diagnostic/wordings_standing.hpp"
+#include "zwang/lang/plane.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::lang {
@@ -34,28 +35,6 @@ Outline placed(Outline corners, const Pose2& pose) {
   return corners;
 }
 
-double cross(const Vector3& a, const Vector3& b, const Vector3& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-/// Counter-clockwise, as a simulation closes its hollows.
-Outline convex_hull(Outline points) {
-  std::sort(points.begin(), points.end(), [](const Vector3& a, const Vector3& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  Outline hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t fixed = hull.size();
-    for (const Vector3& p : points) {
-      while (hull.size() >= fixed + 2 && cross(hull[hull.size() - 2], hull.back(), p) <= 0.0) hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
 /// The least way over the edges of `a` only; below 0 they are apart.
 double depth_by_edges(const Outline& a, const Outline& b) {
   double least = solver::infinity;
@@ -77,13 +56,7 @@ double depth(const Outline& a, const Outline& b) {
 double depth(const Outline& a, const Vector3& centre, double radius) {
   const double inside = depth_by_edges(a, {centre});
   if (inside >= 0.0) return inside + radius;
-  double nearest = solver::infinity;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const Vector3 edge = a[(i + 1) % a.size()] - a[i];
-    const double along = edge.dot(centre - a[i]) / std::max(edge.squaredNorm(), 1e-18);
-    nearest = std::min(nearest, (a[i] + std::clamp(along, 0.0, 1.0) * edge - centre).norm());
-  }
-  return radius - nearest;
+  return radius - plane::distance_to_edges(a, centre);
 }
 
 /// As large as the object is; a wall's `at` lies on the face that looks along its -x.
@@ -121,7 +94,8 @@ void check_start(const Scene& scene, const Robot& first, Diagnostics& diagnostic
   const auto stand = [&](std::string words, const std::string& name, const Robot& robot, const Pose2& pose,
                          const Span& span) {
     if (robot.footprint.size() < 3) return;
-    robots.push_back({std::move(words), name, &robot, convex_hull(placed(robot.footprint, pose)), span});
+    robots.push_back(
+        {std::move(words), name, &robot, plane::convex_hull(placed(robot.footprint, pose)), span});
   };
   stand("the robot", "", first, {scene.start_at, scene.start_yaw}, {});
   for (const SceneRobot& other : scene.robots) {

@@ -6,7 +6,7 @@
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/parse_task.hpp"
-#include "spec/polygon.hpp"
+#include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
 
@@ -73,7 +73,7 @@ RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
     }
     if (p.size() == polygon->items.size() && (p.size() < 3 || std::abs(area) < 1e-6)) {
       diagnostics.add(wording::flat_region(polygon->span, what));
-    } else if (p.size() == polygon->items.size() && crosses_itself(p)) {
+    } else if (p.size() == polygon->items.size() && plane::crosses_itself(p)) {
       diagnostics.add(wording::crossing_edges("E410", polygon->span, what));
     }
     if (area < 0.0) std::reverse(region.polygon.begin(), region.polygon.end());

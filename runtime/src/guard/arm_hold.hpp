@@ -4,8 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "zwang/solver/model.hpp"
-#include "zwang/solver/state.hpp"
+#include "zwang/solver/joint_loads.hpp"
 
 namespace zwang::runtime {
 
@@ -18,7 +17,16 @@ class ArmHold {
  public:
   explicit ArmHold(const solver::Model& model);
 
-  bool empty() const noexcept { return joints_.empty(); }
+  struct HeldJoint {
+    int joint = 0;
+    std::size_t load = 0;  ///< what hangs on it: an index into the loads
+    double posture = 0.0;  ///< q_hold
+  };
+  const std::vector<HeldJoint>& joints() const noexcept { return joints_; }
+  /// As `take` or `hold` weighed it last.
+  const solver::JointLoads::Load& load_of(const HeldJoint& held) const noexcept {
+    return loads_.all()[held.load];
+  }
   /// Takes the posture of a good sample: from now on it is the one to hold.
   void take(const solver::State& state) noexcept;
   /// Keeps the posture that was taken last; sets the entries of its own joints.
@@ -29,18 +37,8 @@ class ArmHold {
   static constexpr double frequency = 20.0;  ///< [rad/s]
 
  private:
-  struct HeldJoint {
-    int joint = 0;
-    double weight = 0.0;   ///< g [N m] or [N]
-    double inertia = 0.0;  ///< I [kg m^2] or [kg]
-    double posture = 0.0;  ///< q_hold
-  };
-  void weigh(const solver::State& state) noexcept;
-
-  const solver::Model model_;
+  solver::JointLoads loads_;
   std::vector<HeldJoint> joints_;
-  std::vector<solver::Pose> poses_;             ///< of each body in the base
-  std::vector<solver::RigidInertia> subtrees_;  ///< of each body and what hangs on it, in the base's axes
 };
 
 }  // namespace zwang::runtime

@@ -28,6 +28,10 @@ const char* to_string(EventCode code) noexcept {
       return "torque_stuck";
     case EventCode::torque_flipped:
       return "torque_flipped";
+    case EventCode::joint_travel:
+      return "joint_travel";
+    case EventCode::joint_speed:
+      return "joint_speed";
     case EventCode::runaway:
       return "runaway";
     case EventCode::sensor_bias:
@@ -72,6 +76,10 @@ const char* describe(EventCode code) noexcept {
       return "a motor's torque does not follow its command";
     case EventCode::torque_flipped:
       return "a motor turns the wrong way";
+    case EventCode::joint_travel:
+      return "an arm's joint is about to leave its travel";
+    case EventCode::joint_speed:
+      return "an arm's joint is faster than it may be";
     case EventCode::runaway:
       return "the base gets faster than it may while its motors are told to brake";
     case EventCode::clock_refused:

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "guard/arm_hold.hpp"
+#include "guard/joint_limits.hpp"
 #include "guard/wheel_brake.hpp"
 
 namespace zwang::runtime {
@@ -83,6 +84,7 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
     if (model.joint(j).actuated) limit_(j) = model.joint(j).max_effort;
     if (robot.slew.size() == limit_.size()) step_(j) = std::min(step_(j), robot.slew(j) * settings.period);
   }
+  joint_limits_ = std::make_unique<JointLimits>(model, limit_, step_, settings.period);
 }
 
 SafetyGuard::~SafetyGuard() = default;
@@ -208,6 +210,10 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
            wanted(bad));
     }
   }
+  if (!stopped()) {
+    arm_->take(sensed.state);
+    if (const auto beyond = joint_limits_->look(sensed.state, last_, *arm_, sensed.time)) latch(*beyond);
+  }
   const bool is_frozen = frozen_ticks_ > believed_frozen_ticks;
   if (!is_frozen) brake_->remember(sensed.state);
   if (stopped()) {
@@ -219,7 +225,6 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
     clamp_next();
     return send(tau, GuardStatus::stopped);
   }
-  arm_->take(sensed.state);
   GuardStatus status = GuardStatus::passed;
   for (Eigen::Index j = 0; j < next_.size(); ++j) {
     next_(j) = std::clamp(wanted(j), -limit_(j), limit_(j));

@@ -46,9 +46,6 @@ struct SimulatedRobot {
 /// be simulated.
 SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers = false, int number = 0);
 
-/// X_BaseBody of a body where all joints are at 0.
-solver::Pose pose_in_base(const solver::Model& model, int body);
-
 /// The frame that latches in the dock of `owner`. Throws std::invalid_argument when the robot has none.
 const solver::Frame& hook_of(const solver::Model& model, const lang::Dock& dock, const std::string& owner);
 

@@ -4,6 +4,7 @@
 #include "mjcf.hpp"
 #include "mjcf_text.hpp"
 #include "outline.hpp"
+#include "zwang/lang/wheel_level.hpp"
 
 namespace zwang::runtime {
 
@@ -48,7 +49,7 @@ class RobotWriter {
       pose.position = {0.0, 0.0, model_.base_type() == solver::BaseType::ground ? -simulated_.ground : 0.0};
       inertia = simulated_.spheres.base;
     } else if (wheel >= 0) {
-      const Matrix3 in_base = pose_in_base(model_, body.parent).rotation;
+      const Matrix3 in_base = lang::pose_in_base(model_, body.parent).rotation;
       pose.position +=
           in_base.transpose() * Vector3(0.0, 0.0, simulated_.wheel_lift[static_cast<std::size_t>(wheel)]);
     }

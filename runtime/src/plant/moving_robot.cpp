@@ -27,6 +27,7 @@ MovingRobot::MovingRobot(const SimulatedRobot& simulated, double floor_friction)
 void MovingRobot::find_addresses(const mjModel& m) {
   const auto id_of = [&](mjtObj type, const std::string& name) { return mj_name2id(&m, type, name.c_str()); };
   base_body_ = id_of(mjOBJ_BODY, simulated_.named("body", 0));
+  remember_base(m);
   if (floats()) {
     const int base = id_of(mjOBJ_JOINT, simulated_.prefix + "base");
     base_position_ = m.jnt_qposadr[base];
@@ -48,6 +49,37 @@ void MovingRobot::find_addresses(const mjModel& m) {
     joints_.push_back(address);
   }
   for (const RollerWheel& wheel : simulated_.rollers) freedoms_ += static_cast<int>(wheel.rollers.size());
+}
+
+void MovingRobot::remember_base(const mjModel& m) {
+  const solver::RigidInertia& own = model().bodies().front().inertia;
+  as_built_.mass = m.body_mass[base_body_];
+  as_built_.centre = m.body_ipos[3 * base_body_];
+  const Matrix3 to_centre =
+      own.mass > 0.0
+          ? solver::RigidInertia::from_com(own.mass, own.first_moment / own.mass, Matrix3::Zero()).rotational
+          : Matrix3(Matrix3::Zero());
+  const Matrix3 axes = matrix_of(m.body_iquat + 4 * base_body_);
+  as_built_.inertia = vector_of(m.body_inertia + 3 * base_body_);
+  as_built_.own_inertia = (axes.transpose() * (own.rotational - to_centre) * axes).diagonal();
+}
+
+void MovingRobot::set_payload(mjModel& m, double mass) const noexcept {
+  const double change = as_built_.mass + mass - m.body_mass[base_body_];
+  m.body_mass[base_body_] += change;
+  m.body_subtreemass[base_body_] += change;
+  m.body_subtreemass[0] += change;
+}
+
+void MovingRobot::shift_centre_of_mass(mjModel& m, double ahead) const noexcept {
+  // Else the simulator takes the body's own frame for the one of its inertia.
+  m.body_sameframe[base_body_] = 0;
+  m.body_ipos[3 * base_body_] = as_built_.centre + ahead;
+}
+
+void MovingRobot::scale_inertia(mjModel& m, double factor) const noexcept {
+  const Vector3 scaled = as_built_.inertia + (factor - 1.0) * as_built_.own_inertia;
+  std::copy(scaled.data(), scaled.data() + 3, m.body_inertia + 3 * base_body_);
 }
 
 void MovingRobot::place(mjModel& m, mjData& d, const std::array<double, 2>& at, double yaw) {

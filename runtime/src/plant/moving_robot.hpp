@@ -25,6 +25,11 @@ class MovingRobot {
 
   void find_addresses(const mjModel_& m);
   int base_body() const noexcept { return base_body_; }
+  /// Faults of the base's own body; each replaces the one before it. [kg] more than it weighs, [m] farther
+  /// ahead than its centre of mass lies, times its own inertia about that.
+  void set_payload(mjModel_& m, double mass) const noexcept;
+  void shift_centre_of_mass(mjModel_& m, double ahead) const noexcept;
+  void scale_inertia(mjModel_& m, double factor) const noexcept;
   /// How many of the simulation's freedoms are this robot's.
   int freedoms() const noexcept { return freedoms_; }
 
@@ -67,6 +72,14 @@ class MovingRobot {
     const RollingSphere* sphere = nullptr;  ///< set: a ball joint; q is integrated
     bool turns_wheel = false;
   };
+  /// The base's body before any fault. It also has the yaw inertia by which the forms of the wheels differ.
+  struct BaseAsBuilt {
+    double mass = 0.0;    ///< [kg]
+    double centre = 0.0;  ///< [m] of its mass, ahead of its origin
+    /// [kg m^2] about the principal axes of the body, which those of its own are parallel to
+    solver::Vector3 inertia = solver::Vector3::Zero(), own_inertia = solver::Vector3::Zero();
+  };
+  void remember_base(const mjModel_& m);
 
   SimulatedRobot simulated_;
   Eigen::VectorXd posture_;  ///< q at the start
@@ -76,6 +89,7 @@ class MovingRobot {
   std::vector<double> wheel_loads_;  ///< [N] that the floor carries each wheel with, in the last step
   std::vector<JointAddress> joints_;
   int base_body_ = 0;
+  BaseAsBuilt as_built_;
   int base_position_ = 0, base_velocity_ = 0;  ///< of the free joint, in qpos and qvel
   int freedoms_ = 0;
   Eigen::VectorXd q_, qd_;

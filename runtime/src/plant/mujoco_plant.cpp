@@ -71,26 +71,10 @@ struct MujocoPlant::Simulation {
     }
     find_objects(scene);
     find_docks(scene);
-    for (std::size_t r = 0; r < robots.size(); ++r)
-      remember_base(robots[r].base_body(), described[r].robot.model.bodies().front().inertia);
     std::vector<Start> starts{
         {options.start_at.value_or(scene.start_at), options.start_yaw.value_or(scene.start_yaw)}};
     for (const lang::SceneRobot& other : scene.robots) starts.push_back({other.at, other.yaw});
     start(starts);
-  }
-
-  /// As it is before any fault. Its body also has the yaw inertia by which the forms of the wheels differ.
-  void remember_base(int body, const solver::RigidInertia& own) {
-    base_mass.push_back(model->body_mass[body]);
-    base_centre.push_back(model->body_ipos[3 * body]);
-    const Eigen::Matrix3d to_centre =
-        own.mass > 0.0
-            ? solver::RigidInertia::from_com(own.mass, own.first_moment / own.mass, Eigen::Matrix3d::Zero())
-                  .rotational
-            : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
-    const Eigen::Matrix3d axes = matrix_of(model->body_iquat + 4 * body);
-    base_inertia.push_back({Vector3(model->body_inertia + 3 * body),
-                            (axes.transpose() * (own.rotational - to_centre) * axes).diagonal()});
   }
 
   static std::vector<SimulatedRobot> describe_robots(const lang::Robot& robot, const lang::Scene& scene,
@@ -243,28 +227,6 @@ struct MujocoPlant::Simulation {
     // Skidding wheels have next to none in the second direction.
     if (friction[1] == friction[0]) friction[1] = coefficient;
     friction[0] = coefficient;
-  }
-
-  void set_payload(std::size_t robot, double mass) noexcept {
-    const int body = robots[robot].base_body();
-    const double change = base_mass[robot] + mass - model->body_mass[body];
-    model->body_mass[body] += change;
-    model->body_subtreemass[body] += change;
-    model->body_subtreemass[0] += change;
-  }
-
-  void shift_centre_of_mass(std::size_t robot, double ahead) noexcept {
-    const int body = robots[robot].base_body();
-    // Else the simulator takes the body's own frame for the one of its inertia.
-    model->body_sameframe[body] = 0;
-    model->body_ipos[3 * body] = base_centre[robot] + ahead;
-  }
-
-  void scale_inertia(std::size_t robot, double factor) noexcept {
-    const int body = robots[robot].base_body();
-    const BaseInertia& base = base_inertia[robot];
-    for (int i = 0; i < 3; ++i)
-      model->body_inertia[3 * body + i] = base.whole[i] + (factor - 1.0) * base.own[i];
   }
 
   const GeomOwner& owner_of(int geom) const { return owners[static_cast<std::size_t>(geom)]; }
@@ -448,13 +410,6 @@ struct MujocoPlant::Simulation {
   ContactFriction contact_friction;
   std::vector<SimulatedObject> objects;
   std::vector<SimulatedDock> docks;
-  std::vector<double> base_mass;  ///< [kg] of each robot's base, without a payload
-  /// [kg m^2] about the principal axes of the body, which those of its own are parallel to
-  struct BaseInertia {
-    Vector3 whole, own;
-  };
-  std::vector<BaseInertia> base_inertia;
-  std::vector<double> base_centre;  ///< [m] of its mass, ahead of its origin, unshifted
   Vector3 velocity = Vector3::Zero();
   Truth truth;
   std::int64_t steps_since_start = 0;
@@ -492,11 +447,12 @@ void MujocoPlant::set_floor_friction(double coefficient) noexcept {
 }
 
 void MujocoPlant::set_payload(double mass) noexcept {
-  simulation_->set_payload(0, mass);
+  simulation_->first().set_payload(*simulation_->model, mass);
 }
 
 void MujocoPlant::set_partner_payload(std::size_t partner, double mass) noexcept {
-  if (partner + 1 < simulation_->robots.size()) simulation_->set_payload(partner + 1, mass);
+  if (partner + 1 < simulation_->robots.size())
+    simulation_->robots[partner + 1].set_payload(*simulation_->model, mass);
 }
 
 void MujocoPlant::set_wheel_friction(std::size_t robot, std::size_t wheel, double coefficient) noexcept {
@@ -504,11 +460,13 @@ void MujocoPlant::set_wheel_friction(std::size_t robot, std::size_t wheel, doubl
 }
 
 void MujocoPlant::shift_centre_of_mass(std::size_t robot, double ahead) noexcept {
-  if (robot < simulation_->robots.size()) simulation_->shift_centre_of_mass(robot, ahead);
+  if (robot < simulation_->robots.size())
+    simulation_->robots[robot].shift_centre_of_mass(*simulation_->model, ahead);
 }
 
 void MujocoPlant::scale_inertia(std::size_t robot, double factor) noexcept {
-  if (robot < simulation_->robots.size()) simulation_->scale_inertia(robot, factor);
+  if (robot < simulation_->robots.size())
+    simulation_->robots[robot].scale_inertia(*simulation_->model, factor);
 }
 
 void MujocoPlant::diverge() noexcept {

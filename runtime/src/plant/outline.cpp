@@ -2,41 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "zwang/lang/plane.hpp"
 
 namespace zwang::runtime {
 
 using solver::Vector3;
-
-namespace {
-
-double cross2(const Vector3& o, const Vector3& a, const Vector3& b) {
-  return (a.x() - o.x()) * (b.y() - o.y()) - (a.y() - o.y()) * (b.x() - o.x());
-}
-
-}  // namespace
-
-// Monotone chain.
-std::vector<Vector3> convex_hull(std::vector<Vector3> points) {
-  for (Vector3& p : points) p.z() = 0.0;
-  const auto before = [](const Vector3& a, const Vector3& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  };
-  std::sort(points.begin(), points.end(), before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 3) return {};
-  std::vector<Vector3> hull;
-  const auto extend = [&hull](const Vector3& p, std::size_t kept) {
-    while (hull.size() >= kept + 2 && cross2(hull[hull.size() - 2], hull.back(), p) <= 1e-12) hull.pop_back();
-    hull.push_back(p);
-  };
-  for (const Vector3& p : points) extend(p, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto p = points.rbegin() + 1; p != points.rend(); ++p) extend(*p, lower);
-  hull.pop_back();
-  if (hull.size() < 3) hull.clear();
-  return hull;
-}
 
 std::vector<Corner> corners_of(const std::vector<Vector3>& polygon) {
   std::vector<Corner> corners;
@@ -53,19 +24,9 @@ std::vector<Corner> corners_of(const std::vector<Vector3>& polygon) {
 }
 
 double distance_to(const std::vector<Vector3>& polygon, double x, double y) noexcept {
-  const Eigen::Vector2d point(x, y);
-  double nearest = std::numeric_limits<double>::infinity();
-  bool is_inside = !polygon.empty();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d from = polygon[i].head<2>(),
-                          side = polygon[(i + 1) % polygon.size()].head<2>() - from;
-    const Eigen::Vector2d away = point - from;
-    // Counter-clockwise: what is inside lies to the left of every side.
-    is_inside = is_inside && side.x() * away.y() - side.y() * away.x() >= 0.0;
-    const double along = std::clamp(side.dot(away) / side.squaredNorm(), 0.0, 1.0);
-    nearest = std::min(nearest, (away - along * side).norm());
-  }
-  return is_inside || polygon.empty() ? 0.0 : nearest;
+  const Vector3 point(x, y, 0.0);
+  const bool is_outside = !polygon.empty() && !lang::plane::contains(polygon, point);
+  return is_outside ? lang::plane::distance_to_edges(polygon, point) : 0.0;
 }
 
 std::vector<Vector3> rectangle(double half_x, double half_y) {

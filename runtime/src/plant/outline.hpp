@@ -9,9 +9,6 @@ namespace zwang::runtime {
 
 inline constexpr double corner_radius = 1e-6;  ///< [m]
 
-/// Counter-clockwise, without points on straight stretches; empty for less than a triangle.
-std::vector<solver::Vector3> convex_hull(std::vector<solver::Vector3> points);
-
 /// A sphere tangent to both sides of a corner, from inside. Away from the polygon it presses in directions
 /// between the normals of the two sides only.
 struct Corner {

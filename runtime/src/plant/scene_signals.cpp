@@ -8,6 +8,7 @@
 
 #include "outline.hpp"
 #include "schedule/frame_table.hpp"
+#include "zwang/lang/plane.hpp"
 
 namespace zwang::runtime {
 
@@ -91,7 +92,7 @@ SceneSignals::SceneSignals(const lang::Program& program, const lang::Scene& scen
                            std::vector<std::vector<solver::Vector3>> footprints, std::uint64_t seed)
     : model_(program.robot.model), scene_(scene) {
   for (std::vector<solver::Vector3>& footprint : footprints)
-    footprints_.push_back(convex_hull(std::move(footprint)));
+    footprints_.push_back(lang::plane::convex_hull(std::move(footprint)));
   for (const SceneSignal& signal : signals) {
     for (std::size_t i = 0; i < program.signals.size(); ++i) {
       const lang::Signal& declared = program.signals[i];

@@ -4,26 +4,16 @@
 #include <stdexcept>
 
 #include "mjcf.hpp"
-#include "outline.hpp"
+#include "zwang/lang/plane.hpp"
+#include "zwang/lang/wheel_level.hpp"
 
 namespace zwang::runtime {
 
 using solver::Body;
 using solver::Model;
-using solver::Pose;
 using solver::Vector3;
 
-Pose pose_in_base(const Model& model, int body) {
-  Pose pose;
-  for (int i = body; i > 0; i = model.bodies()[static_cast<std::size_t>(i)].parent) {
-    pose = model.bodies()[static_cast<std::size_t>(i)].pose_in_parent * pose;
-  }
-  return pose;
-}
-
 namespace {
-
-constexpr double max_wheel_lift = 0.002;  ///< [m]
 
 [[noreturn]] void refuse(const std::string& what) {
   throw std::invalid_argument("plant: " + what);
@@ -37,24 +27,19 @@ std::string in_millimetres(double metres) {
 
 /// The ground as the wheels' lowest points have it, on the average; small differences are levelled out.
 void level_wheels(const Model& model, SimulatedRobot& simulated) {
-  std::vector<double> lowest;
   for (const solver::Wheel& wheel : model.wheels()) {
     if (!wheel.roller_angle && !wheel.holds_rolling) {
       refuse("a wheel that does not hold rolling cannot be simulated");
     }
-    lowest.push_back(pose_in_base(model, wheel.body).position.z() - wheel.radius);
   }
-  if (lowest.empty()) refuse("a base on the ground needs wheels");
-  for (const double z : lowest) simulated.ground += z / static_cast<double>(lowest.size());
-  for (const double z : lowest) simulated.wheel_lift.push_back(simulated.ground - z);
-  const auto [low, high] = std::minmax_element(lowest.begin(), lowest.end());
-  if (std::max(simulated.ground - *low, *high - simulated.ground) <= max_wheel_lift) return;
-  const auto name = [&](std::vector<double>::const_iterator at) {
-    const auto w = static_cast<std::size_t>(at - lowest.cbegin());
-    return "`" + model.joint(model.wheels()[w].body - 1).name + "`";
-  };
-  refuse("the wheels do not stand on one level: " + name(high) + " ends " + in_millimetres(*high - *low) +
-         " above " + name(low));
+  if (model.wheels().empty()) refuse("a base on the ground needs wheels");
+  const lang::WheelLevel level = lang::wheel_level(model);
+  simulated.ground = level.mean;
+  for (const double z : level.ends) simulated.wheel_lift.push_back(level.mean - z);
+  if (level.is_level()) return;
+  const auto name = [&](std::size_t w) { return "`" + model.joint(model.wheels()[w].body - 1).name + "`"; };
+  refuse("the wheels do not stand on one level: " + name(level.highest) + " ends " +
+         in_millimetres(level.spread()) + " above " + name(level.lowest));
 }
 
 /// A support stands on the ground straight below its link's origin.
@@ -111,7 +96,7 @@ SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers, int nu
   } else {
     simulated.spheres = replace_wheels_by_spheres(robot.model);
   }
-  simulated.outline = convex_hull(robot.footprint);
+  simulated.outline = lang::plane::convex_hull(robot.footprint);
   if (robot.model.base_type() != solver::BaseType::ground) {
     simulated.wheel_lift.assign(robot.model.wheels().size(), 0.0);
     return simulated;

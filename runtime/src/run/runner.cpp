@@ -5,7 +5,6 @@
 
 #include "estimate/disturbance.hpp"
 #include "estimate/friction.hpp"
-#include "estimate/weight.hpp"
 #include "guard/actuator_watch.hpp"
 #include "guard/motor_beside_contact.hpp"
 #include "guard/runaway_watch.hpp"
@@ -17,6 +16,7 @@
 #include "run/statement_table.hpp"
 #include "schedule/at_rest.hpp"
 #include "zwang/runtime/odometry.hpp"
+#include "zwang/solver/joint_loads.hpp"
 
 namespace zwang::runtime {
 
@@ -64,7 +64,7 @@ struct Runner::Parts {
         sample(model, program.signals.size()),
         odometry(model, {}, {.period = settings.period}),
         friction(program.robot),
-        weight(model),
+        arm(model),
         disturbance(program.robot),
         actuators(program.robot, settings.period),
         beside_contact(program.robot, settings.period),
@@ -117,7 +117,7 @@ struct Runner::Parts {
   bool reckoning = false;       ///< the base is not measured: `odometry` tells it
   double last_fix = -std::numeric_limits<double>::infinity();  ///< [s]
   FrictionFeedForward friction;
-  WeightFeedForward weight;
+  solver::JointLoads arm;
   DisturbanceObserver disturbance;
   ActuatorWatch actuators;
   MotorBesideContact beside_contact;
@@ -176,7 +176,7 @@ bool Runner::Parts::control() noexcept {
   if (solver_status != solver::Status::ok) return false;
   compare();
   if (guard.stopped()) return true;  // a motor is not to be trusted
-  weight.add_to(sample.state);
+  arm.bear(sample.state);            // it floats where nothing is said of it
   is_solution_of_rows = false;
   scheduler.tick(sample);
   if (scheduler.transition()) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "schedule/frame_table.hpp"
+#include "zwang/lang/plane.hpp"
 
 namespace zwang::runtime {
 
@@ -107,17 +108,6 @@ RegionFence::RegionFence(const lang::Region& region, std::vector<Vector3> corner
   approaches_.resize(pairs_.size());
 }
 
-bool RegionFence::contains(const std::vector<Point>& polygon, const Point& p) noexcept {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Point& a = polygon[i];
-    const Point& b = polygon[j];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
-}
-
 int RegionFence::nearest_side(const std::vector<Side>& sides, const Point& p) noexcept {
   int nearest = -1;
   double least = far;
@@ -195,7 +185,7 @@ const RegionFence::Moving& RegionFence::located_corner(std::size_t corner) noexc
   Moving& now = corner_now_[corner];
   if (now.is_located) return now;
   now.is_located = true;
-  now.inside = polygon_.empty() || contains(polygon_, now.place);
+  now.inside = polygon_.empty() || lang::plane::contains(polygon_, now.place);
   now.nearest = now.inside ? -1 : nearest_side(edges_, now.place);
   return now;
 }
@@ -204,7 +194,7 @@ const RegionFence::Moving& RegionFence::located_vertex(std::size_t vertex) noexc
   Moving& now = vertex_now_[vertex];
   if (now.is_located) return now;
   now.is_located = true;
-  now.inside = contains(outline_, now.place);
+  now.inside = lang::plane::contains(outline_, now.place);
   now.nearest = now.inside ? nearest_side(sides_, now.place) : -1;
   return now;
 }

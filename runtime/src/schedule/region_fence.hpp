@@ -70,7 +70,6 @@ class RegionFence {
     int nearest = -1;                ///< side of the other polygon
   };
   static std::vector<Side> sides_of(const std::vector<Point>& polygon);
-  static bool contains(const std::vector<Point>& polygon, const Point& p) noexcept;
   static int nearest_side(const std::vector<Side>& sides, const Point& p) noexcept;
   Approach look(const Pair& pair) const noexcept;
   const Moving& located_corner(std::size_t corner) noexcept;

@@ -22,7 +22,9 @@ enum class EventCode {
   torque_lost,
   torque_stuck,
   torque_flipped,
-  runaway,  ///< faster than the task allows, and ever faster while the motors are told to brake
+  joint_travel,  ///< a joint of an arm is too near to the end of its travel for the speed that it has
+  joint_speed,   ///< a joint of an arm is faster than its URDF allows
+  runaway,       ///< faster than the task allows, and ever faster while the motors are told to brake
   // Those that are only told.
   clock_refused,  ///< time went backwards, or jumped
   sample_lost,    ///< none has arrived since the last tick

@@ -48,6 +48,7 @@ struct GuardCounters {
 };
 
 class ArmHold;
+class JointLimits;
 class WheelBrake;
 
 /// Does not allocate, lock, throw or print after construction.
@@ -65,8 +66,9 @@ class SafetyGuard {
   SampleStatus admit(const Sensed& sensed) noexcept;
 
   /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew;
-  /// the brake's when the stop is latched, from memory on a frozen sample; an arm is held where it was. `tau`
-  /// keeps its size. Call it when `admit` said good.
+  /// the brake's when the stop is latched, from memory on a frozen sample; an arm is held where it was. A
+  /// joint of an arm that is faster than it may be, or could hardly be kept in its travel, latches the stop.
+  /// `tau` keeps its size. Call it when `admit` said good.
   GuardStatus output(const Sensed& sensed, const Eigen::VectorXd& wanted, Eigen::VectorXd& tau) noexcept;
   /// The torques to send when `admit` refused the sample: the last ones, or when the stop is latched those
   /// that brake what the last good sample said, and bear an arm.
@@ -104,6 +106,7 @@ class SafetyGuard {
   Eigen::VectorXd last_q_;  ///< of the last good sample, as is the position
   solver::Vector3 last_position_ = solver::Vector3::Zero();
   std::unique_ptr<ArmHold> arm_;
+  std::unique_ptr<JointLimits> joint_limits_;
   std::unique_ptr<WheelBrake> brake_;
   int frozen_ticks_ = 0;
   double last_time_ = 0.0;

@@ -1,0 +1,31 @@
+/// How the wheels stand while all joints are at 0.
+#pragma once
+
+#include <vector>
+
+#include "zwang/solver/model.hpp"
+
+namespace zwang::lang {
+
+/// X_BaseBody where all joints are at 0.
+solver::Pose pose_in_base(const solver::Model& model, int body);
+
+/// How far wheels may end from their average; a simulation levels so much out. [m]
+inline constexpr double most_wheel_lift = 0.002;
+
+/// The heights of the wheels' lowest points in the base. [m]
+struct WheelLevel {
+  std::vector<double> ends;  ///< of each wheel of the model
+  double mean = 0.0;         ///< where the ground is
+  std::size_t lowest = 0, highest = 0;
+
+  /// By how much the highest ends above the lowest. [m]
+  double spread() const { return ends[highest] - ends[lowest]; }
+  bool is_level() const {
+    return mean - ends[lowest] <= most_wheel_lift && ends[highest] - mean <= most_wheel_lift;
+  }
+};
+/// Of a model that has wheels.
+WheelLevel wheel_level(const solver::Model& model);
+
+}  // namespace zwang::lang

@@ -1,0 +1,27 @@
+#include "zwang/lang/wheel_level.hpp"
+
+#include <algorithm>
+
+namespace zwang::lang {
+
+solver::Pose pose_in_base(const solver::Model& model, int body) {
+  solver::Pose pose;
+  for (int b = body; b > 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) {
+    pose = model.bodies()[static_cast<std::size_t>(b)].pose_in_parent * pose;
+  }
+  return pose;
+}
+
+WheelLevel wheel_level(const solver::Model& model) {
+  WheelLevel level;
+  for (const solver::Wheel& wheel : model.wheels()) {
+    level.ends.push_back(pose_in_base(model, wheel.body).position.z() - wheel.radius);
+    level.mean += level.ends.back() / static_cast<double>(model.wheels().size());
+  }
+  const auto [low, high] = std::minmax_element(level.ends.begin(), level.ends.end());
+  level.lowest = static_cast<std::size_t>(low - level.ends.begin());
+  level.highest = static_cast<std::size_t>(high - level.ends.begin());
+  return level;
+}
+
+}  // namespace zwang::lang

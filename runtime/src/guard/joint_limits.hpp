@@ -1,0 +1,43 @@
+/// Stops an arm before one of its joints leaves its travel, or when one is too fast.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "guard/arm_hold.hpp"
+#include "zwang/runtime/event.hpp"
+
+namespace zwang::runtime {
+
+/// Travel and speed are the `<limit>` of the URDF: lower, upper and velocity. The stop has to come while the
+/// hold can still keep the joint inside, which takes, s = +-1 being the direction of the end,
+///   d = v t + v / (e w) + v^2 / (2 a),   v = s qd + max(0, s (tau - g) / I) t,   a = (tau_max + s g) / I
+/// t is the time in which the torque that is sent now turns around, g and I are what the joint bears, v / (e
+/// w) is how far a hold of the frequency w swings, v^2 / (2 a) what a torque at its limit adds. Does not
+/// allocate, lock, throw or print after construction.
+class JointLimits {
+ public:
+  /// `max_torque` [N m] of each joint, and `slew` [N m] how much of it may change in a tick of `period` [s].
+  JointLimits(const solver::Model& model, const Eigen::VectorXd& max_torque, const Eigen::VectorXd& slew,
+              double period);
+
+  /// An event when a joint of `arm`, which took this state, is too fast, or too near to an end. `tau` was
+  /// sent last.
+  std::optional<Event> look(const solver::State& state, const Eigen::VectorXd& tau, const ArmHold& arm,
+                            double time) const noexcept;
+
+  static constexpr double speed_margin = 1.1;   ///< of `velocity`: it is a limit for motion that is planned
+  static constexpr double resolution = 2e-3;    ///< [rad] that noise or a soft end stop may show at rest
+  static constexpr double resolution_m = 2e-4;  ///< [m] the same where a joint slides
+
+ private:
+  struct Limit {
+    double lower, upper, speed, max_torque;
+    double turn;        ///< t [s]
+    double resolution;  ///< [rad] or [m]
+  };
+  std::vector<Limit> limits_;  ///< of each joint of the model
+};
+
+}  // namespace zwang::runtime

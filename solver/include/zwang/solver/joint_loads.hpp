@@ -1,0 +1,40 @@
+/// What hangs on the joints of an arm, and what it weighs there.
+#pragma once
+
+#include <vector>
+
+#include "zwang/solver/model.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::solver {
+
+/// Of every joint with a motor that turns no wheel, with the unit axis u through o, gravity g, and of all
+/// that lies beyond the joint the mass m, its centre c and its inertia J about o:
+///   weight   -u . ((c - o) x m g)   revolute,   -u . m g   prismatic     the torque or force that bears it
+///   inertia   u . J u + d           revolute,    m + d     prismatic     d: the rotor's
+/// As `tau_ff` the weights let an arm float, and a force row presses with its own newtons and none of the
+/// arm's weight. Does not allocate, lock, throw or print after construction.
+class JointLoads {
+ public:
+  struct Load {
+    int joint = 0;
+    double weight = 0.0;   ///< [N m] or [N]
+    double inertia = 0.0;  ///< [kg m^2] or [kg]
+  };
+  explicit JointLoads(const Model& model);
+
+  /// In this posture and at this tilt of the base.
+  void weigh(const State& state) noexcept;
+  /// As weighed last, in the order of the joints.
+  const std::vector<Load>& all() const noexcept { return loads_; }
+  /// Weighs, and adds the weights to `state.tau_ff`.
+  void bear(State& state) noexcept;
+
+ private:
+  const Model model_;
+  std::vector<Load> loads_;
+  std::vector<Pose> poses_;             ///< of each body in the base
+  std::vector<RigidInertia> subtrees_;  ///< of each body and what hangs on it, in the base's axes
+};
+
+}  // namespace zwang::solver
