@@ -114,11 +114,19 @@ void DisturbanceObserver::remember(const solver::State& state, double dt) noexce
   torque_ = torques_.leftCols(known_).rowwise().sum() / known_;
 }
 
-double DisturbanceObserver::kinetic_energy(const Eigen::VectorXd& qd) noexcept {
+Eigen::Ref<const Eigen::VectorXd> DisturbanceObserver::free_rates(const Eigen::VectorXd& qd) noexcept {
   for (std::size_t i = 0; i < watched_.size(); ++i)
     watched_rates_(static_cast<Eigen::Index>(i)) = qd(watched_[i]);
   least_squares(watched_rates_, yd_);
-  return 0.5 * yd_.head(motions_.count).squaredNorm();
+  return yd_.head(motions_.count);
+}
+
+double DisturbanceObserver::kinetic_energy(const Eigen::VectorXd& qd) noexcept {
+  return 0.5 * free_rates(qd).squaredNorm();
+}
+
+double DisturbanceObserver::power(const Eigen::VectorXd& qd) noexcept {
+  return p_.head(motions_.count).dot(free_rates(qd));
 }
 
 /// (T'T) y = T'e.

@@ -33,6 +33,8 @@ class DisturbanceObserver {
 
   /// T = 1/2 |yd|^2 of the joints' rates, qd = T yd, at the state of the last `expect`. [J]
   double kinetic_energy(const Eigen::VectorXd& qd) noexcept;
+  /// P = p . yd, what `force()` gives at these rates. [W]
+  double power(const Eigen::VectorXd& qd) noexcept;
 
   /// On the base at its origin, in its axes: x, y [N] and rz [N m]; low-passed.
   const solver::Vector3& base_force() const noexcept { return filtered_; }
@@ -48,6 +50,8 @@ class DisturbanceObserver {
 
  private:
   double friction(int joint, double rate) const noexcept;
+  /// yd of the joints' rates.
+  Eigen::Ref<const Eigen::VectorXd> free_rates(const Eigen::VectorXd& qd) noexcept;
   /// The y of qd = T y over the joints that are watched.
   void least_squares(const Eigen::VectorXd& watched, Eigen::VectorXd& y) noexcept;
   void take_motions(const solver::Solver& solver) noexcept;

@@ -125,6 +125,9 @@ void ActuatorWatch::follow(Motor& motor, Kind kind, const Fit& fit, double f, do
   Claim& claim = motor.claims[kind];
   const bool is_felt = std::abs(fit.f) > motor.threshold;
   const bool fits = is_felt && fit.rest < most_unexplained * fit.all && std::abs(f - fit.f) < slack;
+  const double share = kind == stuck ? 1.0 : fit.f / f;
+  const bool keeps = claim.ticks > 0 && std::abs(share - claim.share) < closely * claim.share;
+  if (!keeps) claim = {.close_ticks = claim.close_ticks, .q = claim.q, .share = share};
   claim.ticks = fits ? claim.ticks + 1 : 0;
   const double left = fit.rest + fit.s * (f - fit.f) * (f - fit.f);
   claim.left = left;

@@ -20,7 +20,7 @@ namespace zwang::runtime {
 /// from the instant on at which it differs from nothing. Contact can have that direction, too: the corner of
 /// a differential base, as far out as its wheel. Two things tell them apart.
 ///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
-///    began out of quiet is a motor's.
+///    began out of quiet, and keeps it `closely` for `dwell`, is a motor's.
 ///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
 ///    gives way or grows. A force that keeps to direction and size `closely` the while is a motor's, whenever
 ///    it began: a motor that failed while it was told nothing is so found between two hits.
@@ -57,6 +57,7 @@ class ActuatorWatch {
     int close_ticks = 0;  ///< that it has held closely
     double q = 0.0;       ///< [rad] where that began
     double left = 0.0;    ///< of |p|^2 that it does not explain
+    double share = 0.0;   ///< of the size that it tells, when it began to hold
   };
   enum Kind { lost, flipped, stuck, kind_count };
   struct Motor {

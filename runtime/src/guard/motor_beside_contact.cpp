@@ -26,27 +26,43 @@ MotorBesideContact::MotorBesideContact(const lang::Robot& robot, double period)
     const double coulomb = i < robot.friction.size() ? robot.friction[i].coulomb : 0.0;
     motors_.push_back({.joint = j,
                        .threshold = std::max(smallest * joint.max_effort, 2.0 * coulomb),
+                       .T = Vector::Zero(),
                        .since = {},
                        .obedience = {}});
   }
 }
 
 void MotorBesideContact::reset() noexcept {
+  forget_means();
+  for (Motor& motor : motors_) motor.obedience = {};
+}
+
+void MotorBesideContact::forget_means() noexcept {
   p_p_.setZero();
   ticks_on_line_ = 0;
+  for (Motor& motor : motors_) motor.since = {};
+}
+
+/// Coordinates of free motion are any in which the robot is a unit mass; from tick to tick the solver may
+/// turn them. T_j goes on as the joints do where it did not.
+bool MotorBesideContact::take_directions(const solver::FreeMotions& motions) noexcept {
+  double turned = 0.0, all = 0.0;
   for (Motor& motor : motors_) {
-    motor.since = {};
-    motor.obedience = {};
+    const Vector T = motions.joint.row(motor.joint).head<freedoms>().transpose();
+    turned += (T - motor.T).squaredNorm();
+    all += T.squaredNorm();
+    motor.T = T;
   }
+  return turned > another * another * all;
 }
 
 /// How much of the comparisons that the observer's means are about came after p had left its line.
-double MotorBesideContact::broken_part(const DisturbanceObserver& observer, const Vector& p) noexcept {
+double MotorBesideContact::broken_part(const Vector& p) noexcept {
   const Vector next = p_p_ * line_;
   const double length = next.norm();
   if (length > 0.0) line_ = next / length;
   const Motor& motor = motors_.front();
-  const double s = observer.motions().joint.row(motor.joint).head<freedoms>().squaredNorm();
+  const double s = motor.T.squaredNorm();
   const double along = p.dot(line_);
   if (p.squaredNorm() - along * along < motor.threshold * motor.threshold * s) {
     ++ticks_on_line_;
@@ -91,14 +107,15 @@ double MotorBesideContact::find_gamma(const Since& since, const Motor& motor,
 std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observer) noexcept {
   const solver::FreeMotions& motions = observer.motions();
   if (motions.count != freedoms || motors_.empty()) return std::nullopt;
+  if (take_directions(motions)) forget_means();
   const Vector p = observer.force().head<freedoms>();
-  const std::array parts = {1.0, broken_part(observer, p)};
+  const std::array parts = {1.0, broken_part(p)};
   p_p_ += part_ * (p * p.transpose() - p_p_);
   trace_ = p_p_.trace();
   off_line_ = 0.5 * (trace_ * trace_ - p_p_.squaredNorm());
   std::optional<Event> found;
   for (Motor& motor : motors_) {
-    const Vector T = motions.joint.row(motor.joint).head<freedoms>().transpose();
+    const Vector& T = motor.T;
     const double told = observer.torque()(motor.joint);
     motor.obedience.follow(p.dot(T) / T.squaredNorm(), told, motor.threshold);
     for (std::size_t i = 0; i < parts.size(); ++i) {

@@ -42,6 +42,7 @@ class MotorBesideContact {
   static constexpr double strict = 10.0;      ///< times as well a stuck motor has to fit
   static constexpr double near = 0.2;         ///< of gamma, to what it is for a kind of fault
   static constexpr double smallest = 0.03;    ///< torque that is missed, of the motor's limit
+  static constexpr double another = 0.1;      ///< of the size of all T: coordinates that were turned
   static constexpr int quiet = 10;            ///< ticks on a line, before p can leave it
 
  private:
@@ -57,10 +58,13 @@ class MotorBesideContact {
   struct Motor {
     int joint = 0;
     double threshold = 0.0;      ///< [N m]
+    Vector T = Vector::Zero();   ///< of the last tick
     std::array<Since, 2> since;  ///< all the while; since p left its line
     Obedience obedience;
   };
-  double broken_part(const DisturbanceObserver& observer, const Vector& p) noexcept;
+  void forget_means() noexcept;
+  bool take_directions(const solver::FreeMotions& motions) noexcept;
+  double broken_part(const Vector& p) noexcept;
   double find_gamma(const Since& since, const Motor& motor, const Vector& T) const noexcept;
 
   std::vector<Motor> motors_;

@@ -7,6 +7,7 @@
 #include "estimate/friction.hpp"
 #include "guard/actuator_watch.hpp"
 #include "guard/motor_beside_contact.hpp"
+#include "guard/reversed_motor.hpp"
 #include "guard/runaway_watch.hpp"
 #include "guard/slip_watch.hpp"
 #include "guard/wrench_refusal.hpp"
@@ -68,6 +69,7 @@ struct Runner::Parts {
         disturbance(program.robot),
         actuators(program.robot, settings.period),
         beside_contact(program.robot, settings.period),
+        reversed(program.robot, RunawayWatch::look_every),
         runaway(model.joint_count(), settings.period),
         slip(model),
         wrenches(model),
@@ -121,6 +123,7 @@ struct Runner::Parts {
   DisturbanceObserver disturbance;
   ActuatorWatch actuators;
   MotorBesideContact beside_contact;
+  ReversedMotor reversed;
   RunawayWatch runaway;
   SlipWatch slip;
   WrenchRefusal wrenches;
@@ -231,6 +234,7 @@ void Runner::Parts::compare() noexcept {
   if (!disturbance.compare(sample.state, sample.time)) {
     actuators.reset();
     beside_contact.reset();
+    reversed.reset();
     runaway.reset();
     return;
   }
@@ -239,6 +243,7 @@ void Runner::Parts::compare() noexcept {
   if (slip.doubtful()) {
     actuators.reset();
     beside_contact.reset();
+    reversed.reset();
     runaway.reset();
     return;
   }
@@ -249,6 +254,9 @@ void Runner::Parts::compare() noexcept {
     guard.stop(fault->code, fault->signal, fault->value);
   }
   if (runaway.follow(tau, sample.state.qd)) {
+    const double power = disturbance.power(runaway.rates());
+    if (const auto fault = reversed.look(power, disturbance.torque(), runaway.rates()))
+      guard.stop(fault->code, fault->signal, fault->value);
     const double energy = disturbance.kinetic_energy(runaway.rates());
     if (const auto fault = runaway.look(scheduler.constraints(), energy,
                                         disturbance.force().head(disturbance.motions().count)))
@@ -360,6 +368,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   now.disturbance.pause();
   now.actuators.reset();
   now.beside_contact.reset();
+  now.reversed.reset();
   now.runaway.reset();
   now.tau = before.tau;
   now.handed_over_for = 0.0;
