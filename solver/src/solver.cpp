@@ -310,6 +310,11 @@ void Solver::free_motions(FreeMotions& out) const noexcept {
   out.base.row(2).head(out.count) = w.whitened.robot_motion(w.first_base_row() + turn);
 }
 
+void Solver::force_on_motions(int row, Eigen::VectorXd& p) const noexcept {
+  const Workspace& w = *workspace_;
+  p.head(w.whitened.mobility()) = w.whitened.motion(w.ids[static_cast<std::size_t>(row)]);
+}
+
 Status Solver::project_velocity(State& state) noexcept {
   Workspace& w = *workspace_;
   if (!fits(state, w.model)) return Status::wrong_size;

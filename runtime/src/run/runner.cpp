@@ -5,6 +5,7 @@
 
 #include "estimate/disturbance.hpp"
 #include "estimate/friction.hpp"
+#include "estimate/press.hpp"
 #include "estimate/weight.hpp"
 #include "guard/actuator_watch.hpp"
 #include "guard/motor_beside_contact.hpp"
@@ -64,6 +65,7 @@ struct Runner::Parts {
         sample(model, program.signals.size()),
         odometry(model, {}, {.period = settings.period}),
         friction(program.robot),
+        press(model),
         weight(model),
         disturbance(program.robot),
         actuators(program.robot, settings.period),
@@ -116,7 +118,8 @@ struct Runner::Parts {
   std::optional<double> start;  ///< [s] of the first good sample
   bool reckoning = false;       ///< the base is not measured: `odometry` tells it
   double last_fix = -std::numeric_limits<double>::infinity();  ///< [s]
-  FrictionFeedForward friction;
+  FrictionEstimate friction;
+  Press press;
   WeightFeedForward weight;
   DisturbanceObserver disturbance;
   ActuatorWatch actuators;
@@ -174,6 +177,7 @@ bool Runner::Parts::control() noexcept {
   sample.state = estimated.state;
   solver_status = solver.project_velocity(sample.state);
   if (solver_status != solver::Status::ok) return false;
+  friction.follow(sample.state.q);
   compare();
   if (guard.stopped()) return true;  // a motor is not to be trusted
   weight.add_to(sample.state);
@@ -193,7 +197,10 @@ bool Runner::Parts::control() noexcept {
   is_solution_of_rows = true;
   scheduler.observe(solution);
   wanted = solution.tau;
-  friction.add_to(wanted, sample.state);
+  if (!friction.empty()) {
+    friction.update(sample.state.qd, press.look(solver, scheduler.constraints().rows(), solution));
+    friction.compensate(wanted);
+  }
   if (handed_over_for < handover) hand_over();
   return true;
 }
@@ -310,7 +317,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   }
   p.guard_status = good ? p.guard.output(p.estimated, p.wanted, p.tau) : p.guard.output_blind(p.tau);
   if (solved && !p.guard.stopped()) {
-    p.disturbance.expect(p.solver, p.solution, p.sample.state, p.tau, p.sample.time);
+    p.disturbance.expect(p.solver, p.solution, p.sample.state, p.friction.torque(), p.tau, p.sample.time);
   } else if (good) {
     p.disturbance.pause();
   }
@@ -352,6 +359,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   std::swap(now.guard, before.guard);
   std::swap(now.odometry, before.odometry);
   std::swap(now.slip, before.slip);
+  std::swap(now.friction, before.friction);
   now.reckoning = before.reckoning;
   now.last_fix = before.last_fix;
   now.start = before.start;
