@@ -304,7 +304,7 @@ Pressed pressed(const lang::Program& truth, const lang::Program& file, double in
     pressed.least = std::min(pressed.least, force);
     pressed.most = std::max(pressed.most, force);
   }
-  EXPECT_EQ(runner.event_count(), 0U) << "friction was taken for something else";
+  EXPECT_EQ(runner.state(), RunState::done) << "friction was taken for a fault";
   return pressed;
 }
 
@@ -363,7 +363,7 @@ TEST(Push, AgainstStictionThatTheFileHasWrongMissesByTheDifference) {
   for (const double factor : {0.8, 1.1}) {
     lang::JointFriction friction = rough;
     friction.presliding *= factor;
-    for (const double stiffness : {1e4, 1e5, 1e6}) {
+    for (const double stiffness : {1e4, 1e6}) {
       lang::Program walled = truth;
       walled.scene->objects.at(0).stiffness = stiffness;
       const Pressed result = pressed(walled, rubbing(walled, friction));
