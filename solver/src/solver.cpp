@@ -316,6 +316,11 @@ bool Solver::free_motions(FreeMotions& out) const noexcept {
   return true;
 }
 
+void Solver::force_on_motions(int row, Eigen::VectorXd& p) const noexcept {
+  const Workspace& w = *workspace_;
+  p.head(w.whitened.mobility()) = w.whitened.motion(w.ids[static_cast<std::size_t>(row)]);
+}
+
 Status Solver::project_velocity(State& state) noexcept {
   Workspace& w = *workspace_;
   if (!fits(state, w.model)) return Status::wrong_size;

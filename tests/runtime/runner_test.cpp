@@ -192,7 +192,9 @@ TEST(Runner, MakesNoHeapCallInAStep) {
   const auto path = folder.path() / "heap.csv";
   long calls = 0;
   {
-    Loop loop(errand());
+    lang::Program program = errand();
+    program.robot.friction.assign(4, {.coulomb = 1e-3, .presliding = 1e-4, .compensate = 0.5});
+    Loop loop(program);
     Recorder recorder(path, loop.runner.columns());
     loop.runner.record_to(&recorder);
     int ticks = 0;

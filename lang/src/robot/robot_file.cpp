@@ -90,6 +90,10 @@ FrictionText parse_friction(const Entry& entry, Diagnostics& diagnostics) {
     friction.friction.coulomb =
         parse_positive(*node, dimension::torque, what + ", coulomb", true, diagnostics).value_or(0.0);
   }
+  if (const Node* node = map.optional("presliding")) {
+    friction.friction.presliding =
+        parse_positive(*node, dimension::angle, what + ", presliding", false, diagnostics).value_or(0.0);
+  }
   if (const Node* node = map.optional("viscous")) {
     friction.friction.viscous =
         parse_positive(*node, dimension::angular_damping, what + ", viscous", true, diagnostics)

@@ -37,6 +37,7 @@ Json actuator() {
 
 Json joint_friction() {
   return object("", {{"coulomb", reference("quantity", "dry friction")},
+                     {"presliding", reference("quantity", "angle that the joint gives before it slides")},
                      {"viscous", reference("quantity", "friction that grows with the speed")},
                      {"compensate", reference("quantity", "the part that the controller makes up for")}});
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimate/friction.hpp"
 #include "zwang/solver/wheels.hpp"
 
 namespace zwang::runtime {
@@ -22,14 +21,10 @@ double dot(const double* a, const double* b, Eigen::Index count) noexcept {
 
 }  // namespace
 
-DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
-    : friction_(robot.friction), motions_(robot.model) {
+DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot) : motions_(robot.model) {
   const solver::Model& model = robot.model;
   const int joints = model.joint_count();
-  friction_.resize(static_cast<std::size_t>(joints));
   for (int j = 0; j < joints; ++j) {
-    const bool slides = model.joint(j).type == solver::JointType::prismatic;
-    taper_.push_back(slides ? FrictionFeedForward::slide_taper : FrictionFeedForward::turn_taper);
     if (turns_wheel(model, j + 1) || model.joint(j).actuated) watched_.push_back(j);
     if (model.joint(j).actuated && !carries_wheel(model, j + 1)) arm_.push_back(j);
   }
@@ -44,22 +39,16 @@ DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot)
   C_turned_ = Eigen::MatrixXd::Zero(most, 3 + static_cast<Eigen::Index>(arm_.size()));
 }
 
-double DisturbanceObserver::friction(int joint, double rate) const noexcept {
-  const lang::JointFriction& f = friction_[static_cast<std::size_t>(joint)];
-  if (f.coulomb <= 0.0 && f.viscous <= 0.0) return 0.0;
-  return f.coulomb * rate / std::hypot(rate, taper_[static_cast<std::size_t>(joint)]) + f.viscous * rate;
-}
-
 void DisturbanceObserver::expect(const solver::Solver& solver, const solver::Solution& solution,
-                                 const solver::State& state, const Eigen::VectorXd& sent,
-                                 double time) noexcept {
+                                 const solver::State& state, const Eigen::VectorXd& friction,
+                                 const Eigen::VectorXd& sent, double time) noexcept {
   take_motions(solver);
   const int m = motions_.count;
   sent_ = sent;
   // p that the solver's torques lack of those that act
   right_.head(m).setZero();
   for (Eigen::Index j = 0; j < sent.size(); ++j) {
-    const double more = sent(j) - solution.tau(j) - friction(static_cast<int>(j), state.qd(j));
+    const double more = sent(j) - solution.tau(j) - friction(j);
     if (more != 0.0) right_.head(m) += more * motions_.joint.row(j).head(m).transpose();
   }
   for (const int j : watched_)

@@ -25,9 +25,10 @@ class DisturbanceObserver {
 
   /// Forgets what was commanded: the next sample is compared with nothing.
   void pause() noexcept { expects_ = false; }
-  /// What the model makes of the torques that were sent for the state.
+  /// What the model makes of the torques that were sent for the state, and of the joints' friction against
+  /// them.
   void expect(const solver::Solver& solver, const solver::Solution& solution, const solver::State& state,
-              const Eigen::VectorXd& sent, double time) noexcept;
+              const Eigen::VectorXd& friction, const Eigen::VectorXd& sent, double time) noexcept;
   /// What came of it. False when there is nothing to compare with.
   bool compare(const solver::State& state, double time) noexcept;
 
@@ -49,7 +50,6 @@ class DisturbanceObserver {
   static constexpr double longest_step = 0.005;  ///< [s] between samples that are compared
 
  private:
-  double friction(int joint, double rate) const noexcept;
   /// yd of the joints' rates.
   Eigen::Ref<const Eigen::VectorXd> free_rates(const Eigen::VectorXd& qd) noexcept;
   /// The y of qd = T y over the joints that are watched.
@@ -63,8 +63,6 @@ class DisturbanceObserver {
   static void substitute(const RowMajor& factor, int size, const Eigen::VectorXd& right,
                          Eigen::VectorXd& out) noexcept;
 
-  std::vector<lang::JointFriction> friction_;
-  std::vector<double> taper_;
   std::vector<int> watched_;  ///< joints that turn a wheel or have a motor
   std::vector<int> arm_;      ///< joints with a motor that carry no wheel
   solver::FreeMotions motions_;

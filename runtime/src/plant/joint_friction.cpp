@@ -1,12 +1,13 @@
 #include "joint_friction.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace zwang::runtime {
 
 namespace {
 
-constexpr double frequency = 200.0;    ///< [1/s]
+constexpr double frequency = 500.0;    ///< [1/s] of the stiffest bristle
 constexpr double damping_ratio = 0.7;  ///< while the bristle holds
 
 }  // namespace
@@ -24,8 +25,10 @@ JointFriction::JointFriction(const lang::Robot& robot) {
     bristle.joint = static_cast<Eigen::Index>(j);
     bristle.coulomb = friction.coulomb;
     bristle.viscous = friction.viscous;
-    bristle.stiffness = inertia * frequency * frequency;
-    bristle.damping = 2.0 * damping_ratio * inertia * frequency;
+    const double stiffest = inertia * frequency * frequency;
+    bristle.longest = std::max(friction.presliding, friction.coulomb / stiffest);
+    bristle.stiffness = bristle.longest > 0.0 ? friction.coulomb / bristle.longest : stiffest;
+    bristle.damping = 2.0 * damping_ratio * std::sqrt(inertia * bristle.stiffness);
     joints_.push_back(bristle);
   }
 }
@@ -33,8 +36,7 @@ JointFriction::JointFriction(const lang::Robot& robot) {
 void JointFriction::add_to(Eigen::VectorXd& torque, const Eigen::VectorXd& qd, double period) noexcept {
   for (Bristle& bristle : joints_) {
     const double rate = qd(bristle.joint);
-    const double longest = bristle.coulomb / bristle.stiffness;
-    bristle.stretch = std::clamp(bristle.stretch + period * rate, -longest, longest);
+    bristle.stretch = std::clamp(bristle.stretch + period * rate, -bristle.longest, bristle.longest);
     const double dry = bristle.stiffness * bristle.stretch + bristle.damping * rate;
     torque(bristle.joint) -= std::clamp(dry, -bristle.coulomb, bristle.coulomb) + bristle.viscous * rate;
   }

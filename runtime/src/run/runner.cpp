@@ -5,6 +5,7 @@
 
 #include "estimate/disturbance.hpp"
 #include "estimate/friction.hpp"
+#include "estimate/press.hpp"
 #include "guard/actuator_watch.hpp"
 #include "guard/motor_beside_contact.hpp"
 #include "guard/reversed_motor.hpp"
@@ -65,6 +66,7 @@ struct Runner::Parts {
         sample(model, program.signals.size()),
         odometry(model, {}, {.period = settings.period}),
         friction(program.robot),
+        press(model),
         arm(model),
         disturbance(program.robot),
         actuators(program.robot, settings.period),
@@ -118,7 +120,8 @@ struct Runner::Parts {
   std::optional<double> start;  ///< [s] of the first good sample
   bool reckoning = false;       ///< the base is not measured: `odometry` tells it
   double last_fix = -std::numeric_limits<double>::infinity();  ///< [s]
-  FrictionFeedForward friction;
+  FrictionEstimate friction;
+  Press press;
   solver::JointLoads arm;
   DisturbanceObserver disturbance;
   ActuatorWatch actuators;
@@ -177,6 +180,7 @@ bool Runner::Parts::control() noexcept {
   sample.state = estimated.state;
   solver_status = solver.project_velocity(sample.state);
   if (solver_status != solver::Status::ok) return false;
+  friction.follow(sample.state.q);
   compare();
   if (guard.stopped()) return true;  // a motor is not to be trusted
   arm.bear(sample.state);            // it floats where nothing is said of it
@@ -196,7 +200,10 @@ bool Runner::Parts::control() noexcept {
   is_solution_of_rows = true;
   scheduler.observe(solution);
   wanted = solution.tau;
-  friction.add_to(wanted, sample.state);
+  if (!friction.empty()) {
+    friction.update(sample.state.qd, press.look(solver, scheduler.constraints().rows(), solution));
+    friction.compensate(wanted);
+  }
   if (handed_over_for < handover) hand_over();
   return true;
 }
@@ -318,7 +325,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   }
   p.guard_status = good ? p.guard.output(p.estimated, p.wanted, p.tau) : p.guard.output_blind(p.tau);
   if (solved && !p.guard.stopped()) {
-    p.disturbance.expect(p.solver, p.solution, p.sample.state, p.tau, p.sample.time);
+    p.disturbance.expect(p.solver, p.solution, p.sample.state, p.friction.torque(), p.tau, p.sample.time);
   } else if (good) {
     p.disturbance.pause();
   }
@@ -360,6 +367,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   std::swap(now.guard, before.guard);
   std::swap(now.odometry, before.odometry);
   std::swap(now.slip, before.slip);
+  std::swap(now.friction, before.friction);
   now.reckoning = before.reckoning;
   now.last_fix = before.last_fix;
   now.start = before.start;

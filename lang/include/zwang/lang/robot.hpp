@@ -29,6 +29,7 @@ struct Stop {
 /// Dry and viscous friction of a joint, and how much of it the controller makes up for.
 struct JointFriction {
   double coulomb = 0.0;     ///< [N m] or [N]
+  double presliding = 0.0;  ///< how far the joint gives before it slides [rad] or [m]; 0: not known
   double viscous = 0.0;     ///< [N m s/rad] or [N s/m]
   double compensate = 0.0;  ///< fraction in [0, 1)
 };

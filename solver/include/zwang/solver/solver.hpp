@@ -96,6 +96,10 @@ class Solver {
   /// lock, throw or print.
   bool free_motions(FreeMotions& out) const noexcept;
 
+  /// What a unit force along row `row` of the last solved problem is as the p of FreeMotions, into `p`'s
+  /// first numbers; before the next `project_velocity`. Does not allocate, lock, throw or print.
+  void force_on_motions(int row, Eigen::VectorXd& p) const noexcept;
+
   /// Takes out of the measured velocities what the ground does not allow (in the metric of kinetic energy).
   /// Do this first in every period: what is left is the robot's odometry, and slip noise never reaches the
   /// rows.

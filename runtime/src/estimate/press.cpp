@@ -1,0 +1,43 @@
+#include "estimate/press.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+bool presses(const solver::Row& row, const solver::RowSolution& found) {
+  const bool is_given =
+      row.kind == solver::RowKind::force || (row.kind == solver::RowKind::driver && found.saturated);
+  return is_given && found.nu != 0.0;
+}
+
+}  // namespace
+
+Press::Press(const solver::Model& model)
+    : motions_(model),
+      B_(Eigen::VectorXd::Zero(motions_.joint.cols())),
+      p_(B_),
+      torque_(Eigen::VectorXd::Zero(model.joint_count())) {}
+
+const Eigen::VectorXd& Press::look(const solver::Solver& solver, const std::vector<solver::Row>& rows,
+                                   const solver::Solution& solution) noexcept {
+  bool any = false;
+  p_.setZero();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const solver::RowSolution& found = solution.rows[i];
+    if (!presses(rows[i], found)) continue;
+    any = true;
+    solver.force_on_motions(static_cast<int>(i), B_);
+    p_.head(solution.mobility) += found.nu * B_.head(solution.mobility);
+  }
+  torque_.setZero();
+  if (!any) return torque_;
+  solver.free_motions(motions_);
+  for (Eigen::Index j = 0; j < torque_.size(); ++j) {
+    const auto T = motions_.joint.row(j).head(motions_.count);
+    const double square = T.squaredNorm();
+    if (square > 0.0) torque_(j) = T.dot(p_.head(motions_.count)) / square;
+  }
+  return torque_;
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,32 @@
+/// Which joints press, and how hard.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "zwang/solver/constraint.hpp"
+#include "zwang/solver/model.hpp"
+#include "zwang/solver/solver.hpp"
+
+namespace zwang::runtime {
+
+/// Of some rows the force nu is given and the motion follows: of a force, and of a driver at its bound. They
+/// are the generalised force
+///   p = sum B_i nu_i
+/// on the robot's free motions (solver::FreeMotions), which turns joint j as the torque T_j . p / |T_j|^2 of
+/// its motor alone would. Where all rows hold what they ask for, it is 0. Does not allocate, lock, throw or
+/// print after construction.
+class Press {
+ public:
+  explicit Press(const solver::Model& model);
+
+  /// By joint [N m] or [N]: of what `solver` has just found for `rows`.
+  const Eigen::VectorXd& look(const solver::Solver& solver, const std::vector<solver::Row>& rows,
+                              const solver::Solution& solution) noexcept;
+
+ private:
+  solver::FreeMotions motions_;
+  Eigen::VectorXd B_, p_, torque_;
+};
+
+}  // namespace zwang::runtime
