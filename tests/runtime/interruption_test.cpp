@@ -105,7 +105,7 @@ TEST(Always, ALowerExitWaitsWhileTheTargetOfATrueOneIsActive) {
   p.always.exits.push_back(exit(when(below(1, 1.0)), to_task(2)));
   Bench bench(p);
   bench.hear(1, 0.5);
-  bench.tick();
+  bench.ticks_more(2);  // the first one starts
   EXPECT_EQ(bench.scheduler.task(), 2) << "alone it fires";
   bench.hear(0, 0.5);
   bench.ticks_more(20);

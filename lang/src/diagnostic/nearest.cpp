@@ -7,6 +7,13 @@
 namespace zwang::lang {
 
 int edit_distance(std::string_view a, std::string_view b) {
+  // What both begin or end with costs nothing.
+  const auto begin = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  a.remove_prefix(static_cast<std::size_t>(begin.first - a.begin()));
+  b.remove_prefix(static_cast<std::size_t>(begin.second - b.begin()));
+  const auto end = std::mismatch(a.rbegin(), a.rend(), b.rbegin(), b.rend());
+  a.remove_suffix(static_cast<std::size_t>(end.first - a.rbegin()));
+  b.remove_suffix(static_cast<std::size_t>(end.second - b.rbegin()));
   const std::size_t columns = b.size() + 1;
   std::vector<int> before_last(columns), last(columns), row(columns);
   for (std::size_t j = 0; j < columns; ++j) last[j] = static_cast<int>(j);
@@ -18,8 +25,8 @@ int edit_distance(std::string_view a, std::string_view b) {
       const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
       if (swapped) row[j] = std::min(row[j], before_last[j - 2] + 1);
     }
-    before_last = last;
-    last = row;
+    before_last.swap(last);
+    last.swap(row);
   }
   return last[b.size()];
 }
