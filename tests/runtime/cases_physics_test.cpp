@@ -167,7 +167,22 @@ tasks:
     exits: [{when: elapsed > 5 s, goto: done}]
 )";
 
-/// How far the footprint, turned by yaw, gets past the edge at x = 1.5 m. [m]
+// Both edges of a corner at once: at 45 deg neither has the braking to itself.
+const char* const cornered = R"(
+regions:
+  room: {polygon: [[-2 m, -2 m], [1.5 m, -2 m], [1.5 m, 1.5 m], [-2 m, 1.5 m]]}
+always:
+  constraints:
+    fence: {move: footprint, inside: room}
+start: go
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: 0.8 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: elapsed > 5 s, goto: done}]
+)";
+
+/// How far the footprint, turned by yaw, gets past the edges at x = 1.5 m and y = 1.5 m. [m]
 double overshoot(lang::Program program, double yaw, double payload, double velocity_noise) {
   program.scene->objects.clear();
   program.scene->state.velocity = velocity_noise;
@@ -183,7 +198,8 @@ double overshoot(lang::Program program, double yaw, double payload, double veloc
     const Truth& truth = run.plant.truth();
     for (const solver::Vector3& corner : run.program.robot.footprint) {
       const double x = truth.x + std::cos(truth.yaw) * corner.x() - std::sin(truth.yaw) * corner.y();
-      farthest = std::max(farthest, x - 1.5);
+      const double y = truth.y + std::sin(truth.yaw) * corner.x() + std::cos(truth.yaw) * corner.y();
+      farthest = std::max({farthest, x - 1.5, y - 1.5});
     }
   });
   EXPECT_GT(farthest, -0.02) << "it never came near";
@@ -210,6 +226,24 @@ TEST_P(Boundary, IsNotCrossedByMoreThanATenthOfAMillimetreNorByAMillimetreWithAW
     EXPECT_LE(light, 1e-3);
     EXPECT_LE(noisy, 1e-3);
     EXPECT_NE(noisy, ideal) << "there was no noise";
+  }
+}
+
+// A corner of the region: both edges ask for the one acceleration that the base has.
+TEST_P(Boundary, IsNotCrossedAtACornerWhereTwoEdgesBrakeAtOnce) {
+  const lang::Program program =
+      write(std::string("cornered_") + GetParam(), cornered, specs / "scenes/wall_far.yaml", GetParam());
+  const double third = 0.3 * program.robot.model.total_mass();
+  for (const double yaw : {30.0 * degree, 45.0 * degree}) {
+    const double ideal = overshoot(program, yaw, 0.0, 0.0);
+    const double heavy = overshoot(program, yaw, third, 0.0);
+    const double noisy = overshoot(program, yaw, 0.0, 0.01);
+    std::printf(
+        "%s, corner at %.0f deg: past it by %.4f mm, mass +30 %%: %.4f mm, 1 cm/s of noise: %.4f mm\n",
+        GetParam(), yaw / degree, 1e3 * ideal, 1e3 * heavy, 1e3 * noisy);
+    EXPECT_LE(ideal, 1e-4);
+    EXPECT_LE(heavy, 1e-3);
+    EXPECT_LE(noisy, 1e-3);
   }
 }
 

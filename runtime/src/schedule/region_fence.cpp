@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "schedule/edge_braking.hpp"
 #include "schedule/frame_table.hpp"
 #include "zwang/lang/plane.hpp"
 
@@ -15,8 +16,13 @@ using solver::Vector3;
 
 constexpr double far = std::numeric_limits<double>::infinity();
 // Beyond a corner that the region does not turn around, both edges hold already: none may come as a surprise.
-constexpr double look_ahead = 1.0;     // [m]
-constexpr double no_direction = 1e-6;  // [m] between points that are one
+constexpr double look_ahead = 1.0;  // [m]
+// Between normals of edges that do not share a vertex; beyond it they face each other, like two walls of a
+// corridor.
+constexpr double facing_cosine = -0.866;  // of 150 deg
+constexpr double turn_step = 0.26;  // [rad] of 15 deg, in which braking on the way of a turn is looked at
+constexpr double quarter_turn = 1.5708;  // [rad]
+constexpr double no_direction = 1e-6;    // [m] between points that are one
 
 Eigen::Vector2d flat(const Vector3& v) {
   return v.head<2>();
@@ -103,9 +109,87 @@ RegionFence::RegionFence(const lang::Region& region, std::vector<Vector3> corner
       pairs_.push_back({PairKind::vertex_side, v, s});
     }
   }
+  find_meeting();
   corner_now_.resize(corners_.size());
   vertex_now_.resize(reflex_.size());
   approaches_.resize(pairs_.size());
+}
+
+/// From the origin of what moves to its farthest corner. [m]
+double RegionFence::reach() const noexcept {
+  double farthest = 0.0;
+  for (const Point& corner : outline_) farthest = std::max(farthest, corner.norm());
+  return farthest;
+}
+
+/// Two edges bind together at a vertex that they share, or where what moves is between them.
+void RegionFence::find_meeting() {
+  const std::size_t n = edges_.size();
+  const double near = 2.0 * reach() + look_ahead;
+  const auto gap = [&](const Side& side, const Point& p) {
+    return (p - side.begin - std::clamp(side.along.dot(p - side.begin), 0.0, side.length) * side.along)
+        .norm();
+  };
+  meeting_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const Side &a = edges_[i], &b = edges_[j];
+      const double cosine = a.left.dot(b.left);
+      const bool adjacent = j == (i + 1) % n || i == (j + 1) % n;
+      const bool reflex =
+          adjacent && turn(j == (i + 1) % n ? a.along : b.along, j == (i + 1) % n ? b.along : a.along) < 0.0;
+      if (i == j || reflex || (!adjacent && cosine < facing_cosine)) continue;
+      const double distance = std::min({gap(a, b.begin), gap(a, b.begin + b.length * b.along),
+                                        gap(b, a.begin), gap(b, a.begin + a.length * a.along)});
+      if (distance > near) continue;
+      meeting_[i].push_back(j);
+      least_cosine_ = std::min(least_cosine_, std::sqrt(std::max(0.0, 0.5 * (1.0 + cosine))));
+    }
+  }
+  // Of a circle: towards its centre, from where a corner is that touches it.
+  if (region_.radius > 0.0) {
+    const double sine = std::min(1.0, reach() / region_.radius);
+    least_cosine_ = std::sqrt(1.0 - sine * sine);
+  }
+}
+
+/// With r = min(b_x, b_y): a disc of that radius is in the box, and no edge alone brakes with more than the
+/// box's corner has, so that a share is r cos(theta/2) / |b| at least.
+double RegionFence::weakest_braking(const Point& box) const noexcept {
+  const double r = box.minCoeff();
+  constexpr double least = 1e-3;  // [m/s^2]
+  const double a =
+      region_.radius > 0.0 || least_cosine_ == 1.0 ? r * least_cosine_ : r * r * least_cosine_ / box.norm();
+  return std::max(a, least);
+}
+
+double RegionFence::edge_braking(std::size_t edge, const solver::Matrix3& to_base, const Point& box,
+                                 double turning) const noexcept {
+  const double time_to_stop = fastest_ / (solver::braking_share * weakest_braking(box));
+  const double arc = std::clamp(turning * time_to_stop, -quarter_turn, quarter_turn);
+  const int steps = static_cast<int>(std::ceil(std::abs(arc) / turn_step));
+  const Eigen::Matrix2d in_base = (to_base * to_world_).topLeftCorner<2, 2>();
+  double least = far;
+  for (int k = 0; k <= steps; ++k) {
+    Eigen::Matrix2d turned = in_base;
+    if (k > 0) turned = Eigen::Rotation2Dd(-arc * k / steps).toRotationMatrix() * in_base;
+    const Point n = turned * edges_[edge].left;
+    double share = 1.0;
+    for (const std::size_t other : meeting_[edge]) {
+      share = std::min(share, share_of_two(n, turned * edges_[other].left, box));
+    }
+    least = std::min(least, share * braking_alone(n, box));
+  }
+  return least;
+}
+
+double RegionFence::braking(std::size_t index, const solver::Matrix3& to_base, const Point& box,
+                            double turning) const noexcept {
+  const Pair& pair = pairs_[index];
+  if (pair.kind == PairKind::corner_edge)
+    return edge_braking(static_cast<std::size_t>(pair.second), to_base, box, turning);
+  if (pair.kind == PairKind::corner_circle && corners_.size() > 1) return weakest_braking(box);
+  return braking_alone(flat(to_base * normal(index)), box);
 }
 
 int RegionFence::nearest_side(const std::vector<Side>& sides, const Point& p) noexcept {

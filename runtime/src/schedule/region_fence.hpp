@@ -40,6 +40,13 @@ class RegionFence {
   double fastest() const noexcept { return fastest_; }
   /// Only pairs that face each other have to be kept apart.
   bool faces(std::size_t pair) noexcept;
+  /// a_brk before a pair. An edge leaves a share to those that can bind with it, the least that it has on the
+  /// way that the base turns until it stands. `to_base`: from the world into the base's axes. `box`: what its
+  /// ranges leave along x and y [m/s^2]. `turning`: the base's yaw rate [rad/s].
+  double braking(std::size_t pair, const solver::Matrix3& to_base, const Eigen::Vector2d& box,
+                 double turning) const noexcept;
+  /// No pair brakes with less, however the base is turned. [m/s^2]
+  double weakest_braking(const Eigen::Vector2d& box) const noexcept;
   /// The direction in the world in which what moves would brake.
   solver::Vector3 normal(std::size_t pair) const noexcept;
   /// "edge2", "vertex3", "circle": the feature of the region, counted from 1 as they are written. Allocates.
@@ -69,6 +76,10 @@ class RegionFence {
     bool inside = true;              ///< of the other polygon
     int nearest = -1;                ///< side of the other polygon
   };
+  void find_meeting();
+  double reach() const noexcept;
+  double edge_braking(std::size_t edge, const solver::Matrix3& to_base, const Eigen::Vector2d& box,
+                      double turning) const noexcept;
   static std::vector<Side> sides_of(const std::vector<Point>& polygon);
   static int nearest_side(const std::vector<Side>& sides, const Point& p) noexcept;
   Approach look(const Pair& pair) const noexcept;
@@ -78,9 +89,11 @@ class RegionFence {
   solver::Pose level_with(std::size_t corner, const Point& p) const noexcept;
 
   lang::Region region_;
-  std::vector<Point> polygon_;  ///< the region's, in its parent
-  std::vector<Side> edges_;     ///< of the region
-  std::vector<int> reflex_;     ///< vertices of the region
+  std::vector<Point> polygon_;                     ///< the region's, in its parent
+  std::vector<Side> edges_;                        ///< of the region
+  std::vector<std::vector<std::size_t>> meeting_;  ///< of each edge those that can bind together with it
+  double least_cosine_ = 1.0;  ///< of half the angle between the normals of two that meet; of a circle, too
+  std::vector<int> reflex_;    ///< vertices of the region
   std::vector<solver::Vector3> corners_;
   std::vector<Point> outline_;  ///< of what moves, in its own frame
   std::vector<Side> sides_;     ///< of the footprint

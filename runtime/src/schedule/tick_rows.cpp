@@ -198,14 +198,17 @@ InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) 
     return !(allowed < approach.speed + near_speed);
   };
   // From there even the fastest could brake in time, with the weakest brake: most pairs are done by that.
-  const double weakest_brake = braking.head<2>().minCoeff();
+  const Eigen::Vector2d box = braking.head<2>();
+  const double weakest_brake = fence.weakest_braking(box);
+  const solver::Matrix3 to_base = state->base_pose.rotation.transpose();
+  const double turning = state->base_twist.angular.z();
   const double out_of_reach =
       solver::braking_distance(fence.fastest() + near_speed, weakest_brake, solver::ConstraintSet::horizon);
   InReach nearest;
   for (std::size_t i = 0; i < fence.pair_count(); ++i) {
     const RegionFence::Approach& approach = fence.approach(i);
     if (approach.left > out_of_reach || is_far(approach, weakest_brake) || !fence.faces(i)) continue;
-    const double a_brk = braking_along(fence.normal(i));
+    const double a_brk = std::max(fence.braking(i, to_base, box, turning), least_braking);
     if (is_far(approach, a_brk)) continue;
     solver::AxisConstraint& c = wanted[a.wanted + i].constraint;
     c = fence.constraint(i, move, in);
