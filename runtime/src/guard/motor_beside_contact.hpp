@@ -33,8 +33,9 @@ class MotorBesideContact {
   /// After each comparison of the observer.
   std::optional<Event> look(const DisturbanceObserver& observer) noexcept;
 
-  static constexpr double memory = 0.02;      ///< [s] of the means
-  static constexpr double dwell = 0.015;      ///< [s] that a motor must explain the force
+  static constexpr double memory = 0.02;  ///< [s] of the means
+  static constexpr double dwell =
+      0.045;  ///< [s] that a motor must explain the force: longer than the means remember a hit
   static constexpr double left = 1.0 / 30.0;  ///< of N0: the most that a motor may leave
   static constexpr double visible = 0.1;      ///< of the motor's own square: the least that is off the line
   static constexpr double least_gamma = 0.4;  ///< less may be the model's error,
