@@ -47,7 +47,9 @@ std::map<std::string, std::string> parameters(const std::vector<std::string>& te
     if (equals == std::string::npos || equals == 0) {
       throw Impossible("-p: `" + text + "` does not set a parameter; write it as `name=20 N`");
     }
-    values[text.substr(0, equals)] = text.substr(equals + 1);
+    const std::string name = text.substr(0, equals);
+    if (!values.emplace(name, text.substr(equals + 1)).second)
+      throw Impossible("-p: `" + name + "` is set twice; set it once");
   }
   return values;
 }
@@ -186,7 +188,8 @@ int parse_and_do(int argc, char** argv) {
   CLI::App* run_verb = app.add_subcommand("run", "Run a task on the simulated robot");
   run_verb->add_option("file", to_run.file, "the task file")->required();
   add_overrides(*run_verb, to_run.overrides);
-  run_verb->add_option("--log", to_run.log, "folder for the log (default runs/<task>-NNN)");
+  run_verb->add_option("--log", to_run.log,
+                       "folder for the log (default runs/<task>-NNN); a log in it is written over");
   run_verb->add_option("--seed", seed_text, "seed of everything random in the run (default 0)");
   run_verb->add_option("--start-yaw", yaw_text,
                        "heading at the start, in the place of the scene's: `20 deg`");

@@ -26,6 +26,9 @@ std::filesystem::path make_log_folder(const RunArguments& arguments) {
     fs::create_directories(*arguments.log, error);
     if (!fs::is_directory(*arguments.log))
       throw Impossible(*arguments.log + ": cannot make this folder: " + error.message());
+    // A script that runs again with the same folder goes on; whom it surprises is told.
+    if (fs::exists(fs::path(*arguments.log) / "log.mcap", error))
+      print_error("zwang: " + *arguments.log + ": the log that was here is written over\n");
     return *arguments.log;
   }
   fs::create_directories("runs", error);

@@ -120,6 +120,15 @@ TEST_F(Cli, TwoRunsWithOneSeedWriteTheSameBytes) {
   EXPECT_TRUE(log == read(folder_ / "b/log.csv"));
 }
 
+TEST_F(Cli, ALogThatIsWrittenOverIsToldOf) {
+  const std::vector<std::string> run = {"run", wall_align, "--quiet", "--log", "log"};
+  const Result first = zwang(run), second = zwang(run);
+  EXPECT_EQ(first.code, 0);
+  EXPECT_TRUE(first.err.empty()) << first.err;
+  EXPECT_EQ(second.code, 0) << "a script that runs again goes on";
+  EXPECT_EQ(second.err, "zwang: log: the log that was here is written over\n");
+}
+
 TEST_F(Cli, TakesTheStartPoseFromTheCommandLine) {
   const Result r = run_task(std::string(stand) + "    exits: [{when: elapsed > 0.1 s, goto: done}]\n",
                             {"--format", "json", "--start-yaw", "-35 deg", "--start-at", "-1 m, 25 cm"});
@@ -245,6 +254,7 @@ TEST_F(Cli, WhatCannotBeDoneEndsWithTwoAndSaysWhyOnStderr) {
       {{"run", wall_align, "--start-yaw", "20 m"}, "not an angle"},
       {{"run", wall_align, "--start-at", "1 m"}, "not a point"},
       {{"run", wall_align, "-p", "push"}, "name=20 N"},
+      {{"run", wall_align, "-p", "push=20 N", "-p", "push=30 N"}, "`push` is set twice"},
       {{"run", wall_align, "--log", "a_file/below"}, "a_file/below"},
   };
   for (const auto& [arguments, words] : cases) {

@@ -85,7 +85,8 @@ Diagnostic free_in_brackets(const Span& span) {
 }
 
 Diagnostic decimal_comma(const Span& span, const std::string& number) {
-  return error("E104", span, "a comma cuts this number in two", "write `" + number + "`, with a point");
+  return error("E104", span, "a decimal comma cuts this number in two",
+               "write `" + number + "`, with a point");
 }
 
 Diagnostic axis_of_a_feature(const Span& span, const std::string& group, const std::string& quantity) {

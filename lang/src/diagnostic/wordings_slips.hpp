@@ -52,7 +52,7 @@ Diagnostic parameter_without_dollar(const Span& span, const std::string& name);
 Diagnostic silent_axis(const Span& span, const std::string& axis);
 /// `{free}` for `free`.
 Diagnostic free_in_brackets(const Span& span);
-/// `0,08 m/s` in a list, where a comma ends an item.
+/// `0,08 m/s` in brackets, where a comma ends an item.
 Diagnostic decimal_comma(const Span& span, const std::string& number);
 /// `near.x.velocity` for `near.velocity`.
 Diagnostic axis_of_a_feature(const Span& span, const std::string& group, const std::string& quantity);

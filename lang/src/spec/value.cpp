@@ -1,7 +1,5 @@
 #include "spec/value.hpp"
 
-#include <algorithm>
-
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "tree/text.hpp"
@@ -84,17 +82,11 @@ ValueText negated(ValueText value) {
   return value;
 }
 
-/// `0,08 m/s` comes as two items of a list, `0` and `08 m/s`: what was meant; empty where it is something
-/// else.
+/// What was meant by a list in which a decimal comma ends an item; empty where it is something else.
 std::string number_with_comma(const Node& list) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   for (std::size_t i = 0; i + 1 < list.items.size(); ++i) {
-    const std::string whole = trimmed(list.items[i].text), rest = trimmed(list.items[i + 1].text);
-    const std::size_t sign = whole.starts_with('-') || whole.starts_with('+') ? 1 : 0;
-    const bool is_whole =
-        whole.size() > sign &&
-        std::all_of(whole.begin() + static_cast<std::ptrdiff_t>(sign), whole.end(), is_digit);
-    if (is_whole && !rest.empty() && is_digit(rest[0])) return whole + "." + rest;
+    const std::string meant = joined_at_decimal_comma(list.items[i].text, list.items[i + 1].text);
+    if (!meant.empty()) return meant;
   }
   return "";
 }

@@ -9,6 +9,7 @@
 #include <streambuf>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "tree/allowances.hpp"
 #include "tree/scalar_span.hpp"
 #include "tree/text.hpp"
@@ -201,9 +202,25 @@ class TreeBuilder final : public YAML::EventHandler {
       const bool is_nothing =
           node.kind == NodeKind::null && index_.offset(node.span.begin) == index_.offset(node.span.end);
       if (is_nothing) node.span = {source_, level.key->span.end, level.key->span.end};
+      if (is_nothing && refuse_decimal_comma(level)) return;
       level.node.entries.push_back({std::move(*level.key), std::move(node)});
       level.key.reset();
     }
+  }
+
+  /// `{velocity: 0,2 m/s}` comes as `velocity: 0` and a key `2 m/s` without a value: one mistake, told at the
+  /// number. The key that is none is dropped.
+  bool refuse_decimal_comma(Level& level) {
+    if (!level.node.is_flow || level.node.entries.empty()) return false;
+    Node& number = level.node.entries.back().value;
+    if (number.is_bad || number.is_quoted || level.key->is_bad || level.key->is_quoted) return false;
+    const std::string meant = joined_at_decimal_comma(number.text, level.key->text);
+    if (meant.empty()) return false;
+    number.span.end = level.key->span.end;
+    diagnostics_.add(wording::decimal_comma(number.span, meant));
+    number.is_bad = true;
+    level.key.reset();
+    return true;
   }
 
   /// The last line of a block may lack its colon: yaml-cpp makes a key without a value of it.
