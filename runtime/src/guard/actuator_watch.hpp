@@ -47,7 +47,7 @@ class ActuatorWatch {
   static constexpr double closely = 0.1;       ///< of the force, both in direction and size
   static constexpr double late = 4.0;          ///< thresholds that such a force is worth
   static constexpr double close_dwell = 0.03;  ///< [s] that a force keeps close
-  static constexpr double travel = 2e-3;       ///< [m] of the wheel's rim
+  static constexpr double travel = 0.5e-3;     ///< [m] of the wheel's rim
   static constexpr double varied = 0.2;  ///< of f: a command that differs by that much proves a stuck motor
 
  private:

@@ -131,6 +131,7 @@ void RegionFence::find_meeting() {
         .norm();
   };
   meeting_.resize(n);
+  over_quarter_turn_.resize(n, far);
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) {
       const Side &a = edges_[i], &b = edges_[j];
@@ -164,27 +165,46 @@ double RegionFence::weakest_braking(const Point& box) const noexcept {
 }
 
 double RegionFence::edge_braking(std::size_t edge, const solver::Matrix3& to_base, const Point& box,
-                                 double turning) const noexcept {
+                                 double turning) noexcept {
   const double time_to_stop = fastest_ / (solver::braking_share * weakest_braking(box));
   const double arc = std::clamp(turning * time_to_stop, -quarter_turn, quarter_turn);
+  if (std::abs(arc) == quarter_turn) return braking_at_any_heading(edge, box);
+  return least_braking(edge, (to_base * to_world_).topLeftCorner<2, 2>(), arc, box);
+}
+
+/// A quarter turn meets every place of an edge in the box, wherever it begins: worked out anew only for
+/// another box.
+double RegionFence::braking_at_any_heading(std::size_t edge, const Point& box) noexcept {
+  if (box != quarter_turn_box_) {
+    std::ranges::fill(over_quarter_turn_, far);
+    quarter_turn_box_ = box;
+  }
+  double& least = over_quarter_turn_[edge];
+  if (least == far) least = least_braking(edge, Eigen::Matrix2d::Identity(), quarter_turn, box);
+  return least;
+}
+
+/// While the axes of the region, seen in the base, turn back by `arc`.
+double RegionFence::least_braking(std::size_t edge, const Eigen::Matrix2d& in_base, double arc,
+                                  const Point& box) const noexcept {
   const int steps = static_cast<int>(std::ceil(std::abs(arc) / turn_step));
-  const Eigen::Matrix2d in_base = (to_base * to_world_).topLeftCorner<2, 2>();
+  Eigen::Matrix2d turned = in_base, step = Eigen::Matrix2d::Identity();
+  if (steps > 0) step = Eigen::Rotation2Dd(-arc / steps).toRotationMatrix();
   double least = far;
   for (int k = 0; k <= steps; ++k) {
-    Eigen::Matrix2d turned = in_base;
-    if (k > 0) turned = Eigen::Rotation2Dd(-arc * k / steps).toRotationMatrix() * in_base;
     const Point n = turned * edges_[edge].left;
     double share = 1.0;
     for (const std::size_t other : meeting_[edge]) {
       share = std::min(share, share_of_two(n, turned * edges_[other].left, box));
     }
     least = std::min(least, share * braking_alone(n, box));
+    turned = step * turned;
   }
   return least;
 }
 
 double RegionFence::braking(std::size_t index, const solver::Matrix3& to_base, const Point& box,
-                            double turning) const noexcept {
+                            double turning) noexcept {
   const Pair& pair = pairs_[index];
   if (pair.kind == PairKind::corner_edge)
     return edge_braking(static_cast<std::size_t>(pair.second), to_base, box, turning);

@@ -44,7 +44,7 @@ class RegionFence {
   /// way that the base turns until it stands. `to_base`: from the world into the base's axes. `box`: what its
   /// ranges leave along x and y [m/s^2]. `turning`: the base's yaw rate [rad/s].
   double braking(std::size_t pair, const solver::Matrix3& to_base, const Eigen::Vector2d& box,
-                 double turning) const noexcept;
+                 double turning) noexcept;
   /// No pair brakes with less, however the base is turned. [m/s^2]
   double weakest_braking(const Eigen::Vector2d& box) const noexcept;
   /// The direction in the world in which what moves would brake.
@@ -78,8 +78,11 @@ class RegionFence {
   };
   void find_meeting();
   double reach() const noexcept;
-  double edge_braking(std::size_t edge, const solver::Matrix3& to_base, const Eigen::Vector2d& box,
-                      double turning) const noexcept;
+  double edge_braking(std::size_t edge, const solver::Matrix3& to_base, const Point& box,
+                      double turning) noexcept;
+  double braking_at_any_heading(std::size_t edge, const Point& box) noexcept;
+  double least_braking(std::size_t edge, const Eigen::Matrix2d& in_base, double arc,
+                       const Point& box) const noexcept;
   static std::vector<Side> sides_of(const std::vector<Point>& polygon);
   static int nearest_side(const std::vector<Side>& sides, const Point& p) noexcept;
   Approach look(const Pair& pair) const noexcept;
@@ -92,6 +95,8 @@ class RegionFence {
   std::vector<Point> polygon_;                     ///< the region's, in its parent
   std::vector<Side> edges_;                        ///< of the region
   std::vector<std::vector<std::size_t>> meeting_;  ///< of each edge those that can bind together with it
+  std::vector<double> over_quarter_turn_;  ///< by edge, infinite before it is known: the least braking, for
+  Point quarter_turn_box_ = Point::Zero();
   double least_cosine_ = 1.0;  ///< of half the angle between the normals of two that meet; of a circle, too
   std::vector<int> reflex_;    ///< vertices of the region
   std::vector<solver::Vector3> corners_;
