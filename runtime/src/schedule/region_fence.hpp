@@ -95,8 +95,8 @@ class RegionFence {
   std::vector<Point> polygon_;                     ///< the region's, in its parent
   std::vector<Side> edges_;                        ///< of the region
   std::vector<std::vector<std::size_t>> meeting_;  ///< of each edge those that can bind together with it
-  std::vector<double> over_quarter_turn_;  ///< by edge, infinite before it is known: the least braking, for
-  Point quarter_turn_box_ = Point::Zero();
+  std::vector<double> over_quarter_turn_;   ///< by edge: the least braking then; infinite before it is known
+  Point quarter_turn_box_ = Point::Zero();  ///< the box for which it was worked out
   double least_cosine_ = 1.0;  ///< of half the angle between the normals of two that meet; of a circle, too
   std::vector<int> reflex_;    ///< vertices of the region
   std::vector<solver::Vector3> corners_;
