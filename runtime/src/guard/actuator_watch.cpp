@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "guard/wheel_motors.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -23,18 +25,8 @@ ActuatorWatch::ActuatorWatch(const lang::Robot& robot, double period)
       entry_ticks_(ticks_of(entry, period)),
       quiet_ticks_(ticks_of(quiet, period)),
       close_ticks_(ticks_of(close_dwell, period)) {
-  for (const solver::Wheel& wheel : robot.model.wheels()) {
-    const int j = wheel.body - 1;
-    const solver::Joint& joint = robot.model.joint(j);
-    if (!joint.actuated || !std::isfinite(joint.max_effort)) continue;
-    Motor motor;
-    motor.joint = j;
-    motor.radius = wheel.radius;
-    // Where a joint stands, its dry friction may be anything up to its bound, either way.
-    const auto i = static_cast<std::size_t>(j);
-    const double coulomb = i < robot.friction.size() ? robot.friction[i].coulomb : 0.0;
-    motor.threshold = std::max(smallest * joint.max_effort, 2.0 * coulomb);
-    motors_.push_back(motor);
+  for (const WheelMotor& of : wheel_motors(robot, smallest)) {
+    motors_.push_back(Motor{.joint = of.joint, .radius = of.radius, .threshold = of.threshold});
   }
 }
 

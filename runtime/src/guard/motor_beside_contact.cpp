@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "guard/wheel_motors.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -18,17 +20,9 @@ EventCode kind_of(double gamma) noexcept {
 MotorBesideContact::MotorBesideContact(const lang::Robot& robot, double period)
     : part_(1.0 - std::exp(-period / memory)),
       dwell_ticks_(std::max(1, static_cast<int>(std::lround(dwell / period)))) {
-  for (const solver::Wheel& wheel : robot.model.wheels()) {
-    const int j = wheel.body - 1;
-    const solver::Joint& joint = robot.model.joint(j);
-    if (!joint.actuated || !std::isfinite(joint.max_effort)) continue;
-    const auto i = static_cast<std::size_t>(j);
-    const double coulomb = i < robot.friction.size() ? robot.friction[i].coulomb : 0.0;
-    motors_.push_back({.joint = j,
-                       .threshold = std::max(smallest * joint.max_effort, 2.0 * coulomb),
-                       .T = Vector::Zero(),
-                       .since = {},
-                       .obedience = {}});
+  for (const WheelMotor& of : wheel_motors(robot, smallest)) {
+    motors_.push_back(
+        {.joint = of.joint, .threshold = of.threshold, .T = Vector::Zero(), .since = {}, .obedience = {}});
   }
 }
 

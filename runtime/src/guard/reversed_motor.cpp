@@ -1,22 +1,14 @@
 #include "guard/reversed_motor.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "guard/wheel_motors.hpp"
 
 namespace zwang::runtime {
 
 ReversedMotor::ReversedMotor(const lang::Robot& robot, double period) : period_(period) {
-  for (const solver::Wheel& wheel : robot.model.wheels()) {
-    const int j = wheel.body - 1;
-    const solver::Joint& joint = robot.model.joint(j);
-    if (!joint.actuated || !std::isfinite(joint.max_effort)) continue;
-    const auto i = static_cast<std::size_t>(j);
-    const double coulomb = i < robot.friction.size() ? robot.friction[i].coulomb : 0.0;
-    Motor motor;
-    motor.joint = j;
-    motor.radius = wheel.radius;
-    motor.threshold = std::max(smallest * joint.max_effort, 2.0 * coulomb);
-    motors_.push_back(motor);
+  for (const WheelMotor& of : wheel_motors(robot, smallest)) {
+    motors_.push_back(Motor{.joint = of.joint, .radius = of.radius, .threshold = of.threshold});
   }
 }
 

@@ -1,0 +1,34 @@
+/// The motors that turn wheels, as those who watch them list them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+
+namespace zwang::runtime {
+
+struct WheelMotor {
+  int joint = 0;
+  double radius = 0.0;     ///< [m] of its wheel
+  double threshold = 0.0;  ///< [N m] the least torque that tells something of the motor
+};
+
+/// Those whose torque has a limit. `smallest` is the share of it that counts; and where a joint stands, its
+/// dry friction may be anything up to its bound, either way.
+inline std::vector<WheelMotor> wheel_motors(const lang::Robot& robot, double smallest) {
+  std::vector<WheelMotor> motors;
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const int j = wheel.body - 1;
+    const solver::Joint& joint = robot.model.joint(j);
+    if (!joint.actuated || !std::isfinite(joint.max_effort)) continue;
+    const auto i = static_cast<std::size_t>(j);
+    const double coulomb = i < robot.friction.size() ? robot.friction[i].coulomb : 0.0;
+    motors.push_back({j, wheel.radius, std::max(smallest * joint.max_effort, 2.0 * coulomb)});
+  }
+  return motors;
+}
+
+}  // namespace zwang::runtime
