@@ -153,9 +153,9 @@ INSTANTIATE_TEST_SUITE_P(Stiffness, UnexpectedObstacle,
                                          Meeting{"diff_base", "obstacle_nose.yaml", 15.0, 1e5},
                                          Meeting{"diff_base", "obstacle_nose.yaml", 15.0, 1e6}));
 
-const char* const fenced = R"(
-regions:
-  room: {polygon: [[-2 m, -3 m], [1.5 m, -3 m], [1.5 m, 3 m], [-2 m, 3 m]]}
+/// Ahead at `speed` in a room with the corners of `polygon`.
+std::string fenced(const std::string& polygon, const std::string& speed) {
+  return "regions:\n  room: {polygon: " + polygon + R"(}
 always:
   constraints:
     fence: {move: footprint, inside: room}
@@ -163,24 +163,16 @@ start: go
 tasks:
   go:
     constraints:
-      go: {move: base_link, in: base_link, x: {velocity: 0.5 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+      go: {move: base_link, in: base_link, x: {velocity: )" +
+         speed + R"(}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
     exits: [{when: elapsed > 5 s, goto: done}]
 )";
+}
 
+const std::string wide = fenced("[[-2 m, -3 m], [1.5 m, -3 m], [1.5 m, 3 m], [-2 m, 3 m]]", "0.5 m/s");
 // Both edges of a corner at once: at 45 deg neither has the braking to itself.
-const char* const cornered = R"(
-regions:
-  room: {polygon: [[-2 m, -2 m], [1.5 m, -2 m], [1.5 m, 1.5 m], [-2 m, 1.5 m]]}
-always:
-  constraints:
-    fence: {move: footprint, inside: room}
-start: go
-tasks:
-  go:
-    constraints:
-      go: {move: base_link, in: base_link, x: {velocity: 0.8 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
-    exits: [{when: elapsed > 5 s, goto: done}]
-)";
+const std::string cornered =
+    fenced("[[-2 m, -2 m], [1.5 m, -2 m], [1.5 m, 1.5 m], [-2 m, 1.5 m]]", "0.8 m/s");
 
 /// How far the footprint, turned by yaw, gets past the edges at x = 1.5 m and y = 1.5 m. [m]
 double overshoot(lang::Program program, double yaw, double payload, double velocity_noise) {
@@ -210,7 +202,7 @@ class Boundary : public testing::TestWithParam<const char*> {};
 
 TEST_P(Boundary, IsNotCrossedByMoreThanATenthOfAMillimetreNorByAMillimetreWithAWrongMassOrNoise) {
   const lang::Program program =
-      write(std::string("fenced_") + GetParam(), fenced, specs / "scenes/wall_far.yaml", GetParam());
+      write(std::string("fenced_") + GetParam(), wide, specs / "scenes/wall_far.yaml", GetParam());
   const double third = 0.3 * program.robot.model.total_mass();
   for (const double yaw : {0.0, 15.0 * degree}) {  // met by an edge of the footprint, and by a corner
     const double ideal = overshoot(program, yaw, 0.0, 0.0);
