@@ -194,8 +194,8 @@ TEST_P(KdlParity, NoGravity) {
       joint.axis = random.direction();
       joint.actuated = true;
       const std::string name = "link" + std::to_string(i);
-      builder.add_link(name, parent, {random.rotation(), random.vector(0.3)}, joint,
-                       random_inertia(random, random.uniform(0.5, 3.0)));
+      const solver::RigidInertia inertia = random_inertia(random, random.uniform(0.5, 3.0));
+      builder.add_link(name, parent, {random.rotation(), random.vector(0.3)}, joint, inertia);
       parent = name;
     }
     Arm arm(seed);

@@ -142,7 +142,7 @@ TEST_F(FromOutside, AThreadThatIsBlockedFor200MillisecondsStops) {
 /// With --watch a run keeps to the wall clock: what time it is in the run is known from outside. Of three
 /// kills the best, for a machine that is busy may be late on its own.
 TEST_F(FromOutside, AKilledRunLosesAtMost100Milliseconds) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef ZWANG_SANITIZED
   GTEST_SKIP() << "a deadline in real time, which instrumented code need not meet";
 #endif
   const auto seconds_now = [] {

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 const fs::path specs = fs::path(ZWANG_SOURCE_DIR) / "specs";
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef ZWANG_SANITIZED
 constexpr bool is_sanitized = true;
 #else
 constexpr bool is_sanitized = false;

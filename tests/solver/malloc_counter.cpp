@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef ZWANG_SANITIZED  // a sanitizer brings a malloc of its own
 #define ZWANG_OWN_MALLOC 0
 #else
 #define ZWANG_OWN_MALLOC 1

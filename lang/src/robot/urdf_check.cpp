@@ -147,9 +147,11 @@ class UrdfChecker {
       }
     }
     const std::optional<std::size_t> origin = child(i, "origin");
-    const bool is_readable =
-        check_numbers(*mass) & check_numbers(*inertia) & (!origin || check_numbers(*origin));
-    if (!is_readable) return;
+    // Each is looked at, whatever the others are: all that is wrong is said at once.
+    const bool mass_is_readable = check_numbers(*mass);
+    const bool inertia_is_readable = check_numbers(*inertia);
+    const bool origin_is_readable = !origin || check_numbers(*origin);
+    if (!mass_is_readable || !inertia_is_readable || !origin_is_readable) return;
     const double kilograms = number(*mass, "value", 0.0);
     const Span span = elements_[*mass].find("value")->span;
     if (kilograms < 0.0 || kilograms > 1e6) return complain(wording::impossible_mass(span, link, kilograms));

@@ -1,5 +1,6 @@
 #include "zwang/runtime/watchdog.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -19,12 +20,17 @@ std::int64_t now() noexcept {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
 }
 
+std::int64_t nanoseconds(double seconds) {
+  if (!(seconds > 0.0)) throw std::invalid_argument("watchdog: the limit is not positive");
+  constexpr double longest = 1e9;  // [s], thirty years
+  return static_cast<std::int64_t>(std::min(seconds, longest) * 1e9);
+}
+
 }  // namespace
 
 struct Watchdog::Parts {
   Parts(double seconds, std::function<void()> callback)
-      : limit(static_cast<std::int64_t>(seconds * 1e9)), on_expiry(std::move(callback)) {
-    if (!(seconds > 0.0)) throw std::invalid_argument("watchdog: the limit is not positive");
+      : limit(nanoseconds(seconds)), on_expiry(std::move(callback)) {
     thread = std::thread([this] { watch(); });
   }
 

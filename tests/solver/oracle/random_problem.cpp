@@ -34,7 +34,8 @@ Vector3 Random::direction() {
 }
 
 Matrix3 Random::rotation() {
-  return Eigen::AngleAxisd(uniform(-pi, pi), direction()).toRotationMatrix();
+  const Vector3 axis = direction();
+  return Eigen::AngleAxisd(uniform(-pi, pi), axis).toRotationMatrix();
 }
 
 const char* to_string(Robot robot) {
@@ -74,7 +75,10 @@ const char* to_string(Robot robot) {
 RigidInertia random_inertia(Random& random, double mass) {
   const double size = 0.05 * std::cbrt(mass);
   // Second moments of a solid: the triangle rule holds by construction.
-  const Vector3 s(random.uniform(0.5, 1.5), random.uniform(0.5, 1.5), random.uniform(0.5, 1.5));
+  const double depth = random.uniform(0.5, 1.5);
+  const double width = random.uniform(0.5, 1.5);
+  const double height = random.uniform(0.5, 1.5);
+  const Vector3 s(height, width, depth);
   const Vector3 m = mass * size * size * s.cwiseProduct(s);
   const Matrix3 R = random.rotation();
   const Matrix3 I = R * Vector3(m.y() + m.z(), m.x() + m.z(), m.x() + m.y()).asDiagonal() * R.transpose();
@@ -112,13 +116,14 @@ void add_branch(ModelBuilder& builder, const std::string& prefix, std::string pa
                 double max_effort, double heaviest, Random& random) {
   for (int i = 0; i < links; ++i) {
     const std::string name = prefix + std::to_string(i);
-    Joint joint = motor(name + "_joint", random.direction(), max_effort, random.uniform(0.0, 0.1));
+    const double rotor_inertia = random.uniform(0.0, 0.1);
+    Joint joint = motor(name + "_joint", random.direction(), max_effort, rotor_inertia);
     joint.type = random.chance(0.2)   ? JointType::prismatic
                  : random.chance(0.5) ? JointType::revolute
                                       : JointType::continuous;
     if (joint.type == JointType::prismatic) joint.rotor_inertia *= 10.0;
-    builder.add_link(name, parent, {random.rotation(), random.vector(0.3)}, joint,
-                     random_inertia(random, random.uniform(0.3, 1.0) * heaviest));
+    const RigidInertia inertia = random_inertia(random, random.uniform(0.3, 1.0) * heaviest);
+    builder.add_link(name, parent, {random.rotation(), random.vector(0.3)}, joint, inertia);
     parent = name;
   }
 }
@@ -159,9 +164,9 @@ void add_caster(ModelBuilder& builder, const std::string& name, const Vector3& a
 /// A driven wheel under a swivel with a motor of its own, the one axis above the other.
 void add_steered_wheel(ModelBuilder& builder, const std::string& name, const Vector3& at, double max_effort,
                        Random& random) {
-  builder.add_link(name, "base", {Matrix3::Identity(), at},
-                   motor(name + "_steering", Vector3::UnitZ(), max_effort, random.uniform(0.0, 0.02)),
-                   random_inertia(random, random.uniform(0.5, 2.0)));
+  const RigidInertia inertia = random_inertia(random, random.uniform(0.5, 2.0));
+  const Joint steering = motor(name + "_steering", Vector3::UnitZ(), max_effort, random.uniform(0.0, 0.02));
+  builder.add_link(name, "base", {Matrix3::Identity(), at}, steering, inertia);
   add_wheel(builder, name + "_wheel", name, Vector3::Zero(), 0.0, random.uniform(0.05, 0.1), true, max_effort,
             random, {});
 }
@@ -257,9 +262,9 @@ Model random_model(Robot robot, Random& random, double max_effort) {
     }
     case Robot::car: {  // the front axle turns as a whole: its wheels and the rear ones have a common centre
       ModelBuilder builder(BaseType::ground, "base", chassis(random));
-      builder.add_link("axle", "base", {Matrix3::Identity(), {0.35, 0.0, 0.0}},
-                       motor("steering", Vector3::UnitZ(), max_effort, random.uniform(0.0, 0.02)),
-                       random_inertia(random, random.uniform(0.5, 2.0)));
+      const RigidInertia inertia = random_inertia(random, random.uniform(0.5, 2.0));
+      const Joint steering = motor("steering", Vector3::UnitZ(), max_effort, random.uniform(0.0, 0.02));
+      builder.add_link("axle", "base", {Matrix3::Identity(), {0.35, 0.0, 0.0}}, steering, inertia);
       for (const int side : {1, -1}) {
         const std::string name = side > 0 ? "left" : "right";
         add_wheel(builder, "front_" + name, "axle", {0.0, 0.15 * side, 0.0}, 0.0, 0.06, false, max_effort,
@@ -322,7 +327,8 @@ std::vector<Row> random_rows(const Model& model, const RowOptions& options, Rand
   const auto direction = [&](int body) {
     ForceVector a;
     if (planar && body == 0) {
-      a.linear = Vector3(random.uniform(-1, 1), random.uniform(-1, 1), 0.0);
+      a.linear.y() = random.uniform(-1, 1);
+      a.linear.x() = random.uniform(-1, 1);
       a.angular = random.chance(0.5) ? Vector3(0, 0, random.uniform(-1, 1)) : Vector3::Zero();
     } else if (random.chance(0.5)) {
       a.linear = random.direction();

@@ -12,6 +12,8 @@
 
 namespace zwang::oracle {
 
+/// Seeded draws. Two of them never stand among the arguments of one call: compilers differ in which comes
+/// first.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
