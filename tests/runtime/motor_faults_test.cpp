@@ -28,10 +28,20 @@ constexpr double stiffness = 100e3;     // [N/m] the wall's
 constexpr double wall_at = 1.2;         // [m] its face
 constexpr int moments_between_hits = 6;
 constexpr double gap = 0.08;  // [m] to it, at the start
-constexpr double start_yaw = 5.0 * M_PI / 180.0;
+constexpr double degree = M_PI / 180.0;
 
-lang::Program load(const std::string& robot) {
-  return test::shipped_program("wall_align.yaml", robot, "wall_far");
+/// What is met, and how.
+struct Wall {
+  double stiffness = zwang::runtime::stiffness;  ///< [N/m]
+  double friction = 0.0;
+  double yaw = 5.0 * degree;  ///< the base's, at the start
+};
+
+lang::Program load(const std::string& robot, const Wall& wall) {
+  lang::Program program = test::shipped_program("wall_align.yaml", robot, "wall_far");
+  program.scene->objects[0].stiffness = wall.stiffness;
+  program.scene->objects[0].friction = wall.friction;
+  return program;
 }
 
 const char* word(FaultKind kind) {
@@ -71,15 +81,16 @@ struct Outcome {
 
 class Pressing {
  public:
-  explicit Pressing(const std::string& robot) : name_(robot), program_(load(robot)) {}
+  explicit Pressing(const std::string& robot, const Wall& wall = {})
+      : name_(robot), wall_(wall), program_(load(robot, wall)) {}
 
   Outcome run(const lang::Fault* fault, double until) const {
     ScenePlantOptions options;
     double front = 0.0;
     for (const auto& corner : program_.robot.footprint)
-      front = std::max(front, corner.x() * std::cos(start_yaw) - corner.y() * std::sin(start_yaw));
+      front = std::max(front, corner.x() * std::cos(wall_.yaw) - corner.y() * std::sin(wall_.yaw));
     options.simulation.start_at = {wall_at - gap - front, 0.0};
-    options.simulation.start_yaw = start_yaw;
+    options.simulation.start_yaw = wall_.yaw;
     if (fault != nullptr) options.faults.push_back(*fault);
     ScenePlant plant(program_, options);
     Runner runner(program_, {.period = period});
@@ -157,6 +168,7 @@ class Pressing {
   }
 
   std::string name_;
+  Wall wall_;
   lang::Program program_;
 };
 
@@ -269,6 +281,26 @@ TEST_P(MotorFaults, BoundForceAndSpeedWhereverBetweenHitsTheyBegin) {
     EXPECT_LE(share, beyond) << word(kind);
     if (is_close) {
       EXPECT_EQ(missed, 0) << word(kind);
+    }
+  }
+}
+
+/// A soft wall presses slowly, with what its damping and then its spring give: as steadily as a motor that
+/// has failed, as far out as a wheel, and answered by a command of its size. It pressed before it was
+/// answered.
+TEST(SoftWall, IsNoFaultOfADifferentialBasesMotorsAsItIsTouched) {
+  constexpr double first = 0.3;  // [s] from the touch on
+  for (const double soft : {1e3, 2e3, 5e3, 10e3}) {
+    for (const double yaw : {-20.0, -12.0, -5.0, 5.0, 12.0, 20.0}) {
+      for (const double friction : {0.0, 0.15}) {
+        const Pressing pressing("diff", {.stiffness = soft, .friction = friction, .yaw = yaw * degree});
+        const Outcome out = pressing.run(nullptr, 2.0);
+        ASSERT_GT(out.touched, 0.0);
+        ASSERT_LT(out.touched + first, 2.0);
+        EXPECT_TRUE(out.found < 0.0 || out.found > out.touched + first)
+            << out.code << " at " << out.found << " s, " << soft << " N/m, " << yaw << " deg, friction "
+            << friction;
+      }
     }
   }
 }

@@ -61,7 +61,7 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer,
         .f = u / s, .tau = observer.torque()(motor.joint), .s = s, .rest = all - u * u / s, .all = all};
     motor.f = fit.f;
     motor.obedience.follow(fit.f, fit.tau, motor.threshold);
-    follow_onset(motor, motor.threshold * std::sqrt(s), std::sqrt(all));
+    follow_onset(motor, fit);
     const double at = q(motor.joint);
     follow(motor, lost, fit, -fit.tau, off * std::abs(fit.tau), at);
     follow(motor, flipped, fit, -2.0 * fit.tau, off * std::abs(fit.tau), at);
@@ -91,6 +91,7 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer,
 bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, double q) const noexcept {
   const Claim& claim = motor.claims[kind];
   const double told = motor.high_tau - motor.low_tau;
+  if (motor.is_met && motor.hardest < left_behind * std::abs(fit.f)) return false;
   if (kind == stuck && !(told > varied * std::abs(fit.f))) return false;
   if (motor.is_armed && claim.ticks >= dwell_ticks_) return true;
   if (motor.obedience.is_seen()) return false;
@@ -100,14 +101,27 @@ bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, doubl
   return std::min(claim.ticks, claim.close_ticks) >= 2 * close_ticks_ && has_rolled && is_steady;
 }
 
-/// A motor is armed by a quiet while, and a force that begins then starts its clock.
-void ActuatorWatch::follow_onset(Motor& motor, double threshold, double force) const noexcept {
-  if (force > threshold) {
+/// A motor is armed by a quiet while, and a force that begins then starts its clock. No fault of this motor
+/// begins with more than its command, one way and the other: |f| <= 2 max|tau|.
+void ActuatorWatch::follow_onset(Motor& motor, const Fit& fit) const noexcept {
+  const double force = std::sqrt(fit.all / fit.s);
+  const double told = std::abs(fit.tau);
+  if (force > motor.threshold) {
     motor.quiet_ticks = 0;
     ++motor.loud_ticks;
+    motor.told = std::max(motor.told, told);
+    motor.hardest = std::max(motor.hardest, force);
+    const bool begins = motor.is_armed && motor.loud_ticks <= entry_ticks_;
+    if (begins && force > most_told * motor.told + motor.threshold) {
+      motor.is_met = true;
+      motor.is_armed = false;
+    }
   } else if (++motor.quiet_ticks >= quiet_ticks_) {
     motor.is_armed = true;
+    motor.is_met = false;
     motor.loud_ticks = 0;
+    motor.told = told;
+    motor.hardest = 0.0;
   }
 }
 

@@ -18,7 +18,7 @@ namespace zwang::runtime {
 ///   flipped  f = -2 tau_j
 ///   stuck    f = const - tau_j
 /// from the instant on at which it differs from nothing. Contact can have that direction, too: the corner of
-/// a differential base, as far out as its wheel. Two things tell them apart.
+/// a differential base, as far out as its wheel. Three things tell them apart.
 ///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
 ///    began out of quiet, and keeps it `closely` for `dwell`, is a motor's.
 ///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
@@ -26,6 +26,9 @@ namespace zwang::runtime {
 ///    it began: a motor that failed while it was told nothing is so found between two hits.
 ///    Not one that was seen to obey since it is told something (Obedience): what is as large as its command
 ///    is something else then.
+///  - Contact comes before the command that answers it: where p jumps out of quiet to more than any fault
+///    makes of what the motor was told until then, 2 max|tau_j|, something is touched. However soft it is,
+///    p stays its own until it has pressed `left_behind` times as hard as what is claimed, or is quiet again.
 /// What cannot be told apart: a wheel that stands, against a wall that bears what it does not give; and where
 /// all driven wheels push in the same direction, as those of a car do. They are not watched. A motor without
 /// torque that is told to give none is not noticed, and does no harm. Does not allocate, lock, throw or print
@@ -38,9 +41,11 @@ class ActuatorWatch {
   /// After each comparison of the observer; `q` are the joints' positions.
   std::optional<Event> look(const DisturbanceObserver& observer, const Eigen::VectorXd& q) noexcept;
 
-  static constexpr double entry = 0.03;  ///< [s] from the begin of a force to the suspicion
-  static constexpr double dwell = 0.04;  ///< [s] that a suspicion must last
-  static constexpr double quiet = 0.01;  ///< [s] without a force, until the next one counts
+  static constexpr double entry = 0.03;       ///< [s] from the begin of a force to the suspicion
+  static constexpr double dwell = 0.04;       ///< [s] that a suspicion must last
+  static constexpr double most_told = 2.5;    ///< of the command: more than any fault makes of it
+  static constexpr double left_behind = 2.0;  ///< times what is claimed: a hit that is over was harder
+  static constexpr double quiet = 0.01;       ///< [s] without a force, until the next one counts
   static constexpr double most_unexplained = 0.1;
   static constexpr double off = 0.25;          ///< of the size that the command tells
   static constexpr double smallest = 0.015;    ///< torque that is missed, of the motor's limit
@@ -70,6 +75,9 @@ class ActuatorWatch {
     double low_sum = 0.0, high_sum = 0.0;  ///< [N m] of tau + f
     int loud_ticks = 0;                    ///< since a force began
     int quiet_ticks = 0;                   ///< without one
+    double told = 0.0;                     ///< [N m] the largest command since before it began
+    double hardest = 0.0;                  ///< [N m] the largest |p| / |T_j| since then
+    bool is_met = false;                   ///< what began is a contact
     bool is_armed = false;
     Obedience obedience;
   };
@@ -79,7 +87,7 @@ class ActuatorWatch {
     double s = 0.0;                ///< |T_j|^2
     double rest = 0.0, all = 0.0;  ///< |p - T_j f|^2 and |p|^2
   };
-  void follow_onset(Motor& motor, double threshold, double force) const noexcept;
+  void follow_onset(Motor& motor, const Fit& fit) const noexcept;
   void follow(Motor& motor, Kind kind, const Fit& fit, double f, double slack, double q) const noexcept;
   void follow_stuck(Motor& motor, const Fit& fit, double q) const noexcept;
   bool is_sure(const Motor& motor, Kind kind, const Fit& fit, double q) const noexcept;
