@@ -132,9 +132,14 @@ std::optional<Program> load_within(double& budget, const fs::path& path, const L
   return program;
 }
 
-std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+std::optional<Program> load_from(const Start& start, const fs::path& path, const LoadOptions& options,
+                                 Diagnostics& diagnostics) {
   double budget = whole_budget;
-  return load_within(budget, path, options, {}, diagnostics);
+  return load_within(budget, path, options, start, diagnostics);
+}
+
+std::optional<Program> load(const fs::path& path, const LoadOptions& options, Diagnostics& diagnostics) {
+  return load_from({}, path, options, diagnostics);
 }
 
 std::optional<Program> load_with_notes(const fs::path& path, const LoadOptions& options,

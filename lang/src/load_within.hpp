@@ -1,21 +1,13 @@
 /// Task files that are loaded together.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 
-#include "zwang/lang/program.hpp"
+#include "zwang/lang/start.hpp"
 
 namespace zwang::lang {
 
-/// Where the robot starts, in the place of what the scene says.
-struct Start {
-  std::optional<std::array<double, 2>> at;  ///< [m] world
-  std::optional<double> yaw;                ///< [rad]
-
-  bool operator==(const Start&) const = default;
-};
 void put_start(const Start& start, Scene& scene);
 
 /// As `load`. `budget` is that of `check`: what loading this file leaves of it.

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "output.hpp"
+#include "zwang/lang/start.hpp"
 
 namespace zwang::cli {
 
@@ -30,6 +31,11 @@ Reloads::Reloads(const RunArguments& arguments, fs::path folder, const lang::Pro
     if (fs::is_regular_file(source.path, error)) files_.push_back(source.path);
   }
   thread_ = std::thread([this] { watch(); });
+}
+
+std::optional<lang::Program> load(const RunArguments& arguments, lang::Diagnostics& diagnostics) {
+  const lang::Start start{arguments.start_at, arguments.start_yaw};
+  return lang::load_from(start, arguments.file, arguments.overrides.load_options(), diagnostics);
 }
 
 Reloads::~Reloads() {
@@ -111,7 +117,7 @@ void Reloads::load() {
   auto next = std::make_unique<Loaded>();
   std::string refusal;
   try {
-    next->program = lang::load(arguments_.file, arguments_.overrides.load_options(), next->diagnostics);
+    next->program = cli::load(arguments_, next->diagnostics);
     std::ostringstream text;
     lang::render_human(next->diagnostics, text);
     print_error(text.str());

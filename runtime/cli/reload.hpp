@@ -76,4 +76,7 @@ class Reloads {
   std::thread thread_;
 };
 
+/// The task file of a run as its arguments want it, from where they let it start.
+std::optional<lang::Program> load(const RunArguments& arguments, lang::Diagnostics& diagnostics);
+
 }  // namespace zwang::cli

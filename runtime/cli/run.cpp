@@ -167,8 +167,7 @@ std::string headline(const RunArguments& arguments, const lang::Program& program
 int run(const RunArguments& arguments) {
   lang::Diagnostics diagnostics;
   require_file(arguments.file);
-  const std::optional<lang::Program> program =
-      lang::load(arguments.file, arguments.overrides.load_options(), diagnostics);
+  const std::optional<lang::Program> program = load(arguments, diagnostics);
   const bool refused = !program || diagnostics.has_errors();
   report_diagnostics(diagnostics, refused, arguments.format);
   if (refused) return exit_bad;

@@ -61,6 +61,25 @@ TEST_F(RealRobots, fingers_that_mimic_another_are_read_with_their_leader) {
   EXPECT_EQ(followers, 10);
 }
 
+TEST(Friction, is_read_in_the_units_of_its_joint) {
+  Diagnostics diagnostics;
+  const auto robot =
+      load_robot(test::source_dir / "tests/conformance/robot_ok_E202_friction.yaml", diagnostics);
+  ASSERT_TRUE(robot) << rendered(diagnostics);
+  const auto friction_of = [&](const char* joint) {
+    return robot->friction.at(static_cast<std::size_t>(*robot->model.find_joint(joint)));
+  };
+  const JointFriction lift = friction_of("lift"), left = friction_of("left"), boom = friction_of("boom");
+  EXPECT_DOUBLE_EQ(lift.coulomb, 12.0);
+  EXPECT_DOUBLE_EQ(lift.presliding, 2e-4);
+  EXPECT_DOUBLE_EQ(lift.viscous, 30.0);
+  EXPECT_DOUBLE_EQ(lift.compensate, 0.8);
+  EXPECT_DOUBLE_EQ(left.coulomb, 0.1);
+  EXPECT_DOUBLE_EQ(left.presliding, 2e-4);
+  EXPECT_DOUBLE_EQ(left.viscous, 0.01);
+  EXPECT_EQ(boom.coulomb, 0.0);
+}
+
 // An angle of two corridors 1 wide: the deepest point is as far from the outer walls as from the inner
 // corner, r = sqrt(2) (1 - r). Of a square it is the middle.
 TEST(Room, ends_at_the_deepest_point) {

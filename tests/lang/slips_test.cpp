@@ -80,6 +80,8 @@ std::vector<Oddity> oddities() {
        .when = "elapsed > 2 s or elapsed > 1 s and not elapsed > 3 s"},
       when("capitals", "elapsed > 1 s AND elapsed < 2 s", "E105", 14, "write `and`"),
       when("negation_in_capitals", "NOT elapsed > 1 s", "E105", 0, "write `not`"),
+      when("arrow", "elapsed => 2 s", "E105", 8, "write `>=`"),
+      when("arrow_back", "elapsed =< 2 s", "E105", 8, "write `<=`"),
       when("divided_by_zero", "elapsed / 0 > 3 s", "E105", 10, ""),
       when("unit_behind_parentheses", "elapsed > (1 + 2) s", "E105", 18, ""),
       when("between", "1 s < elapsed < 2 s", "E105", 14, "a < b and b < c"),

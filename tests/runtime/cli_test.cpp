@@ -140,6 +140,27 @@ TEST_F(Cli, TakesTheStartPoseFromTheCommandLine) {
   EXPECT_TRUE(json::parse(r.out)["truth"]["wall"]["touched"].is_null());
 }
 
+/// The face of the shipped wall is at x = 0.972 m.
+TEST_F(Cli, AsksWhetherTheRobotStandsFreeWhereTheCommandLinePutsIt) {
+  const std::string task = "zwang: 1\nrobot: none.yaml\n" + std::string(stand) +
+                           "    exits: [{when: elapsed > 0.1 s, goto: done}]\n";
+  const std::string file = write("task.yaml", task).string();
+  const auto run_in = [&](const std::string& scene, const std::string& at) {
+    return zwang({"run", file, "--quiet", "--robot", specs + "robots/mecanum_base.yaml", "--scene", scene,
+                  "--start-at", at});
+  };
+  const std::string shipped = specs + "scenes/wall.yaml";
+  const Result inside = run_in(shipped, "0.9 m, 0 m");
+  EXPECT_EQ(inside.code, 1);
+  EXPECT_NE(inside.err.find("E913"), std::string::npos) << inside.err;
+  std::string blocked = read(shipped);
+  const std::string start = "start: {at: [0 m";
+  ASSERT_NE(blocked.find(start), std::string::npos);
+  blocked.replace(blocked.find(start), start.size(), "start: {at: [0.9 m");
+  const Result beside = run_in(write("scene.yaml", blocked).string(), "0 m, 0 m");
+  EXPECT_EQ(beside.code, 0) << beside.err;
+}
+
 TEST_F(Cli, AParameterFromTheCommandLineIsThePush) {
   const Result r = zwang({"run", wall_align, "-p", "push=30 N", "--format", "json"});
   EXPECT_EQ(r.code, 0) << r.err;

@@ -276,7 +276,7 @@ Diagnostic motionless(const Span& span, const std::string& function, const std::
 
 Diagnostic beyond_a_distance(const Span& span, const std::string& axis) {
   return error("E413", span, "a distance is never negative: `" + axis + "` cannot be there",
-               "write 0 or more; for a side to be on, use a `direction`");
+               "write more than 0; for a side to be on, use a `direction`");
 }
 
 Diagnostic beyond_an_angle(const Span& span, const std::string& axis) {

@@ -259,6 +259,20 @@ Diagnostic stands_still(const Span& span, const std::string& axis, const std::st
                       range, "the range is here");
 }
 
+Diagnostic vanishing_distance(const Span& span, const std::string& axis, double asked, double height) {
+  const std::string instead =
+      "drive x and y of the frame in axes at the point: `x: {position: 0 m}, y: {position: 0 m}`";
+  if (height < 1e-4)
+    return warning("W613", span,
+                   "at a distance of 0 there is no direction between two points: `" + axis +
+                       "` makes the base circle about the point and never rest",
+                   instead + "; or keep a distance, `5 cm`");
+  return warning("W613", span,
+                 "`" + axis + "` cannot become " + figure(asked, "m") + ": the two points lie " +
+                     figure(height, "m") + " apart in height, and the base swings across and never rests",
+                 instead + "; or keep a distance of more than `" + at_least(height, "m") + "`");
+}
+
 Diagnostic arm_without_limit(const Span& span, const std::string& axis, const std::string& frame,
                              const std::string& limited, const Span& limit) {
   return with_related(

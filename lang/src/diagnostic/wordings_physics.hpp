@@ -82,6 +82,9 @@ Diagnostic free_and_held(const Span& span, const std::string& axis, bool elsewhe
 Diagnostic stands_still(const Span& span, const std::string& axis, const std::string& limit,
                         const std::string& quantity, const Span& range);
 
+/// `asked`: the distance that is asked for; `height`: between the two points, which keep it. [m]
+Diagnostic vanishing_distance(const Span& span, const std::string& axis, double asked, double height);
+
 /// `limited`: the axis of the base whose force is limited, at `limit`.
 Diagnostic arm_without_limit(const Span& span, const std::string& axis, const std::string& frame,
                              const std::string& limited, const Span& limit);

@@ -23,12 +23,13 @@ struct Reason {
 };
 constexpr std::array reasons{
     Reason{"illegal map value", "a `: ` is not expected here",
-           "quote text that holds a `: `, and give every key a line of its own"},
+           "give every key a line of its own and a `:`, the line above too; quote text that holds a `: `"},
     Reason{"illegal map key", "a key is not expected here", "give every key a line of its own"},
     Reason{"illegal flow end", "this bracket closes nothing", ""},
     Reason{"illegal block entry", "a list item `- ` is not expected here",
            "put lists on the lines below their key"},
-    Reason{"end of map flow not found", "a `{` is not closed before this place", "close it with `}`"},
+    Reason{"end of map flow not found", "a `{` is not closed before this place",
+           "close it with `}`, or part its entries with commas"},
     Reason{"end of sequence flow not found", "a `[` is not closed before this place", "close it with `]`"},
     Reason{"end of map not found", "this line does not fit the lines above it",
            "lines that belong together start in the same column"},

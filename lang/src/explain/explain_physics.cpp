@@ -177,6 +177,32 @@ meets something presses with its effective mass times the acceleration that it a
 between the arm and the base presses no harder than the base for long: the base gives way.)~",
           .fix = "Give the arm's axis a force range of its own, or a force range alone on that axis under "
                  "`always`."},
+      Explanation{
+          .code = "W613",
+          .title = "a distance that is to vanish",
+          .why =
+              R"~(The distance of two points grows along the line between them, and two points that are one have no such line. Drawn to
+a distance of 0 the base never stands: what little it moves across the line makes it circle about the point, faster and faster. Heights
+count: a frame of the base and a point that lies higher or lower come no nearer than that, and the base swings across the point with
+all that its ranges allow.)~",
+          .fix = "Drive two axes to the point, x and y of a group; or keep a distance.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(frames:
+  goal: {parent: world, at: [1 m, 0 m]}
+features:
+  gap: {distance: [base_link, goal]}
+tasks:
+  go:
+    constraints:
+      near: {feature: gap, position: 0 m}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(frames:
+  goal: {parent: world, at: [1 m, 0 m]}
+tasks:
+  go:
+    constraints:
+      near: {move: base_link, in: goal, x: {position: 0 m}, y: {position: 0 m}}
+    timeout: {after: 10 s, goto: failed})~"},
   };
   return entries;
 }

@@ -52,6 +52,7 @@ void ask_task(const CheckContext& context, const TaskText& task, Probe& probe, R
   ask_freedoms(plan, probe, remarks);
   ask_free(plan, probe, remarks);
   ask_still(plan, probe, remarks);
+  ask_distance(plan, probe, remarks);
   ask_top_speed(plan, *context.robot, remarks);
   ask_arm_force(plan, *context.robot, remarks);
   ask_press(plan, probe, remarks);

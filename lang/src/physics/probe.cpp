@@ -111,6 +111,15 @@ bool Probe::is_out_of_plane(const PlannedAxis& axis) const {
   return is_on_base && (axis.turns() ? up < 1e-6 : up > 1.0 - 1e-6);
 }
 
+double Probe::kept_height(const PlannedAxis& axis) const {
+  const bool is_on_base = axis.move.body == 0 && robot_.model.base_type() == solver::BaseType::ground;
+  if (!is_on_base || !axis.in_world || !axis.is_placed) return 0.0;
+  const auto height = [&](const solver::AttachedFrame& frame) {
+    return solver::motion_of(frame, robot_.model, states_[0]).pose.position.z();
+  };
+  return std::abs(height(axis.move) - height(axis.in));
+}
+
 /// A row along the axis depends on the point that moves (unless it turns) and on where the axes point; a
 /// distance on the other point, too.
 Probe::Key Probe::key_of(const PlannedAxis& axis) {

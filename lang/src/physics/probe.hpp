@@ -72,6 +72,9 @@ class Probe {
   solver::Vector3 direction(const PlannedAxis& axis) const;
   /// Whether the axis points up or turns the base over: what the ground itself holds.
   bool is_out_of_plane(const PlannedAxis& axis) const;
+  /// How far apart in height the two points of a distance are as long as the base moves; 0 where an arm or a
+  /// signal may change that. [m]
+  double kept_height(const PlannedAxis& axis) const;
 
  private:
   /// An axis in one configuration, seen in one direction.

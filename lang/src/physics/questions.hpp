@@ -38,6 +38,8 @@ void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 void ask_free(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W610: drivers that a range keeps from moving anything. Takes them out of the plan.
 void ask_still(PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W613: distances that are to vanish.
+void ask_distance(const PlannedTask& plan, const Probe& probe, Remarks& remarks);
 /// W611: speeds that the wheels' motors cannot turn to.
 void ask_top_speed(const PlannedTask& plan, const Robot& robot, Remarks& remarks);
 /// W612: an arm that may press harder than the base may.

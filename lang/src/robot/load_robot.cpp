@@ -29,6 +29,7 @@ class RobotBuilder {
     apply_actuators();
     check_couplings(file_, urdf_, diagnostics_);
     check_posture();
+    check_friction();
     check_starts(file_, urdf_, diagnostics_);
     check_wheels();
     check_supports();
@@ -106,10 +107,31 @@ class RobotBuilder {
     }
   }
 
-  bool require_positive(const ValueText& value, const Dimension& expected, const std::string& what) {
+  bool require_positive(const ValueText& value, const Dimension& expected, const std::string& what,
+                        bool zero_allowed = false) {
     if (!require_quantity(value, expected, what, diagnostics_)) return false;
-    if (value.quantity.value <= 0.0) diagnostics_.add(wording::not_positive(value.span, what, false));
+    const bool is_good = value.quantity.value > 0.0 || (zero_allowed && value.quantity.value == 0.0);
+    if (!is_good) diagnostics_.add(wording::not_positive(value.span, what, zero_allowed));
     return true;
+  }
+
+  /// N and m of a joint that slides, N m and an angle of one that turns.
+  void check_friction() {
+    for (const FrictionText& friction : file_.friction) {
+      const UrdfJoint* joint = moving_joint(friction.joint);
+      if (joint == nullptr) continue;
+      const bool slides = joint->joint.type == solver::JointType::prismatic;
+      const auto check = [&](const char* key, const std::optional<ValueText>& value,
+                             const Dimension& expected, bool zero_allowed) {
+        if (!value) return;
+        const std::string what = std::string("`") + key + "` of the " + (slides ? "sliding" : "turning") +
+                                 " joint `" + friction.joint.text + "`";
+        require_positive(*value, expected, what, zero_allowed);
+      };
+      check("coulomb", friction.coulomb, slides ? dimension::force : dimension::torque, true);
+      check("presliding", friction.presliding, slides ? dimension::length : dimension::angle, false);
+      check("viscous", friction.viscous, slides ? dimension::damping : dimension::angular_damping, true);
+    }
   }
 
   void check_posture() {
@@ -254,12 +276,18 @@ class RobotBuilder {
         if (actuator.slew_text) robot.slew(j) = actuator.slew_text->quantity.value;
       }
       robot.joint_spans.push_back(span);
-      JointFriction friction;
-      for (const FrictionText& text : file_.friction) {
-        if (text.joint.text == name) friction = text.friction;
-      }
-      robot.friction.push_back(friction);
+      robot.friction.push_back(friction_of(name));
     }
+  }
+
+  JointFriction friction_of(const std::string& joint) const {
+    const auto text = std::find_if(file_.friction.begin(), file_.friction.end(),
+                                   [&](const FrictionText& f) { return f.joint.text == joint; });
+    if (text == file_.friction.end()) return {};
+    const auto number = [](const std::optional<ValueText>& value) {
+      return value ? value->quantity.value : 0.0;
+    };
+    return {number(text->coulomb), number(text->presliding), number(text->viscous), text->compensate};
   }
 
   /// Of a body that is made of several links the builder knows the first: the one at fault is named instead.

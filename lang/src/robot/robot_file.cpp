@@ -86,24 +86,20 @@ FrictionText parse_friction(const Entry& entry, Diagnostics& diagnostics) {
   friction.joint = {entry.key.text, entry.key.span};
   const std::string what = "friction of `" + entry.key.text + "`";
   MapReader map(entry.value, what, diagnostics);
-  if (const Node* node = map.optional("coulomb")) {
-    friction.friction.coulomb =
-        parse_positive(*node, dimension::torque, what + ", coulomb", true, diagnostics).value_or(0.0);
-  }
-  if (const Node* node = map.optional("presliding")) {
-    friction.friction.presliding =
-        parse_positive(*node, dimension::angle, what + ", presliding", false, diagnostics).value_or(0.0);
-  }
-  if (const Node* node = map.optional("viscous")) {
-    friction.friction.viscous =
-        parse_positive(*node, dimension::angular_damping, what + ", viscous", true, diagnostics)
-            .value_or(0.0);
-  }
+  // Whether the joint turns or slides is the URDF's to say.
+  const auto part = [&](const char* key) -> std::optional<ValueText> {
+    const Node* node = map.optional(key);
+    if (node == nullptr) return std::nullopt;
+    return parse_value(*node, what + ", " + key, diagnostics);
+  };
+  friction.coulomb = part("coulomb");
+  friction.presliding = part("presliding");
+  friction.viscous = part("viscous");
   if (const Node* node = map.optional("compensate")) {
     const double fraction =
         parse_positive(*node, dimension::none, what + ", compensate", true, diagnostics).value_or(0.0);
     if (fraction >= 1.0) diagnostics.add(wording::compensation_too_large(node->span, what));
-    friction.friction.compensate = fraction;
+    friction.compensate = fraction;
   }
   map.finish();
   return friction;

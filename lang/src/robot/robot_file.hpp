@@ -36,7 +36,8 @@ struct PostureText {
 
 struct FrictionText {
   Word joint;
-  JointFriction friction;
+  std::optional<ValueText> coulomb, presliding, viscous;  ///< of a force or a torque, as the joint says
+  double compensate = 0.0;
 };
 
 struct RobotFrameText {

@@ -36,10 +36,11 @@ Json actuator() {
 }
 
 Json joint_friction() {
-  return object("", {{"coulomb", reference("quantity", "dry friction")},
-                     {"presliding", reference("quantity", "angle that the joint gives before it slides")},
-                     {"viscous", reference("quantity", "friction that grows with the speed")},
-                     {"compensate", reference("quantity", "the part that the controller makes up for")}});
+  return object(
+      "", {{"coulomb", reference("quantity", "dry friction")},
+           {"presliding", reference("quantity", "angle or length that the joint gives before it slides")},
+           {"viscous", reference("quantity", "friction that grows with the speed")},
+           {"compensate", reference("quantity", "the part that the controller makes up for")}});
 }
 
 Json shape_sizes() {

@@ -65,6 +65,10 @@ class ConditionParser {
     }
     if (rest[0] == '=' || rest.starts_with("!=")) {
       const std::size_t length = rest.size() > 1 && rest[1] == '=' ? 2 : 1;
+      const bool is_swapped = rest.starts_with("=<") || rest.starts_with("=>");
+      if (is_swapped)
+        stop(wording::symbol_for_word(span(at_, at_ + 2), std::string(rest.substr(0, 2)),
+                                      rest[1] == '<' ? "<=" : ">="));
       const std::string other = trimmed(rest.substr(length));
       stop(other.starts_with("true") || other.starts_with("false")
                ? wording::equality_of_truth(span(at_, at_ + length))

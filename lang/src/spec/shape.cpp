@@ -6,6 +6,7 @@
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "spec/decimal_comma.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -185,6 +186,8 @@ std::optional<std::vector<double>> parse_vector(const Node& node, const Dimensio
     diagnostics.add(wording::expected_vector(node.span, what, fewest, usual_unit(expected)));
     return std::nullopt;
   }
+  const bool has_units = expected != dimension::none;
+  if (has_units && complain_of_decimal_comma(node, fewest, most, diagnostics)) return std::nullopt;
   if (node.items.size() < fewest || node.items.size() > most) {
     diagnostics.add(wording::wrong_count(node.span, what, fewest, most, node.items.size()));
     return std::nullopt;

@@ -2,6 +2,7 @@
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "spec/decimal_comma.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -82,15 +83,6 @@ ValueText negated(ValueText value) {
   return value;
 }
 
-/// What was meant by a list in which a decimal comma ends an item; empty where it is something else.
-std::string number_with_comma(const Node& list) {
-  for (std::size_t i = 0; i + 1 < list.items.size(); ++i) {
-    const std::string meant = joined_at_decimal_comma(list.items[i].text, list.items[i + 1].text);
-    if (!meant.empty()) return meant;
-  }
-  return "";
-}
-
 }  // namespace
 
 bool is_identifier(std::string_view text) {
@@ -124,10 +116,9 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
   statement.span = node.span;
   if (node.is_sequence() && !node.is_bad) {
     statement.is_range = true;
+    if (complain_of_decimal_comma(node, 2, 2, diagnostics)) return statement;
     if (node.items.size() != 2) {
-      const std::string meant = number_with_comma(node);
-      diagnostics.add(meant.empty() ? wording::range_ends(node.span, node.items.size())
-                                    : wording::decimal_comma(node.span, meant));
+      diagnostics.add(wording::range_ends(node.span, node.items.size()));
       return statement;
     }
     statement.low = parse_value(node.items[0], what, diagnostics);

@@ -61,7 +61,9 @@ std::string lower_case(std::string_view text) {
 std::string joined_at_decimal_comma(std::string_view before, std::string_view behind) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const std::string whole = trimmed(before), rest = trimmed(behind);
-  const std::size_t sign = whole.starts_with('-') || whole.starts_with('+') ? 1 : 0;
+  const std::size_t sign = whole.starts_with("+-")                            ? 2
+                           : whole.starts_with('-') || whole.starts_with('+') ? 1
+                                                                              : 0;
   const std::string_view digits = std::string_view(whole).substr(sign);
   const bool is_whole = !digits.empty() && std::all_of(digits.begin(), digits.end(), is_digit);
   return is_whole && !rest.empty() && is_digit(rest[0]) ? whole + "." + rest : "";
