@@ -1,11 +1,10 @@
-# What every target of zwang shares: warnings as errors, and sanitizers where a preset asks for them.
+# What every target of zwang shares: warnings as errors, and sanitizers where a preset asks for them. Clang's
+# -Wdouble-promotion would refuse the oracle's long double, too.
 add_library(zwang_flags INTERFACE)
 target_compile_options(zwang_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
-  -Woverloaded-virtual -Wnull-dereference -Wformat=2
+  -Woverloaded-virtual -Wnull-dereference $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Wformat=2
   $<$<BOOL:${ZWANG_WARNINGS_AS_ERRORS}>:-Werror>)
-# Clang's would refuse the oracle's long double as well.
-target_compile_options(zwang_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion>)
 # Designated initializers leave fields at their defaults on purpose.
 target_compile_options(zwang_flags INTERFACE -Wno-missing-field-initializers)
 # Eigen trips GCC's flow analysis in optimised builds; the diagnostics point into Eigen, not into this code.
