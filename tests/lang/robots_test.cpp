@@ -5,6 +5,7 @@
 #include "check/room.hpp"
 #include "robot/urdf.hpp"
 #include "support.hpp"
+#include "zwang/lang/robot.hpp"
 
 namespace zwang::lang {
 namespace {
