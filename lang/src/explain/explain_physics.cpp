@@ -185,7 +185,8 @@ between the arm and the base presses no harder than the base for long: the base 
 a distance of 0 the base never stands: what little it moves across the line makes it circle about the point, faster and faster. Heights
 count: a frame of the base and a point that lies higher or lower come no nearer than that, and the base swings across the point with
 all that its ranges allow.)~",
-          .fix = "Drive two axes to the point, x and y of a group; or keep a distance.",
+          .fix = "Keep a distance; or drive two axes to the point, x and y of a group, on a base that moves "
+                 "both ways.",
           .part = ExcerptOf::task_file,
           .example = R"~(frames:
   goal: {parent: world, at: [1 m, 0 m]}
@@ -198,10 +199,12 @@ tasks:
     timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(frames:
   goal: {parent: world, at: [1 m, 0 m]}
+features:
+  gap: {distance: [base_link, goal]}
 tasks:
   go:
     constraints:
-      near: {move: base_link, in: goal, x: {position: 0 m}, y: {position: 0 m}}
+      near: {feature: gap, position: 0.2 m}
     timeout: {after: 10 s, goto: failed})~"},
   };
   return entries;
