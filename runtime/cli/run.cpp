@@ -176,8 +176,6 @@ int run(const RunArguments& arguments) {
 
   runtime::ScenePlantOptions options;
   options.simulation.period = period;
-  options.simulation.start_at = arguments.start_at;
-  options.simulation.start_yaw = arguments.start_yaw;
   options.seed = arguments.seed;
   runtime::ScenePlant plant(*program, options);
   runtime::RunnerSettings settings;

@@ -147,7 +147,7 @@ TEST_F(Cli, AsksWhetherTheRobotStandsFreeWhereTheCommandLinePutsIt) {
   const std::string file = write("task.yaml", task).string();
   const auto run_in = [&](const std::string& scene, const std::string& at) {
     return zwang({"run", file, "--quiet", "--robot", specs + "robots/mecanum_base.yaml", "--scene", scene,
-                  "--start-at", at});
+                  "--start-at", at, "--log", (folder_ / "log").string()});
   };
   const std::string shipped = specs + "scenes/wall.yaml";
   const Result inside = run_in(shipped, "0.9 m, 0 m");
@@ -159,6 +159,8 @@ TEST_F(Cli, AsksWhetherTheRobotStandsFreeWhereTheCommandLinePutsIt) {
   blocked.replace(blocked.find(start), start.size(), "start: {at: [0.9 m");
   const Result beside = run_in(write("scene.yaml", blocked).string(), "0 m, 0 m");
   EXPECT_EQ(beside.code, 0) << beside.err;
+  const Result again = zwang({"replay", (folder_ / "log/log.mcap").string()});
+  EXPECT_EQ(again.code, 0) << again.err;
 }
 
 TEST_F(Cli, AParameterFromTheCommandLineIsThePush) {

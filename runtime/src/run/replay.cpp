@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "run/sensed_columns.hpp"
+#include "zwang/lang/start.hpp"
 #include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
@@ -78,6 +79,19 @@ bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
+/// Where the run started, in the place of what its scene says.
+lang::Start start_of(const LogContext& context) {
+  lang::Start start;
+  if (const auto yaw = context.facts.find("start_yaw [rad]"); yaw != context.facts.end())
+    start.yaw = number_of(yaw->second);
+  if (const auto at = context.facts.find("start_at [m]"); at != context.facts.end()) {
+    const std::size_t comma = at->second.find(", ");
+    if (comma == std::string::npos) throw std::runtime_error("replay: the log has no point in `start_at`");
+    start.at = {number_of(at->second.substr(0, comma)), number_of(at->second.substr(comma + 2))};
+  }
+  return start;
+}
+
 }  // namespace
 
 std::optional<lang::Program> logged_program(const LogContext& context, lang::Diagnostics& diagnostics) {
@@ -99,7 +113,8 @@ std::optional<lang::Program> logged_program(const LogContext& context, lang::Dia
     options.robot = folder.of(robot->second);
   if (const auto scene = context.facts.find("scene"); scene != context.facts.end())
     options.scene = folder.of(scene->second);
-  std::optional<lang::Program> program = lang::load(folder.of(task->second), options, diagnostics);
+  std::optional<lang::Program> program =
+      lang::load_from(start_of(context), folder.of(task->second), options, diagnostics);
   if (!program) return program;
   for (lang::Parameter& parameter : program->parameters) {
     const auto set = context.facts.find("params." + parameter.name);
