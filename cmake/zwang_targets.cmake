@@ -17,11 +17,11 @@ endif()
 
 # zwang_precompiled(<target>): where a preset asks for it, what most files include is read once for all of them. Release
 # does without: there each file has to include what it uses.
-set(zwang_common_headers <Eigen/Dense> <algorithm> <array> <cmath> <filesystem> <functional> <limits> <map> <memory>
+set(zwang_headers_of_most <Eigen/Dense> <algorithm> <array> <cmath> <filesystem> <functional> <limits> <map> <memory>
   <numbers> <optional> <sstream> <string> <vector>)
 function(zwang_precompiled target)
   if(ZWANG_PRECOMPILE)
-    target_precompile_headers(${target} PRIVATE ${zwang_common_headers})
+    target_precompile_headers(${target} PRIVATE ${zwang_headers_of_most})
   endif()
 endfunction()
 

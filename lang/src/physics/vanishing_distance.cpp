@@ -5,7 +5,6 @@
 //
 // So at d = 0 the distance has no direction, and below s = h it does not exist: drawn to there the base
 // circles about the point, or swings across it, and does not come to rest.
-#include <algorithm>
 #include <cmath>
 
 #include "diagnostic/wordings_physics.hpp"
