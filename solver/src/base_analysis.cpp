@@ -25,7 +25,7 @@ struct WhitenedRobot {
         ground(ground_rows.row_count()),
         base(model.has_fixed_base() ? 0 : 6),
         sweeps(model, ground + base + model.joint_count(), 1),
-        rows(sweeps.robot_rows) {
+        rows(sweeps.robot_rows, sweeps.task_rows) {
     outward_kinematics(model, state, Vector6::Zero(), sweeps);
     load_bodies_at_rest(sweeps);
     add_ground_rows(ground_rows, sweeps);
@@ -34,13 +34,13 @@ struct WhitenedRobot {
       sweeps.robot_rows.last_column() = Vector6::Unit(i);
     }
     for (int j = 0; j < model.joint_count(); ++j) sweeps.robot_rows.add_joint_row(j);
-    if (row != nullptr) add_row(*row, sweeps);
+    if (row != nullptr) add_row(*row, model, sweeps);
     const Eigen::VectorXd no_torque = Eigen::VectorXd::Zero(model.joint_count());
     if (!sweep_inward(model, no_torque, sweeps)) {
       throw std::invalid_argument("analysis: an inertia of the model cannot be inverted");
     }
     rows.factorise(sweeps.robot_rows, ground);
-    rows.turn(sweeps.task_rows);
+    rows.project_task();
   }
 
   Eigen::VectorXd joint(int j) const { return rows.robot_motion(ground + base + j).transpose(); }

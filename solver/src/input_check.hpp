@@ -34,14 +34,14 @@ inline double finite_sum(const Eigen::VectorXd& numbers) {
 
 static_assert(sizeof(ForceVector) == 6 * sizeof(double));  // so that its numbers lie side by side
 
-/// Of the forces of a row and its b.
+/// Of the forces of a row.
 template <class BodyRow>
 bool has_finite_axis(const BodyRow& row) {
   const double* const a = row.a.angular.data();
   const double* const other = row.a_reference.angular.data();
   const Two sum = two(a) * 0.0 + two(a + 2) * 0.0 + two(a + 4) * 0.0 + two(other) * 0.0 +
                   two(other + 2) * 0.0 + two(other + 4) * 0.0;
-  return sum[0] + sum[1] + row.b * 0.0 == 0.0;
+  return sum[0] + sum[1] == 0.0;
 }
 
 inline bool is_finite(const State& state) {

@@ -16,6 +16,9 @@ typedef double UnalignedTwo __attribute__((vector_size(16), aligned(8), may_alia
 inline Two two(const double* x) {
   return *static_cast<const UnalignedTwo*>(static_cast<const void*>(x));
 }
+inline void put_two(const Two& pair, double* x) {
+  *static_cast<UnalignedTwo*>(static_cast<void*>(x)) = pair;
+}
 inline Two* aligned_two(double* x) {
   return static_cast<Two*>(static_cast<void*>(x));
 }
@@ -89,6 +92,28 @@ inline void add_square(int first, int last, double s, const double* x, double* m
     line += 2 * stride;
   }
   if (k < last) add_to_line(s * x[k], x, first, last, line);
+}
+
+/// y = sum x_i line_i over `count` lines, up to four sums at a time, in registers: in memory each addition
+/// would wait for the one before. Of an odd number of columns one more.
+inline void combine_lines(int count, const double* x, const double* lines, Eigen::Index stride, int columns,
+                          double* y) {
+  int c = 0;
+  for (; c + 2 < columns; c += 4) {
+    Two sum = {}, next = {};
+    const double* line = lines + c;
+    for (int i = 0; i < count; ++i, line += stride) {
+      sum += x[i] * two(line);
+      next += x[i] * two(line + 2);
+    }
+    put_two(sum, y + c);
+    put_two(next, y + c + 2);
+  }
+  if (c >= columns) return;
+  Two sum = {};
+  const double* line = lines + c;
+  for (int i = 0; i < count; ++i, line += stride) sum += x[i] * two(line);
+  put_two(sum, y + c);
 }
 
 /// x . y, for an even number of numbers that the compiler knows.

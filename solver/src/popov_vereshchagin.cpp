@@ -43,7 +43,7 @@ struct PopovVereshchagin::Workspace {
         ground_rows(robot),
         ground(ground_rows.row_count()),
         sweeps(robot, ground, options.row_capacity),
-        whitened(sweeps.robot_rows),
+        whitened(sweeps.robot_rows, sweeps.task_rows),
         given(options.row_capacity),
         ground_bias(Eigen::VectorXd::Zero(ground)),
         wanted(Eigen::VectorXd::Zero(options.row_capacity)),
@@ -57,7 +57,7 @@ struct PopovVereshchagin::Workspace {
     if (!sweeps.is_articulated) add_ground_rows(ground_rows, sweeps);
     find_ground_bias(ground_rows, sweeps, ground_bias);
     sweeps.task_rows.clear();
-    for (const AccelerationRow& row : rows) wanted(add_row(row, sweeps)) = row.b;
+    for (const AccelerationRow& row : rows) wanted(add_row(row, model, sweeps)) = row.b;
   }
 
   /// nu = L^-1 (b - g), line 21: the ground's rows are held, the given ones then met as well as that leaves.
@@ -152,7 +152,7 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
     if (!is_body(row.body, model) || (row.reference_body != -1 && !is_body(row.reference_body, model))) {
       return Status::wrong_size;
     }
-    if (!has_finite_axis(row)) return Status::invalid_input;
+    if (!has_finite_axis(row) || !std::isfinite(row.b)) return Status::invalid_input;
   }
 
   outward_kinematics(model, state, base_acceleration, sweeps);
@@ -162,7 +162,7 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
   if (!sweep_inward(model, state.tau_ff, sweeps)) return Status::degenerate_model;
   if (!ground_stays) whitened.factorise(sweeps.robot_rows, ground);
   sweeps.task_rows.find_drift(sweeps.bodies);
-  whitened.turn(sweeps.task_rows);
+  whitened.project_task();
   solve_base();
   outward_accelerations(model, motion, sweeps, qdd);
   const int row_count = static_cast<int>(count);
@@ -173,6 +173,7 @@ Status PopovVereshchagin::Workspace::solve(const State& state, const std::vector
   result.rank = rank;
   const std::size_t bodies = sweeps.bodies.size();
   for (std::size_t i = 0; i < bodies; ++i) {
+    need_axes(model, i, sweeps);
     sweeps.bodies[i].from_base(sweeps.bodies[i].a, result.acceleration[i]);
   }
   for (int i = 0; i < row_count; ++i) {

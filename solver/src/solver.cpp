@@ -8,6 +8,7 @@
 #include "base/whitened_rows.hpp"
 #include "constraint/add_rows.hpp"
 #include "input_check.hpp"
+#include "pairs.hpp"
 #include "sweep/sweeps.hpp"
 
 namespace zwang::solver {
@@ -85,9 +86,22 @@ bool is_same(const ForceVector& one, const ForceVector& other) {
   return one.linear == other.linear && one.angular == other.angular;
 }
 
-bool is_valid(const Row& row) {
-  return has_finite_axis(row) && row.force * 0.0 + row.fade * 0.0 == 0.0 && row.weight > 0.0 &&
-         row.lo <= 0.0 && row.hi >= 0.0;  // false for NaN, too
+bool has_same_axis(const Row& one, const Row& other) {
+  return one.body == other.body && one.reference_body == other.reference_body && is_same(one.a, other.a) &&
+         (one.reference_body < 0 || is_same(one.a_reference, other.a_reference));
+}
+
+/// One number to tell axes by: equal for equal ones, and for few others.
+double key_of(const Row& row) {
+  const double* const a = row.a.angular.data();
+  const Two sum = two(a) * Two{1.0, 1.1} + two(a + 2) * Two{1.3, 1.7} + two(a + 4) * Two{1.9, 2.3};
+  return sum[0] + sum[1];
+}
+
+/// Whatever its axis is.
+bool has_valid_numbers(const Row& row) {
+  return row.b * 0.0 + row.force * 0.0 + row.fade * 0.0 == 0.0 && row.weight > 0.0 && row.lo <= 0.0 &&
+         row.hi >= 0.0;  // false for NaN, too
 }
 
 }  // namespace
@@ -102,7 +116,7 @@ struct Solver::Workspace {
         ground(ground_rows.row_count()),
         base(base_freedoms(robot, options.base_motion)),
         sweeps(robot, ground + base + robot.joint_count(), options.row_capacity),
-        whitened(sweeps.robot_rows),
+        whitened(sweeps.robot_rows, sweeps.task_rows),
         problem(options.row_capacity, robot.joint_count(),
                 std::max(1, sweeps.task_rows.dimensions() - sweeps.task_rows.held_dimensions())),
         ground_bias(Eigen::VectorXd::Zero(ground)),
@@ -113,6 +127,7 @@ struct Solver::Workspace {
     ids.resize(static_cast<std::size_t>(options.row_capacity));
     twins.resize(static_cast<std::size_t>(options.row_capacity));
     axes.resize(static_cast<std::size_t>(options.row_capacity));
+    keys.resize(static_cast<std::size_t>(options.row_capacity));
     for (int j = 0; j < robot.joint_count(); ++j) {
       if (robot.joint(j).actuated) motors.push_back(j);
     }
@@ -134,25 +149,38 @@ struct Solver::Workspace {
     for (int j = 0; j < model.joint_count(); ++j) sweeps.robot_rows.add_joint_row(j);
   }
 
-  void add_task_rows(const std::vector<Row>& rows) noexcept {
-    sweeps.task_rows.clear();
+  /// Which rows share an axis; not ok where one is not what a row has to be.
+  Status find_axes(const std::vector<Row>& rows) noexcept {
     axis_count = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const int twin = twins[i] = twin_of(rows[i], rows);
-      if (twin < 0) axes[axis_count++] = static_cast<int>(i);
-      ids[i] = twin < 0 ? add_row(rows[i], sweeps) : ids[static_cast<std::size_t>(twin)];
+      const Row& row = rows[i];
+      if (!has_valid_numbers(row)) return Status::invalid_input;
+      if (!is_body(row.body, model) || (row.reference_body != -1 && !is_body(row.reference_body, model))) {
+        return Status::wrong_size;
+      }
+      const double key = key_of(row);
+      twins[i] = twin_of(row, key, rows);
+      if (twins[i] >= 0) continue;
+      if (!has_finite_axis(row)) return Status::invalid_input;
+      keys[axis_count] = key;
+      axes[axis_count++] = static_cast<int>(i);
+    }
+    return Status::ok;
+  }
+
+  void add_task_rows(const std::vector<Row>& rows) noexcept {
+    sweeps.task_rows.clear();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const int twin = twins[i];
+      ids[i] = twin < 0 ? add_row(rows[i], model, sweeps) : ids[static_cast<std::size_t>(twin)];
     }
   }
 
-  /// The first row before `row` that acts along the same axis, as the two ends of a range do; -1 for none.
-  /// Mostly it is along the last one.
-  int twin_of(const Row& row, const std::vector<Row>& rows) const noexcept {
+  /// The first row that acts along the same axis, as the two ends of a range do; -1 for none. Mostly it is
+  /// along the last one.
+  int twin_of(const Row& row, double key, const std::vector<Row>& rows) const noexcept {
     for (std::size_t k = axis_count; k-- > 0;) {
-      const int i = axes[k];
-      const Row& other = rows[static_cast<std::size_t>(i)];
-      if (other.body == row.body && other.reference_body == row.reference_body && is_same(other.a, row.a) &&
-          (row.reference_body < 0 || is_same(other.a_reference, row.a_reference)))
-        return i;
+      if (keys[k] == key && has_same_axis(row, rows[static_cast<std::size_t>(axes[k])])) return axes[k];
     }
     return -1;
   }
@@ -189,7 +217,7 @@ struct Solver::Workspace {
   /// The task's rows and the free motion under what the ground holds.
   void hold_ground() noexcept {
     sweeps.task_rows.find_drift(sweeps.bodies);
-    whitened.turn(sweeps.task_rows);
+    whitened.project_task();
     whitened.hold_ground(sweeps.free_motion, ground_bias);
   }
 
@@ -201,7 +229,7 @@ struct Solver::Workspace {
       const int twin = twins[static_cast<std::size_t>(i)];
       const Row& row = rows[static_cast<std::size_t>(i)];
       if (twin < 0) {
-        problem.set_row(i, row, whitened.B(id), whitened.held_square(id));
+        problem.set_row(i, row, whitened.B(id), whitened.free_square(id));
         free_acceleration(i) = whitened.acceleration(id);
       } else {
         problem.set_twin(i, row, twin);
@@ -225,7 +253,8 @@ struct Solver::Workspace {
   BoundedProblem problem;
   std::vector<int> motors;
   std::vector<int> ids, twins;  ///< by row of the task: its id in the sweeps, the first row along its axis
-  std::vector<int> axes;        ///< the first rows along each axis, so many:
+  std::vector<int> axes;        ///< the first rows along each axis
+  std::vector<double> keys;     ///< of these
   std::size_t axis_count = 0;
   Eigen::VectorXd ground_bias;        ///< by row of the ground
   Eigen::VectorXd free_acceleration;  ///< by row of the task: with the ground's answer, nobody pushing
@@ -256,12 +285,7 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
     return Status::capacity_exceeded;
   }
   if (!is_finite(state)) return Status::invalid_input;
-  for (const Row& row : rows) {
-    if (!is_valid(row)) return Status::invalid_input;
-    if (!is_body(row.body, w.model) || (row.reference_body != -1 && !is_body(row.reference_body, w.model))) {
-      return Status::wrong_size;
-    }
-  }
+  if (const Status status = w.find_axes(rows); status != Status::ok) return status;
 
   w.clamp_feed_forward(state);
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
@@ -279,6 +303,8 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
 
   solution.qdd = w.qdd;
   for (std::size_t i = 0; i < w.sweeps.bodies.size(); ++i) {
+    if (!w.settings.every_acceleration && i > 0 && !w.sweeps.task_rows.act_beyond(i)) continue;
+    need_axes(w.model, i, w.sweeps);
     w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a, solution.acceleration[i]);
   }
   solution.tau.setZero();

@@ -140,6 +140,33 @@ TEST(RealTime, AnEccentricWheelIsNotTakenForARoundOne) {
   EXPECT_NE(tau_of_first_wheel(eccentric, {0.0, 1.0}), tau_of_first_wheel(eccentric, {0.0}));
 }
 
+TEST(RealTime, AccelerationsThatNobodyWantsAreNotWritten) {
+  const Model model = test::mecanum({});
+  State state(model);
+  std::mt19937 random(5);
+  ConstraintSet set;
+  pose(model, random, state, set);
+  state.q.setLinSpaced(0.3, 1.2);
+  AxisConstraint on_wheel;  // its axes turn with the wheel
+  on_wheel.move.body = on_wheel.in.body = 2;
+  on_wheel.driver = Driver{.quantity = Quantity::acceleration, .target = 0.1, .force = {-1.0, 1.0}};
+  ASSERT_TRUE(set.add(on_wheel));
+  ASSERT_TRUE(set.fill(model, state));
+  Solver every(model), some(model, {.every_acceleration = false});
+  Solution all(model), few(model);
+  const Vector6 untouched = Vector6::Constant(7.0);
+  for (MotionVector& a : few.acceleration) a = {untouched.head<3>(), untouched.tail<3>()};
+  ASSERT_EQ(every.solve(state, set.rows(), all), Status::ok);
+  ASSERT_EQ(some.solve(state, set.rows(), few), Status::ok);
+  EXPECT_EQ(all.tau, few.tau);
+  EXPECT_EQ(all.qdd, few.qdd);
+  for (const std::size_t body : {0u, 2u}) {
+    EXPECT_EQ(all.acceleration[body].vector(), few.acceleration[body].vector()) << body;
+    EXPECT_NE(all.acceleration[body].vector(), untouched) << body;
+  }
+  for (const std::size_t body : {1u, 3u, 4u}) EXPECT_EQ(few.acceleration[body].vector(), untouched) << body;
+}
+
 /// A random robot of its kind with rows of every kind, solved in two states in turn.
 struct BusyRobot : oracle::LawProblem {
   BusyRobot(oracle::Robot robot, std::uint64_t seed)

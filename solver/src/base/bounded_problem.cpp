@@ -36,8 +36,7 @@ double nonzero(double length) {
 }  // namespace
 
 BoundedProblem::BoundedProblem(int rows, int motors, int dimension)
-    : B_(RowMajorMatrix::Zero(rows, dimension)),
-      V_(RowMajorMatrix::Zero(rows, dimension)),
+    : V_(RowMajorMatrix::Zero(rows, dimension)),
       P_(RowMajorMatrix::Zero(rows, dimension)),
       T_(static_cast<std::size_t>(motors)),
       d_(Vector::Zero(rows)),
@@ -81,18 +80,17 @@ void BoundedProblem::clear_motors(int dimension) noexcept {
   dimension_ = dimension;
 }
 
-void BoundedProblem::set_row(int i, const Row& row, const double* B, double held) noexcept {
+void BoundedProblem::set_row(int i, const Row& row, const double* B, double free_square) noexcept {
   Entry& e = entry(i);
   e.twin = -1;
   e.axis = i;
   last_on_axis_[static_cast<std::size_t>(i)] = -1;
-  solver::copy(dimension_, B, &B_(i, 0));
-  e.B = &B_(i, 0);
+  e.B = B;
   e.extent = extent_of(e.B);
   const double squared = dot(e.extent, e.B, e.B);
   e.length = std::sqrt(squared);
   e.inverse_length = squared > 0.0 ? e.length * (1.0 / squared) : 0.0;
-  e.reachable = squared >= unreachable_share * (squared + held) && squared > 0.0;
+  e.reachable = squared >= unreachable_share * free_square && squared > 0.0;
   take_source(e, row);
 }
 

@@ -42,8 +42,9 @@ class BoundedProblem {
 
   void resize(int rows) noexcept { rows_ = rows; }
   double& d(int row) noexcept { return d_(row); }
-  /// `held` is what of A_i M^-1 A_i' the ground holds; the rest is |B|^2.
-  void set_row(int row, const Row& source, const double* B, double held) noexcept;
+  /// B stays where it is until the next problem. `free_square`: A_i M^-1 A_i', of which the ground leaves
+  /// |B|^2.
+  void set_row(int row, const Row& source, const double* B, double free_square) noexcept;
   /// A row with the same B as an earlier one.
   void set_twin(int row, const Row& source, int twin) noexcept;
   /// False when an active set met its iteration cap; all results stay inside their bounds.
@@ -198,17 +199,16 @@ class BoundedProblem {
   bool brake(int forces, int level, int max_iterations) noexcept;
   bool share_torque(int forces, int level, int max_iterations) noexcept;
 
-  /// Of the firm limits along one axis those that leave the least room; -1 for none.
-  struct NearestLimits {
-    int upper = -1, lower = -1, upper_above = -1, lower_above = -1;
+  /// Of the firm limits of the levels above along one axis those that leave the least room; -1 for none.
+  struct NearestAbove {
+    int upper = -1, lower = -1;
   };
   /// Rows along the same axis share it.
   std::size_t axis_of(int i) noexcept { return static_cast<std::size_t>(entry(i).axis); }
   double target_of(int i) const noexcept;
   bool is_firm_limit(int i, int level) noexcept;
-  void find_nearest_limits(int level) noexcept;
+  void find_nearest_above(int level) noexcept;
   bool gives_in(int i, int level) noexcept;
-  bool is_slack_beside(int i) noexcept;
   void fold_limits(int level) noexcept;
   bool recall_limits() noexcept;
   void fold_driver_beyond(int limit) noexcept;
@@ -246,7 +246,6 @@ class BoundedProblem {
   bool take_torque(int motor, double torque) noexcept;
 
   int rows_ = 0, motors_ = 0, dimension_ = 0, iterations_ = 0;
-  RowMajorMatrix B_;
   RowMajorMatrix V_, P_;  ///< of the rows on which the levels above have frozen something
   std::vector<const double*> T_;
   Vector d_, tau_, tau_lo_, tau_hi_, candidate_;
@@ -280,15 +279,15 @@ class BoundedProblem {
   std::vector<int> awake_, idle_;  ///< all rows: those that take part, and limits without anything to do
   std::vector<int> sums_;
   std::vector<int> forces_, motions_,
-      limits_above_;                    ///< rows of the present level that take part, by what they are
-  int next_level_ = 0;                  ///< the one below it
-  std::vector<int> last_on_axis_;       ///< by axis: the last limit
-  std::vector<int> posed_;              ///< row of each variable of the present stage
-  std::vector<int> folded_;             ///< rows of the present stage that need not be solved for
-  std::vector<int> waiting_;            ///< limits that join it when it would break them
-  std::vector<NearestLimits> nearest_;  ///< by axis
-  std::vector<double> units_;           ///< force of a unit of each variable
-  std::vector<int> tied_;               ///< rows of the present stage whose multipliers are not unique
+      limits_above_;                   ///< rows of the present level that take part, by what they are
+  int next_level_ = 0;                 ///< the one below it
+  std::vector<int> last_on_axis_;      ///< by axis: the last limit
+  std::vector<int> posed_;             ///< row of each variable of the present stage
+  std::vector<int> folded_;            ///< rows of the present stage that need not be solved for
+  std::vector<int> waiting_;           ///< limits that join it when it would break them
+  std::vector<NearestAbove> nearest_;  ///< by axis
+  std::vector<double> units_;          ///< force of a unit of each variable
+  std::vector<int> tied_;              ///< rows of the present stage whose multipliers are not unique
   QuadraticProgram program_;
 };
 

@@ -6,10 +6,9 @@
 //   a limit beyond another one of its side            has nothing to do while that one holds
 //   a limit that contradicts one of a level above     pushes with all its force, and in vain
 //
-// Both are left out: the first from all that follows, where the other one is of its own level (it is idle),
-// else from a stage; the second from a stage, with its force, against which the limit above pushes. Of the
-// others most have room, and wait: the drivers are solved for alone, and the limits that they would break
-// join,
+// Both are left out: the first, where the other one is of its own level, from all that follows (it is idle);
+// the second from a stage, with its force, against which the limit above pushes. Of the others most have
+// room, and wait: the drivers are solved for alone, and the limits that they would break join,
 //
 //   a driver that mostly wants what such a limit forbids    pushes with all its force, and in vain, too
 //
@@ -93,18 +92,14 @@ bool BoundedProblem::is_firm_limit(int i, int level) noexcept {
   return is_one_sided(i) && softness_at(i, level) == 0.0;
 }
 
-/// Of the firm limits along each axis those that leave the least room, by side, of this level and above.
-void BoundedProblem::find_nearest_limits(int level) noexcept {
-  for (const int i : posed_) {
-    if (is_one_sided(i)) nearest_[axis_of(i)] = {};
-  }
-  for (const int i : posed_) {
+/// Of the firm limits of the levels above along each axis those that leave the least room, by side.
+void BoundedProblem::find_nearest_above(int level) noexcept {
+  for (const int i : motions_) nearest_[axis_of(i)] = {};
+  for (const int i : limits_above_) nearest_[axis_of(i)] = {};
+  for (const int i : limits_above_) {
     if (!is_firm_limit(i, level)) continue;
-    NearestLimits& nearest = nearest_[axis_of(i)];
     const bool is_upper = entry(i).kind == RowKind::upper;
-    int& own = is_upper ? nearest.upper : nearest.lower;
-    int& above = is_upper ? nearest.upper_above : nearest.lower_above;
-    int& place = entry(i).level == level ? own : above;
+    int& place = is_upper ? nearest_[axis_of(i)].upper : nearest_[axis_of(i)].lower;
     if (place < 0 || is_beyond(target_of(place), target_of(i), is_upper ? 1.0 : -1.0)) place = i;
   }
 }
@@ -113,9 +108,9 @@ void BoundedProblem::find_nearest_limits(int level) noexcept {
 bool BoundedProblem::gives_in(int i, int level) noexcept {
   Entry& e = entry(i);
   const bool is_upper = e.kind == RowKind::upper;
-  const NearestLimits& nearest = nearest_[axis_of(i)];
-  const int opposite = is_upper ? nearest.lower_above : nearest.upper_above;
-  if (e.level != level || opposite < 0) return false;
+  const NearestAbove& nearest = nearest_[axis_of(i)];
+  const int opposite = is_upper ? nearest.lower : nearest.upper;
+  if (e.level != level || e.softness != 0.0 || opposite < 0) return false;
   if (!is_beyond(target_of(opposite), target_of(i), is_upper ? 1.0 : -1.0)) return false;
   bound(i);
   e.nu = is_upper ? e.lo : e.hi;
@@ -123,28 +118,18 @@ bool BoundedProblem::gives_in(int i, int level) noexcept {
   return true;
 }
 
-/// Whether another limit of its side leaves a limit nothing to do.
-bool BoundedProblem::is_slack_beside(int i) noexcept {
-  const bool is_upper = entry(i).kind == RowKind::upper;
-  const NearestLimits& nearest = nearest_[axis_of(i)];
-  const auto leaves_less = [&](int other) {
-    return other >= 0 && is_beyond(target_of(i), target_of(other), is_upper ? 1.0 : -1.0);
-  };
-  return entry(i).nu == 0.0 && (leaves_less(is_upper ? nearest.upper : nearest.lower) ||
-                                leaves_less(is_upper ? nearest.upper_above : nearest.lower_above));
-}
-
 /// Takes out of posed_ what need not be solved for, and what may not have to.
 void BoundedProblem::fold_limits(int level) noexcept {
   folded_.clear();
   waiting_.clear();
-  find_nearest_limits(level);
+  find_nearest_above(level);
   std::size_t kept = 0;
   for (const int i : posed_) {
-    const bool is_folded = is_firm_limit(i, level) && (gives_in(i, level) || is_slack_beside(i));
-    if (is_folded) {
+    if (!is_one_sided(i)) {
+      posed_[kept++] = i;
+    } else if (gives_in(i, level)) {
       folded_.push_back(i);
-    } else if (is_one_sided(i) && entry(i).nu == 0.0) {
+    } else if (entry(i).nu == 0.0) {
       waiting_.push_back(i);
     } else {
       posed_[kept++] = i;

@@ -14,6 +14,7 @@ constexpr double least_opposition = 0.01;    // of the strongest one's, to be na
 
 /// The side of its box that nu is at: -1, 1, or 0 for neither.
 int side_of(double nu, double lo, double hi) {
+  if (nu == 0.0) return 0;
   const auto size_of = [](double bound) { return std::isfinite(bound) ? std::abs(bound) : 0.0; };
   const double size = std::max({1.0, size_of(lo), size_of(hi)});
   const double width = bound_tolerance * size;

@@ -1,5 +1,6 @@
 #include "base/whitened_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -7,12 +8,19 @@
 
 namespace zwang::solver {
 
-WhitenedRows::WhitenedRows(const Columns& robot)
-    : reflections_(RowMajorMatrix::Zero(robot.ground_end(), spaced(robot.ground_end()))),
+WhitenedRows::WhitenedRows(const Columns& robot, const Columns& task)
+    : task_(&task),
+      N_(RowMajorMatrix::Zero(robot.ground_end(), robot.ground_end())),
+      H_(RowMajorMatrix::Zero(robot.ground_end(), spaced(robot.ground_end()))),
+      B_(RowMajorMatrix::Zero(task.W.rows(), task.W.cols())),
+      reflections_(RowMajorMatrix::Zero(robot.ground_end(), spaced(robot.ground_end()))),
       scale_(Eigen::VectorXd::Zero(robot.ground_end())),
       left_(Eigen::VectorXd::Zero(robot.drift.size())),
       size_(Eigen::VectorXd::Zero(robot.drift.size())),
       held_motion_(Eigen::VectorXd::Zero(robot.dimensions() + 1)),
+      unit_(held_motion_),
+      free_part_(held_motion_),
+      given_(held_motion_),
       pivots_(static_cast<std::size_t>(robot.drift.size())),
       dimensions_(robot.dimensions()),
       ground_end_(robot.ground_end()),
@@ -35,21 +43,62 @@ void WhitenedRows::factorise(Columns& robot, int ground) noexcept {
     ++rank_;
   }
   held_ = base_ + rank_;
-  turn_from(ground, robot);
-}
-
-void WhitenedRows::turn(Columns& task) noexcept {
-  task_ = &task;
-  turn_from(0, task);
+  turn_robot_from(ground);
+  find_N();
+  find_H();
 }
 
 /// The lines of this row and those behind it. One reflection after the other, as a line has to wait for each.
-void WhitenedRows::turn_from(int row, Columns& rows) noexcept {
-  const int count = rows.rows();
+void WhitenedRows::turn_robot_from(int row) noexcept {
+  const int count = robot_->rows();
   for (int k = 0; k < rank_; ++k) {
     int i = row;
-    for (; i + 2 <= count; i += 2) turn_two(k, &rows.W(i, 0), &rows.W(i + 1, 0));
-    if (i < count) turn(k, &rows.W(i, 0));
+    for (; i + 2 <= count; i += 2) turn_two(k, &robot_->W(i, 0), &robot_->W(i + 1, 0));
+    if (i < count) turn(k, &robot_->W(i, 0));
+  }
+}
+
+/// Column by column, a unit along each axis that is free, turned back.
+void WhitenedRows::find_N() noexcept {
+  if (rank_ == 0) return;
+  for (int c = 0; c < free_of_ground(); ++c) {
+    unit_.setZero();
+    unit_(held_ + c) = 1.0;
+    turn_back(unit_.data());
+    for (int k = 0; k < ground_end_; ++k) N_(k, c) = unit_(k);
+  }
+}
+
+/// Line by line, for one of the base's motions or biases: the triangle, dimension by dimension, turned back.
+void WhitenedRows::find_H() noexcept {
+  for (int given = 0; given < held_; ++given) {
+    double* const x = &H_(given, 0);
+    set_zero(static_cast<int>(H_.cols()), x);
+    if (given < base_) x[given] = 1.0;
+    for (int c = std::max(given, base_); c < held_; ++c) {
+      const double* const pivot = &robot_->W(pivots_[static_cast<std::size_t>(c - base_)], 0);
+      x[c] = ((c == given ? 1.0 : 0.0) - dot(c, pivot, x)) / pivot[c];
+    }
+    turn_back(x);
+  }
+}
+
+/// B_i = W_i N. (W_i is 0 in the dimensions of the base that the ground holds: N is, too.)
+void WhitenedRows::project_task() noexcept {
+  if (rank_ == 0) {
+    first_B_ = task_->W.data() + held_;
+    B_stride_ = task_->W.outerStride();
+    return;
+  }
+  first_B_ = B_.data();
+  B_stride_ = B_.outerStride();
+  const int free = free_of_ground();
+  for (int i = 0; i < task_->rows(); ++i) {
+    const double* const W = line(i);
+    double* const B = &B_(i, 0);
+    combine_lines(ground_end_ - base_, W + base_, &N_(base_, 0), N_.outerStride(), free, B);
+    copy(mobility() - free, W + ground_end_, B + free);
+    B[mobility()] = 0.0;
   }
 }
 
@@ -117,6 +166,11 @@ void WhitenedRows::turn_two(int reflection, double* one, double* other) const no
                    one, other);
 }
 
+/// From the turned axes.
+void WhitenedRows::turn_back(double* x) const noexcept {
+  for (int k = rank_ - 1; k >= 0; --k) turn(k, x);
+}
+
 double WhitenedRows::free_share(int row) const noexcept {
   const double square = free_square(row);
   return square > 0.0 ? motion(row).squaredNorm() / square : 0.0;
@@ -124,58 +178,47 @@ double WhitenedRows::free_share(int row) const noexcept {
 
 void WhitenedRows::hold_ground(const Eigen::VectorXd& free_motion, const Eigen::VectorXd& bias,
                                const Vector3& base_motion) noexcept {
-  copy(dimensions_, free_motion.data(), held_motion_.data());
-  for (int k = 0; k < rank_; ++k) turn(k, held_motion_.data());
+  const double* const h = free_motion.data();
+  double* const x = held_motion_.data();
   hold(bias, base_motion);
+  copy(dimensions_ - ground_end_, h + ground_end_, x + ground_end_);
+  const int free = free_of_ground();
+  if (rank_ == 0) {
+    copy(free, h + held_, x + held_);
+    return;
+  }
+  const int turned = ground_end_ - base_;
+  double* const along = free_part_.data();  // N'h
+  combine_lines(turned, h + base_, &N_(base_, 0), N_.outerStride(), free, along);
+  for (int k = base_; k < ground_end_; ++k) x[k] += dot(free, &N_(k, 0), along);
 }
 
 void WhitenedRows::hold_ground_at_rest(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept {
-  set_zero(dimensions_, held_motion_.data());
   hold(bias, base_motion);
+  set_zero(dimensions_ - ground_end_, held_motion_.data() + ground_end_);
 }
 
-/// The triangle, dimension by dimension.
+/// H' y of the base's motions and the biases y. (No number of it waits for another, as in the triangle.)
 void WhitenedRows::hold(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept {
-  double* const x = held_motion_.data();
-  for (int c = 0; c < base_; ++c) x[c] = base_motion(c);
-  for (int c = base_; c < held_; ++c) {
-    const int row = pivots_[static_cast<std::size_t>(c - base_)];
-    const double* const line = &robot_->W(row, 0);
-    double rest = bias(row);
-    for (int k = 0; k < c; ++k) rest -= line[k] * x[k];
-    x[c] = rest / line[c];
-  }
+  for (int c = 0; c < base_; ++c) given_(c) = base_motion(c);
+  for (int c = base_; c < held_; ++c) given_(c) = bias(pivots_[static_cast<std::size_t>(c - base_)]);
+  combine_lines(held_, given_.data(), H_.data(), H_.outerStride(), ground_end_, held_motion_.data());
 }
 
-/// Up to four sums at a time, in registers: in memory each addition would wait for the one before.
 void WhitenedRows::add_up(const double* f, double* p) const noexcept {
-  const int rows = task_->rows();
-  const Eigen::Index stride = task_->W.outerStride();
-  const int count = mobility();
-  int k = 0;
-  for (; k + 2 < count; k += 4) {
-    const double* B = &task_->W(0, held_ + k);
-    Eigen::Array2d sum = Eigen::Array2d::Zero(), next = Eigen::Array2d::Zero();
-    for (int i = 0; i < rows; ++i, B += stride) {
-      sum += f[i] * ConstPair(B);
-      next += f[i] * ConstPair(B + 2);
-    }
-    Pair(p + k) = sum;
-    Pair(p + k + 2) = next;
-  }
-  if (k >= count) return;
-  const double* B = &task_->W(0, held_ + k);
-  Eigen::Array2d sum = Eigen::Array2d::Zero();
-  for (int i = 0; i < rows; ++i, B += stride) sum += f[i] * ConstPair(B);
-  Pair(p + k) = sum;
+  combine_lines(task_->rows(), f, first_B_, B_stride_, mobility(), p);
 }
 
-/// The reflections backward.
+/// held motion + N p
 void WhitenedRows::motion(const double* p, Eigen::VectorXd& motion) const noexcept {
   double* const x = motion.data();
   copy(dimensions_, held_motion_.data(), x);
-  if (p != nullptr) add_multiple(mobility(), 1.0, p, x + held_);
-  for (int k = rank_ - 1; k >= 0; --k) turn(k, x);
+  if (p == nullptr) return;
+  const int free = rank_ > 0 ? free_of_ground() : 0;
+  if (free > 0) {
+    for (int k = base_; k < ground_end_; ++k) x[k] += dot(free, &N_(k, 0), p);
+  }
+  add_multiple(mobility() - free, 1.0, p + free, x + held_ + free);
 }
 
 }  // namespace zwang::solver

@@ -6,7 +6,7 @@
 /// leaves: their number is the mobility. So for any two rows i, k beyond the ground
 ///
 ///   A_i Mc A_k' = B_i . B_k,   Mc = M^-1 - M^-1 Jp' (Jp M^-1 Jp')^+ Jp M^-1,   B_i = the last numbers of row
-///   i of W
+///   i of W,  W_i N,  N = the last columns of the reflections' product
 ///
 /// and a generalised force f along them becomes p = sum B_i f_i: forces and accelerations of the constrained
 /// robot live in one small space with the identity as its inertia. Redundant ground rows (two wheels on one
@@ -23,23 +23,21 @@ namespace zwang::solver {
 
 class WhitenedRows {
  public:
-  explicit WhitenedRows(const Columns& robot);
+  WhitenedRows(const Columns& robot, const Columns& task);
 
   /// Finds the reflections that make a triangle of the ground's lines, the first ones of the robot's rows,
   /// and turns all of these. That stays until the robot moves.
   void factorise(Columns& robot, int ground) noexcept;
-  /// Turns the lines of the task's rows, which all below is about where nothing else is said.
-  void turn(Columns& task) noexcept;
+  /// B of the task's rows, which all below is about where nothing else is said.
+  void project_task() noexcept;
 
   int mobility() const noexcept { return dimensions_ - held_; }
   int ground_rank() const noexcept { return rank_; }  ///< of the ground's rows
-  const double* B(int row) const noexcept { return line(row) + held_; }
-  auto motion(int row) const noexcept { return task_->W.row(row).segment(held_, mobility()); }
+  const double* B(int row) const noexcept { return first_B_ + row * B_stride_; }
+  auto motion(int row) const noexcept { return Eigen::Map<const Eigen::RowVectorXd>(B(row), mobility()); }
   /// B_i of a row of the robot itself, beyond the ground's.
   const double* robot_B(int row) const noexcept { return &robot_->W(row, held_); }
   auto robot_motion(int row) const noexcept { return robot_->W.row(row).segment(held_, mobility()); }
-  /// What the ground holds of A_i M^-1 A_i'.
-  double held_square(int row) const noexcept { return dot(held_, line(row), line(row)); }
   /// A_i M^-1 A_i', the robot without the ground.
   double free_square(int row) const noexcept { return dot(dimensions_, line(row), line(row)); }
   double robot_free_square(int row) const noexcept {
@@ -71,19 +69,31 @@ class WhitenedRows {
 
  private:
   const double* line(int row) const noexcept { return &task_->W(row, 0); }
+  int free_of_ground() const noexcept { return ground_end_ - held_; }
   int next_pivot(int ground) const noexcept;
   void reflect(int row, int first, int ground) noexcept;
-  void turn_from(int row, Columns& rows) noexcept;
+  void turn_robot_from(int row) noexcept;
+  void find_N() noexcept;
+  void find_H() noexcept;
   void turn(int reflection, double* y) const noexcept;
+  void turn_back(double* x) const noexcept;
   void turn_two(int reflection, double* one, double* other) const noexcept;
   void hold(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept;
 
   Columns* robot_ = nullptr;
   const Columns* task_ = nullptr;
+  RowMajorMatrix N_;  ///< by dimension up to the ground's end; behind it N is 1
+  RowMajorMatrix H_;  ///< by what is held: the motion that a unit of it makes, the rest at rest
+  RowMajorMatrix B_;  ///< by row of the task; lines have a 0 to spare
+  const double* first_B_ = nullptr;  ///< the task's own lines where the ground turns nothing
+  Eigen::Index B_stride_ = 0;
   RowMajorMatrix reflections_;  ///< by pivot: v, of  1 - scale v v'
   Eigen::VectorXd scale_;
   Eigen::VectorXd left_, size_;  ///< by row of the ground: square of what is left of it, and of all of it
-  Eigen::VectorXd held_motion_;  ///< by turned dimension: h with the ground's answer
+  Eigen::VectorXd held_motion_;  ///< by dimension: h with the ground's answer
+  Eigen::VectorXd unit_;         ///< by dimension
+  Eigen::VectorXd free_part_;    ///< by axis that the ground leaves
+  Eigen::VectorXd given_;        ///< by what is held
   std::vector<int> pivots_;      ///< rows of the ground, the pivots first
   int dimensions_ = 0, ground_end_ = 0;
   int base_ = 0;  ///< dimensions of the base that the ground holds

@@ -37,12 +37,13 @@ inline void find_ground_slip(const Ground& ground, const Sweeps& sweeps, Eigen::
 
 /// A row of the public headers, whose forces are written in the coordinates of their bodies; returns its id.
 template <class BodyRow>
-int add_row(const BodyRow& row, Sweeps& sweeps) noexcept {
-  const auto write = [&sweeps](int body, const ForceVector& a) {
+int add_row(const BodyRow& row, const Model& model, Sweeps& sweeps) noexcept {
+  const auto write = [&](int body, const ForceVector& a) {
     if (body == 0) {  // whose coordinates are the base's
       sweeps.task_rows.last_column() << a.angular, a.linear;
       return;
     }
+    need_axes(model, static_cast<std::size_t>(body), sweeps);
     sweeps.bodies[static_cast<std::size_t>(body)].to_base(a, sweeps.task_rows.last_column());
   };
   const int id = sweeps.task_rows.add_row(row.body);

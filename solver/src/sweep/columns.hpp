@@ -69,6 +69,11 @@ class Columns {
   /// What velocities alone do along the rows.
   void find_drift(const std::vector<BodySweep>& bodies) noexcept;
 
+  /// Whether rows act on the body or on one that it carries.
+  bool act_beyond(std::size_t body) const noexcept {
+    return rows_ > 0 && ranges_[body].first != ranges_[body].last;
+  }
+
   /// Adds the constraint forces of the rows to the bodies on which they act.
   template <class Wrenches>
   void add_wrenches(const Eigen::VectorXd& nu, Wrenches& wrenches) const noexcept {

@@ -35,27 +35,43 @@ void write_turn(const double* axis, BodySweep& sweep) {
   sweep.S << x, y, z, py * z - pz * y, pz * x - px * z, px * y - py * x;
 }
 
-/// Pose and joint motion of body i from its parent's.
-void place(const Body& body, double q, const BodySweep& parent, BodySweep& sweep) {
-  if (sweep.turned_in_parent) sweep.R.noalias() = parent.R * body.pose_in_parent.rotation;
-  const Matrix3& R = sweep.turned_in_parent ? sweep.R : parent.R;  // at q = 0
-  sweep.p = parent.p;
-  sweep.p.noalias() += parent.R * body.pose_in_parent.position;
-  const int k = sweep.axis_column;
-  if (body.joint.type != JointType::prismatic && k >= 0) {
-    turn_about_column(R, k, sweep.cosine, sweep.sine, sweep.R);
-    write_turn(R.data() + 3 * k, sweep);
+/// The axes of a body at q = 0, in the base's.
+const Matrix3& unturned_axes(const Body& body, const BodySweep& parent, BodySweep& sweep) {
+  if (!sweep.turned_in_parent) return parent.R;
+  sweep.R.noalias() = parent.R * body.pose_in_parent.rotation;
+  return sweep.R;
+}
+
+/// R at q from R at 0, which may stand in the same place.
+void turn_axes(const Matrix3& unturned, const Body& body, BodySweep& sweep) {
+  if (sweep.axis_column >= 0) {
+    turn_about_column(unturned, sweep.axis_column, sweep.cosine, sweep.sine, sweep.R);
     return;
   }
-  const Vector3 axis = R * body.joint.axis;
-  sweep.R = R;
+  const Vector3 axis = unturned * body.joint.axis;
+  sweep.R = unturned;
+  turn_about_axis(axis, sweep.cosine, sweep.sine, sweep.R);
+}
+
+/// Pose and joint motion of body i from its parent's, but for the axes of a round one.
+void place(const Body& body, double q, const BodySweep& parent, BodySweep& sweep) {
+  const Matrix3& R = unturned_axes(body, parent, sweep);
+  sweep.p = parent.p;
+  sweep.p.noalias() += parent.R * body.pose_in_parent.position;
   if (body.joint.type == JointType::prismatic) {
+    const Vector3 axis = R * body.joint.axis;
+    sweep.R = R;
     sweep.p += q * axis;
     sweep.S << Vector3::Zero(), axis;
     return;
   }
-  turn_about_axis(axis, sweep.cosine, sweep.sine, sweep.R);
-  write_turn(axis.data(), sweep);
+  if (sweep.axis_column >= 0) {
+    write_turn(R.data() + 3 * sweep.axis_column, sweep);
+  } else {
+    const Vector3 axis = R * body.joint.axis;
+    write_turn(axis.data(), sweep);
+  }
+  if (!sweep.is_round) turn_axes(R, body, sweep);
 }
 
 /// Twist and velocity products of a body from its parent's:  v = v_p + S qd,  c = c_p + v_p x S qd
@@ -118,17 +134,21 @@ void place_mass(BodySweep& sweep) {
   sweep.J.diagonal().array() += sweep.inertia_across_axis;
 }
 
-/// Poses and masses where the joints are now. Where round bodies alone have turned, only their axes do.
+/// Poses and masses where the joints are now. Where round bodies alone have turned, all of them stay.
 void place_bodies(const Model& model, const Eigen::VectorXd& q, Sweeps& sweeps) {
   bool moved = false;
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
     const auto j = static_cast<Eigen::Index>(i) - 1;
     const bool is_placed = !std::isnan(sweeps.placed_at(j));
     moved = moved || (q(j) != sweeps.placed_at(j) && !(sweeps.bodies[i].is_round && is_placed));
+    sweeps.bodies[i].axes_are_due = sweeps.bodies[i].is_round;
   }
-  if (moved) sweeps.is_articulated = false;
+  sweeps.placed_at = q;
+  if (!moved) return;
+  sweeps.is_articulated = false;
   // Ahead of the walk, where each body would wait for them: these do not wait for one another.
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
+    if (sweeps.bodies[i].is_round) continue;
     const double angle = q(static_cast<Eigen::Index>(i) - 1);
     sweeps.bodies[i].cosine = std::cos(angle);
     sweeps.bodies[i].sine = std::sin(angle);
@@ -136,12 +156,10 @@ void place_bodies(const Model& model, const Eigen::VectorXd& q, Sweeps& sweeps) 
   for (std::size_t i = 1; i < sweeps.bodies.size(); ++i) {
     const Body& body = model.bodies()[i];
     BodySweep& sweep = sweeps.bodies[i];
-    if (!moved && !sweep.is_round) continue;
     place(body, q(static_cast<Eigen::Index>(i) - 1), sweeps.bodies[static_cast<std::size_t>(body.parent)],
           sweep);
-    if (moved) place_mass(sweep);
+    place_mass(sweep);
   }
-  sweeps.placed_at = q;
 }
 
 /// The rigid body's inertia about the base's origin, by the parallel axis theorem:
@@ -275,9 +293,20 @@ void outward_kinematics(const Model& model, const State& state, const Vector6& b
   }
 }
 
+void find_axes_of_round_body(const Model& model, std::size_t i, Sweeps& sweeps) noexcept {
+  const Body& body = model.bodies()[i];
+  BodySweep& sweep = sweeps.bodies[i];
+  const double angle = sweeps.placed_at(static_cast<Eigen::Index>(i) - 1);
+  sweep.cosine = std::cos(angle);
+  sweep.sine = std::sin(angle);
+  turn_axes(unturned_axes(body, sweeps.bodies[static_cast<std::size_t>(body.parent)], sweep), body, sweep);
+  sweep.axes_are_due = false;
+}
+
 void load_bodies(const Model& model, const State& state, const Vector3& gravity, Sweeps& sweeps) noexcept {
   for (std::size_t i = model.has_fixed_base() ? 1 : 0; i < sweeps.bodies.size(); ++i) {
     if (!sweeps.is_articulated) write_inertia(sweeps.bodies[i]);
+    if (!state.f_ext[i].is_zero()) need_axes(model, i, sweeps);
     write_bias(gravity, state.f_ext[i], sweeps.bodies[i]);
   }
 }

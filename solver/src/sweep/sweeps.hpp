@@ -68,12 +68,13 @@ struct BodySweep {
   // Kinematics.
   double cosine = 1.0;  ///< of the joint's angle
   double sine = 0.0;
-  Matrix3 R;    ///< axes of the body in the base's
-  Vector3 p;    ///< [m] origin of the body from the base's
-  Vector3 com;  ///< [m] centre of mass from the base's origin
-  Matrix3 J;    ///< [kg m^2] inertia about the centre of mass
-  Vector6 S;    ///< motion of the joint
-  Vector6 v;    ///< twist
+  bool axes_are_due = false;  ///< of a round body whose joint has turned
+  Matrix3 R;                  ///< axes of the body in the base's; of a round one where they are needed
+  Vector3 p;                  ///< [m] origin of the body from the base's
+  Vector3 com;                ///< [m] centre of mass from the base's origin
+  Matrix3 J;                  ///< [kg m^2] inertia about the centre of mass
+  Vector6 S;                  ///< motion of the joint
+  Vector6 v;                  ///< twist
   Vector6
       c;  ///< acceleration while no joint accelerates: velocity products, and the base's where it is given
 
@@ -88,7 +89,7 @@ struct BodySweep {
   Vector6 da;  ///< what joints and base add to c
   Vector6 a;   ///< spatial acceleration: c + da
 
-  /// A wrench in the body's coordinates, written in the base's.
+  /// A wrench in the body's coordinates, written in the base's. (`need_axes` before, here and below.)
   template <class Result>
   void to_base(const ForceVector& f, Result&& result) const {
     const Vector3 force = R * f.linear;
@@ -114,9 +115,9 @@ struct Sweeps {
   Columns task_rows;
   Eigen::VectorXd free_motion;  ///< h: the acceleration by dimension that no constraint changes
   /// What depends on the joints' positions alone is kept while they stay, as from project_velocity to solve:
-  /// with these positions the poses, and when is_articulated the articulated inertias and W of the
-  /// robot_rows. These stay while nothing but round bodies turns, all along the run of a base on plain
-  /// wheels.
+  /// with these positions the poses (but for axes that are due), and when is_articulated the articulated
+  /// inertias and W of the robot_rows. These stay while nothing but round bodies turns, all along the run of
+  /// a base on plain wheels.
   Eigen::VectorXd placed_at;
   bool is_articulated = false;
   /// F, the inverse of a Cholesky factor: IA_0^-1 = F'F. Its lines are the base's dimensions; under wheels z,
@@ -127,6 +128,12 @@ struct Sweeps {
 /// Phase 1: where the bodies are and how they move. `base_acceleration` counts on a fixed base only.
 void outward_kinematics(const Model& model, const State& state, const Vector6& base_acceleration,
                         Sweeps& sweeps) noexcept;
+/// R of a round body where its joint is now. Nothing of the sweeps depends on it: it is for wrenches and
+/// motions in the body's own coordinates, which few ask for.
+void find_axes_of_round_body(const Model& model, std::size_t body, Sweeps& sweeps) noexcept;
+inline void need_axes(const Model& model, std::size_t body, Sweeps& sweeps) noexcept {
+  if (sweeps.bodies[body].axes_are_due) find_axes_of_round_body(model, body, sweeps);
+}
 /// Puts the moving bodies' inertias into IA, and into pA what their motion, gravity and the world do to them.
 void load_bodies(const Model& model, const State& state, const Vector3& gravity, Sweeps& sweeps) noexcept;
 /// The same for a robot that rests in free space where it is, and answers to multipliers only.

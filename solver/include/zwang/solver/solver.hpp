@@ -71,6 +71,9 @@ struct Settings {
   int row_capacity = 64;
   int max_iterations = 400;  ///< hard cap of the active set, of each stage
   bool base_motion = false;  ///< FreeMotions::base is wanted
+  /// Solution::acceleration is wanted of all bodies: else of the base, of those that rows act on and of what
+  /// carries them, and those of the others stay as they were.
+  bool every_acceleration = true;
 };
 
 /// Solves the bounded problem for one model. Throws std::invalid_argument from its constructor only.
