@@ -11,6 +11,7 @@ using solver::Quantity;
 
 // A limit counts as met when less than this share of its range is left.
 constexpr double at_limit_share = 0.01;
+constexpr double far_share = 2.0 * at_limit_share;
 
 constexpr double one_sided_range = 1.0;  // [m], [m/s], ...: of a limit that has no other side
 
@@ -51,50 +52,76 @@ LimitTable::LimitTable(const StatementTable& statements, const lang::Robot& robo
       const auto q = static_cast<std::size_t>(quantity);
       if (!limits(s.says, quantity)) continue;
       indices[q] = static_cast<int>(limits_.size());
-      Limit limit;
-      limit.report.row = s.name + "." + words[q];
-      limit.report.unit = unit_of(s.says.axis, quantity);
-      limit.report.span = s.says.statement_spans[q].exists() ? s.says.statement_spans[q] : s.says.span;
-      limits_.push_back(limit);
+      LimitReport& limit = limits_.emplace_back();
+      limit.row = s.name + "." + words[q];
+      limit.unit = unit_of(s.says.axis, quantity);
+      limit.span = s.says.statement_spans[q].exists() ? s.says.statement_spans[q] : s.says.span;
     }
     of_statement_.push_back(indices);
   }
   first_torque_ = limits_.size();
   for (int j = 0; j < robot.model.joint_count(); ++j) {
     const solver::Joint& joint = robot.model.joint(j);
-    Limit limit;
-    limit.report.row = joint.name + ".torque";
-    limit.report.limit = joint.actuated ? joint.max_effort : 0.0;
-    limit.report.unit = joint.type == solver::JointType::prismatic ? "N" : "N m";
+    torque_.push_back(joint.actuated ? joint.max_effort : 0.0);
+    LimitReport& limit = limits_.emplace_back();
+    limit.row = joint.name + ".torque";
+    limit.unit = joint.type == solver::JointType::prismatic ? "N" : "N m";
     if (static_cast<std::size_t>(j) < robot.joint_spans.size()) {
-      limit.report.span = robot.joint_spans[static_cast<std::size_t>(j)];
+      limit.span = robot.joint_spans[static_cast<std::size_t>(j)];
     }
-    limits_.push_back(limit);
   }
+  nearest_.resize(limits_.size());
 }
 
-void LimitTable::compare(int index, double value, double low, double high, bool wanted) noexcept {
+/// Mostly a value is far from its limit, and was nearer before.
+inline void LimitTable::compare(int index, double value, double low, double high) noexcept {
   if (index < 0) return;
-  Limit& limit = limits_[static_cast<std::size_t>(index)];
-  const bool upper = high - value <= value - low;
-  const double margin = upper ? high - value : value - low;
-  if (!std::isfinite(margin)) return;
-  if (!limit.seen || margin < limit.report.margin) {
-    limit.report.limit = upper ? high : low;
-    limit.report.worst = value;
-    limit.report.margin = margin;
-    limit.seen = true;
-  }
-  const double range = std::isfinite(high - low) ? high - low : one_sided_range;
-  if (!wanted && margin > 2.0 * at_limit_share * range) return;  // far from it, as most are
-  // A force driver is meant to be at its force: it shows only when nothing else is at its limit.
-  const double share = std::max(margin / range, wanted ? 0.99 * at_limit_share : 0.0);
+  const double to_high = high - value, to_low = value - low;
+  const double margin = std::min(to_high, to_low);
+  const bool is_far = margin > far_share * (to_high + to_low);
+  if (is_far && margin >= nearest_[static_cast<std::size_t>(index)].margin) return;
+  take(index, {to_high <= to_low ? high : low, value, margin}, high - low, 0.0);
+}
+
+void LimitTable::take(int index, const Nearest& now, double range, double least_share) noexcept {
+  if (!std::isfinite(now.margin)) return;
+  Nearest& nearest = nearest_[static_cast<std::size_t>(index)];
+  if (now.margin < nearest.margin) nearest = now;
+  const double whole = std::isfinite(range) ? range : one_sided_range;
+  const double share = std::max(now.margin / whole, least_share);
   if (share < at_limit_share && (tightest_ < 0 || share < tightest_share_)) {
     tightest_ = index;
     tightest_share_ = share;
-    tightest_value_ = value;
-    tightest_margin_ = margin;
-    tightest_limit_ = upper ? high : low;
+    tightest_now_ = now;
+  }
+}
+
+void LimitTable::compare_constraint(const Indices& of, const solver::AxisConstraint& c,
+                                    const solver::Coordinate& now, const solver::Row& row,
+                                    const solver::Solution& solution) noexcept {
+  if (c.position) compare(of[0], now.position, c.position->low, c.position->high);
+  if (c.velocity) compare(of[1], now.velocity, c.velocity->low, c.velocity->high);
+  if (c.acceleration) {
+    compare(of[2], acceleration_of(row, solution, now.acceleration_bias), c.acceleration->low,
+            c.acceleration->high);
+  }
+}
+
+void LimitTable::compare_force(const Indices& of, const solver::AxisConstraint& c, const solver::Row& row,
+                               double nu) noexcept {
+  switch (row.kind) {
+    case solver::RowKind::driver:
+      return compare(of[3], nu, c.driver->force.low, c.driver->force.high);
+    case solver::RowKind::sum:
+      return compare(of[3], nu, c.force->low, c.force->high);
+    case solver::RowKind::force: {
+      // It is meant to be at its force: that shows only when nothing else is at its limit.
+      const double f = std::abs(row.force);  // of a spring what it asks for now
+      return take(of[3], {nu < 0.0 ? -f : f, nu, f - std::abs(nu)}, 2.0 * f, 0.99 * at_limit_share);
+    }
+    case solver::RowKind::upper:
+    case solver::RowKind::lower:
+      return;
   }
 }
 
@@ -102,60 +129,49 @@ void LimitTable::update(const StatementTable& statements, const solver::Constrai
                         const std::vector<InForce>& in_force, const solver::Solution& solution,
                         const Eigen::VectorXd& tau) noexcept {
   tightest_ = -1;
-  const std::vector<solver::AxisConstraint>& constraints = set.constraints();
-  const std::size_t rows = std::min(set.rows().size(), solution.rows.size());
-  const std::size_t known = in_force.size();
-  int last = -1;  // the rows of a constraint stand together
-  for (std::size_t r = 0; r < rows; ++r) {
-    const solver::Row& row = set.rows()[r];
-    const auto i = static_cast<std::size_t>(row.constraint);
-    const bool is_end_of_range = row.kind == solver::RowKind::upper || row.kind == solver::RowKind::lower;
-    if (row.constraint == last && is_end_of_range) continue;  // its range is compared by now
-    if (i >= known || !in_force[i].active) continue;
-    const solver::AxisConstraint& c = constraints[i];
+  const std::vector<solver::Row>& rows = set.rows();
+  const std::size_t count = std::min(rows.size(), solution.rows.size());
+  std::size_t r = 0;
+  while (r < count) {
+    const std::size_t first = r;  // the rows of a constraint stand together
+    const int constraint = rows[first].constraint;
+    while (r < count && rows[r].constraint == constraint) ++r;
+    const auto i = static_cast<std::size_t>(constraint);
+    if (i >= in_force.size() || !in_force[i].active) continue;
+    const solver::AxisConstraint& c = set.constraints()[i];
     if (c.alpha < 1.0 || c.progress < 1.0) continue;
     const Indices& of = of_statement_[static_cast<std::size_t>(statements.id(in_force[i].origin))];
-    const solver::Coordinate& s = set.coordinates()[i];
-    if (row.constraint != last) {
-      last = row.constraint;
-      if (c.position) compare(of[0], s.position, c.position->low, c.position->high);
-      if (c.velocity) compare(of[1], s.velocity, c.velocity->low, c.velocity->high);
-      if (c.acceleration) {
-        compare(of[2], acceleration_of(row, solution, s.acceleration_bias), c.acceleration->low,
-                c.acceleration->high);
-      }
-    }
-    if (row.kind == solver::RowKind::driver) {
-      compare(of[3], solution.rows[r].nu, c.driver->force.low, c.driver->force.high);
-    } else if (row.kind == solver::RowKind::sum) {
-      compare(of[3], solution.rows[r].nu, c.force->low, c.force->high);
-    } else if (row.kind == solver::RowKind::force) {
-      const double f = std::abs(row.force);  // of a spring what it asks for now
-      compare(of[3], solution.rows[r].nu, -f, f, true);
+    compare_constraint(of, c, set.coordinates()[i], rows[first], solution);
+    for (std::size_t k = first; k < r && of[3] >= 0; ++k) {
+      compare_force(of, c, rows[k], solution.rows[k].nu);
     }
   }
-  for (Eigen::Index j = 0; j < tau.size(); ++j) {
-    const std::size_t index = first_torque_ + static_cast<std::size_t>(j);
-    const double limit = limits_[index].report.limit;
-    if (limit > 0.0) compare(static_cast<int>(index), std::abs(tau(j)), -limit, limit);
+  for (std::size_t j = 0; j < torque_.size(); ++j) {
+    const double limit = torque_[j];
+    const int index = static_cast<int>(first_torque_ + j);
+    if (limit > 0.0) compare(index, std::abs(tau(static_cast<Eigen::Index>(j))), -limit, limit);
   }
+}
+
+LimitReport LimitTable::report_of(std::size_t index, const Nearest& nearest) const {
+  LimitReport report = limits_[index];
+  report.limit = nearest.limit;
+  report.worst = nearest.worst;
+  report.margin = nearest.margin;
+  return report;
 }
 
 std::vector<LimitReport> LimitTable::reports() const {
   std::vector<LimitReport> reports;
-  for (const Limit& limit : limits_) {
-    if (limit.seen) reports.push_back(limit.report);
+  for (std::size_t i = 0; i < limits_.size(); ++i) {
+    if (std::isfinite(nearest_[i].margin)) reports.push_back(report_of(i, nearest_[i]));
   }
   return reports;
 }
 
 std::optional<LimitReport> LimitTable::now() const {
   if (tightest_ < 0) return std::nullopt;
-  LimitReport report = limits_[static_cast<std::size_t>(tightest_)].report;
-  report.worst = tightest_value_;
-  report.limit = tightest_limit_;
-  report.margin = tightest_margin_;
-  return report;
+  return report_of(static_cast<std::size_t>(tightest_), tightest_now_);
 }
 
 }  // namespace zwang::runtime

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -24,24 +25,33 @@ class LimitTable {
   std::optional<LimitReport> now() const;
 
  private:
-  struct Limit {
-    LimitReport report;
-    bool seen = false;
+  /// How near a value came, so far: apart from the names, as it is what each tick goes through.
+  struct Nearest {
+    double limit = 0.0;
+    double worst = 0.0;
+    double margin = std::numeric_limits<double>::infinity();  ///< until it is seen
   };
   /// The limits of a statement by quantity, -1 where it has none.
   using Indices = std::array<int, 4>;
 
-  void compare(int index, double value, double low, double high, bool wanted = false) noexcept;
+  void compare_constraint(const Indices& of, const solver::AxisConstraint& constraint,
+                          const solver::Coordinate& now, const solver::Row& row,
+                          const solver::Solution& solution) noexcept;
+  void compare_force(const Indices& of, const solver::AxisConstraint& constraint, const solver::Row& row,
+                     double nu) noexcept;
+  LimitReport report_of(std::size_t index, const Nearest& nearest) const;
+  void compare(int index, double value, double low, double high) noexcept;
+  void take(int index, const Nearest& now, double range, double least_share) noexcept;
 
-  std::vector<Limit> limits_;
+  std::vector<LimitReport> limits_;  ///< their names
+  std::vector<Nearest> nearest_;     ///< by limit
+  std::vector<double> torque_;       ///< by joint: what its motor can do, 0 without one
   std::vector<Indices> of_statement_;
   std::size_t first_torque_ = 0;
   // At its limit now: the one with the least share of its range left.
   int tightest_ = -1;
   double tightest_share_ = 0.0;
-  double tightest_value_ = 0.0;
-  double tightest_margin_ = 0.0;
-  double tightest_limit_ = 0.0;
+  Nearest tightest_now_;
 };
 
 }  // namespace zwang::runtime
