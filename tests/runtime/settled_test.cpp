@@ -37,15 +37,17 @@ lang::Program course() {
   boundary.region = 0;
   boundary.moves_footprint = true;
   boundary.move = base_link;
-  boundary.margin.constant = 0.1;
+  boundary.margin.parameter = 1;
 
   lang::Program p = program({task("go", {x, y, rz}, base_link, world_frame)});
   p.always.groups = {at_level_zero(manners.groups[0]), at_level_zero(boundary)};
   p.regions.resize(1);
   p.regions[0].polygon = {{-2, -1.2}, {4, -1.2}, {4, 0.8}, {1, 0.8}, {1, 1.2}, {-2, 1.2}};
-  p.parameters.resize(1);
+  p.parameters.resize(2);
   p.parameters[0].name = "pace";
   p.parameters[0].value = 0.3;
+  p.parameters[1].name = "gap";
+  p.parameters[1].value = 0.1;
   p.signals = {signal("turn", lang::SignalType::number, 1e3)};
   return p;
 }
@@ -84,7 +86,7 @@ void expect_same(const AxisConstraint& a, const AxisConstraint& b) {
 TEST(Settled, IsWhatASchedulerPutsThatBeginsNow) {
   Bench bench(course());
   bench.answer.residual = 0.25;
-  double pace = 0.3;
+  double pace = 0.3, gap = 0.1;
   std::size_t least = 100, most = 0;
   std::vector<double> brakings;
   for (int i = 0; i < 400; ++i) {
@@ -97,11 +99,15 @@ TEST(Settled, IsWhatASchedulerPutsThatBeginsNow) {
     if (i % 90 == 50) {
       ASSERT_TRUE(bench.scheduler.set_parameter(0, pace += 0.01));
     }
+    if (i % 90 == 70) {
+      ASSERT_TRUE(bench.scheduler.set_parameter(1, gap += 0.001));
+    }
     Sensed now = bench.sensed;
     bench.tick();
 
     Scheduler fresh(bench.program, period);
     ASSERT_TRUE(fresh.set_parameter(0, pace));
+    ASSERT_TRUE(fresh.set_parameter(1, gap));
     fresh.tick(now);
     const auto& kept = bench.scheduler.constraints().constraints();
     const auto& anew = fresh.constraints().constraints();

@@ -168,6 +168,7 @@ void Scheduler::Parts::list_fence(const ActiveAxis& a) noexcept {
 void Scheduler::Parts::want_fence(const ActiveAxis& a, RegionFence& fence) noexcept {
   if (a.lost) {
     want_standstill(a);
+    renewed.push_back(static_cast<int>(a.wanted));
     keep_in_reach(a, {.count = 1});
   } else {
     keep_in_reach(a, find_nearest(a, fence));
@@ -185,7 +186,9 @@ void Scheduler::Parts::want_standstill(const ActiveAxis& a) noexcept {
   c.level = g.level;
 }
 
-/// The nearest of the pairs of features that what is in force now could not keep apart much faster.
+/// The nearest of the pairs of features that what is in force now could not keep apart much faster. Of one
+/// that was near before, mostly nothing but its braking is new: a distance is measured at the corner's
+/// height.
 InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) noexcept {
   const lang::Group& g = *a.group;
   const solver::AttachedFrame& move = frames.attached(g.move);
@@ -210,8 +213,12 @@ InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) 
     if (approach.left > out_of_reach || is_far(approach, weakest_brake) || !fence.faces(i)) continue;
     const double a_brk = std::max(fence.braking(i, to_base, box, turning), least_braking);
     if (is_far(approach, a_brk)) continue;
-    solver::AxisConstraint& c = wanted[a.wanted + i].constraint;
-    c = fence.constraint(i, move, in);
+    Wanted& w = wanted[a.wanted + i];
+    solver::AxisConstraint& c = w.constraint;
+    const bool is_new =
+        values_are_due || a.hangs_on_signal || w.far || c.measure == solver::Measure::distance;
+    if (is_new) c = fence.constraint(i, move, in);
+    if (is_new || c.braking != a_brk) renewed.push_back(static_cast<int>(a.wanted + i));
     c.level = g.level;
     c.braking = a_brk;
     // Sorted by what is left; the farthest gives way.
@@ -235,7 +242,6 @@ void Scheduler::Parts::keep_in_reach(const ActiveAxis& a, InReach nearest) noexc
     last = nearest;
     reach_changed = true;
   }
-  for (const std::size_t i : pairs_of(last)) renewed.push_back(static_cast<int>(a.wanted + i));
 }
 
 /// The constraints of `always` and of the active task. As many, and in the same order, until the next switch.
@@ -255,17 +261,17 @@ void Scheduler::Parts::list_wanted() noexcept {
 /// Their present values, as parameters, signals and distances have them: of those that have other ones than
 /// before.
 void Scheduler::Parts::want() noexcept {
-  const bool all = std::exchange(values_are_due, false);
   renewed.clear();
-  if (all) find_braking();
+  if (values_are_due) find_braking();
   for (const ActiveAxis& a : axes) {
     if (a.fence >= 0) {
       want_fence(a, fences[static_cast<std::size_t>(a.fence)]);
-    } else if ((all || a.varies) && says_something(*a.says)) {
+    } else if ((values_are_due || a.varies) && says_something(*a.says)) {
       want_axis(a);
       renewed.push_back(static_cast<int>(a.wanted));
     }
   }
+  values_are_due = false;
 }
 
 bool Scheduler::Parts::is_lost(const ActiveAxis& a) const noexcept {
