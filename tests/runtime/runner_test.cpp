@@ -186,6 +186,25 @@ TEST(Runner, ReckonsTheBaseFromTheWheelsWhereItIsNotMeasured) {
   EXPECT_LT((reckoned.base.pose - measured.base.pose).norm(), 1e-4);
 }
 
+// Where the springs of its wheels let the body lean, gravity along its own x is the floor's to hold.
+TEST(Runner, ABaseThatLeansOnItsWheelsPushesAsOneThatIsLevel) {
+  for (const bool measured : {true, false}) {
+    Loop level(errand()), leaning(errand());
+    for (int i = 0; i < 50; ++i) {
+      level.base.sense(level.sensed);
+      level.sensed.base_measured = measured;
+      Sensed& sensed = leaning.sensed;
+      sensed = level.sensed;
+      sensed.state.base_pose.rotation =
+          level.sensed.state.base_pose.rotation * solver::rotation_from_rpy(-0.01, 0.02, 0.0);
+      const Eigen::VectorXd expected = level.runner.step(level.sensed);
+      ASSERT_GT(expected.norm(), 0.0);
+      ASSERT_LT((leaning.runner.step(sensed) - expected).norm(), 1e-12) << "in tick " << i;
+      level.base.step(expected);
+    }
+  }
+}
+
 TEST(Runner, MakesNoHeapCallInAStep) {
   if (!zwang::test::can_count_heap_calls()) GTEST_SKIP() << "a sanitizer owns malloc";
   const zwang::test::TemporaryFolder folder;

@@ -53,6 +53,13 @@ std::vector<std::string> signal_names(const lang::Program& program) {
   return names;
 }
 
+/// On the floor, whose normal is the world's z: roll and pitch of the body on its springs are no slope that
+/// it could roll down.
+solver::Pose level(const solver::Pose& pose) {
+  const double yaw = solver::yaw_of(pose.rotation);
+  return {Eigen::AngleAxisd(yaw, solver::Vector3::UnitZ()).toRotationMatrix(), pose.position};
+}
+
 }  // namespace
 
 struct Runner::Parts {
@@ -60,7 +67,8 @@ struct Runner::Parts {
       : model(program.robot.model),
         period(settings.period),
         scheduler(program, settings.period),
-        solver(model, {.row_capacity = scheduler.row_capacity(), .base_motion = true}),
+        solver(model,
+               {.row_capacity = scheduler.row_capacity(), .base_motion = true, .every_acceleration = false}),
         solution(model, scheduler.row_capacity()),
         estimated(model),
         sample(model, program.signals.size()),
@@ -162,11 +170,14 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   // A snapshot may have fewer or more signals than the program; the sample keeps its size.
   std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), sample.signals.size()),
               sample.signals.begin());
+  solver::Pose& base = estimated.state.base_pose;
+  const bool is_new = sensed.base_measured || !reckoning;
+  if (is_new && model.base_type() == solver::BaseType::ground) base = level(base);
   if (sensed.base_measured) {
     reckoning = false;
     return;
   }
-  if (!reckoning) odometry.start_at(sensed.state.base_pose);
+  if (!reckoning) odometry.start_at(base);
   reckoning = true;
   if (sensed.base_fix && sensed.base_fix->stamp > last_fix) {
     last_fix = sensed.base_fix->stamp;

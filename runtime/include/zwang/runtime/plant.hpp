@@ -43,7 +43,8 @@ struct Sensed {
   double time = 0.0;  ///< [s]
   solver::State state;
   /// Whether the state's base pose and twist are measured. If not, the runtime reckons them from the wheels;
-  /// the pose in the first snapshot is where it starts.
+  /// the pose in the first snapshot is where it starts. On wheels its roll and pitch do not count: the floor
+  /// is level.
   bool base_measured = true;
   /// For the reckoning, where somebody measures it now and then. The same stamp again is the same
   /// measurement.
