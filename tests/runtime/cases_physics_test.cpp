@@ -364,8 +364,12 @@ TEST(Push, AgainstStictionHoldsTenPercentWithoutASensorAndOneWithForceFeedback) 
       EXPECT_NEAR(without.least, 20.0, 2.0) << robot;
       EXPECT_NEAR(without.most, 20.0, 2.0) << robot;
     }
-    if (turns == rubbing_drives[2].turns) continue;  // 20 s are too short for it
-    const Pressed with = pressed(program, program, 2.0);
+    // The robot's limit of 1 m/s^2 is one of the push, too: of the omni base m a = 20.5 N, and stiction takes
+    // 0.9 N of that.
+    lang::Program unlimited = program;
+    std::erase_if(unlimited.robot.limits,
+                  [](const auto& limit) { return limit.quantity == solver::Quantity::acceleration; });
+    const Pressed with = pressed(unlimited, unlimited, 2.0);
     std::printf("%s, with force feedback %.3f N\n", robot, with.force);
     EXPECT_NEAR(with.force, 20.0, 0.2) << robot;
   }
