@@ -309,8 +309,8 @@ struct Pressed {
   double force = 0.0, least = 1e9, most = 0.0;  ///< [N] on the wall at the end, in the last 5 of 20 s
 };
 
-/// `integral` [1/s] of the measured force's error goes into what is asked for. The plant is `truth`, what the
-/// controller knows is `file`.
+/// `integral` [1/s] of the measured force's error goes into what is asked for, a hit counting as twice the
+/// force. The plant is `truth`, what the controller knows is `file`.
 Pressed pressed(const lang::Program& truth, const lang::Program& file, double integral = 0.0) {
   ScenePlant plant(truth, {.simulation = {.start_yaw = 0.0}});
   Runner runner(file);
@@ -320,7 +320,8 @@ Pressed pressed(const lang::Program& truth, const lang::Program& file, double in
   while (!runner.finished() && runner.state() == RunState::running) {
     EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
     const double force = plant.truth().objects[0].force;
-    if (force > 0.0) wanted = std::clamp(wanted + integral * period * (20.0 - force), 0.0, 40.0);
+    const double error = 20.0 - std::min(force, 40.0);
+    if (force > 0.0) wanted = std::clamp(wanted + integral * period * error, 0.0, 40.0);
     SignalSample& sample = sensed.signals[0];
     sample.valid = true;
     sample.stamp = sensed.time;
@@ -335,7 +336,7 @@ Pressed pressed(const lang::Program& truth, const lang::Program& file, double in
   return pressed;
 }
 
-constexpr lang::JointFriction rough{.coulomb = 0.1, .presliding = 0.2e-3, .compensate = 0.8};
+constexpr lang::JointFriction rough{.coulomb = 0.1, .presliding = 0.2e-3, .compensate = 0.9};
 
 struct Rubbing {
   const char* robot;
@@ -344,7 +345,8 @@ struct Rubbing {
 const Rubbing rubbing_drives[] = {{"mecanum_base", 4.0 / 0.0759},
                                   {"diff_base", 2.0 / 0.130},
                                   {"omni_base", 2.0 * std::sqrt(0.75) / 0.040},
-                                  {"kelo_two_base", 4.0 / 0.0535}};
+                                  {"kelo_two_base", 4.0 / 0.0535},
+                                  {"kelo_base", 8.0 / 0.0535}};
 
 // Stiction takes up to sum tau_c |dq/dx| from a push without a sensor or adds it, 5.3 N of 20 N on the
 // mecanum base. Its compensation leaves (1 - c) of it either way, whatever the wall.
