@@ -33,6 +33,11 @@ struct BaseProblem {
     response = M.solve(Matrix(A.transpose()));
     L = A * response;
   }
+  /// Rows that were drawn one by one may lie along each other.
+  bool is_independent() const {
+    const Vector eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix>(L).eigenvalues();
+    return eigenvalues[0] > 1e-6L * eigenvalues[eigenvalues.size() - 1];
+  }
   /// nu of least norm among those that bring L nu nearest to b - g.
   Vector nu(int rank) const {
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(L);
@@ -112,7 +117,8 @@ struct Dependent {
 TEST(DependentRows, ConsistentOnesGiveTheMotionOfTheIndependentOnesAndTheShortestMultipliers) {
   double worst_motion = 0.0;
   double worst_nu = 0.0;
-  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+  int sets = 0;
+  for (std::uint64_t seed = 1; sets < 2000; ++seed) {
     const Dependent problem(seed);
     PopovVereshchagin solver(problem.p.model);
     ConstrainedMotion motion(problem.p.model);
@@ -120,6 +126,8 @@ TEST(DependentRows, ConsistentOnesGiveTheMotionOfTheIndependentOnesAndTheShortes
     const std::vector<solver::Row> independent(problem.rows.begin(),
                                                problem.rows.begin() + problem.independent);
     const BaseProblem alone(problem.p, independent);
+    if (!alone.is_independent()) continue;
+    ++sets;
     const BaseProblem all(problem.p, problem.rows);
     const Vector vdot = alone.free + alone.response * alone.L.ldlt().solve(alone.rhs);
     const double off = relative_difference(motion.qdd, vdot.cast<double>());
