@@ -11,7 +11,7 @@ namespace zwang::solver {
 WhitenedRows::WhitenedRows(const Columns& robot, const Columns& task)
     : task_(&task),
       N_(RowMajorMatrix::Zero(robot.ground_end(), robot.ground_end())),
-      H_(RowMajorMatrix::Zero(robot.ground_end(), spaced(robot.ground_end()))),
+      Q_held_(RowMajorMatrix::Zero(robot.ground_end(), spaced(robot.ground_end()))),
       B_(RowMajorMatrix::Zero(task.W.rows(), task.W.cols())),
       reflections_(RowMajorMatrix::Zero(robot.ground_end(), spaced(robot.ground_end()))),
       scale_(Eigen::VectorXd::Zero(robot.ground_end())),
@@ -20,7 +20,8 @@ WhitenedRows::WhitenedRows(const Columns& robot, const Columns& task)
       held_motion_(Eigen::VectorXd::Zero(robot.dimensions() + 1)),
       unit_(held_motion_),
       free_part_(held_motion_),
-      given_(held_motion_),
+      solution_(held_motion_),
+      inverse_pivots_(held_motion_),
       pivots_(static_cast<std::size_t>(robot.drift.size())),
       dimensions_(robot.dimensions()),
       ground_end_(robot.ground_end()),
@@ -44,8 +45,7 @@ void WhitenedRows::factorise(Columns& robot, int ground) noexcept {
   }
   held_ = base_ + rank_;
   turn_robot_from(ground);
-  find_N();
-  find_H();
+  find_Q();
 }
 
 /// The lines of this row and those behind it. One reflection after the other, as a line has to wait for each.
@@ -58,32 +58,26 @@ void WhitenedRows::turn_robot_from(int row) noexcept {
   }
 }
 
-/// Column by column, a unit along each axis that is free, turned back.
-void WhitenedRows::find_N() noexcept {
-  if (rank_ == 0) return;
-  for (int c = 0; c < free_of_ground(); ++c) {
+/// The turned axes in the dimensions, Q = [ Q_held, N ]: a unit along each, turned back by the reflections
+/// that reach it.
+void WhitenedRows::find_Q() noexcept {
+  for (int c = 0; c < rank_; ++c) {
+    double* const q = &Q_held_(c, 0);
+    set_zero(static_cast<int>(Q_held_.cols()), q);
+    q[base_ + c] = 1.0;
+    for (int k = c; k >= 0; --k) turn(k, q);
+    const int row = pivots_[static_cast<std::size_t>(c)];
+    inverse_pivots_(c) = 1.0 / robot_->W(row, base_ + c);
+  }
+  for (int c = 0; rank_ > 0 && c < free_of_ground(); ++c) {
     unit_.setZero();
     unit_(held_ + c) = 1.0;
-    turn_back(unit_.data());
+    for (int k = rank_ - 1; k >= 0; --k) turn(k, unit_.data());
     for (int k = 0; k < ground_end_; ++k) N_(k, c) = unit_(k);
   }
 }
 
-/// Line by line, for one of the base's motions or biases: the triangle, dimension by dimension, turned back.
-void WhitenedRows::find_H() noexcept {
-  for (int given = 0; given < held_; ++given) {
-    double* const x = &H_(given, 0);
-    set_zero(static_cast<int>(H_.cols()), x);
-    if (given < base_) x[given] = 1.0;
-    for (int c = std::max(given, base_); c < held_; ++c) {
-      const double* const pivot = &robot_->W(pivots_[static_cast<std::size_t>(c - base_)], 0);
-      x[c] = ((c == given ? 1.0 : 0.0) - dot(c, pivot, x)) / pivot[c];
-    }
-    turn_back(x);
-  }
-}
-
-/// B_i = W_i N. (W_i is 0 in the dimensions of the base that the ground holds: N is, too.)
+/// B_i = W_i N. (N is 0 in the dimensions of the base that the ground holds; W_i mostly in those of the wheels.)
 void WhitenedRows::project_task() noexcept {
   if (rank_ == 0) {
     first_B_ = task_->W.data() + held_;
@@ -96,7 +90,9 @@ void WhitenedRows::project_task() noexcept {
   for (int i = 0; i < task_->rows(); ++i) {
     const double* const W = line(i);
     double* const B = &B_(i, 0);
-    combine_lines(ground_end_ - base_, W + base_, &N_(base_, 0), N_.outerStride(), free, B);
+    int last = ground_end_;
+    while (last > base_ && W[last - 1] == 0.0) --last;
+    combine_lines(last - base_, W + base_, &N_(base_, 0), N_.outerStride(), free, B);
     copy(mobility() - free, W + ground_end_, B + free);
     B[mobility()] = 0.0;
   }
@@ -166,11 +162,6 @@ void WhitenedRows::turn_two(int reflection, double* one, double* other) const no
                    one, other);
 }
 
-/// From the turned axes.
-void WhitenedRows::turn_back(double* x) const noexcept {
-  for (int k = rank_ - 1; k >= 0; --k) turn(k, x);
-}
-
 double WhitenedRows::free_share(int row) const noexcept {
   const double square = free_square(row);
   return square > 0.0 ? motion(row).squaredNorm() / square : 0.0;
@@ -198,11 +189,19 @@ void WhitenedRows::hold_ground_at_rest(const Eigen::VectorXd& bias, const Vector
   set_zero(dimensions_ - ground_end_, held_motion_.data() + ground_end_);
 }
 
-/// H' y of the base's motions and the biases y. (No number of it waits for another, as in the triangle.)
+/// What is held of the motion: the base's own, and Q_held x of the triangle's solution x, which the biases
+/// ask for.
 void WhitenedRows::hold(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept {
-  for (int c = 0; c < base_; ++c) given_(c) = base_motion(c);
-  for (int c = base_; c < held_; ++c) given_(c) = bias(pivots_[static_cast<std::size_t>(c - base_)]);
-  combine_lines(held_, given_.data(), H_.data(), H_.outerStride(), ground_end_, held_motion_.data());
+  double* const solution = solution_.data();
+  for (int c = 0; c < base_; ++c) solution[c] = base_motion(c);
+  for (int c = 0; c < rank_; ++c) {
+    const int row = pivots_[static_cast<std::size_t>(c)];
+    const double rest = bias(row) - dot(base_ + c, &robot_->W(row, 0), solution);
+    solution[base_ + c] = rest * inverse_pivots_(c);
+  }
+  double* const x = held_motion_.data();
+  combine_lines(rank_, solution + base_, Q_held_.data(), Q_held_.outerStride(), ground_end_, x);
+  copy(base_, solution, x);
 }
 
 void WhitenedRows::add_up(const double* f, double* p) const noexcept {

@@ -73,18 +73,16 @@ class WhitenedRows {
   int next_pivot(int ground) const noexcept;
   void reflect(int row, int first, int ground) noexcept;
   void turn_robot_from(int row) noexcept;
-  void find_N() noexcept;
-  void find_H() noexcept;
+  void find_Q() noexcept;
   void turn(int reflection, double* y) const noexcept;
-  void turn_back(double* x) const noexcept;
   void turn_two(int reflection, double* one, double* other) const noexcept;
   void hold(const Eigen::VectorXd& bias, const Vector3& base_motion) noexcept;
 
   Columns* robot_ = nullptr;
   const Columns* task_ = nullptr;
-  RowMajorMatrix N_;  ///< by dimension up to the ground's end; behind it N is 1
-  RowMajorMatrix H_;  ///< by what is held: the motion that a unit of it makes, the rest at rest
-  RowMajorMatrix B_;  ///< by row of the task; lines have a 0 to spare
+  RowMajorMatrix N_;                 ///< by dimension up to the ground's end; behind it N is 1
+  RowMajorMatrix Q_held_;            ///< by turned axis that the ground holds
+  RowMajorMatrix B_;                 ///< by row of the task; lines have a 0 to spare
   const double* first_B_ = nullptr;  ///< the task's own lines where the ground turns nothing
   Eigen::Index B_stride_ = 0;
   RowMajorMatrix reflections_;  ///< by pivot: v, of  1 - scale v v'
@@ -93,8 +91,9 @@ class WhitenedRows {
   Eigen::VectorXd held_motion_;  ///< by dimension: h with the ground's answer
   Eigen::VectorXd unit_;         ///< by dimension
   Eigen::VectorXd free_part_;    ///< by axis that the ground leaves
-  Eigen::VectorXd given_;        ///< by what is held
-  std::vector<int> pivots_;      ///< rows of the ground, the pivots first
+  Eigen::VectorXd solution_;     ///< by what is held: of the triangle
+  Eigen::VectorXd inverse_pivots_;
+  std::vector<int> pivots_;  ///< rows of the ground, the pivots first
   int dimensions_ = 0, ground_end_ = 0;
   int base_ = 0;  ///< dimensions of the base that the ground holds
   int rank_ = 0;
