@@ -77,7 +77,8 @@ void WhitenedRows::find_Q() noexcept {
   }
 }
 
-/// B_i = W_i N. (N is 0 in the dimensions of the base that the ground holds; W_i mostly in those of the wheels.)
+/// B_i = W_i N. (N is 0 in the dimensions of the base that the ground holds; W_i mostly in those of the
+/// wheels.)
 void WhitenedRows::project_task() noexcept {
   if (rank_ == 0) {
     first_B_ = task_->W.data() + held_;
