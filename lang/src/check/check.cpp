@@ -192,6 +192,10 @@ void check_time(CheckContext& context, const ValueText& value, const std::string
   }
 }
 
+std::string base_of(const CheckContext& context) {
+  return context.robot ? context.robot->base_frame : std::string();
+}
+
 std::optional<int> check_frame(CheckContext& context, const Word& name) {
   if (!name.exists()) return std::nullopt;
   const std::optional<int> index = context.symbols.find_frame(name.text);
@@ -207,7 +211,7 @@ std::optional<int> check_frame(CheckContext& context, const Word& name) {
   if (!index) {
     if (context.symbols.has_robot) {
       context.diagnostics.add(
-          wording::unknown_name(name.span, "frame", name.text, context.symbols.frame_names()));
+          wording::unknown_frame(name.span, name.text, context.symbols.frame_names(), base_of(context)));
     }
     return std::nullopt;
   }

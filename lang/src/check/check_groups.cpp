@@ -44,7 +44,8 @@ class AxisCheck {
         axis_(feature_ == nullptr ? axis_named(text.name.text).value_or(Axis::x)
                                   : (feature_->turns ? Axis::rz : Axis::x)),
         move_(move),
-        in_(in) {}
+        in_(in),
+        is_incomplete_(group.is_incomplete) {}
 
   void check() {
     for (const Quantity quantity : quantities) check_statement(quantity);
@@ -96,7 +97,8 @@ class AxisCheck {
     }
     const Span span = (text_.stiffness ? *text_.stiffness : *text_.damping).span;
     const bool is_spring = text_.stiffness && text_.damping && position && !position->is_range;
-    if (!is_spring) context_.diagnostics.add(wording::incomplete_spring(span, path_));
+    // A key of the spring may be the one that could not be read.
+    if (!is_spring && !is_incomplete_) context_.diagnostics.add(wording::incomplete_spring(span, path_));
     if (is_spring && text_.time_constant) {
       context_.diagnostics.add(wording::spring_with_time_constant(text_.time_constant->span, path_));
     }
@@ -180,6 +182,7 @@ class AxisCheck {
   const Feature* feature_;  ///< nullptr: the axis is one of a frame
   Axis axis_;               ///< whose dimensions the statements have: of a feature any that measures alike
   std::optional<int> move_, in_;
+  bool is_incomplete_;
 };
 
 /// E414: a point, or a circle within the footprint, that has no place inside. Corners may stand around a

@@ -2,6 +2,8 @@
 
 #include "check/context.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
+#include "spec/parse_task.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -93,17 +95,6 @@ void apply_override(CheckContext& context, const GivenParameter& given) {
     symbol->parameter.value = *number;
 }
 
-solver::Pose pose_of(const FrameText& frame) {
-  solver::Pose pose;
-  if (frame.rpy.size() == 3) {
-    pose.rotation = solver::rotation_from_rpy(frame.rpy[0], frame.rpy[1], frame.rpy[2]);
-  }
-  for (std::size_t i = 0; i < frame.at.size(); ++i) {
-    pose.position[static_cast<Eigen::Index>(i)] = frame.at[i];
-  }
-  return pose;
-}
-
 void add_robot_frames(CheckContext& context) {
   FrameSymbol world;
   world.declaration.name = "world";
@@ -182,7 +173,7 @@ class FrameOrder {
     for (const SignalSymbol& signal : symbols.signals) {
       if (signal.signal.type == SignalType::pose) known.push_back(signal.signal.name);
     }
-    context_.diagnostics.add(wording::unknown_name(name.span, "frame", name.text, known));
+    context_.diagnostics.add(wording::unknown_frame(name.span, name.text, known, base_of(context_)));
     return std::nullopt;
   }
 

@@ -27,6 +27,9 @@ void check_time(CheckContext& context, const ValueText& value, const std::string
 /// The frame's index; E301 when there is none. nullopt for bad and unknown names.
 std::optional<int> check_frame(CheckContext& context, const Word& name);
 
+/// The link of the robot that floats; empty where there is no robot.
+std::string base_of(const CheckContext& context);
+
 void check_parameters(CheckContext& context);
 /// What somebody else than the task file gives a parameter, SI; writes E105, E201 to E204. nullopt on an
 /// error, and silently where the declaration itself is bad.

@@ -4,6 +4,7 @@
 #include "diagnostic/make.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "spec/units.hpp"
 #include "tree/text.hpp"
 #include "zwang/lang/program.hpp"
@@ -33,20 +34,24 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+std::string unit_to_write(const Dimension& expected) {
+  const std::string unit = usual_unit(expected);
+  return unit.empty() ? "write it without a unit"
+                      : "write it in `" + unit + "`, or another unit of that kind";
+}
+
 }  // namespace
 
 Diagnostic needs_unit(const Span& span, const std::string& what, const std::string& number,
                       const Dimension& expected) {
-  // Nobody turns by more than once in radians.
-  const bool is_in_degrees =
-      expected == dimension::angle && std::abs(std::strtod(number.c_str(), nullptr)) > 6.3;
-  const std::string written = number + " " + (is_in_degrees ? "deg" : usual_unit(expected));
+  const std::string written = with_unit(number, expected);
   return with_replacement(error("E201", span, what + " needs a unit", "write `" + written + "`"), written);
 }
 
 Diagnostic wrong_dimension(const Span& span, const std::string& what, const Dimension& expected,
                            const Dimension& found) {
-  return error("E202", span, what + " is " + describe(expected) + ", but this is " + describe(found));
+  return error("E202", span, what + " is " + describe(expected) + ", but this is " + describe(found),
+               unit_to_write(expected));
 }
 
 Diagnostic wrong_parameter_dimension(const Span& span, const std::string& what, const Dimension& expected,
@@ -119,6 +124,10 @@ Diagnostic unknown_name(const Span& span, const std::string& kind, const std::st
 }
 
 Diagnostic unknown_function(const Span& span, const std::string& name, const std::string& meant) {
+  if (name == "distance" || name == "dist" || name == "angle")
+    return error(
+        "E301", span, "no function named " + in_ticks(name),
+        "declare it under `features`, as `reach: {distance: [base_link, goal]}`, and measure `reach`");
   return with_suggestion(error("E301", span, "no function named " + in_ticks(name),
                                "there are abs(value), speed(frame), moved(frame) and valid(signal)"),
                          meant);
@@ -296,7 +305,8 @@ Diagnostic measured_without_for(const Span& span) {
 }
 
 Diagnostic unreachable_task(const Span& span, const std::string& task) {
-  return warning("W502", span, "no way leads to task `" + task + "`");
+  return warning("W502", span, "no way leads to task `" + task + "`",
+                 "let the `goto` of an exit or a timeout lead to it, or delete it");
 }
 
 Diagnostic endless_task(const Span& span, const std::string& task) {

@@ -1,10 +1,15 @@
 #include "diagnostic/wordings_slips.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <span>
 #include <utility>
 
 #include "diagnostic/make.hpp"
+#include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_physics.hpp"
+#include "spec/units.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang::wording {
@@ -176,16 +181,22 @@ Diagnostic computed_value(const Span& span, const std::string& text) {
 
 Diagnostic needs_units(const Span& span, const std::string& what, const std::vector<std::string>& numbers,
                        const Dimension& expected) {
+  // Who writes one angle in degrees writes all so.
+  const bool is_in_degrees = expected == dimension::angle &&
+                             std::any_of(numbers.begin(), numbers.end(), [&](const std::string& number) {
+                               return with_unit(number, expected).ends_with("deg");
+                             });
   std::string written;
   for (const std::string& number : numbers)
-    written += (written.empty() ? "[" : ", ") + number + " " + usual_unit(expected);
+    written +=
+        (written.empty() ? "[" : ", ") + (is_in_degrees ? number + " deg" : with_unit(number, expected));
   written += "]";
   return with_replacement(error("E201", span, what + " needs units", "write `" + written + "`"), written);
 }
 
 Diagnostic argument_without_unit(const Span& span, const std::string& argument, const std::string& number,
                                  const Dimension& expected) {
-  const std::string written = number + " " + usual_unit(expected);
+  const std::string written = with_unit(number, expected);
   return with_replacement(error("E303", span, "argument `" + argument + "` must be " + describe(expected),
                                 "write `" + written + "`"),
                           written);
@@ -276,6 +287,94 @@ Diagnostic no_inside(const Span& span, const std::string& region, double margin,
   return with_related(
       error("E414", span, std::move(message), "make the margin smaller, or the region larger"), declared,
       "the region is declared here");
+}
+
+std::string with_unit(const std::string& written, const Dimension& expected) {
+  const QuantityResult result = parse_quantity(written);
+  if (result.error != QuantityError::none || result.quantity.has_unit) return written;
+  // Nobody turns by more than once in radians.
+  const bool is_in_degrees = expected == dimension::angle && std::abs(result.quantity.value) > 6.3;
+  return written + " " + (is_in_degrees ? "deg" : usual_unit(expected));
+}
+
+Diagnostic not_indented(const Span& span, const std::string& key, const std::string& group) {
+  if (group.empty())
+    return error(
+        "E104", span, in_ticks(key) + " stands in `constraints` without a group",
+        "write the name of a group above it, as `contact:`, and indent the lines of the group below it");
+  return error("E104", span, in_ticks(key) + " is not indented under its group " + in_ticks(group),
+               "indent the lines of the group: two spaces more than " + in_ticks(group + ":"));
+}
+
+Diagnostic not_indented_in_task(const Span& span, const std::string& key, const std::string& task) {
+  return error("E104", span, in_ticks(key) + " is not indented under its task " + in_ticks(task),
+               "indent the lines of the task: two spaces more than " + in_ticks(task + ":"));
+}
+
+Diagnostic group_in_a_task(const Span& span, const std::string& key) {
+  return error("E104", span, in_ticks(key) + " stands in a task, and belongs to a constraint group",
+               "put the lines of the group into `constraints: {NAME: {move: .., in: .., ..}}`");
+}
+
+Diagnostic no_colon_or_space(const Span& span, const std::string& written, const std::string& key) {
+  const std::size_t value = written.find_first_not_of(" :", key.size());
+  const std::string rest = value == std::string::npos ? std::string() : written.substr(value);
+  // A value in brackets goes on behind the span.
+  const std::string shown = rest.starts_with('{') || rest.starts_with('[') ? rest.substr(0, 1) + ".." : rest;
+  return error("E101", span, in_ticks(key) + " lacks a colon and a space behind it",
+               "write " + in_ticks(key + ": " + shown));
+}
+
+Diagnostic parameter_in_braces(const Span& span, const std::string& written) {
+  const std::size_t open = written.find('{');
+  const std::string plain = written.substr(0, open) + written.substr(open + 1, written.size() - open - 2);
+  return with_replacement(
+      error("E105", span, "a parameter stands without braces", "write " + in_ticks(plain)), plain);
+}
+
+Diagnostic mapping_by_example(const Span& span, const std::string& what, const std::string& example) {
+  return with_replacement(
+      error("E104", span, what + " must be a list of `key: value` lines", "write " + in_ticks(example)),
+      example);
+}
+
+Diagnostic footprint_without_polygon(const Span& span) {
+  return error("E104", span, "`footprint` does not say that it is a polygon",
+               "write `footprint: {polygon: [[0.4 m, 0.3 m], ..]}`");
+}
+
+Diagnostic heading_in_a_place(const Span& span, const std::string& what, const std::string& place,
+                              const std::string& yaw) {
+  return error("E104", span, what + " takes 2 values: a heading stands beside it",
+               "write " + in_ticks(place) + " and " + in_ticks(yaw));
+}
+
+Diagnostic place_for_a_list(const Span& span, const std::string& what) {
+  return error("E104", span, what + " must be a list of places",
+               "write each in brackets of its own: `[[0 m, 0 m], [0.5 m, 0 m]]`");
+}
+
+namespace {
+
+/// REP 105's names of what stands, and of what floats in it.
+constexpr std::array<std::string_view, 4> frames_that_stand{"map", "odom", "earth", "odom_combined"};
+constexpr std::array<std::string_view, 7> frames_of_a_base{
+    "base_footprint", "base_link", "base", "base_frame", "chassis", "robot", "body"};
+
+bool holds(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+Diagnostic unknown_frame(const Span& span, const std::string& name, const std::vector<std::string>& known,
+                         const std::string& base) {
+  Diagnostic diagnostic = unknown_name(span, "frame", name, known);
+  if (holds(frames_that_stand, name))
+    diagnostic.help = "did you mean `world`? It is the one frame that stands, and the run begins in it";
+  else if (holds(frames_of_a_base, name) && !base.empty())
+    diagnostic.help = "did you mean " + in_ticks(base) + "? That is the robot's base";
+  return diagnostic;
 }
 
 }  // namespace zwang::lang::wording

@@ -87,4 +87,30 @@ Diagnostic no_inside(const Span& span, const std::string& region, double margin,
 Diagnostic directive(const Span& span);
 Diagnostic urdf_for_robot_file(const Span& span);
 
+/// `written` with the unit that quantities of `expected` usually have, where it lacks one: `20` as `20 deg`.
+std::string with_unit(const std::string& written, const Dimension& expected);
+/// Lines of a group, from `key` on, that stand in the column of the groups' names; `group` is the name above
+/// them, empty: there is none.
+Diagnostic not_indented(const Span& span, const std::string& key, const std::string& group);
+/// The same of the lines of a task.
+Diagnostic not_indented_in_task(const Span& span, const std::string& key, const std::string& task);
+/// The lines of a group in a task, without `constraints`.
+Diagnostic group_in_a_task(const Span& span, const std::string& key);
+/// `position 1 m`, `velocity:0.1 m/s`, `rz:{velocity`: the key that is in it is `key`.
+Diagnostic no_colon_or_space(const Span& span, const std::string& written, const std::string& key);
+/// `written` is `${push}`.
+Diagnostic parameter_in_braces(const Span& span, const std::string& written);
+/// A number, where a mapping is due, in the words of an example: `{friction: 0.9}`.
+Diagnostic mapping_by_example(const Span& span, const std::string& what, const std::string& example);
+/// `footprint: [[0.4 m, 0.3 m], ..]`.
+Diagnostic footprint_without_polygon(const Span& span);
+/// `start_at` of a scenario with a third number.
+Diagnostic heading_in_a_place(const Span& span, const std::string& what, const std::string& place,
+                              const std::string& yaw);
+/// `start_at: [0 m, 0 m]` in a matrix, where each of a list is such a place.
+Diagnostic place_for_a_list(const Span& span, const std::string& what);
+/// `base` is the link of the robot that floats; empty: there is no robot.
+Diagnostic unknown_frame(const Span& span, const std::string& name, const std::vector<std::string>& known,
+                         const std::string& base);
+
 }  // namespace zwang::lang::wording

@@ -23,7 +23,8 @@ struct Reason {
 };
 constexpr std::array reasons{
     Reason{"illegal map value", "a `: ` is not expected here",
-           "give every key a line of its own and a `:`, the line above too; quote text that holds a `: `"},
+           "lines that belong together start in the same column; give every key a line of its own and a `:`, "
+           "the line above too; quote text that holds a `: `"},
     Reason{"illegal map key", "a key is not expected here", "give every key a line of its own"},
     Reason{"illegal flow end", "this bracket closes nothing", ""},
     Reason{"illegal block entry", "a list item `- ` is not expected here",
@@ -321,6 +322,9 @@ Diagnostic not_a_value(const Span& span, const std::string& text) {
   if (is_bound)
     return error("E105", span, in_ticks(text) + " is not a value",
                  "a bound is a range: write `[low, high]`, or `+-10 N`");
+  if (text.starts_with("+/-"))
+    return error("E105", span, in_ticks(text) + " is not a value",
+                 "write `+-" + escaped(trimmed(std::string_view(text).substr(3))) + "`");
   if (text == "inf" || text == ".inf" || text == "-.inf" || text == "infinity")
     return error("E105", span, in_ticks(text) + " is not a value",
                  "a range has two ends: write one that the robot never comes to");
@@ -410,7 +414,8 @@ Diagnostic chained_comparison(const Span& span) {
 
 Diagnostic unexpected_in_condition(const Span& span, const std::string& text) {
   return error("E105", span, in_ticks(text) + " is not expected here",
-               text == ","        ? "join conditions with `and` or `or`"
+               text == "for"      ? "say `for` on a line of its own, beside `when`"
+               : text == ","      ? "join conditions with `and` or `or`"
                : text == "\u2265" ? "write `>=`"
                : text == "\u2264" ? "write `<=`"
                                   : "");

@@ -11,6 +11,7 @@
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_speed.hpp"
+#include "spec/parse_task.hpp"
 #include "tree/file.hpp"
 #include "zwang/lang/plane.hpp"
 
@@ -97,22 +98,15 @@ class RobotBuilder {
       joint->joint.actuated = true;
       joint->joint.rotor_inertia = actuator.gear * actuator.gear * actuator.rotor_inertia;
       if (actuator.slew_text)
-        require_positive(*actuator.slew_text, expected / dimension::time, whose + "slew");
+        require_positive(*actuator.slew_text, expected / dimension::time, whose + "slew", false,
+                         diagnostics_);
       if (actuator.effort_text) {
-        if (require_positive(*actuator.effort_text, expected, whose + "effort"))
+        if (require_positive(*actuator.effort_text, expected, whose + "effort", false, diagnostics_))
           joint->joint.max_effort = actuator.effort_text->quantity.value;
       } else if (!std::isfinite(joint->joint.max_effort)) {
         diagnostics_.add(wording::no_effort(actuator.joint.span, actuator.joint.text, joint->span));
       }
     }
-  }
-
-  bool require_positive(const ValueText& value, const Dimension& expected, const std::string& what,
-                        bool zero_allowed = false) {
-    if (!require_quantity(value, expected, what, diagnostics_)) return false;
-    const bool is_good = value.quantity.value > 0.0 || (zero_allowed && value.quantity.value == 0.0);
-    if (!is_good) diagnostics_.add(wording::not_positive(value.span, what, zero_allowed));
-    return true;
   }
 
   /// N and m of a joint that slides, N m and an angle of one that turns.
@@ -126,7 +120,7 @@ class RobotBuilder {
         if (!value) return;
         const std::string what = std::string("`") + key + "` of the " + (slides ? "sliding" : "turning") +
                                  " joint `" + friction.joint.text + "`";
-        require_positive(*value, expected, what, zero_allowed);
+        require_positive(*value, expected, what, zero_allowed, diagnostics_);
       };
       check("coulomb", friction.coulomb, slides ? dimension::force : dimension::torque, true);
       check("presliding", friction.presliding, slides ? dimension::length : dimension::angle, false);
@@ -169,7 +163,7 @@ class RobotBuilder {
 
   void check_frames() {
     std::vector<std::string> known = link_names();
-    for (const RobotFrameText& frame : file_.frames) {
+    for (const FrameText& frame : file_.frames) {
       if (frame.parent.exists() && std::find(known.begin(), known.end(), frame.parent.text) == known.end()) {
         diagnostics_.add(
             wording::unknown_name(frame.parent.span, "link or earlier frame", frame.parent.text, known));
@@ -222,20 +216,9 @@ class RobotBuilder {
     return builder;
   }
 
-  static solver::Pose pose_of(const RobotFrameText& frame) {
-    solver::Pose pose;
-    if (frame.rpy.size() == 3) {
-      pose.rotation = solver::rotation_from_rpy(frame.rpy[0], frame.rpy[1], frame.rpy[2]);
-    }
-    for (std::size_t i = 0; i < frame.at.size(); ++i) {
-      pose.position[static_cast<Eigen::Index>(i)] = frame.at[i];
-    }
-    return pose;
-  }
-
   Robot assemble() const {
     solver::ModelBuilder builder = add_links();
-    for (const RobotFrameText& frame : file_.frames) {
+    for (const FrameText& frame : file_.frames) {
       builder.add_frame(frame.name.text, frame.parent.text, pose_of(frame));
     }
     for (const WheelText& wheel : file_.wheels) {
@@ -306,7 +289,7 @@ class RobotBuilder {
   Span span_of(const std::string& name) const {
     if (const UrdfLink* link = urdf_.find_link(name)) return link->span;
     if (const UrdfJoint* joint = urdf_.find_joint(name)) return joint->span;
-    for (const RobotFrameText& frame : file_.frames) {
+    for (const FrameText& frame : file_.frames) {
       if (frame.name.text == name) return frame.name.span;
     }
     return file_.base.span;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_standing.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
@@ -11,20 +12,14 @@ namespace zwang::lang {
 
 namespace {
 
-/// A quantity that must be above zero (or at zero, where `zero_allowed`).
-std::optional<double> parse_positive(const Node& node, const Dimension& expected, const std::string& what,
-                                     bool zero_allowed, Diagnostics& diagnostics) {
-  const std::optional<double> value = parse_plain(node, expected, what, diagnostics);
-  if (value && (*value < 0.0 || (*value == 0.0 && !zero_allowed))) {
-    diagnostics.add(wording::not_positive(node.span, what, zero_allowed));
-    return std::nullopt;
-  }
-  return value;
-}
-
 WheelText parse_wheel(const Node& node, Diagnostics& diagnostics) {
   WheelText wheel;
   wheel.span = node.span;
+  if (node.is_scalar() && !node.is_bad) {
+    diagnostics.add(
+        wording::mapping_by_example(node.span, "a wheel", "{joint: " + node.text + ", radius: 75 mm}"));
+    return wheel;
+  }
   MapReader map(node, "a wheel", diagnostics);
   if (const Node* joint = map.required("joint")) wheel.joint = parse_word(*joint, "`joint`", diagnostics);
   const std::string what = "wheel `" + wheel.joint.text + "`";
@@ -150,6 +145,10 @@ void parse_stop(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
 }
 
 void parse_footprint(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
+  if (node.is_sequence() && !node.is_bad) {
+    diagnostics.add(wording::footprint_without_polygon(node.span));
+    return;
+  }
   MapReader map(node, "`footprint`", diagnostics);
   const Node* polygon = map.required("polygon");
   if (polygon != nullptr && require_sequence(*polygon, "footprint.polygon", diagnostics)) {
@@ -178,18 +177,6 @@ void parse_bumper(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
     file.bumper_height = parse_positive(*value, dimension::length, "bumper.height", true, diagnostics);
   }
   map.finish();
-}
-
-RobotFrameText parse_frame(const Entry& entry, Diagnostics& diagnostics) {
-  RobotFrameText frame;
-  frame.name = parse_name(entry.key, "a frame's name", diagnostics);
-  MapReader map(entry.value, "frame `" + entry.key.text + "`", diagnostics);
-  if (const Node* parent = map.required("parent")) {
-    frame.parent = parse_word(*parent, map.what() + "'s `parent`", diagnostics);
-  }
-  parse_pose(map, frame.at, frame.rpy, diagnostics);
-  map.finish();
-  return frame;
 }
 
 }  // namespace

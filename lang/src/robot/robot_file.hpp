@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "spec/task_file.hpp"
 #include "spec/value.hpp"
 #include "tree/read.hpp"
 #include "zwang/lang/robot.hpp"
@@ -40,13 +41,6 @@ struct FrictionText {
   double compensate = 0.0;
 };
 
-struct RobotFrameText {
-  Word name;
-  Word parent;
-  std::vector<double> at;   ///< [m]
-  std::vector<double> rpy;  ///< [rad]
-};
-
 struct RobotFile {
   Word urdf;
   Word base;
@@ -61,7 +55,7 @@ struct RobotFile {
   Span footprint_span;
   std::optional<double> bumper_stiffness;
   std::optional<double> bumper_height;
-  std::vector<RobotFrameText> frames;
+  std::vector<FrameText> frames;
 };
 
 /// What messages call it.

@@ -30,6 +30,15 @@ std::optional<MatrixValue> parse_matrix_value(const std::string& name, const Nod
   value.word.span = node.span;
   const std::string what = "`" + name + "`";
   if (name == "start_at") {
+    if (node.is_sequence() && node.items.size() == 3 && !node.is_bad) {
+      const auto place = [&](std::size_t i) {
+        return wording::with_unit(node.items[i].text, dimension::length);
+      };
+      diagnostics.add(wording::heading_in_a_place(
+          node.span, what, "start_at: [" + place(0) + ", " + place(1) + "]",
+          "start_yaw: " + wording::with_unit(node.items[2].text, dimension::angle)));
+      return std::nullopt;
+    }
     const auto at = parse_vector(node, dimension::length, 2, 2, what, diagnostics);
     if (!at) return std::nullopt;
     value.at = {(*at)[0], (*at)[1]};
@@ -55,6 +64,15 @@ MatrixKey parse_matrix_key(const Entry& entry, Diagnostics& diagnostics) {
   key.name = entry.key.text;
   key.span = entry.key.span;
   if (!require_sequence(entry.value, "`matrix." + key.name + "`", diagnostics)) return key;
+  const auto is_bare = [](const Node& item) { return item.is_scalar(); };
+  const auto& items = entry.value.items;
+  if (key.name == "start_at" && items.size() > 1 && std::all_of(items.begin(), items.end(), is_bare)) {
+    diagnostics.add(wording::place_for_a_list(entry.value.span, "`matrix.start_at`"));
+    return key;
+  }
+  if (key.name == "start_yaw" &&
+      complain_of_bare_numbers(entry.value, dimension::angle, "`matrix.start_yaw`", diagnostics))
+    return key;
   for (const Node& item : entry.value.items) {
     if (auto value = parse_matrix_value(key.name, item, diagnostics)) key.values.push_back(std::move(*value));
   }
@@ -147,8 +165,7 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
   }
   if (within != nullptr) {
     expected.kind = ExpectationKind::within;
-    expected.within = parse_plain(*within, dimension::time, "`within`", diagnostics).value_or(0.0);
-    if (expected.within < 0.0) diagnostics.add(wording::not_positive(within->span, "`within`", true));
+    expected.within = parse_positive(*within, dimension::time, "`within`", true, diagnostics).value_or(0.0);
     if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
   }
   if (!is_good) {
@@ -174,8 +191,8 @@ std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagno
   if (const Node* about = map.optional("about")) file.about = about->text;
   if (const Node* task = map.required("task")) file.task = parse_word(*task, "`task`", diagnostics);
   if (const Node* limit = map.optional("time_limit")) {
-    file.time_limit = parse_plain(*limit, dimension::time, "`time_limit`", diagnostics).value_or(1.0);
-    if (file.time_limit <= 0.0) diagnostics.add(wording::not_positive(limit->span, "`time_limit`", false));
+    file.time_limit =
+        parse_positive(*limit, dimension::time, "`time_limit`", false, diagnostics).value_or(1.0);
   }
   if (const Node* seed = map.optional("seed")) {
     const auto value = parse_integer(*seed, "`seed`", 0, 1'000'000'000, diagnostics);

@@ -43,23 +43,16 @@ void parse_word_of(const char* key, const Node& node, Fault& fault, int& found, 
 
 constexpr double most_inertia_less = 0.75;
 
-double positive(const Node& node, const Dimension& expected, const std::string& what, bool zero_allowed,
-                Diagnostics& diagnostics) {
-  const double value = parse_plain(node, expected, what, diagnostics).value_or(1.0);
-  if (value < 0.0 || (value == 0.0 && !zero_allowed))
-    diagnostics.add(wording::not_positive(node.span, what, zero_allowed));
-  return value;
-}
-
 Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
   Fault fault;
   fault.span = node.span;
   MapReader map(node, "a fault", diagnostics);
   if (!map.is_mapping()) return fault;
   if (const Node* at = map.required("at"))
-    fault.at = positive(*at, dimension::time, "a fault's `at`", true, diagnostics);
+    fault.at = parse_positive(*at, dimension::time, "a fault's `at`", true, diagnostics).value_or(1.0);
   if (const Node* length = map.optional("for"))
-    fault.duration = positive(*length, dimension::time, "a fault's `for`", false, diagnostics);
+    fault.duration =
+        parse_positive(*length, dimension::time, "a fault's `for`", false, diagnostics).value_or(1.0);
   const Node* wheel = map.optional("wheel");
   if (wheel != nullptr) {
     fault.joint = parse_word(*wheel, "`wheel`", diagnostics).text;
@@ -77,7 +70,8 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
   if (const Node* friction = map.optional("floor_friction")) {
     ++found;
     fault.kind = FaultKind::floor_friction;
-    fault.value = positive(*friction, dimension::none, "`floor_friction`", false, diagnostics);
+    fault.value =
+        parse_positive(*friction, dimension::none, "`floor_friction`", false, diagnostics).value_or(1.0);
   }
   if (const Node* payload = map.optional("payload")) {
     ++found;

@@ -3,6 +3,7 @@
 #include "check/check.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "scene/check_scene.hpp"
 #include "scene/faults.hpp"
 #include "scene/load_robots.hpp"
@@ -15,28 +16,61 @@ namespace zwang::lang {
 
 namespace {
 
-double plain(const Node& node, const Dimension& expected, const std::string& what, double otherwise,
-             bool zero_allowed, Diagnostics& diagnostics) {
-  const double value = parse_plain(node, expected, what, diagnostics).value_or(otherwise);
-  if (value < 0.0 || (value == 0.0 && !zero_allowed)) {
-    diagnostics.add(wording::not_positive(node.span, what, zero_allowed));
-  }
-  return value;
-}
-
 void parse_place(const Node& node, const std::string& what, std::array<double, 2>& at,
                  Diagnostics& diagnostics) {
   const auto values = parse_vector(node, dimension::length, 2, 2, what, diagnostics);
   if (values) at = {(*values)[0], (*values)[1]};
 }
 
+/// `[0, 0, 20]` for `{at: [0 m, 0 m], yaw: 20 deg}`.
+void parse_start(const Node& node, Scene& scene, Diagnostics& diagnostics) {
+  if (node.is_sequence() && !node.is_bad) {
+    const auto& items = node.items;
+    std::string example = "{at: [0 m, 0 m]";
+    if (items.size() >= 2)
+      example = "{at: [" + wording::with_unit(items[0].text, dimension::length) + ", " +
+                wording::with_unit(items[1].text, dimension::length) + "]";
+    if (items.size() == 3) example += ", yaw: " + wording::with_unit(items[2].text, dimension::angle);
+    diagnostics.add(wording::mapping_by_example(node.span, "`start`", example + "}"));
+    return;
+  }
+  MapReader start(node, "`start`", diagnostics);
+  if (const Node* at = start.optional("at")) parse_place(*at, "start.at", scene.start_at, diagnostics);
+  if (const Node* yaw = start.optional("yaw")) {
+    scene.start_yaw = parse_plain(*yaw, dimension::angle, "start.yaw", diagnostics).value_or(0.0);
+  }
+  start.finish();
+}
+
+void parse_floor(const Node& node, Scene& scene, Diagnostics& diagnostics) {
+  if (node.is_scalar() && !node.is_bad) {
+    diagnostics.add(wording::mapping_by_example(node.span, "`floor`", "{friction: " + node.text + "}"));
+    return;
+  }
+  MapReader floor(node, "`floor`", diagnostics);
+  if (const Node* friction = floor.optional("friction")) {
+    scene.floor_friction =
+        parse_positive(*friction, dimension::none, "floor.friction", false, diagnostics).value_or(0.9);
+  }
+  floor.finish();
+}
+
 /// The sizes of a cylinder or a wall, by name.
 void parse_sizes(const Node& node, const std::string& what, SceneObject& object, Diagnostics& diagnostics) {
+  if (node.is_scalar() && !node.is_bad) {
+    const bool is_wall = object.shape == ShapeKind::wall;
+    const std::string size = wording::with_unit(node.text, dimension::length);
+    diagnostics.add(wording::mapping_by_example(
+        node.span, what + (is_wall ? "'s `wall`" : "'s `cylinder`"),
+        is_wall ? "{length: " + size + "}" : "{radius: " + size + ", height: 1 m}"));
+    return;
+  }
   MapReader map(node, what, diagnostics);
   const auto size = [&](const char* key, double& target, bool is_required) {
     const Node* value = is_required ? map.required(key) : map.optional(key);
     if (value != nullptr) {
-      target = plain(*value, dimension::length, what + "'s " + key, 1.0, false, diagnostics);
+      target =
+          parse_positive(*value, dimension::length, what + "'s " + key, false, diagnostics).value_or(1.0);
     }
   };
   if (object.shape == ShapeKind::cylinder) {
@@ -81,13 +115,16 @@ template <typename Touched>
 void parse_contact(MapReader& map, Touched& touched, Diagnostics& diagnostics) {
   if (const Node* node = map.optional("stiffness")) {
     touched.stiffness =
-        plain(*node, dimension::stiffness, map.what() + "'s `stiffness`", 1e5, false, diagnostics);
+        parse_positive(*node, dimension::stiffness, map.what() + "'s `stiffness`", false, diagnostics)
+            .value_or(1e5);
   }
   if (const Node* node = map.optional("damping")) {
-    touched.damping = plain(*node, dimension::none, map.what() + "'s `damping`", 0.3, true, diagnostics);
+    touched.damping =
+        parse_positive(*node, dimension::none, map.what() + "'s `damping`", true, diagnostics).value_or(0.3);
   }
   if (const Node* node = map.optional("friction")) {
-    touched.friction = plain(*node, dimension::none, map.what() + "'s `friction`", 0.0, true, diagnostics);
+    touched.friction =
+        parse_positive(*node, dimension::none, map.what() + "'s `friction`", true, diagnostics).value_or(0.0);
   }
 }
 
@@ -106,7 +143,8 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   const Node* mass = map.optional("mass");
   const Node* fixed = map.optional("fixed");
   if (mass != nullptr) {
-    object.mass = plain(*mass, dimension::mass, what + "'s `mass`", 1.0, false, diagnostics);
+    object.mass =
+        parse_positive(*mass, dimension::mass, what + "'s `mass`", false, diagnostics).value_or(1.0);
   }
   const bool is_fixed =
       fixed != nullptr && parse_boolean(*fixed, what + "'s `fixed`", diagnostics).value_or(false);
@@ -209,21 +247,8 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
   MapReader map(document.root, "a scene file", diagnostics);
   if (!map.is_mapping() || !check_version(map, "zwang_scene", diagnostics)) return std::nullopt;
   Scene scene;
-  if (const Node* node = map.optional("start")) {
-    MapReader start(*node, "`start`", diagnostics);
-    if (const Node* at = start.optional("at")) parse_place(*at, "start.at", scene.start_at, diagnostics);
-    if (const Node* yaw = start.optional("yaw")) {
-      scene.start_yaw = parse_plain(*yaw, dimension::angle, "start.yaw", diagnostics).value_or(0.0);
-    }
-    start.finish();
-  }
-  if (const Node* node = map.optional("floor")) {
-    MapReader floor(*node, "`floor`", diagnostics);
-    if (const Node* friction = floor.optional("friction")) {
-      scene.floor_friction = plain(*friction, dimension::none, "floor.friction", 0.9, false, diagnostics);
-    }
-    floor.finish();
-  }
+  if (const Node* node = map.optional("start")) parse_start(*node, scene, diagnostics);
+  if (const Node* node = map.optional("floor")) parse_floor(*node, scene, diagnostics);
   if (const Node* node = map.optional("real_rollers")) {
     scene.real_rollers = parse_boolean(*node, "`real_rollers`", diagnostics).value_or(false);
     scene.real_rollers_span = node->span;

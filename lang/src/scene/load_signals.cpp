@@ -11,10 +11,7 @@ namespace {
 double not_negative(MapReader& map, const char* key, const Dimension& expected, Diagnostics& diagnostics) {
   const Node* node = map.optional(key);
   if (node == nullptr) return 0.0;
-  const std::string what = map.what() + "'s `" + key + "`";
-  const double value = parse_plain(*node, expected, what, diagnostics).value_or(0.0);
-  if (value < 0.0) diagnostics.add(wording::not_positive(node->span, what, true));
-  return value;
+  return parse_positive(*node, expected, map.what() + "'s `" + key + "`", true, diagnostics).value_or(0.0);
 }
 
 /// What one step of a script says.
@@ -117,9 +114,8 @@ void parse_quality(MapReader& map, SceneSignal& signal, double most_delay, Diagn
     diagnostics.add(wording::delayed_too_long(map.optional("delay")->span, map.what(), most_delay));
   if (const Node* node = map.optional("rate")) {
     const std::string what = map.what() + "'s `rate`";
-    const std::optional<double> rate = parse_plain(*node, dimension::frequency, what, diagnostics);
-    if (rate && *rate <= 0.0) diagnostics.add(wording::not_positive(node->span, what, false));
-    if (rate && *rate > 0.0) signal.period = 1.0 / *rate;
+    const auto rate = parse_positive(*node, dimension::frequency, what, false, diagnostics);
+    if (rate) signal.period = 1.0 / *rate;
   }
   signal.dropouts = not_negative(map, "dropouts", dimension::none, diagnostics);
   if (signal.dropouts >= 1.0) diagnostics.add(wording::all_dropped(map.optional("dropouts")->span));
@@ -209,9 +205,8 @@ std::optional<Dock> parse_dock(const Node& node, const std::string& what, Diagno
       dock.at = {(*place)[0], (*place)[1]};
   }
   if (const Node* reach = map.optional("reach")) {
-    dock.reach =
-        parse_plain(*reach, dimension::length, what + "'s `reach`", diagnostics).value_or(dock.reach);
-    if (dock.reach <= 0.0) diagnostics.add(wording::not_positive(reach->span, what + "'s `reach`", false));
+    dock.reach = parse_positive(*reach, dimension::length, what + "'s `reach`", false, diagnostics)
+                     .value_or(dock.reach);
   }
   if (const Node* hook = map.required("hook")) {
     dock.hook = parse_word(*hook, "`hook`", diagnostics).text;

@@ -231,6 +231,10 @@ class ConditionParser {
     ExpressionText node;
     node.kind = ExpressionKind::parameter;
     node.word = std::string(peek_word());
+    const std::size_t close = text_.find('}', at_);
+    if (text_.substr(at_).starts_with('{') && close != std::string::npos)
+      stop(wording::parameter_in_braces(span(begin, close + 1),
+                                        std::string(text_.substr(begin, close + 1 - begin))));
     if (node.word.empty()) stop(wording::unexpected_in_condition(span(begin, at_), "$"));
     at_ += node.word.size();
     return add(std::move(node), begin);

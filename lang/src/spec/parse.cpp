@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <map>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_slips.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
 #include "spec/task_file.hpp"
@@ -28,30 +30,31 @@ ParameterText parse_parameter(const Entry& entry, Diagnostics& diagnostics) {
   return parameter;
 }
 
-FrameText parse_frame(const Entry& entry, Diagnostics& diagnostics) {
-  FrameText frame;
-  frame.name = parse_name(entry.key, "a frame's name", diagnostics);
-  frame.span = entry.key.span;
-  MapReader map(entry.value, "frame `" + entry.key.text + "`", diagnostics);
-  if (const Node* parent = map.required("parent")) {
-    frame.parent = parse_word(*parent, map.what() + "'s `parent`", diagnostics);
-  }
-  parse_pose(map, frame.at, frame.rpy, diagnostics);
-  map.finish();
-  return frame;
-}
-
 void parse_tasks(const Node& node, Templates& templates, TaskFile& file, Diagnostics& diagnostics) {
   if (!require_mapping(node, "`tasks`", diagnostics)) return;
   if (node.entries.empty()) diagnostics.add(wording::no_tasks(node.span));
   if (node.entries.size() > most_tasks) {
     diagnostics.add(wording::too_many_tasks(node.entries[most_tasks].key.span, most_tasks));
   }
-  for (const Entry& entry : node.entries) {
-    if (entry.key.is_bad) continue;
-    Node unreadable;
-    unreadable.is_bad = true;
-    file.tasks.push_back(parse_task(entry, templates.expand(entry.value).value_or(unreadable), diagnostics));
+  Node unreadable;
+  unreadable.is_bad = true;
+  for (auto entry = node.entries.begin(); entry != node.entries.end(); ++entry) {
+    if (entry->key.is_bad) continue;
+    const auto is_of_a_task = [](const Entry& line) {
+      const bool is_exits = line.key.text == "exits" && line.value.is_sequence();
+      const bool is_timeout =
+          line.key.text == "timeout" && (line.value.is_scalar() || line.value.find("after") != nullptr);
+      return is_exits || is_timeout || line.key.text == "constraints";
+    };
+    const auto next = entry + 1;
+    if (entry->value.kind == NodeKind::null && next != node.entries.end() && is_of_a_task(*next)) {
+      diagnostics.add(wording::not_indented_in_task(next->key.span, next->key.text, entry->key.text));
+      file.tasks.push_back(parse_task(*entry, unreadable, diagnostics));
+      entry = std::find_if_not(next, node.entries.end(), is_of_a_task) - 1;
+      continue;
+    }
+    file.tasks.push_back(
+        parse_task(*entry, templates.expand(entry->value).value_or(unreadable), diagnostics));
   }
 }
 
@@ -136,6 +139,30 @@ void parse_pose(MapReader& map, std::vector<double>& at, std::vector<double>& rp
     rpy = parse_vector(*angles, dimension::angle, 3, 3, map.what() + "'s `rpy`", diagnostics)
               .value_or(std::vector<double>{});
   }
+}
+
+FrameText parse_frame(const Entry& entry, Diagnostics& diagnostics) {
+  FrameText frame;
+  frame.name = parse_name(entry.key, "a frame's name", diagnostics);
+  frame.span = entry.key.span;
+  MapReader map(entry.value, "frame `" + entry.key.text + "`", diagnostics);
+  if (const Node* parent = map.required("parent")) {
+    frame.parent = parse_word(*parent, map.what() + "'s `parent`", diagnostics);
+  }
+  parse_pose(map, frame.at, frame.rpy, diagnostics);
+  map.finish();
+  return frame;
+}
+
+solver::Pose pose_of(const FrameText& frame) {
+  solver::Pose pose;
+  if (frame.rpy.size() == 3) {
+    pose.rotation = solver::rotation_from_rpy(frame.rpy[0], frame.rpy[1], frame.rpy[2]);
+  }
+  for (std::size_t i = 0; i < frame.at.size(); ++i) {
+    pose.position[static_cast<Eigen::Index>(i)] = frame.at[i];
+  }
+  return pose;
 }
 
 std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics) {

@@ -1,5 +1,8 @@
 #include "spec/parse_task.hpp"
 
+#include <algorithm>
+#include <initializer_list>
+
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "tree/text.hpp"
@@ -54,10 +57,15 @@ void parse_statements(MapReader& map, const std::string& path, AxisText& axis, i
 }
 
 /// What `0 deg` alone may have been meant as.
-std::string statement_of(const std::string& text) {
+std::string statement_of(const std::string& text, const std::string& axis) {
   const QuantityResult result = parse_quantity(text);
   const Dimension& d = result.quantity.dimension;
   const bool is_known = result.error == QuantityError::none;
+  if (is_known && !result.quantity.has_unit)
+    return "{velocity: " +
+           wording::with_unit(text,
+                              axis.starts_with('r') ? dimension::angular_velocity : dimension::velocity) +
+           "}";
   if (is_known && (d == dimension::length || d == dimension::angle)) return "{position: " + text + "}";
   if (is_known && (d == dimension::force || d == dimension::torque)) return "{force: " + text + "}";
   if (is_known && (d == dimension::acceleration || d == dimension::angular_acceleration))
@@ -76,7 +84,7 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
     axis.is_free = entry.value.text == "free";
     if (!axis.is_free)
       diagnostics.add(wording::bare_axis(entry.value.span, path, entry.value.text,
-                                         statement_of(trimmed(entry.value.text))));
+                                         statement_of(trimmed(entry.value.text), entry.key.text)));
     return axis;
   }
   const bool is_empty =
@@ -202,6 +210,12 @@ ExitText parse_exit(const Node& node, Diagnostics& diagnostics) {
   return exit;
 }
 
+/// `text` as a time: with a unit where it lacks one, and some time where it is none.
+std::string time_of(const std::string& text) {
+  const bool is_a_time = text.starts_with("$") || parse_quantity(text).error == QuantityError::none;
+  return is_a_time ? wording::with_unit(text, dimension::time) : "20 s";
+}
+
 TimeoutText parse_timeout(const Node& node, Diagnostics& diagnostics) {
   TimeoutText timeout;
   timeout.span = node.span;
@@ -210,7 +224,7 @@ TimeoutText parse_timeout(const Node& node, Diagnostics& diagnostics) {
     return timeout;
   }
   if (node.is_scalar()) {
-    if (!node.is_bad) diagnostics.add(wording::bare_timeout(node.span, node.text));
+    if (!node.is_bad) diagnostics.add(wording::bare_timeout(node.span, time_of(trimmed(node.text))));
     return timeout;
   }
   MapReader map(node, "`timeout`", diagnostics);
@@ -238,6 +252,21 @@ void parse_enter(const Node& node, TaskText& task, Diagnostics& diagnostics) {
   map.finish();
 }
 
+/// Whether the entry is a line of a group, rather than a group: `move: base_link`, `x: {velocity: ..}`.
+bool is_of_a_group(const Entry& entry) {
+  static const std::vector<std::string> words{
+      "move",      "in",      "feature",  "inside",   "margin",       "level", "weight", "time_constant",
+      "stiffness", "damping", "position", "velocity", "acceleration", "force", "x",      "y",
+      "z",         "rx",      "ry",       "rz",       "speed"};
+  const Node& value = entry.value;
+  if (std::find(words.begin(), words.end(), entry.key.text) == words.end()) return false;
+  if (!value.is_mapping()) return value.kind != NodeKind::null;
+  const auto has = [&](std::initializer_list<const char*> keys) {
+    return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return value.find(key) != nullptr; });
+  };
+  return has({"position", "velocity", "acceleration", "force"}) && !has({"move", "in", "feature", "inside"});
+}
+
 /// In the place of groups that could not be read: one of them may be the one that a condition names.
 GroupText unread_group() {
   GroupText unread;
@@ -253,8 +282,19 @@ std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnost
   if (node.entries.size() > most_groups) {
     diagnostics.add(wording::too_many_groups(node.entries[most_groups].key.span, most_groups));
   }
-  for (const Entry& entry : node.entries) {
-    if (!entry.key.is_bad) groups.push_back(parse_group(entry, lowest_level, diagnostics));
+  for (auto entry = node.entries.begin(); entry != node.entries.end(); ++entry) {
+    if (entry->key.is_bad) continue;
+    const auto next = entry + 1;
+    const bool is_stray = is_of_a_group(*entry);
+    if (!is_stray && (next == node.entries.end() || !is_of_a_group(*next))) {
+      groups.push_back(parse_group(*entry, lowest_level, diagnostics));
+      continue;
+    }
+    // Told once for all lines of the group.
+    const auto first = is_stray ? entry : next;
+    diagnostics.add(wording::not_indented(first->key.span, first->key.text, is_stray ? "" : entry->key.text));
+    entry = std::find_if_not(first, node.entries.end(), is_of_a_group) - 1;
+    groups.push_back(unread_group());
   }
   return groups;
 }
@@ -279,11 +319,21 @@ TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnosti
   if (name == "done" || name == "failed" || name == "back") {
     diagnostics.add(wording::reserved_name(entry.key.span, name));
   }
-  MapReader map(body, "task `" + entry.key.text + "`", diagnostics);
+  // Lines of a group are told once, and then not read as a task's.
+  Node without_them;
+  const auto stray = std::find_if(body.entries.begin(), body.entries.end(), is_of_a_group);
+  const bool has_stray = stray != body.entries.end();
+  if (has_stray) {
+    diagnostics.add(wording::group_in_a_task(stray->key.span, stray->key.text));
+    without_them = body;
+    std::erase_if(without_them.entries, is_of_a_group);
+  }
+  MapReader map(has_stray ? without_them : body, "task `" + entry.key.text + "`", diagnostics);
   task.is_bad = !map.is_mapping();
   if (const Node* node = map.optional("about")) task.about = parse_text(*node, "`about`", diagnostics);
   if (const Node* node = map.optional("enter")) parse_enter(*node, task, diagnostics);
   task.groups = parse_constraints(map, 1, diagnostics);
+  if (has_stray) task.groups.push_back(unread_group());
   if (const Node* node = map.optional("exits")) task.exits = parse_exits(*node, diagnostics);
   if (const Node* node = map.optional("timeout")) task.timeout = parse_timeout(*node, diagnostics);
   const Node* attempts_node = map.optional("attempts");

@@ -18,6 +18,11 @@ std::vector<FeatureText> parse_features(const Node& node, Diagnostics& diagnosti
 /// `at`, and `yaw` or `rpy`; empty where not given. [m, rad]
 void parse_pose(MapReader& map, std::vector<double>& at, std::vector<double>& rpy, Diagnostics& diagnostics);
 
+/// A frame of a task file or of a robot file.
+FrameText parse_frame(const Entry& entry, Diagnostics& diagnostics);
+/// Where the frame lies in its parent.
+solver::Pose pose_of(const FrameText& frame);
+
 /// The `constraints` of a task or of `always`. Where the key is misspelt, a group without a name stands for
 /// those that nobody has read.
 std::vector<GroupText> parse_constraints(MapReader& map, int lowest_level, Diagnostics& diagnostics);

@@ -84,9 +84,8 @@ RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
       if (centre) region.centre = {(*centre)[0], (*centre)[1]};
     }
     if (const Node* radius = circle_map.required("radius")) {
-      region.radius = parse_plain(*radius, dimension::length, what + "'s radius", diagnostics).value_or(1.0);
-      if (region.radius <= 0.0)
-        diagnostics.add(wording::not_positive(radius->span, what + "'s radius", false));
+      region.radius =
+          parse_positive(*radius, dimension::length, what + "'s radius", false, diagnostics).value_or(1.0);
     }
     circle_map.finish();
   }

@@ -73,6 +73,12 @@ void MapReader::finish() {
         continue;
       }
       if (split_reported_ && entry.value.kind == NodeKind::null) continue;
+      const std::string begin = entry.key.text.substr(0, entry.key.text.find_first_of(": "));
+      if (begin != entry.key.text && std::find(known_.begin(), known_.end(), begin) != known_.end()) {
+        diagnostics_.add(wording::no_colon_or_space(entry.key.span, entry.key.text, begin));
+        std::erase(missing_, begin);
+        continue;
+      }
       const std::string meant = meant_key(entry.key.text, absent);
       if (meant.empty()) {
         puzzling.push_back(&entry.key);
@@ -159,9 +165,22 @@ std::optional<double> parse_plain(const Node& node, const Dimension& expected, c
   return value.quantity.value;
 }
 
-namespace {
+bool require_positive(const ValueText& value, const Dimension& expected, const std::string& what,
+                      bool zero_allowed, Diagnostics& diagnostics) {
+  if (!require_quantity(value, expected, what, diagnostics)) return false;
+  const double number = value.quantity.value;
+  const bool is_good = number > 0.0 || (zero_allowed && number == 0.0);
+  if (!is_good) diagnostics.add(wording::not_positive(value.span, what, zero_allowed));
+  return is_good;
+}
 
-/// `[0, 0]` for `[0 m, 0 m]`: who forgets the unit forgets it everywhere, and is told once.
+std::optional<double> parse_positive(const Node& node, const Dimension& expected, const std::string& what,
+                                     bool zero_allowed, Diagnostics& diagnostics) {
+  const ValueText value = parse_value(node, what, diagnostics);
+  if (!require_positive(value, expected, what, zero_allowed, diagnostics)) return std::nullopt;
+  return value.quantity.value;
+}
+
 bool complain_of_bare_numbers(const Node& list, const Dimension& expected, const std::string& what,
                               Diagnostics& diagnostics) {
   if (expected == dimension::none || list.items.size() < 2) return false;
@@ -175,8 +194,6 @@ bool complain_of_bare_numbers(const Node& list, const Dimension& expected, const
   diagnostics.add(wording::needs_units(list.span, what, numbers, expected));
   return true;
 }
-
-}  // namespace
 
 std::optional<std::vector<double>> parse_vector(const Node& node, const Dimension& expected,
                                                 std::size_t fewest, std::size_t most, const std::string& what,

@@ -56,6 +56,10 @@ std::optional<bool> parse_boolean(const Node& node, const std::string& what, Dia
 /// Whether the node is a sequence; E104 otherwise.
 bool require_sequence(const Node& node, const std::string& what, Diagnostics& diagnostics);
 bool require_mapping(const Node& node, const std::string& what, Diagnostics& diagnostics);
+/// `[0, 0]` for `[0 m, 0 m]`: who forgets the unit forgets it everywhere, and is told once. Whether it was
+/// so.
+bool complain_of_bare_numbers(const Node& list, const Dimension& expected, const std::string& what,
+                              Diagnostics& diagnostics);
 /// Plain quantities of one dimension: `[0.4 m, 0 m]`. nullopt when one is bad.
 std::optional<std::vector<double>> parse_vector(const Node& node, const Dimension& expected,
                                                 std::size_t fewest, std::size_t most, const std::string& what,
@@ -63,6 +67,12 @@ std::optional<std::vector<double>> parse_vector(const Node& node, const Dimensio
 /// One plain quantity of a dimension, SI.
 std::optional<double> parse_plain(const Node& node, const Dimension& expected, const std::string& what,
                                   Diagnostics& diagnostics);
+/// One that must be above zero (or at zero, where `zero_allowed`); E105 otherwise.
+std::optional<double> parse_positive(const Node& node, const Dimension& expected, const std::string& what,
+                                     bool zero_allowed, Diagnostics& diagnostics);
+/// The same of a value that was read before.
+bool require_positive(const ValueText& value, const Dimension& expected, const std::string& what,
+                      bool zero_allowed, Diagnostics& diagnostics);
 /// Checks `zwang: 1` and its kin; false when the file is in a version that is not read here.
 bool check_version(MapReader& map, const std::string& key, Diagnostics& diagnostics);
 

@@ -40,6 +40,10 @@ bool is_spelt_oddly(const std::string& text, const Span& span, Diagnostics& diag
 ValueText parse_value_text(const std::string& text, const Span& span, Diagnostics& diagnostics) {
   ValueText value;
   value.span = span;
+  if ((text.starts_with("${") || text.starts_with("-${")) && text.ends_with('}')) {
+    diagnostics.add(wording::parameter_in_braces(span, text));
+    return value;
+  }
   if (text.starts_with("$")) return parse_parameter(text, 1.0, value, diagnostics);
   if (!text.starts_with("-$") && text.find('$') != std::string::npos) {
     diagnostics.add(wording::computed_value(span, text));

@@ -270,6 +270,25 @@ class ViewBuffer final : public std::streambuf {
 
 }  // namespace
 
+namespace {
+
+/// `${push}` in brackets: YAML takes its brace for one of its own, and stumbles behind it. Whether that is
+/// why it did, on this line.
+bool report_braces(int source, const std::string& text, std::size_t stumbled, const TextIndex& index,
+                   Diagnostics& diagnostics) {
+  const std::size_t end_of_last_line = text.rfind('\n', stumbled == 0 ? 0 : stumbled - 1);
+  const std::size_t begin_of_line = end_of_last_line == std::string::npos ? 0 : end_of_last_line + 1;
+  const std::size_t begin = text.find("${", begin_of_line);
+  const std::size_t end = text.find_first_of("}\n", begin);
+  if (begin == std::string::npos || begin > stumbled || end == std::string::npos || text[end] != '}')
+    return false;
+  diagnostics.add(wording::parameter_in_braces({source, index.position(begin), index.position(end + 1)},
+                                               text.substr(begin, end + 1 - begin)));
+  return true;
+}
+
+}  // namespace
+
 std::optional<Document> read(int source, Diagnostics& diagnostics) {
   // A copy: adding sources while this one is read would move the text.
   const std::string text = diagnostics.source(source).text;
@@ -293,7 +312,9 @@ std::optional<Document> read(int source, Diagnostics& diagnostics) {
       diagnostics.add(wording::alias({source, at, index.position(index.offset(at) + 1)}));
       return std::nullopt;
     }
-    diagnostics.add(wording::unreadable_yaml({source, at, index.position(index.offset(at) + 1)}, error.msg));
+    if (!report_braces(source, text, index.offset(at), index, diagnostics))
+      diagnostics.add(
+          wording::unreadable_yaml({source, at, index.position(index.offset(at) + 1)}, error.msg));
     return std::nullopt;
   }
   if (!builder.has_document()) {
