@@ -59,6 +59,21 @@ TEST(ScenarioRun, TheWallAlignmentKeepsWhatIsExpectedOfIt) {
   EXPECT_NEAR(*result.expectations[3].value, 0.12 * (1.0 - *result.expectations[3].margin), 1e-12);
 }
 
+TEST(ScenarioRun, TheRobotStartsWhereTheCellSays) {
+  const CellResult result = run_scenario(R"(start_at: [-0.3 m, 0.2 m]
+start_yaw: 10 deg
+time_limit: 0.1 s
+expect:
+  - {always: elapsed > 5 ms or abs(truth.base.x + 0.3 m) < 1 mm and abs(truth.base.y - 0.2 m) < 1 mm}
+  - {always: elapsed > 5 ms or abs(truth.base.yaw - 10 deg) < 0.1 deg}
+)");
+  ASSERT_EQ(result.expectations.size(), 2u);
+  for (const ExpectationResult& expected : result.expectations) {
+    EXPECT_TRUE(expected.held) << expected.text;
+    EXPECT_TRUE(expected.value) << "never asked";
+  }
+}
+
 // `elapsed > ...` opens a window; outside of it nothing is asked, and nothing is a margin.
 TEST(ScenarioRun, AWindowOfTimeHasTheMarginOfWhatIsAskedInIt) {
   const CellResult result = run_scenario(R"(start_yaw: 0 deg

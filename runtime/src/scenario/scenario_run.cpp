@@ -60,8 +60,6 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
               std::vector<ExpectationWatch>& watches, CellResult& result) {
   ScenePlantOptions options;
   options.simulation.period = period;
-  options.simulation.start_at = cell.start_at;
-  options.simulation.start_yaw = cell.start_yaw;
   options.seed = scenario.seed;
   options.faults = cell.faults;
   ScenePlant plant(program, options);
