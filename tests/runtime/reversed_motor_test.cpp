@@ -114,6 +114,23 @@ TEST(ReversedMotor, IsNobodyWhoPushesEvenly) {
   }
 }
 
+TEST(ReversedMotor, IsNobodyWhoPushesEvenlyWhereOneWheelBearsHalfOfIt) {
+  // P = -W = 2 F v is the first wheel's, -2 F v of it, and twice that of each other one.
+  Wheels wheels("mecanum");
+  for (int i = 0; i < 200; ++i) {
+    EXPECT_FALSE(wheels.see({{F, -0.06}, {0.5 * F, -0.06}, {0.5 * F, -0.06}}, 2.0 * F * 0.06));
+  }
+}
+
+TEST(ReversedMotor, IsNothingThatSlackensInTheDwell) {
+  // P / P_j falls through the size of the command, by twice `steadily` in a dwell.
+  Wheels wheels;
+  for (double share = ReversedMotor::most; share > ReversedMotor::least;
+       share -= 2.0 * ReversedMotor::steadily * look / ReversedMotor::dwell) {
+    EXPECT_FALSE(wheels.see({{F, -0.06}}, share * 2.0 * F * 0.06)) << share;
+  }
+}
+
 TEST(ReversedMotor, IsNoMassThatIsHalfOfTheModels) {
   // Nothing touches it. One wheel drives with 3 F v, the other is told to brake with F v: W = 2 F v, and what
   // the model does not know is as much again, P = 2 F v.
