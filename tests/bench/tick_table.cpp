@@ -54,51 +54,46 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-/// [us] of one step now, the median of many.
-double step_time() {
+void time_steps(std::vector<double>& least) {
   static const bench::Workload step = bench::mujoco_step();
-  std::vector<double> times;
-  for (std::size_t i = 0; i < 4000; ++i) {
+  for (std::size_t i = 0; i < least.size(); ++i) {
     const auto start = Clock::now();
     step.call(i);
-    times.push_back(std::chrono::duration<double, std::micro>(Clock::now() - start).count());
+    least[i] = std::min(least[i], std::chrono::duration<double, std::micro>(Clock::now() - start).count());
   }
-  return quantile(times, 0.5);
 }
 
+/// [us] of each tick and of each step, the least over the replays: what is left is their own work.
 struct TickTimes {
-  std::vector<double> least;   ///< [us] of each tick over the replays: what is left is the tick's own work
-  std::vector<double> shares;  ///< by replay: its median tick beside a step right after it
-  std::vector<double> steps;   ///< [us] by replay
+  std::vector<double> ticks, steps;
 };
 
 TickTimes time_ticks(const lang::Program& program, const std::vector<runtime::Sensed>& samples) {
-  TickTimes times;
-  times.least.assign(samples.size(), 1e12);
-  std::vector<double> of_replay(samples.size());
+  TickTimes least;
+  least.ticks.assign(samples.size(), 1e12);
+  least.steps.assign(4000, 1e12);
   for (int replay = 0; replay < replays; ++replay) {
     runtime::Runner runner(program, {.period = period});
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const auto start = Clock::now();
       runner.step(samples[i]);
-      of_replay[i] = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-      times.least[i] = std::min(times.least[i], of_replay[i]);
+      const double time = std::chrono::duration<double, std::micro>(Clock::now() - start).count();
+      least.ticks[i] = std::min(least.ticks[i], time);
     }
-    times.steps.push_back(step_time());
-    times.shares.push_back(quantile(of_replay, 0.5) / times.steps.back());
+    time_steps(least.steps);
   }
-  return times;
+  return least;
 }
 
 void print(const char* name, const std::string& task, const std::string& robot, double goal, bool has_share) {
   const lang::Program program = load(task, robot);
   const std::vector<runtime::Sensed> samples = record(program, 20'000);
-  const TickTimes times = time_ticks(program, samples);
-  std::printf("%-34s %6zu %8.2f %8.2f %8.2f %6.0f", name, times.least.size(), quantile(times.least, 0.5),
-              quantile(times.least, 0.999), quantile(times.least, 1.0), goal);
+  const TickTimes least = time_ticks(program, samples);
+  const double tick = quantile(least.ticks, 0.5), step = quantile(least.steps, 0.5);
+  std::printf("%-34s %6zu %8.2f %8.2f %8.2f %6.0f", name, least.ticks.size(), tick,
+              quantile(least.ticks, 0.999), quantile(least.ticks, 1.0), goal);
   if (has_share)
-    std::printf("  %4.0f %% of a step of %.2f us (goal 50, stretch 35)", 100.0 * quantile(times.shares, 0.5),
-                quantile(times.steps, 0.5));
+    std::printf("  %4.0f %% of a step of %.2f us (goal 50, stretch 35)", 100.0 * tick / step, step);
   std::printf("\n");
 }
 
