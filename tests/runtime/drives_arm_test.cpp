@@ -136,5 +136,44 @@ TEST(UnusedArm, IsTakenOverWhenATaskLetsGoOfIt) {
   EXPECT_LT(way, 0.5 * degree);
 }
 
+const char* const press_text = R"(
+zwang: 1
+robot: robots/mecanum_arm_base.yaml
+frames:
+  shoulder: {parent: shoulder_link, rpy: [180 deg, 0 deg, 0 deg]}
+start: go
+always:
+  constraints:
+    held: {move: tool, in: base_link, level: 1, time_constant: 0.1 s, x: {position: here}, y: {position: here}, z: {position: here}, rx: {position: here}, ry: {position: here}, rz: {position: here}}
+    elbow: {move: shoulder, in: base_link, level: 1, rz: {position: here, time_constant: 0.1 s}}
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: world, level: 2, x: {velocity: 0.05 m/s, force: +-30 N, time_constant: 0.1 s}, y: {position: here}, rz: {position: here}}
+    exits: [{when: elapsed > 10 s, goto: done}]
+)";
+
+// The arm gives way by its own rows, as a soft spring does, and gives back what was pressed into it.
+TEST(HeldArm, ThatIsPressedIntoABoardIsNoRunaway) {
+  const fs::path file = fs::path(testing::TempDir()) / "press.yaml";
+  std::string text = press_text;
+  text.replace(text.find("robots/"), 7, (specs / "robots/").string());
+  std::ofstream(file) << text;
+  const lang::Program program = load(file, specs / "scenes/board.yaml");
+  ScenePlant plant(program);
+  Runner runner(program);
+  Sensed sensed(program.robot.model, program.signals.size());
+  double force = 0.0;
+  while (!runner.finished() && plant.truth().time < 15.0) {
+    ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+    const Eigen::VectorXd& tau = runner.step(sensed);
+    if (runner.state() == RunState::running) force = plant.truth().objects[0].force;
+    ASSERT_EQ(plant.apply(tau), PlantStatus::ok);
+  }
+  EXPECT_FALSE(runner.guard().stopped());
+  EXPECT_EQ(runner.state(), RunState::done);
+  EXPECT_NEAR(force, 30.0, 0.01 * 30.0);
+}
+
 }  // namespace
 }  // namespace zwang::runtime

@@ -305,6 +305,17 @@ TEST(SoftWall, IsNoFaultOfADifferentialBasesMotorsAsItIsTouched) {
   }
 }
 
+/// A soft wall gives back what was pressed into it, with a force that hardly slackens over the way that a
+/// base needs to get too fast.
+TEST(SoftWall, IsNoRunawayOfAnOmniBaseAsItGivesBack) {
+  for (const double yaw : {-15.0, -10.0, -5.0, 5.0, 10.0, 15.0}) {
+    const Pressing pressing("omni", {.stiffness = 1e3, .friction = 0.15, .yaw = yaw * degree});
+    const Outcome out = pressing.run(nullptr, 8.0);
+    ASSERT_GT(out.touched, 0.0);
+    EXPECT_LT(out.found, 0.0) << out.code << " at " << out.found << " s, " << yaw << " deg";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Drives, MotorFaults,
                          testing::Values(Drive{"mecanum", {"front_left_wheel", "rear_right_wheel"}},
                                          Drive{"omni",

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "guard/contact_depth.hpp"
 #include "guard/runaway_watch.hpp"
 #include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
@@ -24,7 +25,7 @@ lang::Program load(const std::string& robot) {
 /// is left of the acceleration is somebody else's: p = sqrt(m) (dv/dt - F/m).
 class OneMass {
  public:
-  OneMass(double low, double high) : model_(load("mecanum").robot.model), state_(model_) {
+  OneMass(double low, double high) : robot_(load("mecanum").robot), model_(robot_.model), state_(model_) {
     solver::AxisConstraint limit;
     limit.move = limit.in = {.body = 0};
     limit.velocity = solver::Range{low, high};
@@ -34,6 +35,8 @@ class OneMass {
   template <typename Speed, typename Force>
   double found(double until, const Speed& speed, const Force& force) {
     RunawayWatch watch(1, period);
+    ContactDepth contact(robot_, RunawayWatch::look_every);
+    const solver::FreeMotions motions(model_);
     Eigen::VectorXd rate(1), told(1);
     Eigen::VectorXd outside(1);
     for (int i = 0; i * period < until; ++i) {
@@ -45,13 +48,17 @@ class OneMass {
       set_.fill(model_, state_);
       const double a = (speed(t) - speed(t - 0.01)) / 0.01;
       outside(0) = std::sqrt(mass) * (a - told(0) / mass);
-      if (is_due && watch.look(set_, 0.5 * mass * watch.rates()(0) * watch.rates()(0), outside)) return t;
+      if (!is_due) continue;
+      const double v = watch.rates()(0);
+      contact.follow(motions, outside, outside(0) * std::sqrt(mass) * v);
+      if (watch.look(set_, 0.5 * mass * v * v, outside, contact)) return t;
     }
     return -1.0;
   }
   static constexpr double mass = 50.0;  // [kg]
 
  private:
+  const lang::Robot robot_;
   const solver::Model model_;
   solver::State state_;
   solver::ConstraintSet set_;
@@ -107,6 +114,36 @@ TEST(Runaway, IsNoBounce) {
     return phase < 0.5 * M_PI ? 0.3 * std::cos(phase) : 0.25 * std::cos(phase);
   };
   EXPECT_EQ(mass.found(2.0, speed, [](double) { return 20.0; }), -1.0);
+}
+
+/// Pressed into a spring of 1 kN/m by 20 N, quasi-statically, for 1 s; from 1.3 s on something else.
+constexpr double stiffness = 1e3;  // [N/m]
+constexpr double depth = 0.02;     // [m]
+double pressing_in(double t) {
+  return t < 1.0 ? depth : 0.0;
+}
+
+TEST(Runaway, IsNoSoftSpringThatGivesBack) {
+  // Told to brake with 12 N it goes back as m v' = K (x0 - s) - 12 N says: with up to 0.036 m/s where 0.02
+  // are allowed, and the force takes 35 ms for a tenth less.
+  OneMass mass(-0.02, 0.02);
+  const double rate = std::sqrt(stiffness / OneMass::mass), swing = depth - 12.0 / stiffness;
+  const auto speed = [&](double t) {
+    return t < 1.3 ? pressing_in(t) : -swing * rate * std::sin(rate * (t - 1.3));
+  };
+  const auto told = [](double t) { return t < 1.3 ? stiffness * std::min(t, 1.0) * depth : 12.0; };
+  EXPECT_EQ(mass.found(1.3 + 0.5 * M_PI / rate, speed, told), -1.0);
+}
+
+TEST(Runaway, IsFoundBesideASoftSpring) {
+  // What drives it on does not slacken: 0.2 m/s^2 back against 12 N.
+  OneMass mass(-0.02, 0.02);
+  const auto speed = [](double t) { return t < 1.3 ? pressing_in(t) : -0.2 * (t - 1.3); };
+  const auto told = [](double t) { return t < 1.3 ? stiffness * std::min(t, 1.0) * depth : 12.0; };
+  const double at = mass.found(3.0, speed, told);
+  const double passed = 1.3 + (0.02 + RunawayWatch::driven * RunawayWatch::margin) / 0.2;
+  EXPECT_GE(at, passed - period);
+  EXPECT_LT(at, passed + 2 * RunawayWatch::look_every + RunawayWatch::quick);
 }
 
 TEST(Runaway, IsNoHitOfSomebodyElse) {

@@ -60,8 +60,8 @@ RunawayWatch::RunawayWatch(int joints, double period)
 
 void RunawayWatch::reset() noexcept {
   is_exceeded_ = false;
-  beyond_.forget(last_energy_);
-  steady_.forget(last_energy_);
+  beyond_.forget(last_energy_, {});
+  steady_.forget(last_energy_, {});
   force_size_ = 0;
 }
 
@@ -84,26 +84,27 @@ bool RunawayWatch::keeps(Force force) noexcept {
   return is_same;
 }
 
-std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double kinetic_energy,
-                                        Force force) noexcept {
+std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
+                                        const ContactDepth& contact) noexcept {
   const double margins = largest_excess(set);
   const bool exceeds = margins > 1.0;
   if (exceeds && !is_exceeded_) {
     largest_before_ = *std::max_element(energies_.begin(), energies_.end());
-    beyond_.forget(kinetic_energy);
+    beyond_.forget(kinetic_energy, contact.now());
   }
   const bool grows = kinetic_energy > growth * last_energy_;
   beyond_.follow(exceeds && is_exceeded_ && grows && kinetic_energy > largest_before_);
   if (keeps(force) && grows) {
     steady_.follow(true);
   } else {
-    steady_.forget(kinetic_energy);
+    steady_.forget(kinetic_energy, contact.now());
   }
   is_exceeded_ = exceeds;
   last_energy_ = kinetic_energy;
   energies_[looks_++ % energies_.size()] = kinetic_energy;
   const auto is_at_work = [&](const Driver& driver) {
-    return driver.rising >= dwell && driver.may_be_a_motor(kinetic_energy);
+    return driver.rising >= dwell && driver.may_be_a_motor(kinetic_energy) &&
+           contact.is_no_spring(driver.contact);
   };
   const bool is_driven = margins > driven && is_at_work(steady_);
   if (!is_driven && !is_at_work(beyond_)) return std::nullopt;

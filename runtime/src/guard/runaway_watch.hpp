@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "guard/contact_depth.hpp"
 #include "zwang/runtime/event.hpp"
 #include "zwang/solver/constraint.hpp"
 
@@ -14,12 +15,14 @@ namespace zwang::runtime {
 ///   T(t) <= T(t0) + E(t0) + W,   W = integral of tau . qd from t0 to t,
 /// tau what its motors are told and E what contacts have stored by t0. Where an axis is faster than its task
 /// drives or allows, W < 0 and T grows all the same, somebody else does the work: a motor that pushes where
-/// it is told to brake, or a push from outside. Contacts that give back what
-/// they stored do it, too, and are told apart in one of two ways.
+/// it is told to brake, or a push from outside. Contacts that give back what they stored do it, too, and are
+/// told apart:
 ///  - A bounce gives back less than the robot had before it: T(t0) + E(t0) is at most the largest T of the
 ///    last second.
 ///  - A contact gives back by slackening, k times less force for k times less way. A force that keeps its
-///    direction and size while it drives the robot is no contact's.
+///    direction and size while it drives the robot is no contact's,
+///  - but a soft one's, which takes a long way to slacken: either has to do more than a spring as deep as
+///    this one was pressed in (ContactDepth).
 /// A motor that does the opposite of what it is told gives twice the work that it is told to take, and no
 /// contact adds to it. Where no motor's share comes near what was done, T(t) - T(t0) - W, the robot gives way
 /// to a push from outside, as a force range has it, and that is no fault. (Of two motors each may be all of
@@ -38,10 +41,11 @@ class RunawayWatch {
   bool follow(const Eigen::VectorXd& sent, const Eigen::VectorXd& qd) noexcept;
   /// Low-passed: the rates whose kinetic energy `look` wants.
   const Eigen::VectorXd& rates() const noexcept { return rates_; }
-  /// `force` is what the observer makes of the world's, in coordinates of free motion. The event names the
-  /// motor that brakes hardest by what it is told: a wheel that drives itself has the largest share of the
-  /// motion. Its value is that wheel's rate.
-  std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force) noexcept;
+  /// `force` is what the observer makes of the world's, in coordinates of free motion, and `contact` has
+  /// followed it. The event names the motor that brakes hardest by what it is told: a wheel that drives
+  /// itself has the largest share of the motion. Its value is that wheel's rate.
+  std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
+                            const ContactDepth& contact) noexcept;
 
   static constexpr double margin = 0.01;        ///< [m/s] beyond a speed that is driven or allowed
   static constexpr double turn_margin = 0.05;   ///< [rad/s] the same of rotations
@@ -61,10 +65,12 @@ class RunawayWatch {
   struct Driver {
     Eigen::VectorXd work;  ///< [J] by what each motor was told, since it may be at work
     double energy = 0.0;   ///< [J] T then
-    int rising = 0;        ///< looks that T has grown
-    void forget(double kinetic_energy) noexcept {
+    ContactDepth::Mark contact;
+    int rising = 0;  ///< looks that T has grown
+    void forget(double kinetic_energy, const ContactDepth::Mark& now) noexcept {
       work.setZero();
       energy = kinetic_energy;
+      contact = now;
       rising = 0;
     }
     bool may_be_a_motor(double kinetic_energy) const noexcept {

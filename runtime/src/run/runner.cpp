@@ -7,6 +7,7 @@
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
 #include "guard/actuator_watch.hpp"
+#include "guard/contact_depth.hpp"
 #include "guard/motor_beside_contact.hpp"
 #include "guard/reversed_motor.hpp"
 #include "guard/runaway_watch.hpp"
@@ -80,6 +81,7 @@ struct Runner::Parts {
         actuators(program.robot, settings.period),
         beside_contact(program.robot, settings.period),
         reversed(program.robot, RunawayWatch::look_every),
+        contact(program.robot, RunawayWatch::look_every),
         runaway(model.joint_count(), settings.period),
         slip(model),
         wrenches(model),
@@ -135,6 +137,7 @@ struct Runner::Parts {
   ActuatorWatch actuators;
   MotorBesideContact beside_contact;
   ReversedMotor reversed;
+  ContactDepth contact;
   RunawayWatch runaway;
   SlipWatch slip;
   WrenchRefusal wrenches;
@@ -253,6 +256,7 @@ void Runner::Parts::compare() noexcept {
     actuators.reset();
     beside_contact.reset();
     reversed.reset();
+    contact.reset();
     runaway.reset();
     return;
   }
@@ -262,6 +266,7 @@ void Runner::Parts::compare() noexcept {
     actuators.reset();
     beside_contact.reset();
     reversed.reset();
+    contact.reset();
     runaway.reset();
     return;
   }
@@ -276,8 +281,9 @@ void Runner::Parts::compare() noexcept {
     if (const auto fault = reversed.look(power, disturbance.torque(), runaway.rates()))
       guard.stop(fault->code, fault->signal, fault->value);
     const double energy = disturbance.kinetic_energy(runaway.rates());
-    if (const auto fault = runaway.look(scheduler.constraints(), energy,
-                                        disturbance.force().head(disturbance.motions().count)))
+    const auto p = disturbance.force().head(disturbance.motions().count);
+    contact.follow(disturbance.motions(), p, power);
+    if (const auto fault = runaway.look(scheduler.constraints(), energy, p, contact))
       guard.stop(fault->code, fault->signal, fault->value);
   }
 }
@@ -388,6 +394,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   now.actuators.reset();
   now.beside_contact.reset();
   now.reversed.reset();
+  now.contact.reset();
   now.runaway.reset();
   now.tau = before.tau;
   now.handed_over_for = 0.0;

@@ -1,0 +1,44 @@
+#include "guard/contact_depth.hpp"
+
+#include <algorithm>
+
+namespace zwang::runtime {
+
+ContactDepth::ContactDepth(const lang::Robot& robot, double period)
+    : motors_(wheel_motors(robot, smallest)), period_(period) {}
+
+void ContactDepth::reset() noexcept {
+  now_ = {};
+  hardest_ = 0.0;
+}
+
+/// What the motor that is felt least makes of p.
+double ContactDepth::least_force(const solver::FreeMotions& motions) const noexcept {
+  double least = solver::infinity;
+  for (const WheelMotor& motor : motors_)
+    least = std::min(least, motor.threshold * motions.joint.row(motor.joint).head(motions.count).norm());
+  return motors_.empty() ? 0.0 : least;
+}
+
+void ContactDepth::follow(const solver::FreeMotions& motions, Force p, double power) noexcept {
+  now_.size = p.norm();
+  hardest_ = std::max(hardest_, now_.size);
+  if (!(now_.size > std::max(least_force(motions), quiet * hardest_))) {
+    now_.depth = now_.work = hardest_ = 0.0;
+    return;
+  }
+  const double given = power * period_;
+  const double way = given / now_.size;
+  now_.given += given;
+  now_.way += way;
+  now_.work = std::max(0.0, now_.work - given);
+  now_.depth = std::max(0.0, now_.depth - way);
+}
+
+bool ContactDepth::is_no_spring(const Mark& since) const noexcept {
+  const double slackened = std::max(0.0, 1.0 - now_.size / since.size);
+  const bool keeps = now_.way - since.way > (slackened + unexplained) * since.depth;
+  return keeps || given(since) > since.work;
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,60 @@
+/// How deep contacts are pressed in, to tell a spring that gives back from a motor that drives.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "guard/wheel_motors.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/solver/solver.hpp"
+
+namespace zwang::runtime {
+
+/// Against a force p from outside the robot goes the way
+///   ds = - p . yd / |p| dt,
+/// in coordinates in which it is a unit mass [m sqrt(kg)]. Since p began out of nothing that is the depth x
+/// that a contact was pressed in by, at most: what slides takes way, too. And it took the work E = -p . yd
+/// dt, of which damping keeps some. A contact that gives back is a spring, so that
+///  - it slackens: on the way s back its force falls by the part s / x,
+///  - it gives no more than E.
+/// However soft it is: 20 N of 1 kN/m are 2 cm deep, and 1 mm back is a twentieth of them. What drives the
+/// robot on and does not slacken so is no contact's. Does not allocate, lock, throw or print after
+/// construction.
+class ContactDepth {
+ public:
+  using Force = Eigen::Ref<const Eigen::VectorXd>;
+  /// `period` [s] between looks.
+  ContactDepth(const lang::Robot& robot, double period);
+
+  void reset() noexcept;
+  /// p and what it does, P = p . yd. [W]
+  void follow(const solver::FreeMotions& motions, Force p, double power) noexcept;
+
+  /// A moment to look back to.
+  struct Mark {
+    double size = 0.0;   ///< |p|
+    double depth = 0.0;  ///< x
+    double work = 0.0;   ///< [J] that the world may have stored
+    double way = 0.0;    ///< that the world drove the robot, in all
+    double given = 0.0;  ///< [J] of work it did on the robot, in all
+  };
+  const Mark& now() const noexcept { return now_; }
+  /// [J] that the world did on the robot since then.
+  double given(const Mark& since) const noexcept { return now_.given - since.given; }
+  /// Whether what the world did since then is more than springs do.
+  bool is_no_spring(const Mark& since) const noexcept;
+
+  static constexpr double unexplained = 0.05;  ///< of x: the least way that a spring does not explain
+  static constexpr double quiet = 0.1;       ///< of the hardest |p|: a hundredth of what a spring stored then
+  static constexpr double smallest = 0.015;  ///< torque of a motor that counts as a force, of its limit
+
+ private:
+  double least_force(const solver::FreeMotions& motions) const noexcept;
+
+  std::vector<WheelMotor> motors_;
+  double period_;
+  Mark now_;
+  double hardest_ = 0.0;  ///< |p| since it began
+};
+
+}  // namespace zwang::runtime
