@@ -316,6 +316,18 @@ TEST(SoftWall, IsNoRunawayOfAnOmniBaseAsItGivesBack) {
   }
 }
 
+/// Rough ones turn the base as they give back; so one wheel does all of the work, as a reversed motor would.
+TEST(SoftWall, IsNoReversedMotorOfAMecanumBaseAsItGivesBack) {
+  const Wall walls[] = {{.stiffness = 1e3, .friction = 0.15, .yaw = 15.0 * degree},
+                        {.stiffness = 2e3, .friction = 0.15, .yaw = -10.0 * degree},
+                        {.stiffness = 2e3, .friction = 0.15, .yaw = 10.0 * degree}};
+  for (const Wall& wall : walls) {
+    const Outcome out = Pressing("mecanum", wall).run(nullptr, 8.0);
+    ASSERT_GT(out.touched, 0.0);
+    EXPECT_LT(out.found, 0.0) << out.code << " at " << out.found << " s, " << wall.stiffness << " N/m";
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Drives, MotorFaults,
                          testing::Values(Drive{"mecanum", {"front_left_wheel", "rear_right_wheel"}},
                                          Drive{"omni",

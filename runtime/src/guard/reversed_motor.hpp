@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "guard/contact_depth.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/event.hpp"
 
@@ -17,7 +18,8 @@ namespace zwang::runtime {
 /// at rates that change all the time. So P / P_j = 1 that stays the same while the wheel rolls on is motor j.
 /// What else gives energy, and how it is told apart:
 ///  - A contact that gives back what it stored slackens: of a force F it loses K s on the way s, so that none
-///    stiffer than `steadily` F / `travel`, 2 kN/m at 40 N, keeps its share.
+///    stiffer than `steadily` F / `travel`, 2 kN/m at 40 N, keeps its share; and the motor has to do more
+///    than a spring as deep as this one was pressed in (ContactDepth).
 ///  - Somebody who pushes the robot evenly gives P = -W, W = sum of tau_k qd_k what all motors were told to
 ///    do, and it does not get faster; a reversed motor's P + W is what speeds it up.
 ///  - The error E of a model with a wrong mass, p = -E ydd, gives P = e (P + W) with e <= 1/2 where the mass
@@ -30,8 +32,10 @@ class ReversedMotor {
   ReversedMotor(const lang::Robot& robot, double period);
 
   void reset() noexcept;
-  /// P [W], what the motors were told [N m], and the joints' rates, all of the same moments.
-  std::optional<Event> look(double power, const Eigen::VectorXd& told, const Eigen::VectorXd& rates) noexcept;
+  /// P [W], what the motors were told [N m], and the joints' rates, all of the same moments; `contact` has
+  /// followed P.
+  std::optional<Event> look(double power, const Eigen::VectorXd& told, const Eigen::VectorXd& rates,
+                            const ContactDepth& contact) noexcept;
 
   static constexpr double least = 0.9, most = 1.125;  ///< of P_j: a mass may be wrong by a fifth
   static constexpr double steadily = 0.05;            ///< of the share that it began with
@@ -49,8 +53,10 @@ class ReversedMotor {
     double share = 0.0;      ///< P / P_j, when it began
     double way = 0.0;        ///< [m] since then
     int looks = 0;           ///< since then
+    ContactDepth::Mark contact;
   };
-  void follow(Motor& motor, double power, double told, double rate) const noexcept;
+  void follow(Motor& motor, double power, double told, double rate,
+              const ContactDepth& contact) const noexcept;
 
   std::vector<Motor> motors_;
   double period_;

@@ -278,11 +278,11 @@ void Runner::Parts::compare() noexcept {
   }
   if (runaway.follow(tau, sample.state.qd)) {
     const double power = disturbance.power(runaway.rates());
-    if (const auto fault = reversed.look(power, disturbance.torque(), runaway.rates()))
-      guard.stop(fault->code, fault->signal, fault->value);
-    const double energy = disturbance.kinetic_energy(runaway.rates());
     const auto p = disturbance.force().head(disturbance.motions().count);
     contact.follow(disturbance.motions(), p, power);
+    if (const auto fault = reversed.look(power, disturbance.torque(), runaway.rates(), contact))
+      guard.stop(fault->code, fault->signal, fault->value);
+    const double energy = disturbance.kinetic_energy(runaway.rates());
     if (const auto fault = runaway.look(scheduler.constraints(), energy, p, contact))
       guard.stop(fault->code, fault->signal, fault->value);
   }
