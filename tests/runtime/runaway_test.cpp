@@ -146,6 +146,25 @@ TEST(Runaway, IsFoundBesideASoftSpring) {
   EXPECT_LT(at, passed + 2 * RunawayWatch::look_every + RunawayWatch::quick);
 }
 
+TEST(ContactDepth, OfWhatSlidesEndsAtTheDeepestContact) {
+  // 100 m along a wall that takes 2 N of a force of 20 N: 10 m of depth, if it were a spring's.
+  const lang::Robot robot = load("mecanum").robot;
+  const solver::FreeMotions motions(robot.model);
+  ContactDepth contact(robot, RunawayWatch::look_every);
+  const Eigen::VectorXd p = Eigen::VectorXd::Constant(1, 20.0);
+  for (int i = 0; i < 10'000; ++i) contact.follow(motions, p, -2.0);
+  const ContactDepth::Mark mark = contact.now();
+  const double enough =
+      ContactDepth::unexplained * ContactDepth::deepest * std::sqrt(robot.model.total_mass());
+  EXPECT_NEAR(mark.depth, ContactDepth::deepest * std::sqrt(robot.model.total_mass()), 1e-9);
+  while (contact.now().way - mark.way < enough - 1e-3) {
+    contact.follow(motions, p, 2.0);
+    ASSERT_FALSE(contact.is_no_spring(mark));
+  }
+  for (int i = 0; i < 3; ++i) contact.follow(motions, p, 2.0);
+  EXPECT_TRUE(contact.is_no_spring(mark));
+}
+
 TEST(Runaway, IsNoHitOfSomebodyElse) {
   // Another robot hits one that stands: within 35 ms it has 0.2 m/s, and brakes from there.
   OneMass mass(-0.05, 0.05);

@@ -1,11 +1,14 @@
 #include "guard/contact_depth.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace zwang::runtime {
 
 ContactDepth::ContactDepth(const lang::Robot& robot, double period)
-    : motors_(wheel_motors(robot, smallest)), period_(period) {}
+    : motors_(wheel_motors(robot, smallest)),
+      period_(period),
+      deepest_(deepest * std::sqrt(robot.model.total_mass())) {}
 
 void ContactDepth::reset() noexcept {
   now_ = {};
@@ -32,7 +35,7 @@ void ContactDepth::follow(const solver::FreeMotions& motions, Force p, double po
   now_.given += given;
   now_.way += way;
   now_.work = std::max(0.0, now_.work - given);
-  now_.depth = std::max(0.0, now_.depth - way);
+  now_.depth = std::clamp(now_.depth - way, 0.0, deepest_);
 }
 
 bool ContactDepth::is_no_spring(const Mark& since) const noexcept {

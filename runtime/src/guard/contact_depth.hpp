@@ -13,8 +13,8 @@ namespace zwang::runtime {
 /// Against a force p from outside the robot goes the way
 ///   ds = - p . yd / |p| dt,
 /// in coordinates in which it is a unit mass [m sqrt(kg)]. Since p began out of nothing that is the depth x
-/// that a contact was pressed in by, at most: what slides takes way, too. And it took the work E = -p . yd
-/// dt, of which damping keeps some. A contact that gives back is a spring, so that
+/// that a contact was pressed in by, at most: what slides takes way, too, so that x ends at `deepest`. And it
+/// took the work E = -p . yd dt, of which damping keeps some. A contact that gives back is a spring, so that
 ///  - it slackens: on the way s back its force falls by the part s / x,
 ///  - it gives no more than E.
 /// However soft it is: 20 N of 1 kN/m are 2 cm deep, and 1 mm back is a twentieth of them. What drives the
@@ -45,6 +45,7 @@ class ContactDepth {
   bool is_no_spring(const Mark& since) const noexcept;
 
   static constexpr double unexplained = 0.05;  ///< of x: the least way that a spring does not explain
+  static constexpr double deepest = 0.1;       ///< [m] times the root of the robot's mass
   static constexpr double quiet = 0.1;       ///< of the hardest |p|: a hundredth of what a spring stored then
   static constexpr double smallest = 0.015;  ///< torque of a motor that counts as a force, of its limit
 
@@ -53,6 +54,7 @@ class ContactDepth {
 
   std::vector<WheelMotor> motors_;
   double period_;
+  double deepest_;  ///< [m sqrt(kg)]
   Mark now_;
   double hardest_ = 0.0;  ///< |p| since it began
 };
