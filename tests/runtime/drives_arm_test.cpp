@@ -31,6 +31,14 @@ lang::Program load(const fs::path& task, const fs::path& scene) {
   return *program;
 }
 
+/// Of a task file's text, whose robot is one of specs/.
+lang::Program load_text(const char* name, std::string text, const fs::path& scene) {
+  const fs::path file = fs::path(testing::TempDir()) / name;
+  text.replace(text.find("robots/"), 7, (specs / "robots/").string());
+  std::ofstream(file) << text;
+  return load(file, scene);
+}
+
 /// The largest way of an arm joint from where it stood at `since`. [rad]
 class ArmWatch {
  public:
@@ -101,11 +109,7 @@ tasks:
 // Let go of while it moves at 0.1 m/s, the arm comes back to where it was then, and stays; it does not drop.
 // A position reaches 2 % of its way after 5.8 time constants.
 TEST(UnusedArm, IsTakenOverWhenATaskLetsGoOfIt) {
-  const fs::path file = fs::path(testing::TempDir()) / "reach.yaml";
-  std::string text = reach_text;
-  text.replace(text.find("robots/"), 7, (specs / "robots/").string());
-  std::ofstream(file) << text;
-  const lang::Program program = load(file, specs / "scenes/wall_far.yaml");
+  const lang::Program program = load_text("reach.yaml", reach_text, specs / "scenes/wall_far.yaml");
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program.robot.model, program.signals.size());
@@ -155,11 +159,7 @@ tasks:
 
 // The arm gives way by its own rows, as a soft spring does, and gives back what was pressed into it.
 TEST(HeldArm, ThatIsPressedIntoABoardIsNoRunaway) {
-  const fs::path file = fs::path(testing::TempDir()) / "press.yaml";
-  std::string text = press_text;
-  text.replace(text.find("robots/"), 7, (specs / "robots/").string());
-  std::ofstream(file) << text;
-  const lang::Program program = load(file, specs / "scenes/board.yaml");
+  const lang::Program program = load_text("press.yaml", press_text, specs / "scenes/board.yaml");
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program.robot.model, program.signals.size());

@@ -41,7 +41,7 @@ void ContactDepth::follow(const solver::FreeMotions& motions, Force p, double po
 bool ContactDepth::is_no_spring(const Mark& since) const noexcept {
   const double slackened = std::max(0.0, 1.0 - now_.size / since.size);
   const bool keeps = now_.way - since.way > (slackened + unexplained) * since.depth;
-  return keeps || given(since) > since.work;
+  return keeps || now_.given - since.given > since.work;
 }
 
 }  // namespace zwang::runtime

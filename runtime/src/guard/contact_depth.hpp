@@ -39,8 +39,6 @@ class ContactDepth {
     double given = 0.0;  ///< [J] of work it did on the robot, in all
   };
   const Mark& now() const noexcept { return now_; }
-  /// [J] that the world did on the robot since then.
-  double given(const Mark& since) const noexcept { return now_.given - since.given; }
   /// Whether what the world did since then is more than springs do.
   bool is_no_spring(const Mark& since) const noexcept;
 

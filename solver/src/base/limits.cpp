@@ -110,7 +110,7 @@ bool BoundedProblem::gives_in(int i, int level) noexcept {
   const bool is_upper = e.kind == RowKind::upper;
   const NearestAbove& nearest = nearest_[axis_of(i)];
   const int opposite = is_upper ? nearest.lower : nearest.upper;
-  if (e.level != level || e.softness != 0.0 || opposite < 0) return false;
+  if (e.level != level || !is_firm_limit(i, level) || opposite < 0) return false;
   if (!is_beyond(target_of(opposite), target_of(i), is_upper ? 1.0 : -1.0)) return false;
   bound(i);
   e.nu = is_upper ? e.lo : e.hi;
