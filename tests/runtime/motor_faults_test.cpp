@@ -287,20 +287,16 @@ TEST_P(MotorFaults, BoundForceAndSpeedWhereverBetweenHitsTheyBegin) {
 
 /// A soft wall presses slowly, with what its damping and then its spring give: as steadily as a motor that
 /// has failed, as far out as a wheel, and answered by a command of its size. It pressed before it was
-/// answered.
-TEST(SoftWall, IsNoFaultOfADifferentialBasesMotorsAsItIsTouched) {
-  constexpr double first = 0.3;  // [s] from the touch on
+/// answered, and 1 mm more is little of what it was pressed in by.
+TEST(SoftWall, IsNoFaultOfADifferentialBasesMotors) {
   for (const double soft : {1e3, 2e3, 5e3, 10e3}) {
     for (const double yaw : {-20.0, -12.0, -5.0, 5.0, 12.0, 20.0}) {
-      for (const double friction : {0.0, 0.15}) {
-        const Pressing pressing("diff", {.stiffness = soft, .friction = friction, .yaw = yaw * degree});
-        const Outcome out = pressing.run(nullptr, 2.0);
-        ASSERT_GT(out.touched, 0.0);
-        ASSERT_LT(out.touched + first, 2.0);
-        EXPECT_TRUE(out.found < 0.0 || out.found > out.touched + first)
-            << out.code << " at " << out.found << " s, " << soft << " N/m, " << yaw << " deg, friction "
-            << friction;
-      }
+      const double friction = yaw < 0.0 ? 0.15 : 0.0;  // the base is as wide to the left as to the right
+      const Pressing pressing("diff", {.stiffness = soft, .friction = friction, .yaw = yaw * degree});
+      const Outcome out = pressing.run(nullptr, 8.0);
+      ASSERT_GT(out.touched, 0.0);
+      EXPECT_LT(out.found, 0.0) << out.code << " at " << out.found << " s, " << soft << " N/m, " << yaw
+                                << " deg, friction " << friction;
     }
   }
 }

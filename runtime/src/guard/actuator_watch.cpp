@@ -45,8 +45,8 @@ bool ActuatorWatch::is_distinct(const Motor& motor, const solver::FreeMotions& m
   });
 }
 
-std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer,
-                                         const Eigen::VectorXd& q) noexcept {
+std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer, const Eigen::VectorXd& q,
+                                         const ContactDepth& contact) noexcept {
   const solver::FreeMotions& motions = observer.motions();
   const int m = motions.count;
   const auto p = observer.force().head(m);
@@ -63,15 +63,15 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer,
     motor.obedience.follow(fit.f, fit.tau, motor.threshold);
     follow_onset(motor, fit);
     const double at = q(motor.joint);
-    follow(motor, lost, fit, -fit.tau, off * std::abs(fit.tau), at);
-    follow(motor, flipped, fit, -2.0 * fit.tau, off * std::abs(fit.tau), at);
-    follow_stuck(motor, fit, at);
+    follow(motor, lost, fit, -fit.tau, off * std::abs(fit.tau), at, contact);
+    follow(motor, flipped, fit, -2.0 * fit.tau, off * std::abs(fit.tau), at, contact);
+    follow_stuck(motor, fit, at, contact);
     const bool is_suspected = std::any_of(motor.claims.begin(), motor.claims.end(), [&](const Claim& claim) {
       return claim.ticks > motor.loud_ticks - entry_ticks_;
     });
     if (!is_suspected) motor.is_armed = false;
     for (std::size_t kind = 0; kind < kind_count && !sure; ++kind) {
-      if (is_sure(motor, static_cast<Kind>(kind), fit, at) && is_distinct(motor, motions))
+      if (is_sure(motor, static_cast<Kind>(kind), fit, at, contact) && is_distinct(motor, motions))
         sure = static_cast<Kind>(kind);
     }
   }
@@ -88,14 +88,16 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer,
 
 /// Out of quiet, or closely while the wheel rolls. A stuck motor needs a command that varies, and twice the
 /// time to tell its steady torque from one that only changes slowly.
-bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, double q) const noexcept {
+bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, double q,
+                            const ContactDepth& contact) const noexcept {
   const Claim& claim = motor.claims[kind];
   const double told = motor.high_tau - motor.low_tau;
   if (motor.is_met && motor.hardest < left_behind * std::abs(fit.f)) return false;
   if (kind == stuck && !(told > varied * std::abs(fit.f))) return false;
   if (motor.is_armed && claim.ticks >= dwell_ticks_) return true;
   if (motor.obedience.is_seen()) return false;
-  const bool has_rolled = std::abs(q - claim.q) * motor.radius > travel;
+  const bool has_rolled =
+      std::abs(q - claim.q) * motor.radius > travel && contact.is_no_spring(claim.contact);
   if (kind != stuck) return claim.close_ticks >= close_ticks_ && has_rolled;
   const bool is_steady = motor.high_sum - motor.low_sum < closely * told;
   return std::min(claim.ticks, claim.close_ticks) >= 2 * close_ticks_ && has_rolled && is_steady;
@@ -126,24 +128,29 @@ void ActuatorWatch::follow_onset(Motor& motor, const Fit& fit) const noexcept {
 }
 
 /// A force T_j f, expected of a motor, leaves of p: |p - T_j f|^2 = |p - T_j f_p|^2 + |T_j|^2 (f - f_p)^2.
-void ActuatorWatch::follow(Motor& motor, Kind kind, const Fit& fit, double f, double slack,
-                           double q) const noexcept {
+void ActuatorWatch::follow(Motor& motor, Kind kind, const Fit& fit, double f, double slack, double q,
+                           const ContactDepth& contact) const noexcept {
   Claim& claim = motor.claims[kind];
   const bool is_felt = std::abs(fit.f) > motor.threshold;
   const bool fits = is_felt && fit.rest < most_unexplained * fit.all && std::abs(f - fit.f) < slack;
   const double share = kind == stuck ? 1.0 : fit.f / f;
   const bool keeps = claim.ticks > 0 && std::abs(share - claim.share) < closely * claim.share;
-  if (!keeps) claim = {.close_ticks = claim.close_ticks, .q = claim.q, .share = share};
+  if (!keeps)
+    claim = {.close_ticks = claim.close_ticks, .q = claim.q, .contact = claim.contact, .share = share};
   claim.ticks = fits ? claim.ticks + 1 : 0;
   const double left = fit.rest + fit.s * (f - fit.f) * (f - fit.f);
   claim.left = left;
   const bool is_close = std::abs(fit.f) > late * motor.threshold && left < closely * closely * fit.all;
   claim.close_ticks = is_close ? claim.close_ticks + 1 : 0;
-  if (claim.close_ticks <= 1) claim.q = q;
+  if (claim.close_ticks <= 1) {
+    claim.q = q;
+    claim.contact = contact.now();
+  }
 }
 
 /// Its torque, tau + f, stays the same while the command changes.
-void ActuatorWatch::follow_stuck(Motor& motor, const Fit& fit, double q) const noexcept {
+void ActuatorWatch::follow_stuck(Motor& motor, const Fit& fit, double q,
+                                 const ContactDepth& contact) const noexcept {
   const Claim& claim = motor.claims[stuck];
   const double sum = fit.tau + fit.f;
   if (claim.ticks == 0) {
@@ -159,7 +166,7 @@ void ActuatorWatch::follow_stuck(Motor& motor, const Fit& fit, double q) const n
   const double told = motor.high_tau - motor.low_tau;
   const bool is_constant = varied_sum < std::max(off * told, 0.5 * closely * std::abs(fit.f));
   const double slack = is_constant ? solver::infinity : -1.0;
-  follow(motor, stuck, fit, middle - fit.tau, slack, q);
+  follow(motor, stuck, fit, middle - fit.tau, slack, q, contact);
 }
 
 }  // namespace zwang::runtime

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "estimate/disturbance.hpp"
+#include "guard/contact_depth.hpp"
 #include "guard/obedience.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/event.hpp"
@@ -22,8 +23,9 @@ namespace zwang::runtime {
 ///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
 ///    began out of quiet, and keeps it `closely` for `dwell`, is a motor's.
 ///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
-///    gives way or grows. A force that keeps to direction and size `closely` the while is a motor's, whenever
-///    it began: a motor that failed while it was told nothing is so found between two hits.
+///    gives way or grows. A force that keeps to direction and size `closely` the while, farther than a spring
+///    does that is as deep (ContactDepth), is a motor's, whenever it began: a motor that failed while it was
+///    told nothing is so found between two hits.
 ///    Not one that was seen to obey since it is told something (Obedience): what is as large as its command
 ///    is something else then.
 ///  - Contact comes before the command that answers it: where p jumps out of quiet to more than any fault
@@ -39,7 +41,8 @@ class ActuatorWatch {
 
   void reset() noexcept;
   /// After each comparison of the observer; `q` are the joints' positions.
-  std::optional<Event> look(const DisturbanceObserver& observer, const Eigen::VectorXd& q) noexcept;
+  std::optional<Event> look(const DisturbanceObserver& observer, const Eigen::VectorXd& q,
+                            const ContactDepth& contact) noexcept;
 
   static constexpr double entry = 0.03;       ///< [s] from the begin of a force to the suspicion
   static constexpr double dwell = 0.04;       ///< [s] that a suspicion must last
@@ -58,11 +61,12 @@ class ActuatorWatch {
  private:
   /// That a motor has one kind of fault.
   struct Claim {
-    int ticks = 0;        ///< that it has held
-    int close_ticks = 0;  ///< that it has held closely
-    double q = 0.0;       ///< [rad] where that began
-    double left = 0.0;    ///< of |p|^2 that it does not explain
-    double share = 0.0;   ///< of the size that it tells, when it began to hold
+    int ticks = 0;               ///< that it has held
+    int close_ticks = 0;         ///< that it has held closely
+    double q = 0.0;              ///< [rad] where that began
+    ContactDepth::Mark contact;  ///< then
+    double left = 0.0;           ///< of |p|^2 that it does not explain
+    double share = 0.0;          ///< of the size that it tells, when it began to hold
   };
   enum Kind { lost, flipped, stuck, kind_count };
   struct Motor {
@@ -88,9 +92,11 @@ class ActuatorWatch {
     double rest = 0.0, all = 0.0;  ///< |p - T_j f|^2 and |p|^2
   };
   void follow_onset(Motor& motor, const Fit& fit) const noexcept;
-  void follow(Motor& motor, Kind kind, const Fit& fit, double f, double slack, double q) const noexcept;
-  void follow_stuck(Motor& motor, const Fit& fit, double q) const noexcept;
-  bool is_sure(const Motor& motor, Kind kind, const Fit& fit, double q) const noexcept;
+  void follow(Motor& motor, Kind kind, const Fit& fit, double f, double slack, double q,
+              const ContactDepth& contact) const noexcept;
+  void follow_stuck(Motor& motor, const Fit& fit, double q, const ContactDepth& contact) const noexcept;
+  bool is_sure(const Motor& motor, Kind kind, const Fit& fit, double q,
+               const ContactDepth& contact) const noexcept;
   bool is_distinct(const Motor& motor, const solver::FreeMotions& motions) const noexcept;
 
   std::vector<Motor> motors_;

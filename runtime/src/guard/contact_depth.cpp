@@ -39,8 +39,10 @@ void ContactDepth::follow(const solver::FreeMotions& motions, Force p, double po
 }
 
 bool ContactDepth::is_no_spring(const Mark& since) const noexcept {
-  const double slackened = std::max(0.0, 1.0 - now_.size / since.size);
-  const bool keeps = now_.way - since.way > (slackened + unexplained) * since.depth;
+  const double way = now_.way - since.way;
+  const double grown = now_.size / since.size - 1.0;
+  const double follows = std::max(0.0, way > 0.0 ? -grown : grown);
+  const bool keeps = std::abs(way) > (follows + unexplained) * since.depth;
   return keeps || now_.given - since.given > since.work;
 }
 

@@ -15,11 +15,11 @@ namespace zwang::runtime {
 /// in coordinates in which it is a unit mass [m sqrt(kg)]. Since p began out of nothing that is the depth x
 /// that a contact was pressed in by, at most: what slides takes way, too, so that x ends at `deepest`. And it
 /// took the work E = -p . yd dt, of which damping keeps some. A contact that gives back is a spring, so that
-///  - it slackens: on the way s back its force falls by the part s / x,
+///  - it slackens: on the way s back its force falls by the part s / x, and grows by it on the way s ahead,
 ///  - it gives no more than E.
-/// However soft it is: 20 N of 1 kN/m are 2 cm deep, and 1 mm back is a twentieth of them. What drives the
-/// robot on and does not slacken so is no contact's. Does not allocate, lock, throw or print after
-/// construction.
+/// However soft it is: 20 N of 1 kN/m are 2 cm deep, and 1 mm back is a twentieth of them. What the robot
+/// moves with, or against, and does not follow it so is no contact's. Does not allocate, lock, throw or print
+/// after construction.
 class ContactDepth {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;
@@ -39,7 +39,7 @@ class ContactDepth {
     double given = 0.0;  ///< [J] of work it did on the robot, in all
   };
   const Mark& now() const noexcept { return now_; }
-  /// Whether what the world did since then is more than springs do.
+  /// Whether p since then did what no spring does.
   bool is_no_spring(const Mark& since) const noexcept;
 
   static constexpr double unexplained = 0.05;  ///< of x: the least way that a spring does not explain

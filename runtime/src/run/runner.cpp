@@ -270,7 +270,7 @@ void Runner::Parts::compare() noexcept {
     runaway.reset();
     return;
   }
-  if (const auto fault = actuators.look(disturbance, sample.state.q)) {
+  if (const auto fault = actuators.look(disturbance, sample.state.q, contact)) {
     guard.stop(fault->code, fault->signal, fault->value);
   }
   if (const auto fault = beside_contact.look(disturbance)) {
