@@ -93,8 +93,7 @@ class Planner {
     plan.task = task.name;
     plan.notes = notes_of(task);
     try {
-      constexpr double period = 0.001;  // [s]
-      runtime::Scheduler scheduler(starting_with(program_, index), period);
+      runtime::Scheduler scheduler(starting_with(program_, index), program_.robot.control_period);
       runtime::Sensed sensed(program_.robot.model);
       sensed.state = state_;
       scheduler.tick(sensed);

@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using runtime::PlantStatus;
 
-constexpr double period = control_period;
 constexpr auto terminal_refresh = std::chrono::milliseconds(50);
 constexpr double line_every = 1.0;  // [s] of the run, where there is no terminal
 constexpr auto longest_signal_stop = std::chrono::milliseconds(300);
@@ -106,7 +105,10 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
              RunReport& report) {
   runtime::Sensed sensed(program.robot.model, program.signals.size());
   std::vector<double> truth(3 + program.scene->objects.size() + program.scene->robots.size());
-  TruthWatch watch(plant.truth(), period);
+  const runtime::SimulationSteps steps = runtime::simulation_steps(runner.period());
+  TruthWatch watch(plant.truth(), steps.period);
+  Eigen::VectorXd tau;
+  int until_tick = 0;
   PlantStatus status = PlantStatus::ok;
   std::optional<Clock::time_point> give_up;
   // The simulated robot waits while nobody steps it: it is enough to see the stop with the next step. Only on
@@ -126,13 +128,17 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     // A sample that does not arrive is the guard's to count: it is shown the last one again.
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
-    put_truth(plant.truth(), truth);
-    if (reloads != nullptr) reloads->look(runner, sensed.time);
     for (const auto& recorder : recorders) recorder->wait_for_room();
-    const Eigen::VectorXd& tau = runner.step(sensed, truth);
+    if (until_tick-- == 0) {
+      until_tick = steps.per_tick - 1;
+      put_truth(plant.truth(), truth);
+      if (reloads != nullptr) reloads->look(runner, sensed.time);
+      tau = runner.step(sensed, truth);
+      if (runner.state() == runtime::RunState::running && runner.scheduler().transition())
+        report.asked = asked_forces(runner.scheduler());
+      live.show(runner, sensed.time);
+    }
     const bool in_task = runner.state() == runtime::RunState::running;
-    if (in_task && runner.scheduler().transition()) report.asked = asked_forces(runner.scheduler());
-    live.show(runner, sensed.time);
     status = plant.apply(tau);
     if (status != PlantStatus::ok) break;
     watch.look(plant.truth(), in_task);
@@ -175,11 +181,10 @@ int run(const RunArguments& arguments) {
     throw Impossible(arguments.file + ": names no scene to run in; give one with --scene FILE");
 
   runtime::ScenePlantOptions options;
-  options.simulation.period = period;
+  options.simulation.period = runtime::simulation_steps(program->robot.control_period).period;
   options.seed = arguments.seed;
   runtime::ScenePlant plant(*program, options);
   runtime::RunnerSettings settings;
-  settings.period = period;
   settings.extra_columns = truth_columns(*program->scene);
   runtime::Runner runner(*program, settings);
 

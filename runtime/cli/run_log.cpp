@@ -53,7 +53,6 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene&
   if (!robot.robot_path.empty()) context.facts["robot"] = robot.robot_path;
   context.facts["partner"] = robot.name;
   context.facts["seed"] = std::to_string(arguments.seed);
-  context.facts["period [s]"] = exactly(control_period);
   for (const lang::Parameter& p : robot.program->parameters)
     context.facts["params." + p.name] = exactly(p.value);
   return context;
@@ -61,6 +60,7 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene&
 
 std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const fs::path& folder,
                                           const std::string& name, runtime::LogContext context) {
+  context.facts["period [s]"] = exactly(runner.period());
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
   sinks.push_back(runtime::mcap_sink(folder / (name + ".mcap"), std::move(context)));
   sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
@@ -80,7 +80,6 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Progra
   if (arguments.overrides.robot) facts["robot"] = *arguments.overrides.robot;
   if (arguments.overrides.scene) facts["scene"] = *arguments.overrides.scene;
   facts["seed"] = std::to_string(arguments.seed);
-  facts["period [s]"] = exactly(control_period);
   if (arguments.start_yaw) facts["start_yaw [rad]"] = exactly(*arguments.start_yaw);
   if (arguments.start_at) {
     facts["start_at [m]"] = exactly((*arguments.start_at)[0]) + ", " + exactly((*arguments.start_at)[1]);

@@ -13,8 +13,6 @@
 
 namespace zwang::cli {
 
-inline constexpr double control_period = 1e-3;  ///< [s]
-
 using Recorders = std::vector<std::unique_ptr<runtime::Recorder>>;
 
 /// A folder of its own for the run: the given one, else the first free `runs/<task>-NNN`.

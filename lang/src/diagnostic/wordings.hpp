@@ -197,6 +197,7 @@ Diagnostic too_few_corners(const Span& span, const std::string& what);
 Diagnostic flat_polygon(const Span& span, const std::string& what);
 Diagnostic posture_outside(const Span& span, const std::string& what, const Span& joint);
 Diagnostic impossible_model(const Span& span, const std::string& reason);
+Diagnostic control_period_outside(const Span& span, double period);
 
 Diagnostic xml_too_deep(const Span& span, int limit);
 Diagnostic too_many_attributes(const Span& span, std::size_t limit);

@@ -37,6 +37,10 @@ std::string product(double mass, double acceleration, const Units& u) {
   return figure(mass, u.mass) + " x " + figure(acceleration, u.acceleration);
 }
 
+std::string control_period_of(double period) {
+  return "a control period of " + figure(period * 1e3, "ms");
+}
+
 std::string ahead(const std::string& frame) {
   return frame.empty() ? "" : "move a frame ahead of the axle, for example " + frame;
 }
@@ -178,24 +182,26 @@ Diagnostic brakes_too_hard(const Span& span, const std::string& axis, bool turns
 }
 
 Diagnostic faster_than_the_tick(const Span& span, const std::string& axis, double time_constant,
-                                double least) {
+                                double period, double least) {
   return warning("W604", span,
-                 "`" + axis + "` has a time constant of " + figure(time_constant * 1e3, "ms") +
-                     ", which a control period of 1 ms cannot follow",
+                 "`" + axis + "` has a time constant of " + figure(time_constant * 1e3, "ms") + ", which " +
+                     control_period_of(period) + " cannot follow",
                  "`time_constant: " + figure(least * 1e3, "ms") + "` or longer");
 }
 
-Diagnostic damped_too_hard(const Span& span, const std::string& axis, bool turns, double mass, double most) {
+Diagnostic damped_too_hard(const Span& span, const std::string& axis, bool turns, double mass, double period,
+                           double most) {
   return warning("W604", span,
-                 "the damping of `" + axis + "` shakes " + figure(mass, units(turns).mass) +
-                     ": a control period of 1 ms cannot follow it",
+                 "the damping of `" + axis + "` shakes " + figure(mass, units(turns).mass) + ": " +
+                     control_period_of(period) + " cannot follow it",
                  "`damping: " + at_most(most, turns ? "N m s/rad" : "N s/m") + "` or less");
 }
 
-Diagnostic too_stiff(const Span& span, const std::string& axis, bool turns, double mass, double most) {
+Diagnostic too_stiff(const Span& span, const std::string& axis, bool turns, double mass, double period,
+                     double most) {
   return warning("W604", span,
                  "`" + axis + "` is too stiff for its damping: on " + figure(mass, units(turns).mass) +
-                     " and with a control period of 1 ms it swings wider and wider",
+                     " and with " + control_period_of(period) + " it swings wider and wider",
                  "`stiffness: " + at_most(most, turns ? "N m/rad" : "N/m") + "` or less, or more damping");
 }
 

@@ -62,10 +62,12 @@ struct Braking {
 Diagnostic brakes_too_hard(const Span& span, const std::string& axis, bool turns, const Braking& braking,
                            double enough);
 Diagnostic faster_than_the_tick(const Span& span, const std::string& axis, double time_constant,
-                                double least);
+                                double period, double least);
 /// The damping and the stiffness of a spring on the mass. SI
-Diagnostic damped_too_hard(const Span& span, const std::string& axis, bool turns, double mass, double most);
-Diagnostic too_stiff(const Span& span, const std::string& axis, bool turns, double mass, double most);
+Diagnostic damped_too_hard(const Span& span, const std::string& axis, bool turns, double mass, double period,
+                           double most);
+Diagnostic too_stiff(const Span& span, const std::string& axis, bool turns, double mass, double period,
+                     double most);
 
 Diagnostic force_budget(const Span& span, const std::string& axis, bool turns, double own,
                         const std::string& others, double added);

@@ -1,7 +1,9 @@
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_physics.hpp"
 #include "spec/units.hpp"
 #include "tree/text.hpp"
+#include "zwang/lang/robot.hpp"
 
 namespace zwang::lang::wording {
 
@@ -81,6 +83,15 @@ Diagnostic impossible_model(const Span& span, const std::string& reason) {
                "this robot cannot move as described: " +
                    (reason.starts_with(origin) ? reason.substr(origin.size()) : reason),
                "give every link that moves a mass above 0 and the inertia of a real body");
+}
+
+Diagnostic control_period_outside(const Span& span, double period) {
+  const auto ms = [](double time) { return figure(time * 1e3, "ms"); };
+  const std::string longest = ms(longest_control_period);
+  return error("E811", span,
+               "a control period of " + ms(period) + " is not between " + ms(shortest_control_period) +
+                   " and " + longest,
+               "limits of speed brake within " + longest + ": torques must come as often");
 }
 
 Diagnostic xml_too_deep(const Span& span, int limit) {

@@ -77,7 +77,7 @@ the speed. The note is there when that is above 2.5 F, and tells the speed at wh
           .why =
               R"~(A position driver that arrives at the velocity v brakes hardest with v / (2.718 time_constant). Where
 its acceleration range, or its force range over the effective mass, allows less, it overshoots. And no driver can
-be faster than the control period of 1 ms lets it be: 4 ms for a velocity, 8 ms for a position.)~",
+be faster than the robot's `control_period`, 1 ms, lets it be: 4 of them for a velocity, 8 for a position.)~",
           .fix = "Lengthen the `time_constant` to what the message says, or lower the velocity.",
           .part = ExcerptOf::group,
           .example =

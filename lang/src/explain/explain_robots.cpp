@@ -143,6 +143,17 @@ and its `radius`; 2 mm about the middle are levelled out, more is a wrong number
           .part = ExcerptOf::robot,
           .example = "wheels: [{joint: left, radius: 200 mm}, {joint: right, radius: 100 mm}]",
           .instead = "wheels: [{joint: left, radius: 100 mm}, {joint: right, radius: 100 mm}]"},
+      Explanation{
+          .code = "E811",
+          .title = "a control period that is too long, or too short",
+          .why =
+              R"~(What comes near a limit is braked within 10 ms, so that torques have to come as often, 100 times a
+second. Where a robot is driven more slowly, what it touches would be pressed, and limits passed, before anybody
+notices.)~",
+          .fix = "Say how often the loop that embeds zwang steps it, or close a faster loop on the robot.",
+          .part = ExcerptOf::robot,
+          .example = "control_period: 50 ms",
+          .instead = "control_period: 10 ms"},
   };
   return entries;
 }

@@ -8,9 +8,9 @@
 // which the acceleration range, or the force range over the effective mass, must allow: else the base
 // overshoots.
 //
-// And whatever drives, the tick of dt = 1 ms must follow it. One tick passes between sensing and torque, so a
-// velocity error decays as z^2 - z + dt/tau = 0: without oscillation from tau = 4 dt on. A position driver
-// damps with 2/tau instead of 1/tau: from tau = 8 dt on.
+// And whatever drives, the ticks of the robot file's `control_period` dt must follow it. One tick passes
+// between sensing and torque, so a velocity error decays as z^2 - z + dt/tau = 0: without oscillation from
+// tau = 4 dt on. A position driver damps with 2/tau instead of 1/tau: from tau = 8 dt on.
 //
 // A spring of stiffness k and damping d on the mass m damps with d/m: without oscillation up to d = m / (4
 // dt). With the same tick between sensing and torque it follows z^3 - 2 z^2 + (1 + a + b) z - a = 0 with a =
@@ -28,13 +28,12 @@ namespace zwang::lang {
 
 namespace {
 
-constexpr double tick = 1e-3;  // [s], the default control period
-
-void ask_tick(const PlannedAxis& axis, Remarks& remarks) {
+void ask_tick(const PlannedAxis& axis, double dt, Remarks& remarks) {
   if (axis.driver == solver::Quantity::acceleration) return;
-  const double least = (axis.driver == solver::Quantity::position ? 8.0 : 4.0) * tick;
+  const double least = (axis.driver == solver::Quantity::position ? 8.0 : 4.0) * dt;
   if (axis.time_constant >= least) return;
-  remarks.add(wording::faster_than_the_tick(axis.time_constant_span, axis.path, axis.time_constant, least));
+  remarks.add(
+      wording::faster_than_the_tick(axis.time_constant_span, axis.path, axis.time_constant, dt, least));
 }
 
 void ask_braking(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe, Remarks& remarks) {
@@ -64,14 +63,15 @@ void ask_spring(const PlannedAxis& axis, Probe& probe, Remarks& remarks) {
   const AxisFigures* figures = probe.figures(axis);
   if (figures == nullptr || !std::isfinite(figures->least_mass) || !(figures->least_mass > 0.0)) return;
   const double k = *axis.stiffness, d = *axis.damping, m = figures->least_mass;
-  const double most_damping = m / (4.0 * tick);
+  const double dt = probe.robot().control_period;
+  const double most_damping = m / (4.0 * dt);
   if (d > most_damping) {
-    remarks.add(wording::damped_too_hard(axis.damping_span, axis.path, axis.turns(), m, most_damping));
+    remarks.add(wording::damped_too_hard(axis.damping_span, axis.path, axis.turns(), m, dt, most_damping));
     return;
   }
-  const double most_stiffness = d * (1.0 - d * tick / m) / tick;
+  const double most_stiffness = d * (1.0 - d * dt / m) / dt;
   if (k >= most_stiffness)
-    remarks.add(wording::too_stiff(axis.stiffness_span, axis.path, axis.turns(), m, most_stiffness));
+    remarks.add(wording::too_stiff(axis.stiffness_span, axis.path, axis.turns(), m, dt, most_stiffness));
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks) 
   for (const PlannedAxis& axis : plan.axes) {
     if (axis.is_spring) ask_spring(axis, probe, remarks);
     if (!axis.drives_motion() || !(axis.time_constant > 0.0)) continue;
-    ask_tick(axis, remarks);
+    ask_tick(axis, probe.robot().control_period, remarks);
     ask_braking(plan, axis, probe, remarks);
   }
 }

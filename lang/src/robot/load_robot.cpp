@@ -239,6 +239,7 @@ class RobotBuilder {
     for (const Word& support : file_.supports) robot.supports.push_back(support.text);
     if (file_.bumper_height) robot.bumper_height = *file_.bumper_height;
     if (file_.bumper_stiffness) robot.bumper_stiffness = *file_.bumper_stiffness;
+    if (file_.control_period) robot.control_period = *file_.control_period;
     add_joint_facts(robot);
     return robot;
   }

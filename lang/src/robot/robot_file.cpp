@@ -179,6 +179,13 @@ void parse_bumper(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
   map.finish();
 }
 
+std::optional<double> parse_control_period(const Node& node, Diagnostics& diagnostics) {
+  const auto period = parse_positive(node, dimension::time, "control_period", false, diagnostics);
+  if (!period || (*period >= shortest_control_period && *period <= longest_control_period)) return period;
+  diagnostics.add(wording::control_period_outside(node.span, *period));
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string posture_name(const std::string& joint) {
@@ -219,6 +226,8 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
        [&](const Entry& e) { file.friction.push_back(parse_friction(e, diagnostics)); });
   if (const Node* footprint = map.required("footprint")) parse_footprint(*footprint, file, diagnostics);
   if (const Node* bumper = map.optional("bumper")) parse_bumper(*bumper, file, diagnostics);
+  if (const Node* period = map.optional("control_period"))
+    file.control_period = parse_control_period(*period, diagnostics);
   each(map.optional("frames"), "frames",
        [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
   map.finish();

@@ -55,6 +55,7 @@ struct RobotFile {
   Span footprint_span;
   std::optional<double> bumper_stiffness;
   std::optional<double> bumper_height;
+  std::optional<double> control_period;
   std::vector<FrameText> frames;
 };
 

@@ -187,6 +187,7 @@ Json robot_file() {
         object("the outline on the floor, in the base frame", {{"polygon", reference("polygon"), true}}),
         true},
        {"bumper", object("", {{"stiffness", reference("quantity")}, {"height", reference("quantity")}})},
+       {"control_period", reference("quantity")},
        {"frames", named("places on the robot", robot_frame())}});
 }
 

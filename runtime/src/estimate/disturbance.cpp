@@ -21,7 +21,10 @@ double dot(const double* a, const double* b, Eigen::Index count) noexcept {
 
 }  // namespace
 
-DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot) : motions_(robot.model) {
+DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot, double period)
+    : motions_(robot.model),
+      window_(std::max(1, static_cast<int>(std::lround(mean_over / period)))),
+      longest_step_(std::max(longest_step, 1.5 * period)) {
   const solver::Model& model = robot.model;
   const int joints = model.joint_count();
   for (int j = 0; j < joints; ++j) {
@@ -30,8 +33,8 @@ DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot) : motions_(ro
   }
   qd_ = expected_ = sent_ = torque_ = Eigen::VectorXd::Zero(joints);
   excess_ = watched_rates_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(watched_.size()));
-  excesses_ = Eigen::MatrixXd::Zero(excess_.size(), window);
-  torques_ = Eigen::MatrixXd::Zero(joints, window);
+  excesses_ = Eigen::MatrixXd::Zero(excess_.size(), window_);
+  torques_ = Eigen::MatrixXd::Zero(joints, window_);
   const int most = joints + 6;
   p_ = right_ = w_ = yd_ = Eigen::VectorXd::Zero(most);
   T_factor_ = C_factor_ = Eigen::MatrixXd::Zero(most, most);
@@ -73,7 +76,7 @@ void DisturbanceObserver::take_motions(const solver::Solver& solver) noexcept {
 
 bool DisturbanceObserver::compare(const solver::State& state, double time) noexcept {
   const double dt = time - time_;
-  if (!expects_ || !(dt > 0.0) || dt > longest_step) {
+  if (!expects_ || !(dt > 0.0) || dt > longest_step_) {
     known_ = 0;
     return expects_ = false;
   }
@@ -85,20 +88,20 @@ bool DisturbanceObserver::compare(const solver::State& state, double time) noexc
     known_ = 0;
     return false;
   }
-  const double mean_age = std::min(0.5 * window * dt, 0.5 * time_constant);
+  const double mean_age = std::min(0.5 * window_ * dt, 0.5 * time_constant);
   filtered_ += (1.0 - std::exp(-dt / (time_constant - mean_age))) * (w - filtered_);
   return true;
 }
 
 /// e and tau of the last comparisons, and their means.
 void DisturbanceObserver::remember(const solver::State& state, double dt) noexcept {
-  column_ = known_ == 0 ? 0 : (column_ + 1) % window;
+  column_ = known_ == 0 ? 0 : (column_ + 1) % window_;
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const int j = watched_[i];
     excesses_(static_cast<Eigen::Index>(i), column_) = (state.qd(j) - qd_(j)) / dt - expected_(j);
   }
   torques_.col(column_) = sent_;
-  known_ = std::min(known_ + 1, window);
+  known_ = std::min(known_ + 1, window_);
   excess_ = excesses_.leftCols(known_).rowwise().sum() / known_;
   torque_ = torques_.leftCols(known_).rowwise().sum() / known_;
 }

@@ -21,7 +21,8 @@ namespace zwang::runtime {
 /// allocate, lock, throw or print after construction.
 class DisturbanceObserver {
  public:
-  explicit DisturbanceObserver(const lang::Robot& robot);
+  /// `period` [s] from one comparison to the next.
+  DisturbanceObserver(const lang::Robot& robot, double period);
 
   /// Forgets what was commanded: the next sample is compared with nothing.
   void pause() noexcept { expects_ = false; }
@@ -39,15 +40,16 @@ class DisturbanceObserver {
 
   /// On the base at its origin, in its axes: x, y [N] and rz [N m]; low-passed.
   const solver::Vector3& base_force() const noexcept { return filtered_; }
-  /// p of the last comparisons, their mean over `window`; `motions().count` entries.
+  /// p of the last comparisons, their mean over `window()` of them; `motions().count` entries.
   const Eigen::VectorXd& force() const noexcept { return p_; }
   const solver::FreeMotions& motions() const noexcept { return motions_; }
   /// The same mean of what the motors were told [N m] or [N].
   const Eigen::VectorXd& torque() const noexcept { return torque_; }
+  int window() const noexcept { return window_; }
 
   static constexpr double time_constant = 0.02;  ///< [s] T_r
-  static constexpr int window = 10;              ///< comparisons: what is over is soon forgotten for good
-  static constexpr double longest_step = 0.005;  ///< [s] between samples that are compared
+  static constexpr double mean_over = 0.01;      ///< [s] `window()`: what is over is soon forgotten for good
+  static constexpr double longest_step = 0.005;  ///< [s] between samples that are compared, or a period
 
  private:
   /// yd of the joints' rates.
@@ -71,8 +73,10 @@ class DisturbanceObserver {
   Eigen::MatrixXd C_turned_;            ///< C'
   RowMajor T_factor_, C_factor_;        ///< of T'T and C C'
   Eigen::MatrixXd excesses_, torques_;  ///< rings: a column a comparison
-  int column_ = 0;                      ///< of the last comparison
-  int known_ = 0;                       ///< comparisons since the last pause, `window` at most
+  int window_;
+  double longest_step_;
+  int column_ = 0;  ///< of the last comparison
+  int known_ = 0;   ///< comparisons since the last pause, `window()` at most
   Eigen::VectorXd right_, w_, yd_;
   solver::Vector3 filtered_ = solver::Vector3::Zero();
   double time_ = 0.0;

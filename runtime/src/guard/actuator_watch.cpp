@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "guard/ticks.hpp"
 #include "guard/wheel_motors.hpp"
 
 namespace zwang::runtime {
@@ -11,10 +12,6 @@ namespace {
 
 /// Cosine above which two wheels push in the same direction.
 constexpr double alike = 0.95;
-
-int ticks_of(double time, double period) {
-  return std::max(1, static_cast<int>(std::lround(time / period)));
-}
 
 constexpr std::array codes = {EventCode::torque_lost, EventCode::torque_flipped, EventCode::torque_stuck};
 
@@ -26,13 +23,21 @@ ActuatorWatch::ActuatorWatch(const lang::Robot& robot, double period)
       quiet_ticks_(ticks_of(quiet, period)),
       close_ticks_(ticks_of(close_dwell, period)) {
   for (const WheelMotor& of : wheel_motors(robot, smallest)) {
-    motors_.push_back(Motor{.joint = of.joint, .radius = of.radius, .threshold = of.threshold});
+    motors_.push_back({.joint = of.joint,
+                       .radius = of.radius,
+                       .threshold = of.threshold,
+                       .obedience = Obedience(ticks_of(DisturbanceObserver::mean_over, period))});
   }
 }
 
 void ActuatorWatch::reset() noexcept {
-  for (Motor& motor : motors_)
-    motor = Motor{.joint = motor.joint, .radius = motor.radius, .threshold = motor.threshold};
+  for (Motor& motor : motors_) {
+    motor.obedience.reset();
+    motor = {.joint = motor.joint,
+             .radius = motor.radius,
+             .threshold = motor.threshold,
+             .obedience = motor.obedience};
+  }
 }
 
 /// Whether some other wheel pushes in another direction.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "guard/ticks.hpp"
 #include "guard/wheel_motors.hpp"
 
 namespace zwang::runtime {
@@ -19,16 +20,21 @@ EventCode kind_of(double gamma) noexcept {
 
 MotorBesideContact::MotorBesideContact(const lang::Robot& robot, double period)
     : part_(1.0 - std::exp(-period / memory)),
-      dwell_ticks_(std::max(1, static_cast<int>(std::lround(dwell / period)))) {
+      dwell_ticks_(ticks_of(dwell, period)),
+      quiet_ticks_(ticks_of(quiet, period)) {
+  const Obedience unseen(ticks_of(DisturbanceObserver::mean_over, period));
   for (const WheelMotor& of : wheel_motors(robot, smallest)) {
-    motors_.push_back(
-        {.joint = of.joint, .threshold = of.threshold, .T = Vector::Zero(), .since = {}, .obedience = {}});
+    motors_.push_back({.joint = of.joint,
+                       .threshold = of.threshold,
+                       .T = Vector::Zero(),
+                       .since = {},
+                       .obedience = unseen});
   }
 }
 
 void MotorBesideContact::reset() noexcept {
   forget_means();
-  for (Motor& motor : motors_) motor.obedience = {};
+  for (Motor& motor : motors_) motor.obedience.reset();
 }
 
 void MotorBesideContact::forget_means() noexcept {
@@ -51,7 +57,7 @@ bool MotorBesideContact::take_directions(const solver::FreeMotions& motions) noe
 }
 
 /// How much of the comparisons that the observer's means are about came after p had left its line.
-double MotorBesideContact::broken_part(const Vector& p) noexcept {
+double MotorBesideContact::broken_part(const Vector& p, int window) noexcept {
   const Vector next = p_p_ * line_;
   const double length = next.norm();
   if (length > 0.0) line_ = next / length;
@@ -61,14 +67,14 @@ double MotorBesideContact::broken_part(const Vector& p) noexcept {
   if (p.squaredNorm() - along * along < motor.threshold * motor.threshold * s) {
     ++ticks_on_line_;
   } else {
-    if (ticks_on_line_ >= quiet) {
+    if (ticks_on_line_ >= quiet_ticks_) {
       ticks_off_line_ = 0;
       for (Motor& m : motors_) m.since[1] = {};
     }
     ticks_on_line_ = 0;
   }
-  ticks_off_line_ = std::min(ticks_off_line_ + 1, DisturbanceObserver::window);
-  return static_cast<double>(ticks_off_line_) / DisturbanceObserver::window;
+  ticks_off_line_ = std::min(ticks_off_line_ + 1, window);
+  return static_cast<double>(ticks_off_line_) / window;
 }
 
 /// The gamma that takes off N what it can; 0 where that is not nearly all.
@@ -103,7 +109,7 @@ std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observe
   if (motions.count != freedoms || motors_.empty()) return std::nullopt;
   if (take_directions(motions)) forget_means();
   const Vector p = observer.force().head<freedoms>();
-  const std::array parts = {1.0, broken_part(p)};
+  const std::array parts = {1.0, broken_part(p, observer.window())};
   p_p_ += part_ * (p * p.transpose() - p_p_);
   trace_ = p_p_.trace();
   off_line_ = 0.5 * (trace_ * trace_ - p_p_.squaredNorm());

@@ -44,7 +44,7 @@ class MotorBesideContact {
   static constexpr double near = 0.2;         ///< of gamma, to what it is for a kind of fault
   static constexpr double smallest = 0.03;    ///< torque that is missed, of the motor's limit
   static constexpr double another = 0.1;      ///< of the size of all T: coordinates that were turned
-  static constexpr int quiet = 10;            ///< ticks on a line, before p can leave it
+  static constexpr double quiet = 0.01;       ///< [s] on a line, before p can leave it
 
  private:
   static constexpr int freedoms = 3;
@@ -65,7 +65,7 @@ class MotorBesideContact {
   };
   void forget_means() noexcept;
   bool take_directions(const solver::FreeMotions& motions) noexcept;
-  double broken_part(const Vector& p) noexcept;
+  double broken_part(const Vector& p, int window) noexcept;
   double find_gamma(const Since& since, const Motor& motor, const Vector& T) const noexcept;
 
   std::vector<Motor> motors_;
@@ -74,7 +74,7 @@ class MotorBesideContact {
   double trace_ = 0.0;             ///< of it
   double off_line_ = 0.0;          ///< N0
   double part_;
-  int dwell_ticks_;
+  int dwell_ticks_, quiet_ticks_;
   int ticks_on_line_ = 0, ticks_off_line_ = 0;
 };
 

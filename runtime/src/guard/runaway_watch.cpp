@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "guard/ticks.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -52,7 +54,7 @@ double largest_excess(const solver::ConstraintSet& set) noexcept {
 RunawayWatch::RunawayWatch(int joints, double period)
     : period_(period),
       part_(1.0 - std::exp(-period / quick)),
-      ticks_between_looks_(std::max(1, static_cast<int>(std::lround(look_every / period)))),
+      ticks_between_looks_(ticks_of(look_every, period)),
       rates_(Eigen::VectorXd::Zero(joints)),
       beyond_{.work = rates_},
       steady_{.work = rates_},

@@ -39,6 +39,7 @@ class RunawayWatch {
   /// Every tick: what was sent for the last period, and the rates that came of it. True when it is time to
   /// `look`.
   bool follow(const Eigen::VectorXd& sent, const Eigen::VectorXd& qd) noexcept;
+  double period_of_looks() const noexcept { return ticks_between_looks_ * period_; }
   /// Low-passed: the rates whose kinetic energy `look` wants.
   const Eigen::VectorXd& rates() const noexcept { return rates_; }
   /// `force` is what the observer makes of the world's, in coordinates of free motion, and `contact` has

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "guard/ticks.hpp"
+
 namespace zwang::runtime {
 
 WheelBrake::WheelBrake(const lang::Robot& robot, double period)
     : inertia_(planar_inertia(robot.model)),
       period_(period),
       last_qd_(Eigen::VectorXd::Zero(robot.model.joint_count())),
-      ticks_between_looks_(std::max(1, static_cast<int>(std::lround(look_every / period)))) {
+      ticks_between_looks_(ticks_of(look_every, period)) {
   for (const solver::Wheel& wheel : robot.model.wheels()) {
     const int j = wheel.body - 1;
     const solver::Joint& joint = robot.model.joint(j);

@@ -1,6 +1,7 @@
 #include "zwang/runtime/scene_plant.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <stdexcept>
 
@@ -72,6 +73,13 @@ const lang::Scene& scene_of(const lang::Program& program) {
 
 }  // namespace
 
+SimulationSteps simulation_steps(double control_period) noexcept {
+  constexpr double longest = 1e-3;   // [s]
+  constexpr double rounding = 1e-6;  // of it
+  const int per_tick = std::max(1, static_cast<int>(std::ceil(control_period / longest - rounding)));
+  return {per_tick, control_period / per_tick};
+}
+
 std::vector<Column> base_truth_columns() {
   return {{"truth.base.x", "m", {}}, {"truth.base.y", "m", {}}, {"truth.base.yaw", "rad", {}}};
 }
@@ -90,6 +98,8 @@ struct ScenePlant::Parts {
     Sensed actual, sensed;
     Eigen::VectorXd torque;  ///< what its motors make of the command
     Changes changes;
+    int steps_per_tick = 1;
+    int until_tick = 0;
   };
 
   Parts(const lang::Program& program, const ScenePlantOptions& options)
@@ -103,15 +113,18 @@ struct ScenePlant::Parts {
     static_cast<void>(simulation.sense(actual));
     senses.start_at(actual.state.base_pose);
     RunnerSettings settings;
-    settings.period = options.simulation.period;
     settings.extra_columns = base_truth_columns();
     for (std::size_t i = 0; i < scene.robots.size(); ++i) {
+      const double step = options.simulation.period;
+      const double ticks_at = scene.robots[i].program->robot.control_period;
+      const int steps = std::max(1, static_cast<int>(std::lround(ticks_at / step)));
+      settings.period = steps * step;
       partners.emplace_back(scene.robots[i], settings);
       const lang::Program& own = *partners.back().program;
       told.push_back({RobotSenses(own, scene, static_cast<int>(i) + 1, program.robot, options.seed),
                       InjectedFaults(faults_of(partners.back().name, scene, options.faults), own.robot.model),
                       Sensed(own.robot.model), Sensed(own.robot.model, own.signals.size()),
-                      partners.back().torque, Changes(i + 1, own.robot.model, scene.floor_friction)});
+                      partners.back().torque, Changes(i + 1, own.robot.model, scene.floor_friction), steps});
       static_cast<void>(simulation.sense_partner(i, told.back().actual));
       told.back().senses.start_at(told.back().actual.state.base_pose);
     }
@@ -129,7 +142,7 @@ struct ScenePlant::Parts {
     if (faults.active(FaultKind::plant_diverges, time)) simulation.diverge();
   }
 
-  /// The partner's tick, at the instant of the first robot's.
+  /// The partner's tick, when it is time for it.
   void step_partner(std::size_t i) noexcept {
     ScenePartner& partner = partners[i];
     Told& of = told[i];
@@ -142,12 +155,19 @@ struct ScenePlant::Parts {
       of.senses.tell(of.actual, of.sensed);
       of.faults.spoil(of.sensed);
     }
-    const ObjectTruth& own = simulation.truth().objects[scene.objects.size() + i];
-    const std::array<double, 3> truth{own.x, own.y, own.yaw};
-    partner.torque = partner.runner.step(of.sensed, truth);
+    if (of.until_tick-- == 0) tick_partner(i);
     of.torque = partner.torque;
     of.faults.spoil(of.torque, time);
     static_cast<void>(simulation.give_partner(i, of.torque));
+  }
+
+  void tick_partner(std::size_t i) noexcept {
+    ScenePartner& partner = partners[i];
+    Told& of = told[i];
+    of.until_tick = of.steps_per_tick - 1;
+    const ObjectTruth& own = simulation.truth().objects[scene.objects.size() + i];
+    const std::array<double, 3> truth{own.x, own.y, own.yaw};
+    partner.torque = partner.runner.step(of.sensed, truth);
   }
 
   lang::Scene scene;

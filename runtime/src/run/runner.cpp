@@ -61,33 +61,48 @@ solver::Pose level(const solver::Pose& pose) {
   return {Eigen::AngleAxisd(yaw, solver::Vector3::UnitZ()).toRotationMatrix(), pose.position};
 }
 
+double period_of(const lang::Robot& robot, const RunnerSettings& settings) {
+  const double period = settings.period.value_or(robot.control_period);
+  if (period > lang::longest_control_period)
+    throw std::invalid_argument("runner: the control period is longer than 10 ms");
+  return period;
+}
+
+/// That are ridden through: 20, and 50 ms of them, but 4 of any.
+int lost_ticks(double period) {
+  constexpr int most = 20, least = 5;
+  constexpr double longest = 0.05;  // [s]
+  return std::clamp(static_cast<int>(std::lround(longest / period)), least, most);
+}
+
 }  // namespace
 
 struct Runner::Parts {
   Parts(const lang::Program& program, const RunnerSettings& settings)
       : model(program.robot.model),
-        period(settings.period),
-        scheduler(program, settings.period),
+        period(period_of(program.robot, settings)),
+        scheduler(program, period),
         solver(model,
                {.row_capacity = scheduler.row_capacity(), .base_motion = true, .every_acceleration = false}),
         solution(model, scheduler.row_capacity()),
         estimated(model),
         sample(model, program.signals.size()),
-        odometry(model, {}, {.period = settings.period}),
+        odometry(model, {}, {.period = period}),
         friction(program.robot),
         press(model),
         arm(model),
-        disturbance(program.robot),
-        actuators(program.robot, settings.period),
-        beside_contact(program.robot, settings.period),
-        reversed(program.robot, RunawayWatch::look_every),
-        contact(program.robot, RunawayWatch::look_every),
-        runaway(model.joint_count(), settings.period),
+        disturbance(program.robot, period),
+        actuators(program.robot, period),
+        beside_contact(program.robot, period),
+        runaway(model.joint_count(), period),
+        reversed(program.robot, runaway.period_of_looks()),
+        contact(program.robot, runaway.period_of_looks()),
         slip(model),
         wrenches(model),
         signals(program.signals),
         signal_words(event_signals(model, signal_names(program))),
-        guard(program.robot, {.period = settings.period, .max_slew = settings.max_slew}),
+        guard(program.robot,
+              {.period = period, .max_lost_ticks = lost_ticks(period), .max_slew = settings.max_slew}),
         statements(scheduler, program),
         limits(statements, program.robot),
         layout(statements, scheduler, model, program, signal_words, settings.extra_columns),
@@ -136,9 +151,9 @@ struct Runner::Parts {
   DisturbanceObserver disturbance;
   ActuatorWatch actuators;
   MotorBesideContact beside_contact;
+  RunawayWatch runaway;
   ReversedMotor reversed;
   ContactDepth contact;
-  RunawayWatch runaway;
   SlipWatch slip;
   WrenchRefusal wrenches;
   const std::vector<lang::Signal> signals;
@@ -400,6 +415,10 @@ bool Runner::swap_program(Runner& next) noexcept {
   now.handed_over_for = 0.0;
   now.recorder = nullptr;
   return true;
+}
+
+double Runner::period() const noexcept {
+  return parts_->period;
 }
 
 RunState Runner::state() const noexcept {

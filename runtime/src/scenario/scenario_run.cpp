@@ -15,8 +15,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double period = 1e-3;  // [s]
-
 double torque_share(const solver::Model& model, const Eigen::VectorXd& tau) noexcept {
   double share = 0.0;
   for (int j = 0; j < model.joint_count(); ++j) {
@@ -56,29 +54,41 @@ std::vector<PartnerResult> results_of(ScenePlant& plant) {
   return results;
 }
 
+/// A tick, and what is to be told of it.
+const Eigen::VectorXd& step(Runner& runner, const Sensed& sensed, double time, TrueFacts& facts) {
+  const std::size_t told = runner.events().size();
+  const bool was_stopped = runner.guard().stopped();
+  const Eigen::VectorXd& tau = runner.step(sensed);
+  if (runner.guard().stopped() && !was_stopped) facts.note_stop(time);
+  for (std::size_t i = told; i < runner.events().size(); ++i) {
+    if (runner.events()[i].code == EventCode::slip) facts.note_slip(time);
+  }
+  return tau;
+}
+
 void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, const lang::Program& program,
               std::vector<ExpectationWatch>& watches, CellResult& result) {
   ScenePlantOptions options;
-  options.simulation.period = period;
+  const SimulationSteps steps = simulation_steps(program.robot.control_period);
+  options.simulation.period = steps.period;
   options.seed = scenario.seed;
   options.faults = cell.faults;
   ScenePlant plant(program, options);
-  Runner runner(program, {.period = period});
+  Runner runner(program);
   TrueFacts facts(program);
   Sensed sensed(program.robot.model, program.signals.size());
   const std::vector<ScenePartner>& partners = plant.partners();
   std::vector<bool> had_stopped(partners.size(), false);
+  Eigen::VectorXd tau;
+  int until_tick = 0;
   PlantStatus status = PlantStatus::ok;
   while (!runner.finished() && plant.truth().time < scenario.time_limit) {
     // A sample that does not arrive is the runtime's to deal with: it steps on what it has.
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
-    const std::size_t told = runner.events().size();
-    const bool was_stopped = runner.guard().stopped();
-    const Eigen::VectorXd& tau = runner.step(sensed);
-    if (runner.guard().stopped() && !was_stopped) facts.note_stop(plant.truth().time);
-    for (std::size_t i = told; i < runner.events().size(); ++i) {
-      if (runner.events()[i].code == EventCode::slip) facts.note_slip(plant.truth().time);
+    if (until_tick-- == 0) {
+      until_tick = steps.per_tick - 1;
+      tau = step(runner, sensed, plant.truth().time, facts);
     }
     facts.update(plant.truth(), plant.true_state(), torque_share(program.robot.model, tau));
     look_at_partners(plant, facts);

@@ -34,6 +34,13 @@ struct JointFriction {
   double compensate = 0.0;  ///< fraction in [0, 1)
 };
 
+/// Where a robot file gives no `control_period`. [s]
+inline constexpr double default_control_period = 1e-3;
+/// The longest: limits brake within a horizon of as much, and what brakes to them within h loses dt / h of
+/// its excess from tick to tick. [s]
+inline constexpr double longest_control_period = 10e-3;
+inline constexpr double shortest_control_period = 0.1e-3;
+
 /// Where a robot file gives no `slew`, a motor takes as long for all of its torque. [s]
 inline constexpr double full_torque_within = 5e-3;
 
@@ -52,7 +59,8 @@ struct Robot {
   std::vector<std::string> supports;  ///< passive links that hold nothing in the plane
   double bumper_height = 0.15;        ///< [m] above the ground where the footprint touches the world
   double bumper_stiffness = 20e3;     ///< [N/m]
-  std::vector<Span> joint_spans;      ///< where each joint's limits come from
+  double control_period = default_control_period;  ///< [s] from one torque to the next
+  std::vector<Span> joint_spans;                   ///< where each joint's limits come from
 };
 
 /// How the robot stands before it moves: at the world's origin, its joints in their posture.

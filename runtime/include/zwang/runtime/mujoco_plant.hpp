@@ -42,7 +42,7 @@ struct Truth {
 };
 
 struct MujocoPlantOptions {
-  double period = 1e-3;                           ///< [s] control period and simulation step
+  double period = 1e-3;                           ///< [s] of a simulation step
   std::optional<std::array<double, 2>> start_at;  ///< overrides the scene's
   std::optional<double> start_yaw;
   /// Mecanum and omni wheels with eighteen rollers each, as they are built, in the place of smooth ones:

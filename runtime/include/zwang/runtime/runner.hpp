@@ -47,7 +47,8 @@ struct ShortfallReport {
 };
 
 struct RunnerSettings {
-  double period = 1e-3;                                       ///< [s]
+  /// [s] between steps, 10 ms at most; where none is given, the robot file's `control_period`.
+  std::optional<double> period;
   double max_slew = std::numeric_limits<double>::infinity();  ///< [N m/s] or [N/s] of a joint
   std::vector<Column> extra_columns;  ///< logged behind the runner's own; `step` is given their values
 };
@@ -64,6 +65,7 @@ class Runner {
   /// braking and holding after the run is over. Does not allocate, lock, throw or print.
   const Eigen::VectorXd& step(const Sensed& sensed, std::span<const double> extra = {}) noexcept;
 
+  double period() const noexcept;  ///< [s] of its steps
   RunState state() const noexcept;
   /// The outcome is known and the base stands (or has had the time to).
   bool finished() const noexcept;

@@ -11,6 +11,14 @@
 
 namespace zwang::runtime {
 
+/// A control period is as many simulation steps of 1 ms or less: stiff contacts could not be followed by
+/// longer ones.
+struct SimulationSteps {
+  int per_tick = 1;
+  double period = 1e-3;  ///< [s]
+};
+SimulationSteps simulation_steps(double control_period) noexcept;
+
 struct ScenePlantOptions {
   MujocoPlantOptions simulation;
   std::uint64_t seed = 0;           ///< of all noise and dropouts
@@ -31,7 +39,8 @@ std::vector<Column> base_truth_columns();
 
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
 /// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its
-/// own samples and with its own runner, then makes one step of the world.
+/// own samples and with its own runner, then makes one step of the world. A robot whose control period is
+/// longer than that takes its tick every so many steps; the first one's ticks are the caller's.
 class ScenePlant : public Plant {
  public:
   /// Throws std::invalid_argument when the program has no scene, or robot, scene and faults do not go
