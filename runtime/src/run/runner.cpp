@@ -6,11 +6,7 @@
 #include "estimate/disturbance.hpp"
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
-#include "guard/actuator_watch.hpp"
-#include "guard/contact_depth.hpp"
-#include "guard/motor_beside_contact.hpp"
-#include "guard/reversed_motor.hpp"
-#include "guard/runaway_watch.hpp"
+#include "guard/motor_watch.hpp"
 #include "guard/slip_watch.hpp"
 #include "guard/wrench_refusal.hpp"
 #include "run/limit_table.hpp"
@@ -92,11 +88,7 @@ struct Runner::Parts {
         press(model),
         arm(model),
         disturbance(program.robot, period),
-        actuators(program.robot, period),
-        beside_contact(program.robot, period),
-        runaway(model.joint_count(), period),
-        reversed(program.robot, runaway.period_of_looks()),
-        contact(program.robot, runaway.period_of_looks()),
+        motors(program.robot, period),
         slip(model),
         wrenches(model),
         signals(program.signals),
@@ -149,11 +141,7 @@ struct Runner::Parts {
   Press press;
   solver::JointLoads arm;
   DisturbanceObserver disturbance;
-  ActuatorWatch actuators;
-  MotorBesideContact beside_contact;
-  RunawayWatch runaway;
-  ReversedMotor reversed;
-  ContactDepth contact;
+  MotorWatch motors;
   SlipWatch slip;
   WrenchRefusal wrenches;
   const std::vector<lang::Signal> signals;
@@ -268,39 +256,17 @@ void Runner::Parts::tell_refusal(SampleStatus status) noexcept {
 void Runner::Parts::compare() noexcept {
   if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
   if (!disturbance.compare(sample.state, sample.time)) {
-    actuators.reset();
-    beside_contact.reset();
-    reversed.reset();
-    contact.reset();
-    runaway.reset();
+    motors.reset();
     return;
   }
   scheduler.estimate_force(disturbance.base_force());
   // A wheel that slides gives the ground less than its motor gives the wheel.
   if (slip.doubtful()) {
-    actuators.reset();
-    beside_contact.reset();
-    reversed.reset();
-    contact.reset();
-    runaway.reset();
+    motors.reset();
     return;
   }
-  if (const auto fault = actuators.look(disturbance, sample.state.q, contact)) {
+  if (const auto fault = motors.look(disturbance, sample.state, tau, scheduler.constraints()))
     guard.stop(fault->code, fault->signal, fault->value);
-  }
-  if (const auto fault = beside_contact.look(disturbance)) {
-    guard.stop(fault->code, fault->signal, fault->value);
-  }
-  if (runaway.follow(tau, sample.state.qd)) {
-    const double power = disturbance.power(runaway.rates());
-    const auto p = disturbance.force().head(disturbance.motions().count);
-    contact.follow(disturbance.motions(), p, power);
-    if (const auto fault = reversed.look(power, disturbance.torque(), runaway.rates(), contact))
-      guard.stop(fault->code, fault->signal, fault->value);
-    const double energy = disturbance.kinetic_energy(runaway.rates());
-    if (const auto fault = runaway.look(scheduler.constraints(), energy, p, contact))
-      guard.stop(fault->code, fault->signal, fault->value);
-  }
 }
 
 /// A force that is measured before anything moved is the sensor's own.
@@ -406,11 +372,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   now.events.swap(before.events);
   std::swap(now.event_count, before.event_count);
   now.disturbance.pause();
-  now.actuators.reset();
-  now.beside_contact.reset();
-  now.reversed.reset();
-  now.contact.reset();
-  now.runaway.reset();
+  now.motors.reset();
   now.tau = before.tau;
   now.handed_over_for = 0.0;
   now.recorder = nullptr;

@@ -1,0 +1,37 @@
+#include "guard/motor_watch.hpp"
+
+namespace zwang::runtime {
+
+MotorWatch::MotorWatch(const lang::Robot& robot, double period)
+    : actuators_(robot, period),
+      beside_contact_(robot, period),
+      runaway_(robot.model.joint_count(), period),
+      reversed_(robot, runaway_.period_of_looks()),
+      contact_(robot, runaway_.period_of_looks()) {}
+
+void MotorWatch::reset() noexcept {
+  actuators_.reset();
+  beside_contact_.reset();
+  runaway_.reset();
+  reversed_.reset();
+  contact_.reset();
+}
+
+std::optional<Event> MotorWatch::look(DisturbanceObserver& observer, const solver::State& state,
+                                      const Eigen::VectorXd& sent,
+                                      const solver::ConstraintSet& set) noexcept {
+  std::optional<Event> first = actuators_.look(observer, state.q, contact_);
+  const auto take = [&first](const std::optional<Event>& found) {
+    if (!first) first = found;
+  };
+  take(beside_contact_.look(observer));
+  if (!runaway_.follow(sent, state.qd)) return first;
+  const double power = observer.power(runaway_.rates());
+  const auto p = observer.force().head(observer.motions().count);
+  contact_.follow(observer.motions(), p, power);
+  take(reversed_.look(power, observer.torque(), runaway_.rates(), contact_));
+  take(runaway_.look(set, observer.kinetic_energy(runaway_.rates()), p, contact_));
+  return first;
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,44 @@
+/// Whether the motors do what they are told, by everything that can tell.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "estimate/disturbance.hpp"
+#include "guard/actuator_watch.hpp"
+#include "guard/contact_depth.hpp"
+#include "guard/motor_beside_contact.hpp"
+#include "guard/reversed_motor.hpp"
+#include "guard/runaway_watch.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/runtime/event.hpp"
+#include "zwang/solver/constraint.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::runtime {
+
+/// In free motion a motor is told by its force (ActuatorWatch), beside one contact by the line that it takes
+/// the force off (MotorBesideContact), and beside any number of them by its work (ReversedMotor,
+/// RunawayWatch). What a contact that was pressed in (ContactDepth) gives back is no motor's. Does not
+/// allocate, lock, throw or print after construction.
+class MotorWatch {
+ public:
+  /// `period` [s] from one look to the next.
+  MotorWatch(const lang::Robot& robot, double period);
+
+  /// Forgets what was: there is nothing to compare with, or wheels slide.
+  void reset() noexcept;
+  /// After each comparison of the observer: `sent` is what brought the motors to `state`, and `set` what the
+  /// robot was to do. The first that is sure says what is wrong.
+  std::optional<Event> look(DisturbanceObserver& observer, const solver::State& state,
+                            const Eigen::VectorXd& sent, const solver::ConstraintSet& set) noexcept;
+
+ private:
+  ActuatorWatch actuators_;
+  MotorBesideContact beside_contact_;
+  RunawayWatch runaway_;
+  ReversedMotor reversed_;
+  ContactDepth contact_;
+};
+
+}  // namespace zwang::runtime
