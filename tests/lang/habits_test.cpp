@@ -116,7 +116,7 @@ std::vector<Habit> habits() {
        "E301",
        "without the `$`",
        {}},
-      {"max_force", "task", "force: +-5 N m", "max_force: 5 N m", "E101", "`force`", {}},
+      {"max_force", "task", "force: +-5 N m", "max_force: 5 N m", "E101", "`force: +-5 N m`", {}},
       {"at_most", "task", "force: +-5 N m", "force: < 5 N m", "E105", "a bound is a range", {}},
       {"max", "task", "force: +-5 N m", "force: max 5 N m", "E105", "a bound is a range", {}},
       {"dots", "task", "force: +-5 N m", "force: 0..5 N m", "E105", "a bound is a range", {}},
@@ -314,7 +314,7 @@ std::vector<Habit> habits() {
        "    at: [3 m, 0 m]\n",
        "    at: {x: 3 m, y: 0 m}\n",
        "E104",
-       "[0 m, 0 m]",
+       "[3 m, 0 m]",
        {}},
       {"pose", "scene", "pose_of: human", "pose: human", "E101", "`pose_of`", {}},
       {"to",
@@ -412,7 +412,7 @@ std::vector<Habit> habits() {
        {}},
       {"gear_ratio", "robot", "left: {}", "left: {gear_ratio: 26}", "E101", "`gear`", {}},
       {"begin_of_a_word", "robot", "deceleration: 1", "decel: 1", "E101", "`deceleration`", {}},
-      {"link_of_nobody", "robot", "base: base_link", "base: chassis", "E301", "known here: ", {}},
+      {"link_of_nobody", "robot", "base: base_link", "base: chassis", "E301", "`base_link`", {}},
   };
 }
 

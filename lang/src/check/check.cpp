@@ -5,6 +5,7 @@
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "physics/physics.hpp"
 
@@ -50,7 +51,7 @@ void check_target(CheckContext& context, const Word& target, const TaskText* tas
   if (context.symbols.find_task(target.text)) return;
   std::vector<std::string> known = context.symbols.tasks;
   known.insert(known.end(), {"done", "failed"});
-  context.diagnostics.add(wording::unknown_name(target.span, "task", target.text, known));
+  context.diagnostics.add(wording::unknown_target(target.span, target.text, known));
 }
 
 Condition check_exit(CheckContext& context, const ExitText& exit, const TaskText* task) {
@@ -164,7 +165,7 @@ bool check_value(CheckContext& context, const ValueText& value, const Dimension&
                                             [](const ParameterText& text) { return !text.name.exists(); });
     if (is_declared_so) return false;
     context.diagnostics.add(
-        wording::unknown_name(value.span, "parameter", value.name, context.symbols.parameter_names()));
+        wording::unknown_parameter(value.span, value.name, context.symbols.parameter_names()));
     return false;
   }
   symbol->is_used = true;
@@ -210,8 +211,8 @@ std::optional<int> check_frame(CheckContext& context, const Word& name) {
   }
   if (!index) {
     if (context.symbols.has_robot) {
-      context.diagnostics.add(
-          wording::unknown_frame(name.span, name.text, context.symbols.frame_names(), base_of(context)));
+      context.diagnostics.add(wording::unknown_frame(name.span, "frame", name.text,
+                                                     context.symbols.frame_names(), base_of(context)));
     }
     return std::nullopt;
   }

@@ -4,6 +4,7 @@
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 
 namespace zwang::lang {
@@ -194,7 +195,12 @@ class ConditionCheck {
         }
       }
     }
-    return complain(wording::unknown_quantity(node.span, node.word, nearest(node.word, known)));
+    const std::string near = nearest(node.word, known);
+    for (const char* touch : {"contact", "collision", "touched", "touch", "bumper", "in_contact"}) {
+      if (node.word == touch && near.empty() && !context_.of_truth)
+        return complain(wording::contact_in_a_condition(node.span, node.word));
+    }
+    return complain(wording::unknown_quantity(node.span, node.word, near));
   }
 
   /// A name that means something, elsewhere or with a word more.

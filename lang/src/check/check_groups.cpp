@@ -88,6 +88,7 @@ class AxisCheck {
   void check_compliance() {
     if (!text_.stiffness && !text_.damping) return;
     const std::optional<StatementText>& position = text_[Quantity::position];
+    const int errors_before = context_.diagnostics.error_count();
     if (text_.stiffness) {
       check_positive(*text_.stiffness, turns() ? dimension::angular_stiffness : dimension::stiffness,
                      "stiffness");
@@ -98,7 +99,9 @@ class AxisCheck {
     const Span span = (text_.stiffness ? *text_.stiffness : *text_.damping).span;
     const bool is_spring = text_.stiffness && text_.damping && position && !position->is_range;
     // A key of the spring may be the one that could not be read.
-    if (!is_spring && !is_incomplete_) context_.diagnostics.add(wording::incomplete_spring(span, path_));
+    const bool is_read = context_.diagnostics.error_count() == errors_before;
+    if (!is_spring && !is_incomplete_ && is_read)
+      context_.diagnostics.add(wording::incomplete_spring(span, path_));
     if (is_spring && text_.time_constant) {
       context_.diagnostics.add(wording::spring_with_time_constant(text_.time_constant->span, path_));
     }

@@ -2,6 +2,7 @@
 
 #include "check/context.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/parse_task.hpp"
 #include "tree/text.hpp"
@@ -173,7 +174,7 @@ class FrameOrder {
     for (const SignalSymbol& signal : symbols.signals) {
       if (signal.signal.type == SignalType::pose) known.push_back(signal.signal.name);
     }
-    context_.diagnostics.add(wording::unknown_frame(name.span, name.text, known, base_of(context_)));
+    context_.diagnostics.add(wording::unknown_frame(name.span, "frame", name.text, known, base_of(context_)));
     return std::nullopt;
   }
 

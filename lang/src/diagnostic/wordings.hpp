@@ -56,7 +56,8 @@ Diagnostic expected_mapping(const Span& span, const std::string& what, bool is_l
 Diagnostic expected_vector(const Span& span, const std::string& what, std::size_t count,
                            const std::string& unit);
 Diagnostic expected_list(const Span& span, const std::string& what);
-Diagnostic expected_word(const Span& span, const std::string& what);
+/// `word`: what stands in it; empty: nothing that may be one.
+Diagnostic expected_word(const Span& span, const std::string& what, const std::string& word);
 Diagnostic expected_value(const Span& span, const std::string& what, bool is_empty);
 Diagnostic expected_integer(const Span& span, const std::string& what, int low, int high);
 Diagnostic expected_boolean(const Span& span, const std::string& what);
@@ -67,7 +68,7 @@ Diagnostic wrong_count(const Span& span, const std::string& what, std::size_t fe
                        std::size_t found);
 Diagnostic range_ends(const Span& span, std::size_t found);
 Diagnostic range_where_value(const Span& span, const std::string& what);
-Diagnostic value_where_range(const Span& span, const std::string& what);
+Diagnostic value_where_range(const Span& span, const std::string& what, const std::string& text);
 /// `instead` says it as a statement.
 Diagnostic bare_axis(const Span& span, const std::string& axis, const std::string& text,
                      const std::string& instead);

@@ -135,6 +135,11 @@ Diagnostic unknown_function(const Span& span, const std::string& name, const std
 
 Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& near) {
   const std::string meant = name == "time" || name == "t" ? "elapsed" : near;
+  const bool is_quantity = name == "force" || name == "velocity" || name == "position" || name == "torque";
+  if (is_quantity)
+    return error("E301", span, "nothing named " + in_ticks(name) + " can be measured here",
+                 "say of which axis: `contact.x." + std::string(name == "torque" ? "force" : name) +
+                     "`; what the base presses with is estimated, too: `estimated.force.x`");
   return with_suggestion(error("E301", span, "nothing named " + in_ticks(name) + " can be measured here",
                                "write group.axis.velocity, a function, $parameter or elapsed"),
                          meant);

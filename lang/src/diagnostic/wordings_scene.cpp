@@ -36,7 +36,7 @@ Diagnostic unknown_outcome(const Span& span, const std::string& text, const std:
   std::erase(likely, "unfinished");
   return with_suggestion(
       error("E903", span, in_ticks(text) + " is not how a run can end", "write one of " + list_of(known)),
-      nearest(text, likely));
+      meant_key(text, likely));
 }
 
 Diagnostic one_expectation(const Span& span) {
@@ -133,7 +133,8 @@ Diagnostic too_nimble(const Span& span) {
 }
 
 Diagnostic script_step(const Span& span) {
-  return error("E908", span, "a step of a script is a time and a value", "write for example `[5 s, true]`");
+  return error("E908", span, "a step of a script is a time and a value",
+               "write for example `[[0 s, false], [5 s, true]]`");
 }
 
 Diagnostic mixed_script(const Span& span, const std::string& what, bool starts_with_number,

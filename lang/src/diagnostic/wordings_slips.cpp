@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "diagnostic/make.hpp"
@@ -44,10 +43,11 @@ std::string plainly_written(const std::string& text) {
       plain.replace(at, odd.size(), usual);
     }
   }
-  // Between digits a comma stands for the point, and an underscore for nothing.
+  // Between digits a comma stands for the point, with blanks behind it, too, and an underscore for nothing.
   for (std::size_t i = 1; i + 1 < plain.size(); ++i) {
-    if (!is_digit(plain[i - 1]) || !is_digit(plain[i + 1])) continue;
-    if (plain[i] == ',') plain[i] = '.';
+    const std::size_t next = plain[i] == ',' ? plain.find_first_not_of(' ', i + 1) : i + 1;
+    if (next == std::string::npos || !is_digit(plain[i - 1]) || !is_digit(plain[next])) continue;
+    if (plain[i] == ',') plain.replace(i, next - i, ".");
     if (plain[i] == '_') plain.erase(i, 1);
   }
   return plain;
@@ -179,19 +179,10 @@ Diagnostic computed_value(const Span& span, const std::string& text) {
                "nothing is computed here: write a number, or one parameter as `$push` or `-$push`");
 }
 
-Diagnostic needs_units(const Span& span, const std::string& what, const std::vector<std::string>& numbers,
-                       const Dimension& expected) {
-  // Who writes one angle in degrees writes all so.
-  const bool is_in_degrees = expected == dimension::angle &&
-                             std::any_of(numbers.begin(), numbers.end(), [&](const std::string& number) {
-                               return with_unit(number, expected).ends_with("deg");
-                             });
-  std::string written;
-  for (const std::string& number : numbers)
-    written +=
-        (written.empty() ? "[" : ", ") + (is_in_degrees ? number + " deg" : with_unit(number, expected));
-  written += "]";
-  return with_replacement(error("E201", span, what + " needs units", "write `" + written + "`"), written);
+Diagnostic needs_units(const Span& span, const std::string& what, const std::string& written) {
+  constexpr std::size_t longest = 160;
+  const std::string shown = written.size() > longest ? in_ticks(written) : "`" + written + "`";
+  return with_replacement(error("E201", span, what + " needs units", "write " + shown), written);
 }
 
 Diagnostic argument_without_unit(const Span& span, const std::string& argument, const std::string& number,
@@ -326,55 +317,10 @@ Diagnostic no_colon_or_space(const Span& span, const std::string& written, const
 }
 
 Diagnostic parameter_in_braces(const Span& span, const std::string& written) {
-  const std::size_t open = written.find('{');
+  const std::size_t open = written.find_first_of("{(");
   const std::string plain = written.substr(0, open) + written.substr(open + 1, written.size() - open - 2);
   return with_replacement(
       error("E105", span, "a parameter stands without braces", "write " + in_ticks(plain)), plain);
-}
-
-Diagnostic mapping_by_example(const Span& span, const std::string& what, const std::string& example) {
-  return with_replacement(
-      error("E104", span, what + " must be a list of `key: value` lines", "write " + in_ticks(example)),
-      example);
-}
-
-Diagnostic footprint_without_polygon(const Span& span) {
-  return error("E104", span, "`footprint` does not say that it is a polygon",
-               "write `footprint: {polygon: [[0.4 m, 0.3 m], ..]}`");
-}
-
-Diagnostic heading_in_a_place(const Span& span, const std::string& what, const std::string& place,
-                              const std::string& yaw) {
-  return error("E104", span, what + " takes 2 values: a heading stands beside it",
-               "write " + in_ticks(place) + " and " + in_ticks(yaw));
-}
-
-Diagnostic place_for_a_list(const Span& span, const std::string& what) {
-  return error("E104", span, what + " must be a list of places",
-               "write each in brackets of its own: `[[0 m, 0 m], [0.5 m, 0 m]]`");
-}
-
-namespace {
-
-/// REP 105's names of what stands, and of what floats in it.
-constexpr std::array<std::string_view, 4> frames_that_stand{"map", "odom", "earth", "odom_combined"};
-constexpr std::array<std::string_view, 7> frames_of_a_base{
-    "base_footprint", "base_link", "base", "base_frame", "chassis", "robot", "body"};
-
-bool holds(std::span<const std::string_view> names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-}  // namespace
-
-Diagnostic unknown_frame(const Span& span, const std::string& name, const std::vector<std::string>& known,
-                         const std::string& base) {
-  Diagnostic diagnostic = unknown_name(span, "frame", name, known);
-  if (holds(frames_that_stand, name))
-    diagnostic.help = "did you mean `world`? It is the one frame that stands, and the run begins in it";
-  else if (holds(frames_of_a_base, name) && !base.empty())
-    diagnostic.help = "did you mean " + in_ticks(base) + "? That is the robot's base";
-  return diagnostic;
 }
 
 }  // namespace zwang::lang::wording

@@ -33,9 +33,8 @@ Diagnostic quantity_of_a_feature(const Span& span, const std::string& written, c
 Diagnostic never_after(const Span& span);
 /// `2*$press`.
 Diagnostic computed_value(const Span& span, const std::string& text);
-/// A list of numbers, all without a unit.
-Diagnostic needs_units(const Span& span, const std::string& what, const std::vector<std::string>& numbers,
-                       const Dimension& expected);
+/// Several numbers without a unit, and how the whole is written with them.
+Diagnostic needs_units(const Span& span, const std::string& what, const std::string& written);
 Diagnostic argument_without_unit(const Span& span, const std::string& argument, const std::string& number,
                                  const Dimension& expected);
 /// `contact.x` for `contact.x.position`.
@@ -100,17 +99,5 @@ Diagnostic group_in_a_task(const Span& span, const std::string& key);
 Diagnostic no_colon_or_space(const Span& span, const std::string& written, const std::string& key);
 /// `written` is `${push}`.
 Diagnostic parameter_in_braces(const Span& span, const std::string& written);
-/// A number, where a mapping is due, in the words of an example: `{friction: 0.9}`.
-Diagnostic mapping_by_example(const Span& span, const std::string& what, const std::string& example);
-/// `footprint: [[0.4 m, 0.3 m], ..]`.
-Diagnostic footprint_without_polygon(const Span& span);
-/// `start_at` of a scenario with a third number.
-Diagnostic heading_in_a_place(const Span& span, const std::string& what, const std::string& place,
-                              const std::string& yaw);
-/// `start_at: [0 m, 0 m]` in a matrix, where each of a list is such a place.
-Diagnostic place_for_a_list(const Span& span, const std::string& what);
-/// `base` is the link of the robot that floats; empty: there is no robot.
-Diagnostic unknown_frame(const Span& span, const std::string& name, const std::vector<std::string>& known,
-                         const std::string& base);
 
 }  // namespace zwang::lang::wording

@@ -238,8 +238,8 @@ Diagnostic expected_list(const Span& span, const std::string& what) {
   return error("E104", span, what + " must be a list", "start each item with `- `, or write `[a, b]`");
 }
 
-Diagnostic expected_word(const Span& span, const std::string& what) {
-  return error("E104", span, what + " must be a single word");
+Diagnostic expected_word(const Span& span, const std::string& what, const std::string& word) {
+  return error("E104", span, what + " must be a single word", word.empty() ? "" : "write " + in_ticks(word));
 }
 
 Diagnostic expected_value(const Span& span, const std::string& what, bool is_empty) {
@@ -286,8 +286,10 @@ Diagnostic range_where_value(const Span& span, const std::string& what) {
   return error("E104", span, what + " takes a single value, not a range");
 }
 
-Diagnostic value_where_range(const Span& span, const std::string& what) {
-  return error("E104", span, what + " must be a range", "write `[low, high]` or `+-value`");
+Diagnostic value_where_range(const Span& span, const std::string& what, const std::string& text) {
+  const bool is_number = parse_quantity(text).error == QuantityError::none && !text.starts_with('-');
+  return error("E104", span, what + " must be a range",
+               "write `[low, high]` or " + in_ticks("+-" + (is_number ? text : std::string("value"))));
 }
 
 Diagnostic bare_axis(const Span& span, const std::string& axis, const std::string& text,

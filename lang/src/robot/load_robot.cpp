@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "robot/check_joints.hpp"
 #include "robot/robot_file.hpp"
@@ -64,7 +65,9 @@ class RobotBuilder {
       diagnostics_.add(wording::fixed_joint(name.span, name.text, joint.span));
       return nullptr;
     }
-    diagnostics_.add(wording::unknown_name(name.span, "joint", name.text, moving));
+    const UrdfJoint* above = urdf_.joint_above(name.text);
+    diagnostics_.add(above != nullptr ? wording::link_for_a_joint(name.span, name.text, above->joint.name)
+                                      : wording::unknown_name(name.span, "joint", name.text, moving));
     return nullptr;
   }
 
@@ -78,7 +81,8 @@ class RobotBuilder {
 
   /// The base floats: everything above it, up to the URDF's root, must be fixed to it.
   void check_base() {
-    check_link(file_.base);
+    if (file_.base.exists() && urdf_.find_link(file_.base.text) == nullptr)
+      diagnostics_.add(wording::unknown_base(file_.base.span, file_.base.text, link_names(), urdf_.root));
     for (const UrdfJoint* above = urdf_.joint_above(file_.base.text); above != nullptr;
          above = urdf_.joint_above(above->parent)) {
       if (above->joint.type != solver::JointType::fixed) {
@@ -165,8 +169,8 @@ class RobotBuilder {
     std::vector<std::string> known = link_names();
     for (const FrameText& frame : file_.frames) {
       if (frame.parent.exists() && std::find(known.begin(), known.end(), frame.parent.text) == known.end()) {
-        diagnostics_.add(
-            wording::unknown_name(frame.parent.span, "link or earlier frame", frame.parent.text, known));
+        diagnostics_.add(wording::unknown_frame(frame.parent.span, "link or earlier frame", frame.parent.text,
+                                                known, file_.base.text));
       }
       if (!frame.name.exists()) continue;
       if (frame.name.text == "world" || urdf_.find_link(frame.name.text) != nullptr) {

@@ -3,10 +3,12 @@
 #include <cmath>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_standing.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
+#include "tree/text.hpp"
 
 namespace zwang::lang {
 
@@ -15,12 +17,8 @@ namespace {
 WheelText parse_wheel(const Node& node, Diagnostics& diagnostics) {
   WheelText wheel;
   wheel.span = node.span;
-  if (node.is_scalar() && !node.is_bad) {
-    diagnostics.add(
-        wording::mapping_by_example(node.span, "a wheel", "{joint: " + node.text + ", radius: 75 mm}"));
-    return wheel;
-  }
-  MapReader map(node, "a wheel", diagnostics);
+  MapReader map(node, "a wheel", diagnostics,
+                "{joint: " + (node.is_scalar() ? node.text : "left_wheel") + ", radius: 75 mm}");
   if (const Node* joint = map.required("joint")) wheel.joint = parse_word(*joint, "`joint`", diagnostics);
   const std::string what = "wheel `" + wheel.joint.text + "`";
   if (const Node* radius = map.required("radius")) {
@@ -51,11 +49,29 @@ WheelText parse_wheel(const Node& node, Diagnostics& diagnostics) {
   return wheel;
 }
 
-ActuatorText parse_actuator(const Entry& entry, Diagnostics& diagnostics) {
+/// What `left: 2 N m` may have been meant as; without a value the URDF says it.
+std::string actuator_example(const Node& node) {
+  if (node.kind == NodeKind::null) return "{}";
+  const std::string text = trimmed(node.text);
+  const bool is_quantity = node.is_scalar() && parse_quantity(text).error == QuantityError::none;
+  return "{effort: " + (is_quantity ? wording::with_unit(text, dimension::torque) : "2 N m") + "}";
+}
+
+/// `[left, right]` as a mapping.
+std::string actuators_example(const Node& node) {
+  std::string line;
+  for (const Node& item : node.items) line += (line.empty() ? "" : ", ") + item.text + ": {}";
+  return "{" + (line.empty() ? "left_wheel: {}" : line) + "}";
+}
+
+/// `is_told`: who writes one as a plain number writes all so, and hears of it once.
+ActuatorText parse_actuator(const Entry& entry, bool is_told, Diagnostics& diagnostics) {
   ActuatorText actuator;
   actuator.joint = {entry.key.text, entry.key.span};
   const std::string what = "actuator `" + entry.key.text + "`";
-  MapReader map(entry.value, what, diagnostics);
+  if (!entry.value.is_mapping()) actuator.effort_text = ValueText{};  // given, and not to be read
+  if (!entry.value.is_mapping() && is_told) return actuator;
+  MapReader map(entry.value, what, diagnostics, actuator_example(entry.value));
   // Whether it is a torque or a force is the joint's to say.
   if (const Node* effort = map.optional("effort")) {
     actuator.effort_text = parse_value(*effort, what + "'s effort", diagnostics);
@@ -80,7 +96,7 @@ FrictionText parse_friction(const Entry& entry, Diagnostics& diagnostics) {
   FrictionText friction;
   friction.joint = {entry.key.text, entry.key.span};
   const std::string what = "friction of `" + entry.key.text + "`";
-  MapReader map(entry.value, what, diagnostics);
+  MapReader map(entry.value, what, diagnostics, "{coulomb: 0.1 N m, compensate: 80 %}");
   // Whether the joint turns or slides is the URDF's to say.
   const auto part = [&](const char* key) -> std::optional<ValueText> {
     const Node* node = map.optional(key);
@@ -106,7 +122,9 @@ void parse_limits(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
     const Node* axes = map.optional(word_of(quantity));
     if (axes == nullptr) continue;
     const std::string what = std::string("limits.") + word_of(quantity);
-    MapReader axis_map(*axes, "`" + what + "`", diagnostics);
+    const std::string value =
+        wording::with_unit(axes->is_scalar() ? axes->text : "1", dimension_of(solver::Axis::x, quantity));
+    MapReader axis_map(*axes, "`" + what + "`", diagnostics, "{x: +-" + value + "}");
     for (const char* name : {"x", "y", "rz"}) {
       const Node* range = axis_map.optional(name);
       if (range == nullptr) continue;
@@ -131,7 +149,7 @@ void parse_limits(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
 }
 
 void parse_stop(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
-  MapReader map(node, "`stop`", diagnostics);
+  MapReader map(node, "`stop`", diagnostics, "{deceleration: 1 m/s^2, force: 80 N}");
   if (const Node* value = map.required("deceleration")) {
     file.stop.deceleration =
         parse_positive(*value, dimension::acceleration, "stop.deceleration", false, diagnostics)
@@ -145,30 +163,24 @@ void parse_stop(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
 }
 
 void parse_footprint(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
-  if (node.is_sequence() && !node.is_bad) {
+  if (!node.is_mapping() && !node.is_bad) {
     diagnostics.add(wording::footprint_without_polygon(node.span));
     return;
   }
   MapReader map(node, "`footprint`", diagnostics);
   const Node* polygon = map.required("polygon");
-  if (polygon != nullptr && require_sequence(*polygon, "footprint.polygon", diagnostics)) {
+  if (polygon != nullptr) {
     file.footprint_span = polygon->span;
-    bool is_good = true;
-    for (const Node& corner : polygon->items) {
-      const auto at = parse_vector(corner, dimension::length, 2, 2, "a footprint corner", diagnostics);
-      is_good = is_good && at;
-      if (at) file.footprint.emplace_back((*at)[0], (*at)[1], 0.0);
-    }
-    if (!is_good) file.footprint.clear();
-    if (is_good && polygon->items.size() < 3) {
-      diagnostics.add(wording::too_few_corners(polygon->span, "footprint"));
+    if (const auto corners = parse_polygon(*polygon, "the footprint", diagnostics)) {
+      for (const auto& [x, y] : *corners) file.footprint.emplace_back(x, y, 0.0);
+      if (corners->size() < 3) diagnostics.add(wording::too_few_corners(polygon->span, "footprint"));
     }
   }
   map.finish();
 }
 
 void parse_bumper(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
-  MapReader map(node, "`bumper`", diagnostics);
+  MapReader map(node, "`bumper`", diagnostics, "{stiffness: 20 kN/m, height: 0.15 m}");
   if (const Node* value = map.optional("stiffness")) {
     file.bumper_stiffness =
         parse_positive(*value, dimension::stiffness, "bumper.stiffness", false, diagnostics);
@@ -214,8 +226,16 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
     for (const Node& item : supports->items)
       file.supports.push_back(parse_word(item, "`supports`", diagnostics));
   }
-  each(map.required("actuated"), "actuated",
-       [&](const Entry& e) { file.actuators.push_back(parse_actuator(e, diagnostics)); });
+  const Node* actuated = map.required("actuated");
+  if (actuated != nullptr &&
+      require_mapping(*actuated, "`actuated`", diagnostics, actuators_example(*actuated))) {
+    bool is_told = false;
+    for (const Entry& entry : actuated->entries) {
+      if (entry.key.is_bad) continue;
+      file.actuators.push_back(parse_actuator(entry, is_told, diagnostics));
+      is_told = is_told || !entry.value.is_mapping();
+    }
+  }
   each(map.optional("posture"), "posture", [&](const Entry& e) {
     file.posture.push_back(
         {{e.key.text, e.key.span}, parse_value(e.value, posture_name(e.key.text), diagnostics)});

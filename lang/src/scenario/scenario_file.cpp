@@ -4,6 +4,7 @@
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "scene/faults.hpp"
 #include "spec/shape.hpp"
@@ -30,15 +31,7 @@ std::optional<MatrixValue> parse_matrix_value(const std::string& name, const Nod
   value.word.span = node.span;
   const std::string what = "`" + name + "`";
   if (name == "start_at") {
-    if (node.is_sequence() && node.items.size() == 3 && !node.is_bad) {
-      const auto place = [&](std::size_t i) {
-        return wording::with_unit(node.items[i].text, dimension::length);
-      };
-      diagnostics.add(wording::heading_in_a_place(
-          node.span, what, "start_at: [" + place(0) + ", " + place(1) + "]",
-          "start_yaw: " + wording::with_unit(node.items[2].text, dimension::angle)));
-      return std::nullopt;
-    }
+    if (complain_of_third_value(node, what, "start_at", "start_yaw", false, diagnostics)) return std::nullopt;
     const auto at = parse_vector(node, dimension::length, 2, 2, what, diagnostics);
     if (!at) return std::nullopt;
     value.at = {(*at)[0], (*at)[1]};
@@ -129,7 +122,8 @@ void parse_fault_sets(const Node& node, ScenarioFile& file, Diagnostics& diagnos
 }
 
 std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& diagnostics) {
-  MapReader map(node, "an expectation", diagnostics);
+  MapReader map(node, "an expectation", diagnostics,
+                "{outcome: " + (node.is_scalar() ? node.text : "done") + "}");
   if (!map.is_mapping()) return std::nullopt;
   ExpectationText expected;
   expected.span = node.span;
@@ -142,8 +136,9 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
   const auto count = std::count_if(given.begin(), given.end(), [](const Node* n) { return n != nullptr; });
   bool is_good = true;
   if (count != 1) {
-    if (count > 1 || !map.has_misspelt({"outcome", "diagnostic", "at", "within", "always"}))
-      diagnostics.add(wording::one_expectation(node.span));
+    // An unknown key may have been the one.
+    for (const char* key : {"of", "that"}) map.optional(key);
+    if (count > 1 || !map.has_unread_keys()) diagnostics.add(wording::one_expectation(node.span));
     is_good = false;
   }
   if (outcome != nullptr) {
@@ -167,9 +162,6 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
     expected.kind = ExpectationKind::within;
     expected.within = parse_positive(*within, dimension::time, "`within`", true, diagnostics).value_or(0.0);
     if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
-  }
-  if (!is_good) {
-    for (const char* key : {"of", "that"}) map.optional(key);
   }
   const Node* that = always != nullptr ? always : nullptr;
   if (always != nullptr) expected.kind = ExpectationKind::always;

@@ -3,11 +3,13 @@
 #include "check/check.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "scene/check_scene.hpp"
 #include "scene/faults.hpp"
 #include "scene/load_robots.hpp"
 #include "scene/load_signals.hpp"
+#include "spec/in_one_line.hpp"
 #include "spec/shape.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
@@ -16,26 +18,21 @@ namespace zwang::lang {
 
 namespace {
 
-void parse_place(const Node& node, const std::string& what, std::array<double, 2>& at,
-                 Diagnostics& diagnostics) {
-  const auto values = parse_vector(node, dimension::length, 2, 2, what, diagnostics);
-  if (values) at = {(*values)[0], (*values)[1]};
+/// `[0, 0, 20]` as `{at: [0 m, 0 m], yaw: 20 deg}`.
+std::string start_example(const Node& node) {
+  const auto& items = node.items;
+  std::string example = "{at: [0 m, 0 m]";
+  if (items.size() >= 2)
+    example = "{at: [" + wording::with_unit(items[0].text, dimension::length) + ", " +
+              wording::with_unit(items[1].text, dimension::length) + "]";
+  if (items.size() == 3) example += ", yaw: " + wording::with_unit(items[2].text, dimension::angle);
+  return example + "}";
 }
 
-/// `[0, 0, 20]` for `{at: [0 m, 0 m], yaw: 20 deg}`.
 void parse_start(const Node& node, Scene& scene, Diagnostics& diagnostics) {
-  if (node.is_sequence() && !node.is_bad) {
-    const auto& items = node.items;
-    std::string example = "{at: [0 m, 0 m]";
-    if (items.size() >= 2)
-      example = "{at: [" + wording::with_unit(items[0].text, dimension::length) + ", " +
-                wording::with_unit(items[1].text, dimension::length) + "]";
-    if (items.size() == 3) example += ", yaw: " + wording::with_unit(items[2].text, dimension::angle);
-    diagnostics.add(wording::mapping_by_example(node.span, "`start`", example + "}"));
-    return;
-  }
-  MapReader start(node, "`start`", diagnostics);
-  if (const Node* at = start.optional("at")) parse_place(*at, "start.at", scene.start_at, diagnostics);
+  MapReader start(node, "`start`", diagnostics, start_example(node));
+  if (const Node* at = start.optional("at"))
+    scene.start_at = parse_place(*at, "start.at", "yaw", diagnostics).value_or(scene.start_at);
   if (const Node* yaw = start.optional("yaw")) {
     scene.start_yaw = parse_plain(*yaw, dimension::angle, "start.yaw", diagnostics).value_or(0.0);
   }
@@ -43,11 +40,7 @@ void parse_start(const Node& node, Scene& scene, Diagnostics& diagnostics) {
 }
 
 void parse_floor(const Node& node, Scene& scene, Diagnostics& diagnostics) {
-  if (node.is_scalar() && !node.is_bad) {
-    diagnostics.add(wording::mapping_by_example(node.span, "`floor`", "{friction: " + node.text + "}"));
-    return;
-  }
-  MapReader floor(node, "`floor`", diagnostics);
+  MapReader floor(node, "`floor`", diagnostics, "{friction: " + (node.is_scalar() ? node.text : "0.9") + "}");
   if (const Node* friction = floor.optional("friction")) {
     scene.floor_friction =
         parse_positive(*friction, dimension::none, "floor.friction", false, diagnostics).value_or(0.9);
@@ -55,22 +48,30 @@ void parse_floor(const Node& node, Scene& scene, Diagnostics& diagnostics) {
   floor.finish();
 }
 
+/// What `wall: 3` or `cylinder: [0.3, 1.7]` may have been meant as.
+std::string sizes_example(const Node& node, bool is_wall) {
+  const auto size = [&](std::size_t i, const char* usual) {
+    if (node.is_scalar() && i == 0) return wording::with_unit(node.text, dimension::length);
+    return i < node.items.size() ? wording::with_unit(node.items[i].text, dimension::length) : usual;
+  };
+  return is_wall ? "{length: " + size(0, "4 m") + "}"
+                 : "{radius: " + size(0, "0.3 m") + ", height: " + size(1, "1 m") + "}";
+}
+
 /// The sizes of a cylinder or a wall, by name.
-void parse_sizes(const Node& node, const std::string& what, SceneObject& object, Diagnostics& diagnostics) {
-  if (node.is_scalar() && !node.is_bad) {
-    const bool is_wall = object.shape == ShapeKind::wall;
-    const std::string size = wording::with_unit(node.text, dimension::length);
-    diagnostics.add(wording::mapping_by_example(
-        node.span, what + (is_wall ? "'s `wall`" : "'s `cylinder`"),
-        is_wall ? "{length: " + size + "}" : "{radius: " + size + ", height: 1 m}"));
+void parse_sizes(const Node& node, const std::string& whose, SceneObject& object, Diagnostics& diagnostics) {
+  const bool is_wall = object.shape == ShapeKind::wall;
+  const std::string what = whose + (is_wall ? "'s `wall`" : "'s `cylinder`");
+  if (count_bare_numbers(node) > 1 && node.is_mapping()) {
+    diagnostics.add(wording::needs_units(node.span, what, in_one_line(node, dimension::length)));
     return;
   }
-  MapReader map(node, what, diagnostics);
+  MapReader map(node, what, diagnostics, sizes_example(node, is_wall));
   const auto size = [&](const char* key, double& target, bool is_required) {
     const Node* value = is_required ? map.required(key) : map.optional(key);
     if (value != nullptr) {
       target =
-          parse_positive(*value, dimension::length, what + "'s " + key, false, diagnostics).value_or(1.0);
+          parse_positive(*value, dimension::length, whose + "'s " + key, false, diagnostics).value_or(1.0);
     }
   };
   if (object.shape == ShapeKind::cylinder) {
@@ -136,7 +137,8 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   MapReader map(entry.value, what, diagnostics);
   if (!map.is_mapping()) return object;
   const int shapes = parse_shape(map, object, diagnostics);
-  if (const Node* at = map.required("at")) parse_place(*at, what + "'s `at`", object.at, diagnostics);
+  if (const Node* at = map.required("at"))
+    object.at = parse_place(*at, what + "'s `at`", "yaw", diagnostics).value_or(object.at);
   if (const Node* yaw = map.optional("yaw")) {
     object.yaw = parse_plain(*yaw, dimension::angle, what + "'s `yaw`", diagnostics).value_or(0.0);
   }
@@ -182,7 +184,8 @@ SceneRobot parse_robot(const Entry& entry, const std::vector<Seen>& seen, Diagno
   robot.name = parse_name(entry.key, "a robot's name", diagnostics).text;
   robot.span = entry.key.span;
   const std::string what = "robot `" + entry.key.text + "`";
-  MapReader map(entry.value, what, diagnostics);
+  MapReader map(entry.value, what, diagnostics,
+                "{task: " + (entry.value.is_scalar() ? entry.value.text : "task.yaml") + ", at: [2 m, 0 m]}");
   if (!map.is_mapping()) return robot;
   if (const Node* task = map.required("task")) {
     robot.task = parse_word(*task, what + "'s `task`", diagnostics).text;
@@ -194,7 +197,8 @@ SceneRobot parse_robot(const Entry& entry, const std::vector<Seen>& seen, Diagno
   }
   if (const Node* node = map.optional("params"))
     robot.parameters = parse_given_parameters(*node, what + "'s `params`", diagnostics);
-  if (const Node* at = map.required("at")) parse_place(*at, what + "'s `at`", robot.at, diagnostics);
+  if (const Node* at = map.required("at"))
+    robot.at = parse_place(*at, what + "'s `at`", "yaw", diagnostics).value_or(robot.at);
   if (const Node* yaw = map.optional("yaw"))
     robot.yaw = parse_plain(*yaw, dimension::angle, what + "'s `yaw`", diagnostics).value_or(0.0);
   parse_contact(map, robot, diagnostics);
@@ -266,8 +270,11 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
     }
   }
   seen.push_back({"base", false});
-  if (const Node* node = map.optional("robots")) parse_robots(*node, scene, seen, diagnostics);
-  if (map.has_misspelt({"objects", "robots"})) seen.push_back({});
+  const Node* robots = map.optional("robots");
+  if (robots != nullptr) parse_robots(*robots, scene, seen, diagnostics);
+  const bool are_read =
+      (objects == nullptr || objects->is_mapping()) && (robots == nullptr || robots->is_mapping());
+  if (!are_read || map.has_misspelt({"objects", "robots"})) seen.push_back({});
   if (const Node* node = map.optional("signals")) {
     scene.signals = parse_scene_signals(*node, seen, true, diagnostics);
   }

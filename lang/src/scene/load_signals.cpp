@@ -45,6 +45,11 @@ void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostic
   const std::string what = "signal `" + signal.name + "`'s script";
   if (!require_sequence(node, what, diagnostics)) return;
   if (node.items.empty()) diagnostics.add(wording::empty_script(node.span, what));
+  const auto is_scalar = [](const Node& step) { return step.is_scalar(); };
+  if (!node.items.empty() && std::all_of(node.items.begin(), node.items.end(), is_scalar)) {
+    diagnostics.add(wording::script_step(node.span));
+    return;
+  }
   double last = -1.0;
   std::optional<StepValue> first;  // that says what the signal measures
   Span first_span;
@@ -126,7 +131,9 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, bool
   SceneSignal signal;
   signal.name = parse_name(entry.key, "a signal's name", diagnostics).text;
   signal.span = entry.key.span;
-  MapReader map(entry.value, "signal `" + entry.key.text + "`", diagnostics);
+  const std::string stays = entry.value.is_scalar() ? entry.value.text : "true";
+  MapReader map(entry.value, "signal `" + entry.key.text + "`", diagnostics,
+                "{script: [[0 s, " + stays + "]]}");
   if (!map.is_mapping()) return signal;
   struct Source {
     const char* key;
@@ -176,8 +183,9 @@ std::vector<Waypoint> parse_motion(const Node& node, const std::string& what, Di
   if (node.items.empty()) diagnostics.add(wording::empty_motion(node.span, what));
   double last = -1.0;
   for (const Node& item : node.items) {
-    MapReader map(item, what, diagnostics);
-    if (!map.is_mapping()) continue;
+    MapReader map(item, what, diagnostics, "{time: 1 s, at: [0 m, 0 m]}");
+    // Who writes one point as a list writes all so.
+    if (!map.is_mapping()) return points;
     Waypoint point;
     if (const Node* time = map.required("time")) {
       point.time = parse_plain(*time, dimension::time, what, diagnostics).value_or(last + 1.0);
@@ -185,8 +193,7 @@ std::vector<Waypoint> parse_motion(const Node& node, const std::string& what, Di
       last = point.time;
     }
     if (const Node* at = map.required("at")) {
-      if (const auto place = parse_vector(*at, dimension::length, 2, 2, what, diagnostics))
-        point.at = {(*place)[0], (*place)[1]};
+      point.at = parse_place(*at, what, "yaw", diagnostics).value_or(point.at);
     }
     if (const Node* yaw = map.optional("yaw"))
       point.yaw = parse_plain(*yaw, dimension::angle, what, diagnostics).value_or(0.0);
@@ -201,8 +208,7 @@ std::optional<Dock> parse_dock(const Node& node, const std::string& what, Diagno
   if (!map.is_mapping()) return std::nullopt;
   Dock dock;
   if (const Node* at = map.required("at")) {
-    if (const auto place = parse_vector(*at, dimension::length, 2, 2, what, diagnostics))
-      dock.at = {(*place)[0], (*place)[1]};
+    dock.at = parse_place(*at, what + "'s `at`", "", diagnostics).value_or(dock.at);
   }
   if (const Node* reach = map.optional("reach")) {
     dock.reach = parse_positive(*reach, dimension::length, what + "'s `reach`", false, diagnostics)

@@ -78,9 +78,23 @@ class ConditionParser {
       stop(wording::chained_comparison(span(at_, at_ + 1)));
     }
     stop_at_capitals();
+    stop_at_decimal_comma();
     std::size_t end = at_ + 1;
     while (end < text_.size() && (is_continuation_byte(text_[end]) || is_word_part(text_[end]))) ++end;
     stop(wording::unexpected_in_condition(span(at_, end), text_.substr(at_, end - at_)));
+  }
+
+  /// `0,5 m`, which has been read as far as `0`.
+  void stop_at_decimal_comma() {
+    const auto is_digit = [this](std::size_t at) { return text_[at] >= '0' && text_[at] <= '9'; };
+    if (text_[at_] != ',') return;
+    std::size_t begin = at_;
+    while (begin > 0 && is_digit(begin - 1)) --begin;
+    std::size_t end = std::min(text_.find_first_not_of(' ', at_ + 1), text_.size());
+    while (end < text_.size() && is_digit(end)) ++end;
+    const std::string written = text_.substr(begin, end - begin);
+    const std::string plain = wording::plainly_written(written);
+    if (plain != written) stop(wording::odd_letters(span(begin, end), written, plain));
   }
 
   void stop_at_capitals() {

@@ -59,7 +59,7 @@ void parse_tasks(const Node& node, Templates& templates, TaskFile& file, Diagnos
 }
 
 void parse_always(const Node& node, TaskFile& file, Diagnostics& diagnostics) {
-  MapReader map(node, "`always`", diagnostics);
+  MapReader map(node, "`always`", diagnostics, "{exits: [{when: elapsed > 60 s, goto: failed}]}");
   file.always_groups = parse_constraints(map, 0, diagnostics);
   if (const Node* exits = map.optional("exits")) file.always_exits = parse_exits(*exits, diagnostics);
   if (map.has_misspelt({"exits"})) file.always_exits.push_back({.is_incomplete = true});
@@ -127,7 +127,8 @@ void parse_pose(MapReader& map, std::vector<double>& at, std::vector<double>& rp
   const Node* position = map.optional("at");
   const Node* yaw = map.optional("yaw");
   const Node* angles = map.optional("rpy");
-  if (position != nullptr) {
+  if (position != nullptr &&
+      !complain_of_third_value(*position, map.what() + "'s `at`", "at", "yaw", true, diagnostics)) {
     at = parse_vector(*position, dimension::length, 2, 3, map.what() + "'s `at`", diagnostics)
              .value_or(std::vector<double>{});
   }
@@ -145,7 +146,9 @@ FrameText parse_frame(const Entry& entry, Diagnostics& diagnostics) {
   FrameText frame;
   frame.name = parse_name(entry.key, "a frame's name", diagnostics);
   frame.span = entry.key.span;
-  MapReader map(entry.value, "frame `" + entry.key.text + "`", diagnostics);
+  const std::string example = entry.value.is_scalar() ? "{parent: " + entry.value.text + "}"
+                                                      : "{parent: world, at: [1 m, 0 m], yaw: 90 deg}";
+  MapReader map(entry.value, "frame `" + entry.key.text + "`", diagnostics, example);
   if (const Node* parent = map.required("parent")) {
     frame.parent = parse_word(*parent, map.what() + "'s `parent`", diagnostics);
   }

@@ -4,6 +4,7 @@
 #include <initializer_list>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "tree/text.hpp"
 
@@ -61,6 +62,8 @@ std::string statement_of(const std::string& text, const std::string& axis) {
   const QuantityResult result = parse_quantity(text);
   const Dimension& d = result.quantity.dimension;
   const bool is_known = result.error == QuantityError::none;
+  if (axis == "speed" && (is_known || text.starts_with("$")))
+    return "{velocity: [0 m/s, " + wording::with_unit(text, dimension::velocity) + "]}";
   if (is_known && !result.quantity.has_unit)
     return "{velocity: " +
            wording::with_unit(text,
@@ -104,7 +107,15 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
     // Another quantity in its place is an unknown key, and told as such.
     const bool is_another = entry.value.find("velocity") == nullptr && map.has_unread_keys();
     if (const Node* node = is_another ? map.optional("velocity") : map.required("velocity")) {
-      StatementText range = parse_range(*node, path + ".velocity", diagnostics);
+      // One value of a speed is its upper end.
+      const std::string most = node->is_scalar() ? trimmed(node->text) : "";
+      const bool is_end = parse_quantity(most).error == QuantityError::none;
+      if (is_end)
+        diagnostics.add(wording::speed_without_range(node->span, path + ".velocity",
+                                                     wording::with_unit(most, dimension::velocity)));
+      StatementText range = is_end ? StatementText{} : parse_range(*node, path + ".velocity", diagnostics);
+      range.is_range = true;
+      range.span = node->span;
       range.key_span = entry.value.find("velocity")->key.span;
       axis.statements[static_cast<std::size_t>(Quantity::velocity)] = std::move(range);
     }

@@ -5,24 +5,46 @@
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "spec/in_one_line.hpp"
 #include "spec/parse_task.hpp"
+#include "tree/text.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
 
 namespace {
 
+/// What `door: bool` may have been meant as.
+std::string signal_example(const std::string& type) {
+  const std::string age = ", stale_after: 500 ms}";
+  if (type == "number") return "{type: number, unit: m" + age;
+  if (type == "pose" || type == "wrench") return "{type: " + type + ", in: base_link" + age;
+  return "{type: bool" + age;
+}
+
+/// `std_msgs/Bool`, `double` and `PoseStamped` in our words.
+std::string type_meant(const std::string& written, const std::vector<std::string>& types) {
+  const std::string word = lower_case(written.substr(written.rfind('/') + 1));
+  for (const std::string& type : types) {
+    if (word.starts_with(type)) return type;
+  }
+  for (const char* number : {"float", "double", "int", "real", "range"}) {
+    if (word.starts_with(number)) return "number";
+  }
+  return nearest(written, types);
+}
+
 SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   SignalText signal;
   signal.name = parse_name(entry.key, "a signal's name", diagnostics);
   const std::string what = "signal `" + entry.key.text + "`";
-  MapReader map(entry.value, what, diagnostics);
+  MapReader map(entry.value, what, diagnostics, signal_example(entry.value.text));
   static const std::vector<std::string> types{"bool", "number", "pose", "wrench"};
   if (const Node* type = map.required("type")) {
     signal.type = parse_word(*type, what + "'s `type`", diagnostics);
     const bool is_known = std::find(types.begin(), types.end(), signal.type.text) != types.end();
     if (signal.type.exists() && !is_known) {
-      diagnostics.add(wording::unknown_signal_type(type->span, type->text, nearest(type->text, types)));
+      diagnostics.add(wording::unknown_signal_type(type->span, type->text, type_meant(type->text, types)));
       signal.type = {};
     }
   }
@@ -60,30 +82,35 @@ RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
   const bool is_one = (polygon != nullptr) != (circle != nullptr);
   if (map.is_mapping() && !is_one && (polygon != nullptr || !map.has_unread_keys())) {
     diagnostics.add(wording::one_region_shape(entry.key.span, what));
-  } else if (polygon != nullptr && require_sequence(*polygon, what + "'s `polygon`", diagnostics)) {
+  } else if (const auto corners =
+                 polygon != nullptr ? parse_polygon(*polygon, what, diagnostics) : std::nullopt) {
     double area = 0.0;
-    for (const Node& corner : polygon->items) {
-      const auto at = parse_vector(corner, dimension::length, 2, 2, "a corner of " + what, diagnostics);
-      if (at) region.polygon.push_back({(*at)[0], (*at)[1]});
-    }
+    region.polygon = *corners;
     const auto& p = region.polygon;
     for (std::size_t i = 0; i < p.size(); ++i) {
       const auto& next = p[(i + 1) % p.size()];
       area += 0.5 * (p[i][0] * next[1] - next[0] * p[i][1]);
     }
-    if (p.size() == polygon->items.size() && (p.size() < 3 || std::abs(area) < 1e-6)) {
+    if (p.size() < 3 || std::abs(area) < 1e-6) {
       diagnostics.add(wording::flat_region(polygon->span, what));
-    } else if (p.size() == polygon->items.size() && plane::crosses_itself(p)) {
+    } else if (plane::crosses_itself(p)) {
       diagnostics.add(wording::crossing_edges("E410", polygon->span, what));
     }
     if (area < 0.0) std::reverse(region.polygon.begin(), region.polygon.end());
   } else if (circle != nullptr) {
     MapReader circle_map(*circle, what + "'s circle", diagnostics);
-    if (const Node* at = circle_map.required("at")) {
-      const auto centre = parse_vector(*at, dimension::length, 2, 2, what + "'s centre", diagnostics);
-      if (centre) region.centre = {(*centre)[0], (*centre)[1]};
+    const Node* at = circle_map.required("at");
+    const Node* radius = circle_map.required("radius");
+    if (at != nullptr && radius != nullptr && count_bare_numbers(*at) > 0 &&
+        count_bare_numbers(*radius) > 0) {
+      diagnostics.add(
+          wording::needs_units(circle->span, what + "'s circle", in_one_line(*circle, dimension::length)));
+      at = radius = nullptr;
     }
-    if (const Node* radius = circle_map.required("radius")) {
+    if (at != nullptr) {
+      if (const auto centre = parse_place(*at, what + "'s centre", "", diagnostics)) region.centre = *centre;
+    }
+    if (radius != nullptr) {
       region.radius =
           parse_positive(*radius, dimension::length, what + "'s radius", false, diagnostics).value_or(1.0);
     }

@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 
 #include "diagnostic/nearest.hpp"
+#include "diagnostic/ways_out.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/decimal_comma.hpp"
+#include "spec/in_one_line.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
 
-MapReader::MapReader(const Node& node, std::string what, Diagnostics& diagnostics)
+MapReader::MapReader(const Node& node, std::string what, Diagnostics& diagnostics, const std::string& example)
     : node_(node), what_(std::move(what)), diagnostics_(diagnostics) {
-  require_mapping(node, what_, diagnostics);
+  require_mapping(node, what_, diagnostics, example);
 }
 
 const Node* MapReader::optional(std::string_view key) {
@@ -47,11 +51,13 @@ bool MapReader::report_split_condition() {
 }
 
 bool MapReader::has_misspelt(const std::vector<std::string>& keys) const {
-  for (const Entry& entry : node_.entries) {
-    const bool is_known = std::find(known_.begin(), known_.end(), entry.key.text) != known_.end();
-    if (!is_known && !meant_key(entry.key.text, keys).empty()) return true;
-  }
-  return false;
+  return std::any_of(node_.entries.begin(), node_.entries.end(), [&](const Entry& entry) {
+    return is_unknown(entry) && !meant_key(entry.key.text, keys).empty();
+  });
+}
+
+bool MapReader::is_unknown(const Entry& entry) const {
+  return !entry.key.is_bad && std::find(known_.begin(), known_.end(), entry.key.text) == known_.end();
 }
 
 bool MapReader::has_unread_keys() const {
@@ -62,45 +68,107 @@ bool MapReader::has_unread_keys() const {
 
 void MapReader::finish() {
   if (!is_mapping()) return;
-  if (!others_allowed_) {
-    std::vector<std::string> absent;
-    for (const std::string& key : known_) {
-      if (node_.find(key) == nullptr) absent.push_back(key);
+  if (!others_allowed_) report_unknown_keys();
+  for (const std::string& key : missing_) diagnostics_.add(wording::missing_key(node_.span, what_, key));
+}
+
+void MapReader::report_unknown_keys() {
+  std::vector<std::string> absent;
+  for (const std::string& key : known_) {
+    if (node_.find(key) == nullptr) absent.push_back(key);
+  }
+  std::vector<const Node*> puzzling;
+  // Several keys may have one way out, which is told with the first of them.
+  std::set<std::string> told;
+  const auto is_new = [&](const std::string& remedy) { return told.insert(remedy).second; };
+  for (const Entry& entry : node_.entries) {
+    if (!is_unknown(entry) || (split_reported_ && entry.value.kind == NodeKind::null)) continue;
+    const std::string& key = entry.key.text;
+    const std::string begin = key.substr(0, key.find_first_of(": "));
+    if (begin != key && std::find(known_.begin(), known_.end(), begin) != known_.end()) {
+      diagnostics_.add(wording::no_colon_or_space(entry.key.span, key, begin));
+      std::erase(missing_, begin);
+      continue;
     }
-    std::vector<const Node*> puzzling;
-    for (const Entry& entry : node_.entries) {
-      if (entry.key.is_bad || std::find(known_.begin(), known_.end(), entry.key.text) != known_.end()) {
-        continue;
-      }
-      if (split_reported_ && entry.value.kind == NodeKind::null) continue;
-      const std::string begin = entry.key.text.substr(0, entry.key.text.find_first_of(": "));
-      if (begin != entry.key.text && std::find(known_.begin(), known_.end(), begin) != known_.end()) {
-        diagnostics_.add(wording::no_colon_or_space(entry.key.span, entry.key.text, begin));
-        std::erase(missing_, begin);
-        continue;
-      }
-      const std::string meant = meant_key(entry.key.text, absent);
-      if (meant.empty()) {
-        puzzling.push_back(&entry.key);
-        continue;
-      }
-      diagnostics_.add(wording::unknown_key(entry.key.span, entry.key.text, what_, meant, known_, {}));
-      // The misspelt key was the missing one: one cause, one message.
-      std::erase(missing_, meant);
-    }
-    for (const Node* key : puzzling) {
-      diagnostics_.add(wording::unknown_key(key->span, key->text, what_, "", known_, missing_));
-      // Perhaps it was one of these.
+    if (const std::string remedy = remedy_of(entry); !remedy.empty()) {
+      if (is_new(remedy)) diagnostics_.add(wording::said_otherwise(entry.key.span, key, what_, remedy));
       missing_.clear();
+      continue;
+    }
+    const std::string meant = meant_key(key, absent);
+    if (meant.empty()) {
+      puzzling.push_back(&entry.key);
+      continue;
+    }
+    // The misspelt key was the missing one: one cause, one message.
+    std::erase(missing_, meant);
+    const std::string whole = whole_of_parts(meant);
+    if (whole.empty()) {
+      diagnostics_.add(wording::unknown_key(entry.key.span, key, what_, meant, known_, {}));
+    } else if (is_new(whole)) {
+      diagnostics_.add(wording::said_otherwise(entry.key.span, key, what_, "write " + in_ticks(whole)));
     }
   }
-  for (const std::string& key : missing_) diagnostics_.add(wording::missing_key(node_.span, what_, key));
+  for (const Node* key : puzzling) {
+    diagnostics_.add(wording::unknown_key(key->span, key->text, what_, "", known_, missing_));
+    // Perhaps it was one of these.
+    missing_.clear();
+  }
+}
+
+std::string MapReader::remedy_of(const Entry& entry) const {
+  const auto knows = [this](std::string_view key) {
+    return std::find(known_.begin(), known_.end(), key) != known_.end();
+  };
+  const Node& value = entry.value;
+  if (knows("constraints") && (value.find("move") != nullptr || value.find("feature") != nullptr))
+    return "a group stands in `constraints`: indent it below that";
+  if (const std::string way = way_out(what_, entry.key.text); !way.empty()) return way;
+  return knows("time_constant") ? range_of_bound(entry) : "";
+}
+
+/// `max_velocity: 0.2 m/s` and `velocity_limit: 0.2 m/s` as a range.
+std::string MapReader::range_of_bound(const Entry& entry) const {
+  std::string_view key = entry.key.text;
+  const bool is_low = key.starts_with("min_") || key.ends_with("_min");
+  for (const std::string_view affix : {"max_", "min_", "_max", "_min", "_limit"}) {
+    if (affix.ends_with('_') && key.starts_with(affix)) key.remove_prefix(affix.size());
+    if (affix.starts_with('_') && key.ends_with(affix)) key.remove_suffix(affix.size());
+  }
+  if (key == entry.key.text || !entry.value.is_scalar()) return {};
+  const std::string meant = meant_key(key, {"position", "velocity", "acceleration", "force"});
+  const std::string quantity = meant.empty() && std::find(known_.begin(), known_.end(), key) != known_.end()
+                                   ? std::string(key)
+                                   : meant;
+  if (quantity.empty()) return {};
+  const std::string value = trimmed(entry.value.text);
+  std::string range = "+-" + value;
+  if (is_low) range = "[" + value + ", ..]";
+  if (what_.ends_with(".speed`")) range = "[0 m/s, " + value + "]";
+  return "a bound is a range: write " + in_ticks(quantity + ": " + range);
+}
+
+/// `x: 1 m` and `y: 2 m` are `at: [1 m, 2 m]`, `min` and `max` a range. Empty: no parts of one thing.
+std::string MapReader::whole_of_parts(const std::string& meant) const {
+  if (meant != "at" && meant != "range") return {};
+  std::vector<std::string> parts;
+  for (const std::string_view part : {"x", "y", "z", "min", "lower", "max", "upper"}) {
+    const Entry* entry = node_.find(part);
+    if (entry != nullptr && entry->value.is_scalar() && meant_key(part, {meant}) == meant)
+      parts.push_back(trimmed(entry->value.text));
+  }
+  if (parts.size() < 2) return {};
+  std::string whole = meant + ": [";
+  for (std::size_t i = 0; i < parts.size(); ++i) whole += (i == 0 ? "" : ", ") + parts[i];
+  return whole + "]";
 }
 
 Word parse_word(const Node& node, const std::string& what, Diagnostics& diagnostics) {
   if (node.is_bad) return {};
   if (!node.is_scalar() || trimmed(node.text).empty()) {
-    diagnostics.add(wording::expected_word(node.span, what));
+    // `{file: mini.yaml}` for `mini.yaml`.
+    const bool holds_word = node.entries.size() == 1 && node.entries[0].value.is_scalar();
+    diagnostics.add(wording::expected_word(node.span, what, holds_word ? node.entries[0].value.text : ""));
     return {};
   }
   return {node.text, node.span};
@@ -145,17 +213,55 @@ std::optional<bool> parse_boolean(const Node& node, const std::string& what, Dia
   return std::nullopt;
 }
 
+namespace {
+
+/// What other programs call the name of a thing in a list of things.
+bool is_name_key(std::string_view key) {
+  return key == "name" || key == "id" || key == "joint";
+}
+
+/// `{gap: 1 m, pace: 2 m}` of `[gap: 1 m, pace: 2 m]`.
+std::string without_brackets(const Node& list) {
+  std::string line;
+  for (const Node& item : list.items) {
+    std::string entry = in_one_line(item, dimension::none);
+    if (item.is_mapping()) entry = entry.substr(1, entry.size() - 2);
+    line += (line.empty() ? "" : ", ") + entry;
+  }
+  return "{" + line + "}";
+}
+
+}  // namespace
+
 bool require_sequence(const Node& node, const std::string& what, Diagnostics& diagnostics) {
   if (node.is_bad) return false;
-  if (!node.is_sequence()) diagnostics.add(wording::expected_list(node.span, what));
+  if (!node.is_sequence()) {
+    const bool is_named = node.is_mapping() && !node.entries.empty() && node.entries[0].value.is_mapping();
+    diagnostics.add(is_named ? wording::named_items(node.span, what, node.entries[0].key.text)
+                             : wording::expected_list(node.span, what));
+  }
   return node.is_sequence();
 }
 
-bool require_mapping(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+bool require_mapping(const Node& node, const std::string& what, Diagnostics& diagnostics,
+                     const std::string& example) {
   if (node.is_bad) return false;
-  if (!node.is_mapping())
+  if (node.is_mapping()) return true;
+  const bool holds_entries = node.is_sequence() && !node.items.empty() && node.items[0].is_mapping() &&
+                             !node.items[0].entries.empty();
+  const Entry* first = holds_entries ? &node.items[0].entries[0] : nullptr;
+  const bool is_one_each = first != nullptr && node.items[0].entries.size() == 1;
+  const bool names_itself = first != nullptr && first->value.is_scalar() && is_name_key(first->key.text);
+  if (names_itself) {
+    diagnostics.add(wording::name_in_an_item(node.span, what, first->key.text, first->value.text));
+  } else if (is_one_each && node.is_flow) {
+    diagnostics.add(wording::mapping_by_example(node.span, what, without_brackets(node)));
+  } else if (!is_one_each && !example.empty()) {
+    diagnostics.add(wording::mapping_by_example(node.span, what, example));
+  } else {
     diagnostics.add(wording::expected_mapping(node.span, what, node.is_sequence() && !node.is_flow));
-  return node.is_mapping();
+  }
+  return false;
 }
 
 std::optional<double> parse_plain(const Node& node, const Dimension& expected, const std::string& what,
@@ -184,23 +290,47 @@ std::optional<double> parse_positive(const Node& node, const Dimension& expected
 bool complain_of_bare_numbers(const Node& list, const Dimension& expected, const std::string& what,
                               Diagnostics& diagnostics) {
   if (expected == dimension::none || list.items.size() < 2) return false;
-  std::vector<std::string> numbers;
-  for (const Node& item : list.items) {
-    if (item.is_bad || !item.is_scalar()) return false;
-    const QuantityResult result = parse_quantity(trimmed(item.text));
-    if (result.error != QuantityError::none || result.quantity.has_unit) return false;
-    numbers.push_back(result.quantity.number);
-  }
-  diagnostics.add(wording::needs_units(list.span, what, numbers, expected));
+  const auto is_bare = [](const Node& item) { return item.is_scalar() && count_bare_numbers(item) == 1; };
+  if (!std::all_of(list.items.begin(), list.items.end(), is_bare)) return false;
+  diagnostics.add(wording::needs_units(list.span, what, in_one_line(list, expected)));
   return true;
 }
+
+namespace {
+
+/// `0 0 0.1`, `1 m, 2 m` and `{x: 1 m, y: 2 m}` as lists; empty: it is none of these.
+std::string values_in_brackets(const Node& node, const Dimension& expected, std::size_t fewest,
+                               std::size_t most) {
+  Node list;
+  list.kind = NodeKind::sequence;
+  for (const Entry& entry : node.entries) list.items.push_back(entry.value);
+  const char separator = node.text.find(',') == std::string::npos ? ' ' : ',';
+  for (std::size_t at = 0; node.is_scalar() && at < node.text.size();) {
+    const std::size_t end = std::min(node.text.find(separator, at), node.text.size());
+    Node item;
+    item.kind = NodeKind::scalar;
+    item.text = trimmed(std::string_view(node.text).substr(at, end - at));
+    if (!item.text.empty()) list.items.push_back(std::move(item));
+    at = end + 1;
+  }
+  const auto is_quantity = [](const Node& item) {
+    return item.is_scalar() && parse_quantity(trimmed(item.text)).error == QuantityError::none;
+  };
+  const bool is_list = list.items.size() >= fewest && list.items.size() <= most &&
+                       std::all_of(list.items.begin(), list.items.end(), is_quantity);
+  return is_list ? in_one_line(list, expected) : "";
+}
+
+}  // namespace
 
 std::optional<std::vector<double>> parse_vector(const Node& node, const Dimension& expected,
                                                 std::size_t fewest, std::size_t most, const std::string& what,
                                                 Diagnostics& diagnostics) {
   if (node.is_bad) return std::nullopt;
   if (!node.is_sequence()) {
-    diagnostics.add(wording::expected_vector(node.span, what, fewest, usual_unit(expected)));
+    const std::string list = values_in_brackets(node, expected, fewest, most);
+    diagnostics.add(list.empty() ? wording::expected_vector(node.span, what, fewest, usual_unit(expected))
+                                 : wording::vector_by_example(node.span, what, list));
     return std::nullopt;
   }
   const bool has_units = expected != dimension::none;
@@ -219,6 +349,64 @@ std::optional<std::vector<double>> parse_vector(const Node& node, const Dimensio
   }
   if (!is_good) return std::nullopt;
   return values;
+}
+
+bool complain_of_third_value(const Node& place, const std::string& what, const std::string& place_key,
+                             const std::string& yaw_key, bool may_have_height, Diagnostics& diagnostics) {
+  if (place.is_bad || !place.is_sequence() || place.items.size() != 3) return false;
+  Node floor = place;
+  floor.items.pop_back();
+  const std::string written = in_one_line(floor, dimension::length);
+  const std::string& text = place.items[2].text;
+  const QuantityResult third = parse_quantity(trimmed(text));
+  if (third.error != QuantityError::none) return false;
+  const bool is_bare = !third.quantity.has_unit;
+  // Nothing on a robot is so high as somebody turns in degrees.
+  const bool is_heading =
+      third.quantity.dimension == dimension::angle ||
+      (is_bare && (!may_have_height || wording::with_unit(text, dimension::angle).ends_with("deg")));
+  if (is_heading && !yaw_key.empty()) {
+    std::string heading = yaw_key;
+    heading += ": " + wording::with_unit(text, dimension::angle);
+    diagnostics.add(wording::heading_in_a_place(place.span, what, place_key + ": " + written, heading));
+    return true;
+  }
+  if (may_have_height || third.quantity.dimension == dimension::angle) return false;
+  diagnostics.add(wording::height_in_a_place(place.span, what, written));
+  return true;
+}
+
+std::optional<std::array<double, 2>> parse_place(const Node& node, const std::string& what,
+                                                 const std::string& yaw_key, Diagnostics& diagnostics) {
+  if (complain_of_third_value(node, what, "at", yaw_key, false, diagnostics)) return std::nullopt;
+  const auto values = parse_vector(node, dimension::length, 2, 2, what, diagnostics);
+  if (!values) return std::nullopt;
+  return std::array{(*values)[0], (*values)[1]};
+}
+
+std::optional<std::vector<std::array<double, 2>>> parse_polygon(const Node& node, const std::string& what,
+                                                                Diagnostics& diagnostics) {
+  if (!require_sequence(node, what + "'s `polygon`", diagnostics)) return std::nullopt;
+  const auto is_scalar = [](const Node& corner) { return corner.is_scalar(); };
+  if (!node.items.empty() && std::all_of(node.items.begin(), node.items.end(), is_scalar)) {
+    diagnostics.add(wording::place_for_a_list(node.span, what + "'s `polygon`"));
+    return std::nullopt;
+  }
+  const auto lacks_units = [](const Node& corner) { return count_bare_numbers(corner) > 0; };
+  if (std::count_if(node.items.begin(), node.items.end(), lacks_units) > 1) {
+    diagnostics.add(
+        wording::needs_units(node.span, what + "'s `polygon`", in_one_line(node, dimension::length)));
+    return std::nullopt;
+  }
+  std::vector<std::array<double, 2>> corners;
+  for (const Node& corner : node.items) {
+    const auto at = parse_vector(corner, dimension::length, 2, 2, "a corner of " + what, diagnostics);
+    // Who writes one corner in another shape writes all so.
+    if (!at && !corner.is_sequence()) return std::nullopt;
+    if (at) corners.push_back({(*at)[0], (*at)[1]});
+  }
+  if (corners.size() != node.items.size()) return std::nullopt;
+  return corners;
 }
 
 bool check_version(MapReader& map, const std::string& key, Diagnostics& diagnostics) {

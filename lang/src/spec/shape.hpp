@@ -1,6 +1,7 @@
 /// Reading mappings whose keys are known: what is missing, unknown or of the wrong shape is reported once.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,8 +16,8 @@ namespace zwang::lang {
 /// Asks a mapping for its keys by name; `finish` reports what was not asked for and what was missed.
 class MapReader {
  public:
-  /// `what` names the mapping in messages: "task `press`". Not a mapping: E104.
-  MapReader(const Node& node, std::string what, Diagnostics& diagnostics);
+  /// `what` names the mapping in messages: "task `press`". Not a mapping: E104, as of `require_mapping`.
+  MapReader(const Node& node, std::string what, Diagnostics& diagnostics, const std::string& example = {});
 
   bool is_mapping() const { return node_.is_mapping() && !node_.is_bad; }
   const Node* optional(std::string_view key);
@@ -34,6 +35,13 @@ class MapReader {
   void finish();
 
  private:
+  bool is_unknown(const Entry& entry) const;
+  void report_unknown_keys();
+  /// How an unknown key's matter is said here; empty: it may be a misspelt key.
+  std::string remedy_of(const Entry& entry) const;
+  std::string range_of_bound(const Entry& entry) const;
+  std::string whole_of_parts(const std::string& meant) const;
+
   const Node& node_;
   std::string what_;
   Diagnostics& diagnostics_;
@@ -55,11 +63,23 @@ std::optional<int> parse_integer(const Node& node, const std::string& what, int 
 std::optional<bool> parse_boolean(const Node& node, const std::string& what, Diagnostics& diagnostics);
 /// Whether the node is a sequence; E104 otherwise.
 bool require_sequence(const Node& node, const std::string& what, Diagnostics& diagnostics);
-bool require_mapping(const Node& node, const std::string& what, Diagnostics& diagnostics);
+/// `example` is what may be written in the place of a single value: `{friction: 0.9}`; empty: nobody knows.
+bool require_mapping(const Node& node, const std::string& what, Diagnostics& diagnostics,
+                     const std::string& example = {});
 /// `[0, 0]` for `[0 m, 0 m]`: who forgets the unit forgets it everywhere, and is told once. Whether it was
 /// so.
 bool complain_of_bare_numbers(const Node& list, const Dimension& expected, const std::string& what,
                               Diagnostics& diagnostics);
+/// `[3 m, 0 m, 20 deg]` where a place is due, or a height of what stands on the floor. The keys of a place
+/// and of a heading are those of the mapping; `yaw_key` empty: there is none. Whether it was so.
+bool complain_of_third_value(const Node& place, const std::string& what, const std::string& place_key,
+                             const std::string& yaw_key, bool may_have_height, Diagnostics& diagnostics);
+/// A place on the floor, [m].
+std::optional<std::array<double, 2>> parse_place(const Node& node, const std::string& what,
+                                                 const std::string& yaw_key, Diagnostics& diagnostics);
+/// The corners of `what`, [m]; nullopt when one is bad.
+std::optional<std::vector<std::array<double, 2>>> parse_polygon(const Node& node, const std::string& what,
+                                                                Diagnostics& diagnostics);
 /// Plain quantities of one dimension: `[0.4 m, 0 m]`. nullopt when one is bad.
 std::optional<std::vector<double>> parse_vector(const Node& node, const Dimension& expected,
                                                 std::size_t fewest, std::size_t most, const std::string& what,

@@ -1,6 +1,7 @@
 #include "spec/value.hpp"
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/decimal_comma.hpp"
 #include "tree/text.hpp"
@@ -40,7 +41,9 @@ bool is_spelt_oddly(const std::string& text, const Span& span, Diagnostics& diag
 ValueText parse_value_text(const std::string& text, const Span& span, Diagnostics& diagnostics) {
   ValueText value;
   value.span = span;
-  if ((text.starts_with("${") || text.starts_with("-${")) && text.ends_with('}')) {
+  const bool has_braces = text.starts_with("${") || text.starts_with("-${");
+  const bool has_parentheses = text.starts_with("$(") || text.starts_with("-$(");
+  if ((has_braces && text.ends_with('}')) || (has_parentheses && text.ends_with(')'))) {
     diagnostics.add(wording::parameter_in_braces(span, text));
     return value;
   }
@@ -115,6 +118,49 @@ ValueText parse_value(const Node& node, const std::string& what, Diagnostics& di
   return parse_value_text(text, node.span, diagnostics);
 }
 
+namespace {
+
+/// One of several keys of a mapping, in the order of preference; empty: none is there.
+std::string end_named(const Node& node, std::initializer_list<const char*> keys) {
+  for (const char* key : keys) {
+    if (const Entry* entry = node.find(key)) return trimmed(entry->value.text);
+  }
+  return {};
+}
+
+/// `{min: -1 N, max: 1 N}`, `1 m, 2 m` and `[0, 2 m]`, which may be a range or a decimal comma.
+bool is_odd_range(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  if (node.is_bad) return false;
+  if (node.is_mapping()) {
+    const std::string low = end_named(node, {"min", "lower", "low", "from"});
+    const std::string high = end_named(node, {"max", "upper", "high", "to"});
+    if (low.empty() && high.empty()) return false;
+    diagnostics.add(wording::range_by_names(node.span, low, high));
+    return true;
+  }
+  const auto is_quantity = [](std::string_view text) {
+    return parse_quantity(trimmed(text)).error == QuantityError::none;
+  };
+  if (node.is_scalar()) {
+    const std::size_t comma = node.text.find(',');
+    if (comma == std::string::npos) return false;
+    const std::string low = node.text.substr(0, comma), high = node.text.substr(comma + 1);
+    if (!is_quantity(low) || !is_quantity(high) || !joined_at_decimal_comma(low, high).empty()) return false;
+    diagnostics.add(wording::range_without_brackets(node.span, trimmed(node.text)));
+    return true;
+  }
+  if (node.items.size() != 2 || !node.items[0].is_scalar() || !node.items[1].is_scalar()) return false;
+  const std::string low = trimmed(node.items[0].text), high = trimmed(node.items[1].text);
+  const std::string meant = joined_at_decimal_comma(low, high);
+  const QuantityResult end = parse_quantity(high);
+  if (meant.empty() || end.error != QuantityError::none || !end.quantity.has_unit) return false;
+  const std::string unit = high.substr(number_length(high));
+  diagnostics.add(wording::end_without_unit(node.items[0].span, what, low + " " + trimmed(unit), meant));
+  return true;
+}
+
+}  // namespace
+
 StatementText parse_statement(const Node& node, const std::string& what, Diagnostics& diagnostics) {
   StatementText statement;
   statement.span = node.span;
@@ -125,6 +171,7 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
       diagnostics.add(wording::range_ends(node.span, node.items.size()));
       return statement;
     }
+    if (is_odd_range(node, what, diagnostics)) return statement;
     statement.low = parse_value(node.items[0], what, diagnostics);
     statement.high = parse_value(node.items[1], what, diagnostics);
     return statement;
@@ -132,6 +179,7 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
   const std::string text = node.is_scalar() && !node.is_bad ? trimmed(node.text) : std::string();
   if (text.starts_with("+-")) {
     statement.is_range = true;
+    if (is_spelt_oddly(text, node.span, diagnostics)) return statement;
     const std::string magnitude = trimmed(std::string_view(text).substr(2));
     if (magnitude.starts_with("-") || magnitude.starts_with("+")) {
       diagnostics.add(wording::not_a_value(node.span, text));
@@ -141,6 +189,10 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
     statement.low = negated(statement.high);
     return statement;
   }
+  if (is_odd_range(node, what, diagnostics)) {
+    statement.is_range = true;
+    return statement;
+  }
   statement.value = parse_value(node, what, diagnostics);
   return statement;
 }
@@ -148,7 +200,8 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
 StatementText parse_range(const Node& node, const std::string& what, Diagnostics& diagnostics) {
   StatementText statement = parse_statement(node, what, diagnostics);
   if (!statement.is_range) {
-    if (statement.value.kind != ValueKind::bad) diagnostics.add(wording::value_where_range(node.span, what));
+    if (statement.value.kind != ValueKind::bad)
+      diagnostics.add(wording::value_where_range(node.span, what, trimmed(node.text)));
     statement.is_range = true;
   }
   return statement;

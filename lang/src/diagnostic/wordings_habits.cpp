@@ -1,0 +1,163 @@
+#include "diagnostic/wordings_habits.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "diagnostic/make.hpp"
+#include "diagnostic/nearest.hpp"
+#include "diagnostic/wordings.hpp"
+#include "spec/units.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang::wording {
+
+Diagnostic mapping_by_example(const Span& span, const std::string& what, const std::string& example) {
+  Diagnostic diagnostic =
+      error("E104", span, what + " must be a list of `key: value` lines", "write " + in_ticks(example));
+  // Where nothing stands there is nothing to replace.
+  if (span.begin.column != span.end.column || span.begin.line != span.end.line)
+    diagnostic.replacement = example;
+  return diagnostic;
+}
+
+Diagnostic name_in_an_item(const Span& span, const std::string& what, const std::string& key,
+                           const std::string& name) {
+  return error("E104", span, what + " must be a list of `key: value` lines",
+               "the name is the key: write " + in_ticks(name + ":") + " in the place of " +
+                   in_ticks("- " + key + ": " + name) + ", and its other lines indented below it");
+}
+
+Diagnostic said_otherwise(const Span& span, const std::string& key, const std::string& what,
+                          const std::string& remedy) {
+  return error("E101", span, "unknown key " + in_ticks(key) + " in " + what, remedy);
+}
+
+Diagnostic vector_by_example(const Span& span, const std::string& what, const std::string& list) {
+  return with_replacement(error("E104", span, what + " must be a list of values", "write " + in_ticks(list)),
+                          list);
+}
+
+Diagnostic named_items(const Span& span, const std::string& what, const std::string& name) {
+  return error("E104", span, what + " must be a list",
+               "its items have no names: write `- ` in the place of " + in_ticks(name + ":"));
+}
+
+Diagnostic contact_in_a_condition(const Span& span, const std::string& name) {
+  return error("E301", span, "nothing named " + in_ticks(name) + " can be measured here",
+               "contact is motion that has ended: `moved(base_link) > 2 cm and speed(base_link) < 5 mm/s`");
+}
+
+Diagnostic height_in_a_place(const Span& span, const std::string& what, const std::string& place) {
+  return with_replacement(
+      error("E104", span, what + " is a place on the floor: it has no height", "write " + in_ticks(place)),
+      place);
+}
+
+Diagnostic range_by_names(const Span& span, const std::string& low, const std::string& high) {
+  const bool is_whole = !low.empty() && !high.empty();
+  const std::string text = is_whole && low == "-" + high
+                               ? "+-" + high
+                               : "[" + (low.empty() ? ".." : low) + ", " + (high.empty() ? ".." : high) + "]";
+  const auto has_unit = [](const std::string& end) {
+    const QuantityResult result = parse_quantity(end);
+    return end.find('$') != std::string::npos ||
+           (result.error == QuantityError::none && result.quantity.has_unit);
+  };
+  const bool has_units = (low.empty() || has_unit(low)) && (high.empty() || has_unit(high));
+  Diagnostic diagnostic = error("E104", span, "a range is two ends in brackets",
+                                "write " + in_ticks(text) + (has_units ? "" : ", with their units") +
+                                    (low.empty() ? ", or " + in_ticks("+-" + high) : ""));
+  if (is_whole && has_units) diagnostic.replacement = text;
+  return diagnostic;
+}
+
+Diagnostic speed_without_range(const Span& span, const std::string& what, const std::string& most) {
+  const std::string range = "[0 m/s, " + most + "]";
+  return with_replacement(error("E104", span, what + " must be a range", "write " + in_ticks(range)), range);
+}
+
+Diagnostic range_without_brackets(const Span& span, const std::string& text) {
+  const std::string range = "[" + text + "]";
+  return with_replacement(error("E104", span, "a range stands in brackets", "write " + in_ticks(range)),
+                          range);
+}
+
+Diagnostic end_without_unit(const Span& span, const std::string& what, const std::string& with_unit,
+                            const std::string& with_point) {
+  return error(
+      "E201", span, what + " needs a unit",
+      "write " + in_ticks(with_unit) + ", or " + in_ticks(with_point) + " where the comma is a decimal one");
+}
+
+Diagnostic unknown_parameter(const Span& span, const std::string& name,
+                             const std::vector<std::string>& known) {
+  Diagnostic diagnostic = unknown_name(span, "parameter", name, known);
+  const std::string plain = name.substr(name.rfind('.') + 1);
+  if (plain != name && std::find(known.begin(), known.end(), plain) != known.end())
+    diagnostic.help = "write `$" + plain + "`";
+  return diagnostic;
+}
+
+Diagnostic unknown_target(const Span& span, const std::string& name, const std::vector<std::string>& known) {
+  Diagnostic diagnostic = unknown_name(span, "task", name, known);
+  const std::string meant = meant_key(lower_case(name), {"done", "failed"});
+  return nearest(name, known).empty() ? with_suggestion(diagnostic, meant) : diagnostic;
+}
+
+Diagnostic link_for_a_joint(const Span& span, const std::string& link, const std::string& joint) {
+  return with_replacement(error("E301", span, "no joint named " + in_ticks(link),
+                                "that is a link: the joint above it is " + in_ticks(joint)),
+                          joint);
+}
+
+Diagnostic footprint_without_polygon(const Span& span) {
+  return error("E104", span, "`footprint` does not say that it is a polygon",
+               "write `footprint: {polygon: [[0.4 m, 0.3 m], ..]}`");
+}
+
+Diagnostic heading_in_a_place(const Span& span, const std::string& what, const std::string& place,
+                              const std::string& yaw) {
+  return error("E104", span, what + " is a place: a heading stands beside it",
+               "write " + in_ticks(place) + " and " + in_ticks(yaw));
+}
+
+Diagnostic place_for_a_list(const Span& span, const std::string& what) {
+  return error("E104", span, what + " must be a list of places",
+               "write each in brackets of its own: `[[0 m, 0 m], [0.5 m, 0 m]]`");
+}
+
+namespace {
+
+/// REP 105's names of what stands, and of what floats in it.
+constexpr std::array<std::string_view, 4> frames_that_stand{"map", "odom", "earth", "odom_combined"};
+constexpr std::array<std::string_view, 7> frames_of_a_base{
+    "base_footprint", "base_link", "base", "base_frame", "chassis", "robot", "body"};
+
+bool holds(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+Diagnostic unknown_frame(const Span& span, const std::string& kind, const std::string& name,
+                         const std::vector<std::string>& known, const std::string& base) {
+  Diagnostic diagnostic = unknown_name(span, kind, name, known);
+  if (holds(frames_that_stand, name))
+    diagnostic.help = "did you mean `world`? It is the one frame that stands, and the run begins in it";
+  else if (holds(frames_of_a_base, name) && !base.empty())
+    diagnostic.help = "did you mean " + in_ticks(base) + "? That is the robot's base";
+  return diagnostic;
+}
+
+Diagnostic unknown_base(const Span& span, const std::string& name, const std::vector<std::string>& links,
+                        const std::string& root) {
+  const std::string meant = holds(frames_of_a_base, name) ? "" : nearest(name, links);
+  if (!meant.empty()) return unknown_name(span, "link", name, links);
+  return with_replacement(
+      error("E301", span, "no link named " + in_ticks(name),
+            "did you mean " + in_ticks(root) + "? That is the URDF's root, on which all others hang"),
+      root);
+}
+
+}  // namespace zwang::lang::wording
