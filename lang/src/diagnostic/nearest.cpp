@@ -84,6 +84,7 @@ constexpr Synonym synonyms[] = {
     {"to", "goto"},
     {"target", "goto"},
     {"duration", "for"},
+    {"duration", "after"},
     {"hold", "for"},
     {"position", "at"},
     {"pos", "at"},

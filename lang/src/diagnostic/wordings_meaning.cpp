@@ -128,6 +128,8 @@ Diagnostic unknown_function(const Span& span, const std::string& name, const std
     return error(
         "E301", span, "no function named " + in_ticks(name),
         "declare it under `features`, as `reach: {distance: [base_link, goal]}`, and measure `reach`");
+  if (name == "elapsed")
+    return error("E301", span, "no function named " + in_ticks(name), "write `elapsed`, without parentheses");
   return with_suggestion(error("E301", span, "no function named " + in_ticks(name),
                                "there are abs(value), speed(frame), moved(frame) and valid(signal)"),
                          meant);

@@ -218,7 +218,11 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
   if (const Node* base = map.required("base")) file.base = parse_word(*base, "`base`", diagnostics);
   const Node* wheels = map.required("wheels");
   if (wheels != nullptr && require_sequence(*wheels, "`wheels`", diagnostics)) {
-    for (const Node& item : wheels->items) file.wheels.push_back(parse_wheel(item, diagnostics));
+    for (const Node& item : wheels->items) {
+      file.wheels.push_back(parse_wheel(item, diagnostics));
+      // Who writes one by its name writes all so.
+      if (item.is_scalar()) break;
+    }
     if (wheels->items.empty()) diagnostics.add(wording::no_wheels(wheels->span));
   }
   const Node* supports = map.optional("supports");

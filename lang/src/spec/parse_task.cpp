@@ -254,7 +254,7 @@ TimeoutText parse_timeout(const Node& node, Diagnostics& diagnostics) {
 }
 
 void parse_enter(const Node& node, TaskText& task, Diagnostics& diagnostics) {
-  MapReader map(node, "`enter`", diagnostics);
+  MapReader map(node, "`enter`", diagnostics, "{blend: 0.2 s}");
   if (const Node* require = map.optional("require")) task.require = parse_condition(*require, diagnostics);
   if (const Node* blend = map.optional("blend")) {
     task.blend = parse_value(*blend, "enter.blend", diagnostics);

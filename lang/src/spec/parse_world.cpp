@@ -73,7 +73,10 @@ RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
   RegionText region;
   region.name = parse_name(entry.key, "a region's name", diagnostics);
   const std::string what = "region `" + entry.key.text + "`";
-  MapReader map(entry.value, what, diagnostics);
+  const std::string listed = entry.value.is_sequence() && !entry.value.items.empty()
+                                 ? in_one_line(entry.value, dimension::length)
+                                 : "[[0 m, 0 m], [2 m, 0 m], [2 m, 1 m]]";
+  MapReader map(entry.value, what, diagnostics, "{polygon: " + listed + "}");
   const Node* polygon = map.optional("polygon");
   const Node* circle = map.optional("circle");
   if (const Node* parent = map.optional("parent")) {
@@ -139,7 +142,9 @@ FeatureText parse_feature(const Entry& entry, Diagnostics& diagnostics) {
   FeatureText feature;
   feature.name = parse_name(entry.key, "a feature's name", diagnostics);
   const std::string what = "feature `" + entry.key.text + "`";
-  MapReader map(entry.value, what, diagnostics);
+  const std::string listed =
+      entry.value.items.size() == 2 ? in_one_line(entry.value, dimension::none) : "[base_link, goal]";
+  MapReader map(entry.value, what, diagnostics, "{distance: " + listed + "}");
   const Node* distance = map.optional("distance");
   const Node* angle = map.optional("angle");
   const Node* direction = map.optional("direction");

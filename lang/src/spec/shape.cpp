@@ -38,7 +38,7 @@ bool MapReader::report_split_condition() {
   for (const Entry& entry : node_.entries) {
     const bool is_known = std::find(known_.begin(), known_.end(), entry.key.text) != known_.end();
     const bool is_fragment = entry.value.kind == NodeKind::null && !entry.key.is_bad && !is_known;
-    if (is_fragment && !split_reported_ && missing_.empty())
+    if (is_fragment && !split_reported_ && missing_.empty() && !report_decimal_comma_before(entry))
       diagnostics_.add(wording::split_condition(entry.key.span));
     // The condition is whole, and lacks its key.
     if (is_fragment && !split_reported_ && !missing_.empty()) {
@@ -48,6 +48,19 @@ bool MapReader::report_split_condition() {
     split_reported_ = split_reported_ || is_fragment;
   }
   return split_reported_;
+}
+
+/// `{when: reach < 0,5 m, ..}`, where the entry is `5 m`. Whether it was so.
+bool MapReader::report_decimal_comma_before(const Entry& entry) {
+  if (&entry == &node_.entries.front()) return false;
+  const Node& before = (&entry - 1)->value;
+  const std::string whole = before.text.substr(before.text.find_last_of(' ') + 1);
+  const std::string number = joined_at_decimal_comma(whole, entry.key.text);
+  if (number.empty()) return false;
+  Span span{node_.span.source, before.span.end, entry.key.span.end};
+  span.begin.column -= static_cast<int>(whole.size());
+  diagnostics_.add(wording::decimal_comma(span, number));
+  return true;
 }
 
 bool MapReader::has_misspelt(const std::vector<std::string>& keys) const {

@@ -36,6 +36,7 @@ class MapReader {
 
  private:
   bool is_unknown(const Entry& entry) const;
+  bool report_decimal_comma_before(const Entry& entry);
   void report_unknown_keys();
   /// How an unknown key's matter is said here; empty: it may be a misspelt key.
   std::string remedy_of(const Entry& entry) const;

@@ -53,6 +53,10 @@ ValueText parse_value_text(const std::string& text, const Span& span, Diagnostic
     return value;
   }
   if (text.starts_with("-$")) return parse_parameter(text.substr(1), -1.0, value, diagnostics);
+  if (text.starts_with("here ") || text.starts_with("pi/") || text.starts_with("pi ")) {
+    diagnostics.add(wording::computed_value(span, text));
+    return value;
+  }
   if (text == "here") {
     value.kind = ValueKind::here;
   } else if (is_identifier(text)) {
@@ -70,7 +74,10 @@ ValueText parse_value_text(const std::string& text, const Span& span, Diagnostic
         value.quantity = std::move(result.quantity);
         break;
       case QuantityError::unknown_unit:
-        diagnostics.add(wording::unknown_unit(span, text, result.unknown, nearest_unit(result.unknown)));
+        diagnostics.add(
+            result.unknown.find('+') != std::string::npos || result.unknown.starts_with('-')
+                ? wording::computed_value(span, text)
+                : wording::unknown_unit(span, text, result.unknown, nearest_unit(result.unknown)));
         break;
       case QuantityError::too_large:
         diagnostics.add(wording::number_out_of_range(span, text));
