@@ -7,6 +7,7 @@
 #include "diagnostic/make.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_physics.hpp"
 #include "spec/units.hpp"
 #include "tree/text.hpp"
 
@@ -158,6 +159,12 @@ Diagnostic unknown_base(const Span& span, const std::string& name, const std::ve
       error("E301", span, "no link named " + in_ticks(name),
             "did you mean " + in_ticks(root) + "? That is the URDF's root, on which all others hang"),
       root);
+}
+
+std::string help_to_invert(double inverse, bool is_time) {
+  const bool is_short = is_time && inverse < 1.0;
+  const std::string written = is_short ? figure(inverse * 1e3, "ms") : figure(inverse, is_time ? "s" : "Hz");
+  return "write " + in_ticks(written);
 }
 
 }  // namespace zwang::lang::wording

@@ -55,4 +55,7 @@ Diagnostic link_for_a_joint(const Span& span, const std::string& link, const std
 Diagnostic unknown_frame(const Span& span, const std::string& kind, const std::string& name,
                          const std::vector<std::string>& known, const std::string& base);
 
+/// For `100 Hz` where a time is due, and for `10 ms` where a frequency is: 1/value in its unit.
+std::string help_to_invert(double inverse, bool is_time);
+
 }  // namespace zwang::lang::wording

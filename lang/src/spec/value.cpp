@@ -227,7 +227,12 @@ bool require_quantity(const ValueText& value, const Dimension& expected, const s
     return false;
   }
   if (quantity.dimension != expected) {
-    diagnostics.add(wording::wrong_dimension(value.span, what, expected, quantity.dimension));
+    const bool is_rate = expected == dimension::time && quantity.dimension == dimension::frequency;
+    const bool is_period = expected == dimension::frequency && quantity.dimension == dimension::time;
+    Diagnostic diagnostic = wording::wrong_dimension(value.span, what, expected, quantity.dimension);
+    if ((is_rate || is_period) && quantity.value > 0.0)
+      diagnostic.help = wording::help_to_invert(1.0 / quantity.value, is_rate);
+    diagnostics.add(std::move(diagnostic));
     return false;
   }
   return true;
