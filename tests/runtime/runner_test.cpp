@@ -328,5 +328,44 @@ TEST(Runner, TheLogHasOneRecordATickAndBlanksWhatIsNotInForce) {
   EXPECT_GT(records, 1000);
 }
 
+/// As ROS stamps: the same run, and its log tells one tick from the next.
+TEST(Runner, GoesByAClockThatCountsFrom1970) {
+  constexpr double begin = 1'800'000'000.0;  // [s] in January 2027
+  const zwang::test::TemporaryFolder folder;
+  const lang::Program program = errand();
+  const auto run = [&](double clock, const char* name) {
+    Loop loop(program);
+    std::vector<std::unique_ptr<LogSink>> sinks;
+    sinks.push_back(csv_sink(folder.path() / name));
+    Recorder recorder(std::move(sinks), loop.runner.columns());
+    loop.runner.record_to(&recorder);
+    double ended = -1.0;
+    while (!loop.runner.finished() && loop.base.time < 20.0) {
+      loop.base.sense(loop.sensed);
+      loop.sensed.time += clock;
+      loop.base.step(loop.runner.step(loop.sensed));
+      if (loop.runner.state() == RunState::done && ended < 0.0) ended = loop.base.time;
+    }
+    recorder.close();
+    EXPECT_EQ(loop.runner.state(), RunState::done) << loop.runner.event_count();
+    EXPECT_EQ(loop.runner.event_count(), 0u);
+    return ended;
+  };
+  // Its resolution is 0.24 us, and so is what dt is off by.
+  EXPECT_NEAR(run(begin, "dated.csv"), run(0.0, "plain.csv"), 2e-3);
+  std::ifstream log(folder.path() / "dated.csv");
+  std::string line;
+  std::getline(log, line);
+  double last = begin - period;
+  int lines = 0;
+  while (std::getline(log, line)) {
+    const double time = std::stod(line.substr(0, line.find(',')));
+    EXPECT_NEAR(time - last, period, 1e-5);
+    last = time;
+    ++lines;
+  }
+  EXPECT_GT(lines, 1000);
+}
+
 }  // namespace
 }  // namespace zwang::runtime

@@ -12,9 +12,10 @@ namespace zwang::runtime {
 
 namespace {
 
-// No position, speed, wrench or time of a robot is larger; a number that is, is a broken one. 1e9 s are 32
-// years.
+// No position, speed or wrench of a robot is larger; a number that is, is a broken one.
 constexpr double largest_plausible = 1e9;
+// A clock may count from 1970: that is the year 2286. One that counts milliseconds is beyond it.
+constexpr double latest_plausible = 1e10;  // [s]
 // A robot that says to be faster than this changes its position within a few ticks, however coarse its
 // encoders are.
 constexpr double moving_joint = 0.1;  // [rad/s] or [m/s]
@@ -26,6 +27,10 @@ constexpr double clock_rounding = 0.5;  // of a period
 bool plausible(double x) {
   // Written so that NaN fails.
   return std::abs(x) <= largest_plausible;
+}
+
+bool plausible_time(double time) {
+  return std::abs(time) <= latest_plausible;
 }
 
 template <typename Values>
@@ -102,11 +107,12 @@ Event SafetyGuard::find_bad_entry(const Sensed& sensed) const noexcept {
   const solver::State& s = sensed.state;
   const auto joints = static_cast<int>(limit_.size());
   const double step = sensed.time - last_time_;
-  const bool is_timely = plausible(sensed.time) && (!has_time_ || (step > 0.0 && step <= settings_.max_step));
+  const bool is_timely =
+      plausible_time(sensed.time) && (!has_time_ || (step > 0.0 && step <= settings_.max_step));
   const auto bad = [&](int signal, double value) {
     return Event{EventCode::bad_sample, is_timely ? sensed.time : due(), signal, value};
   };
-  if (!plausible(sensed.time)) return bad(event_signal::time, sensed.time);
+  if (!plausible_time(sensed.time)) return bad(event_signal::time, sensed.time);
   if (s.q.size() != joints || s.qd.size() != joints || s.tau_ff.size() != joints) {
     return bad(-1, static_cast<double>(s.q.size()));
   }

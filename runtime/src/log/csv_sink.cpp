@@ -9,20 +9,23 @@ namespace zwang::runtime {
 namespace {
 
 constexpr int significant_digits = 9;
+constexpr int digits_of_a_date = 15;   // a clock that counts from 1970 has 10 before its point
+constexpr double earliest_date = 1e5;  // [s] below it nine digits are 0.1 ms
 constexpr std::size_t longest_number = 32;
 
-void append_number(std::string& line, double value) {
+void append_number(std::string& line, double value, int precision) {
   char digits[longest_number];
   // Negative zero would make two equal states differ in the log.
   const auto end = std::to_chars(digits, digits + longest_number, value == 0.0 ? 0.0 : value,
-                                 std::chars_format::general, significant_digits);
+                                 std::chars_format::general, precision);
   line.append(digits, end.ptr);
 }
 
 void append_value(std::string& line, const Column& column, double value) {
   if (std::isnan(value)) return;
   if (column.words.empty()) {
-    append_number(line, value);
+    const bool is_date = column.unit == "s" && std::abs(value) >= earliest_date;
+    append_number(line, value, is_date ? digits_of_a_date : significant_digits);
     return;
   }
   const auto index = static_cast<std::size_t>(value);

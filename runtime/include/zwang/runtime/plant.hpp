@@ -40,7 +40,7 @@ struct MeasuredPose {
 struct Sensed {
   explicit Sensed(const solver::Model& model, std::size_t signal_count = 0)
       : state(model), signals(signal_count) {}
-  double time = 0.0;  ///< [s]
+  double time = 0.0;  ///< [s] by any clock that goes on evenly; it may count from 1970
   solver::State state;
   /// Whether the state's base pose and twist are measured. If not, the runtime reckons them from the wheels;
   /// the pose in the first snapshot is where it starts. On wheels its roll and pitch do not count: the floor
