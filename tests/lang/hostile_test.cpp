@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
+#include <ctime>
 #include <functional>
 
 #include "support.hpp"
@@ -223,9 +223,9 @@ TEST_P(Hostile, is_refused_with_a_place_and_a_code) {
   copy(Victim::scene, "scenes/wall.yaml");
 
   Diagnostics diagnostics;
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   EXPECT_FALSE(load(task, {}, diagnostics));
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
+  EXPECT_LT(std::clock() - start, 2 * CLOCKS_PER_SEC) << "of the processor's time, however busy it is";
 
   EXPECT_GE(test::count(diagnostics, variant.code), 1) << test::rendered(diagnostics);
   for (const Diagnostic& d : diagnostics.all()) {
