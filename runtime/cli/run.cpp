@@ -105,10 +105,9 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
              RunReport& report) {
   runtime::Sensed sensed(program.robot.model, program.signals.size());
   std::vector<double> truth(3 + program.scene->objects.size() + program.scene->robots.size());
-  const runtime::SimulationSteps steps = runtime::simulation_steps(runner.period());
-  TruthWatch watch(plant.truth(), steps.period);
+  runtime::SimulationSteps steps(runner.period());
+  TruthWatch watch(plant.truth(), steps.period());
   Eigen::VectorXd tau;
-  int until_tick = 0;
   PlantStatus status = PlantStatus::ok;
   std::optional<Clock::time_point> give_up;
   // The simulated robot waits while nobody steps it: it is enough to see the stop with the next step. Only on
@@ -129,8 +128,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
     for (const auto& recorder : recorders) recorder->wait_for_room();
-    if (until_tick-- == 0) {
-      until_tick = steps.per_tick - 1;
+    if (steps.tick_is_due()) {
       put_truth(plant.truth(), truth);
       if (reloads != nullptr) reloads->look(runner, sensed.time);
       tau = runner.step(sensed, truth);
@@ -181,7 +179,7 @@ int run(const RunArguments& arguments) {
     throw Impossible(arguments.file + ": names no scene to run in; give one with --scene FILE");
 
   runtime::ScenePlantOptions options;
-  options.simulation.period = runtime::simulation_steps(program->robot.control_period).period;
+  options.simulation.period = runtime::SimulationSteps(program->robot.control_period).period();
   options.seed = arguments.seed;
   runtime::ScenePlant plant(*program, options);
   runtime::RunnerSettings settings;

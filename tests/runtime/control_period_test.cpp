@@ -26,15 +26,15 @@ constexpr double ms = 1e-3;
 
 /// Takes the plant through one control period.
 void hold(ScenePlant& plant, const SimulationSteps& steps, const Eigen::VectorXd& tau) {
-  for (int i = 0; i < steps.per_tick; ++i) ASSERT_EQ(plant.apply(tau), PlantStatus::ok);
+  for (int i = 0; i < steps.per_tick(); ++i) ASSERT_EQ(plant.apply(tau), PlantStatus::ok);
 }
 
 TEST(ControlPeriod, IsMadeOfStepsOfTheSimulationOf1MillisecondAtMost) {
   for (const auto& [period, per_tick] :
        {std::pair{0.5 * ms, 1}, {1.0 * ms, 1}, {2.0 * ms, 2}, {2.5 * ms, 3}, {10.0 * ms, 10}}) {
-    const SimulationSteps steps = simulation_steps(period);
-    EXPECT_EQ(steps.per_tick, per_tick) << period;
-    EXPECT_DOUBLE_EQ(steps.per_tick * steps.period, period);
+    const SimulationSteps steps(period);
+    EXPECT_EQ(steps.per_tick(), per_tick) << period;
+    EXPECT_DOUBLE_EQ(steps.per_tick() * steps.period(), period);
   }
 }
 
@@ -67,9 +67,9 @@ TEST(ControlPeriod, LeavesNoMotorThatFailsUnwatched) {
     for (const Broken& broken : all) {
       lang::Program program = shipped_program(broken.task, broken.robot);
       program.robot.control_period = period;
-      const SimulationSteps steps = simulation_steps(period);
+      const SimulationSteps steps(period);
       ScenePlantOptions options;
-      options.simulation.period = steps.period;
+      options.simulation.period = steps.period();
       options.faults.push_back({.kind = broken.kind, .at = at, .joint = broken.wheel});
       ScenePlant plant(program, options);
       Runner runner(program);

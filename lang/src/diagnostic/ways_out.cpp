@@ -5,7 +5,7 @@ namespace zwang::lang {
 namespace {
 
 struct WayOut {
-  std::string_view what;  ///< what the mapping's name begins with; empty: any
+  std::string_view what;  ///< what the mapping's name begins with
   std::string_view keys;  ///< with a blank on both sides of each
   std::string_view help;
 };

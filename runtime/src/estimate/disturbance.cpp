@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimate/ticks.hpp"
 #include "zwang/solver/wheels.hpp"
 
 namespace zwang::runtime {
@@ -23,7 +24,7 @@ double dot(const double* a, const double* b, Eigen::Index count) noexcept {
 
 DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot, double period)
     : motions_(robot.model),
-      window_(std::max(1, static_cast<int>(std::lround(mean_over / period)))),
+      window_(ticks_of(mean_over, period)),
       longest_step_(std::max(longest_step, 1.5 * period)) {
   const solver::Model& model = robot.model;
   const int joints = model.joint_count();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "guard/ticks.hpp"
+#include "estimate/ticks.hpp"
 
 namespace zwang::runtime {
 

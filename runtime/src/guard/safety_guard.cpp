@@ -24,13 +24,9 @@ constexpr int believed_frozen_ticks = 2;
 // Rounding in a clock that adds up periods must not count as a lost tick.
 constexpr double clock_rounding = 0.5;  // of a period
 
-bool plausible(double x) {
+bool plausible(double x, double largest = largest_plausible) {
   // Written so that NaN fails.
-  return std::abs(x) <= largest_plausible;
-}
-
-bool plausible_time(double time) {
-  return std::abs(time) <= latest_plausible;
+  return std::abs(x) <= largest;
 }
 
 template <typename Values>
@@ -108,11 +104,11 @@ Event SafetyGuard::find_bad_entry(const Sensed& sensed) const noexcept {
   const auto joints = static_cast<int>(limit_.size());
   const double step = sensed.time - last_time_;
   const bool is_timely =
-      plausible_time(sensed.time) && (!has_time_ || (step > 0.0 && step <= settings_.max_step));
+      plausible(sensed.time, latest_plausible) && (!has_time_ || (step > 0.0 && step <= settings_.max_step));
   const auto bad = [&](int signal, double value) {
     return Event{EventCode::bad_sample, is_timely ? sensed.time : due(), signal, value};
   };
-  if (!plausible_time(sensed.time)) return bad(event_signal::time, sensed.time);
+  if (!plausible(sensed.time, latest_plausible)) return bad(event_signal::time, sensed.time);
   if (s.q.size() != joints || s.qd.size() != joints || s.tau_ff.size() != joints) {
     return bad(-1, static_cast<double>(s.q.size()));
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "guard/ticks.hpp"
+#include "estimate/ticks.hpp"
 
 namespace zwang::runtime {
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "estimate/ticks.hpp"
 #include "injected_faults.hpp"
 #include "robot_senses.hpp"
 
@@ -73,11 +74,20 @@ const lang::Scene& scene_of(const lang::Program& program) {
 
 }  // namespace
 
-SimulationSteps simulation_steps(double control_period) noexcept {
+SimulationSteps::SimulationSteps(double control_period) noexcept {
   constexpr double longest = 1e-3;   // [s]
   constexpr double rounding = 1e-6;  // of it
-  const int per_tick = std::max(1, static_cast<int>(std::ceil(control_period / longest - rounding)));
-  return {per_tick, control_period / per_tick};
+  per_tick_ = std::max(1, static_cast<int>(std::ceil(control_period / longest - rounding)));
+  period_ = control_period / per_tick_;
+}
+
+SimulationSteps::SimulationSteps(double control_period, double step) noexcept
+    : per_tick_(ticks_of(control_period, step)), period_(step) {}
+
+bool SimulationSteps::tick_is_due() noexcept {
+  const bool is_due = until_tick_ == 0;
+  until_tick_ = (is_due ? per_tick_ : until_tick_) - 1;
+  return is_due;
 }
 
 std::vector<Column> base_truth_columns() {
@@ -98,8 +108,7 @@ struct ScenePlant::Parts {
     Sensed actual, sensed;
     Eigen::VectorXd torque;  ///< what its motors make of the command
     Changes changes;
-    int steps_per_tick = 1;
-    int until_tick = 0;
+    SimulationSteps steps;
   };
 
   Parts(const lang::Program& program, const ScenePlantOptions& options)
@@ -115,10 +124,8 @@ struct ScenePlant::Parts {
     RunnerSettings settings;
     settings.extra_columns = base_truth_columns();
     for (std::size_t i = 0; i < scene.robots.size(); ++i) {
-      const double step = options.simulation.period;
-      const double ticks_at = scene.robots[i].program->robot.control_period;
-      const int steps = std::max(1, static_cast<int>(std::lround(ticks_at / step)));
-      settings.period = steps * step;
+      const SimulationSteps steps(scene.robots[i].program->robot.control_period, options.simulation.period);
+      settings.period = steps.per_tick() * steps.period();
       partners.emplace_back(scene.robots[i], settings);
       const lang::Program& own = *partners.back().program;
       told.push_back({RobotSenses(own, scene, static_cast<int>(i) + 1, program.robot, options.seed),
@@ -155,7 +162,7 @@ struct ScenePlant::Parts {
       of.senses.tell(of.actual, of.sensed);
       of.faults.spoil(of.sensed);
     }
-    if (of.until_tick-- == 0) tick_partner(i);
+    if (of.steps.tick_is_due()) tick_partner(i);
     of.torque = partner.torque;
     of.faults.spoil(of.torque, time);
     static_cast<void>(simulation.give_partner(i, of.torque));
@@ -164,7 +171,6 @@ struct ScenePlant::Parts {
   void tick_partner(std::size_t i) noexcept {
     ScenePartner& partner = partners[i];
     Told& of = told[i];
-    of.until_tick = of.steps_per_tick - 1;
     const ObjectTruth& own = simulation.truth().objects[scene.objects.size() + i];
     const std::array<double, 3> truth{own.x, own.y, own.yaw};
     partner.torque = partner.runner.step(of.sensed, truth);

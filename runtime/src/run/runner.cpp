@@ -6,6 +6,7 @@
 #include "estimate/disturbance.hpp"
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
+#include "estimate/ticks.hpp"
 #include "guard/motor_watch.hpp"
 #include "guard/slip_watch.hpp"
 #include "guard/wrench_refusal.hpp"
@@ -68,7 +69,7 @@ double period_of(const lang::Robot& robot, const RunnerSettings& settings) {
 int lost_ticks(double period) {
   constexpr int most = 20, least = 5;
   constexpr double longest = 0.05;  // [s]
-  return std::clamp(static_cast<int>(std::lround(longest / period)), least, most);
+  return std::clamp(ticks_of(longest, period), least, most);
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ const Eigen::VectorXd& step(Runner& runner, const Sensed& sensed, double time, T
 void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, const lang::Program& program,
               std::vector<ExpectationWatch>& watches, CellResult& result) {
   ScenePlantOptions options;
-  const SimulationSteps steps = simulation_steps(program.robot.control_period);
-  options.simulation.period = steps.period;
+  SimulationSteps steps(program.robot.control_period);
+  options.simulation.period = steps.period();
   options.seed = scenario.seed;
   options.faults = cell.faults;
   ScenePlant plant(program, options);
@@ -80,16 +80,12 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   const std::vector<ScenePartner>& partners = plant.partners();
   std::vector<bool> had_stopped(partners.size(), false);
   Eigen::VectorXd tau;
-  int until_tick = 0;
   PlantStatus status = PlantStatus::ok;
   while (!runner.finished() && plant.truth().time < scenario.time_limit) {
     // A sample that does not arrive is the runtime's to deal with: it steps on what it has.
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
-    if (until_tick-- == 0) {
-      until_tick = steps.per_tick - 1;
-      tau = step(runner, sensed, plant.truth().time, facts);
-    }
+    if (steps.tick_is_due()) tau = step(runner, sensed, plant.truth().time, facts);
     facts.update(plant.truth(), plant.true_state(), torque_share(program.robot.model, tau));
     look_at_partners(plant, facts);
     const bool in_task = runner.state() == RunState::running;

@@ -11,13 +11,24 @@
 
 namespace zwang::runtime {
 
-/// A control period is as many simulation steps of 1 ms or less: stiff contacts could not be followed by
-/// longer ones.
-struct SimulationSteps {
-  int per_tick = 1;
-  double period = 1e-3;  ///< [s]
+/// The steps of a simulation between the ticks of a controller.
+class SimulationSteps {
+ public:
+  /// Of 1 ms or less each: stiff contacts could not be followed by longer ones.
+  explicit SimulationSteps(double control_period) noexcept;
+  /// Of `step` [s] each: as many as come nearest to the control period.
+  SimulationSteps(double control_period, double step) noexcept;
+
+  int per_tick() const noexcept { return per_tick_; }
+  double period() const noexcept { return period_; }  ///< [s] of a step
+  /// Once before each step: whether a tick is due. Before the first one it is.
+  bool tick_is_due() noexcept;
+
+ private:
+  int per_tick_;
+  double period_;
+  int until_tick_ = 0;
 };
-SimulationSteps simulation_steps(double control_period) noexcept;
 
 struct ScenePlantOptions {
   MujocoPlantOptions simulation;
