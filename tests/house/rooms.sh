@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The direction of the rooms, read from the #include lines: runtime -> lang -> solver, and each outside library
-# known to the one room (and there to the one .cpp) that owns it.
+# known to the one room (and there to the one .cpp) that owns it. And where tests may write.
 #
 #   rooms.sh ROOT     prints every offence as file:line: what; ends with 1 when there is any
 set -euo pipefail
@@ -80,5 +80,10 @@ while IFS=: read -r file line header; do
     offend "$file:$line: a public header shows <$header>"
   fi
 done < <(includes '[a-z]*/include')
+
+# Tests run beside each other, each in a process of its own: gtest's folder is one for all of them.
+while IFS=: read -r file line _; do
+  offend "$file:$line: testing::TempDir() is shared by all tests: use test::TemporaryFolder"
+done < <(grep -rnF --include='*.[hc]pp' 'TempDir()' tests 2>/dev/null || true)
 
 exit $((offences > 0))

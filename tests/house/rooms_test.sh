@@ -51,6 +51,9 @@ offence solver/src/a.cpp '<kdl/chain.hpp>'
 offence runtime/src/a.cpp '<gtest/gtest.h>'
 offence lang/include/zwang/lang/a.hpp '<yaml-cpp/yaml.h>'
 offence runtime/include/zwang/runtime/a.hpp '<nlohmann/json.hpp>'
+printf 'write(testing::TempDir());\n' >"$tree/tests/peers/a_test.cpp"
+expect 1 'a test writes where every other does'
+rm "$tree/tests/peers/a_test.cpp"
 expect 0 'the tree after every offence was taken away'
 
 exit "$failed"

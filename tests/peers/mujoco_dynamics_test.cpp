@@ -1,7 +1,6 @@
 // MuJoCo as the judge of dynamics: inertia, bias and forward dynamics of the same random trees.
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
-#include <unistd.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -12,6 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "../temporary_folder.hpp"
 #include "oracle/dense_dynamics.hpp"
 #include "oracle/random_problem.hpp"
 #include "zwang/solver/solver.hpp"
@@ -81,11 +81,11 @@ class Judge {
          << "'><flag constraint='disable' contact='disable'/></option><worldbody>";
     write_body(text, model, state, 0);
     text << "</worldbody></mujoco>";
-    const std::string path = testing::TempDir() + "zwang_judge_" + std::to_string(::getpid()) + ".xml";
+    const test::TemporaryFolder folder;
+    const std::string path = (folder.path() / "judge.xml").string();
     std::ofstream(path) << text.str();
     char error[500] = "";
     m_.reset(mj_loadXML(path.c_str(), nullptr, error, sizeof error));
-    std::remove(path.c_str());
     if (!m_) throw std::runtime_error(error);
     d_.reset(mj_makeData(m_.get()));
     set(state);

@@ -11,6 +11,7 @@
 #include <functional>
 #include <numbers>
 
+#include "../temporary_folder.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -35,9 +36,10 @@ lang::Program load(const fs::path& task, lang::LoadOptions options = {}) {
 }
 
 /// A task file of the test's own.
-lang::Program write(const std::string& name, const std::string& text, const fs::path& scene,
+lang::Program write(const std::string& text, const fs::path& scene,
                     const std::string& robot = "mecanum_base") {
-  const fs::path file = fs::path(testing::TempDir()) / (name + ".yaml");
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "task.yaml";
   std::ofstream(file) << "zwang: 1\nrobot: " << (specs / "robots" / (robot + ".yaml")).string() << "\n"
                       << text;
   lang::LoadOptions options;
@@ -201,8 +203,7 @@ double overshoot(lang::Program program, double yaw, double payload, double veloc
 class Boundary : public testing::TestWithParam<const char*> {};
 
 TEST_P(Boundary, IsNotCrossedByMoreThanATenthOfAMillimetreNorByAMillimetreWithAWrongMassOrNoise) {
-  const lang::Program program =
-      write(std::string("fenced_") + GetParam(), wide, specs / "scenes/wall_far.yaml", GetParam());
+  const lang::Program program = write(wide, specs / "scenes/wall_far.yaml", GetParam());
   const double third = 0.3 * program.robot.model.total_mass();
   for (const double yaw : {0.0, 15.0 * degree}) {  // met by an edge of the footprint, and by a corner
     const double ideal = overshoot(program, yaw, 0.0, 0.0);
@@ -223,8 +224,7 @@ TEST_P(Boundary, IsNotCrossedByMoreThanATenthOfAMillimetreNorByAMillimetreWithAW
 
 // A corner of the region: both edges ask for the one acceleration that the base has.
 TEST_P(Boundary, IsNotCrossedAtACornerWhereTwoEdgesBrakeAtOnce) {
-  const lang::Program program =
-      write(std::string("cornered_") + GetParam(), cornered, specs / "scenes/wall_far.yaml", GetParam());
+  const lang::Program program = write(cornered, specs / "scenes/wall_far.yaml", GetParam());
   const double third = 0.3 * program.robot.model.total_mass();
   for (const double yaw : {30.0 * degree, 45.0 * degree}) {
     const double ideal = overshoot(program, yaw, 0.0, 0.0);
@@ -274,8 +274,7 @@ double highest_speed(lang::Program program, std::size_t delay) {
 class VelocityLimit : public testing::TestWithParam<const char*> {};
 
 TEST_P(VelocityLimit, IsHeldAndWithTenMillisecondsOfDelayNearlyHeld) {
-  const lang::Program program =
-      write(std::string("fast_") + GetParam(), fast, specs / "scenes/wall_far.yaml", GetParam());
+  const lang::Program program = write(fast, specs / "scenes/wall_far.yaml", GetParam());
   const double limit = 0.4;
   const double prompt = highest_speed(program, 0), late = highest_speed(program, 10);
   std::printf("%s, velocity limit 0.4 m/s: %.5f m/s, 10 ms late %.5f m/s\n", GetParam(), prompt, late);
@@ -352,8 +351,7 @@ const Rubbing rubbing_drives[] = {{"mecanum_base", 4.0 / 0.0759},
 // mecanum base. Its compensation leaves (1 - c) of it either way, whatever the wall.
 TEST(Push, AgainstStictionHoldsTenPercentWithoutASensorAndOneWithForceFeedback) {
   for (const auto& [robot, turns] : rubbing_drives) {
-    const lang::Program program = rubbing(
-        write(std::string("pressing_") + robot, pressing, specs / "scenes/wall_far.yaml", robot), rough);
+    const lang::Program program = rubbing(write(pressing, specs / "scenes/wall_far.yaml", robot), rough);
     for (const double stiffness : {1e4, 1e5, 1e6}) {
       lang::Program walled = program;
       walled.scene->objects.at(0).stiffness = stiffness;
@@ -381,7 +379,7 @@ TEST(Push, AgainstStictionHoldsTenPercentWithoutASensorAndOneWithForceFeedback) 
 // may leave (1 + c - 2 c / 1.1) of sum tau_c |dq/dx|, 1.8 N; 20 % too little leave 1 N and do not ring.
 TEST(Push, AgainstStictionThatTheFileHasWrongMissesByTheDifference) {
   const double turns = rubbing_drives[0].turns;
-  const lang::Program program = write("pressing_wrong", pressing, specs / "scenes/wall_far.yaml");
+  const lang::Program program = write(pressing, specs / "scenes/wall_far.yaml");
   const lang::Program truth = rubbing(program, rough);
   for (const double factor : {0.7, 0.8, 1.25, 1.3}) {
     lang::JointFriction friction = rough;

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <numbers>
 
+#include "../temporary_folder.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -32,8 +33,9 @@ lang::Program load(const fs::path& task, const fs::path& scene) {
 }
 
 /// Of a task file's text, whose robot is one of specs/.
-lang::Program load_text(const char* name, std::string text, const fs::path& scene) {
-  const fs::path file = fs::path(testing::TempDir()) / name;
+lang::Program load_text(std::string text, const fs::path& scene) {
+  const test::TemporaryFolder folder;
+  const fs::path file = folder.path() / "task.yaml";
   text.replace(text.find("robots/"), 7, (specs / "robots/").string());
   std::ofstream(file) << text;
   return load(file, scene);
@@ -109,7 +111,7 @@ tasks:
 // Let go of while it moves at 0.1 m/s, the arm comes back to where it was then, and stays; it does not drop.
 // A position reaches 2 % of its way after 5.8 time constants.
 TEST(UnusedArm, IsTakenOverWhenATaskLetsGoOfIt) {
-  const lang::Program program = load_text("reach.yaml", reach_text, specs / "scenes/wall_far.yaml");
+  const lang::Program program = load_text(reach_text, specs / "scenes/wall_far.yaml");
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program.robot.model, program.signals.size());
@@ -159,7 +161,7 @@ tasks:
 
 // The arm gives way by its own rows, as a soft spring does, and gives back what was pressed into it.
 TEST(HeldArm, ThatIsPressedIntoABoardIsNoRunaway) {
-  const lang::Program program = load_text("press.yaml", press_text, specs / "scenes/board.yaml");
+  const lang::Program program = load_text(press_text, specs / "scenes/board.yaml");
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program.robot.model, program.signals.size());

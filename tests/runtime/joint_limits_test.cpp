@@ -9,6 +9,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "../temporary_folder.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -48,8 +49,8 @@ const ArmJoint wrist{"arm_6", "wrist_1_link", "wrist_2_link", "at: [0 m, 0.00017
 /// The base stands, and one joint is driven as `statements` say.
 struct JointRun {
   JointRun(const ArmJoint& arm_joint, const std::string& statements) : what(arm_joint) {
-    const fs::path folder = fs::path(testing::TempDir()) / "joint_limits";
-    fs::create_directories(folder);
+    const test::TemporaryFolder temporary;
+    const fs::path& folder = temporary.path();
     std::ofstream(folder / "task.yaml")
         << "zwang: 1\nrobot: robot.yaml\nframes:\n  axle: {parent: " << what.parent << ", " << what.origin
         << ", rpy: [90 deg, 0 deg, 0 deg]}\nstart: turn\ntasks:\n  turn:\n    constraints:\n"
