@@ -115,6 +115,36 @@ TEST(PlantContact, StaticPushGivesThePushAndItsSpringsDeflection) {
   }
 }
 
+// A soft wall takes both corners of a side that presses on it askew, each as deep as it lies in the wall. The
+// way out of its other faces, metres off, is none.
+TEST(PlantContact, ASoftWallTakesASideThatIsAskew) {
+  lang::SceneObject wall = wall_at(front + 0.002);
+  wall.stiffness = 1e3;
+  wall.damping = 1.0;
+  for (const double yaw : {-0.05, -0.03, 0.025, 0.04}) {
+    SCOPED_TRACE(yaw);
+    wall.at[1] = yaw < 0.0 ? -1.0 : 1.0;  // more of it on the other side than on that of the corner behind
+    MujocoPlant plant(mecanum_base(symmetric_design()), scene_of(wall));
+    const PlanarReference reference(mecanum_base(symmetric_design()).model);
+    for (int i = 0; i < 3000; ++i) {
+      const Truth& truth = plant.truth();
+      const Vector3 wrench(40.0, -500.0 * truth.y - 300.0 * truth.velocity.y(),
+                           -2000.0 * (truth.yaw - yaw) - 200.0 * truth.velocity.z());
+      ASSERT_EQ(plant.apply(reference.torque_of_wrench(wrench)), PlantStatus::ok);
+    }
+    const Truth& truth = plant.truth();
+    double depth = 0.0;
+    for (const double side : {-0.28, 0.28}) {
+      const double corner = truth.x + front * std::cos(truth.yaw) - side * std::sin(truth.yaw);
+      EXPECT_GT(corner, wall.at[0]) << "both are in the wall";
+      depth += corner - wall.at[0];
+    }
+    EXPECT_NEAR(truth.objects[0].force, wall.stiffness * depth, 0.01 * 40.0);
+    EXPECT_NEAR(truth.objects[0].force, 40.0, 0.01 * 40.0);
+    EXPECT_LT(truth.objects[0].peak_force, 2.0 * 40.0) << "what a sudden force makes of a spring at most";
+  }
+}
+
 /// A base that presses with 20 N against a wall of friction 0.3, and pulls along it.
 struct Slide {
   Slide(double pull, double damping)

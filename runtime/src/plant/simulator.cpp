@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
+#include <numbers>
 #include <stdexcept>
 
 #include "contact_spring.hpp"
@@ -41,16 +42,17 @@ void on_warning(const char* /*message*/) {}  // counted in mjData, where every s
 
 mjfCollision collide_sphere_box = nullptr;  ///< MuJoCo's own
 
-constexpr double touch_tolerance = 0.02;  ///< [rad] beyond the normals of a corner's sides
+constexpr double edge_tilt = 0.25 * std::numbers::pi;  ///< [rad]
 
-/// Whether a sphere can press out of a face with the normal `out`: a corner presses between the normals of
-/// its own sides only, so that two that meet square, edge on edge, do not slip off each other's sides.
+/// Whether a sphere can press out of a face with the normal `out`. A corner presses between the normals of
+/// its own sides, so that two that meet square, edge on edge, do not slip off each other's sides: those lie a
+/// right angle beyond. Up to half of that it is the far end of a side that sank in askew.
 bool faces(const mjModel* m, const mjData* d, int sphere, const Vector3& out) {
   const double half_angle = m->nuser_geom > 0 ? m->geom_user[m->nuser_geom * sphere] : 0.0;
   if (!(half_angle > 0.0)) return true;
   const mjtNum* axes = d->geom_xmat + 9 * sphere;
   const Vector3 outward(axes[0], axes[3], axes[6]);
-  return outward.dot(-out) >= std::cos(half_angle + touch_tolerance);
+  return outward.dot(-out) >= std::cos(half_angle + edge_tilt);
 }
 
 /// MuJoCo's collision of a sphere with a box stops at a depth of the sphere's radius, and so would a spring's
