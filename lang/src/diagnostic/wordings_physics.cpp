@@ -279,6 +279,17 @@ Diagnostic vanishing_distance(const Span& span, const std::string& axis, double 
                  instead + "; or keep a distance of more than `" + at_least(height, "m") + "`");
 }
 
+Diagnostic holds_all_askew(const Span& span, const std::string& axis, const std::string& in,
+                           const std::string& own_axis, int later_level, const std::string& other,
+                           const Span& other_span) {
+  return with_related(warning("W614", span,
+                              "`" + axis + "` holds up `" + other + "`, too, once the base is askew to `" +
+                                  in + "`: it goes only where it heads",
+                              "stand still in the base's own axes, in a group of its own: " + own_axis +
+                                  "; or let it give way, `level: " + std::to_string(later_level) + "`"),
+                      other_span, "`" + other + "` is driven here");
+}
+
 Diagnostic arm_without_limit(const Span& span, const std::string& axis, const std::string& frame,
                              const std::string& limited, const Span& limit) {
   return with_related(

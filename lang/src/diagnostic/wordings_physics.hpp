@@ -88,6 +88,9 @@ Diagnostic stands_still(const Span& span, const std::string& axis, const std::st
 Diagnostic vanishing_distance(const Span& span, const std::string& axis, double asked, double height);
 
 /// `limited`: the axis of the base whose force is limited, at `limit`.
+Diagnostic holds_all_askew(const Span& span, const std::string& axis, const std::string& in,
+                           const std::string& own_axis, int later_level, const std::string& other,
+                           const Span& other_span);
 Diagnostic arm_without_limit(const Span& span, const std::string& axis, const std::string& frame,
                              const std::string& limited, const Span& limit);
 

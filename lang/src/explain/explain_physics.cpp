@@ -206,6 +206,33 @@ tasks:
     constraints:
       near: {feature: gap, position: 0.2 m}
     timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "W614",
+          .title = "a base that holds itself up once it is askew",
+          .why =
+              R"~(A base of two freedoms, a differential one, goes only where it heads. Square to an axis of the world it cannot move
+along it, and to stand still there asks for nothing. Askew by a hair it does move along it, by v sin(psi), and can stand still only by
+not moving at all: the row takes as much force as that needs, and a base that should press on a wall backs off it. In its own axes
+sideways stays sideways.)~",
+          .fix =
+              "Stand still in the base's own axes, in a group of its own: `sideways: {move: base_link, in: "
+              "base_link, y: {velocity: 0 m/s}}`. Or give the axis a later `level`: it gives way then.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(frames:
+  wall: {parent: world}
+tasks:
+  go:
+    constraints:
+      contact: {move: base_link, in: wall, x: {force: 5 N}, y: {velocity: 0 m/s}}
+    timeout: {after: 10 s, goto: done})~",
+          .instead = R"~(frames:
+  wall: {parent: world}
+tasks:
+  go:
+    constraints:
+      contact: {move: base_link, in: wall, x: {force: 5 N}}
+      sideways: {move: base_link, in: base_link, y: {velocity: 0 m/s}}
+    timeout: {after: 10 s, goto: done})~"},
   };
   return entries;
 }

@@ -50,6 +50,7 @@ void ask_task(const CheckContext& context, const TaskText& task, Probe& probe, R
   PlannedTask plan = plan_task(context, task);
   ask_reach(plan, probe, remarks);
   ask_freedoms(plan, probe, remarks);
+  ask_askew(plan, probe, remarks);
   ask_free(plan, probe, remarks);
   ask_still(plan, probe, remarks);
   ask_distance(plan, probe, remarks);

@@ -34,6 +34,8 @@ class Remarks {
 void ask_reach(PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// E406, W407, and E404 for axes that the wheels tie together.
 void ask_freedoms(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W614: a base of two freedoms that is to stand still along an axis of the world, and to move along another.
+void ask_askew(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W609: an axis that contact may move, and cannot.
 void ask_free(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W610: drivers that a range keeps from moving anything. Takes them out of the plan.
