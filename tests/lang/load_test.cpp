@@ -72,8 +72,13 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
 
   const Task& hold = program->tasks[1];
   EXPECT_DOUBLE_EQ(hold.blend.constant, 0.3);
-  EXPECT_DOUBLE_EQ(hold.groups[0].axes[2].time_constant.constant, 0.4);
-  EXPECT_DOUBLE_EQ(hold.groups[0].axes[1].time_constant.constant, 0.5);
+  ASSERT_EQ(hold.groups.size(), 2u);
+  ASSERT_EQ(hold.groups[0].axes.size(), 2u);
+  EXPECT_EQ(hold.groups[0].axes[1].axis, Axis::rz);
+  EXPECT_DOUBLE_EQ(hold.groups[0].axes[1].time_constant.constant, 0.4);
+  ASSERT_EQ(hold.groups[1].axes.size(), 1u);
+  EXPECT_EQ(hold.groups[1].axes[0].axis, Axis::y);
+  EXPECT_DOUBLE_EQ(hold.groups[1].axes[0].time_constant.constant, 0.5);
   EXPECT_EQ(hold.exits[0].target.kind, TargetKind::done);
 }
 
