@@ -165,6 +165,28 @@ TEST(ContactDepth, OfWhatSlidesEndsAtTheDeepestContact) {
   EXPECT_TRUE(contact.is_no_spring(mark));
 }
 
+TEST(ContactDepth, OfAHitThatIsAllDampingIsKeptUntilItsSpringIsQuiet) {
+  // A unit mass runs into K s + c v at 0.5, K = 30 and c = 25: at first it feels 12.5, at the deepest 0.47,
+  // and then it is let out slowly. A tenth of 12.5 is more than the spring ever has.
+  constexpr double k = 30.0, c = 25.0, dt = 1e-3;
+  const solver::FreeMotions motions(load("mecanum").robot.model);
+  ContactDepth contact(load("mecanum").robot, dt);
+  double s = 0.0, v = 0.5;
+  const auto follow = [&](double rate) {
+    const double force = k * s + c * rate;
+    s += dt * rate;
+    contact.follow(motions, Eigen::VectorXd::Constant(1, force), -force * rate);
+    return force;
+  };
+  while (v > 1e-4) v -= dt * follow(v);
+  const double deepest = s;
+  EXPECT_NEAR(contact.now().depth, deepest, 0.05 * deepest);
+  while (s > 0.5 * deepest) follow(-1e-3);
+  EXPECT_NEAR(contact.now().depth, s, 0.05 * deepest);
+  while (s > 0.05 * deepest) follow(-1e-4);
+  EXPECT_EQ(contact.now().depth, 0.0);
+}
+
 TEST(Runaway, IsNoHitOfSomebodyElse) {
   // Another robot hits one that stands: within 35 ms it has 0.2 m/s, and brakes from there.
   OneMass mass(-0.05, 0.05);

@@ -12,7 +12,7 @@ ContactDepth::ContactDepth(const lang::Robot& robot, double period)
 
 void ContactDepth::reset() noexcept {
   now_ = {};
-  hardest_ = 0.0;
+  deepest_yet_ = force_when_deepest_ = 0.0;
 }
 
 /// What the motor that is felt least makes of p.
@@ -25,9 +25,8 @@ double ContactDepth::least_force(const solver::FreeMotions& motions) const noexc
 
 void ContactDepth::follow(const solver::FreeMotions& motions, Force p, double power) noexcept {
   now_.size = p.norm();
-  hardest_ = std::max(hardest_, now_.size);
-  if (!(now_.size > std::max(least_force(motions), quiet * hardest_))) {
-    now_.depth = now_.work = hardest_ = 0.0;
+  if (!(now_.size > std::max(least_force(motions), quiet * force_when_deepest_))) {
+    now_.depth = now_.work = deepest_yet_ = force_when_deepest_ = 0.0;
     return;
   }
   const double given = power * period_;
@@ -36,6 +35,10 @@ void ContactDepth::follow(const solver::FreeMotions& motions, Force p, double po
   now_.way += way;
   now_.work = std::max(0.0, now_.work - given);
   now_.depth = std::clamp(now_.depth - way, 0.0, deepest_);
+  if (now_.depth > deepest_yet_) {
+    deepest_yet_ = now_.depth;
+    force_when_deepest_ = now_.size;
+  }
 }
 
 bool ContactDepth::is_no_spring(const Mark& since) const noexcept {

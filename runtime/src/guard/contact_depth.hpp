@@ -18,8 +18,9 @@ namespace zwang::runtime {
 ///  - it slackens: on the way s back its force falls by the part s / x, and grows by it on the way s ahead,
 ///  - it gives no more than E.
 /// However soft it is: 20 N of 1 kN/m are 2 cm deep, and 1 mm back is a twentieth of them. What the robot
-/// moves with, or against, and does not follow it so is no contact's. Does not allocate, lock, throw or print
-/// after construction.
+/// moves with, or against, and does not follow it so is no contact's. At the deepest nothing moves: there |p|
+/// is the spring's alone, while what it hits with may be damping for the most part. Does not allocate, lock,
+/// throw or print after construction.
 class ContactDepth {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;
@@ -44,8 +45,8 @@ class ContactDepth {
 
   static constexpr double unexplained = 0.05;  ///< of x: the least way that a spring does not explain
   static constexpr double deepest = 0.1;       ///< [m] times the root of the robot's mass
-  static constexpr double quiet = 0.1;       ///< of the hardest |p|: a hundredth of what a spring stored then
-  static constexpr double smallest = 0.015;  ///< torque of a motor that counts as a force, of its limit
+  static constexpr double quiet = 0.1;         ///< of |p| at the deepest: a hundredth of what a spring stored
+  static constexpr double smallest = 0.015;    ///< torque of a motor that counts as a force, of its limit
 
  private:
   double least_force(const solver::FreeMotions& motions) const noexcept;
@@ -54,7 +55,7 @@ class ContactDepth {
   double period_;
   double deepest_;  ///< [m sqrt(kg)]
   Mark now_;
-  double hardest_ = 0.0;  ///< |p| since it began
+  double deepest_yet_ = 0.0, force_when_deepest_ = 0.0;  ///< x and |p|, since it began
 };
 
 }  // namespace zwang::runtime
