@@ -32,7 +32,7 @@ struct Cap {
   bool turns = false;
   double wanted = 0.0;  ///< [N] or [N m]
   double most = 0.0;    ///< [N] or [N m]
-  double mass = 0.0;    ///< effective, at the start [kg] or [kg m^2]
+  double mass = 0.0;    ///< effective [kg] or [kg m^2]
 };
 Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit);
 Diagnostic cannot_press_everywhere(const Span& span, const Cap& least, const Span& limit);

@@ -52,6 +52,11 @@ struct PlannedAxis {
   bool drives_motion() const { return driver && *driver != solver::Quantity::force && !is_spring; }
   bool turns() const { return measure == solver::Measure::angle || is_rotation(axis); }
   bool is_feature() const { return measure != solver::Measure::axis; }
+  /// A way of the base along axes that do not turn with it: nobody knows how it will head to them by then.
+  bool is_headed_anyhow() const {
+    return (in_world || !is_placed) && move.body == 0 && !turns() &&
+           (measure == solver::Measure::axis || measure == solver::Measure::direction);
+  }
   /// A distance to something beside the robot: nobody knows from where the robot will come.
   bool is_open() const { return measure == solver::Measure::distance && in_world; }
 };

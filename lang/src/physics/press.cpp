@@ -6,7 +6,8 @@
 //   pressed = min(f, m a_max)         m = 1 / A Mc A', the effective mass along the axis
 //
 // taken from the solver with the force row and all acceleration ranges in force, so that ranges on other axes
-// count with their direction.
+// count with their direction. What the base cannot along axes of the world as it stands at the start it may
+// once it has turned.
 #include <algorithm>
 #include <cmath>
 
@@ -19,25 +20,34 @@ namespace {
 
 constexpr double tolerance = 1e-6;  // relative
 
+bool falls_short(const Pressed& pressed, double force) {
+  return pressed.force < std::abs(force) * (1.0 - tolerance);
+}
+
 struct Pressing {
-  double least =
-      solver::infinity;    ///< over the configurations in which the motors do not give out [N] or [N m]
-  double most = 0.0;       ///< over all of them
-  bool by_motors = false;  ///< in all it is the motors that give out: W606 says that
+  Pressed least{.force = solver::infinity};  ///< of the configurations in which the motors do not give out
+  Pressed most;                              ///< of all of them
+  bool by_motors = false;                    ///< in all it is the motors that give out: W606 says that
 };
 
 Pressing pressing(const PlannedTask& plan, const PlannedAxis& axis, double force, Probe& probe) {
+  const auto is_less = [](const Pressed& a, const Pressed& b) { return a.force < b.force; };
   Pressing result;
   const std::vector<Pressed> all = probe.pressed(axis, force, plan.axes);
   for (const Pressed& one : all) {
-    const double along = force < 0.0 ? -one.force : one.force;
-    result.most = std::max(result.most, along);
-    if (along < one.motors * (1.0 - 1e-3)) result.least = std::min(result.least, along);
+    result.most = std::max(result.most, one, is_less);
+    if (one.force < one.motors * (1.0 - 1e-3)) result.least = std::min(result.least, one, is_less);
   }
-  result.by_motors = !std::isfinite(result.least);
+  result.by_motors = !std::isfinite(result.least.force);
+  if (axis.is_headed_anyhow() && !result.by_motors && falls_short(result.most, force)) {
+    for (const Pressed& one : probe.pressed_whatever_way(axis, force, plan.axes))
+      result.most = std::max(result.most, one, is_less);
+    if (!axis.is_placed) result.least = result.most;
+  }
   // Towards a side that the wheels hold the mass grows without bound, and m a_max with it.
   const AxisFigures* figures = probe.figures(axis);
-  if (all.empty() || (figures != nullptr && figures->is_held_from_some_side)) result.most = solver::infinity;
+  if (all.empty() || (figures != nullptr && figures->is_held_from_some_side))
+    result.most.force = solver::infinity;
   return result;
 }
 
@@ -48,33 +58,26 @@ void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     if (axis.driver != solver::Quantity::force || !axis.target || *axis.target == 0.0) continue;
     const AxisFigures* figures = probe.figures(axis);
     if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
-    const double wanted = std::abs(*axis.target);
     const Pressing now = pressing(plan, axis, *axis.target, probe);
     if (now.by_motors) continue;
     const AccelerationLimit limit = acceleration_limit(plan, axis, *axis.target < 0.0 ? -1.0 : 1.0, true);
     const Span limited = limit.from != nullptr ? limit.from->span(solver::Quantity::acceleration) : Span{};
-    // Of the configuration that presses so, where they differ.
-    const auto mass_at = [&](double pressed) {
-      const double mass = pressed / limit.most;
-      const bool is_of_one =
-          mass >= figures->least_mass * (1.0 - 1e-3) && mass <= figures->most_mass * (1.0 + 1e-3);
-      return is_of_one ? mass : figures->mass;
+    const auto cap = [&](double wanted, const Pressed& pressed) {
+      return wording::Cap{axis.path, axis.turns(), std::abs(wanted), pressed.force, pressed.mass};
     };
-    const wording::Cap cap{axis.path, axis.turns(), wanted, now.most, mass_at(now.most)};
-    if (now.most < wanted * (1.0 - tolerance)) {
-      remarks.add(wording::cannot_press(axis.driver_span(), cap, limited));
+    if (falls_short(now.most, *axis.target)) {
+      remarks.add(wording::cannot_press(axis.driver_span(), cap(*axis.target, now.most), limited));
       continue;
     }
-    if (now.least < wanted * (1.0 - tolerance)) {
-      remarks.add(wording::cannot_press_everywhere(
-          axis.driver_span(), {axis.path, axis.turns(), wanted, now.least, mass_at(now.least)}, limited));
+    if (falls_short(now.least, *axis.target)) {
+      remarks.add(
+          wording::cannot_press_everywhere(axis.driver_span(), cap(*axis.target, now.least), limited));
       continue;
     }
     const double farthest = axis.farthest_target.value_or(*axis.target);
     const Pressing end = pressing(plan, axis, farthest, probe);
-    if (end.by_motors || end.most >= std::abs(farthest) * (1.0 - tolerance)) continue;
-    remarks.add(wording::cannot_press_at_range_end(
-        axis.driver_span(), {axis.path, axis.turns(), std::abs(farthest), end.most, figures->mass}, limited));
+    if (!end.by_motors && falls_short(end.most, farthest))
+      remarks.add(wording::cannot_press_at_range_end(axis.driver_span(), cap(farthest, end.most), limited));
   }
 }
 

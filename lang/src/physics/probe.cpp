@@ -302,10 +302,9 @@ int Probe::kinematic_rank(const std::vector<const PlannedAxis*>& axes) {
 
 /// The robot does what the rows say, as if nothing were in its way. Blocked, it meets the force that takes
 /// the acceleration along the axis away again: effective mass times that acceleration.
-std::vector<Pressed> Probe::pressed(const PlannedAxis& axis, double force,
-                                    const std::vector<PlannedAxis>& limits) {
-  const Looks* looks = this->looks(axis);
-  if (looks == nullptr) return {};
+std::vector<Pressed> Probe::pressed_in(const std::vector<Look>& looks, bool both_ways,
+                                       const PlannedAxis& axis, double force,
+                                       const std::vector<PlannedAxis>& limits) {
   const auto room = static_cast<int>(limits.size()) + 1;
   solver::ConstraintSet set(room, 2 * room);
   set.add(constraint_of(axis, force));
@@ -318,11 +317,11 @@ std::vector<Pressed> Probe::pressed(const PlannedAxis& axis, double force,
     set.add(constraint);
   }
   std::vector<Pressed> result;
-  for (const Look& look : looks->all) {
+  for (const Look& look : looks) {
     const solver::AxisAnalysis one = usable(look.analysis);
     if (!std::isfinite(one.effective_mass)) continue;
     // Ranges need not be symmetric: what lies ahead may as well lie behind.
-    for (const double side : axis.is_open() ? std::vector{1.0, -1.0} : std::vector{1.0}) {
+    for (const double side : both_ways ? std::vector{1.0, -1.0} : std::vector{1.0}) {
       solver::AxisConstraint& pushing = set[0];
       pushing = look.constraint;
       pushing.level = axis.level;
@@ -337,10 +336,25 @@ std::vector<Pressed> Probe::pressed(const PlannedAxis& axis, double force,
           set.fill(robot_.model, state) && set.rows().size() <= static_cast<std::size_t>(most_rows) &&
           pay(set.rows().size(), 10.0) && solver_.solve(state, set.rows(), solution_) == solver::Status::ok;
       if (is_solved)
-        result.push_back({one.effective_mass * along(set.rows()[0], solution_), one.largest_force});
+        result.push_back({std::copysign(one.effective_mass, force) * along(set.rows()[0], solution_),
+                          one.largest_force, one.effective_mass});
     }
   }
   return result;
+}
+
+std::vector<Pressed> Probe::pressed(const PlannedAxis& axis, double force,
+                                    const std::vector<PlannedAxis>& limits) {
+  const Looks* looks = this->looks(axis);
+  return looks != nullptr ? pressed_in(looks->all, axis.is_open(), axis, force, limits)
+                          : std::vector<Pressed>();
+}
+
+std::vector<Pressed> Probe::pressed_whatever_way(const PlannedAxis& axis, double force,
+                                                 const std::vector<PlannedAxis>& limits) {
+  std::vector<Look> looks;
+  return look_around(axis, states_[0], looks) ? pressed_in(looks, true, axis, force, limits)
+                                              : std::vector<Pressed>();
 }
 
 }  // namespace zwang::lang

@@ -28,10 +28,11 @@ struct AxisFigures {
   std::vector<double> masses, forces;  ///< of each configuration and direction
 };
 
-/// What a force driver presses with in one configuration, and what the motors make there. [N] or [N m]
+/// What a force driver presses with in one configuration.
 struct Pressed {
-  double force = 0.0;
-  double motors = 0.0;
+  double force = 0.0;   ///< that way [N] or [N m]
+  double motors = 0.0;  ///< that they make there [N] or [N m]
+  double mass = 0.0;    ///< effective [kg] or [kg m^2]
 };
 
 /// Everything is computed at rest, in `configurations()`. What can be reached at all is also tried at other
@@ -59,6 +60,10 @@ class Probe {
   /// What a force driver presses with against something that blocks its axis, after the acceleration ranges
   /// among `limits` took their part: an entry for each configuration and direction in which it can be told.
   std::vector<Pressed> pressed(const PlannedAxis& axis, double force, const std::vector<PlannedAxis>& limits);
+  /// The same at the start pose in the base's x, y and both diagonals, and where its mass is least and most:
+  /// however it may head to the axis.
+  std::vector<Pressed> pressed_whatever_way(const PlannedAxis& axis, double force,
+                                            const std::vector<PlannedAxis>& limits);
 
   bool is_exhausted() const { return budget_ <= 0.0; }
   int base_mobility() const { return base_mobility_; }
@@ -91,6 +96,8 @@ class Probe {
   static Key key_of(const PlannedAxis& axis);
   /// The axis in every configuration; nullptr past the budget.
   const Looks* looks(const PlannedAxis& axis);
+  std::vector<Pressed> pressed_in(const std::vector<Look>& looks, bool both_ways, const PlannedAxis& axis,
+                                  double force, const std::vector<PlannedAxis>& limits);
   /// False past the budget.
   bool look(const solver::AxisConstraint& constraint, const solver::State& state, std::vector<Look>& all);
   bool look_around(const PlannedAxis& axis, const solver::State& state, std::vector<Look>& all);
