@@ -46,9 +46,12 @@ TEST(Reports, show_notes_when_asked) {
   EXPECT_EQ(json::parse(render_json(with_note(), {.notes = true})).size(), 1u);
 }
 
-/// The text of a file after the edits of one diagnostic, done as an editor would.
+/// The text of a file after the edits of one diagnostic, done as an editor would: the last one first, so that
+/// the places of the others stay.
 std::string edited(std::string text, const json& diagnostic) {
-  for (const json& edit : diagnostic["edits"]) {
+  const json& edits = diagnostic["edits"];
+  for (std::size_t i = edits.size(); i > 0; --i) {
+    const json& edit = edits[i - 1];
     const auto offset = [&](const json& position) {
       std::size_t at = 0;
       for (int line = 1; line < position["line"].get<int>(); ++line) at = text.find('\n', at) + 1;
@@ -62,7 +65,8 @@ std::string edited(std::string text, const json& diagnostic) {
 
 TEST(JsonReport, has_edits_that_mend_the_file) {
   int tried = 0;
-  for (const char* name : {"E101_misspelt_quantity", "E201_no_unit", "E203_newton_metre", "E105_symbols"}) {
+  for (const char* name : {"E101_misspelt_quantity", "E201_no_unit", "E201_units_of_a_group",
+                           "E203_newton_metre", "E105_symbols"}) {
     const std::string file = std::string(name) + ".yaml";
     const json all = json::parse(render_json(said_about(file)));
     ASSERT_EQ(all.size(), 1u) << name;
@@ -77,7 +81,7 @@ TEST(JsonReport, has_edits_that_mend_the_file) {
         << test::rendered(after);
     ++tried;
   }
-  EXPECT_EQ(tried, 4);
+  EXPECT_EQ(tried, 5);
 }
 
 TEST(SarifReport, names_rule_place_and_fix) {
@@ -96,6 +100,16 @@ TEST(SarifReport, names_rule_place_and_fix) {
             (json{{"startLine", 10}, {"startColumn", 13}, {"endLine", 10}, {"endColumn", 20}}));
   EXPECT_EQ(result["fixes"][0]["artifactChanges"][0]["replacements"][0]["insertedContent"]["text"],
             "velocity");
+}
+
+TEST(SarifReport, has_one_fix_for_all_units_of_a_mapping) {
+  const Diagnostics diagnostics = said_about("E201_units_of_a_group.yaml");
+  const json log = json::parse(render_sarif({&diagnostics}, "1.2.3"));
+  std::vector<std::string> written;
+  for (const json& replacement :
+       log["runs"][0]["results"][0]["fixes"][0]["artifactChanges"][0]["replacements"])
+    written.push_back(replacement["insertedContent"]["text"]);
+  EXPECT_EQ(written, (std::vector<std::string>{"-0.1 m/s", "0.2 m/s", "+-1 m/s^2", "0 rad/s"}));
 }
 
 TEST(SarifReport, keeps_what_was_silenced_and_why) {

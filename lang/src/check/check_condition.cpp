@@ -166,8 +166,7 @@ class ConditionCheck {
     }
     std::vector<std::string> parts = split(node.word);
     if (context_.of_truth && parts.size() > 1) {
-      return complain(
-          wording::unknown_truth(node.span, node.word, nearest(node.word, context_.symbols.signal_names())));
+      return complain(wording::unknown_truth(node.span, node.word, truth_meant(node.word)));
     }
     // Of a group on a feature, the group's name says it all: `near.velocity`.
     if (const GroupText* group = find_group(parts[0], lowered)) {
@@ -183,6 +182,7 @@ class ConditionCheck {
     if (!context_.of_truth) {
       if (const auto slip = slip_of_a_name(node, parts)) return complain(*slip);
     }
+    if (const auto word = wording::word_for_a_condition(node.span, node.word)) return complain(*word);
     std::vector<std::string> known{"elapsed"};
     if (!context_.of_truth) known.insert(known.end(), estimated_forces.begin(), estimated_forces.end());
     for (const std::string& name : context_.symbols.signal_names()) known.push_back(name);
@@ -203,12 +203,27 @@ class ConditionCheck {
     return complain(wording::unknown_quantity(node.span, node.word, near));
   }
 
+  /// `base.yaw` and `truth.base.theta` for `truth.base.yaw`.
+  std::string truth_meant(const std::string& written) const {
+    const std::vector<std::string> names = context_.symbols.signal_names();
+    if (std::find(names.begin(), names.end(), "truth." + written) != names.end()) return "truth." + written;
+    const std::string owner = written.substr(0, written.rfind('.') + 1);
+    std::vector<std::string> words;
+    for (const std::string& name : names) {
+      if (name.starts_with(owner)) words.push_back(name.substr(owner.size()));
+    }
+    const std::string word = meant_key(written.substr(owner.size()), words);
+    return word.empty() ? nearest(written, names) : owner + word;
+  }
+
   /// A name that means something, elsewhere or with a word more.
   std::optional<Diagnostic> slip_of_a_name(const ExpressionText& node,
                                            const std::vector<std::string>& parts) {
     if (context_.symbols.find_parameter(node.word) != nullptr)
       return wording::parameter_without_dollar(node.span, node.word);
     if (parts.size() > 2) return std::nullopt;
+    if (parts[0] == "params" && context_.symbols.find_parameter(parts[1]) != nullptr)
+      return wording::parameter_without_dollar(node.span, parts[1]);
     ExpressionNode unused;
     const GroupText* group = find_group(parts[0], unused);
     const bool names_axis = group != nullptr && parts.size() == 2 &&
@@ -289,7 +304,11 @@ class ConditionCheck {
       lowered.what = word.quantity;
       return type_of(word.quantity, axis_measured(group, parts[1]));
     }
-    return complain(wording::unknown_name(node.span, "quantity", parts[2], known));
+    Diagnostic unknown = wording::unknown_name(node.span, "quantity", parts[2], known);
+    const std::string meant = meant_key(parts[2], known);
+    if (!meant.empty()) unknown.help = "did you mean `" + meant + "`?";
+    if (const auto word = wording::word_for_a_condition(node.span, node.word)) unknown.help = word->help;
+    return complain(std::move(unknown));
   }
 
   /// The axis itself; of a feature any that measures alike.

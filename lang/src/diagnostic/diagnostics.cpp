@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 #include "diagnostic/wordings.hpp"
@@ -33,6 +34,16 @@ bool are_of_one_cause(const Diagnostic& a, const Diagnostic& b) {
   return !name.empty() && name == unknown_name_in(b);
 }
 
+bool is_before(const Position& a, const Position& b) {
+  return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+}
+
+/// Who forgets a unit, or takes a wrong one, does so in the whole list. Wrong ones are alike when the same is
+/// said of them.
+bool are_units_alike(const Diagnostic& a, const Diagnostic& b) {
+  return a.code == b.code && (a.code == "E201" || (a.message == b.message && a.help == b.help));
+}
+
 /// A name that nobody declared may stand in many places; one declaration mends them all.
 bool is_about_a_name(const Diagnostic& d) {
   return d.code == "E301" || d.code == "E303";
@@ -42,6 +53,7 @@ bool is_about_a_name(const Diagnostic& d) {
 
 int Diagnostics::add_source(Source source) {
   sources_.push_back(std::move(source));
+  collections_.emplace_back();
   return static_cast<int>(sources_.size()) - 1;
 }
 
@@ -55,6 +67,42 @@ void Diagnostics::add(Diagnostic diagnostic) {
     return;
   }
   diagnostics_.push_back(std::move(diagnostic));
+}
+
+void Diagnostics::add_collection(const Span& span) {
+  collections_.at(static_cast<std::size_t>(span.source)).push_back(span);
+}
+
+const Span* Diagnostics::collection_around(const Span& span) const {
+  if (!span.exists()) return nullptr;
+  const std::vector<Span>& all = collections_.at(static_cast<std::size_t>(span.source));
+  // Inner ones end first.
+  auto around =
+      std::partition_point(all.begin(), all.end(), [&](const Span& c) { return is_before(c.end, span.end); });
+  around = std::find_if(around, all.end(), [&](const Span& c) { return !is_before(span.begin, c.begin); });
+  return around == all.end() ? nullptr : &*around;
+}
+
+void Diagnostics::tell_units_together() {
+  const auto is_of_units = [](const Diagnostic& d) { return d.code == "E201" || d.code == "E202"; };
+  if (std::none_of(diagnostics_.begin(), diagnostics_.end(), is_of_units)) return;
+  diagnostics_ = sorted();
+  std::multimap<const Span*, std::size_t> first_of;  // what is told first in each collection
+  std::vector<Diagnostic> kept;
+  for (Diagnostic& d : diagnostics_) {
+    const Span* whole = is_of_units(d) ? collection_around(d.span) : nullptr;
+    const auto [begin, end] = first_of.equal_range(whole);
+    const auto first = whole == nullptr ? end : std::find_if(begin, end, [&](const auto& told) {
+      return are_units_alike(kept[told.second], d);
+    });
+    if (first != end) {
+      kept[first->second].related.push_back({d.span, "and here: " + d.help, d.replacement});
+      continue;
+    }
+    if (whole != nullptr) first_of.emplace(whole, kept.size());
+    kept.push_back(std::move(d));
+  }
+  diagnostics_ = std::move(kept);
 }
 
 bool Diagnostics::has_errors() const {
@@ -83,6 +131,7 @@ bool Diagnostics::is_allowed(const Diagnostic& d) {
 }
 
 void Diagnostics::settle() {
+  tell_units_together();
   std::erase_if(diagnostics_, [this](const Diagnostic& d) { return is_allowed(d); });
   // Behind an error the checks that warn may not have run.
   if (has_errors()) return;

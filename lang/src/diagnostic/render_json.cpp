@@ -33,12 +33,14 @@ ordered_json file(const Diagnostics& diagnostics, const Span& span) {
 
 ordered_json json_of(const Diagnostics& diagnostics, const Diagnostic& d) {
   ordered_json edits = ordered_json::array();
-  if (d.replacement && d.span.exists()) {
-    edits.push_back(
-        {{"file", file(diagnostics, d.span)}, {"range", range(d.span)}, {"text", *d.replacement}});
-  }
+  const auto add_edit = [&](const Span& span, const std::optional<std::string>& text) {
+    if (!text || !span.exists()) return;
+    edits.push_back({{"file", file(diagnostics, span)}, {"range", range(span)}, {"text", *text}});
+  };
+  add_edit(d.span, d.replacement);
   ordered_json related = ordered_json::array();
   for (const RelatedSpan& r : d.related) {
+    add_edit(r.span, r.replacement);
     related.push_back({{"file", file(diagnostics, r.span)}, {"range", range(r.span)}, {"text", r.text}});
   }
   return {{"code", d.code},
@@ -78,6 +80,10 @@ ordered_json sarif_region(const Span& span) {
           {"endColumn", span.end.column}};
 }
 
+ordered_json sarif_replacement(const Span& span, const std::string& text) {
+  return {{"deletedRegion", sarif_region(span)}, {"insertedContent", {{"text", text}}}};
+}
+
 ordered_json sarif_artifact(const Diagnostics& diagnostics, const Span& span) {
   return {{"uri", uri_of(diagnostics.source(span.source).path)}};
 }
@@ -101,10 +107,12 @@ ordered_json sarif_result(const Diagnostics& diagnostics, const Diagnostic& d) {
   }
   if (!related.empty()) result["relatedLocations"] = std::move(related);
   if (d.replacement) {
-    const ordered_json replacement = {{"deletedRegion", sarif_region(d.span)},
-                                      {"insertedContent", {{"text", *d.replacement}}}};
+    ordered_json replacements = ordered_json::array({sarif_replacement(d.span, *d.replacement)});
+    for (const RelatedSpan& r : d.related) {
+      if (r.replacement) replacements.push_back(sarif_replacement(r.span, *r.replacement));
+    }
     const ordered_json change = {{"artifactLocation", sarif_artifact(diagnostics, d.span)},
-                                 {"replacements", ordered_json::array({replacement})}};
+                                 {"replacements", std::move(replacements)}};
     result["fixes"] = ordered_json::array({{{"artifactChanges", ordered_json::array({change})}}});
   }
   return result;

@@ -67,7 +67,7 @@ Diagnostic reserved_name(const Span& span, const std::string& name);
 Diagnostic wrong_count(const Span& span, const std::string& what, std::size_t fewest, std::size_t most,
                        std::size_t found);
 Diagnostic range_ends(const Span& span, std::size_t found);
-Diagnostic range_where_value(const Span& span, const std::string& what);
+Diagnostic range_where_value(const Span& span, const std::string& what, const std::string& value);
 Diagnostic value_where_range(const Span& span, const std::string& what, const std::string& text);
 /// `instead` says it as a statement.
 Diagnostic bare_axis(const Span& span, const std::string& axis, const std::string& text,
@@ -135,7 +135,8 @@ Diagnostic not_settable(const Span& span, const std::string& name);
 Diagnostic template_recursion(const Span& span, const std::string& name);
 Diagnostic extra_argument(const Span& span, const std::string& name, const std::string& argument,
                           const std::string& meant);
-Diagnostic missing_template_argument(const Span& span, const std::string& name, const std::string& argument);
+Diagnostic missing_template_arguments(const Span& span, const std::string& name,
+                                      const std::vector<std::string>& arguments);
 Diagnostic wrong_argument(const Span& span, const std::string& argument, const std::string& expected);
 Diagnostic not_a_number_signal(const Span& span, const std::string& name, const Span& declared);
 Diagnostic not_a_pose_signal(const Span& span, const std::string& name, const Span& declared);

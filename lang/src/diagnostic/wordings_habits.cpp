@@ -49,6 +49,49 @@ Diagnostic contact_in_a_condition(const Span& span, const std::string& name) {
                "contact is motion that has ended: `moved(base_link) > 2 cm and speed(base_link) < 5 mm/s`");
 }
 
+namespace {
+
+struct ConditionWord {
+  std::string_view words;  ///< with a blank on both sides of each
+  const char* help;
+};
+constexpr std::array condition_words{
+    ConditionWord{
+        " done finished complete completed reached arrived succeeded success failed failure "
+        "goal_reached at_goal on_success on_failure ",
+        "an exit says how near is near enough, `abs(contact.x.position) < 1 cm`, or that motion has "
+        "ended, `speed(base_link) < 5 mm/s`"},
+    ConditionWord{" timeout timed_out time_out duration ",
+                  "the time since the task was entered is `elapsed`; its longest stands beside `exits`: "
+                  "`timeout: {after: 20 s, goto: failed}`"},
+    ConditionWord{" true True always yes on ",
+                  "an exit that waits for nothing but time says `elapsed > 2 s`"},
+    ConditionWord{" false False never no off ", "leave out the exit: it would never be taken"},
+};
+
+}  // namespace
+
+std::optional<Diagnostic> word_for_a_condition(const Span& span, const std::string& written) {
+  const std::string word = " " + written.substr(written.rfind('.') + 1) + " ";
+  for (const auto& [words, help] : condition_words) {
+    if (words.find(word) != std::string_view::npos)
+      return error("E301", span, "nothing named " + in_ticks(written) + " can be measured here", help);
+  }
+  return std::nullopt;
+}
+
+Diagnostic gear_as_a_ratio(const Span& span, const std::string& turns) {
+  return with_replacement(error("E105", span, "a gear is one number: the motor's turns for one of the joint",
+                                "write " + in_ticks(turns)),
+                          turns);
+}
+
+Diagnostic region_without_name(const Span& span, const std::string& region) {
+  return error("E104", span, "`inside` must be the name of a region",
+               "declare it, `regions: {area: " + (region.empty() ? "{polygon: [..]}" : region) +
+                   "}`, and write `inside: area`");
+}
+
 Diagnostic height_in_a_place(const Span& span, const std::string& what, const std::string& place) {
   return with_replacement(
       error("E104", span, what + " is a place on the floor: it has no height", "write " + in_ticks(place)),
@@ -103,6 +146,8 @@ Diagnostic unknown_parameter(const Span& span, const std::string& name,
 Diagnostic unknown_target(const Span& span, const std::string& name, const std::vector<std::string>& known) {
   Diagnostic diagnostic = unknown_name(span, "task", name, known);
   const std::string meant = meant_key(lower_case(name), {"done", "failed"});
+  const std::string plain = name.substr(name.rfind('.') + 1);
+  if (std::find(known.begin(), known.end(), plain) != known.end()) return with_suggestion(diagnostic, plain);
   return nearest(name, known).empty() ? with_suggestion(diagnostic, meant) : diagnostic;
 }
 

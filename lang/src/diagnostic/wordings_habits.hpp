@@ -2,6 +2,7 @@
 /// range, a heading in a place.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ Diagnostic vector_by_example(const Span& span, const std::string& what, const st
 Diagnostic named_items(const Span& span, const std::string& what, const std::string& name);
 /// A condition asks whether the robot touches something.
 Diagnostic contact_in_a_condition(const Span& span, const std::string& name);
+/// `true`, `go.done`, `timeout` in a condition; nullopt: a word of no other language.
+std::optional<Diagnostic> word_for_a_condition(const Span& span, const std::string& written);
+/// `26:1`; `turns` are those of the motor for one of the joint.
+Diagnostic gear_as_a_ratio(const Span& span, const std::string& turns);
+/// A region where its name is due; `region` is empty, or how it is declared.
+Diagnostic region_without_name(const Span& span, const std::string& region);
 /// `- name: wall` for `wall:`.
 Diagnostic name_in_an_item(const Span& span, const std::string& what, const std::string& key,
                            const std::string& name);

@@ -182,9 +182,12 @@ Diagnostic extra_argument(const Span& span, const std::string& name, const std::
       error("E303", span, "template `" + name + "` takes no argument " + in_ticks(argument)), meant);
 }
 
-Diagnostic missing_template_argument(const Span& span, const std::string& name, const std::string& argument) {
-  return error("E303", span, "template `" + name + "` needs the argument `" + argument + "`",
-               "add it under `with:`");
+Diagnostic missing_template_arguments(const Span& span, const std::string& name,
+                                      const std::vector<std::string>& arguments) {
+  const bool is_one = arguments.size() == 1;
+  std::string message = "template `" + name + (is_one ? "` needs the argument" : "` needs the arguments");
+  for (std::size_t i = 0; i < arguments.size(); ++i) message += (i == 0 ? " `" : ", `") + arguments[i] + "`";
+  return error("E303", span, message, is_one ? "add it under `with:`" : "add them under `with:`");
 }
 
 Diagnostic wrong_argument(const Span& span, const std::string& argument, const std::string& expected) {

@@ -281,7 +281,8 @@ Diagnostic no_inside(const Span& span, const std::string& region, double margin,
 }
 
 std::string with_unit(const std::string& written, const Dimension& expected) {
-  const QuantityResult result = parse_quantity(written);
+  const bool is_symmetric = written.starts_with("+-");
+  const QuantityResult result = parse_quantity(std::string_view(written).substr(is_symmetric ? 2 : 0));
   if (result.error != QuantityError::none || result.quantity.has_unit) return written;
   // Nobody turns by more than once in radians.
   const bool is_in_degrees = expected == dimension::angle && std::abs(result.quantity.value) > 6.3;

@@ -282,8 +282,9 @@ Diagnostic range_ends(const Span& span, std::size_t found) {
                "write `[low, high]`, with a comma between them");
 }
 
-Diagnostic range_where_value(const Span& span, const std::string& what) {
-  return error("E104", span, what + " takes a single value, not a range");
+Diagnostic range_where_value(const Span& span, const std::string& what, const std::string& value) {
+  return with_replacement(
+      error("E104", span, what + " takes a single value, not a range", "write " + in_ticks(value)), value);
 }
 
 Diagnostic value_where_range(const Span& span, const std::string& what, const std::string& text) {

@@ -1,6 +1,8 @@
 #include "robot/robot_file.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
@@ -64,6 +66,19 @@ std::string actuators_example(const Node& node) {
   return "{" + (line.empty() ? "left_wheel: {}" : line) + "}";
 }
 
+/// `26:1` and `1/26` for `26`. Whether it was so.
+bool complain_of_ratio(const Node& gear, Diagnostics& diagnostics) {
+  const std::size_t sign = gear.text.find_first_of(":/");
+  if (gear.is_bad || sign == std::string::npos) return false;
+  const QuantityResult first = parse_quantity(trimmed(gear.text.substr(0, sign)));
+  const QuantityResult second = parse_quantity(trimmed(gear.text.substr(sign + 1)));
+  const double a = first.quantity.value, b = second.quantity.value;
+  if (first.error != QuantityError::none || second.error != QuantityError::none || a <= 0.0 || b <= 0.0)
+    return false;
+  diagnostics.add(wording::gear_as_a_ratio(gear.span, format_number(std::max(a / b, b / a))));
+  return true;
+}
+
 /// `is_told`: who writes one as a plain number writes all so, and hears of it once.
 ActuatorText parse_actuator(const Entry& entry, bool is_told, Diagnostics& diagnostics) {
   ActuatorText actuator;
@@ -79,7 +94,8 @@ ActuatorText parse_actuator(const Entry& entry, bool is_told, Diagnostics& diagn
   if (const Node* slew = map.optional("slew")) {
     actuator.slew_text = parse_value(*slew, what + "'s slew", diagnostics);
   }
-  if (const Node* gear = map.optional("gear")) {
+  const Node* gear = map.optional("gear");
+  if (gear != nullptr && !complain_of_ratio(*gear, diagnostics)) {
     actuator.gear =
         parse_positive(*gear, dimension::none, what + "'s gear", false, diagnostics).value_or(1.0);
   }
@@ -125,9 +141,12 @@ void parse_limits(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
     const std::string value =
         wording::with_unit(axes->is_scalar() ? axes->text : "1", dimension_of(solver::Axis::x, quantity));
     MapReader axis_map(*axes, "`" + what + "`", diagnostics, "{x: +-" + value + "}");
+    bool is_told = false;  // who writes one limit as a single value writes all so
     for (const char* name : {"x", "y", "rz"}) {
       const Node* range = axis_map.optional(name);
       if (range == nullptr) continue;
+      const bool is_single = range->is_scalar() && !range->text.starts_with("+-");
+      if (is_single && std::exchange(is_told, true)) continue;
       const solver::Axis axis = *axis_named(name);
       const std::string path = what + "." + name;
       const StatementText text = parse_range(*range, path, diagnostics);

@@ -265,10 +265,9 @@ std::optional<Scenario> scenario_with_parameters(const ScenarioFile& file, const
 
 std::optional<Scenario> check_scenario(const fs::path& path, Diagnostics& diagnostics) {
   const std::optional<ScenarioFile> file = read_scenario(path, diagnostics);
-  if (!file) return std::nullopt;
-  std::optional<Scenario> scenario = scenario_with_parameters(*file, path, diagnostics);
-  if (!scenario) return std::nullopt;
-  CellChecker(*file, *scenario, diagnostics).check_all();
+  std::optional<Scenario> scenario;
+  if (file) scenario = scenario_with_parameters(*file, path, diagnostics);
+  if (scenario) CellChecker(*file, *scenario, diagnostics).check_all();
   diagnostics.settle();
   if (diagnostics.has_errors()) return std::nullopt;
   return scenario;

@@ -56,6 +56,11 @@ MatrixKey parse_matrix_key(const Entry& entry, Diagnostics& diagnostics) {
   MatrixKey key;
   key.name = entry.key.text;
   key.span = entry.key.span;
+  if (entry.value.is_scalar() && !entry.value.is_bad && entry.value.text.find("..") == std::string::npos) {
+    diagnostics.add(wording::vector_by_example(entry.value.span, "`matrix." + key.name + "`",
+                                               "[" + entry.value.text + "]"));
+    return key;
+  }
   if (!require_sequence(entry.value, "`matrix." + key.name + "`", diagnostics)) return key;
   const auto is_bare = [](const Node& item) { return item.is_scalar(); };
   const auto& items = entry.value.items;
@@ -122,8 +127,10 @@ void parse_fault_sets(const Node& node, ScenarioFile& file, Diagnostics& diagnos
 }
 
 std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& diagnostics) {
+  const bool is_condition = node.is_scalar() && node.text.find(' ') != std::string::npos;
   MapReader map(node, "an expectation", diagnostics,
-                "{outcome: " + (node.is_scalar() ? node.text : "done") + "}");
+                is_condition ? "{at: end, that: " + node.text + "}"
+                             : "{outcome: " + (node.is_scalar() ? node.text : "done") + "}");
   if (!map.is_mapping()) return std::nullopt;
   ExpectationText expected;
   expected.span = node.span;

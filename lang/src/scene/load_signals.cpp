@@ -52,31 +52,35 @@ void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostic
   }
   double last = -1.0;
   std::optional<StepValue> first;  // that says what the signal measures
-  Span first_span;
+  const Node* first_value = nullptr;
   for (const Node& step : node.items) {
     if (!step.is_sequence() || step.items.size() != 2) {
       diagnostics.add(wording::script_step(step.span));
       continue;
     }
-    const auto time = parse_plain(step.items[0], dimension::time, what, diagnostics);
-    if (!time) continue;
-    if (*time <= last) diagnostics.add(wording::times_not_rising(step.items[0].span, what));
-    last = *time;
+    const auto time =
+        parse_plain(step.items[0], dimension::time, "the first of each step of " + what, diagnostics);
+    if (time && *time <= last) diagnostics.add(wording::times_not_rising(step.items[0].span, what));
+    last = time.value_or(last);
     const Node& value = step.items[1];
-    const auto parsed = parse_step_value(value, step, *time, what, diagnostics);
+    const auto parsed = parse_step_value(value, step, last, what, diagnostics);
     if (!parsed) continue;
     signal.script.push_back(parsed->step);
     if (!parsed->step.valid) continue;
     if (!first) {
       first = parsed;
-      first_span = value.span;
+      first_value = &value;
       describe_script(*parsed, value.span, signal);
     } else if (first->dimension.has_value() != parsed->dimension.has_value()) {
-      diagnostics.add(wording::mixed_script(value.span, what, first->dimension.has_value(), first_span));
+      diagnostics.add(
+          wording::mixed_script(value.span, what, first->dimension.has_value(), first_value->span));
       return;
     } else if (first->dimension != parsed->dimension) {
-      diagnostics.add(wording::wrong_dimension(value.span, what, *first->dimension, *parsed->dimension));
-      return;
+      // The one without a unit lacks that of the other.
+      const bool is_first = *first->dimension == dimension::none;
+      const ValueText number = parse_value(is_first ? *first_value : value, what, diagnostics);
+      require_quantity(number, is_first ? *parsed->dimension : *first->dimension,
+                       "the second of each step of " + what, diagnostics);
     }
   }
 }
@@ -187,16 +191,16 @@ std::vector<Waypoint> parse_motion(const Node& node, const std::string& what, Di
     // Who writes one point as a list writes all so.
     if (!map.is_mapping()) return points;
     Waypoint point;
-    if (const Node* time = map.required("time")) {
-      point.time = parse_plain(*time, dimension::time, what, diagnostics).value_or(last + 1.0);
-      if (point.time <= last) diagnostics.add(wording::times_not_rising(time->span, what));
-      last = point.time;
+    if (const Node* when = map.required("time")) {
+      const auto time = parse_plain(*when, dimension::time, what + "'s `time`", diagnostics);
+      if (time && *time <= last) diagnostics.add(wording::times_not_rising(when->span, what));
+      point.time = last = time.value_or(last);
     }
     if (const Node* at = map.required("at")) {
-      point.at = parse_place(*at, what, "yaw", diagnostics).value_or(point.at);
+      point.at = parse_place(*at, what + "'s `at`", "yaw", diagnostics).value_or(point.at);
     }
     if (const Node* yaw = map.optional("yaw"))
-      point.yaw = parse_plain(*yaw, dimension::angle, what, diagnostics).value_or(0.0);
+      point.yaw = parse_plain(*yaw, dimension::angle, what + "'s `yaw`", diagnostics).value_or(0.0);
     map.finish();
     points.push_back(point);
   }

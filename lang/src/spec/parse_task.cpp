@@ -6,6 +6,7 @@
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "spec/in_one_line.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -127,6 +128,18 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
   return axis;
 }
 
+/// `inside: [[0 m, 0 m], ..]` and `inside: {polygon: ..}` for a region's name. Whether it was so.
+bool complain_of_region(const Node& node, Diagnostics& diagnostics) {
+  const bool is_region = node.find("polygon") != nullptr || node.find("circle") != nullptr;
+  const bool is_list = node.items.size() > 1;
+  if (node.is_bad || (!is_region && !is_list)) return false;
+  const bool has_corners = is_list && node.items[0].is_sequence();
+  const std::string written = in_one_line(node, dimension::length);
+  diagnostics.add(wording::region_without_name(
+      node.span, is_region ? written : (has_corners ? "{polygon: " + written + "}" : "")));
+  return true;
+}
+
 GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnostics) {
   GroupText group;
   group.name = parse_name(entry.key, "a group's name", diagnostics);
@@ -146,7 +159,8 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
     group.axes.push_back(std::move(axis));
   } else if (is_meant("inside")) {
     group.kind = GroupKind::inside;
-    if (const Node* region = map.required("inside")) {
+    const Node* region = map.required("inside");
+    if (region != nullptr && !complain_of_region(*region, diagnostics)) {
       group.region = parse_word(*region, "`inside`", diagnostics);
     }
     if (const Node* node = map.required("move")) group.move = parse_word(*node, "`move`", diagnostics);

@@ -11,6 +11,7 @@
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/decimal_comma.hpp"
 #include "spec/in_one_line.hpp"
+#include "spec/task_file.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -94,6 +95,12 @@ void MapReader::report_unknown_keys() {
   // Several keys may have one way out, which is told with the first of them.
   std::set<std::string> told;
   const auto is_new = [&](const std::string& remedy) { return told.insert(remedy).second; };
+  const auto is_told = [&](const std::string& meant) {
+    return std::any_of(told.begin(), told.end(), [&](const std::string& remedy) {
+      return remedy.find("`" + meant + "`") != std::string::npos;
+    });
+  };
+  std::vector<const Entry*> others;
   for (const Entry& entry : node_.entries) {
     if (!is_unknown(entry) || (split_reported_ && entry.value.kind == NodeKind::null)) continue;
     const std::string& key = entry.key.text;
@@ -101,25 +108,25 @@ void MapReader::report_unknown_keys() {
     if (begin != key && std::find(known_.begin(), known_.end(), begin) != known_.end()) {
       diagnostics_.add(wording::no_colon_or_space(entry.key.span, key, begin));
       std::erase(missing_, begin);
-      continue;
-    }
-    if (const std::string remedy = remedy_of(entry); !remedy.empty()) {
+    } else if (const std::string remedy = remedy_of(entry); !remedy.empty()) {
       if (is_new(remedy)) diagnostics_.add(wording::said_otherwise(entry.key.span, key, what_, remedy));
       missing_.clear();
-      continue;
+    } else {
+      others.push_back(&entry);
     }
+  }
+  for (const Entry* entry : others) {
+    const std::string& key = entry->key.text;
     const std::string meant = meant_key(key, absent);
-    if (meant.empty()) {
-      puzzling.push_back(&entry.key);
-      continue;
-    }
+    if (meant.empty()) puzzling.push_back(&entry->key);
+    if (meant.empty() || is_told(meant)) continue;
     // The misspelt key was the missing one: one cause, one message.
     std::erase(missing_, meant);
     const std::string whole = whole_of_parts(meant);
     if (whole.empty()) {
-      diagnostics_.add(wording::unknown_key(entry.key.span, key, what_, meant, known_, {}));
+      diagnostics_.add(wording::unknown_key(entry->key.span, key, what_, meant, known_, {}));
     } else if (is_new(whole)) {
-      diagnostics_.add(wording::said_otherwise(entry.key.span, key, what_, "write " + in_ticks(whole)));
+      diagnostics_.add(wording::said_otherwise(entry->key.span, key, what_, "write " + in_ticks(whole)));
     }
   }
   for (const Node* key : puzzling) {
@@ -137,7 +144,26 @@ std::string MapReader::remedy_of(const Entry& entry) const {
   if (knows("constraints") && (value.find("move") != nullptr || value.find("feature") != nullptr))
     return "a group stands in `constraints`: indent it below that";
   if (const std::string way = way_out(what_, entry.key.text); !way.empty()) return way;
+  if (knows("rz") && is_axis_in_one_word(entry)) return axes_in_one_word();
   return knows("time_constant") ? range_of_bound(entry) : "";
+}
+
+bool MapReader::is_axis_in_one_word(const Entry& entry) const {
+  return is_unknown(entry) && !entry.value.is_bad && !entry.value.is_mapping() &&
+         entry.value.kind != NodeKind::null && axis_in_one_word(entry.key.text).has_value();
+}
+
+/// All that are like `vx: 0.1 m/s`, as `x: {velocity: 0.1 m/s}`.
+std::string MapReader::axes_in_one_word() const {
+  std::string written;
+  for (const Entry& entry : node_.entries) {
+    if (!is_axis_in_one_word(entry)) continue;
+    const AxisInOneWord word = *axis_in_one_word(entry.key.text);
+    written += (written.empty() ? "write " : ", ") +
+               in_ticks(word.axis + ": {" + word_of(word.quantity) + ": " +
+                        in_one_line(entry.value, dimension_of(*axis_named(word.axis), word.quantity)) + "}");
+  }
+  return written;
 }
 
 /// `max_velocity: 0.2 m/s` and `velocity_limit: 0.2 m/s` as a range.
@@ -179,9 +205,11 @@ std::string MapReader::whole_of_parts(const std::string& meant) const {
 Word parse_word(const Node& node, const std::string& what, Diagnostics& diagnostics) {
   if (node.is_bad) return {};
   if (!node.is_scalar() || trimmed(node.text).empty()) {
-    // `{file: mini.yaml}` for `mini.yaml`.
-    const bool holds_word = node.entries.size() == 1 && node.entries[0].value.is_scalar();
-    diagnostics.add(wording::expected_word(node.span, what, holds_word ? node.entries[0].value.text : ""));
+    // `{file: mini.yaml}` and `[mini.yaml]` for `mini.yaml`.
+    const bool is_one = node.entries.size() + node.items.size() == 1;
+    const Node* word = !is_one ? nullptr : node.is_mapping() ? &node.entries[0].value : &node.items[0];
+    diagnostics.add(
+        wording::expected_word(node.span, what, word != nullptr && word->is_scalar() ? word->text : ""));
     return {};
   }
   return {node.text, node.span};

@@ -40,6 +40,8 @@ class MapReader {
   void report_unknown_keys();
   /// How an unknown key's matter is said here; empty: it may be a misspelt key.
   std::string remedy_of(const Entry& entry) const;
+  bool is_axis_in_one_word(const Entry& entry) const;
+  std::string axes_in_one_word() const;
   std::string range_of_bound(const Entry& entry) const;
   std::string whole_of_parts(const std::string& meant) const;
 

@@ -190,9 +190,12 @@ bool Templates::fill_arguments(const Template& used, const Node& task, const std
       is_good = false;
     }
   }
+  std::vector<std::string> missing;
   for (const std::string& argument : known) {
-    if (values.contains(argument) || is_misspelt) continue;
-    diagnostics_.add(wording::missing_template_argument(task.find("use")->value.span, name, argument));
+    if (!values.contains(argument) && !is_misspelt) missing.push_back(argument);
+  }
+  if (!missing.empty()) {
+    diagnostics_.add(wording::missing_template_arguments(task.find("use")->value.span, name, missing));
     is_good = false;
   }
   return is_good;

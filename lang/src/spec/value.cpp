@@ -119,7 +119,7 @@ ValueText parse_value(const Node& node, const std::string& what, Diagnostics& di
   }
   const std::string text = trimmed(node.text);
   if (text.starts_with("+-")) {
-    diagnostics.add(wording::range_where_value(node.span, what));
+    diagnostics.add(wording::range_where_value(node.span, what, trimmed(std::string_view(text).substr(2))));
     return bad;
   }
   return parse_value_text(text, node.span, diagnostics);
@@ -194,6 +194,9 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
     }
     statement.high = parse_value_text(magnitude, node.span, diagnostics);
     statement.low = negated(statement.high);
+    // The unit that is missing is missing behind the sign of both.
+    if (!statement.high.quantity.has_unit)
+      statement.low.quantity.number = statement.high.quantity.number = "+-" + magnitude;
     return statement;
   }
   if (is_odd_range(node, what, diagnostics)) {

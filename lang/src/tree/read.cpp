@@ -182,6 +182,9 @@ class TreeBuilder final : public YAML::EventHandler {
       const std::size_t from = index_.offset(end) + (is_empty ? 1 : 0);
       node.span.end = index_.position(end_of_flow(text_, from, node.is_mapping() ? '}' : ']'));
     }
+    // One in brackets belongs to the lines around it, but to those of the whole file.
+    const std::size_t depth = levels_.size();
+    if (depth == 1 || (depth > 1 && !node.is_flow)) diagnostics_.add_collection(node.span);
     place(std::move(node));
   }
 

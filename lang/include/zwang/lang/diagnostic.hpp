@@ -16,6 +16,7 @@ enum class Severity { note, warning, error };
 struct RelatedSpan {
   Span span;
   std::string text;
+  std::optional<std::string> replacement;  ///< the literal text that may replace `span`
 };
 
 struct Diagnostic {
@@ -49,6 +50,9 @@ class Diagnostics {
   const Source& source(int index) const { return sources_.at(static_cast<std::size_t>(index)); }
 
   void add(Diagnostic diagnostic);
+  /// A list or mapping of a source: those in it come before it. Missing units in the innermost one around
+  /// them are one mistake.
+  void add_collection(const Span& span);
   bool has_errors() const;
   int error_count() const;
   /// In the order of the text: by source, then position.
@@ -57,15 +61,18 @@ class Diagnostics {
   int count(Severity severity) const;
 
   void allow(Allowance allowance) { allowances_.push_back(std::move(allowance)); }
-  /// Takes out what allowances silence, and tells of those that silence nothing: for when all has been said.
-  /// The load functions end with it.
+  /// For when all has been said: tells the missing units of one list or mapping together, takes out what
+  /// allowances silence, and tells of those that silence nothing. The load functions end with it.
   void settle();
   const std::vector<Silenced>& silenced() const { return silenced_; }
 
  private:
   bool is_allowed(const Diagnostic& diagnostic);
+  const Span* collection_around(const Span& span) const;
+  void tell_units_together();
 
   std::vector<Source> sources_;
+  std::vector<std::vector<Span>> collections_;  ///< of each source, in the order of their ends
   std::vector<Diagnostic> diagnostics_;
   std::vector<Allowance> allowances_;
   std::vector<Silenced> silenced_;
