@@ -44,6 +44,7 @@ class PlanarBase : public runtime::Plant {
     sensed.state.base_pose.position = {pose_.x(), pose_.y(), 0.0};
     sensed.state.base_twist.linear = {V_.x(), V_.y(), 0.0};
     sensed.state.base_twist.angular = {0.0, 0.0, V_.z()};
+    sensed.base_measured = true;  // on a robot that only has its wheels leave base and this alone
     return runtime::PlantStatus::ok;
   }
 

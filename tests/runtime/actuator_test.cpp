@@ -121,6 +121,7 @@ TEST(Slip, OfOneWheelAndOfAllIsToldOnceAndWithinASecond) {
   for (const int slipping : {1, 4}) {
     Runner runner(program, {.period = period});
     Sensed sensed(program.robot.model, program.signals.size());
+    sensed.base_measured = true;  // it stands, whatever the wheels say
     double told = -1.0;
     for (int i = 0; i < 1000; ++i) {
       sensed.time = i * period;
@@ -227,6 +228,7 @@ TEST(HotReload, SwapsAtATickWithoutAJump) {
 
   Runner other(shipped_program("obstacle.yaml", "omni"), {.period = period});
   EXPECT_FALSE(runner.swap_program(other));
+  EXPECT_FALSE(runner.swap_program(next)) << "what has run would go on in the middle of its task";
 }
 
 TEST(HotReload, AHalfWrittenFileIsRefusedOrWholeInItself) {

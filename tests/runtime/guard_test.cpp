@@ -80,9 +80,27 @@ TEST(Guard, ATorqueThatIsNotFiniteStopsAndIsNeverClampedIntoFullTorque) {
 }
 
 TEST(Guard, RefusesAStateOfTheWrongSize) {
-  Bench bench;
-  bench.sensed.state.qd.resize(3);
-  EXPECT_EQ(bench.guard.admit(bench.sensed), SampleStatus::not_finite);
+  Bench rates, wrenches;
+  rates.sensed.state.qd.resize(3);
+  EXPECT_EQ(rates.guard.admit(rates.sensed), SampleStatus::not_finite);
+  wrenches.sensed.state.f_ext.resize(2);
+  EXPECT_EQ(wrenches.guard.admit(wrenches.sensed), SampleStatus::not_finite);
+}
+
+// What a quaternion gives that nobody normalised, or a mirrored frame; four decimals of one are sound.
+TEST(Guard, RefusesAPoseWhoseRotationIsNone) {
+  const Eigen::Quaterniond quarter(std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5));
+  for (const auto& [rotation, status] :
+       {std::pair{(1.01 * solver::Matrix3::Identity()).eval(), SampleStatus::not_finite},
+        std::pair{solver::Matrix3(Eigen::Vector3d(1, -1, 1).asDiagonal()), SampleStatus::not_finite},
+        std::pair{Eigen::Quaterniond(0.7071, 0.0, 0.0, 0.7071).toRotationMatrix().eval(), SampleStatus::good},
+        std::pair{Eigen::Quaterniond(-quarter.coeffs()).toRotationMatrix().eval(), SampleStatus::good}}) {
+    Bench bench;
+    bench.sensed.state.base_pose.rotation = rotation;
+    EXPECT_EQ(bench.guard.admit(bench.sensed), status) << rotation;
+    if (status == SampleStatus::good) continue;
+    EXPECT_EQ(bench.guard.reason(), EventCode::bad_sample);
+  }
 }
 
 TEST(Guard, CutsTorquesToTheJointsLimits) {

@@ -269,6 +269,7 @@ class PlanarBase {
 
   void sense(Sensed& sensed) const {
     sensed.time = time;
+    sensed.base_measured = true;
     sensed.state.base_pose.rotation = solver::rotation_from_rpy(0, 0, pose.z());
     sensed.state.base_pose.position = {pose.x(), pose.y(), 0.0};
     sensed.state.base_twist.linear = {V.x(), V.y(), 0.0};

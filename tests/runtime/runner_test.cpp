@@ -186,6 +186,53 @@ TEST(Runner, ReckonsTheBaseFromTheWheelsWhereItIsNotMeasured) {
   EXPECT_LT((reckoned.base.pose - measured.base.pose).norm(), 1e-4);
 }
 
+// A host that says nothing of the base fills in the joints alone: the wheels say how it moves.
+TEST(Runner, ReckonsTheBaseOfAHostThatFillsInTheJointsAlone) {
+  Loop loop(errand());
+  Sensed joints(errand().robot.model);
+  double fastest = 0.0;
+  while (!loop.runner.finished() && loop.base.time < 20.0) {
+    loop.base.sense(loop.sensed);
+    joints.time = loop.sensed.time;
+    joints.state.q = loop.sensed.state.q;
+    joints.state.qd = loop.sensed.state.qd;
+    loop.base.step(loop.runner.step(joints));
+    fastest = std::max(fastest, loop.base.V.x());
+  }
+  EXPECT_EQ(loop.runner.state(), RunState::done);
+  EXPECT_LE(fastest, 0.3 * 1.001);
+}
+
+TEST(Runner, AFixThatIsStampedAheadKeepsOutNoneThatFollows) {
+  ReckoningLoop loop(errand());
+  const auto tick_with_fix = [&](double stamp) {
+    loop.sensed.base_fix = MeasuredPose{stamp, {solver::Matrix3::Identity(), {5.0, 0.0, 0.0}}};
+    loop.tick();
+  };
+  for (int i = 0; i < 10; ++i) loop.tick();
+  tick_with_fix(1e6);
+  for (int i = 0; i < 100; ++i) loop.tick();
+  EXPECT_EQ(loop.runner.transitions().size(), 1u);
+  for (int i = 0; i < 200; ++i) tick_with_fix(loop.base.time - period);
+  EXPECT_LT(loop.base.pose.x(), 0.1);
+  EXPECT_GE(loop.runner.transitions().size(), 2u) << "drawn to 5 m, it has moved by more than 20 cm";
+}
+
+// The second stop of a run waits for the base to stand as the first does.
+TEST(Runner, AStopAfterAResetBrakesToRest) {
+  Loop loop(errand());
+  for (const char* which : {"first", "second"}) {
+    for (int i = 0; i < 400; ++i) loop.tick();
+    ASSERT_GT(loop.base.V.x(), 0.05) << which;
+    loop.runner.guard().stop(EventCode::requested);
+    loop.tick();
+    EXPECT_FALSE(loop.runner.finished()) << which;
+    while (!loop.runner.finished() && loop.base.time < 20.0) loop.tick();
+    EXPECT_LT(loop.base.V.norm(), 0.02) << which;
+    loop.runner.guard().reset();
+  }
+}
+
 // Where the springs of its wheels let the body lean, gravity along its own x is the floor's to hold.
 TEST(Runner, ABaseThatLeansOnItsWheelsPushesAsOneThatIsLevel) {
   for (const bool measured : {true, false}) {

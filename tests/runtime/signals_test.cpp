@@ -75,6 +75,18 @@ TEST(PoseSignal, StaysFixedInTheWorldBetweenSamples) {
   }
 }
 
+TEST(PoseSignal, WhoseRotationIsNoneDidNotCome) {
+  Bench bench(docking({to_socket()}));
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, 0.0);
+  bench.tick();
+  see(bench, {1.1 * solver::Matrix3::Identity(), {3.0, 0.0, 0.0}}, bench.sensed.time);
+  bench.tick();
+  EXPECT_EQ(bench.constraint(0).in.pose.position.x(), 1.5);
+  see(bench, {solver::Matrix3::Identity(), {3.0, 0.0, 0.0}}, bench.sensed.time);
+  bench.tick();
+  EXPECT_EQ(bench.constraint(0).in.pose.position.x(), 2.5);
+}
+
 TEST(PoseSignal, HasNoVelocityUnlessItCarriesATwist) {
   Bench bench(docking({to_socket()}));
   // Seen turned by 90 deg: its x is the base's y. It moves along the base's x at 0.2 m/s and turns.

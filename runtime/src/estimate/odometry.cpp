@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "estimate/rotation.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -34,8 +36,10 @@ Pose way_along(const solver::MotionVector& twist, double dt) {
   return {turn(sine, cosine), {s * x - c * y, c * x + s * y, 0.0}};
 }
 
-bool finite(const Pose& pose) {
-  return pose.position.allFinite() && pose.rotation.allFinite();
+/// Written so that NaN fails.
+bool is_sound(const Pose& pose) {
+  constexpr double largest = 1e9;  // [m]
+  return pose.position.cwiseAbs().maxCoeff() <= largest && is_rotation(pose.rotation);
 }
 
 }  // namespace
@@ -88,7 +92,7 @@ const Odometry::Past* Odometry::at(double stamp) const noexcept {
 /// of E that the time since the last measurement is worth, 1 - exp(-dt/T), is made good now:
 ///   X_WB := E^part X_WB,   E = X_measured X_then^-1
 bool Odometry::correct(double stamp, const Pose& measured) noexcept {
-  if (!std::isfinite(stamp) || !finite(measured)) return false;
+  if (!std::isfinite(stamp) || !is_sound(measured)) return false;
   const Past* then = at(stamp);
   if (then == nullptr) return false;
   const double since = std::max(0.0, stamp - last_correction_);

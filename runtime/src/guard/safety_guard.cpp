@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "estimate/rotation.hpp"
 #include "guard/arm_hold.hpp"
 #include "guard/joint_limits.hpp"
 #include "guard/wheel_brake.hpp"
@@ -112,6 +113,8 @@ Event SafetyGuard::find_bad_entry(const Sensed& sensed) const noexcept {
   if (s.q.size() != joints || s.qd.size() != joints || s.tau_ff.size() != joints) {
     return bad(-1, static_cast<double>(s.q.size()));
   }
+  if (s.f_ext.size() != static_cast<std::size_t>(joints) + 1)
+    return bad(-1, static_cast<double>(s.f_ext.size()));
   for (int j = 0; j < joints; ++j) {
     if (!plausible(s.q(j))) return bad(of_joint(j, q), s.q(j));
     if (!plausible(s.qd(j))) return bad(of_joint(j, qd), s.qd(j));
@@ -120,6 +123,7 @@ Event SafetyGuard::find_bad_entry(const Sensed& sensed) const noexcept {
   const auto has_bad = [](const auto& values) { return !plausible(first_implausible(values)); };
   const auto of_matrix = s.base_pose.rotation.reshaped();
   if (has_bad(of_matrix)) return bad(base_pose, first_implausible(of_matrix));
+  if (!is_rotation(s.base_pose.rotation)) return bad(base_pose, s.base_pose.rotation.determinant());
   if (has_bad(s.base_pose.position)) return bad(base_pose, first_implausible(s.base_pose.position));
   if (has_bad(s.base_twist.angular)) return bad(base_twist, first_implausible(s.base_twist.angular));
   if (has_bad(s.base_twist.linear)) return bad(base_twist, first_implausible(s.base_twist.linear));

@@ -399,6 +399,7 @@ struct MujocoPlant::Simulation {
     if (sensed.state.q.size() != robots[robot].joint_count()) return PlantStatus::unreachable;
     sensed.time = time();
     robots[robot].sense(*model, *data, sensed.state);
+    sensed.base_measured = true;
     return PlantStatus::ok;
   }
 

@@ -187,8 +187,11 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   if (!reckoning) odometry.start_at(base);
   reckoning = true;
   if (sensed.base_fix && sensed.base_fix->stamp > last_fix) {
-    last_fix = sensed.base_fix->stamp;
-    odometry.correct(last_fix, sensed.base_fix->pose);
+    // One that is stamped ahead must not keep out those that follow.
+    if (sensed.base_fix->stamp <= sensed.time + 0.5 * period) {
+      last_fix = sensed.base_fix->stamp;
+      odometry.correct(last_fix, sensed.base_fix->pose);
+    }
   }
   odometry.update(sensed.time, estimated.state);
 }
@@ -328,7 +331,11 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   } else if (good) {
     p.disturbance.pause();
   }
-  if (!p.guard.stopped()) p.stop_is_told = false;
+  if (!p.guard.stopped()) {
+    p.stop_is_told = false;
+    p.stopped_ticks = 0;
+    p.stands = false;
+  }
   if (p.guard.stopped() && !p.stop_is_told) {
     p.stop_is_told = true;
     p.tell(p.guard.stop_event());
@@ -359,7 +366,8 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
 }
 
 bool Runner::swap_program(Runner& next) noexcept {
-  if (parts_->guard.stopped() || !next.parts_->has_the_joints_of(*parts_)) return false;
+  const bool has_run = next.parts_->scheduler.task() >= 0;
+  if (parts_->guard.stopped() || has_run || !next.parts_->has_the_joints_of(*parts_)) return false;
   std::swap(parts_, next.parts_);
   Parts& now = *parts_;
   Parts& before = *next.parts_;
@@ -464,7 +472,7 @@ std::optional<ShortfallReport> Runner::shortfall() const {
   }
   return report;
 }
-bool Runner::set_parameter(const std::string& name, double value) noexcept {
+bool Runner::set_parameter(std::string_view name, double value) noexcept {
   for (std::size_t i = 0; i < parts_->parameter_names.size(); ++i) {
     if (parts_->parameter_names[i] == name)
       return parts_->scheduler.set_parameter(static_cast<int>(i), value);

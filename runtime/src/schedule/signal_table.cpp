@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimate/rotation.hpp"
 #include "schedule/guards.hpp"
 
 namespace zwang::runtime {
@@ -22,14 +23,15 @@ double oldest(const lang::Signal& signal, const lang::Program& program) {
   return std::clamp(age, 0.0, longest_memory);
 }
 
-bool is_finite(const SignalSample& sample, lang::SignalType type) {
+/// Finite, and where it turns something a rotation.
+bool is_sound(const SignalSample& sample, lang::SignalType type) {
   switch (type) {
     case lang::SignalType::boolean:
       return true;
     case lang::SignalType::number:
       return std::isfinite(sample.number);
     case lang::SignalType::pose:
-      return sample.pose.rotation.allFinite() && sample.pose.position.allFinite() &&
+      return is_rotation(sample.pose.rotation) && sample.pose.position.allFinite() &&
              (!sample.twist || (sample.twist->angular.allFinite() && sample.twist->linear.allFinite()));
     case lang::SignalType::wrench:
       return sample.wrench.angular.allFinite() && sample.wrench.linear.allFinite();
@@ -116,7 +118,7 @@ void SignalTable::update(const Sensed& sensed, const std::vector<double>& parame
     if (is_pose && !started_) frames.feed(static_cast<int>(i), {-1, frames.pose(entry.declared.in), {}});
     if (i < sensed.signals.size()) {
       const SignalSample& sample = sensed.signals[i];
-      if (is_new(entry, sample, latest) && is_finite(sample, entry.declared.type)) {
+      if (is_new(entry, sample, latest) && is_sound(sample, entry.declared.type)) {
         take(static_cast<int>(i), sample, frames);
       }
     }

@@ -63,7 +63,7 @@ class MujocoPlant : public Plant {
   MujocoPlant(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options = {});
   ~MujocoPlant() override;
 
-  /// Once diverged, always diverged, and `sensed` stays as it is.
+  /// The base is measured. Once diverged, always diverged, and `sensed` stays as it is.
   PlantStatus sense(Sensed& sensed) noexcept override;
   /// `unreachable`, and no step, for torques that are not finite or too few. Torques are not clamped here.
   PlantStatus apply(const Eigen::VectorXd& tau) noexcept override;

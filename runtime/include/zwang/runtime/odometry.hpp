@@ -30,8 +30,8 @@ class Odometry {
   void update(double time, solver::State& state) noexcept;
 
   /// A pose X_WB of the base that was measured at `stamp` [s], which is not later than the last update; call
-  /// it before `update`, once a measurement. Only x, y and yaw count. False when it is too old or not finite,
-  /// and then nothing happens.
+  /// it before `update`, once a measurement. Only x, y and yaw count. False when it is too old, not finite or
+  /// its rotation is none, and then nothing happens.
   bool correct(double stamp, const solver::Pose& measured) noexcept;
 
   double slip() const noexcept { return slip_; }  ///< [m/s] by which the wheels contradict each other

@@ -16,8 +16,8 @@ namespace zwang::runtime {
 /// a sample with the stamp of the last one is the last one. The runtime keeps the latest valid sample and
 /// calls the signal invalid when that is older than the task file's `stale_after`; a signal that was never
 /// received ages from the start of the run. Samples are ignored, as if they had not come, that are not
-/// `valid`, hold a number that is not finite, are older than one that came before, or are stamped later than
-/// the snapshot.
+/// `valid`, hold a number that is not finite or a rotation that is none, are older than one that came before,
+/// or are stamped later than the snapshot.
 struct SignalSample {
   bool valid = false;  ///< false: nothing was measured, or nothing to be trusted
   double stamp = 0.0;  ///< [s] when it was measured, by the clock of `Sensed::time`
@@ -42,10 +42,10 @@ struct Sensed {
       : state(model), signals(signal_count) {}
   double time = 0.0;  ///< [s] by any clock that goes on evenly; it may count from 1970
   solver::State state;
-  /// Whether the state's base pose and twist are measured. If not, the runtime reckons them from the wheels;
-  /// the pose in the first snapshot is where it starts. On wheels its roll and pitch do not count: the floor
-  /// is level.
-  bool base_measured = true;
+  /// Whether the state's base pose and twist are measured: say so on every snapshot, or the runtime reckons
+  /// them from the wheels, and the pose in the first snapshot is where it starts. On wheels its roll and
+  /// pitch do not count: the floor is level.
+  bool base_measured = false;
   /// For the reckoning, where somebody measures it now and then. The same stamp again is the same
   /// measurement.
   std::optional<MeasuredPose> base_fix;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "zwang/lang/program.hpp"
@@ -72,13 +73,13 @@ class Runner {
 
   /// Sets a parameter of the task file, in SI, between two steps. False, and nothing happens, for a name that
   /// is unknown and a value outside the parameter's range. Does not allocate.
-  bool set_parameter(const std::string& name, double value) noexcept;
+  bool set_parameter(std::string_view name, double value) noexcept;
 
   /// From the next step on the program of `next` runs, from its start task, on the same robot: build it on
   /// another thread, from a file that may have changed, and swap between two steps. Guard, estimates and
   /// events stay; what the torques differ by fades within `handover`; the recorder is let go, as columns may
-  /// differ. `next` gets the old program. False, and nothing happens, when the joints are not the same, or
-  /// the protective stop is latched. Does not allocate, lock, throw or print.
+  /// differ. `next` gets the old program. False, and nothing happens, when `next` has run before, the joints
+  /// are not the same, or the protective stop is latched. Does not allocate, lock, throw or print.
   bool swap_program(Runner& next) noexcept;
   static constexpr double handover = 0.2;  ///< [s]
 

@@ -1,0 +1,16 @@
+/// What can be a rotation, whoever measured it.
+#pragma once
+
+#include "zwang/solver/spatial.hpp"
+
+namespace zwang::runtime {
+
+/// R R' = I to a thousandth, with det R = 1: a quaternion that was not normalised gives something else, which
+/// stretches and turns what is seen.
+inline bool is_rotation(const solver::Matrix3& R) noexcept {
+  constexpr double rounding = 1e-3;  // a quaternion of four decimals has 2e-4
+  const solver::Matrix3 square = R * R.transpose();
+  return (square - solver::Matrix3::Identity()).cwiseAbs().maxCoeff() <= rounding && R.determinant() > 0.0;
+}
+
+}  // namespace zwang::runtime
