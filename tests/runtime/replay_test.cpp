@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "../temporary_folder.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/recorder.hpp"
@@ -24,8 +26,10 @@ lang::Program wall_alignment() {
 }
 
 /// [m] where the base came to; the host sets `push` on the way, unless it is not positive.
-solver::Vector3 run(const lang::Program& program, double push, const std::filesystem::path& log,
-                    const ScenePlantOptions& options = {}) {
+solver::Vector3 run(
+    const lang::Program& program, double push, const std::filesystem::path& log,
+    const ScenePlantOptions& options = {},
+    const std::function<void(int, Runner&)>& host = [](int, Runner&) {}) {
   ScenePlant plant(program, options);
   Runner runner(program, {.period = period});
   std::vector<std::unique_ptr<LogSink>> sinks;
@@ -37,6 +41,7 @@ solver::Vector3 run(const lang::Program& program, double push, const std::filesy
     if (i == change_at && push > 0.0) {
       EXPECT_TRUE(runner.set_parameter("push", push));
     }
+    host(i, runner);
     recorder.wait_for_room();
     EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
     EXPECT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
@@ -57,6 +62,22 @@ TEST(Replay, KnowsTheParametersThatAHostSetDuringTheRun) {
     EXPECT_EQ(result.records, ticks);
     EXPECT_EQ(result.equal, result.records) << name;
   }
+}
+
+TEST(Replay, KnowsWhenAHostResetTheStop) {
+  const test::TemporaryFolder folder;
+  const lang::Program program = wall_alignment();
+  const std::filesystem::path log = folder.path() / "log.mcap";
+  run(program, 0.0, log, {}, [](int tick, Runner& runner) {
+    if (tick == 500) runner.guard().stop(EventCode::requested);
+    if (tick == 1500) runner.guard().reset();
+    if (tick == ticks - 1) {
+      EXPECT_EQ(runner.state(), RunState::running);
+    }
+  });
+  const ReplayResult result = replay(log, program, period);
+  EXPECT_EQ(result.records, ticks);
+  EXPECT_EQ(result.equal, result.records) << (result.first ? result.first->time : 0.0);
 }
 
 /// The brake leaves out a motor that is found at fault, and sends it 0 of either sign.

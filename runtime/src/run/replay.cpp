@@ -75,6 +75,12 @@ EventCode outside_stop(const json& record) {
   return EventCode::none;
 }
 
+/// The stop was latched when this record was written.
+bool is_stopped(const json& record) {
+  const auto guard = record.find("guard");
+  return guard != record.end() && *guard == to_string(GuardStatus::stopped);
+}
+
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
@@ -143,6 +149,7 @@ void replay_part(const ReplayPart& part, Runner& runner, ReplayResult& result) {
       if (!std::isnan(parameters[i]) && parameters[i] != runner.scheduler().parameters()[i])
         runner.set_parameter(program.parameters[i].name, parameters[i]);
     }
+    if (runner.guard().stopped() && !is_stopped(record)) runner.guard().reset();
     if (const EventCode reason = outside_stop(record); reason != EventCode::none) runner.guard().stop(reason);
     const Eigen::VectorXd& tau = runner.step(sensed);
     bool equal = true;

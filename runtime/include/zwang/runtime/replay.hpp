@@ -31,8 +31,8 @@ struct ReplayResult {
 };
 
 /// Every torque that was sent, compared bit by bit. Stops that came from outside are taken from the log's
-/// events, parameters that a host set during the run from its columns. Throws std::runtime_error when the log
-/// cannot be opened, or does not hold what was sensed.
+/// events, what a host reset from where the stop ended, parameters that it set from their columns. Throws
+/// std::runtime_error when the log cannot be opened, or does not hold what was sensed.
 ReplayResult replay(const std::filesystem::path& log, const lang::Program& program, double period);
 
 /// A log and the program of it.
