@@ -107,6 +107,12 @@ TEST(Odometry, WhatIsTooOldOrNotFiniteIsIgnored) {
   EXPECT_FALSE(odometry.correct(0.5, pose(1, 1, 1)));
   EXPECT_FALSE(odometry.correct(std::numeric_limits<double>::quiet_NaN(), pose(1, 1, 1)));
   EXPECT_FALSE(odometry.correct(1.0, pose(std::numeric_limits<double>::infinity(), 1, 1)));
+  for (int i = 0; i < 12; ++i) {
+    Pose bad = pose(1, 1, 1);
+    (i < 3 ? bad.position(i) : bad.rotation((i - 3) / 3, (i - 3) % 3)) =
+        std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(odometry.correct(1.0, bad)) << i;
+  }
   EXPECT_EQ(odometry.pose().position.norm(), 0.0);
   EXPECT_THROW(Odometry(base.robot.model, {}, {.period = 0.0}), std::invalid_argument);
 }

@@ -36,10 +36,9 @@ Pose way_along(const solver::MotionVector& twist, double dt) {
   return {turn(sine, cosine), {s * x - c * y, c * x + s * y, 0.0}};
 }
 
-/// Written so that NaN fails.
 bool is_sound(const Pose& pose) {
   constexpr double largest = 1e9;  // [m]
-  return pose.position.cwiseAbs().maxCoeff() <= largest && is_rotation(pose.rotation);
+  return (pose.position.array().abs() <= largest).all() && is_rotation(pose.rotation);
 }
 
 }  // namespace
