@@ -19,12 +19,8 @@ bool shifts_the_base(const PlannedAxis& axis) {
          !axis.is_feature() && !axis.turns();
 }
 
-bool stands_still(const PlannedAxis& axis) {
-  return axis.driver == solver::Quantity::velocity && axis.target == 0.0;
-}
-
 bool is_held_up(const PlannedAxis& axis, const PlannedAxis& still, Probe& probe) {
-  return shifts_the_base(axis) && !stands_still(axis) && still.level <= axis.level &&
+  return shifts_the_base(axis) && !axis.stands_still() && still.level <= axis.level &&
          probe.kinematic_rank({&axis, &still}) == 2 && probe.rank({&axis, &still}) == 1;
 }
 
@@ -33,7 +29,7 @@ bool is_held_up(const PlannedAxis& axis, const PlannedAxis& still, Probe& probe)
 void ask_askew(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   if (probe.base_mobility() != 2) return;
   for (const PlannedAxis& still : plan.axes) {
-    if (!shifts_the_base(still) || !stands_still(still) || !still.in_world) continue;
+    if (!shifts_the_base(still) || !still.stands_still() || !still.in_world) continue;
     const auto other = std::find_if(plan.axes.begin(), plan.axes.end(),
                                     [&](const PlannedAxis& axis) { return is_held_up(axis, still, probe); });
     if (other == plan.axes.end()) continue;

@@ -21,8 +21,7 @@ bool is_held_at_the_start(const PlannedAxis& axis, Probe& probe) {
 }
 
 bool steers(const PlannedAxis& axis, Probe& probe) {
-  const bool asks =
-      axis.drives_motion() && !(*axis.driver == solver::Quantity::velocity && axis.target == 0.0);
+  const bool asks = axis.drives_motion() && !axis.stands_still();
   return asks && axis.move.body == 0 && is_held_at_the_start(axis, probe);
 }
 

@@ -22,15 +22,11 @@ namespace {
 
 using Rows = std::vector<const PlannedAxis*>;
 
-bool stands_still(const PlannedAxis& axis) {
-  return *axis.driver == solver::Quantity::velocity && axis.target == 0.0;
-}
-
 /// Of a base with fewer than three freedoms, what `velocity: 0` holds depends on its heading: it may always
 /// be what the wheels hold anyway.
 bool counts(const PlannedAxis& axis, const Probe& probe) {
   return axis.drives_motion() && !axis.is_soft &&
-         (!stands_still(axis) || axis.move.body != 0 || probe.base_mobility() == 3);
+         (!axis.stands_still() || axis.move.body != 0 || probe.base_mobility() == 3);
 }
 
 /// The first row that adds nothing to those before it; nullptr when all do. Rows that depend on each other

@@ -50,6 +50,7 @@ struct PlannedAxis {
   const Span& span(solver::Quantity q) const { return spans[static_cast<std::size_t>(q)]; }
   const Span& driver_span() const { return span(*driver); }
   bool drives_motion() const { return driver && *driver != solver::Quantity::force && !is_spring; }
+  bool stands_still() const { return driver == solver::Quantity::velocity && target == 0.0; }
   bool turns() const { return measure == solver::Measure::angle || is_rotation(axis); }
   bool is_feature() const { return measure != solver::Measure::axis; }
   /// A way of the base along axes that do not turn with it: nobody knows how it will head to them by then.
