@@ -34,6 +34,10 @@ const char* to_string(EventCode code) noexcept {
       return "joint_speed";
     case EventCode::runaway:
       return "runaway";
+    case EventCode::rate_contradicts:
+      return "rate_contradicts";
+    case EventCode::wheel_reversed:
+      return "wheel_reversed";
     case EventCode::sensor_bias:
       return "sensor_bias";
     case EventCode::clock_refused:
@@ -46,6 +50,8 @@ const char* to_string(EventCode code) noexcept {
       return "wrench_refused";
     case EventCode::entry_refused:
       return "entry_refused";
+    case EventCode::signal_refused:
+      return "signal_refused";
   }
   return "?";
 }
@@ -82,6 +88,10 @@ const char* describe(EventCode code) noexcept {
       return "an arm's joint is faster than it may be";
     case EventCode::runaway:
       return "the base gets faster than it may while its motors are told to brake";
+    case EventCode::rate_contradicts:
+      return "the rate of a joint is not that of its position";
+    case EventCode::wheel_reversed:
+      return "a wheel's encoder counts the wrong way round";
     case EventCode::clock_refused:
       return "a sample's time was refused";
     case EventCode::sample_lost:
@@ -94,6 +104,8 @@ const char* describe(EventCode code) noexcept {
       return "a force from outside lies along an axis whose force is limited; the solver is not told";
     case EventCode::entry_refused:
       return "what a task requires to be entered does not hold";
+    case EventCode::signal_refused:
+      return "samples of a signal come by another clock, or with numbers that are none";
   }
   return "?";
 }

@@ -274,7 +274,8 @@ void SafetyGuard::latch(const Event& event) noexcept {
   if (stopped() || !latches_the_stop(event.code)) return;
   stop_event_ = event;
   const bool is_found = event.code >= EventCode::torque_lost && event.code <= EventCode::torque_flipped;
-  const bool names_motor = is_found || event.code == EventCode::runaway;
+  const bool names_motor =
+      is_found || event.code == EventCode::runaway || event.code == EventCode::wheel_reversed;
   brake_->begin(names_motor ? event_signal::joint_of(event.signal) : -1, is_found);
 }
 

@@ -80,7 +80,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
   add("missed", "", rows);
   add("missed.by", "");
   add("missed.held_back_by", "", rows);
-  add("event", "", words_up_to(EventCode::entry_refused));
+  add("event", "", words_up_to(EventCode::signal_refused));
   add("event.signal", "", event_signals);
   add("event.value", "");
   add("estimated.force.x", "N");

@@ -7,12 +7,15 @@
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
 #include "estimate/ticks.hpp"
+#include "guard/joint_rates.hpp"
 #include "guard/motor_watch.hpp"
 #include "guard/slip_watch.hpp"
+#include "guard/wheel_signs.hpp"
 #include "guard/wrench_refusal.hpp"
 #include "run/limit_table.hpp"
 #include "run/log_layout.hpp"
 #include "run/shortfall.hpp"
+#include "run/signal_watch.hpp"
 #include "run/statement_table.hpp"
 #include "schedule/at_rest.hpp"
 #include "zwang/runtime/odometry.hpp"
@@ -89,10 +92,13 @@ struct Runner::Parts {
         press(model),
         arm(model),
         disturbance(program.robot, period),
+        rates(model),
         motors(program.robot, period),
         slip(model),
+        signs(model),
         wrenches(model),
         signals(program.signals),
+        signal_watch(program),
         signal_words(event_signals(model, signal_names(program))),
         guard(program.robot,
               {.period = period, .max_lost_ticks = lost_ticks(period), .max_slew = settings.max_slew}),
@@ -111,6 +117,7 @@ struct Runner::Parts {
 
   /// What is known of a good sample: itself, or with the base as the wheels tell it.
   void estimate(const Sensed& sensed) noexcept;
+  void mend_rates() noexcept;
   /// Everything between that and the guard. False when there are no torques to send.
   bool control() noexcept;
   /// What motors and wheels made of the last command.
@@ -142,10 +149,13 @@ struct Runner::Parts {
   Press press;
   solver::JointLoads arm;
   DisturbanceObserver disturbance;
+  JointRates rates;
   MotorWatch motors;
   SlipWatch slip;
+  WheelSigns signs;
   WrenchRefusal wrenches;
   const std::vector<lang::Signal> signals;
+  SignalWatch signal_watch;
   const std::vector<std::string> signal_words;  ///< of events
   std::vector<bool> is_judged;                  ///< of each signal: it was looked at when the run began
   std::vector<Event> events;
@@ -174,6 +184,9 @@ struct Runner::Parts {
 void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   estimated.time = sensed.time;
   estimated.state = sensed.state;
+  if (const auto off = rates.look(estimated.state, sensed.time))
+    guard.stop(off->code, off->signal, off->value);
+  if (guard.stopped()) mend_rates();
   // A snapshot may have fewer or more signals than the program; the sample keeps its size.
   std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), sample.signals.size()),
               sample.signals.begin());
@@ -194,6 +207,15 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
     }
   }
   odometry.update(sensed.time, estimated.state);
+}
+
+/// A stop for rates that are wrong is over when the base stands by those that are not.
+void Runner::Parts::mend_rates() noexcept {
+  Eigen::VectorXd& qd = estimated.state.qd;
+  if (guard.reason() == EventCode::rate_contradicts) rates.mend(qd);
+  if (guard.reason() != EventCode::wheel_reversed) return;
+  const int joint = event_signal::joint_of(guard.stop_event().signal);
+  qd(joint) = -qd(joint);
 }
 
 bool Runner::Parts::control() noexcept {
@@ -259,6 +281,11 @@ void Runner::Parts::tell_refusal(SampleStatus status) noexcept {
 
 void Runner::Parts::compare() noexcept {
   if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
+  if (!slip.doubtful()) {
+    signs.reset();
+  } else if (const auto turned = signs.look(solver, estimated.state, sample.state, reckoning, sample.time)) {
+    guard.stop(turned->code, turned->signal, turned->value);
+  }
   if (!disturbance.compare(sample.state, sample.time)) {
     motors.reset();
     return;
@@ -319,6 +346,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   if (good) {
     p.estimate(sensed);
     p.judge_sensors(sensed);
+    if (const auto refused = p.signal_watch.look(sensed)) p.tell(*refused);
   }
   if (good && !p.guard.stopped()) {
     const bool computed = p.control();
@@ -373,6 +401,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   Parts& before = *next.parts_;
   std::swap(now.guard, before.guard);
   std::swap(now.odometry, before.odometry);
+  std::swap(now.rates, before.rates);
   std::swap(now.slip, before.slip);
   std::swap(now.friction, before.friction);
   now.reckoning = before.reckoning;

@@ -23,8 +23,15 @@ double oldest(const lang::Signal& signal, const lang::Program& program) {
   return std::clamp(age, 0.0, longest_memory);
 }
 
-/// Finite, and where it turns something a rotation.
-bool is_sound(const SignalSample& sample, lang::SignalType type) {
+/// The pose on the way from `a` to `b`: straight, and turning at a constant rate.
+solver::Pose between(const solver::Pose& a, const solver::Pose& b, double part) {
+  const Eigen::Quaterniond turn = Eigen::Quaterniond(a.rotation).slerp(part, Eigen::Quaterniond(b.rotation));
+  return {turn.toRotationMatrix(), a.position + part * (b.position - a.position)};
+}
+
+}  // namespace
+
+bool is_sound(const SignalSample& sample, lang::SignalType type) noexcept {
   switch (type) {
     case lang::SignalType::boolean:
       return true;
@@ -38,14 +45,6 @@ bool is_sound(const SignalSample& sample, lang::SignalType type) {
   }
   return false;
 }
-
-/// The pose on the way from `a` to `b`: straight, and turning at a constant rate.
-solver::Pose between(const solver::Pose& a, const solver::Pose& b, double part) {
-  const Eigen::Quaterniond turn = Eigen::Quaterniond(a.rotation).slerp(part, Eigen::Quaterniond(b.rotation));
-  return {turn.toRotationMatrix(), a.position + part * (b.position - a.position)};
-}
-
-}  // namespace
 
 SignalTable::SignalTable(const lang::Program& program, double period) : period_(period) {
   for (const lang::Signal& signal : program.signals) {

@@ -10,6 +10,9 @@
 
 namespace zwang::runtime {
 
+/// Its numbers are finite, and what turns something is a rotation.
+bool is_sound(const SignalSample& sample, lang::SignalType type) noexcept;
+
 class SignalTable {
  public:
   SignalTable(const lang::Program& program, double period);

@@ -22,9 +22,11 @@ enum class EventCode {
   torque_lost,
   torque_stuck,
   torque_flipped,
-  joint_travel,  ///< a joint of an arm is too near to the end of its travel for the speed that it has
-  joint_speed,   ///< a joint of an arm is faster than its URDF allows
-  runaway,       ///< faster than the task allows, and ever faster while the motors are told to brake
+  joint_travel,      ///< a joint of an arm is too near to the end of its travel for the speed that it has
+  joint_speed,       ///< a joint of an arm is faster than its URDF allows
+  runaway,           ///< faster than the task allows, and ever faster while the motors are told to brake
+  rate_contradicts,  ///< the rate of a joint is not that of its position
+  wheel_reversed,    ///< what a wheel contradicts the others by is gone when its rate is given the other sign
   // Those that are only told.
   clock_refused,  ///< time went backwards, or jumped
   sample_lost,    ///< none has arrived since the last tick
@@ -32,6 +34,8 @@ enum class EventCode {
   slip,
   wrench_refused,  ///< along an axis whose force is limited, f_ext is not for the solver
   entry_refused,   ///< what a task requires to be entered does not hold; `value` is the task's number
+  signal_refused,  ///< samples of it come, and cannot be taken; `value`: a stamp that is ahead by so much, or
+                   ///< 0
 };
 const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".

@@ -1,0 +1,56 @@
+/// Tells when the encoder of a wheel counts the wrong way round.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "zwang/runtime/event.hpp"
+#include "zwang/solver/solver.hpp"
+#include "zwang/solver/state.hpp"
+#include "zwang/solver/wheel_odometry.hpp"
+
+namespace zwang::runtime {
+
+/// The ground allows some of the measured velocities and takes slip away from the others. Slip that is gone
+/// when the rate of one wheel is given the other sign, and stays so while the rates change, is none: that
+/// wheel is measured the wrong way round. Told where the wheels or a measured base know more velocities than
+/// the ground leaves free. Which wheel it is need not be told: when a base with four mecanum wheels goes
+/// straight ahead, turning any of them explains it. Does not allocate, lock, throw or print after
+/// construction.
+class WheelSigns {
+ public:
+  explicit WheelSigns(const solver::Model& model);
+
+  /// Wheels do not slip.
+  void reset() noexcept;
+  /// While wheels seem to slip: `measured` and `allowed` are the sample before and after `solver` projected
+  /// it. `is_reckoned`: the base's twist comes from the wheels. The event has the rate of the wheel.
+  std::optional<Event> look(solver::Solver& solver, const solver::State& measured,
+                            const solver::State& allowed, bool is_reckoned, double time) noexcept;
+
+  static constexpr double look_every = 0.005;  ///< [s]
+  static constexpr double window = 0.05;       ///< [s]
+  static constexpr int windows = 3;            ///< in a row
+  static constexpr double left = 0.04;         ///< of the squared slip: a fifth of its size
+
+ private:
+  struct Wheel {
+    int joint = 0;
+    double radius = 0.0;
+    double square_slip = 0.0;  ///< [m^2/s^2] with its rate turned, a sum over the looks of the window
+    int explains = 0;          ///< windows in a row
+  };
+  double square_slip(const solver::State& measured, const solver::State& allowed) const noexcept;
+  void begin_window(double time) noexcept;
+
+  solver::WheelOdometry odometry_;
+  solver::State turned_;
+  solver::State allowed_;
+  std::vector<Wheel> wheels_;
+  double square_slip_ = 0.0;  ///< [m^2/s^2] as measured, a sum over the looks of the window
+  double began_ = 0.0;        ///< [s] the window
+  double looked_ = 0.0;       ///< [s] last
+  bool slips_ = false;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,31 @@
+#include "run/signal_watch.hpp"
+
+#include <algorithm>
+
+#include "schedule/signal_table.hpp"
+
+namespace zwang::runtime {
+
+SignalWatch::SignalWatch(const lang::Program& program) : joints_(program.robot.model.joint_count()) {
+  for (const lang::Signal& signal : program.signals) signals_.push_back({.type = signal.type});
+}
+
+std::optional<Event> SignalWatch::look(const Sensed& sensed) noexcept {
+  const std::size_t count = std::min(signals_.size(), sensed.signals.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const SignalSample& sample = sensed.signals[i];
+    Watched& watched = signals_[i];
+    // One that stays until the next comes gets old, and that is no fault.
+    if (!sample.valid || watched.is_told || sample.stamp == watched.stamp) continue;
+    watched.stamp = sample.stamp;
+    const double lead = sample.stamp - sensed.time;
+    const bool is_timely = lead <= ahead && lead >= -behind;
+    if (is_timely && is_sound(sample, watched.type)) continue;
+    watched.is_told = true;
+    const int signal = event_signal::measured(joints_, static_cast<int>(i));
+    return Event{EventCode::signal_refused, sensed.time, signal, is_timely ? 0.0 : lead};
+  }
+  return std::nullopt;
+}
+
+}  // namespace zwang::runtime

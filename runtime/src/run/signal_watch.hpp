@@ -1,0 +1,38 @@
+/// Tells when samples of a signal come, and cannot be taken.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/event.hpp"
+#include "zwang/runtime/plant.hpp"
+
+namespace zwang::runtime {
+
+/// Stamped ahead of the snapshot, or so long before it that it must be by another clock; with a number that
+/// is not finite or a rotation that is none. Without a word such a signal would look like one that never
+/// came. Does not allocate, lock, throw or print after construction.
+class SignalWatch {
+ public:
+  explicit SignalWatch(const lang::Program& program);
+
+  /// Every good sample. Each signal is told once. The event's value: by how much its stamp is ahead [s]; 0
+  /// where it is not the stamp.
+  std::optional<Event> look(const Sensed& sensed) noexcept;
+
+  static constexpr double ahead = 0.1;    ///< [s] a stamp of the next few ticks is only early
+  static constexpr double behind = 60.0;  ///< [s]
+
+ private:
+  struct Watched {
+    lang::SignalType type = lang::SignalType::boolean;
+    double stamp = std::numeric_limits<double>::quiet_NaN();  ///< [s] of the last sample
+    bool is_told = false;
+  };
+  std::vector<Watched> signals_;
+  int joints_;
+};
+
+}  // namespace zwang::runtime

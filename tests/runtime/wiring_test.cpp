@@ -1,0 +1,207 @@
+// What the first hour on a robot of one's own has in store: rates that are never filled in, in another unit,
+// an encoder that counts the other way round, signals by another clock. The robot is simulated, the host
+// between it and the runner makes one mistake.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <numbers>
+
+#include "guard/joint_rates.hpp"
+#include "robots.hpp"
+#include "shipped_program.hpp"
+#include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+using zwang::test::shipped_program;
+
+constexpr double period = 1e-3;
+using Mistake = std::function<void(solver::State&)>;
+
+struct Trial {
+  EventCode reason = EventCode::none;
+  std::string signal;
+  double found = 0.0;         ///< [s]
+  double fastest = 0.0;       ///< [m/s] of the base, by the plant
+  double speed_at_end = 0.0;  ///< [m/s] when the runner says that it is over
+};
+
+Trial drive(const char* task, const char* robot, const Mistake& mistake, double longest = 10.0) {
+  const lang::Program program = shipped_program(task, robot);
+  ScenePlant plant(program);
+  Runner runner(program, {.period = period});
+  Sensed sensed(program.robot.model, program.signals.size());
+  Trial run;
+  while (!runner.finished() && plant.truth().time < longest) {
+    EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
+    mistake(sensed.state);
+    EXPECT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+    run.fastest = std::max(run.fastest, plant.truth().velocity.head<2>().norm());
+  }
+  run.reason = runner.guard().reason();
+  run.signal = runner.event_signal(runner.guard().stop_event());
+  run.found = runner.guard().stop_event().time;
+  run.speed_at_end = plant.truth().velocity.head<2>().norm();
+  std::printf("%s, %s: %s by %s after %.2f s, %.3f m/s at most, %.4f m/s at the end\n", task, robot,
+              to_string(run.reason), run.signal.c_str(), run.found, run.fastest, run.speed_at_end);
+  return run;
+}
+
+const char* const robots[] = {"mecanum", "omni", "diff", "kelo_two", "kelo"};
+const char* task_of(const std::string& robot) {
+  return robot == "diff" ? "wall_align.yaml" : "obstacle.yaml";
+}
+
+/// Believed to stand it would be sped up for ever. Until it is found it speeds up with what the tasks allow,
+/// 0.5 m/s^2: the rates count from 0.04 rad in a window on, which may be under way then, and three follow.
+TEST(Wiring, RatesThatAreNeverFilledInStopTheBase) {
+  for (const char* robot : robots) {
+    const Trial run = drive(task_of(robot), robot, [](solver::State& state) { state.qd.setZero(); });
+    EXPECT_EQ(run.reason, EventCode::rate_contradicts) << robot;
+    const double counts = 2.0 * JointRates::resolution / JointRates::window;
+    const double radius = shipped_program(task_of(robot), robot).robot.model.wheels()[0].radius;
+    EXPECT_LE(run.fastest, counts * radius + 0.5 * (1 + JointRates::windows) * JointRates::window) << robot;
+    EXPECT_LT(run.speed_at_end, 0.02) << robot << " stands by what its positions say";
+  }
+}
+
+/// In degrees, in turns, with the other sign.
+TEST(Wiring, RatesInAnotherUnitStopTheBase) {
+  for (const double factor : {180.0 / std::numbers::pi, 0.5 / std::numbers::pi, -1.0}) {
+    const Trial run =
+        drive("obstacle.yaml", "mecanum", [factor](solver::State& state) { state.qd *= factor; });
+    EXPECT_NE(run.reason, EventCode::none) << factor;
+    EXPECT_LE(run.fastest, 0.3) << factor;
+    EXPECT_LT(run.speed_at_end, 0.02) << factor;
+  }
+}
+
+/// On a base with more wheels than freedoms the others tell; where there are as many, the motor turns the
+/// wrong way by all that is known.
+TEST(Wiring, AnEncoderThatCountsTheOtherWayRoundStopsTheBase) {
+  struct {
+    const char *task, *robot;
+  } const of[] = {{"obstacle.yaml", "mecanum"}, {"docking.yaml", "mecanum"},   {"obstacle.yaml", "omni"},
+                  {"wall_align.yaml", "diff"},  {"obstacle.yaml", "kelo_two"}, {"obstacle.yaml", "kelo"}};
+  for (const auto& [task, robot] : of) {
+    const int wheel = shipped_program(task, robot).robot.model.wheels()[0].body - 1;
+    const Trial run = drive(task, robot, [wheel](solver::State& state) {
+      state.q(wheel) = -state.q(wheel);
+      state.qd(wheel) = -state.qd(wheel);
+    });
+    EXPECT_NE(run.reason, EventCode::none) << robot;
+    EXPECT_LE(run.fastest, 0.2) << robot;
+    EXPECT_LT(run.speed_at_end, 0.02) << robot;
+  }
+}
+
+TEST(Wiring, AReversedEncoderIsNamed) {
+  const Trial run = drive("obstacle.yaml", "mecanum", [](solver::State& state) {
+    state.q(1) = -state.q(1);
+    state.qd(1) = -state.qd(1);
+  });
+  EXPECT_EQ(run.reason, EventCode::wheel_reversed);
+  EXPECT_EQ(run.signal.substr(run.signal.size() - 3), ".qd");
+}
+
+/// Encoders that begin anew with each turn, of 512 steps, and rates that are 20 ms late with noise.
+TEST(Wiring, CoarseNoisyAndLateIsNoContradiction) {
+  const lang::Robot robot = test::mecanum_robot();
+  JointRates rates(robot.model);
+  solver::State state(robot.model);
+  const double step = 2.0 * std::numbers::pi / 512.0, late = 0.02;
+  double fastest = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    const double t = i * period;
+    const auto q = [](double at) { return 8.0 * std::sin(1.5 * at) + 3.0 * std::sin(4.0 * at); };
+    const auto qd = [](double at) { return 12.0 * std::cos(1.5 * at) + 12.0 * std::cos(4.0 * at); };
+    const double turned = std::floor(q(t) / step) * step;
+    const double noise = 0.3 * std::sin(1e4 * t);
+    state.q.setConstant(turned - 2.0 * std::numbers::pi * std::floor(turned / (2.0 * std::numbers::pi)));
+    state.qd.setConstant(qd(t - late) + noise);
+    fastest = std::max(fastest, std::abs(qd(t)));
+    ASSERT_FALSE(rates.look(state, t)) << t;
+  }
+  EXPECT_GT(fastest, 20.0);
+}
+
+TEST(Wiring, ARateOfOtherSizeIsToldAfterThreeWindows) {
+  const lang::Robot robot = test::mecanum_robot();
+  for (const double factor : {0.0, 0.3, 3.0, -1.0}) {
+    JointRates rates(robot.model);
+    solver::State state(robot.model);
+    double told = -1.0;
+    for (int i = 0; i < 1000 && told < 0.0; ++i) {
+      state.q(2) = 5.0 * i * period;
+      state.qd(2) = factor * 5.0;
+      if (const auto event = rates.look(state, i * period)) {
+        told = i * period;
+        EXPECT_EQ(event->code, EventCode::rate_contradicts);
+        EXPECT_EQ(event_signal::joint_of(event->signal), 2);
+      }
+    }
+    EXPECT_NEAR(told, JointRates::windows * JointRates::window, 3.0 * period) << factor;
+    Eigen::VectorXd qd = state.qd;
+    rates.mend(qd);
+    const double by_position = 5.0 * (1.0 - std::exp(-told / JointRates::quick));
+    EXPECT_NEAR(qd(2), factor == 3.0 ? 15.0 : by_position, 1e-9) << factor;
+  }
+}
+
+/// A task that measures a distance, whose samples `set` makes.
+struct Signals {
+  explicit Signals(const std::function<void(SignalSample&, double)>& set) {
+    lang::Program p = test::program(
+        {test::task("stand", {test::drive("go.x", test::Axis::x, test::Quantity::velocity, 0.0)})});
+    lang::Signal range;
+    range.name = "range";
+    range.type = lang::SignalType::number;
+    range.stale_after.constant = 0.5;
+    p.signals.push_back(range);
+    Runner runner(p);
+    Sensed sensed(p.robot.model, 1);
+    sensed.base_measured = true;
+    for (int i = 0; i < 500; ++i) {
+      sensed.time = 1000.0 + i * period;
+      sensed.signals[0] = {.valid = true, .stamp = sensed.time, .number = 1.0};
+      set(sensed.signals[0], sensed.time);
+      runner.step(sensed);
+    }
+    events = runner.events();
+    if (!events.empty()) name = runner.event_signal(events[0]);
+    EXPECT_EQ(runner.state(), RunState::running);
+  }
+  std::vector<Event> events;
+  std::string name;
+};
+
+TEST(Wiring, ASignalByAnotherClockIsToldOnce) {
+  for (const double off : {0.2, 1.7e9, -61.0, -1000.0}) {
+    const Signals run([off](SignalSample& sample, double time) { sample.stamp = time + off; });
+    ASSERT_EQ(run.events.size(), 1U) << off;
+    EXPECT_EQ(run.events[0].code, EventCode::signal_refused);
+    EXPECT_EQ(run.name, "signal.range");
+    EXPECT_NEAR(run.events[0].value, off, 1e-6 * std::abs(off));
+  }
+}
+
+TEST(Wiring, ASampleThatIsEarlyOrStaysIsNotTold) {
+  const Signals early([](SignalSample& sample, double time) { sample.stamp = time + 0.01; });
+  EXPECT_TRUE(early.events.empty());
+  const Signals stays([](SignalSample& sample, double) { sample.stamp = 1000.0; });
+  EXPECT_TRUE(stays.events.empty());
+}
+
+TEST(Wiring, ASampleThatIsNoNumberIsTold) {
+  const Signals run([](SignalSample& sample, double) { sample.number = std::nan(""); });
+  ASSERT_EQ(run.events.size(), 1U);
+  EXPECT_EQ(run.events[0].code, EventCode::signal_refused);
+  EXPECT_EQ(run.events[0].value, 0.0);
+}
+
+}  // namespace
+}  // namespace zwang::runtime
