@@ -196,6 +196,18 @@ TEST(Runaway, IsNoHitOfSomebodyElse) {
   EXPECT_EQ(mass.found(2.0, speed, [&](double t) { return brake(speed(t)); }), -1.0);
 }
 
+TEST(Runaway, OfWhateverCauseIsFoundFarBeyondTheSpeed) {
+  // Told to brake so little that no motor explains it, from rest with 0.5 m/s^2. Twice the speed is far.
+  for (const double limit : {0.1, 0.6}) {
+    OneMass mass(-limit, limit);
+    const auto speed = [](double t) { return 0.5 * std::max(0.0, t); };
+    const double at = mass.found(5.0, speed, [](double) { return -0.5; });
+    const double passed = (limit + std::max(RunawayWatch::far, RunawayWatch::share_far * limit)) / 0.5;
+    EXPECT_GT(at, passed);
+    EXPECT_LT(at, passed + (RunawayWatch::dwell + 3) * RunawayWatch::look_every + RunawayWatch::quick);
+  }
+}
+
 TEST(Runaway, IsNoTightenedLimit) {
   OneMass mass(-0.1, 0.1);
   const auto speed = [](double t) { return std::max(0.0, 0.6 - 0.4 * t); };
@@ -286,6 +298,36 @@ TEST(ProtectiveStop, BrakesWithAMotorThatTurnsTheWrongWay) {
     EXPECT_EQ(runner.guard().reason(), EventCode::requested);
     EXPECT_GT(rest_since, 0.0) << robot;
     EXPECT_LT(rest_since, 4.0) << robot;
+  }
+}
+
+/// All of them from the same moment on, or all encoders: no single one that is left out makes it better.
+TEST(ProtectiveStop, BrakesWithAllMotorsThatTurnTheWrongWay) {
+  for (const char* robot : {"mecanum", "omni", "diff", "kelo"}) {
+    const lang::Program program = load(robot);
+    ScenePlantOptions options;
+    options.simulation.start_yaw = 0.0;
+    ScenePlant plant(program, options);
+    Runner runner(program, {.period = period});
+    Sensed sensed(program.robot.model, program.signals.size());
+    double fastest = 0.0;
+    while (!runner.finished() && plant.truth().time < 10.0) {
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      const bool is_broken = plant.truth().time >= 3.0;
+      if (is_broken) runner.guard().stop(EventCode::requested);
+      const Eigen::VectorXd& tau = runner.step(sensed);
+      ASSERT_EQ(plant.apply(is_broken ? Eigen::VectorXd(-tau) : tau), PlantStatus::ok);
+      fastest = std::max(fastest, plant.truth().velocity.head<2>().norm());
+    }
+    std::printf("%s: stands %.2f s after the stop, %.3f m/s at most\n", robot, plant.truth().time - 3.0,
+                fastest);
+    EXPECT_LT(plant.truth().velocity.head<2>().norm(), 0.02) << robot;
+    EXPECT_LT(plant.truth().time, 6.0) << robot;
+    // One look finds it, and each motor is left out for one, while the others speed the base up with the
+    // stop's force. What begins between two looks is seen by the next but one.
+    const double looks = static_cast<double>(program.robot.model.wheels().size()) + 3.0;
+    const double a = program.robot.stop.force / program.robot.model.total_mass();
+    EXPECT_LT(fastest, 0.08 + a * looks * 0.02) << robot;
   }
 }
 

@@ -20,7 +20,11 @@ namespace {
 using zwang::test::shipped_program;
 
 constexpr double period = 1e-3;
-using Mistake = std::function<void(solver::State&)>;
+/// With what is sensed, and with what is sent.
+struct Mistake {
+  std::function<void(solver::State&)> sensed = [](solver::State&) {};
+  std::function<void(Eigen::VectorXd&)> sent = [](Eigen::VectorXd&) {};
+};
 
 struct Trial {
   EventCode reason = EventCode::none;
@@ -38,8 +42,10 @@ Trial drive(const char* task, const char* robot, const Mistake& mistake, double 
   Trial run;
   while (!runner.finished() && plant.truth().time < longest) {
     EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
-    mistake(sensed.state);
-    EXPECT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+    mistake.sensed(sensed.state);
+    Eigen::VectorXd tau = runner.step(sensed);
+    mistake.sent(tau);
+    EXPECT_EQ(plant.apply(tau), PlantStatus::ok);
     run.fastest = std::max(run.fastest, plant.truth().velocity.head<2>().norm());
   }
   run.reason = runner.guard().reason();
@@ -60,7 +66,8 @@ const char* task_of(const std::string& robot) {
 /// 0.5 m/s^2: the rates count from 0.04 rad in a window on, which may be under way then, and three follow.
 TEST(Wiring, RatesThatAreNeverFilledInStopTheBase) {
   for (const char* robot : robots) {
-    const Trial run = drive(task_of(robot), robot, [](solver::State& state) { state.qd.setZero(); });
+    const Trial run =
+        drive(task_of(robot), robot, {.sensed = [](solver::State& state) { state.qd.setZero(); }});
     EXPECT_EQ(run.reason, EventCode::rate_contradicts) << robot;
     const double counts = 2.0 * JointRates::resolution / JointRates::window;
     const double radius = shipped_program(task_of(robot), robot).robot.model.wheels()[0].radius;
@@ -73,7 +80,7 @@ TEST(Wiring, RatesThatAreNeverFilledInStopTheBase) {
 TEST(Wiring, RatesInAnotherUnitStopTheBase) {
   for (const double factor : {180.0 / std::numbers::pi, 0.5 / std::numbers::pi, -1.0}) {
     const Trial run =
-        drive("obstacle.yaml", "mecanum", [factor](solver::State& state) { state.qd *= factor; });
+        drive("obstacle.yaml", "mecanum", {.sensed = [factor](solver::State& state) { state.qd *= factor; }});
     EXPECT_NE(run.reason, EventCode::none) << factor;
     EXPECT_LE(run.fastest, 0.3) << factor;
     EXPECT_LT(run.speed_at_end, 0.02) << factor;
@@ -89,10 +96,10 @@ TEST(Wiring, AnEncoderThatCountsTheOtherWayRoundStopsTheBase) {
                   {"wall_align.yaml", "diff"},  {"obstacle.yaml", "kelo_two"}, {"obstacle.yaml", "kelo"}};
   for (const auto& [task, robot] : of) {
     const int wheel = shipped_program(task, robot).robot.model.wheels()[0].body - 1;
-    const Trial run = drive(task, robot, [wheel](solver::State& state) {
-      state.q(wheel) = -state.q(wheel);
-      state.qd(wheel) = -state.qd(wheel);
-    });
+    const Trial run = drive(task, robot, {.sensed = [wheel](solver::State& state) {
+                              state.q(wheel) = -state.q(wheel);
+                              state.qd(wheel) = -state.qd(wheel);
+                            }});
     EXPECT_NE(run.reason, EventCode::none) << robot;
     EXPECT_LE(run.fastest, 0.2) << robot;
     EXPECT_LT(run.speed_at_end, 0.02) << robot;
@@ -100,12 +107,46 @@ TEST(Wiring, AnEncoderThatCountsTheOtherWayRoundStopsTheBase) {
 }
 
 TEST(Wiring, AReversedEncoderIsNamed) {
-  const Trial run = drive("obstacle.yaml", "mecanum", [](solver::State& state) {
-    state.q(1) = -state.q(1);
-    state.qd(1) = -state.qd(1);
-  });
+  const Trial run = drive("obstacle.yaml", "mecanum", {.sensed = [](solver::State& state) {
+                            state.q(1) = -state.q(1);
+                            state.qd(1) = -state.qd(1);
+                          }});
   EXPECT_EQ(run.reason, EventCode::wheel_reversed);
   EXPECT_EQ(run.signal.substr(run.signal.size() - 3), ".qd");
+}
+
+/// The sign of all torques, or of all encoders: the base speeds up against its own brake. Found by the first
+/// torques, 0.04 s and what the observer is late by after they count, at a speed of 0.5 m/s^2 for 0.1 s at
+/// most.
+TEST(Wiring, MotorsThatAllTurnTheOtherWayStopTheBase) {
+  const Mistake torques{.sent = [](Eigen::VectorXd& tau) { tau = -tau; }};
+  const Mistake encoders{.sensed = [](solver::State& state) {
+    state.q = -state.q;
+    state.qd = -state.qd;
+  }};
+  for (const char* robot : robots) {
+    for (const Mistake& mistake : {torques, encoders}) {
+      const Trial run = drive(task_of(robot), robot, mistake);
+      EXPECT_EQ(run.reason, EventCode::motors_reversed) << robot;
+      EXPECT_LE(run.fastest, 0.05) << robot;
+      EXPECT_LT(run.speed_at_end, 0.01) << robot;
+    }
+  }
+}
+
+/// Two motors that are told what the other is: no single motor explains it, and forward the base goes as it
+/// should. It is stopped when it is far faster than it may, be it by 0.2 m/s or twice the 0.15 m/s, has
+/// gained for a `dwell` by then, and for as many choices of the brake, none of which is right.
+TEST(Wiring, TwoMotorsInEachOthersPlaceAreNotDrivenOn) {
+  for (const auto& [task, robot] : {std::pair{"obstacle.yaml", "omni"},
+                                    {"wall_align.yaml", "omni"},
+                                    {"obstacle.yaml", "mecanum"},
+                                    {"wall_align.yaml", "mecanum"}}) {
+    const Mistake swapped{.sent = [](Eigen::VectorXd& tau) { std::swap(tau(0), tau(1)); }};
+    const Trial run = drive(task, robot, swapped, 30.0);
+    EXPECT_EQ(run.reason, EventCode::runaway) << task;
+    EXPECT_LE(run.fastest, 0.15 + 0.2 + 1.0 * (0.05 + 6 * 0.04)) << task;
+  }
 }
 
 /// Encoders that begin anew with each turn, of 512 steps, and rates that are 20 ms late with noise.

@@ -38,6 +38,8 @@ const char* to_string(EventCode code) noexcept {
       return "rate_contradicts";
     case EventCode::wheel_reversed:
       return "wheel_reversed";
+    case EventCode::motors_reversed:
+      return "motors_reversed";
     case EventCode::sensor_bias:
       return "sensor_bias";
     case EventCode::clock_refused:
@@ -92,6 +94,8 @@ const char* describe(EventCode code) noexcept {
       return "the rate of a joint is not that of its position";
     case EventCode::wheel_reversed:
       return "a wheel's encoder counts the wrong way round";
+    case EventCode::motors_reversed:
+      return "the base accelerates against what its motors are told";
     case EventCode::clock_refused:
       return "a sample's time was refused";
     case EventCode::sample_lost:

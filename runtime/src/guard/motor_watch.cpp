@@ -3,13 +3,15 @@
 namespace zwang::runtime {
 
 MotorWatch::MotorWatch(const lang::Robot& robot, double period)
-    : actuators_(robot, period),
+    : signs_(robot, period),
+      actuators_(robot, period),
       beside_contact_(robot, period),
       runaway_(robot.model.joint_count(), period),
       reversed_(robot, runaway_.period_of_looks()),
       contact_(robot, runaway_.period_of_looks()) {}
 
 void MotorWatch::reset() noexcept {
+  signs_.pause();
   actuators_.reset();
   beside_contact_.reset();
   runaway_.reset();
@@ -20,10 +22,11 @@ void MotorWatch::reset() noexcept {
 std::optional<Event> MotorWatch::look(DisturbanceObserver& observer, const solver::State& state,
                                       const Eigen::VectorXd& sent,
                                       const solver::ConstraintSet& set) noexcept {
-  std::optional<Event> first = actuators_.look(observer, state.q, contact_);
+  std::optional<Event> first = signs_.look(observer);
   const auto take = [&first](const std::optional<Event>& found) {
     if (!first) first = found;
   };
+  take(actuators_.look(observer, state.q, contact_));
   take(beside_contact_.look(observer));
   if (!runaway_.follow(sent, state.qd)) return first;
   const double power = observer.power(runaway_.rates());

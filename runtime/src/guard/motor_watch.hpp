@@ -8,6 +8,7 @@
 #include "guard/actuator_watch.hpp"
 #include "guard/contact_depth.hpp"
 #include "guard/motor_beside_contact.hpp"
+#include "guard/motor_signs.hpp"
 #include "guard/reversed_motor.hpp"
 #include "guard/runaway_watch.hpp"
 #include "zwang/lang/robot.hpp"
@@ -19,8 +20,8 @@ namespace zwang::runtime {
 
 /// In free motion a motor is told by its force (ActuatorWatch), beside one contact by the line that it takes
 /// the force off (MotorBesideContact), and beside any number of them by its work (ReversedMotor,
-/// RunawayWatch). What a contact that was pressed in (ContactDepth) gives back is no motor's. Does not
-/// allocate, lock, throw or print after construction.
+/// RunawayWatch); all motors together by the first torques (MotorSigns). What a contact that was pressed in
+/// (ContactDepth) gives back is no motor's. Does not allocate, lock, throw or print after construction.
 class MotorWatch {
  public:
   /// `period` [s] from one look to the next.
@@ -34,6 +35,7 @@ class MotorWatch {
                             const Eigen::VectorXd& sent, const solver::ConstraintSet& set) noexcept;
 
  private:
+  MotorSigns signs_;
   ActuatorWatch actuators_;
   MotorBesideContact beside_contact_;
   RunawayWatch runaway_;

@@ -21,8 +21,15 @@ double outside(double velocity, double low, double high) noexcept {
   return std::max(low - velocity, velocity - high);
 }
 
+struct Margin {
+  double speed, turn;  ///< [m/s], [rad/s]
+  double share;        ///< of the speed that is driven or allowed, where that is more
+};
+constexpr Margin near_margin{RunawayWatch::margin, RunawayWatch::turn_margin, RunawayWatch::share};
+constexpr Margin far_margin{RunawayWatch::far, RunawayWatch::turn_far, RunawayWatch::share_far};
+
 /// How many margins the velocity is beyond what the constraint drives or allows.
-double excess(const AxisConstraint& c, double velocity) noexcept {
+double excess(const AxisConstraint& c, double velocity, const Margin& margin) noexcept {
   double low = -solver::infinity, high = solver::infinity;
   if (c.velocity) {
     low = c.velocity->low;
@@ -34,17 +41,17 @@ double excess(const AxisConstraint& c, double velocity) noexcept {
   }
   const double bound = velocity < 0.0 ? low : high;
   if (std::isinf(bound)) return -solver::infinity;
-  const double margin = is_turn(c) ? RunawayWatch::turn_margin : RunawayWatch::margin;
-  return outside(velocity, low, high) / std::max(margin, RunawayWatch::share * std::abs(bound));
+  const double least = is_turn(c) ? margin.turn : margin.speed;
+  return outside(velocity, low, high) / std::max(least, margin.share * std::abs(bound));
 }
 
 /// The largest of the constraints that are in force, wholly and still.
-double largest_excess(const solver::ConstraintSet& set) noexcept {
+double largest_excess(const solver::ConstraintSet& set, const Margin& margin) noexcept {
   const std::vector<AxisConstraint>& all = set.constraints();
   double largest = 0.0;
   for (std::size_t i = 0; i < all.size() && i < set.coordinates().size(); ++i) {
     if (all[i].alpha < 1.0 || all[i].progress < 1.0) continue;
-    largest = std::max(largest, excess(all[i], set.coordinates()[i].velocity));
+    largest = std::max(largest, excess(all[i], set.coordinates()[i].velocity, margin));
   }
   return largest;
 }
@@ -58,19 +65,24 @@ RunawayWatch::RunawayWatch(int joints, double period)
       rates_(Eigen::VectorXd::Zero(joints)),
       beyond_{.work = rates_},
       steady_{.work = rates_},
+      far_{.work = rates_},
       steady_force_(Eigen::VectorXd::Zero(joints + 6)) {}
 
 void RunawayWatch::reset() noexcept {
   is_exceeded_ = false;
+  far_.forget(last_energy_, {});
   beyond_.forget(last_energy_, {});
   steady_.forget(last_energy_, {});
   force_size_ = 0;
 }
 
 bool RunawayWatch::follow(const Eigen::VectorXd& sent, const Eigen::VectorXd& qd) noexcept {
+  if (!has_rates_) rates_ = qd;
+  has_rates_ = true;
   rates_ += part_ * (qd - rates_);
   beyond_.work += period_ * sent.cwiseProduct(qd);
   steady_.work += period_ * sent.cwiseProduct(qd);
+  far_.work += period_ * sent.cwiseProduct(qd);
   if (++ticks_ < ticks_between_looks_) return false;
   ticks_ = 0;
   return true;
@@ -88,7 +100,7 @@ bool RunawayWatch::keeps(Force force) noexcept {
 
 std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
                                         const ContactDepth& contact) noexcept {
-  const double margins = largest_excess(set);
+  const double margins = largest_excess(set, near_margin);
   const bool exceeds = margins > 1.0;
   if (exceeds && !is_exceeded_) {
     largest_before_ = *std::max_element(energies_.begin(), energies_.end());
@@ -101,6 +113,10 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
   } else {
     steady_.forget(kinetic_energy, contact.now());
   }
+  const bool is_far =
+      kinetic_energy > std::max(last_energy_, largest_before_) && largest_excess(set, far_margin) > 1.0;
+  if (!is_far) far_.forget(kinetic_energy, contact.now());
+  far_.follow(is_far);
   is_exceeded_ = exceeds;
   last_energy_ = kinetic_energy;
   energies_[looks_++ % energies_.size()] = kinetic_energy;
@@ -109,7 +125,7 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
            contact.is_no_spring(driver.contact);
   };
   const bool is_driven = margins > driven && is_at_work(steady_);
-  if (!is_driven && !is_at_work(beyond_)) return std::nullopt;
+  if (!is_driven && !is_at_work(beyond_) && far_.rising < dwell) return std::nullopt;
   Eigen::Index hardest = 0;
   (is_driven ? steady_ : beyond_).work.minCoeff(&hardest);
   const int joint = static_cast<int>(hardest);

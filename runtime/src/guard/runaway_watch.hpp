@@ -26,9 +26,11 @@ namespace zwang::runtime {
 /// A motor that does the opposite of what it is told gives twice the work that it is told to take, and no
 /// contact adds to it. Where no motor's share comes near what was done, T(t) - T(t0) - W, the robot gives way
 /// to a push from outside, as a force range has it, and that is no fault. (Of two motors each may be all of
-/// it.) A limit that is tightened under way, a contact that turns the base, a motion that rows bring about
-/// together: in each of them T falls, or W > 0. The hit of another robot is over before `dwell`.
-/// Does not allocate, lock, throw or print after construction.
+/// it.) But not where the base is far beyond what is allowed and still gets faster: whoever does that,
+/// several motors that are wired the wrong way round or somebody strong, the base is not to be moved so. A
+/// limit that is tightened under way, a contact that turns the base, a motion that rows bring about together:
+/// in each of them T falls, or W > 0. The hit of another robot is over before `dwell`. Does not allocate,
+/// lock, throw or print after construction.
 class RunawayWatch {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;
@@ -48,17 +50,20 @@ class RunawayWatch {
   std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
                             const ContactDepth& contact) noexcept;
 
-  static constexpr double margin = 0.01;        ///< [m/s] beyond a speed that is driven or allowed
-  static constexpr double turn_margin = 0.05;   ///< [rad/s] the same of rotations
-  static constexpr double share = 0.1;          ///< of the speed itself, where that is more
-  static constexpr double driven = 0.5;         ///< of all these, where a steady force drives
-  static constexpr double steadily = 0.15;      ///< of a force: what it may change by and be steady
-  static constexpr double explained = 0.8;      ///< of the work done: the least that one motor has to give
-  static constexpr double look_every = 0.01;    ///< [s]
-  static constexpr double memory = 1.0;         ///< [s] of the largest T: longer than contacts keep energy
-  static constexpr double quick = 0.01;         ///< [s] of the rates' low pass
-  static constexpr double growth = 1.01;        ///< of T from look to look
-  static constexpr int dwell = 5;               ///< looks: longer than the hit of another robot
+  static constexpr double margin = 0.01;       ///< [m/s] beyond a speed that is driven or allowed
+  static constexpr double turn_margin = 0.05;  ///< [rad/s] the same of rotations
+  static constexpr double share = 0.1;         ///< of the speed itself, where that is more
+  static constexpr double driven = 0.5;        ///< of all these, where a steady force drives
+  static constexpr double far = 0.2;          ///< [m/s] the margin beyond which it does not matter who drives
+  static constexpr double turn_far = 1.0;     ///< [rad/s] the same of rotations
+  static constexpr double share_far = 1.0;    ///< and of the speed itself
+  static constexpr double steadily = 0.15;    ///< of a force: what it may change by and be steady
+  static constexpr double explained = 0.8;    ///< of the work done: the least that one motor has to give
+  static constexpr double look_every = 0.01;  ///< [s]
+  static constexpr double memory = 1.0;       ///< [s] of the largest T: longer than contacts keep energy
+  static constexpr double quick = 0.01;       ///< [s] of the rates' low pass
+  static constexpr double growth = 1.01;      ///< of T from look to look
+  static constexpr int dwell = 5;             ///< looks: longer than the hit of another robot
   static constexpr int remembered_looks = 100;  ///< memory / look_every
 
  private:
@@ -86,6 +91,7 @@ class RunawayWatch {
   Eigen::VectorXd rates_;
   Driver beyond_;  ///< since a speed was exceeded
   Driver steady_;  ///< since the force is what it is and T grows
+  Driver far_;     ///< since a speed was far exceeded
   Eigen::VectorXd steady_force_;
   Eigen::Index force_size_ = 0;
   std::array<double, remembered_looks> energies_{};  ///< [J] a ring
@@ -93,6 +99,7 @@ class RunawayWatch {
   double largest_before_ = 0.0;  ///< [J]
   double last_energy_ = 0.0;     ///< [J]
   bool is_exceeded_ = false;
+  bool has_rates_ = false;
 };
 
 }  // namespace zwang::runtime

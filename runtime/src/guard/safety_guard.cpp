@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "estimate/rotation.hpp"
@@ -273,10 +274,28 @@ void SafetyGuard::stop(EventCode reason, int signal, double value) noexcept {
 void SafetyGuard::latch(const Event& event) noexcept {
   if (stopped() || !latches_the_stop(event.code)) return;
   stop_event_ = event;
-  const bool is_found = event.code >= EventCode::torque_lost && event.code <= EventCode::torque_flipped;
-  const bool names_motor =
-      is_found || event.code == EventCode::runaway || event.code == EventCode::wheel_reversed;
-  brake_->begin(names_motor ? event_signal::joint_of(event.signal) : -1, is_found);
+  // A motor that is stuck presses on when it is left out; where the others get faster then, it is still that
+  // one.
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const int joint = event_signal::joint_of(event.signal);
+  switch (event.code) {
+    case EventCode::torque_stuck:
+      brake_->begin(joint, infinity);
+      break;
+    case EventCode::torque_lost:
+    case EventCode::torque_flipped:
+      brake_->begin(joint, WheelBrake::fast);
+      break;
+    case EventCode::runaway:
+    case EventCode::wheel_reversed:
+      brake_->begin(joint, 0.0);
+      break;
+    case EventCode::motors_reversed:
+      brake_->begin_turned_around();
+      break;
+    default:
+      brake_->begin(-1, 0.0);
+  }
 }
 
 void SafetyGuard::reset() noexcept {

@@ -25,17 +25,24 @@ WheelBrake::WheelBrake(const lang::Robot& robot, double period)
   for (DrivenWheel& wheel : wheels_) wheel.limit = std::min(wheel.limit, force * wheel.radius);
 }
 
-void WheelBrake::begin(int suspect, bool is_sure) noexcept {
+void WheelBrake::begin(int suspect, double believed) noexcept {
   left_out_ = -1;
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     if (wheels_[i].joint == suspect) left_out_ = static_cast<int>(i);
   }
-  searches_ = !is_sure || left_out_ < 0;
+  believed_ = left_out_ < 0 ? 0.0 : believed;
   sense_ = 0.0;
   may_turn_ = true;
   even_looks_ = 0;
+  tried_ = 0;
   ticks_ = 0;
-  last_sum_ = std::numeric_limits<double>::infinity();
+  last_sum_ = least_sum_ = std::numeric_limits<double>::infinity();
+}
+
+void WheelBrake::begin_turned_around() noexcept {
+  begin(-1, 0.0);
+  left_out_ = static_cast<int>(wheels_.size());
+  sense_ = -1.0;
 }
 
 void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
@@ -45,19 +52,32 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
     sum += rim * rim;
   }
   const auto count = static_cast<int>(wheels_.size());
-  if (sum > growth * last_sum_ && sum > count * slow * slow) {
+  if (sum > growth * least_sum_ && sum > count * slow * slow) {
+    least_sum_ = sum;
     if (sense_ != 0.0) {
       sense_ = 0.0;
       may_turn_ = false;
-    } else if (searches_) {
-      left_out_ = left_out_ + 1 < count ? left_out_ + 1 : -1;
-      may_turn_ = true;
+    } else if (sum > count * believed_ * believed_) {
+      leave_out_the_next();
     }
   }
+  least_sum_ = std::min(sum, forgotten * least_sum_);
+  if (sum < count * slow * slow) tried_ = 0;
   const bool rolls_on = sum > evenly * last_sum_ && sum > count * rest * rest;
   even_looks_ = rolls_on ? even_looks_ + 1 : 0;
-  if (even_looks_ >= even_looks && left_out_ >= 0 && may_turn_) sense_ = -1.0;
   last_sum_ = sum;
+  if (even_looks_ < even_looks || left_out_ < 0) return;
+  if (may_turn_) sense_ = -1.0;
+  if (sense_ == 0.0 && left_out_ == count && tried_ <= count + 1) leave_out_the_next();
+}
+
+void WheelBrake::leave_out_the_next() noexcept {
+  const auto count = static_cast<int>(wheels_.size());
+  const bool tried_all = ++tried_ > count + 1;
+  left_out_ = left_out_ < count ? left_out_ + 1 : -1;
+  if (tried_all) left_out_ = count;
+  may_turn_ = !tried_all;
+  even_looks_ = 0;
 }
 
 void WheelBrake::brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept {
@@ -73,7 +93,9 @@ void WheelBrake::put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& t
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     const DrivenWheel& wheel = wheels_[i];
     const double damped = -wheel.limit / full_brake_speed * share * qd(wheel.joint);
-    const double sense = static_cast<int>(i) == left_out_ ? sense_ : 1.0;
+    const bool is_left_out =
+        left_out_ == static_cast<int>(i) || left_out_ == static_cast<int>(wheels_.size());
+    const double sense = is_left_out ? sense_ : 1.0;
     tau(wheel.joint) = sense * std::clamp(damped, -wheel.limit, wheel.limit);
   }
 }

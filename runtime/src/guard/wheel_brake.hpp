@@ -11,9 +11,10 @@ namespace zwang::runtime {
 /// Each driven wheel damps its own motion, tau = -d qd within its limit, which can only take energy, as long
 /// as the motor does what it is told. One that does the opposite drives the base instead, faster than the
 /// others brake it: of four mecanum wheels' rates three quarters can be its own. So a motor under suspicion
-/// is left out, and where the wheels get faster under the brake, one after the other is, until they do not.
-/// Few wheels cannot brake every motion without it: where they roll on evenly its torque is turned around,
-/// and left out for good should that make them faster.
+/// is left out, and where the wheels get faster under the brake, one after the other is, until they do not;
+/// then all of them. Few wheels cannot brake every motion without it: where they roll on evenly what is left
+/// out is turned around, and left out for good should that make them faster. That also brakes a base whose
+/// motors, or encoders, are all wired the wrong way round. Where no choice brakes, all of them are left out.
 /// Where samples stay away the brake goes on from the last one: the kinetic energy T that the robot had then
 /// is gone after 2 T / P, P the power of the brakes at that moment, when nothing else acts. It stops short of
 /// that by what the model may be wrong by, for a brake that believes a speed of the past drives the robot
@@ -23,8 +24,11 @@ class WheelBrake {
   /// All wheels together press the ground with `robot.stop.force` at most.
   WheelBrake(const lang::Robot& robot, double period);
 
-  /// `suspect`: a joint whose motor the stop is about; -1: none. `is_sure`: it is that one and no other.
-  void begin(int suspect, bool is_sure) noexcept;
+  /// `suspect`: a joint whose motor the stop is about; -1: none. It is believed to be that one while the
+  /// wheels are no faster than `believed` [m/s], root mean square at the rims.
+  void begin(int suspect, double believed) noexcept;
+  /// All motors, or all encoders, are the wrong way round.
+  void begin_turned_around() noexcept;
   void brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept;
   /// A tick with a sample that can be believed.
   void remember(const solver::State& state) noexcept;
@@ -34,11 +38,14 @@ class WheelBrake {
   static constexpr double full_brake_speed = 0.5;  ///< [rad/s] the torque shrinks with the rate below it
   static constexpr double trusted = 0.75;          ///< of 2 T / P: masses may be a quarter less
   static constexpr double look_every = 0.02;       ///< [s]
-  static constexpr double growth = 1.1;            ///< of the sum of squared speeds at the rims
-  static constexpr double evenly = 0.95;           ///< of the same sum: less is braking
-  static constexpr int even_looks = 3;             ///< before a motor is turned around
-  static constexpr double rest = 0.005;            ///< [m/s] root mean square at the rims
-  static constexpr double slow = 0.02;             ///< [m/s] root mean square at the rims: as good as rest
+  static constexpr double growth = 1.1;            ///< of the sum of squared speeds at the rims,
+  static constexpr double forgotten = 1.01;  ///< from the least it was; from look to look that counts less
+  static constexpr double evenly = 0.95;     ///< of the same sum: less is braking
+  static constexpr int even_looks = 3;       ///< before a motor is turned around
+  static constexpr double rest = 0.005;      ///< [m/s] root mean square at the rims
+  static constexpr double slow = 0.02;       ///< [m/s] root mean square at the rims: as good as rest
+  static constexpr double fast =
+      0.3;  ///< [m/s] root mean square at the rims: faster than one motor drives a base
 
  private:
   struct DrivenWheel {
@@ -55,6 +62,7 @@ class WheelBrake {
   };
   static PlanarInertia planar_inertia(const solver::Model& model);
   void look(const Eigen::VectorXd& qd) noexcept;
+  void leave_out_the_next() noexcept;
   void put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& tau) const noexcept;
   double kinetic_energy() const noexcept;
 
@@ -67,12 +75,14 @@ class WheelBrake {
   double blind_stop_ = 0.0;  ///< [s] 2 T / P
   int ticks_between_looks_;
   int ticks_ = 0;
-  int left_out_ = -1;   ///< index into `wheels_`; -1: none
+  int left_out_ = -1;   ///< index into `wheels_`; -1: none, as many as there are: all
   double sense_ = 0.0;  ///< what its torque is multiplied with: 0, or -1 when it was turned around
   bool may_turn_ = true;
   int even_looks_ = 0;
-  bool searches_ = true;   ///< nobody said for sure which motor to leave out
-  double last_sum_ = 0.0;  ///< [m^2/s^2]
+  int tried_ = 0;           ///< choices of a motor that is left out
+  double believed_ = 0.0;   ///< [m/s] beyond it another motor is sought
+  double last_sum_ = 0.0;   ///< [m^2/s^2]
+  double least_sum_ = 0.0;  ///< [m^2/s^2] since the motors are chosen that brake
 };
 
 }  // namespace zwang::runtime

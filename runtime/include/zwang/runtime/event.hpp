@@ -27,6 +27,7 @@ enum class EventCode {
   runaway,           ///< faster than the task allows, and ever faster while the motors are told to brake
   rate_contradicts,  ///< the rate of a joint is not that of its position
   wheel_reversed,    ///< what a wheel contradicts the others by is gone when its rate is given the other sign
+  motors_reversed,   ///< the base accelerates against what its motors are told
   // Those that are only told.
   clock_refused,  ///< time went backwards, or jumped
   sample_lost,    ///< none has arrived since the last tick

@@ -1,0 +1,53 @@
+#include "guard/motor_signs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "estimate/ticks.hpp"
+
+namespace zwang::runtime {
+
+MotorSigns::MotorSigns(const lang::Robot& robot, double period)
+    : motors_(wheel_motors(robot, smallest)), dwell_ticks_(ticks_of(dwell, period)) {}
+
+void MotorSigns::begin(bool is_touched) noexcept {
+  is_touched_ = is_touched;
+  ticks_ = 0;
+  c_c_ = p_c_ = p_p_ = 0.0;
+}
+
+std::optional<Event> MotorSigns::look(const DisturbanceObserver& observer) noexcept {
+  if (obey_ || motors_.empty()) return std::nullopt;
+  const solver::FreeMotions& motions = observer.motions();
+  const auto p = observer.force().head(motions.count);
+  const auto T = [&](const WheelMotor& motor) { return motions.joint.row(motor.joint).head(motions.count); };
+  const auto tau = [&](const WheelMotor& motor) { return observer.torque()(motor.joint); };
+  double c_c = 0.0, p_c = 0.0;
+  double least = std::numeric_limits<double>::infinity();  // of a force that counts
+  bool is_told = false;
+  for (const WheelMotor& motor : motors_) {
+    is_told = is_told || std::abs(tau(motor)) > motor.threshold;
+    least = std::min(least, T(motor).norm() * motor.threshold);
+    p_c += tau(motor) * T(motor).dot(p);
+    for (const WheelMotor& other : motors_) c_c += tau(motor) * tau(other) * T(motor).dot(T(other));
+  }
+  if (std::max(p.squaredNorm(), c_c) < quiet * quiet * least * least) {
+    begin(false);
+    return std::nullopt;
+  }
+  if (is_touched_) return std::nullopt;
+  c_c_ += c_c;
+  p_c_ += p_c;
+  p_p_ += p.squaredNorm();
+  if (!is_told || ++ticks_ < dwell_ticks_) return std::nullopt;
+  const double gamma = -p_c_ / c_c_;
+  const double left = p_p_ - p_c_ * p_c_ / c_c_;
+  obey_ = std::abs(gamma) < obeying && left < obeying * obeying * c_c_;
+  const bool turn_around = gamma > least_gamma && gamma < most_gamma && left < unexplained * p_p_;
+  begin(true);
+  if (!turn_around) return std::nullopt;
+  return Event{EventCode::motors_reversed, 0.0, event_signal::base_twist, 1.0 - gamma};
+}
+
+}  // namespace zwang::runtime

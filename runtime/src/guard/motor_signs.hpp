@@ -1,0 +1,51 @@
+/// Finds a base whose motors all turn the other way than they are told.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "estimate/disturbance.hpp"
+#include "guard/wheel_motors.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/runtime/event.hpp"
+
+namespace zwang::runtime {
+
+/// A sign that somebody has wrong for every motor, or for every encoder: the base accelerates against what is
+/// commanded, c = sum of T_j tau_j in the coordinates of free motion, with
+///   p = -gamma c,   gamma = 2,
+/// and the controller that sees it move the wrong way drives it on. That is so from the first torque or
+/// never, so it is asked until the motors were seen to obey, gamma near 0. A contact takes gamma = 1 of what
+/// presses against it. Who pushes the base is there before it answers: gamma comes down from far above, and a
+/// force p = a t that a velocity driver begins to answer with c = a t^2 / 2T leaves 1/16 of |p|^2. So p is
+/// compared with c from when both begin, and where they do not fit not again before both are gone. Does not
+/// allocate, lock, throw or print after construction.
+class MotorSigns {
+ public:
+  MotorSigns(const lang::Robot& robot, double period);
+
+  /// There is nothing to compare with for a while.
+  void pause() noexcept { begin(is_touched_ || c_c_ > 0.0); }
+  /// After each comparison of the observer. The event's value: how much of the commanded acceleration there
+  /// is.
+  std::optional<Event> look(const DisturbanceObserver& observer) noexcept;
+
+  static constexpr double dwell = 0.04;                         ///< [s] of torques that count
+  static constexpr double smallest = 0.03;                      ///< torque that counts, of a motor's limit
+  static constexpr double quiet = 0.1;                          ///< of that: the least that is not nothing
+  static constexpr double unexplained = 0.02;                   ///< of |p|^2: the most that may be left
+  static constexpr double least_gamma = 1.6, most_gamma = 2.5;  ///< a mass may be wrong by a third
+  static constexpr double obeying = 0.4;  ///< of c: the most that may be missed, along it or across
+
+ private:
+  void begin(bool is_touched) noexcept;
+
+  std::vector<WheelMotor> motors_;
+  int dwell_ticks_;
+  bool obey_ = false;
+  bool is_touched_ = false;                   ///< p is not c's: nothing is told until both are gone
+  int ticks_ = 0;                             ///< that torques count
+  double c_c_ = 0.0, p_c_ = 0.0, p_p_ = 0.0;  ///< sums since p or c began
+};
+
+}  // namespace zwang::runtime
