@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "guard/frozen_wheel.hpp"
 #include "guard/joint_rates.hpp"
 #include "robots.hpp"
 #include "shipped_program.hpp"
@@ -146,6 +147,82 @@ TEST(Wiring, TwoMotorsInEachOthersPlaceAreNotDrivenOn) {
     const Trial run = drive(task, robot, swapped, 30.0);
     EXPECT_EQ(run.reason, EventCode::runaway) << task;
     EXPECT_LE(run.fastest, 0.15 + 0.2 + 1.0 * (0.05 + 6 * 0.04)) << task;
+  }
+}
+
+/// Its position stays what it is, to the bit, and its rate is 0. Three windows later it is told, and the base
+/// has sped up with 0.5 m/s^2 at most until then.
+TEST(Wiring, AnEncoderThatDiesStopsTheBase) {
+  struct {
+    const char *task, *robot;
+    double at;  // [s] under way
+  } const of[] = {{"obstacle.yaml", "mecanum", 1.5},   {"docking.yaml", "mecanum", 3.0},
+                  {"wall_align.yaml", "mecanum", 2.0}, {"obstacle.yaml", "omni", 1.5},
+                  {"wall_align.yaml", "omni", 2.0},    {"wall_align.yaml", "diff", 2.0},
+                  {"obstacle.yaml", "kelo_two", 1.5},  {"obstacle.yaml", "kelo", 1.5}};
+  for (const auto& [task, robot, at] : of) {
+    const solver::Model model = shipped_program(task, robot).robot.model;
+    const int wheel = model.wheels()[0].body - 1;
+    int ticks = 0;
+    double last = 0.0;
+    const Trial run = drive(task, robot, {.sensed = [&, wheel, begin = at](solver::State& state) {
+                              const bool is_dead = ++ticks * period > begin;
+                              if (!is_dead) last = state.q(wheel);
+                              state.q(wheel) = last;
+                              if (is_dead) state.qd(wheel) = 0.0;
+                            }});
+    EXPECT_EQ(run.reason, EventCode::frozen) << robot;
+    EXPECT_EQ(run.signal, model.joint(wheel).name + ".q");
+    EXPECT_LE(run.found, at + (FrozenWheel::windows + 1) * FrozenWheel::window + 2 * period) << robot;
+    EXPECT_LE(run.fastest, 0.25 + 0.5 * (FrozenWheel::windows + 1) * FrozenWheel::window) << robot;
+  }
+}
+
+/// A base on two wheels, of which one has been dead from the start: told to go on it would circle.
+TEST(Wiring, AnEncoderThatIsDeadStopsTheBaseWhenAnotherWheelHasRolledAGoodWay) {
+  const lang::Robot robot = test::mecanum_robot();
+  FrozenWheel frozen(robot);
+  solver::State state(robot.model);
+  Eigen::VectorXd sent = Eigen::VectorXd::Zero(4);
+  double way = 0.0, told = -1.0;
+  for (int i = 0; i < 3000 && told < 0.0; ++i) {
+    const double t = i * period;
+    const bool sets_out = t > 1.0;
+    sent(2) = sets_out ? 1.0 : 0.0;
+    way += sets_out ? 2.0 * period : 0.0;
+    for (const int wheel : {0, 1, 3}) state.q(wheel) = way;
+    if (const auto event = frozen.look(state, sent, t)) {
+      told = t;
+      EXPECT_EQ(event->signal, event_signal::of_joint(2, event_signal::q));
+    }
+  }
+  EXPECT_NEAR(way, FrozenWheel::good_way, 2.0 * 2.0 * FrozenWheel::window);
+}
+
+/// Another wheel rolls on, and this one has nothing to do: the rear wheel of an omni base that goes straight.
+TEST(Wiring, AWheelThatIsToldNothingMayStand) {
+  const lang::Robot robot = test::mecanum_robot();
+  FrozenWheel frozen(robot);
+  solver::State state(robot.model);
+  for (int i = 0; i < 5000; ++i) {
+    for (const int wheel : {0, 1, 3}) state.q(wheel) = 3.0 * i * period;
+    ASSERT_FALSE(frozen.look(state, Eigen::VectorXd::Zero(4), i * period));
+  }
+}
+
+/// 90 steps a turn, as the Hall sensors of a hub motor have, at any speed: between two steps it is still.
+TEST(Wiring, ACoarseEncoderIsNotDead) {
+  const lang::Robot robot = test::mecanum_robot();
+  const double step = 2.0 * std::numbers::pi / 90.0;
+  for (double rate = 0.1; rate < 30.0; rate *= 1.1) {
+    FrozenWheel frozen(robot);
+    solver::State state(robot.model);
+    const Eigen::VectorXd sent = Eigen::VectorXd::Constant(4, 1.0);
+    for (int i = 0; i < 5000; ++i) {
+      for (int wheel = 0; wheel < 4; ++wheel)
+        state.q(wheel) = std::floor((rate * i * period + 0.2 * wheel) / step) * step;
+      ASSERT_FALSE(frozen.look(state, sent, i * period)) << rate << " " << i;
+    }
   }
 }
 

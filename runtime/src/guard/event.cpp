@@ -67,7 +67,7 @@ const char* describe(EventCode code) noexcept {
     case EventCode::lost_ticks:
       return "too long without a good sample";
     case EventCode::frozen:
-      return "the robot says that it moves, and its position does not change";
+      return "the robot moves, and a position of it does not change";
     case EventCode::bad_torque:
       return "a commanded torque is not finite";
     case EventCode::solver:

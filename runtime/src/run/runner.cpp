@@ -7,6 +7,7 @@
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
 #include "estimate/ticks.hpp"
+#include "guard/frozen_wheel.hpp"
 #include "guard/joint_rates.hpp"
 #include "guard/motor_watch.hpp"
 #include "guard/slip_watch.hpp"
@@ -93,6 +94,7 @@ struct Runner::Parts {
         arm(model),
         disturbance(program.robot, period),
         rates(model),
+        frozen_wheel(program.robot),
         motors(program.robot, period),
         slip(model),
         signs(model),
@@ -150,6 +152,7 @@ struct Runner::Parts {
   solver::JointLoads arm;
   DisturbanceObserver disturbance;
   JointRates rates;
+  FrozenWheel frozen_wheel;
   MotorWatch motors;
   SlipWatch slip;
   WheelSigns signs;
@@ -186,6 +189,8 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   estimated.state = sensed.state;
   if (const auto off = rates.look(estimated.state, sensed.time))
     guard.stop(off->code, off->signal, off->value);
+  if (const auto dead = frozen_wheel.look(estimated.state, tau, sensed.time))
+    guard.stop(dead->code, dead->signal, dead->value);
   if (guard.stopped()) mend_rates();
   // A snapshot may have fewer or more signals than the program; the sample keeps its size.
   std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), sample.signals.size()),
@@ -325,7 +330,8 @@ Shortfall Runner::Parts::find_shortfall() const noexcept {
 
 void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   ++stopped_ticks;
-  stands = stands || (good_sample && is_at_rest(estimated.state.base_twist)) ||
+  const bool is_seen = good_sample && guard.reason() != EventCode::frozen;
+  stands = stands || (is_seen && is_at_rest(estimated.state.base_twist)) ||
            static_cast<double>(stopped_ticks) * period > longest_stop;
 }
 
@@ -402,6 +408,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   std::swap(now.guard, before.guard);
   std::swap(now.odometry, before.odometry);
   std::swap(now.rates, before.rates);
+  std::swap(now.frozen_wheel, before.frozen_wheel);
   std::swap(now.slip, before.slip);
   std::swap(now.friction, before.friction);
   now.reckoning = before.reckoning;

@@ -1,0 +1,64 @@
+/// Tells when the encoder of one wheel is dead.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+#include "zwang/runtime/event.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::runtime {
+
+/// The base would be driven by wheels that do not agree on how it moves, and where there are as many as
+/// freedoms nothing else contradicts. A wheel is frozen
+///  - that rolled evenly, and from one moment to the next has the same position to the bit, while half of the
+///    others at least roll on: a hit that stops one wheel takes some time, and leaves it neither quite still
+///    nor the others as they were;
+///  - or whose motor is told to turn it, and that is as still, while they roll a good way. One that spins
+///    alone is not told by those that stand.
+/// Does not allocate, lock, throw or print after construction.
+class FrozenWheel {
+ public:
+  explicit FrozenWheel(const lang::Robot& robot);
+
+  /// Every good sample, as it was measured, and what was sent last. The event's value: the rate that the
+  /// wheel had before.
+  std::optional<Event> look(const solver::State& state, const Eigen::VectorXd& sent, double time) noexcept;
+
+  static constexpr double window = 0.05;    ///< [s]
+  static constexpr int windows = 2;         ///< in a row without a change
+  static constexpr double rolled = 0.02;    ///< [rad] in each of two windows before that,
+  static constexpr double steps = 2.0;      ///< and of its encoder
+  static constexpr double rolls_on = 0.5;   ///< of its own way before that, and of `rolled`: another wheel
+  static constexpr double good_way = 1.0;   ///< [rad] of another wheel
+  static constexpr double smallest = 0.03;  ///< torque that turns a wheel, of its motor's limit
+
+ private:
+  struct Wheel {
+    int joint = 0;
+    double threshold = 0.0;  ///< [N m]
+    double q = 0.0;          ///< [rad] of the last sample
+    double step = 0.0;       ///< [rad] the least that q has changed by; 0: not yet
+    // In this window.
+    double began = 0.0;  ///< [rad]
+    bool is_still = true;
+    double impulse = 0.0;  ///< [N m s] that was sent
+    // In those before it.
+    double way = 0.0;                          ///< [rad] the last that it moved in, when it may have died
+    double way_before = 0.0, way_first = 0.0;  ///< [rad] the two before that
+    int still_windows = 0;
+    double way_of_another = 0.0;  ///< [rad] while it stood and was told to turn
+    double way_rolled() const { return way_before < way_first ? way_before : way_first; }
+  };
+  void begin(const solver::State& state, double time) noexcept;
+  static void end_window(Wheel& wheel, double longest) noexcept;
+
+  std::vector<Wheel> wheels_;
+  double last_time_ = 0.0;
+  double began_ = 0.0;  ///< [s] the window
+  bool has_last_ = false;
+};
+
+}  // namespace zwang::runtime
