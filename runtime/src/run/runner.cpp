@@ -330,7 +330,10 @@ Shortfall Runner::Parts::find_shortfall() const noexcept {
 
 void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   ++stopped_ticks;
-  const bool is_seen = good_sample && guard.reason() != EventCode::frozen;
+  // Where one wheel's encoder is dead, the others do not tell how the base moves.
+  const Event& reason = guard.stop_event();
+  const bool is_dead = reason.code == EventCode::frozen && event_signal::joint_of(reason.signal) >= 0;
+  const bool is_seen = good_sample && !is_dead;
   stands = stands || (is_seen && is_at_rest(estimated.state.base_twist)) ||
            static_cast<double>(stopped_ticks) * period > longest_stop;
 }
