@@ -66,16 +66,23 @@ int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphe
       centre(d->geom_xpos + 3 * sphere);
   const Vector3 local = axes.transpose() * (centre - box_at);
   const Vector3 depth = half - local.cwiseAbs();
-  int nearest = 0;
-  if (!(depth.minCoeff(&nearest) > 0.0)) return count;
-  const auto normal = [&](int face) -> Vector3 { return (local[face] > 0.0 ? 1.0 : -1.0) * axes.col(face); };
-  int face = nearest;
-  for (int other = 0; other < 2; ++other) {
-    const bool is_better = !faces(m, d, sphere, normal(face)) || depth[other] < depth[face];
-    if (is_better && faces(m, d, sphere, normal(other))) face = other;
+  int axis = 0;
+  if (!(depth.minCoeff(&axis) > 0.0)) return count;
+  double deep = depth[axis];
+  Vector3 out = (local[axis] > 0.0 ? 1.0 : -1.0) * axes.col(axis);
+  bool presses = faces(m, d, sphere, out);
+  // Past the middle of a thin box the face that it came through is not the nearest.
+  for (const int other : {0, 1}) {
+    for (const double side : {-1.0, 1.0}) {
+      const Vector3 normal = side * axes.col(other);
+      const double there = half[other] - side * local[other];
+      if ((presses && !(there < deep)) || !faces(m, d, sphere, normal)) continue;
+      presses = true;
+      deep = there;
+      out = normal;
+    }
   }
-  const Vector3 out = normal(face);
-  contact->dist = -(depth[face] + m->geom_size[3 * sphere]);
+  contact->dist = -(deep + m->geom_size[3 * sphere]);
   Eigen::Map<Vector3>(contact->frame) = -out;  // from the sphere to the box
   std::fill(contact->frame + 3, contact->frame + 9, 0.0);
   Eigen::Map<Vector3>(contact->pos) = centre - (m->geom_size[3 * sphere] + 0.5 * contact->dist) * out;
