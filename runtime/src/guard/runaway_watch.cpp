@@ -64,6 +64,7 @@ RunawayWatch::RunawayWatch(int joints, double period)
       ticks_between_looks_(ticks_of(look_every, period)),
       rates_(Eigen::VectorXd::Zero(joints)),
       beyond_{.work = rates_},
+      rise_{.work = rates_},
       steady_{.work = rates_},
       far_{.work = rates_},
       steady_force_(Eigen::VectorXd::Zero(joints + 6)) {}
@@ -72,6 +73,7 @@ void RunawayWatch::reset() noexcept {
   is_exceeded_ = false;
   far_.forget(last_energy_, {});
   beyond_.forget(last_energy_, {});
+  rise_.forget(last_energy_, {});
   steady_.forget(last_energy_, {});
   force_size_ = 0;
 }
@@ -81,6 +83,7 @@ bool RunawayWatch::follow(const Eigen::VectorXd& sent, const Eigen::VectorXd& qd
   has_rates_ = true;
   rates_ += part_ * (qd - rates_);
   beyond_.work += period_ * sent.cwiseProduct(qd);
+  rise_.work += period_ * sent.cwiseProduct(qd);
   steady_.work += period_ * sent.cwiseProduct(qd);
   far_.work += period_ * sent.cwiseProduct(qd);
   if (++ticks_ < ticks_between_looks_) return false;
@@ -108,6 +111,7 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
   }
   const bool grows = kinetic_energy > growth * last_energy_;
   beyond_.follow(exceeds && is_exceeded_ && grows && kinetic_energy > largest_before_);
+  if (beyond_.rising == 0) rise_.forget(kinetic_energy, contact.now());
   if (keeps(force) && grows) {
     steady_.follow(true);
   } else {
@@ -125,7 +129,8 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
            contact.is_no_spring(driver.contact);
   };
   const bool is_driven = margins > driven && is_at_work(steady_);
-  if (!is_driven && !is_at_work(beyond_) && far_.rising < dwell) return std::nullopt;
+  const bool is_beyond = is_at_work(beyond_) && rise_.may_be_a_motor(kinetic_energy);
+  if (!is_driven && !is_beyond && far_.rising < dwell) return std::nullopt;
   Eigen::Index hardest = 0;
   (is_driven ? steady_ : beyond_).work.minCoeff(&hardest);
   const int joint = static_cast<int>(hardest);

@@ -26,11 +26,12 @@ namespace zwang::runtime {
 /// A motor that does the opposite of what it is told gives twice the work that it is told to take, and no
 /// contact adds to it. Where no motor's share comes near what was done, T(t) - T(t0) - W, the robot gives way
 /// to a push from outside, as a force range has it, and that is no fault. (Of two motors each may be all of
-/// it.) But not where the base is far beyond what is allowed and still gets faster: whoever does that,
-/// several motors that are wired the wrong way round or somebody strong, the base is not to be moved so. A
-/// limit that is tightened under way, a contact that turns the base, a motion that rows bring about together:
-/// in each of them T falls, or W > 0. The hit of another robot is over before `dwell`. Does not allocate,
-/// lock, throw or print after construction.
+/// it.) So of all the time since a speed was exceeded, and of that in which T grows alone: what motors took
+/// between two pushes none of them gave. But it is a fault where the base is far beyond what is allowed and
+/// still gets faster: whoever does that, several motors that are wired the wrong way round or somebody
+/// strong, the base is not to be moved so. A limit that is tightened under way, a contact that turns the
+/// base, a motion that rows bring about together: in each of them T falls, or W > 0. The hit of another robot
+/// is over before `dwell`. Does not allocate, lock, throw or print after construction.
 class RunawayWatch {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;
@@ -90,6 +91,7 @@ class RunawayWatch {
   int ticks_between_looks_, ticks_ = 0;
   Eigen::VectorXd rates_;
   Driver beyond_;  ///< since a speed was exceeded
+  Driver rise_;    ///< since T grows then
   Driver steady_;  ///< since the force is what it is and T grows
   Driver far_;     ///< since a speed was far exceeded
   Eigen::VectorXd steady_force_;
