@@ -239,6 +239,14 @@ Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool tur
                  "limit the acceleration to `+-" + at_most(enough, u.acceleration) + "`");
 }
 
+Diagnostic boundary_askew(const Span& span, const std::string& axis, const std::string& own) {
+  return warning(
+      "W607", span,
+      "no motor of this robot pushes along its own `" + own +
+          "`: where it stands askew to the boundary of `" + axis + "`, it is not held back at all",
+      "keep the base square to the boundary, or leave room for where it stops by the task's own drivers");
+}
+
 Diagnostic free_and_held(const Span& span, const std::string& axis, bool elsewhere) {
   const std::string held = "`" + axis + "` is free, but the wheels hold it";
   return warning("W609", span, held + (elsewhere ? " while nobody steers" : "") + ": no contact moves it",

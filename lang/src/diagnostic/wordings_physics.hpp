@@ -77,6 +77,9 @@ Diagnostic beyond_the_motors(const Span& span, const std::string& axis, bool tur
 Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool turns, double mass,
                              double braking, double force, double enough);
 
+/// `own`: the base's axis that no motor pushes along.
+Diagnostic boundary_askew(const Span& span, const std::string& axis, const std::string& own);
+
 /// `elsewhere`: its wheels hold it where they stand at the start, and not however they are steered.
 Diagnostic free_and_held(const Span& span, const std::string& axis, bool elsewhere);
 

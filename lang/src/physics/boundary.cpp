@@ -1,10 +1,12 @@
-// W607: a range of positions, or a region, that asks for more braking force than the motors have.
+// W607: a range of positions, or a region, that asks for more braking force than the motors have, or for one
+// that none of them has.
 //
 // A boundary counts on the deceleration a_brk: the axis's acceleration range, else the robot file's (else its
 // `stop`), and no more than the axis's force range over the effective mass. It uses
 //
 //   braking_share a_brk m        m: the effective mass
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnostic/wordings_physics.hpp"
@@ -38,17 +40,36 @@ void ask_axis(const PlannedTask& plan, const PlannedAxis& axis, const Span& span
   }
 }
 
+constexpr std::array own_axes = {solver::Axis::x, solver::Axis::y};
+
+PlannedAxis own_axis(solver::Axis axis, const std::string& what, const Robot& robot) {
+  PlannedAxis own;
+  own.path = what;
+  own.move_name = robot.base_frame;
+  own.move = own.in = {0, {}};
+  own.axis = axis;
+  return own;
+}
+
+/// What the base slides along and no motor pushes: askew to a boundary, it would have to brake there, too.
+bool ask_motors(const Robot& robot, const Span& span, const std::string& what, Probe& probe,
+                Remarks& remarks) {
+  for (const solver::Axis axis : own_axes) {
+    const AxisFigures* figures = probe.figures(own_axis(axis, what, robot));
+    if (figures == nullptr || figures->is_reachable || figures->is_held) continue;
+    remarks.add(wording::boundary_askew(span, what, axis == solver::Axis::x ? "x" : "y"));
+    return true;
+  }
+  return false;
+}
+
 /// A region bounds the base in every direction: its own x and y stand for them.
 void ask_region(const PlannedTask& plan, const GroupText& group, const Robot& robot, Probe& probe,
                 Remarks& remarks) {
-  for (const solver::Axis axis : {solver::Axis::x, solver::Axis::y}) {
-    PlannedAxis own;
-    own.path = group.name.text;
-    own.move_name = robot.base_frame;
-    own.move = own.in = {0, {}};
-    own.axis = axis;
-    ask_axis(plan, own, group.region.span, group.name.text, probe, remarks);
-  }
+  const std::string& what = group.name.text;
+  if (ask_motors(robot, group.region.span, what, probe, remarks)) return;
+  for (const solver::Axis axis : own_axes)
+    ask_axis(plan, own_axis(axis, what, robot), group.region.span, what, probe, remarks);
 }
 
 }  // namespace
@@ -56,7 +77,9 @@ void ask_region(const PlannedTask& plan, const GroupText& group, const Robot& ro
 void ask_boundary(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
     if (!axis[solver::Quantity::position] || axis.text == nullptr) continue;
-    ask_axis(plan, axis, axis.span(solver::Quantity::position), axis.path, probe, remarks);
+    const Span span = axis.span(solver::Quantity::position);
+    if (axis.is_headed_anyhow() && ask_motors(*context.robot, span, axis.path, probe, remarks)) continue;
+    ask_axis(plan, axis, span, axis.path, probe, remarks);
   }
   for (const auto* groups : {&context.file.always_groups, &plan.task->groups}) {
     for (const GroupText& group : *groups) {
