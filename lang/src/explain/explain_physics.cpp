@@ -124,8 +124,7 @@ rest. It runs at the motors' limit and does not follow its time constant.)~",
 file's. Times the effective mass that is a force, and the motors make less: the boundary can be overrun. A base that skids makes
 none sideways: a boundary that it stands askew to does not hold it back at all.)~",
           .fix = "Limit the acceleration to what the message says. A base that skids: keep it square to the "
-                 "boundary, or where "
-                 "it cannot come to one.",
+                 "boundary, or where it cannot come to one.",
           .part = ExcerptOf::group,
           .example = "in: world\nx: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-6.5 m/s^2}",
           .instead = "in: world\nx: {velocity: 0.1 m/s, position: [-1 m, 1 m], acceleration: +-5 m/s^2}"},

@@ -9,7 +9,9 @@
 namespace zwang::runtime {
 
 MotorSigns::MotorSigns(const lang::Robot& robot, double period)
-    : motors_(wheel_motors(robot, smallest)), dwell_ticks_(ticks_of(dwell, period)) {}
+    : motors_(wheel_motors(robot, smallest)),
+      c_(Eigen::VectorXd::Zero(robot.model.joint_count() + 6)),
+      dwell_ticks_(ticks_of(dwell, period)) {}
 
 void MotorSigns::begin(bool is_touched) noexcept {
   is_touched_ = is_touched;
@@ -21,24 +23,24 @@ std::optional<Event> MotorSigns::look(const DisturbanceObserver& observer) noexc
   if (obey_ || motors_.empty()) return std::nullopt;
   const solver::FreeMotions& motions = observer.motions();
   const auto p = observer.force().head(motions.count);
-  const auto T = [&](const WheelMotor& motor) { return motions.joint.row(motor.joint).head(motions.count); };
-  const auto tau = [&](const WheelMotor& motor) { return observer.torque()(motor.joint); };
-  double c_c = 0.0, p_c = 0.0;
+  auto c = c_.head(motions.count);
+  c.setZero();
   double least = std::numeric_limits<double>::infinity();  // of a force that counts
   bool is_told = false;
   for (const WheelMotor& motor : motors_) {
-    is_told = is_told || std::abs(tau(motor)) > motor.threshold;
-    least = std::min(least, T(motor).norm() * motor.threshold);
-    p_c += tau(motor) * T(motor).dot(p);
-    for (const WheelMotor& other : motors_) c_c += tau(motor) * tau(other) * T(motor).dot(T(other));
+    const auto T = motions.joint.row(motor.joint).head(motions.count);
+    const double tau = observer.torque()(motor.joint);
+    c += tau * T.transpose();
+    is_told = is_told || std::abs(tau) > motor.threshold;
+    least = std::min(least, T.norm() * motor.threshold);
   }
-  if (std::max(p.squaredNorm(), c_c) < quiet * quiet * least * least) {
+  if (std::max(p.squaredNorm(), c.squaredNorm()) < quiet * quiet * least * least) {
     begin(false);
     return std::nullopt;
   }
   if (is_touched_) return std::nullopt;
-  c_c_ += c_c;
-  p_c_ += p_c;
+  c_c_ += c.squaredNorm();
+  p_c_ += p.dot(c);
   p_p_ += p.squaredNorm();
   if (!is_told || ++ticks_ < dwell_ticks_) return std::nullopt;
   const double gamma = -p_c_ / c_c_;

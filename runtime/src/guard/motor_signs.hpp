@@ -1,6 +1,7 @@
 /// Finds a base whose motors all turn the other way than they are told.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,7 @@ class MotorSigns {
   void begin(bool is_touched) noexcept;
 
   std::vector<WheelMotor> motors_;
+  Eigen::VectorXd c_;
   int dwell_ticks_;
   bool obey_ = false;
   bool is_touched_ = false;                   ///< p is not c's: nothing is told until both are gone

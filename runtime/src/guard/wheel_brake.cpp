@@ -41,7 +41,7 @@ void WheelBrake::begin(int suspect, double believed) noexcept {
 
 void WheelBrake::begin_turned_around() noexcept {
   begin(-1, 0.0);
-  left_out_ = static_cast<int>(wheels_.size());
+  left_out_ = all();
   sense_ = -1.0;
 }
 
@@ -68,15 +68,14 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
   last_sum_ = sum;
   if (even_looks_ < even_looks || left_out_ < 0) return;
   if (may_turn_) sense_ = -1.0;
-  if (sense_ == 0.0 && left_out_ == count && tried_ <= count + 1) leave_out_the_next();
+  if (sense_ == 0.0 && left_out_ == all() && !has_tried_all()) leave_out_the_next();
 }
 
 void WheelBrake::leave_out_the_next() noexcept {
-  const auto count = static_cast<int>(wheels_.size());
-  const bool tried_all = ++tried_ > count + 1;
-  left_out_ = left_out_ < count ? left_out_ + 1 : -1;
-  if (tried_all) left_out_ = count;
-  may_turn_ = !tried_all;
+  ++tried_;
+  left_out_ = left_out_ < all() ? left_out_ + 1 : -1;
+  if (has_tried_all()) left_out_ = all();
+  may_turn_ = !has_tried_all();
   even_looks_ = 0;
 }
 
@@ -93,8 +92,7 @@ void WheelBrake::put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& t
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     const DrivenWheel& wheel = wheels_[i];
     const double damped = -wheel.limit / full_brake_speed * share * qd(wheel.joint);
-    const bool is_left_out =
-        left_out_ == static_cast<int>(i) || left_out_ == static_cast<int>(wheels_.size());
+    const bool is_left_out = left_out_ == static_cast<int>(i) || left_out_ == all();
     const double sense = is_left_out ? sense_ : 1.0;
     tau(wheel.joint) = sense * std::clamp(damped, -wheel.limit, wheel.limit);
   }

@@ -63,6 +63,8 @@ class WheelBrake {
   static PlanarInertia planar_inertia(const solver::Model& model);
   void look(const Eigen::VectorXd& qd) noexcept;
   void leave_out_the_next() noexcept;
+  int all() const noexcept { return static_cast<int>(wheels_.size()); }  ///< as `left_out_`
+  bool has_tried_all() const noexcept { return tried_ > all() + 1; }
   void put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& tau) const noexcept;
   double kinetic_energy() const noexcept;
 

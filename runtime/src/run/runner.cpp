@@ -129,6 +129,8 @@ struct Runner::Parts {
   bool has_the_joints_of(const Parts& other) const noexcept;
   void judge_sensors(const Sensed& sensed) noexcept;
   void tell(const Event& event) noexcept;
+  /// The protective stop, where a watch found something.
+  void stop(const std::optional<Event>& found) noexcept;
   void tell_refusal(SampleStatus status) noexcept;
   void brake_protectively(bool good_sample) noexcept;
   /// Of the last tick that was solved.
@@ -187,10 +189,8 @@ struct Runner::Parts {
 void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   estimated.time = sensed.time;
   estimated.state = sensed.state;
-  if (const auto off = rates.look(estimated.state, sensed.time))
-    guard.stop(off->code, off->signal, off->value);
-  if (const auto dead = frozen_wheel.look(estimated.state, tau, sensed.time))
-    guard.stop(dead->code, dead->signal, dead->value);
+  stop(rates.look(estimated.state, sensed.time));
+  stop(frozen_wheel.look(estimated.state, tau, sensed.time));
   if (guard.stopped()) mend_rates();
   // A snapshot may have fewer or more signals than the program; the sample keeps its size.
   std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), sample.signals.size()),
@@ -277,6 +277,10 @@ void Runner::Parts::tell(const Event& told) noexcept {
   if (event.code == EventCode::none || is_stop) event = told;
 }
 
+void Runner::Parts::stop(const std::optional<Event>& found) noexcept {
+  if (found) guard.stop(found->code, found->signal, found->value);
+}
+
 /// Samples that are refused one after the other for one reason are one event.
 void Runner::Parts::tell_refusal(SampleStatus status) noexcept {
   const EventCode refusal = status == SampleStatus::bad_clock ? guard.refusal().code : EventCode::none;
@@ -288,8 +292,8 @@ void Runner::Parts::compare() noexcept {
   if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
   if (!slip.doubtful()) {
     signs.reset();
-  } else if (const auto turned = signs.look(solver, estimated.state, sample.state, reckoning, sample.time)) {
-    guard.stop(turned->code, turned->signal, turned->value);
+  } else {
+    stop(signs.look(solver, estimated.state, sample.state, reckoning, sample.time));
   }
   if (!disturbance.compare(sample.state, sample.time)) {
     motors.reset();
@@ -301,8 +305,7 @@ void Runner::Parts::compare() noexcept {
     motors.reset();
     return;
   }
-  if (const auto fault = motors.look(disturbance, sample.state, tau, scheduler.constraints()))
-    guard.stop(fault->code, fault->signal, fault->value);
+  stop(motors.look(disturbance, sample.state, tau, scheduler.constraints()));
 }
 
 /// A force that is measured before anything moved is the sensor's own.
