@@ -51,7 +51,7 @@ class OneMass {
       if (!is_due) continue;
       const double v = watch.rates()(0);
       contact.follow(motions, outside, outside(0) * std::sqrt(mass) * v);
-      if (watch.look(set_, 0.5 * mass * v * v, outside, contact)) return t;
+      if (watch.look(set_, 0.5 * mass * v * v, outside, contact, false)) return t;
     }
     return -1.0;
   }

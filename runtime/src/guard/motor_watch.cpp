@@ -8,7 +8,8 @@ MotorWatch::MotorWatch(const lang::Robot& robot, double period)
       beside_contact_(robot, period),
       runaway_(robot.model.joint_count(), period),
       reversed_(robot, runaway_.period_of_looks()),
-      contact_(robot, runaway_.period_of_looks()) {}
+      contact_(robot, runaway_.period_of_looks()),
+      pusher_(robot, runaway_.period_of_looks()) {}
 
 void MotorWatch::reset() noexcept {
   signs_.pause();
@@ -17,6 +18,7 @@ void MotorWatch::reset() noexcept {
   runaway_.reset();
   reversed_.reset();
   contact_.reset();
+  pusher_.reset();
 }
 
 std::optional<Event> MotorWatch::look(DisturbanceObserver& observer, const solver::State& state,
@@ -26,14 +28,19 @@ std::optional<Event> MotorWatch::look(DisturbanceObserver& observer, const solve
   const auto take = [&first](const std::optional<Event>& found) {
     if (!first) first = found;
   };
-  take(actuators_.look(observer, state.q, contact_));
-  take(beside_contact_.look(observer));
+  const auto take_unless_pushed = [&](const std::optional<Event>& found) {
+    if (!pusher_.is_at_work()) take(found);
+  };
+  take_unless_pushed(actuators_.look(observer, state.q, contact_));
+  take_unless_pushed(beside_contact_.look(observer));
   if (!runaway_.follow(sent, state.qd)) return first;
   const double power = observer.power(runaway_.rates());
   const auto p = observer.force().head(observer.motions().count);
   contact_.follow(observer.motions(), p, power);
-  take(reversed_.look(power, observer.torque(), runaway_.rates(), contact_));
-  take(runaway_.look(set, observer.kinetic_energy(runaway_.rates()), p, contact_));
+  pusher_.look(observer, power, runaway_.rates());
+  take_unless_pushed(reversed_.look(power, observer.torque(), runaway_.rates(), contact_));
+  const double energy = observer.kinetic_energy(runaway_.rates());
+  take(runaway_.look(set, energy, p, contact_, pusher_.is_at_work()));
   return first;
 }
 

@@ -9,6 +9,7 @@
 #include "guard/contact_depth.hpp"
 #include "guard/motor_beside_contact.hpp"
 #include "guard/motor_signs.hpp"
+#include "guard/pusher.hpp"
 #include "guard/reversed_motor.hpp"
 #include "guard/runaway_watch.hpp"
 #include "zwang/lang/robot.hpp"
@@ -21,7 +22,8 @@ namespace zwang::runtime {
 /// In free motion a motor is told by its force (ActuatorWatch), beside one contact by the line that it takes
 /// the force off (MotorBesideContact), and beside any number of them by its work (ReversedMotor,
 /// RunawayWatch); all motors together by the first torques (MotorSigns). What a contact that was pressed in
-/// (ContactDepth) gives back is no motor's. Does not allocate, lock, throw or print after construction.
+/// (ContactDepth) gives back is no motor's, nor while somebody pushes (Pusher) what is of its size. Does not
+/// allocate, lock, throw or print after construction.
 class MotorWatch {
  public:
   /// `period` [s] from one look to the next.
@@ -41,6 +43,7 @@ class MotorWatch {
   RunawayWatch runaway_;
   ReversedMotor reversed_;
   ContactDepth contact_;
+  Pusher pusher_;
 };
 
 }  // namespace zwang::runtime

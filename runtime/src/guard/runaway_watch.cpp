@@ -102,7 +102,7 @@ bool RunawayWatch::keeps(Force force) noexcept {
 }
 
 std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
-                                        const ContactDepth& contact) noexcept {
+                                        const ContactDepth& contact, bool is_pushed) noexcept {
   const double margins = largest_excess(set, near_margin);
   const bool exceeds = margins > 1.0;
   if (exceeds && !is_exceeded_) {
@@ -125,7 +125,7 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
   last_energy_ = kinetic_energy;
   energies_[looks_++ % energies_.size()] = kinetic_energy;
   const auto is_at_work = [&](const Driver& driver) {
-    return driver.rising >= dwell && driver.may_be_a_motor(kinetic_energy) &&
+    return !is_pushed && driver.rising >= dwell && driver.may_be_a_motor(kinetic_energy) &&
            contact.is_no_spring(driver.contact);
   };
   const bool is_driven = margins > driven && is_at_work(steady_);

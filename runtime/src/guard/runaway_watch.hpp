@@ -46,10 +46,11 @@ class RunawayWatch {
   /// Low-passed: the rates whose kinetic energy `look` wants.
   const Eigen::VectorXd& rates() const noexcept { return rates_; }
   /// `force` is what the observer makes of the world's, in coordinates of free motion, and `contact` has
-  /// followed it. The event names the motor that brakes hardest by what it is told: a wheel that drives
-  /// itself has the largest share of the motion. Its value is that wheel's rate.
+  /// followed it; while somebody pushes the robot only what is far beyond its limits counts. The event names
+  /// the motor that brakes hardest by what it is told: a wheel that drives itself has the largest share of
+  /// the motion. Its value is that wheel's rate.
   std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
-                            const ContactDepth& contact) noexcept;
+                            const ContactDepth& contact, bool is_pushed) noexcept;
 
   static constexpr double margin = 0.01;       ///< [m/s] beyond a speed that is driven or allowed
   static constexpr double turn_margin = 0.05;  ///< [rad/s] the same of rotations
