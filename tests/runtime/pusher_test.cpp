@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "robots.hpp"
@@ -50,7 +49,7 @@ void expect_no_stop(const lang::Program& program_, double force) {
         base.step(runner.step(sensed), pushes);
       }
       EXPECT_FALSE(runner.guard().stopped()) << force << " N at " << x << ", " << y << " m, " << 15 * k
-                                             << " deg: " << std::string(to_string(runner.guard().reason()));
+                                             << " deg: " << to_string(runner.guard().reason());
     }
   }
 }

@@ -15,17 +15,9 @@ void ContactDepth::reset() noexcept {
   deepest_yet_ = force_when_deepest_ = 0.0;
 }
 
-/// What the motor that is felt least makes of p.
-double ContactDepth::least_force(const solver::FreeMotions& motions) const noexcept {
-  double least = solver::infinity;
-  for (const WheelMotor& motor : motors_)
-    least = std::min(least, motor.threshold * motions.joint.row(motor.joint).head(motions.count).norm());
-  return motors_.empty() ? 0.0 : least;
-}
-
 void ContactDepth::follow(const solver::FreeMotions& motions, Force p, double power) noexcept {
   now_.size = p.norm();
-  if (!(now_.size > std::max(least_force(motions), quiet * force_when_deepest_))) {
+  if (!(now_.size > std::max(least_force(motors_, motions), quiet * force_when_deepest_))) {
     now_.depth = now_.work = deepest_yet_ = force_when_deepest_ = 0.0;
     return;
   }

@@ -49,8 +49,6 @@ class ContactDepth {
   static constexpr double smallest = 0.015;    ///< torque of a motor that counts as a force, of its limit
 
  private:
-  double least_force(const solver::FreeMotions& motions) const noexcept;
-
   std::vector<WheelMotor> motors_;
   double period_;
   double deepest_;  ///< [m sqrt(kg)]

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "estimate/ticks.hpp"
 
@@ -25,15 +24,14 @@ std::optional<Event> MotorSigns::look(const DisturbanceObserver& observer) noexc
   const auto p = observer.force().head(motions.count);
   auto c = c_.head(motions.count);
   c.setZero();
-  double least = std::numeric_limits<double>::infinity();  // of a force that counts
   bool is_told = false;
   for (const WheelMotor& motor : motors_) {
     const auto T = motions.joint.row(motor.joint).head(motions.count);
     const double tau = observer.torque()(motor.joint);
     c += tau * T.transpose();
     is_told = is_told || std::abs(tau) > motor.threshold;
-    least = std::min(least, T.norm() * motor.threshold);
   }
+  const double least = least_force(motors_, motions);
   if (std::max(p.squaredNorm(), c.squaredNorm()) < quiet * quiet * least * least) {
     begin(false);
     return std::nullopt;

@@ -1,8 +1,5 @@
 #include "guard/pusher.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace zwang::runtime {
 
 Pusher::Pusher(const lang::Robot& robot, double period)
@@ -15,18 +12,10 @@ void Pusher::reset() noexcept {
   is_at_work_ = false;
 }
 
-/// Whether the force is less than any motor's that counts.
-bool Pusher::is_quiet(const DisturbanceObserver& observer) const noexcept {
-  const solver::FreeMotions& motions = observer.motions();
-  const double force = observer.force().head(motions.count).norm();
-  return std::all_of(motors_.begin(), motors_.end(), [&](const WheelMotor& motor) {
-    return force < motions.joint.row(motor.joint).head(motions.count).norm() * motor.threshold;
-  });
-}
-
 void Pusher::look(const DisturbanceObserver& observer, double power, const Eigen::VectorXd& rates) noexcept {
+  const solver::FreeMotions& motions = observer.motions();
   const auto told = observer.torque().cwiseAbs();
-  if (is_quiet(observer)) {
+  if (observer.force().head(motions.count).norm() < least_force(motors_, motions)) {
     most_told_ = told;
     excess_ = 0.0;
     has_begun_ = true;

@@ -35,8 +35,6 @@ class Pusher {
   static constexpr double smallest = 0.015;  ///< torque that counts as a force, of a motor's limit
 
  private:
-  bool is_quiet(const DisturbanceObserver& observer) const noexcept;
-
   std::vector<WheelMotor> motors_;
   Eigen::VectorXd most_told_;  ///< [N m] m_j, since p began
   double period_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zwang/lang/robot.hpp"
+#include "zwang/solver/solver.hpp"
 
 namespace zwang::runtime {
 
@@ -29,6 +30,15 @@ inline std::vector<WheelMotor> wheel_motors(const lang::Robot& robot, double sma
     motors.push_back({j, wheel.radius, std::max(smallest * joint.max_effort, 2.0 * coulomb)});
   }
   return motors;
+}
+
+/// What the threshold of the motor that is felt least makes of a force on the free motions; 0 without motors.
+inline double least_force(const std::vector<WheelMotor>& motors,
+                          const solver::FreeMotions& motions) noexcept {
+  double least = solver::infinity;
+  for (const WheelMotor& motor : motors)
+    least = std::min(least, motor.threshold * motions.joint.row(motor.joint).head(motions.count).norm());
+  return motors.empty() ? 0.0 : least;
 }
 
 }  // namespace zwang::runtime
