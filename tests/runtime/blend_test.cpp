@@ -171,6 +171,38 @@ TEST(Blend, RangesOnOneSideOfTheSwitchFadeOnTheirOwn) {
   EXPECT_EQ(new_range->blend, 0.1);
 }
 
+TEST(Blend, TakesAFifthOfASecondWhereTheTaskDoesNotSay) {
+  lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
+  a.blend = lang::Task{}.blend;
+  Standing bench(program({a}));
+  for (int i = 1; i <= 220; ++i) EXPECT_NEAR(bench.tick()[0].alpha, std::min(1.0, i * period / 0.2), 1e-7);
+}
+
+// A range that enters is on at once: of what is beyond it, it asks to be back when the blend is over; what is
+// inside feels it as always.
+TEST(Blend, ARangeThatEntersActsAtOnceOverWhatIsLeftOfTheBlend) {
+  const double blend = 0.2, speed = 0.5, limit = 0.3, horizon = 0.010;
+  AxisStatements push = drive("go.x", Axis::x, Quantity::force, 10.0), limited = push;
+  limited.velocity = between(-limit, limit);
+  Standing bench(switching(task("a", {push}), task("b", {limited}), blend));
+  bench.sensed.state.base_twist.linear = {speed, 0.0, 0.0};
+  for (const int ticks : {1, 50, 150, 189, 195, 199, 200, 250}) {
+    bench.run_to(0.999 + ticks * period);
+    solver::ConstraintSet& set = bench.scheduler.constraints();
+    ASSERT_TRUE(set.fill(bench.program.robot.model, bench.sensed.state));
+    int found = 0;
+    for (const solver::Row& row : set.rows()) {
+      if (row.kind != solver::RowKind::upper && row.kind != solver::RowKind::lower) continue;
+      const bool is_beyond = row.kind == solver::RowKind::upper;
+      const double time = is_beyond ? std::max(horizon, blend - ticks * period) : horizon;
+      EXPECT_NEAR(row.b, ((is_beyond ? limit : -limit) - speed) / time, 1e-4) << ticks;
+      EXPECT_EQ(row.fade, 1.0) << ticks;
+      ++found;
+    }
+    EXPECT_EQ(found, 2) << ticks;
+  }
+}
+
 TEST(Blend, ASwitchInTheMiddleOfABlendTakesOverWhatIsThere) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   lang::Task b = task("b", {drive("go.x", Axis::x, Quantity::force, 20)});

@@ -146,6 +146,41 @@ TEST(Always, GuardsAreEvaluatedOnEveryTickAndKeepTheirTimersOverSwitches) {
   EXPECT_EQ(bench.scheduler.task(), pause);
 }
 
+TEST(Always, WhatItHoldsUntilItsReleaseItHoldsOverASwitch) {
+  lang::Program p = interrupted_work();
+  p.always.exits[0].dwell.constant = 0.010;
+  p.always.exits[0].release = lang::Value{.constant = 1.5};
+  p.tasks.push_back(task("next", forward));
+  p.tasks[0].exits = {exit(after(0.004), to_task(2))};
+  p.tasks[2].exits = {exit(after(1e6), to_done)};
+  Bench bench(p);
+  bench.hear(0, 0.5);
+  bench.ticks_more(2);
+  bench.hear(0, 1.2);  // above the threshold of 1, not past the release
+  for (int i = 3; i <= 9; ++i) {
+    bench.tick();
+    EXPECT_NEAR(bench.scheduler.always_dwell(0), i * period, 1e-12);
+  }
+  ASSERT_EQ(bench.scheduler.task(), 2) << "there was a switch meanwhile";
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.task(), pause);
+}
+
+TEST(Always, AnExitRunsItsSet) {
+  lang::Program p = interrupted_work();
+  p.parameters.resize(1);
+  p.parameters[0].value = 1.0;
+  p.always.exits[0].set = {{.sets_frame = false, .index = 0, .value = {.constant = 2.0}}};
+  Bench bench(p);
+  bench.hear(0, 5.0);
+  bench.ticks_more(2);
+  EXPECT_EQ(bench.scheduler.parameters()[0], 1.0);
+  bench.hear(0, 0.5);
+  bench.tick();
+  ASSERT_EQ(bench.scheduler.task(), pause);
+  EXPECT_EQ(bench.scheduler.parameters()[0], 2.0);
+}
+
 TEST(Always, UnknownCountsAsTrueAtOnceWhenASignalIsOlderThanItsStaleAfter) {
   lang::Program p = interrupted_work();
   p.signals[0].stale_after.constant = 0.020;
@@ -342,6 +377,24 @@ TEST(Attempts, EntryNPlusOneSinceTheStartGoesToItsGoto) {
   EXPECT_EQ(bench.scheduler.why(bench.transitions.back()), "elapsed, but `b` was entered 3 times");
 }
 
+TEST(Attempts, InterruptionsAreEntriesToo) {
+  lang::Program p = interrupted_work();
+  p.tasks[1].attempts = lang::Attempts{2, to_failed, {}};
+  Bench bench(p);
+  for (int entry = 1; entry <= 2; ++entry) {
+    bench.hear(0, 0.5);
+    bench.ticks_more(2);
+    ASSERT_EQ(bench.scheduler.task(), pause) << entry;
+    bench.hear(0, 5.0);
+    bench.ticks_more(2);
+    ASSERT_EQ(bench.scheduler.task(), work) << entry;
+  }
+  bench.hear(0, 0.5);
+  bench.tick();
+  EXPECT_EQ(bench.transitions.back().refusal, Refusal::attempts);
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::failed);
+}
+
 TEST(Attempts, ThatLeadToOneAnotherInACircleFail) {
   lang::Task a = task("a", forward), b = task("b", still);
   a.attempts = lang::Attempts{1, to_task(1), {}};
@@ -374,6 +427,39 @@ TEST(Require, FalseOrUnknownOnEntryFailsWithTheConditionsWords) {
     EXPECT_EQ(bench.scheduler.why(bench.transitions.back()), "elapsed, but `b` requires the door is open");
     EXPECT_EQ(bench.scheduler.parameters()[0], 1.0) << "what is not entered sets nothing";
   }
+}
+
+/// Whatever leads there: an exit of `always`, a timeout, or another task's attempts.
+TEST(Require, IsAskedOfEveryEntry) {
+  const lang::Condition no = when(apply(Op::less, number(1), number(0)));
+  lang::Program interrupted = interrupted_work();
+  interrupted.tasks[1].require = no;
+  Bench by_always(interrupted);
+  by_always.hear(0, 0.5);
+  by_always.ticks_more(2);
+  EXPECT_EQ(by_always.transitions.back().cause, Cause::always);
+  EXPECT_EQ(by_always.transitions.back().refusal, Refusal::require);
+  EXPECT_EQ(by_always.scheduler.outcome(), Outcome::failed);
+
+  lang::Task a = task("a", forward), b = task("b", still), c = task("c", still);
+  c.exits = {exit(after(1e6), to_done)};
+  c.require = no;
+  a.timeout = lang::Timeout{{.constant = 0.002}, to_task(2), {}};
+  Bench by_timeout(program({a, b, c}));
+  by_timeout.ticks_more(3);
+  EXPECT_EQ(by_timeout.transitions.back().cause, Cause::timeout);
+  EXPECT_EQ(by_timeout.transitions.back().refusal, Refusal::require);
+  EXPECT_EQ(by_timeout.scheduler.outcome(), Outcome::failed);
+
+  a.timeout.reset();
+  a.exits = {exit(after(0.001), to_task(1))};
+  b.exits = {exit(after(0.001), to_task(0))};
+  b.attempts = lang::Attempts{1, to_task(2), {}};
+  Bench by_attempts(program({a, b, c}));
+  by_attempts.ticks_more(4);
+  EXPECT_EQ(by_attempts.transitions.back().refusal, Refusal::require);
+  EXPECT_EQ(by_attempts.transitions.back().refused, 2);
+  EXPECT_EQ(by_attempts.scheduler.outcome(), Outcome::failed);
 }
 
 TEST(Require, HoldsForTheStartTaskAndLetsItInWhenTrue) {

@@ -220,21 +220,24 @@ TEST(Set, AFrameTakesThePoseOfAnotherAndKeepsItsParent) {
 }
 
 TEST(Set, FramesAreRecomputedBeforeHereIsTaken) {
-  lang::Program p = program({task("a", forward), task("b", forward, base_link, 3)});
-  lang::FrameDeclaration touch;
-  touch.name = "touch";
-  touch.pose.position = {10, 0, 0};
-  p.frames.push_back(touch);
-  p.tasks[0].exits = {exit(after(0.001), to_task(1))};
-  p.tasks[0].exits[0].set = {{.index = 3, .source = bumper}};
-  p.tasks[1].groups[0].axes = {drive("go.x", Axis::x, Quantity::position, 0.0)};
-  p.tasks[1].groups[0].axes[0].here = true;
-  Bench bench(p);
-  bench.sensed.state.base_pose.position = {3, 0, 0};
-  bench.tick();
-  bench.tick();
-  // Seen from the bumper, which is where `touch` is by now, the base stands 0.4 m behind.
-  EXPECT_NEAR(bench.constraint(0).driver->target, -0.4, 1e-12);
+  for (const bool on_entry : {false, true}) {
+    lang::Program p = program({task("a", forward), task("b", forward, base_link, 3)});
+    lang::FrameDeclaration touch;
+    touch.name = "touch";
+    touch.pose.position = {10, 0, 0};
+    p.frames.push_back(touch);
+    p.tasks[0].exits = {exit(after(0.001), to_task(1))};
+    const std::vector<lang::SetAction> set = {{.index = 3, .source = bumper}};
+    (on_entry ? p.tasks[1].set_on_entry : p.tasks[0].exits[0].set) = set;
+    p.tasks[1].groups[0].axes = {drive("go.x", Axis::x, Quantity::position, 0.0)};
+    p.tasks[1].groups[0].axes[0].here = true;
+    Bench bench(p);
+    bench.sensed.state.base_pose.position = {3, 0, 0};
+    bench.tick();
+    bench.tick();
+    // Seen from the bumper, which is where `touch` is by now, the base stands 0.4 m behind.
+    EXPECT_NEAR(bench.constraint(0).driver->target, -0.4, 1e-12) << (on_entry ? "entry" : "exit");
+  }
 }
 
 TEST(Here, InAxesOfTheMovedBodyItMeansTheWorldPoseAtEntry) {
