@@ -15,14 +15,17 @@ namespace zwang::runtime {
 /// when the rate of one wheel is given the other sign, and stays so while the rates change, is none: that
 /// wheel is measured the wrong way round. Told where the wheels or a measured base know more velocities than
 /// the ground leaves free. Which wheel it is need not be told: when a base with four mecanum wheels goes
-/// straight ahead, turning any of them explains it. Does not allocate, lock, throw or print after
-/// construction.
+/// straight ahead, turning any of them explains it. No encoder turns round under way: a wheel that has agreed
+/// with the others while they rolled, and would not have with the other sign, is never told. On ice front
+/// wheels that spin and rear ones that stand look for a while as if one were reversed. Does not allocate,
+/// lock, throw or print after construction.
 class WheelSigns {
  public:
   explicit WheelSigns(const solver::Model& model);
 
-  /// Wheels do not slip.
-  void reset() noexcept;
+  /// While wheels do not slip; as `look`.
+  void roll(solver::Solver& solver, const solver::State& measured, const solver::State& allowed,
+            bool is_reckoned, double time) noexcept;
   /// While wheels seem to slip: `measured` and `allowed` are the sample before and after `solver` projected
   /// it. `is_reckoned`: the base's twist comes from the wheels. The event has the rate of the wheel.
   std::optional<Event> look(solver::Solver& solver, const solver::State& measured,
@@ -32,6 +35,8 @@ class WheelSigns {
   static constexpr double window = 0.05;       ///< [s]
   static constexpr int windows = 3;            ///< in a row
   static constexpr double left = 0.04;         ///< of the squared slip: a fifth of its size
+  static constexpr double seen = 0.02;         ///< [m/s] of slip that only the other sign would have made
+  static constexpr int agreements = 20;        ///< in a row that tell that the sign is right
 
  private:
   struct Wheel {
@@ -39,8 +44,11 @@ class WheelSigns {
     double radius = 0.0;
     double square_slip = 0.0;  ///< [m^2/s^2] with its rate turned, a sum over the looks of the window
     int explains = 0;          ///< windows in a row
+    int agrees = 0;            ///< looks at which its other sign would have slipped, and not this one
   };
   double square_slip(const solver::State& measured, const solver::State& allowed) const noexcept;
+  std::optional<double> square_slip_turned(solver::Solver& solver, const Wheel& wheel,
+                                           const solver::State& measured, bool is_reckoned) noexcept;
   void begin_window(double time) noexcept;
 
   solver::WheelOdometry odometry_;
@@ -51,6 +59,7 @@ class WheelSigns {
   double began_ = 0.0;        ///< [s] the window
   double looked_ = 0.0;       ///< [s] last
   bool slips_ = false;
+  std::size_t next_ = 0;  ///< wheel to be asked while none slips
 };
 
 }  // namespace zwang::runtime

@@ -291,7 +291,7 @@ void Runner::Parts::tell_refusal(SampleStatus status) noexcept {
 void Runner::Parts::compare() noexcept {
   if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
   if (!slip.doubtful()) {
-    signs.reset();
+    signs.roll(solver, estimated.state, sample.state, reckoning, sample.time);
   } else {
     stop(signs.look(solver, estimated.state, sample.state, reckoning, sample.time));
   }
