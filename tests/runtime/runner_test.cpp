@@ -375,6 +375,33 @@ TEST(Runner, TheLogHasOneRecordATickAndBlanksWhatIsNotInForce) {
   EXPECT_GT(records, 1000);
 }
 
+// What `go.x` asks for is cut to 0.5 m/s^2 until its speed is near the range's end; while it fades in,
+// R(alpha) of it leaves the share 1 - alpha of b to be missed.
+TEST(Runner, TheLogHasWhatARowAsksForAndWhatItMisses) {
+  const zwang::test::TemporaryFolder folder;
+  std::istringstream log(log_of_a_run(folder.path() / "run.csv"));
+  std::string line;
+  std::getline(log, line);
+  const std::vector<std::string> names = cells(line);
+  const auto column = [&names](const std::string& name) {
+    const auto it = std::find(names.begin(), names.end(), name);
+    EXPECT_NE(it, names.end()) << name;
+    return static_cast<std::size_t>(it - names.begin());
+  };
+  const std::size_t speed = column("base.vx [m/s]"), alpha = column("go.go.x.alpha"),
+                    asked = column("go.go.x.b [m/s^2]"), missed = column("go.go.x.residual [m/s^2]");
+  int records = 0;
+  for (; records < 300 && std::getline(log, line); ++records) {
+    const std::vector<std::string> record = cells(line);
+    if (std::stod(record[speed]) > 0.19) break;
+    const double share = std::min(1.0, (records + 1) * period / 0.1);
+    EXPECT_NEAR(std::stod(record[alpha]), share, 1e-7) << records;
+    EXPECT_NEAR(std::stod(record[asked]), 0.5, 1e-9) << records;
+    EXPECT_NEAR(std::stod(record[missed]), -(1.0 - share) * 0.5, 1e-7) << records;
+  }
+  EXPECT_GT(records, 200);
+}
+
 /// As ROS stamps: the same run, and its log tells one tick from the next.
 TEST(Runner, GoesByAClockThatCountsFrom1970) {
   constexpr double begin = 1'800'000'000.0;  // [s] in January 2027
