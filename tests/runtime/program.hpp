@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "../temporary_folder.hpp"
+
 namespace zwang::test {
 
 namespace fs = std::filesystem;
@@ -31,13 +33,6 @@ struct Result {
 /// Runs it in a folder of its own, which is gone afterwards.
 class Program : public ::testing::Test {
  protected:
-  Program() {
-    folder_ = fs::temp_directory_path() / ("zwang_cli_" + std::to_string(getpid()) + "_" +
-                                           ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  ~Program() override { fs::remove_all(folder_); }
-
   pid_t start(const std::vector<std::string>& arguments, const std::string& out = "out",
               bool close_out = false) {
     std::vector<char*> argv;
@@ -70,7 +65,8 @@ class Program : public ::testing::Test {
     return folder_ / name;
   }
 
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 }  // namespace zwang::test
