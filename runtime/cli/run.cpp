@@ -130,7 +130,8 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     for (const auto& recorder : recorders) recorder->wait_for_room();
     if (steps.tick_is_due()) {
       put_truth(plant.truth(), truth);
-      if (reloads != nullptr) reloads->look(runner, sensed.time);
+      // Who has asked for the end does not wait for the pace of real time.
+      if (reloads != nullptr && !give_up) reloads->look(runner, sensed.time);
       tau = runner.step(sensed, truth);
       if (runner.state() == runtime::RunState::running && runner.scheduler().transition())
         report.asked = asked_forces(runner.scheduler());
@@ -143,6 +144,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   }
   report.outcome = to_string(runner.state());
   if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
+  if (give_up && !runner.finished()) report.because += "; the run was ended before the robot stood";
   if (status != PlantStatus::ok) {
     report.outcome = to_string(status);
     report.because = "the plant " + report.outcome;

@@ -1,13 +1,16 @@
 // What happens to the program from outside while it runs a task, and what its log is good for afterwards.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
+#include <vector>
 
 #include "program.hpp"
 
@@ -25,13 +28,14 @@ const std::string specs = std::string(ZWANG_SOURCE_DIR) + "/specs/";
 class FromOutside : public test::Program {
  protected:
   /// A task that never ends, under way.
-  pid_t start_endless(const std::vector<std::string>& options = {}) {
+  pid_t start_endless(const std::vector<std::string>& options = {}, const std::string& speed = "0 m/s") {
     write("task.yaml", R"(zwang: 1
 robot: none.yaml
-start: stand
+start: go
 tasks:
-  stand:
-    constraints: {still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
+  go:
+    constraints: {go: {move: base_link, in: base_link, x: {velocity: )" +
+                           speed + R"(}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
     timeout: {after: 100000 s, goto: failed}
 )");
     write("scene.yaml", wall);
@@ -57,6 +61,20 @@ tasks:
     const std::size_t begin = end == std::string::npos ? end : text.rfind('\n', end - 1);
     return begin == std::string::npos ? -1e9 : std::strtod(text.c_str() + begin + 1, nullptr);
   }
+  /// A column of the log, one value a record.
+  std::vector<double> column(const std::string& name) const {
+    std::ifstream file(folder_ / "log/log.csv");
+    std::string line;
+    std::getline(file, line);
+    const auto index = std::count(line.begin(), line.begin() + std::ptrdiff_t(line.find(name)), ',');
+    std::vector<double> values;
+    while (std::getline(file, line)) {
+      std::stringstream cells(line);
+      for (std::ptrdiff_t i = 0; i <= index; ++i) std::getline(cells, line, ',');
+      values.push_back(std::stod(line));
+    }
+    return values;
+  }
 };
 
 TEST_F(FromOutside, ASignalEndsTheRunWithinHalfASecond) {
@@ -77,6 +95,25 @@ TEST_F(FromOutside, ASignalEndsTheRunWithinHalfASecond) {
     EXPECT_EQ(info.code, 0) << info.out;
     fs::remove_all(folder_ / "log");
   }
+}
+
+/// From 0.7 m/s with 1 m/s^2 a robot needs longer than somebody waits who has asked for the end.
+TEST_F(FromOutside, ASignalBringsARobotToRestThatIsWatched) {
+  const pid_t child = start_endless({"--watch"}, "-0.9 m/s");
+  std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+  const auto begin = Clock::now();
+  kill(child, SIGINT);
+  const Result r = finish(child);
+  EXPECT_LE(std::chrono::duration<double>(Clock::now() - begin).count(), 0.5);
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["events"][0]["code"], "requested");
+  EXPECT_EQ(j["because"].get<std::string>().find("before the robot stood"), std::string::npos);
+  const std::vector<double> ahead = column("base.vx [m/s]");
+  ASSERT_FALSE(ahead.empty());
+  const double fastest = -*std::min_element(ahead.begin(), ahead.end());
+  std::printf("from %.2f m/s to %.4f m/s\n", fastest, -ahead.back());
+  EXPECT_GT(fastest, 0.6) << "so that it has to brake for longer than anybody waits";
+  EXPECT_NEAR(ahead.back(), 0.0, 0.02);
 }
 
 /// What somebody does with an editor: a slip first, the scene, which is the plant's, then what was meant. The
@@ -107,7 +144,7 @@ TEST_F(FromOutside, ATaskFileThatChangesIsReloadedAndReplays) {
   EXPECT_EQ(report["outcome"], "done");
   EXPECT_EQ(report["logs"], json({"log/log.csv", "log/log-reload-1.csv"}));
   ASSERT_EQ(report["before"].size(), 1u) << "what the first program did is told as well";
-  EXPECT_EQ(report["before"][0]["transitions"][0]["to"], "stand");
+  EXPECT_EQ(report["before"][0]["transitions"][0]["to"], "go");
   EXPECT_EQ(report["transitions"].back()["to"], "done");
   EXPECT_EQ(report["transitions"][0]["time"], report["before"][0]["until"]) << "at the tick of the swap";
   EXPECT_FALSE(report["before"][0]["limits"].empty());
