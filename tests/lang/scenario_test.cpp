@@ -15,7 +15,7 @@ using test::rendered;
 const char* const good = R"(zwang_scenario: 1
 task: wall_align.yaml
 scene: scenes/wall.yaml
-params: {push: 20 N}
+time_limit: 60 s
 matrix:
   start_yaw: [-5 deg, 5 deg]
   params.push: [10 N, 20 N, 30 N]
@@ -60,7 +60,7 @@ TEST(Scenario, multiplies_its_matrix_out_with_the_last_key_fastest) {
   EXPECT_EQ(scenario->cells[1].name, "start_yaw -5 deg, push 10 N, faults slip");
   EXPECT_EQ(scenario->cells[11].name, "start_yaw 5 deg, push 30 N, faults slip");
   EXPECT_NEAR(*scenario->cells[0].start_yaw, -5.0 * 3.14159265358979 / 180.0, 1e-12);
-  EXPECT_EQ(scenario->cells[11].parameters.at("push"), "30 N") << "the matrix replaces the fixed value";
+  EXPECT_EQ(scenario->cells[11].parameters.at("push"), "30 N");
   EXPECT_TRUE(scenario->cells[0].faults.empty());
   ASSERT_EQ(scenario->cells[1].faults.size(), 1u);
   EXPECT_EQ(scenario->cells[1].faults[0].kind, FaultKind::floor_friction);
@@ -138,18 +138,20 @@ TEST(Scenario, mistakes_are_found_where_they_are_written) {
 }
 
 TEST(Scenario, parameters_are_those_of_the_task_file) {
-  const Mistake mistakes[] = {
-      {"params: {push: 20 N}", "params: {push: 20 N, pussh: 3 N}", "E301", 4},
-      {"  params.push: [10 N", "  params.pusch: [10 N", "E301", 7},
-      {"params.push: [10 N, 20 N", "params.push: [10 N, 20 m", "E202", 7},
-      {"params.push: [10 N, 20 N", "params.push: [10 N, 20", "E201", 7},
-      {"params.push: [10 N, 20 N", "params.push: [10 N, 200 N", "E204", 7},
-      {"params: {push: 20 N}", "params: {push: 1 N}", "E204", 4},
-      {"params: {push: 20 N}", "params: {push: 20 Nn}", "E203", 4},
-      {"params: {push: 20 N}", "params: {push: $push}", "E105", 4},
+  const std::string alone = test::replaced(good, "  params.push: [10 N, 20 N, 30 N]\n", "");
+  const std::pair<std::string, Mistake> mistakes[] = {
+      {good, {"params.push: [10 N", "params.pusch: [10 N", "E301", 7}},
+      {good, {"params.push: [10 N, 20 N", "params.push: [10 N, 20 m", "E202", 7}},
+      {good, {"params.push: [10 N, 20 N", "params.push: [10 N, 20", "E201", 7}},
+      {good, {"params.push: [10 N, 20 N", "params.push: [10 N, 200 N", "E204", 7}},
+      {good, {"time_limit: 60 s", "params: {push: 20 N}", "E102", 7}},
+      {alone, {"time_limit: 60 s", "params: {push: 20 N, pussh: 3 N}", "E301", 4}},
+      {alone, {"time_limit: 60 s", "params: {push: 1 N}", "E204", 4}},
+      {alone, {"time_limit: 60 s", "params: {push: 20 Nn}", "E203", 4}},
+      {alone, {"time_limit: 60 s", "params: {push: $push}", "E105", 4}},
   };
-  for (const Mistake& mistake : mistakes) {
-    const Shelf shelf(test::replaced(good, mistake.from, mistake.to));
+  for (const auto& [text, mistake] : mistakes) {
+    const Shelf shelf(test::replaced(text, mistake.from, mistake.to));
     Diagnostics diagnostics;
     EXPECT_FALSE(load_scenario(shelf.path, diagnostics)) << mistake.to;
     EXPECT_EQ(diagnostics.error_count(), 1) << rendered(diagnostics);

@@ -73,6 +73,8 @@ Diagnostic unlike_operands(const Span& span, const std::string& op, const Dimens
 Diagnostic unknown_unit(const Span& span, const std::string& text, const std::string& unknown,
                         const std::string& meant) {
   Diagnostic diagnostic = error("E203", span, in_ticks(unknown) + " is not a unit zwang knows");
+  if (unknown == "tick" || unknown == "ticks")
+    diagnostic.help = "write the time in `s` or `ms`; a tick is 1 ms unless the robot file says otherwise";
   if (meant.empty()) return diagnostic;
   diagnostic.help = "did you mean `" + meant + "`?";
   const std::size_t at = text.rfind(unknown);

@@ -419,6 +419,8 @@ Diagnostic unexpected_in_condition(const Span& span, const std::string& text) {
   return error("E105", span, in_ticks(text) + " is not expected here",
                text == "for"      ? "say `for` on a line of its own, beside `when`"
                : text == ","      ? "join conditions with `and` or `or`"
+               : text == "|"      ? "write the size of `a` as `abs(a)`"
+               : text == "in"     ? "write both ends: `low < a and a < high`"
                : text == "\u2265" ? "write `>=`"
                : text == "\u2264" ? "write `<=`"
                                   : "");

@@ -118,6 +118,25 @@ void parse_fixed(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics) {
   }
 }
 
+bool is_same(const MatrixValue& a, const MatrixValue& b) {
+  return a.word.text == b.word.text && a.at == b.at && a.yaw == b.yaw;
+}
+
+/// A key beside the matrix and in it, of which one would be ignored, or a value that would run twice.
+void complain_of_repetitions(const ScenarioFile& file, Diagnostics& diagnostics) {
+  for (const MatrixKey& key : file.matrix) {
+    const auto fixed = std::find_if(file.fixed.begin(), file.fixed.end(),
+                                    [&](const MatrixKey& other) { return other.name == key.name; });
+    if (fixed != file.fixed.end()) diagnostics.add(wording::duplicate_key(key.span, key.name, fixed->span));
+    for (auto value = key.values.begin(); value != key.values.end(); ++value) {
+      const auto first = std::find_if(key.values.begin(), value,
+                                      [&](const MatrixValue& other) { return is_same(other, *value); });
+      if (first != value)
+        diagnostics.add(wording::duplicate_key(value->word.span, value->label, first->word.span));
+    }
+  }
+}
+
 void parse_fault_sets(const Node& node, ScenarioFile& file, Diagnostics& diagnostics) {
   if (!require_mapping(node, "`faults`", diagnostics)) return;
   for (const Entry& entry : node.entries) {
@@ -199,6 +218,7 @@ std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagno
   }
   parse_fixed(map, file, diagnostics);
   if (const Node* matrix = map.optional("matrix")) parse_matrix(*matrix, file, diagnostics);
+  complain_of_repetitions(file, diagnostics);
   if (const Node* faults = map.optional("faults")) parse_fault_sets(*faults, file, diagnostics);
   const Node* expect = map.required("expect");
   if (expect != nullptr && require_sequence(*expect, "`expect`", diagnostics)) {
