@@ -84,8 +84,9 @@ expect:
   - {always: elapsed < 100 s}
   - {always: 1 m > truth.base.x}
   - {at: end, that: truth.base.speed < 1 m/s and abs(truth.wall.force) < 40 N}
+  - {always: 3 m - $push * 0.1 m / 1 N > truth.base.x}
 )");
-  ASSERT_EQ(result.expectations.size(), 6u);
+  ASSERT_EQ(result.expectations.size(), 7u);
   const std::vector<ExpectationResult>& expected = result.expectations;
   EXPECT_TRUE(expected[0].held);
   ASSERT_TRUE(expected[0].value);
@@ -98,6 +99,9 @@ expect:
   EXPECT_NEAR(*expected[3].value, result.simulated, 2e-3) << "time alone is what is asked for";
   EXPECT_EQ(*expected[4].unit.c_str(), 'm') << "the side that may change";
   EXPECT_LT(*expected[4].value, 1.0);
+  EXPECT_NEAR(*expected[4].margin, 1.0 - *expected[4].value, 1e-12) << "the threshold is 1 m, on either side";
+  EXPECT_EQ(expected[6].unit, "m") << "3 m - 20 N * 0.1 m/N";
+  EXPECT_NEAR(*expected[6].margin, 1.0 - *expected[6].value, 1e-12);
   EXPECT_EQ(expected[5].unit, "N") << "nearer to its limit";
   EXPECT_NEAR(*expected[5].value, 20.0, 0.1);
 }

@@ -21,13 +21,18 @@ double distance(double below, double above, double scale) {
   return left / std::abs(scale);
 }
 
-/// The side of a comparison that may change.
+/// Of the sides of a comparison the one that does not change; of two that do or do not, the right one.
+const Reading& threshold(const Reading& left, const Reading& right) {
+  return left.is_fixed && !right.is_fixed ? left : right;
+}
+
+/// The other one.
 const Reading& measured(const lang::Condition& condition, const std::vector<Reading>& readings,
                         int comparison) {
   const lang::ExpressionNode& node = condition.nodes[static_cast<std::size_t>(comparison)];
-  const Op left = condition.nodes[static_cast<std::size_t>(node.left)].op;
-  const bool is_fixed = left == Op::constant || left == Op::parameter;
-  return readings[static_cast<std::size_t>(is_fixed ? node.right : node.left)];
+  const Reading& left = readings[static_cast<std::size_t>(node.left)];
+  const Reading& right = readings[static_cast<std::size_t>(node.right)];
+  return &threshold(left, right) == &left ? right : left;
 }
 
 /// One of two sides holds: the better one; beside a window of time the other one, while the window is open.
@@ -45,10 +50,11 @@ Reading read_node(const lang::ExpressionNode& node, int number, const Reading& a
   Reading out;
   out.decisive = number;
   out.is_of_time = a.is_of_time && (node.right < 0 || b.is_of_time);
+  out.is_fixed = a.is_fixed && (node.right < 0 || b.is_fixed);
   switch (node.op) {
     case Op::constant:
       out.value = node.number;
-      out.is_of_time = true;
+      out.is_of_time = out.is_fixed = true;
       break;
     case Op::abs:
       out.value = std::abs(a.value);
@@ -70,11 +76,11 @@ Reading read_node(const lang::ExpressionNode& node, int number, const Reading& a
       break;
     case Op::less:
     case Op::less_equal:
-      out.margin = distance(a.value, b.value, b.value);
+      out.margin = distance(a.value, b.value, threshold(a, b).value);
       break;
     case Op::greater:
     case Op::greater_equal:
-      out.margin = distance(b.value, a.value, b.value);
+      out.margin = distance(b.value, a.value, threshold(a, b).value);
       break;
     case Op::logical_and: {
       const Reading& least = a.margin <= b.margin ? a : b;
@@ -92,7 +98,8 @@ Reading read_node(const lang::ExpressionNode& node, int number, const Reading& a
       break;
     default:
       out.value = facts.look_up(node);
-      out.is_of_time = node.op == Op::elapsed || node.op == Op::parameter;
+      out.is_fixed = node.op == Op::parameter;
+      out.is_of_time = node.op == Op::elapsed || out.is_fixed;
       break;
   }
   return out;

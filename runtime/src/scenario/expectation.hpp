@@ -16,15 +16,17 @@ struct Reading {
   double margin = 0.0;      ///< of a truth value
   int decisive = -1;        ///< the comparison that the margin is of
   bool is_of_time = false;  ///< asks for nothing but `elapsed`
+  bool is_fixed = false;    ///< says nothing but numbers and parameters
 };
 
 /// A condition that does not ask now: `elapsed < 2 s or ...` before 2 s.
 inline constexpr double not_asked = 1e300;
 
 /// How far a condition is from changing: positive where it holds. Of a comparison the distance between its
-/// sides as a share of the right one (infinite, where that is 0); `and` takes the least, `or` the largest,
-/// but beside a window of time the other side alone. What nobody knows does not hold. Allocates nothing:
-/// `readings` holds one for each node, and the last is the condition's.
+/// sides as a share of the threshold, which is the fixed one or else the right one (infinite, where that is
+/// 0); `and` takes the least, `or` the largest, but beside a window of time the other side alone. What nobody
+/// knows does not hold. Allocates nothing: `readings` holds one for each node, and the last is the
+/// condition's.
 void read_condition(const lang::Condition& condition, const TrueFacts& facts,
                     std::vector<Reading>& readings) noexcept;
 
