@@ -337,6 +337,31 @@ TEST(Back, AnInterruptionOfAnInterruptionDoesNotOverwriteWhereItLeads) {
   EXPECT_EQ(bench.scheduler.task(), work);
 }
 
+TEST(Back, UnderAlwaysLeadsThereFromAnyTaskAndIsIgnoredWhereNothingWasInterrupted) {
+  lang::Program p = interrupted_work();
+  p.always.exits.push_back(exit(when(above(0, 2.0)), back));
+  p.tasks[1].exits = {exit(after(0.005), to_task(2))};
+  p.tasks.push_back(task("wait", still));
+  p.tasks[2].exits = {exit(after(1e6), to_done)};
+  Bench bench(p);
+  bench.hear(0, 5.0);
+  bench.ticks_more(10);
+  EXPECT_EQ(bench.transitions.size(), 1u) << "nothing was interrupted";
+  EXPECT_NEAR(bench.scheduler.elapsed(), 9 * period, 1e-12);
+  for (const bool goes_on : {false, true}) {
+    bench.hear(0, 0.5);
+    bench.tick();
+    ASSERT_EQ(bench.scheduler.task(), pause);
+    bench.hear(0, 1.5);
+    bench.ticks_more(goes_on ? 8 : 3);
+    ASSERT_EQ(bench.scheduler.task(), goes_on ? 2 : pause);
+    bench.hear(0, 5.0);
+    bench.ticks_more(5);
+    ASSERT_EQ(bench.scheduler.task(), work);
+    EXPECT_TRUE(bench.transitions.back().resumes);
+  }
+}
+
 TEST(Back, AnInterruptionIsOverInATaskFromWhichNoBackCanFollow) {
   lang::Program p = interrupted_work();
   lang::Task elsewhere = task("elsewhere", forward);

@@ -33,7 +33,7 @@ bool has_unknown_interruption(const CheckContext& context) {
   const auto& exits = context.file.always_exits;
   return std::any_of(exits.begin(), exits.end(), [&](const ExitText& exit) {
     const std::string& target = exit.target.text;
-    return target != "done" && target != "failed" && !context.symbols.find_task(target);
+    return target != "done" && target != "failed" && target != "back" && !context.symbols.find_task(target);
   });
 }
 
@@ -42,10 +42,11 @@ void check_target(CheckContext& context, const Word& target, const TaskText* tas
   if (!target.exists() || target.text == "done" || target.text == "failed") return;
   if (target.text == "back") {
     const std::vector<std::string> interrupting = interrupting_tasks(context);
-    const bool can_go_back = task != nullptr && std::find(interrupting.begin(), interrupting.end(),
-                                                          task->name.text) != interrupting.end();
+    const bool can_go_back = task == nullptr ? !interrupting.empty()
+                                             : std::find(interrupting.begin(), interrupting.end(),
+                                                         task->name.text) != interrupting.end();
     if (!can_go_back && !has_unknown_interruption(context))
-      context.diagnostics.add(wording::back_without_interruption(target.span));
+      context.diagnostics.add(wording::back_without_interruption(target.span, task == nullptr));
     return;
   }
   if (context.symbols.find_task(target.text)) return;

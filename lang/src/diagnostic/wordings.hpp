@@ -180,7 +180,7 @@ Diagnostic decided_condition(const Span& span, bool is_always);
 Diagnostic release_without_threshold(const Span& span);
 Diagnostic release_on_wrong_side(const Span& span, bool is_below);
 Diagnostic hidden_exit(const Span& span, const Span& first);
-Diagnostic back_without_interruption(const Span& span);
+Diagnostic back_without_interruption(const Span& span, bool under_always);
 
 // --- Robot files and URDFs: E801 to E860; scenes: E901 (robot.cpp) ---
 Diagnostic not_positive(const Span& span, const std::string& what, bool zero_allowed);

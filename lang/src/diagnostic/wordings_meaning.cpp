@@ -353,8 +353,10 @@ Diagnostic hidden_exit(const Span& span, const Span& first) {
                       "it has the same condition");
 }
 
-Diagnostic back_without_interruption(const Span& span) {
-  return error("E508", span, "`back` leads nowhere: no exit under `always` interrupts to this task",
+Diagnostic back_without_interruption(const Span& span, bool under_always) {
+  return error("E508", span,
+               std::string("`back` leads nowhere: no exit under `always` interrupts to ") +
+                   (under_always ? "a task" : "this task"),
                "name the task to go to");
 }
 

@@ -208,7 +208,10 @@ TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDe
   most_axes += axis_count(always);
   most_rows += row_count(always);
 
-  leads_back.assign(tasks.size(), false);
+  // An exit of `always` leads back from wherever it is.
+  leads_back.assign(tasks.size(), std::any_of(always.exits.begin(), always.exits.end(), [](const auto& exit) {
+                      return exit.target.kind == lang::TargetKind::back;
+                    }));
   for (std::size_t pass = 0; pass < tasks.size(); ++pass) {
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       if (runtime::leads_back(tasks[i], leads_back)) leads_back[i] = true;
