@@ -4,6 +4,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include "../solver/malloc_counter.hpp"
@@ -400,6 +402,79 @@ TEST(Runner, TheLogHasWhatARowAsksForAndWhatItMisses) {
     EXPECT_NEAR(std::stod(record[missed]), -(1.0 - share) * 0.5, 1e-7) << records;
   }
   EXPECT_GT(records, 200);
+}
+
+/// The records of a run, each by the names of its columns.
+std::vector<std::map<std::string, std::string>> records_of(const lang::Program& program, double longest) {
+  const zwang::test::TemporaryFolder folder;
+  const auto path = folder.path() / "run.csv";
+  Loop loop(program);
+  Recorder recorder(path, loop.runner.columns());
+  loop.runner.record_to(&recorder);
+  loop.run(longest);
+  recorder.close();
+  EXPECT_TRUE(recorder.status().complete());
+  std::ifstream log(path);
+  std::string line;
+  std::getline(log, line);
+  const std::vector<std::string> names = cells(line);
+  std::vector<std::map<std::string, std::string>> records;
+  while (std::getline(log, line)) {
+    const std::vector<std::string> values = cells(line);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (i == 0) records.emplace_back();
+      records.back()[names[i]] = values.at(i);
+    }
+  }
+  return records;
+}
+
+TEST(Runner, TheLogHasWhatSwitchedWhatElseWasTrueAndWhoRefused) {
+  lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.0)}), b = a;
+  b.name = "b";
+  a.exits = {exit(after(0.003), to_done), exit(after(0.003), to_failed)};
+  a.timeout = lang::Timeout{{.constant = 0.003}, to_failed, {}};
+  const lang::Condition never = when(apply(Op::less, number(1.0), number(0.0)));
+  b.require = never;
+  lang::Program p = program({a, b});
+  p.always.exits = {exit(never, to_failed), exit(after(0.002), to_task(1), 0.002),
+                    exit(after(0.003), to_failed)};
+  auto records = records_of(p, 0.0045);
+  ASSERT_EQ(records.size(), 5u);
+  EXPECT_EQ(records[0]["switch"], "start");
+  EXPECT_EQ(records[0]["switch.refusal"], "none");
+  EXPECT_TRUE(records[0]["switch.exit"].empty());
+  EXPECT_TRUE(records[2]["switch"].empty());
+  EXPECT_EQ(std::stod(records[2]["always.exit2.true_for [s]"]), 0.001);
+  EXPECT_EQ(records[3]["switch"], "always");
+  EXPECT_EQ(records[3]["switch.exit"], "2");
+  EXPECT_EQ(std::stod(records[3]["switch.also_true.always"]), 0b100);
+  EXPECT_EQ(std::stod(records[3]["switch.also_true"]), 0b111) << "both exits, and above them the timeout";
+  EXPECT_EQ(records[3]["switch.refusal"], "require");
+  EXPECT_EQ(records[3]["task"], "failed");
+  EXPECT_EQ(std::stod(records[3]["always.exit2.true_for [s]"]), 0.002);
+  EXPECT_TRUE(records[4]["switch"].empty());
+}
+
+// Two limits of 0.4 m/s^2, at two frames of one line, against a driver of 1 m/s^2.
+TEST(Runner, TheLogNamesEveryRowThatHoldsAnotherOneBack) {
+  lang::Program p = program({task("go", {drive("go.x", Axis::x, Quantity::acceleration, 1.0)})});
+  for (const int frame : {base_link, bumper}) {
+    AxisStatements slow = free_axis(frame == bumper ? "ahead.x" : "manners.x", Axis::x);
+    slow.acceleration = between(-0.4, 0.4);
+    slow.level = 0;
+    p.always.groups.push_back(task("", {slow}, frame).groups[0]);
+  }
+  auto records = records_of(p, 0.0035);
+  ASSERT_EQ(records.size(), 4u);
+  for (auto& record : records) {
+    EXPECT_EQ(record["missed"], "go.go.x");
+    EXPECT_NEAR(std::stod(record["missed.by"]), 0.4 - 1.0, 1e-9);
+    EXPECT_NEAR(std::stod(record["go.go.x.residual [m/s^2]"]), 0.4 - 1.0, 1e-9);
+    const std::set<std::string> holders{record["missed.held_back_by"], record["missed.held_back_by.2"]};
+    EXPECT_EQ(holders, (std::set<std::string>{"always.ahead.x", "always.manners.x"}));
+    EXPECT_TRUE(record["missed.held_back_by.3"].empty());
+  }
 }
 
 /// As ROS stamps: the same run, and its log tells one tick from the next.

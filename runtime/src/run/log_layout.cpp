@@ -30,6 +30,7 @@ enum Fixed {
   missed,
   missed_by,
   held_back_by,
+  last_held_back_by = held_back_by + 3,
   event,
   event_of,
   event_value,
@@ -38,6 +39,8 @@ enum Fixed {
   estimated_rz,
   slip,
 };
+
+static_assert(std::tuple_size_v<decltype(Shortfall::held_by)> == last_held_back_by - held_back_by + 1);
 
 template <typename Enum>
 std::vector<std::string> words_up_to(Enum last) {
@@ -79,7 +82,10 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
   for (const Statement& s : statements.all()) rows.push_back(s.name);
   add("missed", "", rows);
   add("missed.by", "");
-  add("missed.held_back_by", "", rows);
+  for (const char* name : {"missed.held_back_by", "missed.held_back_by.2", "missed.held_back_by.3",
+                           "missed.held_back_by.4"}) {  // the strongest first
+    add(name, "", rows);
+  }
   add("event", "", words_up_to(EventCode::signal_refused));
   add("event.signal", "", event_signals);
   add("event.value", "");
@@ -216,7 +222,9 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
     if (tick.shortfall.missed >= 0) {
       put(missed, tick.shortfall.missed);
       put(missed_by, tick.shortfall.residual);
-      if (tick.shortfall.count > 0) put(held_back_by, tick.shortfall.held_by[0].statement);
+      for (int i = 0; i < tick.shortfall.count; ++i) {
+        put(held_back_by + i, tick.shortfall.held_by[static_cast<std::size_t>(i)].statement);
+      }
     }
     const std::vector<int>& exits = guards_[static_cast<std::size_t>(tick.scheduler.task())];
     for (std::size_t i = 0; i < exits.size(); ++i) put(exits[i], tick.scheduler.dwell(static_cast<int>(i)));
