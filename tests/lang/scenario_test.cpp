@@ -67,6 +67,29 @@ TEST(Scenario, multiplies_its_matrix_out_with_the_last_key_fastest) {
   EXPECT_EQ(scenario->cells[1].faults[0].duration, 0.5);
 }
 
+TEST(Scenario, a_cell_has_the_robot_the_scene_and_the_start_of_the_matrix) {
+  const Shelf shelf(R"(zwang_scenario: 1
+task: wall_align.yaml
+matrix:
+  robot: [robots/mecanum_base.yaml, robots/diff_base.yaml]
+  scene: [scenes/wall.yaml, scenes/far.yaml]
+  start_at: [[0 m, 0 m], [-30 cm, 0.1 m]]
+expect: [{outcome: done}]
+)");
+  const std::string wall = test::slurp(test::source_dir / "specs/scenes/wall.yaml");
+  std::ofstream(shelf.path.parent_path() / "scenes/far.yaml")
+      << test::replaced(wall, "at: [0.972 m", "at: [2 m");
+  for (std::size_t cell = 0; cell < 8; ++cell) {
+    Diagnostics of_scenario, of_task;
+    const auto run = load_run(shelf.path, cell, of_scenario, of_task);
+    ASSERT_TRUE(run && run->program) << rendered(of_scenario) << rendered(of_task);
+    EXPECT_EQ(run->program->robot.name, cell < 4 ? "mecanum_base" : "diff_base") << cell;
+    EXPECT_EQ(run->program->scene->objects.at(0).at[0], cell % 4 < 2 ? 0.972 : 2.0) << cell;
+    EXPECT_NEAR(run->program->scene->start_at[0], cell % 2 == 0 ? 0.0 : -0.3, 1e-12) << cell;
+    EXPECT_NEAR(run->program->scene->start_at[1], cell % 2 == 0 ? 0.0 : 0.1, 1e-12) << cell;
+  }
+}
+
 TEST(Scenario, resolves_names_of_the_truth_in_the_cells_own_world) {
   const Shelf shelf(good);
   Diagnostics of_scenario, of_task;

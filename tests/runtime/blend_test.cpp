@@ -203,6 +203,52 @@ TEST(Blend, ARangeThatEntersActsAtOnceOverWhatIsLeftOfTheBlend) {
   }
 }
 
+// Where it leaves it lets go in the measure that its alpha falls, and asks for what it has always asked for,
+// though it had only half entered.
+TEST(Blend, ARangeThatLeavesFadesWithItsRows) {
+  const double speed = 0.5, limit = 0.3, horizon = 0.010;
+  AxisStatements push = drive("go.x", Axis::x, Quantity::force, 10.0), limited = push;
+  limited.velocity = between(-limit, limit);
+  lang::Task a = task("a", {push}), b = task("b", {limited}), c = task("c", {push});
+  a.exits = {exit(after(1.0), to_task(1))};
+  b.exits = {exit(after(0.1), to_task(2))};
+  b.blend.constant = c.blend.constant = 0.2;
+  Standing bench(program({a, b, c}));
+  bench.sensed.state.base_twist.linear = {speed, 0.0, 0.0};
+  bench.run_to(1.099);
+  for (int i = 1; i < 200; ++i) {
+    bench.tick();
+    solver::ConstraintSet& set = bench.scheduler.constraints();
+    ASSERT_TRUE(set.fill(bench.program.robot.model, bench.sensed.state));
+    int found = 0;
+    for (const solver::Row& row : set.rows()) {
+      if (row.kind != solver::RowKind::upper && row.kind != solver::RowKind::lower) continue;
+      EXPECT_NEAR(row.fade, 0.5 * (1.0 - i * period / 0.2), 1e-7) << i;
+      EXPECT_NEAR(row.b, ((row.kind == solver::RowKind::upper ? limit : -limit) - speed) / horizon, 1e-9);
+      ++found;
+    }
+    EXPECT_EQ(found, 2) << i;
+  }
+  bench.tick();
+  EXPECT_EQ(bench.scheduler.constraints().constraints().size(), 1u);
+}
+
+TEST(Blend, APersistingBoundThatSharesNothingWithTheNewOneGivesWayAtOnce) {
+  lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.0)}), b = a;
+  b.name = "b";
+  for (const double side : {-1.0, 1.0}) {
+    a.groups[0].axes[0].velocity = between(0.2 * side - 0.1, 0.2 * side + 0.1);
+    b.groups[0].axes[0].velocity = between(-0.2 * side - 0.1, -0.2 * side + 0.1);
+    Standing bench(switching(a, b, 0.1));
+    for (const double p : {0.01, 0.5, 1.0}) {
+      const Constraints& c = bench.run_to(1.0 + 0.1 * p - period);
+      ASSERT_EQ(c.size(), 1u);
+      EXPECT_NEAR(c[0].velocity->low, -0.2 * side - 0.1, 1e-12) << p;
+      EXPECT_NEAR(c[0].velocity->high, -0.2 * side + 0.1, 1e-12) << p;
+    }
+  }
+}
+
 TEST(Blend, ASwitchInTheMiddleOfABlendTakesOverWhatIsThere) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   lang::Task b = task("b", {drive("go.x", Axis::x, Quantity::force, 20)});

@@ -1,6 +1,11 @@
-// `zwang test`: which files it takes, and what it says of those that it cannot run.
+// `zwang test`: which files it takes, what it says of those that it cannot run, and of those that it can.
+#include <fcntl.h>
+
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "program.hpp"
 
@@ -96,6 +101,144 @@ TEST_F(Scenarios, JUnitNamesWhatWasMissed) {
   EXPECT_NE(junit.find("<failure message=\"missed: at end: truth.crate.x &lt; 2 m (the run ended: done)\">"),
             std::string::npos)
       << junit;
+}
+
+/// The crate stands 3 m ahead, and less of a base that starts nearer.
+TEST_F(Scenarios, TheTableHasTheLeastMarginOfAllRunsAndTheRunThatHasIt) {
+  const std::string claim = "truth.crate.x - truth.base.x < 4 m";
+  write("good.yaml",
+        scenario("zwang_scenario", claim) + "matrix: {start_at: [[1 m, 0 m], [0 m, 0 m], [0.9 m, 0 m]]}\n");
+  Result r = zwang({"test", "good.yaml"});
+  EXPECT_EQ(r.code, 0) << r.out;
+  EXPECT_NE(r.out.find("3/3  outcome: done\n"), std::string::npos) << r.out;
+  const std::string row =
+      "3/3  at end: " + claim + "   3.0000 m, least margin 25.0 % (start_at [0 m, 0 m])\n";
+  EXPECT_NE(r.out.find(row), std::string::npos) << r.out;
+  EXPECT_EQ(r.out.find('\r'), std::string::npos) << "a line that is written over is for terminals";
+  write("good.yaml", scenario("zwang_scenario", "truth.crate.x - truth.base.x < 2.4 m") +
+                         "matrix: {start_at: [[1 m, 0 m], [0 m, 0 m], [0.9 m, 0 m]]}\n");
+  r = zwang({"test", "good.yaml"});
+  EXPECT_EQ(r.code, 1) << r.out;
+  EXPECT_NE(r.out.find("  FAIL  start_at [0 m, 0 m]"), std::string::npos) << r.out;
+  EXPECT_NE(
+      r.out.find(
+          "missed: at end: truth.crate.x - truth.base.x < 2.4 m  [good.yaml:3] 3.0000 m, margin -25.0 % at "),
+      std::string::npos)
+      << r.out;
+  EXPECT_NE(r.out.find("2/3  at end: truth.crate.x"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("\n2 of 3 runs as expected, in "), std::string::npos) << r.out;
+}
+
+TEST_F(Scenarios, JsonHasEveryRunWithWhatWasExpectedOfIt) {
+  write("good.yaml", scenario("zwang_scenario", "truth.crate.x - truth.base.x < 2.4 m") +
+                         "matrix: {start_at: [[1 m, 0 m], [0 m, 0 m]]}\n");
+  write("bad.yaml", scenario("zwang_scenario", "truth.crat.force < 1 N"));
+  const Result r = zwang({"test", "good.yaml", "bad.yaml", "--format", "json"});
+  EXPECT_EQ(r.code, 1);
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["passed"], false);
+  ASSERT_EQ(j["scenarios"].size(), 2u);
+  const json& runs = j["scenarios"][0]["runs"];
+  EXPECT_EQ(j["scenarios"][0]["file"], "good.yaml");
+  EXPECT_EQ(j["scenarios"][0]["passed"], false);
+  ASSERT_EQ(runs.size(), 2u);
+  for (const std::size_t i : {0u, 1u}) {
+    const double ahead = i == 0 ? 2.0 : 3.0;
+    EXPECT_EQ(runs[i]["name"], i == 0 ? "start_at [1 m, 0 m]" : "start_at [0 m, 0 m]");
+    EXPECT_EQ(runs[i]["outcome"], "done");
+    EXPECT_EQ(runs[i]["passed"], i == 0);
+    const json& that = runs[i]["expectations"][1];
+    EXPECT_EQ(runs[i]["expectations"][0]["held"], true);
+    EXPECT_EQ(that["text"], "at end: truth.crate.x - truth.base.x < 2.4 m");
+    EXPECT_EQ(that["held"], i == 0);
+    EXPECT_NEAR(that["value"], ahead, 1e-3);
+    EXPECT_EQ(that["unit"], "m");
+    EXPECT_NEAR(that["margin"], 1.0 - that["value"].get<double>() / 2.4, 1e-12);
+  }
+  EXPECT_EQ(j["scenarios"][1]["passed"], false);
+  EXPECT_EQ(j["scenarios"][1]["diagnostics"][0]["code"], "E301") << r.out;
+}
+
+// With 0.2 m/s at its end the base needs v^2 / 2a to come to rest, a = 1 m/s^2 of the robot file.
+TEST_F(Scenarios, TheEndIsBeforeTheBrakeAndAlwaysGoesOnBehindIt) {
+  std::string task = read(folder_ / "task.yaml");
+  task.replace(task.find("x: {velocity: 0 m/s}"), 20, "x: {velocity: 0.2 m/s, time_constant: 0.1 s}");
+  task.replace(task.find("after: 0.1 s"), 12, "after: 1.5 s");
+  write("task.yaml", task);
+  write("good.yaml", R"(zwang_scenario: 1
+task: task.yaml
+expect:
+  - {at: end, that: truth.base.x < 2 m}
+  - {always: truth.base.x < 2 m}
+  - {at: end, that: truth.base.speed > 0.19 m/s}
+  - {within: 1 s, that: truth.base.speed > 0.19 m/s}
+)");
+  const Result r = zwang({"test", "good.yaml", "--format", "json"});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  const json expected = json::parse(r.out)["scenarios"][0]["runs"][0]["expectations"];
+  const double way = expected[1]["value"].get<double>() - expected[0]["value"].get<double>();
+  const double v = expected[2]["value"];
+  EXPECT_GT(way, v * v / 2.0);
+  EXPECT_LT(way, 3.0 * v * v / 2.0);
+}
+
+/// Runs of some seconds each, of which the first one is the last to end.
+class ManyRuns : public Scenarios {
+ protected:
+  ManyRuns() {
+    std::string task = read(folder_ / "task.yaml");
+    task.replace(task.find("start: stand"), 0, "params: {wait: 4 s}\n");
+    task.replace(task.find("after: 0.1 s"), 12, "after: $wait");
+    write("task.yaml", task);
+    write("good.yaml",
+          scenario("zwang_scenario", "elapsed < 9 s") + "matrix: {params.wait: [8 s, 4 s, 2 s]}\n");
+  }
+};
+
+TEST_F(ManyRuns, ShareTheThreadsThatAreAskedForAndKeepTheirOrder) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  int alone = 0;
+  for (const int jobs : {1, 3, 0}) {
+    std::vector<std::string> arguments = {"test", "good.yaml", "--format", "json"};
+    if (jobs > 0) arguments.insert(arguments.end(), {"--jobs", std::to_string(jobs)});
+    const pid_t child = start(arguments);
+    const std::string status = "/proc/" + std::to_string(child) + "/status";
+    int most = 0;
+    for (std::string text = read(status); text.find("State:\tZ") == std::string::npos; text = read(status)) {
+      const std::size_t at = text.find("Threads:\t");
+      if (at != std::string::npos) most = std::max(most, std::atoi(text.c_str() + at + 9));
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    const Result r = finish(child);
+    EXPECT_EQ(r.code, 0) << r.out;
+    if (jobs == 1) alone = most;
+    EXPECT_EQ(most - alone + 1, jobs > 0 ? jobs : std::min(3, std::max(1, cores))) << jobs;
+    const json whole = json::parse(r.out);
+    std::vector<std::string> names;
+    for (const json& run : whole["scenarios"][0]["runs"]) names.push_back(run["name"].get<std::string>());
+    EXPECT_EQ(names, (std::vector<std::string>{"wait 8 s", "wait 4 s", "wait 2 s"})) << jobs;
+  }
+}
+
+TEST_F(ManyRuns, AreCountedInOneLineOfTheTerminal) {
+  write("good.yaml",
+        scenario("zwang_scenario", "elapsed < 0.15 s") + "matrix: {params.wait: [0.1 s, 0.2 s]}\n");
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_GE(terminal, 0);
+  ASSERT_EQ(grantpt(terminal), 0);
+  ASSERT_EQ(unlockpt(terminal), 0);
+  const pid_t child = start({"test", "good.yaml", "--jobs", "1"}, ptsname(terminal));
+  std::string shown;
+  char piece[4096];
+  for (ssize_t n = 0; (n = ::read(terminal, piece, sizeof piece)) > 0;)
+    shown.append(piece, static_cast<std::size_t>(n));
+  close(terminal);
+  EXPECT_EQ(finish(child).code, 1);
+  const std::string clear = "\033[K";
+  EXPECT_EQ(
+      shown.find("\r1 of 2 runs" + clear + "\r2 of 2 runs, 1 failed" + clear + "\r" + clear + "good.yaml"),
+      0u)
+      << shown;
 }
 
 /// The crate stands 3 m away: 3 m more than 0 m, and by which share is not to be said.

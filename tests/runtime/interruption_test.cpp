@@ -487,6 +487,17 @@ TEST(Require, IsAskedOfEveryEntry) {
   EXPECT_EQ(by_attempts.scheduler.outcome(), Outcome::failed);
 }
 
+/// Of the task that asks: not what the last one has lived.
+TEST(Require, SeesNoTimeElapsedOnEntry) {
+  lang::Task a = task("a", forward), b = task("b", still);
+  a.exits = {exit(after(0.010), to_task(1))};
+  b.require = when(apply(Op::less, name(Op::elapsed), number(0.5 * period)));
+  Bench bench(program({a, b}));
+  bench.ticks_more(11);
+  EXPECT_EQ(bench.scheduler.task(), 1);
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::none);
+}
+
 TEST(Require, HoldsForTheStartTaskAndLetsItInWhenTrue) {
   lang::Task a = task("a", forward);
   a.require = when(apply(Op::less, number(1), number(0)));
@@ -516,8 +527,30 @@ TEST(Release, OnceTrueTheComparisonStaysTrueUntilTheQuantityPassesIt) {
   EXPECT_EQ(dwell_at(1.0), 0.0) << "not below the threshold";
   EXPECT_NEAR(dwell_at(0.7), 0.001, 1e-12);
   EXPECT_NEAR(dwell_at(1.1), 0.002, 1e-12) << "above the threshold, not past the release";
+  EXPECT_NEAR(dwell_at(1.2), 0.003, 1e-12) << "at the release, not past it";
   EXPECT_EQ(dwell_at(1.3), 0.0);
   EXPECT_EQ(dwell_at(1.1), 0.0) << "released";
+}
+
+TEST(Release, OfAQuantityThatIsAboveLiesBelow) {
+  lang::Task a = task("a", forward);
+  a.exits = {exit(when(above(0, 2.0)), to_done, 0.010)};
+  a.exits[0].release = lang::Value{.constant = 1.0};
+  lang::Program p = program({a});
+  p.signals = {signal("near", SignalType::number, 1e9)};
+  Bench bench(p);
+  bench.tick();
+  int ticks = 0;
+  for (const double value : {2.1, 1.9, 1.0}) {
+    bench.hear(0, value);
+    bench.tick();
+    EXPECT_NEAR(bench.scheduler.dwell(0), ++ticks * period, 1e-12) << value;
+  }
+  for (const double value : {0.9, 1.9}) {
+    bench.hear(0, value);
+    bench.tick();
+    EXPECT_EQ(bench.scheduler.dwell(0), 0.0) << value;
+  }
 }
 
 TEST(Release, WhatIsUnknownHasNotPassedIt) {

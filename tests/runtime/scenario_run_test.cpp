@@ -20,7 +20,7 @@ CellResult run_scenario(const std::string& text) {
   const fs::path& folder = temporary.path();
   for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "robots/skid_base.yaml",
                            "robots/skid_base.urdf", "scenes/wall.yaml", "wall_align.yaml",
-                           "scenes/dock_live.yaml", "partners/hold_place.yaml"}) {
+                           "scenes/dock_live.yaml", "scenes/open_noisy.yaml", "partners/hold_place.yaml"}) {
     fs::create_directories((folder / name).parent_path());
     fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name);
   }
@@ -104,6 +104,42 @@ expect:
   EXPECT_NEAR(*expected[6].margin, 1.0 - *expected[6].value, 1e-12);
   EXPECT_EQ(expected[5].unit, "N") << "nearer to its limit";
   EXPECT_NEAR(*expected[5].value, 20.0, 0.1);
+}
+
+// Without `of` the time counts from the start. Whatever held before, it has to hold from then on.
+TEST(ScenarioRun, WithinCountsFromItsTimeAndMeansToTheEnd) {
+  const CellResult result = run_scenario(R"(expect:
+  - {at: end, that: truth.wall.touched > 0 s}
+  - {within: 3 s, of: truth.wall.touched, that: abs(truth.base.yaw) < 0.1 deg}
+  - {within: 20 s, that: abs(truth.base.yaw) < 0.1 deg}
+  - {within: 20 s, that: truth.base.x < 10 cm}
+)");
+  ASSERT_EQ(result.expectations.size(), 4u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(result.expectations[i].held) << i;
+  EXPECT_NEAR(*result.expectations[2].value, *result.expectations[0].value + *result.expectations[1].value,
+              1e-9);
+  EXPECT_FALSE(result.expectations[3].held) << "it did at the start";
+}
+
+// A state that is told 1 cm/s wrong shakes beyond 5 mm/s at once; in 5 ms the 20 N make 2 mm/s of 60 kg.
+TEST(ScenarioRun, IsJudgedByThePlantAndNotByWhatTheRobotIsTold) {
+  const CellResult result = run_scenario(R"(scene: scenes/open_noisy.yaml
+time_limit: 5 ms
+expect: [{always: speed(base_link) < 5 mm/s}, {always: moved(base_link) < 0.05 mm}, {always: truth.base.speed < 5 mm/s}]
+)");
+  for (const ExpectationResult& expected : result.expectations) EXPECT_TRUE(expected.held) << expected.text;
+}
+
+TEST(ScenarioRun, AllChanceComesFromItsSeed) {
+  const auto speed = [](const char* seed) {
+    return *run_scenario("scene: scenes/open_noisy.yaml\ntime_limit: 0.2 s\nseed: " + std::string(seed) +
+                         "\nexpect: [{always: truth.base.speed < 1 m/s}]\n")
+                .expectations.at(0)
+                .value;
+  };
+  const double first = speed("1");
+  EXPECT_EQ(first, speed("1"));
+  EXPECT_NE(first, speed("2"));
 }
 
 TEST(ScenarioRun, WhatDoesNotHoldIsMissedWithItsMargin) {

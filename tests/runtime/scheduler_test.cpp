@@ -137,6 +137,21 @@ TEST(Tick, RangeRowsAreNeverCountedAsForce) {
   EXPECT_EQ(bench.scheduler.reading({0, 0, 0}).residual, -0.3);
 }
 
+TEST(Tick, TheResidualOfARangeIsThatOfTheSideThatIsMissed) {
+  lang::Task a = task("a", {free_axis("go.x", Axis::x)});
+  a.groups[0].axes[0].velocity = between(-1, 1);
+  Bench bench(program({a}));
+  bench.tick();
+  ASSERT_EQ(bench.scheduler.constraints().rows().size(), 2u);
+  solver::Solution solution(bench.program.robot.model, bench.scheduler.row_capacity());
+  for (const std::size_t missed : {0u, 1u}) {
+    solution.rows.assign(2, {});
+    solution.rows[missed].residual = -0.3;
+    bench.scheduler.observe(solution);
+    EXPECT_EQ(bench.scheduler.reading({0, 0, 0}).residual, -0.3) << missed;
+  }
+}
+
 TEST(Tick, SpeedAndMovedFollowTheFrameAndMovedStartsAtEntry) {
   lang::Task a = task("a", forward), b = a;
   a.exits = {exit(after(0.010), to_task(1))};

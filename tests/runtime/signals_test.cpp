@@ -121,6 +121,7 @@ TEST(PoseSignal, WhileInvalidMotionRowsInItsFrameStandStillWithTheSameForceRange
   EXPECT_EQ(bench.constraint(1).driver->force.high, 6.0);
   EXPECT_EQ(bench.constraint(2).driver->quantity, Quantity::force);
   EXPECT_EQ(bench.constraint(2).driver->target, 2.0) << "a force row is no motion row";
+  ASSERT_TRUE(bench.constraint(2).velocity);
   EXPECT_EQ(bench.constraint(2).velocity->low, 0.0);
   EXPECT_EQ(bench.constraint(2).velocity->high, 0.0);
   see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, bench.sensed.time);
@@ -128,6 +129,71 @@ TEST(PoseSignal, WhileInvalidMotionRowsInItsFrameStandStillWithTheSameForceRange
   EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::position);
   EXPECT_EQ(bench.constraint(1).driver->target, 0.3);
   EXPECT_EQ(bench.constraint(2).velocity->high, 0.2);
+}
+
+TEST(PoseSignal, WhileInvalidABoundaryThatItMovesAllowsNoMotion) {
+  lang::Program p = docking({to_socket()}, 0.010);
+  lang::Region yard;
+  yard.name = "yard";
+  yard.polygon = {{-9, -9}, {9, -9}, {9, 9}, {-9, 9}};
+  yard.parent = socket_frame;
+  p.regions = {yard};
+  lang::Group boundary;
+  boundary.name = "boundary";
+  boundary.kind = lang::GroupKind::inside;
+  boundary.region = 0;
+  boundary.moves_footprint = true;
+  boundary.move = base_link;
+  boundary.level = 0;
+  p.always.groups = {boundary};
+  Bench bench(p);
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, 0.0);
+  bench.ticks_more(11);
+  EXPECT_EQ(bench.count(), 1) << "far from every edge";
+  bench.tick();
+  ASSERT_EQ(bench.count(), 2);
+  int found = 0;
+  for (int i = 0; i < 2; ++i) {
+    const InForce& source = bench.scheduler.in_force()[static_cast<std::size_t>(i)];
+    if (source.origin.task != bench.scheduler.always_task()) continue;
+    ++found;
+    EXPECT_EQ(bench.constraint(i).measure, solver::Measure::speed);
+    EXPECT_EQ(bench.constraint(i).level, 0);
+    ASSERT_TRUE(bench.constraint(i).velocity);
+    EXPECT_LE(bench.constraint(i).velocity->high, 0.001);
+  }
+  EXPECT_EQ(found, 1);
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, bench.sensed.time);
+  bench.tick();
+  EXPECT_EQ(bench.count(), 1);
+}
+
+TEST(PoseSignal, WhileInvalidASpringInItsFrameStandsStillToo) {
+  AxisStatements spring = to_socket();
+  spring.stiffness = lang::Value{.constant = 200.0};
+  spring.damping = lang::Value{.constant = 50.0};
+  Bench bench(docking({spring}, 0.010));
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, 0.0);
+  bench.ticks_more(11);
+  EXPECT_TRUE(bench.constraint(0).driver->makes_force());
+  bench.tick();
+  EXPECT_FALSE(bench.constraint(0).driver->makes_force());
+  EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::velocity);
+  EXPECT_EQ(bench.constraint(0).driver->target, 0.0);
+  EXPECT_EQ(bench.constraint(0).driver->force.high, 40.0);
+}
+
+TEST(PoseSignal, HereIsTakenWhenItsFrameIsFirstKnown) {
+  AxisStatements hold = to_socket();
+  hold.here = true;
+  Bench bench(docking({hold}));
+  bench.ticks_more(5);
+  EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::velocity);
+  bench.sensed.state.base_pose.position.x() = 0.25;
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, bench.sensed.time);
+  bench.tick();
+  EXPECT_EQ(bench.constraint(0).driver->quantity, Quantity::position);
+  EXPECT_NEAR(bench.constraint(0).driver->target, -(2.0 - 0.5), 1e-12) << "behind the socket";
 }
 
 TEST(PoseSignal, LossAndReturnAreBlendedLikeASwitch) {
