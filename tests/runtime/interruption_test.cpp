@@ -420,6 +420,30 @@ TEST(Attempts, InterruptionsAreEntriesToo) {
   EXPECT_EQ(bench.scheduler.outcome(), Outcome::failed);
 }
 
+/// From then on it is interrupted no more: its exits count and its timeout runs, though the condition stays
+/// true.
+TEST(Attempts, ThatLeadBackLetTheTaskGoOn) {
+  for (const auto& [to, by_timeout] : {std::pair(back, false), {back, true}, {to_task(work), false}}) {
+    lang::Program p = interrupted_work();
+    p.tasks[1].attempts = lang::Attempts{1, to, {}};
+    if (by_timeout) {
+      p.tasks[0].timeout = lang::Timeout{{.constant = 0.015}, to_done, {}};
+    } else {
+      p.tasks[0].exits = {exit(after(0.006), to_done, 0.010)};
+    }
+    Bench bench(p);
+    bench.hear(0, 0.5);
+    bench.ticks_more(2);
+    ASSERT_EQ(bench.scheduler.task(), pause);
+    bench.hear(0, 5.0);
+    bench.tick();
+    ASSERT_EQ(bench.scheduler.task(), work);
+    bench.hear(0, 0.5);
+    EXPECT_EQ(bench.ticks_to_switch(100), 14) << "after 1 ms before the interruption";
+    EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
+  }
+}
+
 TEST(Attempts, ThatLeadToOneAnotherInACircleFail) {
   lang::Task a = task("a", forward), b = task("b", still);
   a.attempts = lang::Attempts{1, to_task(1), {}};

@@ -75,6 +75,8 @@ struct Scheduler::Parts final : Facts {
   std::optional<Choice> choose() noexcept;
   std::optional<Choice> choose_while_stopping() noexcept;
   bool is_own_target(const lang::Target& target) const noexcept;
+  bool is_used_up(int of_task) const noexcept;
+  lang::Target led_past(lang::Target target) const noexcept;
   bool is_heeded(const lang::Target& target) const noexcept;
   int first_interruption() const noexcept;
   bool is_timed_out() const noexcept;

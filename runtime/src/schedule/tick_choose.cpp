@@ -23,10 +23,20 @@ bool Scheduler::Parts::is_own_target(const lang::Target& target) const noexcept 
   return target.kind == lang::TargetKind::task && target.task == task;
 }
 
-/// An exit of `always` is ignored while its own target is active, and `back` where nothing was interrupted.
+/// Where the target leads past the tasks whose attempts are used up; to the active one in any case.
+lang::Target Scheduler::Parts::led_past(lang::Target target) const noexcept {
+  for (int hops = 0; hops <= tasks.program_tasks; ++hops) {
+    if (target.kind != lang::TargetKind::task || is_own_target(target) || !is_used_up(target.task)) break;
+    target = tasks[target.task].attempts->target;
+  }
+  return target;
+}
+
+/// An exit of `always` is ignored while its own target is active, or the one that used up attempts lead to,
+/// and `back` where nothing was interrupted.
 bool Scheduler::Parts::is_heeded(const lang::Target& target) const noexcept {
-  if (target.kind == lang::TargetKind::back) return interruption.task >= 0;
-  return !is_own_target(target);
+  const lang::Target to = led_past(target);
+  return to.kind == lang::TargetKind::back ? interruption.task >= 0 : !is_own_target(to);
 }
 
 /// The exit of `always` that fires: the first that is due; -1 for none. While one that is due has its own

@@ -35,13 +35,18 @@ void Scheduler::Parts::lead(Transition& t, const lang::Target& target) const noe
   }
 }
 
+/// Whether the next entry would be one more than the task may have.
+bool Scheduler::Parts::is_used_up(int of_task) const noexcept {
+  const auto& attempts = tasks[of_task].attempts;
+  return attempts && entries[static_cast<std::size_t>(of_task)] >= attempts->most;
+}
+
 /// Past the tasks whose attempts are used up; to `failed` where one requires what does not hold.
 void Scheduler::Parts::turn_away(Transition& t) noexcept {
   for (int hops = 0; hops <= tasks.program_tasks; ++hops) {
     if (t.resumes || tasks.ends(t.to)) return;
     const lang::Task& next = tasks[t.to];
-    const bool used_up = next.attempts && entries[static_cast<std::size_t>(t.to)] >= next.attempts->most;
-    if (used_up) {
+    if (is_used_up(t.to)) {
       t.refusal = Refusal::attempts;
       t.refused = t.to;
       lead(t, next.attempts->target);
