@@ -276,6 +276,108 @@ TEST(Blend, ASwitchInTheMiddleOfABlendTakesOverWhatIsThere) {
   EXPECT_NEAR(largest_step, period / 0.1, 1e-7);
 }
 
+// What a row asks for goes on from where it was when the switch came, half way from the first driver to the
+// second.
+TEST(Blend, APersistingRowThatIsOnItsWayGoesOnFromWhereItIs) {
+  const double blend = 0.1;
+  const double targets[] = {0.1, 0.3, -0.2};
+  std::vector<lang::Task> tasks;
+  for (const double target : targets) {
+    tasks.push_back(task("t", {drive("go.x", Axis::x, Quantity::velocity, target)}));
+    tasks.back().blend.constant = blend;
+  }
+  tasks[0].exits = {exit(after(1.0), to_task(1))};
+  tasks[1].exits = {exit(after(0.05), to_task(2))};
+  Standing bench(program(tasks));
+  bench.run_to(0.999);
+  const double time_constant = tasks[0].groups[0].axes[0].time_constant.constant;
+  for (int i = 1; i <= 160; ++i) {
+    bench.tick();
+    solver::ConstraintSet& set = bench.scheduler.constraints();
+    ASSERT_TRUE(set.fill(bench.program.robot.model, bench.sensed.state));
+    ASSERT_EQ(set.rows().size(), 1u);
+    const double then = targets[0] + (targets[1] - targets[0]) * 0.5;
+    const double asked = i <= 50 ? targets[0] + (targets[1] - targets[0]) * i * period / blend
+                                 : then + (targets[2] - then) * std::min(1.0, (i - 50) * period / blend);
+    EXPECT_NEAR(set.rows()[0].b, asked / time_constant, 1e-6) << i;
+  }
+}
+
+// Half way between two quantities, or two time constants, no single driver asks for what is asked for: it
+// fades.
+TEST(Blend, ARowBetweenTwoKindsOfDriverFadesWhenItIsSwitchedAgain) {
+  const lang::Task first =
+      task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}, base_link, world_frame);
+  lang::Task slower = first, elsewhere = first;
+  slower.name = "slower";
+  slower.groups[0].axes[0].time_constant.constant *= 2.0;
+  elsewhere.name = "elsewhere";
+  elsewhere.groups[0].axes[0].driver = Quantity::position;
+  for (const lang::Task& second : {first, slower, elsewhere}) {
+    lang::Task a = first, b = second, c = first;
+    a.exits = {exit(after(1.0), to_task(1))};
+    b.exits = {exit(after(0.05), to_task(2))};
+    b.blend.constant = c.blend.constant = 0.1;
+    Standing bench(program({a, b, c}));
+    EXPECT_EQ(bench.run_to(1.049).size(), 1u);
+    const Constraints& both = bench.run_to(1.059);
+    ASSERT_EQ(both.size(), second.name == "a" ? 1u : 2u) << second.name;
+    double sum = 0.0;
+    for (const auto& constraint : both) sum += constraint.alpha;
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+  }
+}
+
+TEST(Blend, RangesThatBothTasksHaveStayInForceWhileTheDriversChangeOver) {
+  lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
+  lang::Task b = task("b", {drive("go.x", Axis::x, Quantity::force, 10.0)});
+  a.groups[0].axes[0].velocity = b.groups[0].axes[0].velocity = between(-0.3, 0.3);
+  for (const auto& [from, to] : {std::pair(a, b), {b, a}}) {
+    Standing bench(switching(from, to, 0.1));
+    bench.run_to(0.999);
+    for (int i = 1; i < 100; ++i) {
+      int ranges = 0;
+      for (const auto& c : bench.tick()) {
+        if (!c.velocity) continue;
+        ++ranges;
+        EXPECT_EQ(c.alpha, 1.0) << i;
+        EXPECT_FALSE(c.leaving);
+        EXPECT_EQ(c.blend, 0.0) << "it is not new";
+        EXPECT_EQ(c.velocity->high, 0.3);
+      }
+      EXPECT_EQ(ranges, 1) << i;
+    }
+  }
+}
+
+// An axis, a distance and two directions of one pair of frames.
+TEST(Blend, OtherMeasuresOfTheSameFramesDoNotPersist) {
+  lang::Program p = program({});
+  std::vector<lang::Task> tasks;
+  for (const char* name : {"along_x", "along_y", "distance", "axis"}) {
+    lang::Feature feature;
+    feature.name = name;
+    feature.kind = tasks.size() < 2 ? lang::FeatureKind::direction : lang::FeatureKind::distance;
+    feature.first = bumper;
+    feature.second = world_frame;
+    feature.direction[tasks.size() < 2 ? tasks.size() : 0] = 1.0;
+    tasks.push_back(task(name, {drive("go.x", Axis::x, Quantity::velocity, 0.1)}, bumper, world_frame));
+    if (tasks.size() < 4) {
+      tasks.back().groups[0].kind = lang::GroupKind::feature;
+      tasks.back().groups[0].feature = static_cast<int>(p.features.size());
+      p.features.push_back(feature);
+    }
+  }
+  for (const auto& from : tasks) {
+    for (const auto& to : tasks) {
+      lang::Program both = switching(from, to, 0.1);
+      both.features = p.features;
+      Standing bench(both);
+      EXPECT_EQ(bench.run_to(1.02).size(), from.name == to.name ? 1u : 2u) << from.name << ", " << to.name;
+    }
+  }
+}
+
 TEST(Blend, GoingBackInTheMiddleOfABlendPicksUpWhatIsStillLeaving) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   lang::Task b = task("b", {drive("go.y", Axis::y, Quantity::velocity, 0.1)});
