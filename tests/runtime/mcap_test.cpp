@@ -153,6 +153,9 @@ TEST(McapLog, AFlippedBitIsToldAndLosesNoMoreThanAChunk) {
   constexpr std::uint64_t count = 350;
   const std::string whole = bytes_of(write_log(folder, ramp(static_cast<int>(count))));
   const std::filesystem::path flipped = folder.path / "flipped.mcap";
+  constexpr std::string_view data_end_head("\x0F\4\0\0\0\0\0\0\0", 9);
+  const std::size_t data_end = whole.rfind(data_end_head);
+  ASSERT_NE(data_end, std::string::npos);
   // The heads of the first records byte by byte, the rest in strides that meet every field somewhere.
   for (std::size_t i = 8; i < whole.size(); i += i < 400 ? 1 : stride) {
     std::string changed = whole;
@@ -160,10 +163,43 @@ TEST(McapLog, AFlippedBitIsToldAndLosesNoMoreThanAChunk) {
     put_bytes(flipped, changed);
     const LogContents log = read(flipped);
     EXPECT_GE(log.records + records_in_a_chunk, count) << "byte " << i;
-    if (log.records < count) {
+    // What stands behind the data is there to find things faster, and is not read.
+    if (i < data_end + data_end_head.size() + 4) {
       EXPECT_FALSE(log.damage.empty()) << "byte " << i;
     }
   }
+}
+
+/// Where no samples arrive, time stands still: that a stop followed has to be on disk all the same.
+TEST(McapLog, RecordsOfOneTimeAreOnDiskSoon) {
+  const Folder folder;
+  const std::filesystem::path path = folder.path / "log.mcap";
+  const std::unique_ptr<LogSink> sink = mcap_sink(path, context());
+  ASSERT_EQ(sink->open(columns), "");
+  constexpr int count = 350;
+  for (int i = 0; i < count; ++i) ASSERT_EQ(sink->write(std::vector{2.0, 0.0, i * 0.1}), "");
+  EXPECT_GE(read(path).records, count - 100u) << "before it is closed";
+}
+
+/// Of a hundred thousand records four at a time find room: how many did not, and where, is in the log.
+TEST(McapLog, DroppedRecordsAreMissingInTheLog) {
+  const Folder folder;
+  const std::filesystem::path path = folder.path / "log.mcap";
+  std::vector<std::unique_ptr<LogSink>> sinks;
+  sinks.push_back(mcap_sink(path, context()));
+  Recorder recorder(std::move(sinks), columns, 4);
+  constexpr int count = 100'000;
+  for (int i = 0; i < count; ++i) recorder.record(std::vector{i * period, 0.0, 0.0});
+  recorder.close();
+  EXPECT_GT(recorder.status().dropped, 0u);
+  const LogContents log = read(path);
+  EXPECT_EQ(log.records, recorder.status().written);
+  EXPECT_EQ(log.context.facts, context().facts);
+  ASSERT_FALSE(log.damage.empty());
+  std::uint64_t missing = 0;
+  for (const std::string& what : log.damage) missing += std::stoull(what);
+  EXPECT_EQ(missing, recorder.status().dropped);
+  EXPECT_NE(log.damage.back().find("missing before the end"), std::string::npos) << log.damage.back();
 }
 
 TEST(McapLog, OtherFilesAreRefused) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -40,6 +41,7 @@ class LogReader {
     if (!file_) throw std::runtime_error(path.string() + ": " + std::strerror(errno));
     std::string magic(mcap::magic.size(), '\0');
     if (!take(magic) || magic != mcap::magic) throw std::runtime_error(path.string() + ": is no MCAP log");
+    data_crc_ = crc32(magic);
     size_ = static_cast<std::uint64_t>(std::filesystem::file_size(path));
   }
 
@@ -99,6 +101,7 @@ class LogReader {
     }
     content.resize(static_cast<std::size_t>(length));
     if (!take(content)) return std::nullopt;
+    if (opcode != Opcode::data_end) data_crc_ = crc32(content, crc32(head, data_crc_));
     return opcode;
   }
 
@@ -150,11 +153,10 @@ class LogReader {
         fields.text();
         break;
       case Opcode::metadata:
-        fields.text();
-        contents_.context.facts = facts_of(fields.text());
+        read_metadata(fields);
         break;
       case Opcode::data_end:
-        fields.u32();
+        judge_the_whole(fields.u32());
         break;
       case Opcode::attachment:
         return read_attachment(content);
@@ -202,6 +204,29 @@ class LogReader {
     return inside.good();
   }
 
+  /// What is damaged and has no CRC of its own: schema, facts, the index of a chunk.
+  void judge_the_whole(std::uint32_t crc) {
+    if (crc != 0 && crc != data_crc_ && contents_.damage.empty())
+      contents_.damage.emplace_back("a bit of it has changed, outside the records");
+  }
+
+  void read_metadata(Reader& fields) {
+    const std::string_view name = fields.text();
+    std::map<std::string, std::string> facts = facts_of(fields.text());
+    if (name == mcap::facts_name) contents_.context.facts = std::move(facts);
+    if (name != mcap::end_name) return;
+    const std::string& text = facts[mcap::end_sequence];
+    std::uint32_t sequence = next_sequence_;
+    std::from_chars(text.data(), text.data() + text.size(), sequence);
+    look_for_a_gap(sequence, "the end");
+  }
+
+  void look_for_a_gap(std::uint32_t sequence, const std::string& before) {
+    if (sequence == next_sequence_) return;
+    contents_.damage.push_back(std::to_string(sequence - next_sequence_) + " records are missing before " +
+                               before);
+  }
+
   void read_message(std::string_view content) {
     Reader fields(content);
     fields.u16();
@@ -209,10 +234,7 @@ class LogReader {
     const double time = static_cast<double>(fields.u64()) * 1e-9;
     fields.u64();
     if (!fields.good()) return;
-    if (sequence != next_sequence_) {
-      contents_.damage.push_back(std::to_string(sequence - next_sequence_) + " records are missing before " +
-                                 std::to_string(time) + " s");
-    }
+    look_for_a_gap(sequence, std::to_string(time) + " s");
     next_sequence_ = sequence + 1;
     if (contents_.records++ == 0) contents_.begin = time;
     contents_.end = time;
@@ -224,6 +246,7 @@ class LogReader {
   std::uint64_t at_ = 0;    // [bytes] read so far
   std::uint64_t size_ = 0;  // [bytes] of the file
   std::uint32_t next_sequence_ = 0;
+  std::uint32_t data_crc_ = 0;  // so far
   LogContents contents_;
 };
 

@@ -31,6 +31,11 @@ enum Opcode : unsigned char {
 
 inline constexpr std::size_t record_head = 9;  // opcode and length
 
+// Metadata of ours: the facts; and where the last records were dropped, the sequence number behind them.
+inline constexpr const char* facts_name = "zwang";
+inline constexpr const char* end_name = "zwang.end";
+inline constexpr const char* end_sequence = "sequence";
+
 /// The content of a record, put together.
 class Content {
  public:

@@ -17,7 +17,9 @@ using mcap::Opcode;
 // A killed run loses at most one chunk and what is on the way to it: not more than 100 ms together.
 constexpr std::uint64_t chunk_span = 50'000'000;          // [ns]
 constexpr std::size_t chunk_room = std::size_t{1} << 20;  // [bytes]
-constexpr std::uint16_t tick_id = 1;                      // of the schema and of the channel
+// Where time stands still, because no samples arrive, its records have to be on disk all the same.
+constexpr std::size_t chunk_records = 100;
+constexpr std::uint16_t tick_id = 1;  // of the schema and of the channel
 
 std::uint64_t nanoseconds(double seconds) {
   return seconds > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds * 1e9)) : 0;
@@ -45,10 +47,10 @@ class McapSink : public LogSink {
     std::string error = file_.open();
     if (!error.empty()) return error;
     schema_and_channel_ = schema_record(columns) + channel_record();
-    error = file_.append(std::string(mcap::magic) +
-                         mcap::record(Opcode::header, Content().text("").text("zwang").bytes()) +
-                         schema_and_channel_);
-    if (error.empty()) error = append_metadata();
+    error =
+        append(std::string(mcap::magic) +
+               mcap::record(Opcode::header, Content().text("").text("zwang").bytes()) + schema_and_channel_);
+    if (error.empty()) error = append_metadata(mcap::facts_name, context_.facts);
     for (const lang::Source& source : context_.sources) {
       if (error.empty()) error = append_attachment(source);
     }
@@ -58,15 +60,23 @@ class McapSink : public LogSink {
   std::string write(std::span<const double> values) override {
     const std::uint64_t time = nanoseconds(values.front());
     std::string error;
-    if (!chunk_times_.empty() &&
-        (time >= chunk_times_.front().time + chunk_span || chunk_.size() > chunk_room)) {
-      error = append_chunk();
-    }
+    const bool is_full =
+        !chunk_times_.empty() && (time >= chunk_times_.front().time + chunk_span ||
+                                  chunk_times_.size() >= chunk_records || chunk_.size() > chunk_room);
+    if (is_full) error = append_chunk();
     const std::string& json = json_->of(values);
     chunk_times_.push_back({time, chunk_.size()});
     chunk_ += mcap::record(Opcode::message,
                            Content().u16(tick_id).u32(sequence_++).u64(time).u64(time).raw(json).bytes());
+    ++messages_;
+    last_is_missing_ = false;
     return error;
+  }
+
+  std::string skip(std::uint64_t records) override {
+    sequence_ += static_cast<std::uint32_t>(records);
+    last_is_missing_ = true;
+    return "";
   }
 
   std::string flush() override { return ""; }  // a chunk is on its way as soon as it is full
@@ -74,9 +84,11 @@ class McapSink : public LogSink {
   std::string close() override {
     if (!file_.is_open()) return "";
     std::string error = chunk_times_.empty() ? "" : append_chunk();
-    // Every chunk and attachment has a CRC of its own; 0 says that the data as a whole has none.
-    if (error.empty()) error = file_.append(mcap::record(Opcode::data_end, Content().u32(0).bytes()));
-    if (error.empty()) error = file_.append(summary());
+    if (error.empty() && last_is_missing_)
+      error = append_metadata(mcap::end_name, {{mcap::end_sequence, std::to_string(sequence_)}});
+    // Chunks and attachments have CRCs of their own; schema, facts and the index of each chunk have this one.
+    if (error.empty()) error = append(mcap::record(Opcode::data_end, Content().u32(data_crc_).bytes()));
+    if (error.empty()) error = append(summary());
     const std::string closing = file_.close();
     return error.empty() ? closing : error;
   }
@@ -86,6 +98,11 @@ class McapSink : public LogSink {
     std::uint64_t time = 0;    ///< [ns]
     std::uint64_t offset = 0;  ///< [bytes] in the chunk
   };
+
+  std::string append(std::string_view bytes) {
+    data_crc_ = crc32(bytes, data_crc_);
+    return file_.append(bytes);
+  }
 
   std::string schema_record(const std::vector<Column>& columns) const {
     return mcap::record(Opcode::schema, Content()
@@ -101,12 +118,13 @@ class McapSink : public LogSink {
                         Content().u16(tick_id).u16(tick_id).text("/tick").text("json").text("").bytes());
   }
 
-  std::string append_metadata() {
+  std::string append_metadata(std::string_view name, const std::map<std::string, std::string>& facts) {
     const std::string whole =
-        mcap::record(Opcode::metadata, Content().text("zwang").text(map_of(context_.facts)).bytes());
+        mcap::record(Opcode::metadata, Content().text(name).text(map_of(facts)).bytes());
     index_ += mcap::record(Opcode::metadata_index,
-                           Content().u64(file_.size()).u64(whole.size()).text("zwang").bytes());
-    return file_.append(whole);
+                           Content().u64(file_.size()).u64(whole.size()).text(name).bytes());
+    ++metadata_;
+    return append(whole);
   }
 
   std::string append_attachment(const lang::Source& source) {
@@ -124,7 +142,7 @@ class McapSink : public LogSink {
                                                          .text(source.path)
                                                          .text(type)
                                                          .bytes());
-    return file_.append(whole);
+    return append(whole);
   }
 
   std::string append_chunk() {
@@ -158,15 +176,15 @@ class McapSink : public LogSink {
     ++chunks_;
     chunk_.clear();
     chunk_times_.clear();
-    const std::string error = file_.append(whole + index);
+    const std::string error = append(whole + index);
     return error.empty() ? file_.flush() : error;
   }
 
   std::string statistics() const {
     Content content;
-    content.u64(sequence_).u16(1).u32(1).u32(static_cast<std::uint32_t>(context_.sources.size())).u32(1);
-    content.u32(chunks_).u64(sequence_ > 0 ? begin_ : 0).u64(end_);
-    content.text(Content().u16(tick_id).u64(sequence_).bytes());
+    content.u64(messages_).u16(1).u32(1).u32(static_cast<std::uint32_t>(context_.sources.size()));
+    content.u32(metadata_).u32(chunks_).u64(messages_ > 0 ? begin_ : 0).u64(end_);
+    content.text(Content().u16(tick_id).u64(messages_).bytes());
     return mcap::record(Opcode::statistics, content.bytes());
   }
 
@@ -187,7 +205,10 @@ class McapSink : public LogSink {
   std::string schema_and_channel_, index_, chunk_index_;  // of the summary
   std::string chunk_;
   std::vector<Stamp> chunk_times_;
-  std::uint32_t sequence_ = 0, chunks_ = 0;
+  std::uint32_t data_crc_ = 0;
+  std::uint32_t sequence_ = 0, chunks_ = 0, metadata_ = 0;
+  std::uint64_t messages_ = 0;
+  bool last_is_missing_ = false;  ///< records behind the last message were dropped
   std::uint64_t begin_ = ~std::uint64_t{0}, end_ = 0;
 };
 

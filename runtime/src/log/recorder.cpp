@@ -28,6 +28,10 @@ std::string complaint(const Call& call) {
 
 }  // namespace
 
+std::string LogSink::skip(std::uint64_t) {
+  return "";
+}
+
 /// A ring with one producer (the control thread) and one consumer (the writer's thread). `head` and `tail`
 /// only grow; a slot is theirs modulo the capacity.
 struct Recorder::Writer {
@@ -37,7 +41,7 @@ struct Recorder::Writer {
   };
 
   Writer(std::vector<std::unique_ptr<LogSink>> given_sinks, std::vector<Column> given, std::size_t slots)
-      : columns(std::move(given)), capacity(slots), ring(slots * columns.size()) {
+      : columns(std::move(given)), capacity(slots), ring(slots * columns.size()), dropped_before(slots) {
     for (std::unique_ptr<LogSink>& sink : given_sinks) outputs.push_back({std::move(sink)});
     each([this](LogSink& sink) { return sink.open(columns); });
     thread = std::thread([this] { run(); });
@@ -70,6 +74,7 @@ struct Recorder::Writer {
       if (last_look) break;
       std::this_thread::sleep_for(idle);
     }
+    tell_dropped(dropped.load(std::memory_order_relaxed));
     // A sink that failed has a file to close all the same.
     for (Output& output : outputs) {
       const std::string said = complaint([&] { return output.sink->close(); });
@@ -83,18 +88,27 @@ struct Recorder::Writer {
     if (begin == end) return;
     std::uint64_t count = 0;
     for (; begin != end; ++begin) {
-      const std::span<const double> values(&ring[static_cast<std::size_t>(begin % capacity) * columns.size()],
-                                           columns.size());
+      const auto slot = static_cast<std::size_t>(begin % capacity);
+      const std::span<const double> values(&ring[slot * columns.size()], columns.size());
+      tell_dropped(dropped_before[slot]);
       if (each([&](LogSink& sink) { return sink.write(values); })) ++count;
       tail.store(begin + 1, std::memory_order_release);
     }
     if (each([](LogSink& sink) { return sink.flush(); })) written.fetch_add(count, std::memory_order_relaxed);
   }
 
+  void tell_dropped(std::uint64_t so_far) {
+    const std::uint64_t records = so_far - told_dropped;
+    if (records > 0) each([records](LogSink& sink) { return sink.skip(records); });
+    told_dropped = so_far;
+  }
+
   const std::vector<Column> columns;
   const std::size_t capacity;
   std::vector<double> ring;
-  std::vector<Output> outputs;  // the writer's thread's own
+  std::vector<std::uint64_t> dropped_before;  // each record of the ring
+  std::uint64_t told_dropped = 0;             // the writer's thread's own
+  std::vector<Output> outputs;                // the writer's thread's own
   std::atomic<std::uint64_t> head{0};
   std::atomic<std::uint64_t> tail{0};
   std::atomic<std::uint64_t> written{0};
@@ -140,8 +154,9 @@ bool Recorder::record(std::span<const double> values) noexcept {
     w.dropped.fetch_add(1, std::memory_order_relaxed);
     return false;
   }
-  double* slot = &w.ring[static_cast<std::size_t>(head % w.capacity) * w.columns.size()];
-  std::memcpy(slot, values.data(), values.size_bytes());
+  const auto slot = static_cast<std::size_t>(head % w.capacity);
+  std::memcpy(&w.ring[slot * w.columns.size()], values.data(), values.size_bytes());
+  w.dropped_before[slot] = w.dropped.load(std::memory_order_relaxed);
   w.head.store(head + 1, std::memory_order_release);
   return true;
 }

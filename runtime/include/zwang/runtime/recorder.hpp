@@ -37,6 +37,8 @@ class LogSink {
   virtual ~LogSink() = default;
   virtual std::string open(const std::vector<Column>& columns) = 0;  ///< once, by Recorder's constructor
   virtual std::string write(std::span<const double> values) = 0;     ///< one value a column; NaN: blank
+  /// Before the next record, or the end, so many were dropped.
+  virtual std::string skip(std::uint64_t records);
   virtual std::string flush() = 0;  ///< now and then, when there is nothing to write
   virtual std::string close() = 0;
 };
@@ -47,7 +49,8 @@ std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path);
 
 /// MCAP (https://mcap.dev): messages of the channel `/tick` with a JSON schema, numbers in full, in
 /// compressed chunks of at most 50 ms; the context's sources are its attachments. Cut anywhere, all whole
-/// chunks before the cut can be read. Wants a first column `time` in seconds.
+/// chunks before the cut can be read. Dropped records are missing among the messages' sequence numbers, and
+/// `read_log` tells so. Wants a first column `time` in seconds.
 std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context);
 
 struct RecorderStatus {
