@@ -64,6 +64,22 @@ TEST(Replay, KnowsTheParametersThatAHostSetDuringTheRun) {
   }
 }
 
+/// What a record says of the author's words leads back to them: an exit's timer and a parameter, too.
+TEST(Replay, ColumnsOfExitsAndParametersHaveTheirLines) {
+  const Runner runner(wall_alignment(), {.period = period});
+  int exits = 0, parameters = 0;
+  for (const Column& column : runner.columns()) {
+    const bool is_exit = column.name.ends_with(".true_for");
+    const bool is_parameter = column.name.starts_with("params.");
+    if (!is_exit && !is_parameter) continue;
+    EXPECT_TRUE(column.span.exists()) << column.name;
+    EXPECT_GT(column.span.begin.line, 1) << column.name;
+    (is_exit ? exits : parameters) += 1;
+  }
+  EXPECT_GE(exits, 2);
+  EXPECT_EQ(parameters, 1);
+}
+
 TEST(Replay, KnowsWhenAHostResetTheStop) {
   const test::TemporaryFolder folder;
   const lang::Program program = wall_alignment();

@@ -107,6 +107,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
     guards_.emplace_back();
     for (std::size_t i = 0; i < t.exits.size(); ++i) {
       guards_.back().push_back(add(t.name + ".exit" + std::to_string(i + 1) + ".true_for", "s"));
+      columns_.back().span = t.exits[i].span;
     }
   }
   first_input_ = static_cast<int>(columns_.size());

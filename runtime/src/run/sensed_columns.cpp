@@ -142,7 +142,10 @@ SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang:
     }
   }
   first_parameter_ = columns_.size();
-  for (const lang::Parameter& parameter : parameters) name("params." + parameter.name, {""});
+  for (const lang::Parameter& parameter : parameters) {
+    name("params." + parameter.name, {""});
+    columns_.back().span = parameter.span;
+  }
 }
 
 void SensedColumns::name(const std::string& of, std::initializer_list<const char*> parts) {
