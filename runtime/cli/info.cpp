@@ -105,7 +105,7 @@ int info(const InfoArguments& arguments) {
             ? as_json(arguments.file, log, tasks, events)
                       .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
                   "\n"
-            : as_text(arguments.file, log, tasks, events));
+            : printable(as_text(arguments.file, log, tasks, events)));
   return log.closed && log.damage.empty() ? exit_good : exit_bad;
 }
 

@@ -19,9 +19,26 @@ void print(std::string_view text) {
   }
 }
 
-void print_error(std::string_view text) noexcept {
-  std::fwrite(text.data(), 1, text.size(), stderr);
+void print_error(std::string_view text) {
+  const std::string shown = printable(text);
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
   std::fflush(stderr);
+}
+
+std::string printable(std::string_view text) {
+  std::string shown;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool is_control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7F;
+    if (!is_control) {
+      shown += c;
+      continue;
+    }
+    char hex[8];
+    std::snprintf(hex, sizeof hex, "\\x%02x", static_cast<unsigned>(byte));
+    shown += hex;
+  }
+  return shown;
 }
 
 bool stdout_is_terminal() noexcept {

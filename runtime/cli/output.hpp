@@ -17,7 +17,10 @@ class Impossible : public std::runtime_error {
 
 /// Writes to stdout at once. Throws Impossible when stdout is closed or full.
 void print(std::string_view text);
-void print_error(std::string_view text) noexcept;
+void print_error(std::string_view text);  ///< control bytes as `printable` has them
+
+/// Control bytes but the ends of lines as \xNN: what a log or a name says must not write to the terminal.
+std::string printable(std::string_view text);
 bool stdout_is_terminal() noexcept;
 
 /// Keeps the three standard descriptors from being reused by a file that is opened later. Throws Impossible

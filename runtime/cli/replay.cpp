@@ -1,5 +1,6 @@
 #include "zwang/runtime/replay.hpp"
 
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -24,7 +25,12 @@ std::string exactly(double value) {
 double period_of(const runtime::LogContext& context) {
   const auto period = context.facts.find("period [s]");
   if (period == context.facts.end()) throw Impossible("the log does not say its control period");
-  return std::stod(period->second);
+  const std::string& text = period->second;
+  double seconds = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw Impossible("`" + text + "` in the log is not a control period");
+  return seconds;
 }
 
 constexpr std::size_t most_parts = 1000;
@@ -97,7 +103,7 @@ int replay(const ReplayArguments& arguments) {
             ? as_json(arguments.file, result, whole, by)
                       .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
                   "\n"
-            : as_text(arguments.file, result, whole, by));
+            : printable(as_text(arguments.file, result, whole, by)));
   return whole && result.records > 0 && result.equal == result.records ? exit_good : exit_bad;
 }
 

@@ -40,6 +40,8 @@ void catch_signals() {
   interrupted = 0;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  // The terminal, or the connection to it, is gone; under nohup that is to be ignored.
+  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Format format) {
@@ -195,6 +197,11 @@ int run(const RunArguments& arguments) {
     const lang::SceneRobot& robot = program->scene->robots[i];
     recorders.push_back(record(plant.partners()[i].runner, folder, "log-" + robot.name,
                                context_of(arguments, *program->scene, robot, diagnostics)));
+  }
+
+  for (const auto& recorder : recorders) {
+    const std::string error = recorder->status().error;
+    if (!error.empty()) throw Impossible(error);
   }
 
   const bool talks = !arguments.quiet && arguments.format == Format::human;

@@ -65,7 +65,6 @@ std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const fs::pat
   sinks.push_back(runtime::mcap_sink(folder / (name + ".mcap"), std::move(context)));
   sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
   auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
-  if (!recorder->status().error.empty()) throw Impossible(recorder->status().error);
   runner.record_to(recorder.get());
   return recorder;
 }

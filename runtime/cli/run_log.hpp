@@ -25,7 +25,7 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Progra
 runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene& scene,
                                const lang::SceneRobot& robot, const lang::Diagnostics& diagnostics);
 
-/// A log of `runner` in the folder, as MCAP and as CSV. Throws Impossible.
+/// A log of `runner` in the folder, as MCAP and as CSV. Its status tells what cannot be opened.
 std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const std::filesystem::path& folder,
                                           const std::string& name, runtime::LogContext context);
 

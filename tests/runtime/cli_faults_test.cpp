@@ -78,7 +78,7 @@ tasks:
 };
 
 TEST_F(FromOutside, ASignalEndsTheRunWithinHalfASecond) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const pid_t child = start_endless();
     const auto begin = Clock::now();
     kill(child, signal);
@@ -253,6 +253,23 @@ TEST_F(FromOutside, AReplayTellsTheFirstDifference) {
   EXPECT_NE(j["first_difference"]["column"].get<std::string>().find(".tau"), std::string::npos);
 }
 
+/// The facts of a log stand in it as they are, and anybody may have written it.
+TEST_F(FromOutside, WhatALogSaysDoesNotWriteToTheTerminal) {
+  ASSERT_EQ(zwang({"run", specs + "wall_align.yaml", "--log", "log", "--quiet"}).code, 0);
+  std::string bytes = read(folder_ / "log/log.mcap");
+  const std::size_t value = bytes.find("0.001", bytes.find("period [s]"));
+  ASSERT_NE(value, std::string::npos);
+  bytes.replace(value, 5, "\x1b[31m");
+  std::ofstream(folder_ / "log/log.mcap", std::ios::binary) << bytes;
+  const Result info = zwang({"info", "log/log.mcap"});
+  EXPECT_NE(info.out.find("period [s]          \\x1b[31m\n"), std::string::npos) << info.out;
+  EXPECT_EQ(info.out.find('\x1b'), std::string::npos);
+  EXPECT_EQ(info.code, 1) << "a CRC tells that it was changed";
+  const Result replay = zwang({"replay", "log/log.mcap"});
+  EXPECT_EQ(replay.code, 2);
+  EXPECT_EQ(replay.err, "zwang: `\\x1b[31m` in the log is not a control period\n");
+}
+
 TEST_F(FromOutside, TwoRunsWithOneSeedWriteTheSameMcap) {
   for (const char* name : {"a", "b"}) {
     ASSERT_EQ(zwang({"run", specs + "docking.yaml", "--seed", "7", "--log", name, "--quiet"}).code, 0);
@@ -292,6 +309,21 @@ TEST_F(FromOutside, InfoReadsWellWithALongNameAndAParameter) {
       << text;
   EXPECT_NE(text.find("\n  command line                  -p gentle_final_approach=21 N\n"), std::string::npos)
       << text;
+}
+
+/// The log of the reloaded program cannot be opened: that is no reason to end the run.
+TEST_F(FromOutside, AReloadWithoutAFolderForItsLogLeavesTheRunAlone) {
+  const pid_t child = start_endless({"--watch"});
+  fs::remove_all(folder_ / "log");
+  std::string other = read(folder_ / "task.yaml");
+  other.replace(other.find("100000 s, goto: failed"), 22, "0.2 s, goto: done");
+  write("task.yaml", other);
+  const Result r = finish(child);
+  EXPECT_EQ(r.code, 2) << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["outcome"], "done") << r.err;
+  EXPECT_FALSE(j["log_complete"]);
+  EXPECT_NE(r.err.find("the log is incomplete"), std::string::npos) << r.err;
 }
 
 /// Linux keeps a file that is open; its folder and its name are gone all the same, and so is the log.
