@@ -219,6 +219,36 @@ TEST(Guard, AFewLostTicksGoOnTwentyStop) {
   EXPECT_EQ(frozen.guard.reason(), EventCode::lost_ticks);
 }
 
+/// What a driver does that hears nothing any more: the last positions, and rates computed from them.
+TEST(Guard, PositionsThatStopFromOneSampleToTheNextAreFrozen) {
+  // Speeds up to 1 rad/s, rolls evenly, stands after so many ticks; how long until the stop.
+  const auto roll_and_stand = [](Bench& bench, double encoder_step, int braking_ticks) {
+    bench.wanted.setConstant(1.0);
+    double q = 0.0;
+    const auto tick = [&](double rate) {
+      q += rate * period;
+      bench.sensed.state.qd.setConstant(rate);
+      bench.sensed.state.q.setConstant(encoder_step > 0.0 ? std::round(q / encoder_step) * encoder_step : q);
+      EXPECT_EQ(bench.admit_after(period), SampleStatus::good);
+      bench.guard.output(bench.sensed, bench.wanted, bench.tau);
+    };
+    for (int i = 1; i <= 100; ++i) tick(0.01 * i);
+    for (int i = 0; i < 100; ++i) tick(1.0);
+    for (int i = braking_ticks; i > 0; --i) tick(static_cast<double>(i) / (braking_ticks + 1));
+    int ticks = 0;
+    for (; !bench.guard.stopped() && ticks < 200; ++ticks) tick(0.0);
+    return ticks;
+  };
+  Bench dies, hits, coarse, fine;
+  EXPECT_EQ(roll_and_stand(dies, 0.0, 0), 20);
+  EXPECT_EQ(dies.guard.reason(), EventCode::frozen);
+  EXPECT_NEAR(dies.guard.stop_event().value, 1.0, 0.01);
+  EXPECT_GE(event_signal::joint_of(dies.guard.stop_event().signal), 0);
+  EXPECT_EQ(roll_and_stand(hits, 0.0, 3), 200) << "3 ms is a hard wall: 46 kg on 10 MN/m";
+  EXPECT_EQ(roll_and_stand(coarse, 1e-3, 0), 200) << "a hit would look the same";
+  EXPECT_EQ(roll_and_stand(fine, 1e-4, 0), 20);
+}
+
 TEST(Guard, TheStopIsLatchedUntilAnExplicitReset) {
   Bench bench;
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);

@@ -77,6 +77,41 @@ TEST(Wiring, RatesThatAreNeverFilledInStopTheBase) {
   }
 }
 
+/// All encoders at once, under way: their driver repeats the last positions, and the rates are 0 then. A base
+/// that pushes blindly looks like one that stands at the wall, and got to 0.25 m/s and `done`.
+TEST(Wiring, EncodersThatAllDieUnderWayStopTheBase) {
+  for (const char* robot : robots) {
+    int tick = 0;
+    Eigen::VectorXd kept;
+    const Trial run = drive(task_of(robot), robot, {.sensed = [&](solver::State& state) {
+                              if (++tick <= 1500) {
+                                kept = state.q;
+                                return;
+                              }
+                              state.q = kept;
+                              state.qd.setZero();
+                            }});
+    EXPECT_EQ(run.reason, EventCode::frozen) << robot;
+    EXPECT_LE(run.found, 1.5 + 20 * period + 1e-9) << robot;
+    EXPECT_LE(run.fastest, 1.1 * (task_of(robot) == std::string("wall_align.yaml") ? 0.08 : 0.15)) << robot;
+    EXPECT_LT(run.speed_at_end, 0.6 * run.fastest) << robot << " brakes from memory";
+  }
+}
+
+/// Encoders of 4096 steps behind a gear of 20: what they do at a wall is no freeze.
+TEST(Wiring, EncodersThatCountInStepsAreNotFrozenByAWall) {
+  const double step = 2.0 * std::numbers::pi / 4096 / 20;
+  for (const char* robot : {"mecanum", "omni", "diff"}) {
+    const Trial run = drive("wall_align.yaml", robot,
+                            {.sensed =
+                                 [step](solver::State& state) {
+                                   for (double& q : state.q) q = std::round(q / step) * step;
+                                 }},
+                            30.0);
+    EXPECT_EQ(run.reason, EventCode::none) << robot;
+  }
+}
+
 /// In degrees, in turns, with the other sign.
 TEST(Wiring, RatesInAnotherUnitStopTheBase) {
   for (const double factor : {180.0 / std::numbers::pi, 0.5 / std::numbers::pi, -1.0}) {

@@ -7,6 +7,7 @@
 
 #include "estimate/rotation.hpp"
 #include "guard/arm_hold.hpp"
+#include "guard/frozen_state.hpp"
 #include "guard/joint_limits.hpp"
 #include "guard/wheel_brake.hpp"
 
@@ -77,6 +78,7 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
       next_(limit_),
       last_q_(limit_),
       arm_(std::make_unique<ArmHold>(robot.model)),
+      frozen_(std::make_unique<FrozenState>(limit_.size())),
       brake_(std::make_unique<WheelBrake>(robot, settings.period)) {
   if (!(settings.period > 0.0) || !(settings.max_step >= settings.period) || settings.max_lost_ticks < 1 ||
       !(settings.max_slew > 0.0)) {
@@ -149,6 +151,7 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
     has_time_ = true;
     last_time_ = sensed.time;
     lost_ticks_ = 0;
+    frozen_->look(sensed.state.q, 0.0);
     return SampleStatus::good;
   }
   const double step = sensed.time - last_time_;
@@ -169,11 +172,11 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
   }
   last_time_ = sensed.time;
   lost_ticks_ = 0;
-  watch_for_a_frozen_state(sensed.state);
+  watch_for_a_frozen_state(sensed.state, step);
   return SampleStatus::good;
 }
 
-void SafetyGuard::watch_for_a_frozen_state(const solver::State& state) noexcept {
+void SafetyGuard::watch_for_a_frozen_state(const solver::State& state, double step) noexcept {
   const bool moves = state.qd.lpNorm<Eigen::Infinity>() > moving_joint ||
                      state.base_twist.linear.lpNorm<Eigen::Infinity>() > moving_base;
   const bool stands = state.q == last_q_ && state.base_pose.position == last_position_;
@@ -182,8 +185,16 @@ void SafetyGuard::watch_for_a_frozen_state(const solver::State& state) noexcept 
   if (frozen_ticks_ >= settings_.max_lost_ticks) {
     stop(EventCode::frozen, event_signal::base_pose, state.base_twist.linear.norm());
   }
+  frozen_->look(state.q, step);
+  if (frozen_->ticks() >= settings_.max_lost_ticks && !last_.isZero(0.0)) {
+    stop(EventCode::frozen, event_signal::of_joint(frozen_->joint(), event_signal::q), frozen_->pace());
+  }
   last_q_ = state.q;
   last_position_ = state.base_pose.position;
+}
+
+bool SafetyGuard::is_frozen() const noexcept {
+  return frozen_ticks_ > believed_frozen_ticks || frozen_->ticks() > 0;
 }
 
 void SafetyGuard::brake(const Sensed& sensed) noexcept {
@@ -221,10 +232,9 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
     arm_->take(sensed.state);
     if (const auto beyond = joint_limits_->look(sensed.state, last_, *arm_, sensed.time)) latch(*beyond);
   }
-  const bool is_frozen = frozen_ticks_ > believed_frozen_ticks;
-  if (!is_frozen) brake_->remember(sensed.state);
+  if (!is_frozen()) brake_->remember(sensed.state);
   if (stopped()) {
-    if (is_frozen) {
+    if (is_frozen()) {
       brake_blind();
     } else {
       brake(sensed);
@@ -303,6 +313,7 @@ void SafetyGuard::reset() noexcept {
   has_time_ = false;
   lost_ticks_ = 0;
   frozen_ticks_ = 0;
+  frozen_->begin();
 }
 
 }  // namespace zwang::runtime

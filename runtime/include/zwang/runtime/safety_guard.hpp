@@ -48,6 +48,7 @@ struct GuardCounters {
 };
 
 class ArmHold;
+class FrozenState;
 class JointLimits;
 class WheelBrake;
 
@@ -61,8 +62,8 @@ class SafetyGuard {
   SafetyGuard& operator=(SafetyGuard&&) noexcept;
 
   /// Every sample comes through here first. Numbers that are not finite latch the stop at once, and so do
-  /// `max_lost_ticks` without a good sample, or with samples that say to move and stand where the last one
-  /// did.
+  /// `max_lost_ticks` without a good sample, with samples that say to move and stand where the last one did,
+  /// or with positions that rolled evenly and from one sample to the next do not change any more.
   SampleStatus admit(const Sensed& sensed) noexcept;
 
   /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew;
@@ -95,7 +96,8 @@ class SafetyGuard {
   void brake(const Sensed& sensed) noexcept;
   void brake_blind() noexcept;
   void clamp_next() noexcept;
-  void watch_for_a_frozen_state(const solver::State& state) noexcept;
+  void watch_for_a_frozen_state(const solver::State& state, double step) noexcept;
+  bool is_frozen() const noexcept;
   GuardStatus send(Eigen::VectorXd& tau, GuardStatus status) noexcept;
 
   GuardSettings settings_;
@@ -106,6 +108,7 @@ class SafetyGuard {
   Eigen::VectorXd last_q_;  ///< of the last good sample, as is the position
   solver::Vector3 last_position_ = solver::Vector3::Zero();
   std::unique_ptr<ArmHold> arm_;
+  std::unique_ptr<FrozenState> frozen_;
   std::unique_ptr<JointLimits> joint_limits_;
   std::unique_ptr<WheelBrake> brake_;
   int frozen_ticks_ = 0;
