@@ -220,6 +220,30 @@ TEST(Runner, AFixThatIsStampedAheadKeepsOutNoneThatFollows) {
   EXPECT_GE(loop.runner.transitions().size(), 2u) << "drawn to 5 m, it has moved by more than 20 cm";
 }
 
+/// Never taken over, it would leave the base to its wheels without a word.
+TEST(Runner, AFixThatCannotBeTakenIsToldOnce) {
+  const solver::Pose pose{solver::Matrix3::Identity(), {5.0, 0.0, 0.0}};
+  solver::Pose no_rotation = pose;
+  no_rotation.rotation *= 1.1;
+  const struct {
+    double off;
+    solver::Pose pose;
+    std::size_t told;
+  } cases[] = {{0.2, pose, 1}, {1.7e9, pose, 1}, {-0.6, pose, 1}, {0.0, no_rotation, 1}, {-0.3, pose, 0}};
+  for (const auto& [off, measured, told] : cases) {
+    ReckoningLoop loop(errand());
+    for (int i = 0; i < 50; ++i) {
+      loop.sensed.base_fix = MeasuredPose{loop.base.time + off, measured};
+      loop.tick();
+    }
+    ASSERT_EQ(loop.runner.events().size(), told) << off;
+    if (told == 0) continue;
+    EXPECT_EQ(loop.runner.events()[0].code, EventCode::signal_refused);
+    EXPECT_EQ(loop.runner.event_signal(loop.runner.events()[0]), "base.pose");
+    EXPECT_NEAR(loop.runner.events()[0].value, off, 1e-6 * std::abs(off));
+  }
+}
+
 // The second stop of a run waits for the base to stand as the first does.
 TEST(Runner, AStopAfterAResetBrakesToRest) {
   Loop loop(errand());
@@ -283,6 +307,15 @@ TEST(Runner, MakesNoHeapCallInAStep) {
     calls += zwang::test::stop_counting_heap_calls();
   }
   EXPECT_EQ(calls, 0);
+}
+
+/// A billion ticks a second would be a memory of as many poses.
+TEST(Runner, RefusesPeriodsThatItCannotKeep) {
+  const lang::Program program = errand();
+  for (const double period : {0.0, -1e-3, std::nan(""), 1e-9, 0.011})
+    EXPECT_THROW(Runner(program, {.period = period}), std::invalid_argument) << period;
+  EXPECT_NO_THROW(Runner(program, {.period = 1e-4}));
+  EXPECT_NO_THROW(Runner(program, {.period = 1e-2}));
 }
 
 TEST(Runner, ABadSampleStopsTheRunAndTheRestBrakes) {

@@ -63,7 +63,7 @@ const char* describe(EventCode code) noexcept {
     case EventCode::none:
       return "none";
     case EventCode::bad_sample:
-      return "a sensed number is not finite";
+      return "a sample with a number that cannot be, or of the wrong size";
     case EventCode::lost_ticks:
       return "too long without a good sample";
     case EventCode::frozen:

@@ -64,8 +64,8 @@ solver::Pose level(const solver::Pose& pose) {
 
 double period_of(const lang::Robot& robot, const RunnerSettings& settings) {
   const double period = settings.period.value_or(robot.control_period);
-  if (period > lang::longest_control_period)
-    throw std::invalid_argument("runner: the control period is longer than 10 ms");
+  if (!(period >= lang::shortest_control_period && period <= lang::longest_control_period))
+    throw std::invalid_argument("runner: the control period is not between 0.1 ms and 10 ms");
   return period;
 }
 

@@ -10,7 +10,20 @@ SignalWatch::SignalWatch(const lang::Program& program) : joints_(program.robot.m
   for (const lang::Signal& signal : program.signals) signals_.push_back({.type = signal.type});
 }
 
+std::optional<Event> SignalWatch::look_at_fix(const Sensed& sensed) noexcept {
+  if (!sensed.base_fix || sensed.base_measured || fix_.is_told) return std::nullopt;
+  const MeasuredPose& measured = *sensed.base_fix;
+  if (measured.stamp == fix_.stamp) return std::nullopt;
+  fix_.stamp = measured.stamp;
+  const double lead = measured.stamp - sensed.time;
+  const bool is_timely = lead <= ahead && lead >= -fix_behind;
+  if (is_timely && is_sound({.pose = measured.pose}, fix_.type)) return std::nullopt;
+  fix_.is_told = true;
+  return Event{EventCode::signal_refused, sensed.time, event_signal::base_pose, is_timely ? 0.0 : lead};
+}
+
 std::optional<Event> SignalWatch::look(const Sensed& sensed) noexcept {
+  if (const auto refused = look_at_fix(sensed)) return refused;
   const std::size_t count = std::min(signals_.size(), sensed.signals.size());
   for (std::size_t i = 0; i < count; ++i) {
     const SignalSample& sample = sensed.signals[i];

@@ -1,4 +1,4 @@
-/// Tells when samples of a signal come, and cannot be taken.
+/// Tells when samples of a signal, or poses of the base, come and cannot be taken.
 #pragma once
 
 #include <limits>
@@ -7,6 +7,7 @@
 
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/event.hpp"
+#include "zwang/runtime/odometry.hpp"
 #include "zwang/runtime/plant.hpp"
 
 namespace zwang::runtime {
@@ -24,6 +25,8 @@ class SignalWatch {
 
   static constexpr double ahead = 0.1;    ///< [s] a stamp of the next few ticks is only early
   static constexpr double behind = 60.0;  ///< [s]
+  /// [s] of a pose of the base: older ones are not remembered that it could be compared with.
+  static constexpr double fix_behind = OdometrySettings{}.memory;
 
  private:
   struct Watched {
@@ -31,7 +34,10 @@ class SignalWatch {
     double stamp = std::numeric_limits<double>::quiet_NaN();  ///< [s] of the last sample
     bool is_told = false;
   };
+  std::optional<Event> look_at_fix(const Sensed& sensed) noexcept;
+
   std::vector<Watched> signals_;
+  Watched fix_{.type = lang::SignalType::pose};
   int joints_;
 };
 

@@ -48,12 +48,13 @@ struct ShortfallReport {
 };
 
 struct RunnerSettings {
-  /// [s] between steps, 10 ms at most; where none is given, the robot file's `control_period`.
+  /// [s] between steps, 0.1 to 10 ms; where none is given, the robot file's `control_period`.
   std::optional<double> period;
   double max_slew = std::numeric_limits<double>::infinity();  ///< [N m/s] or [N/s] of a joint
   std::vector<Column> extra_columns;  ///< logged behind the runner's own; `step` is given their values
 };
 
+/// One thread at a time calls it. A runner that was moved from can be destroyed or assigned to, no more.
 class Runner {
  public:
   /// The program is copied. Throws std::invalid_argument, as Scheduler, Solver and SafetyGuard do.
