@@ -1,4 +1,4 @@
-// What a host may do while a task runs: set parameters, swap the program, look at events, leave a log, stop.
+// What a host may do while a task runs: set parameters, swap the program, look at events, stop.
 //
 //   05_live TASK.yaml OTHER_TASK.yaml        specs/wall_align.yaml specs/obstacle.yaml
 #include <cmath>
