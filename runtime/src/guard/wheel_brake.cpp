@@ -12,6 +12,7 @@ WheelBrake::WheelBrake(const lang::Robot& robot, double period)
     : inertia_(planar_inertia(robot.model)),
       period_(period),
       last_qd_(Eigen::VectorXd::Zero(robot.model.joint_count())),
+      newest_qd_(last_qd_),
       ticks_between_looks_(ticks_of(look_every, period)) {
   for (const solver::Wheel& wheel : robot.model.wheels()) {
     const int j = wheel.body - 1;
@@ -99,8 +100,10 @@ void WheelBrake::put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& t
 }
 
 void WheelBrake::remember(const solver::State& state) noexcept {
-  last_qd_ = state.qd;
-  last_twist_ = state.base_twist;
+  last_qd_ = newest_qd_;
+  last_twist_ = newest_twist_;
+  newest_qd_ = state.qd;
+  newest_twist_ = state.base_twist;
   blind_for_ = 0.0;
 }
 

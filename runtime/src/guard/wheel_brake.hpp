@@ -30,7 +30,8 @@ class WheelBrake {
   /// All motors, or all encoders, are the wrong way round.
   void begin_turned_around() noexcept;
   void brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept;
-  /// A tick with a sample that can be believed.
+  /// A tick with a sample that can be believed, as far as it is known: the one before it is what counts, for
+  /// encoders that die may say so in their rates a sample before their positions stay.
   void remember(const solver::State& state) noexcept;
   /// A tick without one: goes on from what was remembered last. Leaves `tau` as it is when that is used up.
   void brake_blind(Eigen::VectorXd& tau) noexcept;
@@ -71,8 +72,10 @@ class WheelBrake {
   std::vector<DrivenWheel> wheels_;
   PlanarInertia inertia_;
   double period_;
-  Eigen::VectorXd last_qd_;  ///< of the last sample, as is the twist
+  Eigen::VectorXd last_qd_;  ///< of the sample before the last one, as is the twist
   solver::MotionVector last_twist_;
+  Eigen::VectorXd newest_qd_;  ///< that sample itself
+  solver::MotionVector newest_twist_;
   double blind_for_ = 0.0;   ///< [s]
   double blind_stop_ = 0.0;  ///< [s] 2 T / P
   int ticks_between_looks_;

@@ -10,7 +10,8 @@ using lang::FaultKind;
 
 namespace {
 
-constexpr double clock_jump = 0.01;  ///< [s]
+constexpr double clock_jump = 0.01;  ///< [s] backwards
+constexpr double clock_ahead = 0.2;  ///< [s] more than any step that a guard may take
 constexpr double tick_rounding = 1e-9;
 constexpr double huge = 1e300;
 
@@ -47,10 +48,16 @@ bool InjectedFaults::active(FaultKind kind, double time) const noexcept {
 
 void InjectedFaults::spoil(Sensed& sensed) noexcept {
   const double time = sensed.time;
-  if (active(FaultKind::samples_frozen, time)) {
+  const bool is_dead = active(FaultKind::samples_dead, time);
+  if (is_dead || active(FaultKind::samples_frozen, time)) {
     if (!is_frozen_) kept_ = sensed.state;
     is_frozen_ = true;
-    sensed.state = kept_;
+    if (is_dead) {
+      sensed.state.q = kept_.q;
+      sensed.state.qd.setZero();
+    } else {
+      sensed.state = kept_;
+    }
   } else {
     is_frozen_ = false;
   }
@@ -59,6 +66,7 @@ void InjectedFaults::spoil(Sensed& sensed) noexcept {
   if (active(FaultKind::samples_inf, time)) spoilt = -std::numeric_limits<double>::infinity();
   if (active(FaultKind::samples_huge, time)) spoilt = huge;
   if (const Fault* fault = find(FaultKind::clock_backwards, time)) sensed.time = fault->at - clock_jump;
+  if (active(FaultKind::clock_ahead, time)) sensed.time += clock_ahead;
 }
 
 void InjectedFaults::spoil(Eigen::VectorXd& tau, double time) noexcept {

@@ -106,7 +106,9 @@ enum class FaultKind {
   samples_inf,      ///< it is infinite
   samples_huge,     ///< it is 1e300
   samples_frozen,   ///< the state of the fault's begin, with the clock running on
+  samples_dead,     ///< the joints' positions of the fault's begin, and rates that are 0
   clock_backwards,  ///< samples are stamped 10 ms before the fault's begin
+  clock_ahead,      ///< they are stamped 200 ms late
   torque_lost,      ///< of `joint`: the motor gives none
   torque_stuck,     ///< it keeps what it gave at the fault's begin
   torque_flipped,   ///< it gives the opposite
