@@ -38,6 +38,15 @@ TEST(PlantMotion, StartsExactlyWhereAskedAndStandsStill) {
   EXPECT_LT(std::hypot(plant.truth().x - 0.7, plant.truth().y + 0.3), 1e-5);
 }
 
+// A URDF gives what CAD made of it: products of inertia, a millionth of the moments among them.
+TEST(PlantMotion, TakesProductsOfInertiaOfAnySize) {
+  for (double product = 1e-9; product < 1.0; product *= 3.0) {
+    BaseDesign design;
+    design.body_product = product;
+    EXPECT_NO_THROW(MujocoPlant(mecanum_base(design), empty_scene)) << product;
+  }
+}
+
 // Constant torques after the contacts' few milliseconds: the acceleration is that of the model's mass matrix.
 void compare_apparent_mass(const char* what, const lang::Robot& robot) {
   const PlanarReference reference(robot.model);

@@ -22,8 +22,10 @@ RigidInertia wheel_inertia(double mass, double radius, double width) {
 }
 
 lang::Robot build_base(const BaseDesign& design, const std::vector<WheelPlace>& places) {
-  solver::ModelBuilder builder(solver::BaseType::ground, "base_link",
-                               box_inertia(design.body_mass, design.body_com, {0.70, 0.50, 0.20}));
+  RigidInertia body = box_inertia(design.body_mass, design.body_com, {0.70, 0.50, 0.20});
+  body.rotational(0, 1) += design.body_product;
+  body.rotational(1, 0) += design.body_product;
+  solver::ModelBuilder builder(solver::BaseType::ground, "base_link", body);
   for (const WheelPlace& place : places) {
     solver::Joint joint;
     joint.name = std::string(place.name) + "_joint";

@@ -33,6 +33,7 @@ struct BaseDesign {
   double rotor_inertia = 0.002;  ///< reflected [kg m^2]
   double body_mass = 40.0;
   Vector3 body_com{0.01, -0.005, 0.06};
+  double body_product = 0.0;  ///< of inertia, xy about the centre of mass [kg m^2]
 };
 
 lang::Robot build_base(const BaseDesign& design, const std::vector<WheelPlace>& places);

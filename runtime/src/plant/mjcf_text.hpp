@@ -1,6 +1,7 @@
 /// Words of MuJoCo's XML.
 #pragma once
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
 #include <charconv>
@@ -46,13 +47,16 @@ inline std::string quaternion_of(const solver::Matrix3& rotation) {
   return list_of(q.w(), q.x(), q.y(), q.z());
 }
 
+/// About its principal axes, as MuJoCo finds those of a `fullinertia` to a part in a million only.
 inline std::string inertial(const solver::RigidInertia& inertia) {
   const solver::Vector3 com = inertia.first_moment / inertia.mass;
   const solver::Matrix3 c = solver::skew(com);
   const solver::Matrix3 at_com = inertia.rotational + inertia.mass * c * c;
+  const Eigen::SelfAdjointEigenSolver<solver::Matrix3> principal(at_com);
+  solver::Matrix3 axes = principal.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
   return "<inertial" + attribute("pos", list_of(com)) + attribute("mass", text_of(inertia.mass)) +
-         attribute("fullinertia", list_of(at_com(0, 0), at_com(1, 1), at_com(2, 2), at_com(0, 1),
-                                          at_com(0, 2), at_com(1, 2))) +
+         attribute("quat", quaternion_of(axes)) + attribute("diaginertia", list_of(principal.eigenvalues())) +
          "/>\n";
 }
 
