@@ -48,7 +48,9 @@ const ArmJoint wrist{"arm_6", "wrist_1_link", "wrist_2_link", "at: [0 m, 0.00017
 
 /// The base stands, and one joint is driven as `statements` say.
 struct JointRun {
-  JointRun(const ArmJoint& arm_joint, const std::string& statements) : what(arm_joint) {
+  /// `travel` stands in the place of the shoulder's own.
+  JointRun(const ArmJoint& arm_joint, const std::string& statements, const std::string& travel = "")
+      : what(arm_joint) {
     const test::TemporaryFolder temporary;
     const fs::path& folder = temporary.path();
     std::ofstream(folder / "task.yaml")
@@ -64,7 +66,9 @@ struct JointRun {
     for (const char* end : {"2.41", "2.66", "2.23"})
       replace_all(endless, std::string("lower=\"-") + end + "\" upper=\"" + end, "lower=\"-9\" upper=\"9");
     EXPECT_NE(endless, urdf);
-    const lang::Program limited = load(folder, urdf), unlimited = load(folder, endless);
+    std::string own = urdf;
+    if (!travel.empty()) replace_all(own, "lower=\"-2.41\" upper=\"2.41\"", travel);
+    const lang::Program limited = load(folder, own), unlimited = load(folder, endless);
     run(limited, unlimited);
   }
 
@@ -152,6 +156,29 @@ TEST(JointLimits, ARangeThatEndsWithTheTravelIsLeftAlone) {
     EXPECT_EQ(run.stop.code, EventCode::none);
     EXPECT_NEAR(run.highest, joint.upper, 0.01);
     EXPECT_LE(run.highest, joint.upper + resolution);
+  }
+}
+
+// Where a joint stands at the start it rests, though nothing is sent yet that bears its weight, and may give
+// a little. The end is an end for all that: it is not gone through.
+TEST(JointLimits, AJointMayRestOnItsEnd) {
+  constexpr double start = std::numbers::pi / 12.0;  // the posture of the shoulder
+  const std::string up = "lower=\"-2.41\" upper=\"" + std::to_string(start + 1e-3) + "\"";
+  const std::string down = "lower=\"" + std::to_string(start - 1e-3) + "\" upper=\"2.41\"";
+  for (const std::string& travel : {up, down}) {
+    SCOPED_TRACE(travel);
+    const JointRun held(shoulder, "position: here, time_constant: 0.1 s", travel);
+    EXPECT_EQ(held.stop.code, EventCode::none);
+    const std::string onwards = travel == up ? "velocity: 0.5 rad/s" : "velocity: -0.5 rad/s";
+    const JointRun driven(shoulder, onwards + ", time_constant: 0.1 s", travel);
+    EXPECT_EQ(driven.stop.code, EventCode::joint_travel);
+    EXPECT_LT(std::max(driven.highest - start, start - driven.lowest), 1e-3 + 10.0 * resolution);
+    // Once it has left the end, it is watched as any other.
+    const std::string away = travel == up ? "force: -14 N m" : "force: 14 N m";
+    const JointRun left(shoulder, away + ", velocity: +-0.8 rad/s, time_constant: 0.1 s", travel);
+    EXPECT_EQ(left.stop.code, EventCode::joint_travel);
+    EXPECT_LE(left.highest, 2.41 + resolution);
+    EXPECT_GE(left.lowest, -2.41 - resolution);
   }
 }
 

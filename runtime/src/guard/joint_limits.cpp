@@ -31,27 +31,36 @@ JointLimits::JointLimits(const solver::Model& model, const Eigen::VectorXd& max_
 }
 
 std::optional<Event> JointLimits::look(const solver::State& state, const Eigen::VectorXd& tau,
-                                       const ArmHold& arm, double time) const noexcept {
+                                       const ArmHold& arm, double time) noexcept {
   for (const ArmHold::HeldJoint& held : arm.joints()) {
-    const Limit& limit = limits_[static_cast<std::size_t>(held.joint)];
+    Limit& limit = limits_[static_cast<std::size_t>(held.joint)];
     const double q = state.q(held.joint), qd = state.qd(held.joint);
     const solver::JointLoads::Load& load = arm.load_of(held);
     if (std::abs(qd) > limit.speed) {
       return Event{EventCode::joint_speed, time, event_signal::of_joint(held.joint, event_signal::qd), qd};
     }
-    const auto stopping_distance = [&](double s) {
-      const double driven = std::max(0.0, s * (tau(held.joint) - load.weight) / load.inertia);
+    // `left` to an end: negative beyond it.
+    const auto look_at = [&](double left, bool& rests) {
+      if (is_first_) rests = std::abs(left) <= limit.resolution;
+      if (left > rest * limit.resolution) rests = false;
+    };
+    look_at(q - limit.lower, limit.rests_on_lower);
+    look_at(limit.upper - q, limit.rests_on_upper);
+    const auto stopping_distance = [&](double s, bool rests) {
+      const double driven = rests ? 0.0 : std::max(0.0, s * (tau(held.joint) - load.weight) / load.inertia);
       const double v = s * qd + driven * limit.turn;
       const double a = (limit.max_torque + s * load.weight) / load.inertia;
       if (v <= 0.0) return 0.0;
       if (a <= 0.0) return infinity;
       return v * limit.turn + v / (std::numbers::e * ArmHold::frequency) + v * v / (2.0 * a);
     };
-    if (q + stopping_distance(1.0) > limit.upper + limit.resolution ||
-        q - stopping_distance(-1.0) < limit.lower - limit.resolution) {
+    const auto beyond = [&](bool rests) { return (rests ? rest : 1.0) * limit.resolution; };
+    if (q + stopping_distance(1.0, limit.rests_on_upper) > limit.upper + beyond(limit.rests_on_upper) ||
+        q - stopping_distance(-1.0, limit.rests_on_lower) < limit.lower - beyond(limit.rests_on_lower)) {
       return Event{EventCode::joint_travel, time, event_signal::of_joint(held.joint, event_signal::q), q};
     }
   }
+  is_first_ = false;
   return std::nullopt;
 }
 

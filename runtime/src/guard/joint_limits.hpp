@@ -14,8 +14,11 @@ namespace zwang::runtime {
 /// hold can still keep the joint inside, which takes, s = +-1 being the direction of the end,
 ///   d = v t + v / (e w) + v^2 / (2 a),   v = s qd + max(0, s (tau - g) / I) t,   a = (tau_max + s g) / I
 /// t is the time in which the torque that is sent now turns around, g and I are what the joint bears, v / (e
-/// w) is how far a hold of the frequency w swings, v^2 / (2 a) what a torque at its limit adds. Does not
-/// allocate, lock, throw or print after construction.
+/// w) is how far a hold of the frequency w swings, v^2 / (2 a) what a torque at its limit adds.
+/// A joint that stands at an end from the start, a closed gripper or a lift that is down, rests on it: the
+/// end bears its weight and what pushes it. There the stop comes only where it would go beyond by ten times
+/// the resolution, v = s qd, until it has left the end by as much. Does not allocate, lock, throw or print
+/// after construction.
 class JointLimits {
  public:
   /// `max_torque` [N m] of each joint, and `slew` [N m] how much of it may change in a tick of `period` [s].
@@ -25,19 +28,22 @@ class JointLimits {
   /// An event when a joint of `arm`, which took this state, is too fast, or too near to an end. `tau` was
   /// sent last.
   std::optional<Event> look(const solver::State& state, const Eigen::VectorXd& tau, const ArmHold& arm,
-                            double time) const noexcept;
+                            double time) noexcept;
 
   static constexpr double speed_margin = 1.1;   ///< of `velocity`: it is a limit for motion that is planned
   static constexpr double resolution = 2e-3;    ///< [rad] that noise or a soft end stop may show at rest
   static constexpr double resolution_m = 2e-4;  ///< [m] the same where a joint slides
+  static constexpr double rest = 10.0;          ///< resolutions from an end in which a joint rests on it
 
  private:
   struct Limit {
     double lower, upper, speed, max_torque;
     double turn;        ///< t [s]
     double resolution;  ///< [rad] or [m]
+    bool rests_on_lower = false, rests_on_upper = false;
   };
   std::vector<Limit> limits_;  ///< of each joint of the model
+  bool is_first_ = true;
 };
 
 }  // namespace zwang::runtime
