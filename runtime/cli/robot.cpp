@@ -258,15 +258,17 @@ void show(const lang::RobotDraft& draft, Format format) {
                         {"effort", w.effort ? ordered_json(*w.effort) : ordered_json(nullptr)},
                         {"swivel", w.swivel}});
     }
+    ordered_json casters = ordered_json::array();
+    for (const lang::DraftWheel& caster : draft.casters) casters.push_back(caster.joint);
     ordered_json assumed = ordered_json::array();
     for (const lang::AssumedRobot& a : draft.assumed) {
       assumed.push_back({{"as", a.as}, {"analysis", json(analyse(a.robot))}});
     }
-    const ordered_json whole = {{"robot", draft.name},      {"base", draft.base},
-                                {"drive", draft.drive},     {"mass", draft.mass},
-                                {"wheels", wheels},         {"supports", draft.supports},
-                                {"missing", draft.missing}, {"assumptions", draft.assumption_notes},
-                                {"assumed", assumed}};
+    const ordered_json whole = {
+        {"robot", draft.name},        {"base", draft.base},       {"drive", draft.drive},
+        {"mass", draft.mass},         {"wheels", wheels},         {"casters", casters},
+        {"supports", draft.supports}, {"missing", draft.missing}, {"assumptions", draft.assumption_notes},
+        {"assumed", assumed}};
     print(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
     return;
   }
@@ -278,6 +280,8 @@ void show(const lang::RobotDraft& draft, Format format) {
             (w.effort ? number(*w.effort) + " N m" : std::string("unknown")) +
             (w.swivel.empty() ? "" : ", on the swivel `" + w.swivel + "`") + "\n";
   }
+  for (const lang::DraftWheel& caster : draft.casters)
+    text += "  " + caster.joint + ": a caster without a motor\n";
   for (const std::string& link : draft.supports) text += "  " + link + ": a support that holds nothing\n";
   for (const lang::AssumedRobot& a : draft.assumed) {
     const Analysis analysis = analyse(a.robot);

@@ -89,7 +89,8 @@ TEST_F(RealDraft, finds_two_wheels_and_what_only_supports) {
   const auto mir = real_draft("mir100");
   ASSERT_TRUE(mir);
   EXPECT_EQ(mir->wheels.size(), 2U);
-  EXPECT_EQ(mir->supports.size(), 4U);  // wheels on casters that nobody drives
+  EXPECT_EQ(mir->casters.size(), 4U);  // wheels that nobody drives
+  EXPECT_TRUE(mir->supports.empty());
 
   const auto fetch = real_draft("fetch");
   ASSERT_TRUE(fetch);
@@ -129,12 +130,18 @@ TEST_F(RealDraft, comes_to_a_model_for_every_robot) {
 }
 
 TEST_F(RealDraft, is_refused_until_filled_and_good_then) {
-  for (const char* name : {"turtlebot3_burger", "diffbot", "mir100", "panther", "panther_mecanum",
-                           "ridgeback", "robile_4wheel"}) {
+  for (const char* name :
+       {"turtlebot3_burger", "diffbot", "mir100", "panther", "panther_mecanum", "robile_4wheel"}) {
     const auto draft = real_draft(name);
     ASSERT_TRUE(draft) << name;
     expect_refused_until_filled(*draft);
   }
+}
+
+TEST_F(RealDraft, of_wheels_on_a_rocker_is_refused_until_that_is_fixed) {
+  const auto draft = real_draft("ridgeback");
+  ASSERT_TRUE(draft);
+  EXPECT_NE(said_of(filled(draft->text)).find("make `front_rocker` `fixed` in the URDF"), std::string::npos);
 }
 
 TEST_F(RealDraft, of_a_urdf_without_inertias_names_the_links) {

@@ -12,6 +12,7 @@
 
 #include "../temporary_folder.hpp"
 #include "zwang/lang/robot.hpp"
+#include "zwang/lang/robot_draft.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/solver/base_analysis.hpp"
 #include "zwang/solver/solver.hpp"
@@ -161,6 +162,32 @@ INSTANTIATE_TEST_SUITE_P(Shipped, OpenLoopDrive,
 
 // A skidding base turns when the wheels' push about its middle exceeds the floor's: sum of mu N times the
 // distance ahead or behind. 50 kg on four equal wheels 0.256 m ahead and behind: mu m g 0.256 m.
+// What `zwang robot init` makes of the URDFs of real robots, once its open places are filled, is a robot that
+// can be simulated.
+TEST(RealRobots, AreSimulatedAsTheyAreDrafted) {
+  const fs::path real = ZWANG_SOURCE_DIR "/../shared/robots";
+  if (!fs::is_directory(real)) GTEST_SKIP() << real << " is not here";
+  for (const char* name :
+       {"turtlebot3_burger", "diffbot", "mir100", "panther", "panther_mecanum", "robile_4wheel"}) {
+    SCOPED_TRACE(name);
+    const zwang::test::TemporaryFolder temporary;
+    fs::copy_file(real / (std::string(name) + ".urdf"), temporary.path() / "robot.urdf");
+    lang::Diagnostics diagnostics;
+    const auto draft = lang::draft_robot(temporary.path() / "robot.urdf", "robot.urdf", diagnostics);
+    ASSERT_TRUE(draft);
+    std::string text = draft->text;
+    for (const auto& [open, value] : {std::pair{"holds: FILL_IN", "holds: [rolling]"},
+                                      {"effort: FILL_IN", "effort: 5 N m"},
+                                      {"deceleration: FILL_IN", "deceleration: 1 m/s^2"},
+                                      {"force: FILL_IN", "force: 50 N"},
+                                      {"FILL_IN", "[[0.3 m, 0.2 m], [-0.3 m, 0.2 m], [0 m, -0.2 m]]"}}) {
+      text = std::regex_replace(text, std::regex(open), value);
+    }
+    std::ofstream(temporary.path() / "robot.yaml") << text;
+    EXPECT_NO_THROW(MujocoPlant(load(temporary.path() / "robot.yaml"), lang::Scene{}));
+  }
+}
+
 TEST(Skidding, TheFloorHoldsABaseBackFromTurning) {
   const lang::Robot robot = load(robots / "skid_base.yaml");
   lang::Scene scene;

@@ -65,6 +65,27 @@ Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span&
       declared, "it is declared here");
 }
 
+Diagnostic loose_wheel(const Span& span, const std::string& wheel, const std::string& carrier,
+                       const Span& declared) {
+  return with_related(
+      error("E802", span,
+            "wheel " + in_ticks(wheel) + " hangs on joint " + in_ticks(carrier) +
+                ", which moves and does not steer it",
+            "make " + in_ticks(carrier) +
+                " `fixed` in the URDF: zwang's bases stand level, without rockers and springs"),
+      declared, "it is declared here");
+}
+
+Diagnostic moving_support(const Span& span, const std::string& link, const std::string& carrier,
+                          const Span& declared) {
+  return with_related(error("E802", span,
+                            "a support stands still on the base, but " + in_ticks(link) + " hangs on joint " +
+                                in_ticks(carrier),
+                            "a caster's wheel is one of `wheels`, without a motor: `{joint: " + carrier +
+                                ", radius: 50 mm}`"),
+                      declared, "it is declared here");
+}
+
 Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::string& other, double above,
                          const Span& other_span) {
   return with_related(

@@ -26,6 +26,12 @@ Diagnostic loose_couplings(const Span& span, const std::vector<Coupling>& coupli
 Diagnostic start_outside(const Span& span, const std::string& joint, bool slides, double lower, double upper,
                          const Span& declared);
 Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span& declared);
+/// `carrier`: a joint between the base and the wheel that does not steer it.
+Diagnostic loose_wheel(const Span& span, const std::string& wheel, const std::string& carrier,
+                       const Span& declared);
+/// Of `supports`: a link that joint `carrier` moves.
+Diagnostic moving_support(const Span& span, const std::string& link, const std::string& carrier,
+                          const Span& declared);
 /// `above`: by how much the wheel's lowest point is higher than that of `other`. [m]
 Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::string& other, double above,
                          const Span& other_span);

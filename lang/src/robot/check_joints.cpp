@@ -15,6 +15,8 @@ namespace {
 
 /// Of a wheel's axis: the sine of its slope from which it counts as pointing up, 80 deg.
 constexpr double steepest_axis = 0.985;
+/// Of the axis of a joint that carries a wheel: the sine of its slope from which it steers.
+constexpr double upright = 0.9;
 
 /// The link, and the joints above it that move, up to the base.
 void add_movers_above(const Urdf& urdf, const std::string& joint, std::set<std::string>& names) {
@@ -93,6 +95,20 @@ void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& ro
     if (std::abs((pose.rotation * joint.axis).z()) > steepest_axis) {
       diagnostics.add(
           wording::upright_wheel(text_of(wheel)->joint.span, joint.name, urdf.find_joint(joint.name)->span));
+    }
+  }
+  std::set<int> told;  // bodies: a rocker carries two wheels
+  for (const solver::Wheel& wheel : wheels) {
+    const auto& bodies = robot.model.bodies();
+    for (int b = bodies[static_cast<std::size_t>(wheel.body)].parent; b > 0;
+         b = bodies[static_cast<std::size_t>(b)].parent) {
+      const solver::Joint& carrier = robot.model.joint(b - 1);
+      const double slope = (pose_in_base(robot.model, b).rotation * carrier.axis).z();
+      const bool steers = carrier.type != solver::JointType::prismatic && std::abs(slope) >= upright;
+      if (steers || !told.insert(b).second) continue;
+      const Word& named = text_of(wheel)->joint;
+      diagnostics.add(
+          wording::loose_wheel(named.span, named.text, carrier.name, urdf.find_joint(carrier.name)->span));
     }
   }
   if (wheels.empty()) return;

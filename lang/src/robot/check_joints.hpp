@@ -10,7 +10,8 @@ namespace zwang::lang {
 void check_couplings(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
 /// E809: a joint that the posture does not name starts at 0, outside of its travel.
 void check_starts(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
-/// E802, E810: wheels whose axis points up, and wheels that do not end at one height.
+/// E802, E810: wheels whose axis points up, wheels behind joints that do not steer them, and wheels that do
+/// not end at one height.
 void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& robot,
                         Diagnostics& diagnostics);
 /// Of a link and those fixed to it the one whose own inertia no body can have, or nullptr. A model merges

@@ -91,6 +91,7 @@ class Drafter {
     draft.drive = drive_in_words();
     for (const UrdfLink& link : urdf_.links) draft.mass += link.inertia.mass;
     draft.wheels = found_.wheels;
+    draft.casters = found_.casters;
     draft.supports = found_.supports;
     draft.missing = missing();
     draft.text = text(Filling{});
@@ -117,9 +118,8 @@ class Drafter {
 
   std::vector<std::string> assumptions() const {
     std::vector<std::string> lines;
-    const bool any_radius = any([](const DraftWheel& w) { return !w.radius; });
     const bool any_effort = any([](const DraftWheel& w) { return !w.effort; });
-    if (any_radius) lines.push_back("wheels of radius " + wording::figure(assumed_radius(), "m"));
+    if (any_lacks_radius()) lines.push_back("wheels of radius " + wording::figure(assumed_radius(), "m"));
     if (any_effort) lines.push_back("1 N m of torque where the URDF gives none");
     for (const std::string& joint : found_.in_between) lines.push_back("`" + joint + "` does not move");
     if (!without_inertia(urdf_).empty())
@@ -131,6 +131,12 @@ class Drafter {
   template <typename Test>
   bool any(const Test& test) const {
     return std::any_of(found_.wheels.begin(), found_.wheels.end(), test);
+  }
+
+  static bool lacks_radius(const DraftWheel& wheel) { return !wheel.radius; }
+
+  bool any_lacks_radius() const {
+    return any(lacks_radius) || std::any_of(found_.casters.begin(), found_.casters.end(), lacks_radius);
   }
 
   Drive drive() const {
@@ -180,9 +186,10 @@ class Drafter {
   }
 
   template <typename Lacks>
-  void add_missing(std::vector<std::string>& lines, const std::string& what, const Lacks& lacks) const {
+  static void add_missing(std::vector<std::string>& lines, const std::string& what,
+                          const std::vector<DraftWheel>& wheels, const Lacks& lacks) {
     std::string names;
-    for (const DraftWheel& wheel : found_.wheels) {
+    for (const DraftWheel& wheel : wheels) {
       if (lacks(wheel)) names += (names.empty() ? "`" : ", `") + wheel.joint + "`";
     }
     if (!names.empty()) lines.push_back(what + names);
@@ -194,9 +201,10 @@ class Drafter {
       lines.push_back(
           "wheels: no joint turns without end about a level axle and is called a wheel or is round");
     }
-    add_missing(lines,
-                "the radius, where the shape is a mesh: ", [](const DraftWheel& w) { return !w.radius; });
-    add_missing(lines, "the largest torque: ", [](const DraftWheel& w) { return !w.effort; });
+    std::vector<DraftWheel> all = found_.wheels;
+    all.insert(all.end(), found_.casters.begin(), found_.casters.end());
+    add_missing(lines, "the radius, where the shape is a mesh: ", all, lacks_radius);
+    add_missing(lines, "the largest torque: ", found_.wheels, [](const DraftWheel& w) { return !w.effort; });
     if (drive_ == Drive::rollers_or_skid) {
       lines.push_back("whether the wheels have rollers (mecanum) or skid: a URDF does not tell");
     }
@@ -222,9 +230,11 @@ class Drafter {
   /// Around the wheels.
   std::array<double, 2> reach() const {
     std::array<double, 2> most{0.1, 0.1};
-    for (const DraftWheel& wheel : found_.wheels) {
-      most[0] = std::max(most[0], std::abs(wheel.at[0]) + wheel.radius.value_or(0.1));
-      most[1] = std::max(most[1], std::abs(wheel.at[1]));
+    for (const auto* wheels : {&found_.wheels, &found_.casters}) {
+      for (const DraftWheel& wheel : *wheels) {
+        most[0] = std::max(most[0], std::abs(wheel.at[0]) + wheel.radius.value_or(0.1));
+        most[1] = std::max(most[1], std::abs(wheel.at[1]));
+      }
     }
     return most;
   }
@@ -240,7 +250,7 @@ class Drafter {
   std::string wheel_line(const DraftWheel& wheel, const Filling& filling) const {
     std::string line = "  - {joint: " + wheel.joint +
                        ", radius: " + (wheel.radius ? in_millimetres(*wheel.radius) : filling.radius);
-    if (drive_ == Drive::rollers_or_skid) {
+    if (drive_ == Drive::rollers_or_skid && wheel.swivel.empty()) {
       // Front left and rear right one way, the others the other way.
       const bool is_first_diagonal = (wheel.at[0] > 0.0) == (wheel.at[1] > 0.0);
       line += filling.mecanum ? std::string(", roller: ") + (is_first_diagonal ? "45 deg" : "-45 deg")
@@ -287,7 +297,7 @@ class Drafter {
                        "`, drafted from its URDF. It is refused until every " + fill_in + " is replaced.\n" +
                        weightless() + "zwang_robot: 1\nurdf: " + named_as_ + "\nbase: " + found_.base +
                        "   # the link that floats\n\n";
-    if (any([](const DraftWheel& w) { return !w.radius; })) {
+    if (any_lacks_radius()) {
       text += "# radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.\n";
     }
     if (drive_ == Drive::rollers_or_skid) {
@@ -299,6 +309,9 @@ class Drafter {
     }
     text += "wheels:\n";
     for (const DraftWheel& wheel : found_.wheels) text += wheel_line(wheel, filling);
+    if (!found_.casters.empty())
+      text += "  # Casters: they have no motor, and the swivel above each follows.\n";
+    for (const DraftWheel& caster : found_.casters) text += wheel_line(caster, filling);
     if (!found_.supports.empty()) {
       text += "\n# They stand on the ground and hold nothing.\nsupports: [";
       for (std::size_t i = 0; i < found_.supports.size(); ++i)

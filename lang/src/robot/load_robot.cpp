@@ -8,6 +8,7 @@
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "diagnostic/wordings_standing.hpp"
 #include "robot/check_joints.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
@@ -162,7 +163,23 @@ class RobotBuilder {
   }
 
   void check_supports() {
-    for (const Word& support : file_.supports) check_link(support);
+    for (const Word& support : file_.supports) {
+      check_link(support);
+      if (const UrdfJoint* carrier = moving_carrier(support.text))
+        diagnostics_.add(
+            wording::moving_support(support.span, support.text, carrier->joint.name, carrier->span));
+    }
+  }
+
+  /// The joint that a link moves about in the base, the nearest one; nullptr where it is fixed to the base.
+  const UrdfJoint* moving_carrier(const std::string& link) const {
+    std::set<std::string> seen;
+    for (const UrdfJoint* above = urdf_.joint_above(link);
+         above != nullptr && above->child != file_.base.text && seen.insert(above->child).second;
+         above = urdf_.joint_above(above->parent)) {
+      if (above->joint.type != solver::JointType::fixed) return above;
+    }
+    return nullptr;
   }
 
   void check_frames() {

@@ -1,7 +1,7 @@
 // A wheel turns without end about a level axle, and nothing moves beyond it. Which of those do is told by the
 // name
 // (`wheel`), else by a round shape. A wheel behind a joint about the vertical is steered; alone on one that
-// is called a caster, it only supports.
+// is called a caster, it has no motor.
 #include "robot/wheel_search.hpp"
 
 #include <algorithm>
@@ -125,7 +125,7 @@ class WheelSearch {
       const bool is_caster = !wheel.swivel.empty() && on_swivel[wheel.swivel] == 1 &&
                              (mentions(wheel.swivel, "caster") || mentions(wheel.joint, "caster"));
       if (!is_caster) return false;
-      found_.supports.push_back(wheel.link);
+      found_.casters.push_back(wheel);
       passive_.insert({wheel.joint, wheel.swivel});
       return true;
     });

@@ -13,7 +13,8 @@ namespace zwang::lang {
 struct FoundWheels {
   std::string base;  ///< the link that floats
   std::vector<DraftWheel> wheels;
-  std::vector<std::string> supports;    ///< links of passive casters and of balls
+  std::vector<DraftWheel> casters;      ///< wheels that nobody drives, alone on a swivel
+  std::vector<std::string> supports;    ///< links of balls
   std::vector<std::string> others;      ///< moving joints that are neither wheels, nor swivels, nor casters
   std::vector<std::string> in_between;  ///< moving joints between base and wheels that do not steer
 };

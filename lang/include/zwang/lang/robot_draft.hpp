@@ -32,6 +32,7 @@ struct RobotDraft {
   std::string drive;  ///< what the wheels look like, in words
   double mass = 0.0;  ///< [kg] of all links
   std::vector<DraftWheel> wheels;
+  std::vector<DraftWheel> casters;            ///< wheels on swivels, and no motor of either
   std::vector<std::string> supports;          ///< links
   std::vector<std::string> missing;           ///< what could not be known, a line each
   std::vector<AssumedRobot> assumed;          ///< one for each kind of wheel that it may have; empty where no
