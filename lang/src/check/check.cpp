@@ -13,6 +13,21 @@ namespace zwang::lang {
 
 namespace {
 
+bool is_set_somewhere(const TaskFile& file, const std::string& frame) {
+  const auto names_it = [&](const std::vector<SetText>& sets) {
+    return std::any_of(sets.begin(), sets.end(), [&](const SetText& set) {
+      return set.kind == SetKind::frame && set.name.text == frame;
+    });
+  };
+  const auto any_exit = [&](const std::vector<ExitText>& exits) {
+    return std::any_of(exits.begin(), exits.end(), [&](const ExitText& exit) { return names_it(exit.set); });
+  };
+  return any_exit(file.always_exits) ||
+         std::any_of(file.tasks.begin(), file.tasks.end(), [&](const TaskText& task) {
+           return names_it(task.set_on_entry) || any_exit(task.exits);
+         });
+}
+
 /// Bool signals and `elapsed` do not flicker; everything that is measured as a number does.
 bool measures(const CheckContext& context, const Condition& condition) {
   for (const ExpressionNode& node : condition.nodes) {
@@ -211,7 +226,9 @@ std::optional<int> check_frame(CheckContext& context, const Word& name) {
     return std::nullopt;
   }
   if (!index) {
-    if (context.symbols.has_robot) {
+    if (is_set_somewhere(context.file, name.text)) {
+      context.diagnostics.add(wording::frame_only_set(name.span, name.text));
+    } else if (context.symbols.has_robot) {
       context.diagnostics.add(wording::unknown_frame(name.span, "frame", name.text,
                                                      context.symbols.frame_names(), base_of(context)));
     }

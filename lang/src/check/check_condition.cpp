@@ -226,6 +226,8 @@ class ConditionCheck {
       return wording::parameter_without_dollar(node.span, parts[1]);
     ExpressionNode unused;
     const GroupText* group = find_group(parts[0], unused);
+    if (group != nullptr && group->kind == GroupKind::inside)
+      return wording::boundary_in_a_condition(node.span, parts[0], group->move.text);
     const bool names_axis = group != nullptr && parts.size() == 2 &&
                             std::any_of(group->axes.begin(), group->axes.end(),
                                         [&](const AxisText& axis) { return axis.name.text == parts[1]; });
@@ -243,7 +245,8 @@ class ConditionCheck {
     if (symbol.is_bad) return bad_type;
     if (symbol.signal.type == SignalType::boolean) return boolean_type;
     if (symbol.signal.type == SignalType::number) return quantity_type(symbol.dimension);
-    return complain(wording::incomparable_signal(node.span, node.word));
+    return complain(
+        wording::incomparable_signal(node.span, node.word, symbol.signal.type == SignalType::pose));
   }
 
   /// The group of the task, or else of `always`, that a path starts with.
@@ -287,6 +290,8 @@ class ConditionCheck {
       return complain(wording::unknown_name(node.span, "group", parts[0], known));
     }
     const GroupText& group = *found;
+    if (group.kind == GroupKind::inside)
+      return complain(wording::boundary_in_a_condition(node.span, parts[0], group.move.text));
     for (std::size_t a = 0; a < group.axes.size(); ++a) {
       known.push_back(group.axes[a].name.text);
       if (group.axes[a].name.text == parts[1]) lowered.axis = static_cast<int>(a);

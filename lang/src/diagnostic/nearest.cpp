@@ -117,6 +117,7 @@ constexpr Synonym synonyms[] = {
     {"gear_ratio", "gear"},
     {"kp", "stiffness"},
     {"kd", "damping"},
+    {"kv", "damping"},
     {"time", "at"},
     {"parameters", "params"},
     {"variables", "params"},

@@ -62,6 +62,8 @@ constexpr WayOut ways[] = {
      "an axis is left out where nothing is asked of it, or `free`"},
     {"constraint group", " mask selection dof dofs dimWeight dim_weight axis_mask ",
      "an axis is left out where nothing is asked of it, or `free`: `rz: free`"},
+    {"constraint group", " outside avoid keep_out keepout exclude forbidden ",
+     "a region is stayed `inside` of: draw one that leaves the place out, it need not be convex"},
     {"constraint group", " target objective goal setpoint desired ", axis_by_axis},
     {"an exit", " priority order ", "exits are asked from top to bottom, and the first true one wins"},
     {"task", " type kind action ", "a task has no type: its `constraints` say what it does"},

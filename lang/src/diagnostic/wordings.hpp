@@ -140,7 +140,9 @@ Diagnostic missing_template_arguments(const Span& span, const std::string& name,
 Diagnostic wrong_argument(const Span& span, const std::string& argument, const std::string& expected);
 Diagnostic not_a_number_signal(const Span& span, const std::string& name, const Span& declared);
 Diagnostic not_a_pose_signal(const Span& span, const std::string& name, const Span& declared);
-Diagnostic incomparable_signal(const Span& span, const std::string& name);
+Diagnostic incomparable_signal(const Span& span, const std::string& name, bool is_pose);
+/// Of a group with `inside`, which moves `move`.
+Diagnostic boundary_in_a_condition(const Span& span, const std::string& group, const std::string& move);
 Diagnostic unit_without_number(const Span& span, const std::string& name);
 
 // --- Regions and features: E104, E410 to E412 (meaning.cpp) ---

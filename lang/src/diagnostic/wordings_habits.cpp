@@ -44,6 +44,24 @@ Diagnostic named_items(const Span& span, const std::string& what, const std::str
                "its items have no names: write `- ` in the place of " + in_ticks(name + ":"));
 }
 
+Diagnostic argument_without_kind(const Span& span, const std::string& name) {
+  return error("E104", span, "argument " + in_ticks(name) + " does not say what kind it is of",
+               "write for example " + in_ticks(name + ": velocity") + " or " + in_ticks(name + ": task"));
+}
+
+Diagnostic frame_only_set(const Span& span, const std::string& name) {
+  return error("E301", span, "no frame named " + in_ticks(name),
+               "`set` moves a frame that is declared: `frames: {" + name + ": {parent: world}}`");
+}
+
+Diagnostic still_to_fill_in(const Span& span, const std::vector<Span>& others) {
+  Diagnostic diagnostic =
+      error("E105", span, "this is still to be filled in",
+            "the comment above it says what with, and docs/language.md under \"The robot file\"");
+  for (const Span& other : others) diagnostic = with_related(diagnostic, other, "and here");
+  return diagnostic;
+}
+
 Diagnostic contact_in_a_condition(const Span& span, const std::string& name) {
   return error("E301", span, "nothing named " + in_ticks(name) + " can be measured here",
                "contact is motion that has ended: `moved(base_link) > 2 cm and speed(base_link) < 5 mm/s`");

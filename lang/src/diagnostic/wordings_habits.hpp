@@ -19,6 +19,12 @@ Diagnostic said_otherwise(const Span& span, const std::string& key, const std::s
 Diagnostic vector_by_example(const Span& span, const std::string& what, const std::string& list);
 /// `left: {..}` in the place of `- {..}`.
 Diagnostic named_items(const Span& span, const std::string& what, const std::string& name);
+/// Of a template's `args`.
+Diagnostic argument_without_kind(const Span& span, const std::string& name);
+/// Of a frame that is nowhere declared, and that a `set` names.
+Diagnostic frame_only_set(const Span& span, const std::string& name);
+/// `FILL_IN` of a drafted robot file: at `span`, and wherever it stands beside.
+Diagnostic still_to_fill_in(const Span& span, const std::vector<Span>& others);
 /// A condition asks whether the robot touches something.
 Diagnostic contact_in_a_condition(const Span& span, const std::string& name);
 /// `true`, `go.done`, `timeout` in a condition; nullopt: a word of no other language.

@@ -20,9 +20,14 @@ std::string in_unit_of(const Parameter& parameter, double value) {
 
 /// The last ones where there are many: what an author declares stands behind what the robot brings.
 std::string known_here(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 16;
+  // Of more the first, `world` and the base of frames, and the last: the file's own.
+  constexpr std::size_t most = 16, first = 2;
   std::string text;
-  for (std::size_t i = names.size() > most ? names.size() - most : 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names.size() > most && i == first) {
+      i = names.size() - (most - first);
+      text += ", ..";
+    }
     if (!names[i].empty()) text += (text.empty() ? "known here: " : ", ") + names[i];
   }
   return text;
@@ -155,6 +160,13 @@ Diagnostic unknown_axis(const Span& span, const std::string& group, const std::s
                is_axis ? "add `" + axis + ": free` to the group to measure it" : "it has " + listed(known));
 }
 
+Diagnostic boundary_in_a_condition(const Span& span, const std::string& group, const std::string& move) {
+  return error(
+      "E301", span, "group `" + group + "` keeps something inside a region: it measures nothing",
+      "measure with a group that has axes: `place: {move: " + (move == "footprint" ? "base_link" : move) +
+          ", in: world, x: free}`, and `place.x.position`");
+}
+
 Diagnostic unused(const Span& span, const std::string& kind, const std::string& name) {
   return warning("W302", span, kind + " `" + name + "` is never used");
 }
@@ -206,9 +218,13 @@ Diagnostic not_a_pose_signal(const Span& span, const std::string& name, const Sp
                       declared, "`" + name + "` is declared here");
 }
 
-Diagnostic incomparable_signal(const Span& span, const std::string& name) {
-  return error("E205", span, "signal `" + name + "` is a pose or a wrench: it has no single value",
-               "hang a frame on a pose, and measure that");
+Diagnostic incomparable_signal(const Span& span, const std::string& name, bool is_pose) {
+  return error("E205", span,
+               "signal `" + name + "` is a " + (is_pose ? "pose" : "wrench") + ": it has no single value",
+               is_pose
+                   ? "hang a frame on it, and measure that"
+                   : "declare the part that is compared as a signal of its own: `push: {type: number, unit: "
+                     "N, stale_after: 100 ms}`");
 }
 
 Diagnostic unit_without_number(const Span& span, const std::string& name) {

@@ -11,10 +11,18 @@
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
 #include "tree/text.hpp"
+#include "zwang/lang/robot_draft.hpp"
 
 namespace zwang::lang {
 
 namespace {
+
+/// Where a drafted file waits for its owner.
+void add_open_places(const Node& node, std::vector<Span>& places) {
+  if (node.is_scalar() && node.text == fill_in) places.push_back(node.span);
+  for (const Node& item : node.items) add_open_places(item, places);
+  for (const Entry& entry : node.entries) add_open_places(entry.value, places);
+}
 
 WheelText parse_wheel(const Node& node, Diagnostics& diagnostics) {
   WheelText wheel;
@@ -226,6 +234,12 @@ std::string posture_name(const std::string& joint) {
 std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics& diagnostics) {
   MapReader map(document.root, "a robot file", diagnostics);
   if (!map.is_mapping() || !check_version(map, "zwang_robot", diagnostics)) return std::nullopt;
+  std::vector<Span> open;
+  add_open_places(document.root, open);
+  if (!open.empty()) {
+    diagnostics.add(wording::still_to_fill_in(open.front(), {open.begin() + 1, open.end()}));
+    return std::nullopt;
+  }
   RobotFile file;
   const auto each = [&](const Node* node, const char* key, const auto& use) {
     if (node == nullptr || !require_mapping(*node, "`" + std::string(key) + "`", diagnostics)) return;

@@ -4,6 +4,7 @@
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/shape.hpp"
 #include "tree/read.hpp"
@@ -101,7 +102,9 @@ void Templates::declare(const Node& node) {
     const bool has_list = arguments == nullptr || require_mapping(*arguments, "`args`", diagnostics_);
     if (arguments != nullptr && has_list) {
       for (const Entry& argument : arguments->entries) {
-        if (find_kind(argument.value.text) == nullptr) {
+        if (argument.value.kind == NodeKind::null) {
+          diagnostics_.add(wording::argument_without_kind(argument.key.span, argument.key.text));
+        } else if (find_kind(argument.value.text) == nullptr) {
           std::vector<std::string> known;
           for (const ArgumentKind& kind : argument_kinds) known.emplace_back(kind.word);
           diagnostics_.add(
