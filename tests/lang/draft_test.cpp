@@ -4,6 +4,7 @@
 #include <regex>
 
 #include "support.hpp"
+#include "zwang/lang/format.hpp"
 #include "zwang/lang/robot_draft.hpp"
 
 namespace zwang::lang {
@@ -44,6 +45,8 @@ class Draft : public testing::Test {
   void expect_refused_until_filled(const RobotDraft& draft) {
     EXPECT_NE(said_of(draft.text).find("FILL_IN"), std::string::npos) << draft.text;
     EXPECT_EQ(said_of(filled(draft.text)), "") << filled(draft.text);
+    Diagnostics diagnostics;
+    EXPECT_EQ(format_file(folder_.write("robot.yaml", draft.text), diagnostics), draft.text) << "laid out";
   }
 
   test::Folder folder_;

@@ -296,7 +296,7 @@ class Drafter {
     std::string text = "# The robot file of `" + urdf_.name +
                        "`, drafted from its URDF. It is refused until every " + fill_in + " is replaced.\n" +
                        weightless() + "zwang_robot: 1\nurdf: " + named_as_ + "\nbase: " + found_.base +
-                       "   # the link that floats\n\n";
+                       "  # the link that floats\n\n";
     if (any_lacks_radius()) {
       text += "# radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.\n";
     }
