@@ -211,7 +211,12 @@ std::string human(const TaskPlan& plan, int mobility, const Configurations& conf
   }
   text += "\n";
   text += "  mobility " + std::to_string(mobility) + "; equality rows " + std::to_string(plan.equality_rows) +
-          ", their rank " + std::to_string(plan.rank) + "\n";
+          ", their rank " + std::to_string(plan.rank);
+  const int left = mobility - plan.rank;
+  if (left > 0)
+    text += "; " + std::to_string(left) + (left == 1 ? " freedom" : " freedoms") +
+            " that no driver of motion holds";
+  text += "\n";
   for (const lang::Diagnostic& note : plan.notes) {
     text += "  " + note.code + " " + place(diagnostics, note.span) + ": " + note.message + "\n";
   }

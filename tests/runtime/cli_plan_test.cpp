@@ -46,6 +46,16 @@ class CliPlan : public test::Program {
   }
 };
 
+TEST_F(CliPlan, tells_how_many_freedoms_are_left) {
+  // The push asks for no acceleration, and the heading is free.
+  EXPECT_NE(zwang("plan wall_align.yaml --task press")
+                .out.find("their rank 1; 2 freedoms that no driver of motion holds"),
+            std::string::npos);
+  // The push on the board.
+  EXPECT_NE(zwang("plan wipe.yaml --task left").out.find("1 freedom that no driver"), std::string::npos);
+  EXPECT_EQ(zwang("plan laws/straight_on.yaml").out.find("that no driver"), std::string::npos);
+}
+
 TEST_F(CliPlan, shows_the_rows_as_the_solver_gets_them) {
   const json plan = zwang_json("plan wall_align.yaml");
   EXPECT_EQ(plan.at("mobility"), 3);
