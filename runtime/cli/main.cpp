@@ -54,6 +54,16 @@ std::map<std::string, std::string> parameters(const std::vector<std::string>& te
   return values;
 }
 
+/// The words that an option takes: told as they are written, not with the numbers that they stand for.
+template <typename Value>
+void takes(CLI::Option* option, const std::map<std::string, Value>& words) {
+  std::vector<std::string> names;
+  for (const auto& [word, value] : words) names.push_back(word);
+  CLI::Transformer to_value(words, CLI::ignore_case);
+  to_value.description("");
+  option->transform(to_value)->transform(CLI::IsMember(names, CLI::ignore_case))->type_name("TEXT");
+}
+
 /// What every verb that reads a task file may put in the place of its words.
 void add_overrides(CLI::App& verb, TaskOverrides& overrides) {
   verb.add_option("--robot", overrides.robot, "robot file, in the place of the task's own");
@@ -77,9 +87,9 @@ void add_validate(CLI::App& app, std::function<int()>& chosen) {
   verb->add_option("files", arguments->files,
                    "files, whose first key tells what they are, or folders of such files")
       ->required();
-  verb->add_option("--format", arguments->format,
-                   "human (default), short (a line each), json (one object) or sarif (2.1.0)")
-      ->transform(CLI::CheckedTransformer(report_formats, CLI::ignore_case));
+  takes(verb->add_option("--format", arguments->format,
+                         "human (default), short (a line each), json (one object) or sarif (2.1.0)"),
+        report_formats);
   verb->add_option("--deny", *deny, "warnings: refuse files with warnings, too")
       ->check(CLI::IsMember({"warnings"}));
   verb->add_flag("--notes", arguments->notes, "show notes as well");
@@ -115,8 +125,7 @@ void add_schema(CLI::App& app, std::function<int()>& chosen) {
                                                           {"scenario", SchemaKind::scenario}};
   const auto arguments = std::make_shared<SchemaArguments>();
   CLI::App* verb = app.add_subcommand("schema", "Print the JSON Schema of a kind of file, for editors");
-  verb->add_option("kind", arguments->kind, "task (default), robot, scene or scenario")
-      ->transform(CLI::CheckedTransformer(kinds, CLI::ignore_case));
+  takes(verb->add_option("kind", arguments->kind, "task (default), robot, scene or scenario"), kinds);
   verb->callback([=, &chosen] { chosen = [=] { return schema(*arguments); }; });
 }
 
@@ -127,8 +136,8 @@ void add_graph(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* verb = app.add_subcommand("graph", "Draw the tasks of a file and the ways between them");
   verb->add_option("file", arguments->file, "the task file")->required();
   add_overrides(*verb, arguments->overrides);
-  verb->add_option("--format", arguments->format, "dot (default, for Graphviz) or mermaid")
-      ->transform(CLI::CheckedTransformer(graph_formats, CLI::ignore_case));
+  takes(verb->add_option("--format", arguments->format, "dot (default, for Graphviz) or mermaid"),
+        graph_formats);
   verb->callback([=, &chosen] { chosen = [=] { return graph(*arguments); }; });
 }
 
@@ -138,8 +147,8 @@ void add_plan(CLI::App& app, std::function<int()>& chosen) {
   verb->add_option("file", arguments->file, "the task file")->required();
   verb->add_option("--task", arguments->task, "this task only");
   add_overrides(*verb, arguments->overrides);
-  verb->add_option("--format", arguments->format, "human (default) or json: one object on stdout")
-      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  takes(verb->add_option("--format", arguments->format, "human (default) or json: one object on stdout"),
+        formats);
   verb->callback([=, &chosen] { chosen = [=] { return plan(*arguments); }; });
 }
 
@@ -149,8 +158,8 @@ void add_robot(CLI::App& app, std::function<int()>& chosen) {
   const auto inspected = std::make_shared<RobotInspectArguments>();
   CLI::App* inspect = verb->add_subcommand("inspect", "What the robot is and can do");
   inspect->add_option("file", inspected->file, "a robot file, or a bare URDF")->required();
-  inspect->add_option("--format", inspected->format, "human (default) or json: one object on stdout")
-      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  takes(inspect->add_option("--format", inspected->format, "human (default) or json: one object on stdout"),
+        formats);
   inspect->callback([=, &chosen] { chosen = [=] { return robot_inspect(*inspected); }; });
   const auto begun = std::make_shared<RobotInitArguments>();
   CLI::App* init = verb->add_subcommand("init", "Write a robot file from a URDF, to be filled in");
@@ -182,8 +191,8 @@ int parse_and_do(int argc, char** argv) {
       ->add_option("-j,--jobs", to_test.jobs, "runs at the same time (default: as many as there are cores)")
       ->check(CLI::Range(1, 1024));
   test_verb->add_option("--junit", to_test.junit, "file for a JUnit XML report");
-  test_verb->add_option("--format", to_test.format, "human (default) or json: one object on stdout")
-      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  takes(test_verb->add_option("--format", to_test.format, "human (default) or json: one object on stdout"),
+        formats);
 
   CLI::App* run_verb = app.add_subcommand("run", "Run a task on the simulated robot");
   run_verb->add_option("file", to_run.file, "the task file")->required();
@@ -200,21 +209,22 @@ int parse_and_do(int argc, char** argv) {
                      "stop as a robot would when no tick happens for 200 ms of real time");
   run_verb->add_flag("--watch", to_run.watch,
                      "at the pace of real time; a task file that changes under way is loaded again");
-  run_verb->add_option("--format", to_run.format, "human (default) or json: one object on stdout")
-      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  takes(run_verb->add_option("--format", to_run.format, "human (default) or json: one object on stdout"),
+        formats);
 
   InfoArguments to_tell;
   CLI::App* info_verb = app.add_subcommand("info", "Tell what is in the log of a run");
   info_verb->add_option("log", to_tell.file, "the .mcap file")->required();
-  info_verb->add_option("--format", to_tell.format, "human (default) or json: one object on stdout")
-      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  takes(info_verb->add_option("--format", to_tell.format, "human (default) or json: one object on stdout"),
+        formats);
 
   ReplayArguments to_replay;
   CLI::App* replay_verb =
       app.add_subcommand("replay", "Compute the torques of a logged run again and compare");
   replay_verb->add_option("log", to_replay.file, "the .mcap file")->required();
-  replay_verb->add_option("--format", to_replay.format, "human (default) or json: one object on stdout")
-      ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+  takes(
+      replay_verb->add_option("--format", to_replay.format, "human (default) or json: one object on stdout"),
+      formats);
 
   try {
     app.parse(argc, argv);
@@ -225,7 +235,10 @@ int parse_and_do(int argc, char** argv) {
     return exit_good;
   } catch (const CLI::ParseError& mistake) {
     // CLI11's own exit codes say nothing that ours do not.
-    throw Impossible(std::string(mistake.what()) + "\nTry `zwang --help`.");
+    std::string verb;  // the innermost that was named
+    for (auto below = app.get_subcommands(); !below.empty(); below = below.front()->get_subcommands())
+      verb += " " + below.front()->get_name();
+    throw Impossible(std::string(mistake.what()) + "\nTry `zwang" + verb + " --help`.");
   }
   if (chosen) return chosen();
   if (test_verb->parsed()) return test(to_test);
