@@ -98,7 +98,7 @@ void describe(const ScenarioReport& report, std::ostream& out) {
     out << (cell.passed ? "  ok    " : "  FAIL  ") << padded(cell.name, 48) << "  " << outcome_text(cell);
     if (cell.simulated > 0.0)
       out << " after " << seconds_of(cell.simulated, 2) << " (" << seconds_of(cell.wall, 2)
-          << " of computing)";
+          << " of computing, " << number(cell.simulated / cell.wall, 1) << " x real time)";
     out << "\n";
     for (const ExpectationResult& result : cell.expectations) {
       if (result.held) continue;
@@ -114,6 +114,22 @@ void describe(const ScenarioReport& report, std::ostream& out) {
           << ")";
     out << "\n";
   }
+}
+
+/// The motor that came nearest to its limit in any run.
+std::string hardest_motor(const std::vector<ScenarioReport>& reports) {
+  const CellResult* most = nullptr;
+  const ScenarioReport* where = nullptr;
+  for (const ScenarioReport& report : reports) {
+    for (const CellResult& cell : report.cells) {
+      if (cell.simulated <= 0.0 || (most != nullptr && cell.torque <= most->torque)) continue;
+      most = &cell;
+      where = &report;
+    }
+  }
+  if (most == nullptr) return {};
+  return "motors at " + percent(most->torque) + " of their torque at most (" + where->path + ": " +
+         most->name + ")\n";
 }
 
 /// What a continuous integration shows of it: the first expectation that was missed.
@@ -169,7 +185,7 @@ nlohmann::ordered_json json_of(const CellResult& cell) {
   nlohmann::ordered_json json = {{"name", cell.name},           {"passed", cell.passed},
                                  {"outcome", cell.outcome},     {"because", cell.because},
                                  {"simulated", cell.simulated}, {"wall", cell.wall},
-                                 {"expectations", expectations}};
+                                 {"torque", cell.torque},       {"expectations", expectations}};
   if (!cell.partners.empty()) json["robots"] = robots;
   return json;
 }
@@ -192,7 +208,7 @@ std::string human_report(const std::vector<ScenarioReport>& reports, double seco
     runs += report.cells.size();
     good += report.cells.size() - failures(report);
   }
-  out << good << " of " << runs << " runs as expected";
+  out << hardest_motor(reports) << good << " of " << runs << " runs as expected";
   if (unreadable > 0) out << ", and " << count(unreadable, "file") << " with errors";
   out << ", in " << seconds_of(seconds, 1) << "\n";
   return out.str();

@@ -98,7 +98,7 @@ TEST(Scenario, resolves_names_of_the_truth_in_the_cells_own_world) {
   ASSERT_TRUE(run->program);
   EXPECT_EQ(run->program->parameters[0].value, 30.0);
   ASSERT_EQ(run->expectations.size(), 4u);
-  const std::vector<std::string> names = truth_names(*run->program->scene);
+  const std::vector<std::string> names = truth_names(*run->program);
   EXPECT_EQ(names[truth_yaw], "truth.base.yaw");
   const int touched = int{truth_base_count} + int{truth_touched};
   EXPECT_EQ(names[static_cast<std::size_t>(touched)], "truth.wall.touched");

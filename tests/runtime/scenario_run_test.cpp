@@ -3,16 +3,36 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 
 #include "../temporary_folder.hpp"
+#include "scenario/steady_force.hpp"
 
 namespace zwang::runtime {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Half a metre a second, for half a second, in a room that ends 1 m ahead.
+const char* const roomy = R"(zwang: 1
+robot: robots/mecanum_base.yaml
+scene: scenes/dock_live.yaml
+regions:
+  room: {polygon: [[-3 m, -2 m], [1 m, -2 m], [1 m, 2 m], [-3 m, 2 m]]}
+always:
+  constraints:
+    fence: {move: footprint, inside: room}
+start: go
+tasks:
+  go:
+    constraints:
+      ahead: {move: base_link, in: base_link, x: {velocity: 0.5 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: elapsed > 0.8 s, goto: done}]
+)";
 
 /// Runs the first cell of a scenario over the shipped wall alignment.
 CellResult run_scenario(const std::string& text) {
@@ -25,7 +45,9 @@ CellResult run_scenario(const std::string& text) {
     fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs") / name, folder / name);
   }
   std::ofstream(folder / ".zwang-root");
-  std::ofstream(folder / "scenario.yaml") << "zwang_scenario: 1\ntask: wall_align.yaml\n" << text;
+  std::ofstream(folder / "roomy.yaml") << roomy;
+  const char* const task = text.starts_with("task:") ? "" : "task: wall_align.yaml\n";
+  std::ofstream(folder / "scenario.yaml") << "zwang_scenario: 1\n" << task << text;
   lang::Diagnostics of_scenario, of_task;
   const auto scenario = lang::load_scenario(folder / "scenario.yaml", of_scenario);
   const auto run = lang::load_run(folder / "scenario.yaml", 0, of_scenario, of_task);
@@ -126,6 +148,59 @@ TEST(ScenarioRun, IsJudgedByThePlantAndNotByWhatTheRobotIsTold) {
   const CellResult result = run_scenario(R"(scene: scenes/open_noisy.yaml
 time_limit: 5 ms
 expect: [{always: speed(base_link) < 5 mm/s}, {always: moved(base_link) < 0.05 mm}, {always: truth.base.speed < 5 mm/s}]
+)");
+  for (const ExpectationResult& expected : result.expectations) EXPECT_TRUE(expected.held) << expected.text;
+}
+
+TEST(ScenarioRun, ASteadyForceASwitchAndAnEntryHaveTheirFigures) {
+  const CellResult smooth = run_scenario(R"(start_yaw: 0 deg
+expect:
+  - {at: end, that: abs(truth.wall.steady - 20 N) < 0.1 N}
+  - {always: not (truth.wall.steady > 20.1 N)}
+  - {at: end, that: run.entered.press < 1 ms and run.entered.hold > truth.wall.touched}
+  - {within: 2.5 s, of: run.entered.hold, that: elapsed > run.entered.hold + 1 s}
+  - {always: not (elapsed > run.entered.hold) or truth.base.x > 0.5 m}
+)");
+  for (const ExpectationResult& expected : smooth.expectations) EXPECT_TRUE(expected.held) << expected.text;
+  // Of ten degrees the second corner hits later, and harder than the wall is pressed with.
+  const CellResult hit = run_scenario(
+      "start_yaw: 10 deg\nexpect:\n"
+      "  - {at: end, that: truth.wall.peak > 100 N}\n"
+      "  - {always: not (truth.wall.steady > 20.1 N)}\n");
+  for (const ExpectationResult& expected : hit.expectations) EXPECT_TRUE(expected.held) << expected.text;
+}
+
+// A contact takes what the motors press with and what the base loses of its momentum, m dv / T.
+TEST(SteadyForce, IsTheMeanOfHalfASecondInWhichTheBaseKeptItsSpeed) {
+  const double mass = 50.0;
+  const auto after = [&](double push, double swing, double braking, double length) {
+    SteadyForce steady;
+    for (int i = 0; i <= std::lround(1e3 * length); ++i) {
+      const double time = 1e-3 * i, phase = 2.0 * std::numbers::pi * 10.0 * time;
+      const double force = push + mass * braking + swing * std::sin(phase);
+      const double velocity =
+          -braking * time + swing / mass / (2.0 * std::numbers::pi * 10.0) * std::cos(phase);
+      steady.look(force, true, {velocity, 0.0, 0.0}, time);
+    }
+    return steady.now();
+  };
+  ASSERT_TRUE(after(20.0, 0.0, 0.0, 0.5));
+  EXPECT_NEAR(*after(20.0, 0.0, 0.0, 0.5), 20.0, 1e-9);
+  EXPECT_NEAR(*after(20.0, 15.0, 0.0, 0.8), 20.0, 0.05) << "what rattles counts with its mean";
+  EXPECT_FALSE(after(20.0, 0.0, 0.0, 0.45)) << "not for long enough";
+  EXPECT_FALSE(after(20.0, 0.0, 0.002, 1.0)) << "it loses 1 mm/s in half a second";
+  EXPECT_TRUE(after(20.0, 0.0, 0.0005, 1.0)) << "a quarter of that";
+  SteadyForce interrupted;
+  for (int i = 0; i <= 900; ++i) interrupted.look(20.0, i != 500, Eigen::Vector3d::Zero(), 1e-3 * i);
+  EXPECT_FALSE(interrupted.now()) << "it let go in between";
+}
+
+/// The wall is 0.972 m ahead, the footprint's front 0.40 m: of a room that ends there nothing is left.
+TEST(ScenarioRun, HowFarInsideOfARegionTheFootprintIs) {
+  const CellResult result = run_scenario(R"(task: roomy.yaml
+expect:
+  - {always: elapsed > 1 ms or abs(truth.base.inside.room - 0.6 m) < 1 mm}
+  - {at: end, that: abs(truth.base.inside.room - 1.0 m + 0.4 m + truth.base.x) < 0.1 mm and truth.base.x > 5 cm}
 )");
   for (const ExpectationResult& expected : result.expectations) EXPECT_TRUE(expected.held) << expected.text;
 }

@@ -12,7 +12,7 @@ struct TruthQuantity {
   Dimension dimension;
 };
 
-// In the order of TruthOfBase and of TruthOfObject.
+// In the order of TruthOfBase, TruthOfObject and TruthOfRobot.
 constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"truth.base.y", dimension::length},
                                      {"truth.base.yaw", dimension::angle},
@@ -21,12 +21,13 @@ constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"truth.base.speed", dimension::velocity},
                                      {"truth.base.turn", dimension::angular_velocity},
                                      {"truth.base.torque", dimension::none},
+                                     {"truth.base.switch", dimension::torque},
                                      {"run.stopped", dimension::time},
                                      {"run.slipped", dimension::time}};
-constexpr TruthQuantity of_object[] = {{"force", dimension::force},  {"peak", dimension::force},
-                                       {"touched", dimension::time}, {"x", dimension::length},
-                                       {"y", dimension::length},     {"yaw", dimension::angle},
-                                       {"latched", dimension::time}, {"pull", dimension::force}};
+constexpr TruthQuantity of_object[] = {
+    {"force", dimension::force},  {"peak", dimension::force},   {"steady", dimension::force},
+    {"touched", dimension::time}, {"x", dimension::length},     {"y", dimension::length},
+    {"yaw", dimension::angle},    {"latched", dimension::time}, {"pull", dimension::force}};
 constexpr TruthQuantity of_robot[] = {{"speed", dimension::velocity},
                                       {"turn", dimension::angular_velocity},
                                       {"torque", dimension::none},
@@ -42,7 +43,8 @@ void declare(Symbols& symbols, const std::string& prefix, const TruthQuantity& q
   symbols.signals.push_back(std::move(symbol));
 }
 
-Symbols truth_symbols(const Scene& scene) {
+Symbols truth_symbols(const Program& program) {
+  const Scene scene = program.scene.value_or(Scene{});
   Symbols symbols;
   for (const TruthQuantity& quantity : of_base) declare(symbols, "", quantity);
   for (const SceneObject& object : scene.objects) {
@@ -54,6 +56,10 @@ Symbols truth_symbols(const Scene& scene) {
     for (const TruthQuantity& quantity : of_object) declare(symbols, prefix, quantity);
     for (const TruthQuantity& quantity : of_robot) declare(symbols, prefix, quantity);
   }
+  for (const Region& region : program.regions)
+    declare(symbols, "truth.base.inside.", {region.name.c_str(), dimension::length});
+  for (const Task& task : program.tasks)
+    declare(symbols, "run.entered.", {task.name.c_str(), dimension::time});
   return symbols;
 }
 
@@ -125,13 +131,13 @@ std::vector<std::string> units_of(const Condition& condition, const std::vector<
 
 }  // namespace
 
-std::vector<std::string> truth_names(const Scene& scene) {
-  return truth_symbols(scene).signal_names();
+std::vector<std::string> truth_names(const Program& program) {
+  return truth_symbols(program).signal_names();
 }
 
 std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& file, const Program& program,
                                                            Diagnostics& diagnostics) {
-  Symbols symbols = truth_symbols(program.scene.value_or(Scene{}));
+  Symbols symbols = truth_symbols(program);
   declare_program(program, symbols);
   const TaskFile no_task;
   const std::optional<Robot> robot;

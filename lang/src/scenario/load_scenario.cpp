@@ -138,6 +138,7 @@ std::optional<Scenario> scenario_of(const ScenarioFile& file, const fs::path& pa
   scenario.about = file.about;
   scenario.time_limit = file.time_limit;
   scenario.seed = file.seed;
+  scenario.blend = file.blend;
   if (file.task.exists()) {
     if (const auto task = existing_file(file.task, path, root_of(path), diagnostics)) scenario.task = *task;
   }
@@ -165,6 +166,9 @@ std::optional<ScenarioRun> load_run(const fs::path& path, std::size_t cell, Diag
   if (!run.program) {
     run.expectations = expectations_of_words(*file);
     return run;
+  }
+  if (scenario->blend) {
+    for (Task& task : run.program->tasks) task.blend = {.constant = *scenario->blend};
   }
   check_faults(chosen, *run.program, of_scenario);
   auto expectations = check_expectations(*file, *run.program, of_scenario);

@@ -216,6 +216,8 @@ std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagno
     const auto value = parse_integer(*seed, "`seed`", 0, 1'000'000'000, diagnostics);
     file.seed = static_cast<std::uint64_t>(value.value_or(0));
   }
+  if (const Node* blend = map.optional("blend"))
+    file.blend = parse_positive(*blend, dimension::time, "`blend`", true, diagnostics);
   parse_fixed(map, file, diagnostics);
   if (const Node* matrix = map.optional("matrix")) parse_matrix(*matrix, file, diagnostics);
   complain_of_repetitions(file, diagnostics);

@@ -46,6 +46,7 @@ struct ScenarioFile {
   Word task;
   double time_limit = 600.0;
   std::uint64_t seed = 0;
+  std::optional<double> blend;
   std::vector<MatrixKey> fixed;  ///< the keys that stand beside the matrix, with one value each
   std::vector<MatrixKey> matrix;
   std::vector<FaultSet> faults;

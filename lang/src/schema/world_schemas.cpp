@@ -213,6 +213,7 @@ Json scenario_file() {
                  {"task", word("the task file, seen from this one"), true},
                  {"time_limit", reference("quantity", "a longer run is unfinished")},
                  {"seed", Json{{"type", "integer"}, {"minimum", 0}}},
+                 {"blend", reference("quantity", "in the place of that of every task")},
                  {"scene", word("in the place of the task's own")},
                  {"robot", word("in the place of the task's own")},
                  {"params", named("values for this scenario", reference("quantity"))},

@@ -35,12 +35,16 @@ void judge(const std::vector<ExpectationWatch>& watches, const std::vector<std::
   }
 }
 
-/// What the partners measured and did on their last tick.
-void look_at_partners(ScenePlant& plant, TrueFacts& facts) noexcept {
+/// What the partners measured and did on their last tick. The largest share of a torque's limit.
+double look_at_partners(ScenePlant& plant, TrueFacts& facts) noexcept {
+  double most = 0.0;
   for (std::size_t i = 0; i < plant.partners().size(); ++i) {
     const ScenePartner& partner = plant.partners()[i];
-    facts.update_partner(i, plant.truth(), torque_share(partner.program->robot.model, partner.torque));
+    const double share = torque_share(partner.program->robot.model, partner.torque);
+    facts.update_partner(i, plant.truth(), share);
+    most = std::max(most, share);
   }
+  return most;
 }
 
 std::vector<PartnerResult> results_of(ScenePlant& plant) {
@@ -63,6 +67,10 @@ const Eigen::VectorXd& step(Runner& runner, const Sensed& sensed, double time, T
   for (std::size_t i = told; i < runner.events().size(); ++i) {
     if (runner.events()[i].code == EventCode::slip) facts.note_slip(time);
   }
+  const std::optional<Transition>& transition = runner.scheduler().transition();
+  const bool enters = transition && transition->to < runner.scheduler().program_task_count();
+  if (enters) facts.note_entry(transition->to, time);
+  facts.note_torque(tau, enters && transition->from >= 0);
   return tau;
 }
 
@@ -86,8 +94,9 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
     if (steps.tick_is_due()) tau = step(runner, sensed, plant.truth().time, facts);
-    facts.update(plant.truth(), plant.true_state(), torque_share(program.robot.model, tau));
-    look_at_partners(plant, facts);
+    const double share = torque_share(program.robot.model, tau);
+    facts.update(plant.truth(), plant.true_state(), share);
+    result.torque = std::max({result.torque, share, look_at_partners(plant, facts)});
     const bool in_task = runner.state() == RunState::running;
     for (ExpectationWatch& watch : watches) watch.look(facts, plant.truth().time, in_task);
     status = plant.apply(tau);

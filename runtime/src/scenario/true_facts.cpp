@@ -1,5 +1,6 @@
 #include "scenario/true_facts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -9,23 +10,15 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-void put_object(const ObjectTruth& object, double* values) noexcept {
-  values[lang::truth_force] = object.force;
-  values[lang::truth_peak] = object.peak_force;
-  values[lang::truth_touched] = object.touched.value_or(unknown);
-  values[lang::truth_object_x] = object.x;
-  values[lang::truth_object_y] = object.y;
-  values[lang::truth_object_yaw] = object.yaw;
-  values[lang::truth_latched] = object.latched.value_or(unknown);
-  values[lang::truth_pull] = object.pull;
-}
-
 }  // namespace
 
 TrueFacts::TrueFacts(const lang::Program& program)
     : program_(program),
       frames_(program.frames, program.robot.model, program.signals.size()),
-      values_(lang::truth_names(program.scene.value_or(lang::Scene{})).size(), unknown) {
+      values_(lang::truth_names(program).size(), unknown) {
+  values_[lang::truth_switch] = 0.0;
+  if (program.scene) steady_.resize(program.scene->objects.size() + program.scene->robots.size());
+  for (const lang::Region& region : program.regions) regions_.emplace_back(region, program.robot.footprint);
   for (std::size_t i = 0; i < program.frames.size(); ++i) frames_.follow(static_cast<int>(i));
 }
 
@@ -43,13 +36,46 @@ void TrueFacts::update(const Truth& truth, const solver::State& state, double to
   values_[lang::truth_torque] = torque_share;
   const std::size_t objects = truth.objects.size() - truth.robots.size();
   for (std::size_t k = 0; k < objects; ++k)
-    put_object(truth.objects[k], values_.data() + lang::truth_base_count + k * lang::truth_object_count);
+    put_object(k, truth, values_.data() + lang::truth_base_count + k * lang::truth_object_count);
+  look_at_regions();
+}
+
+void TrueFacts::put_object(std::size_t number, const Truth& truth, double* values) noexcept {
+  const ObjectTruth& object = truth.objects[number];
+  steady_[number].look(object.force - object.pull, object.force > 0.0 || object.latched, truth.velocity,
+                       truth.time);
+  values[lang::truth_force] = object.force;
+  values[lang::truth_peak] = object.peak_force;
+  values[lang::truth_steady] = steady_[number].now().value_or(unknown);
+  values[lang::truth_touched] = object.touched.value_or(unknown);
+  values[lang::truth_object_x] = object.x;
+  values[lang::truth_object_y] = object.y;
+  values[lang::truth_object_yaw] = object.yaw;
+  values[lang::truth_latched] = object.latched.value_or(unknown);
+  values[lang::truth_pull] = object.pull;
+}
+
+void TrueFacts::look_at_regions() noexcept {
+  if (program_.robot.footprint.empty()) return;
+  const solver::FrameMotion base = frames_.motions().of(0);
+  double* values = values_.data() + values_.size() - program_.tasks.size() - regions_.size();
+  for (std::size_t r = 0; r < regions_.size(); ++r) {
+    const int parent = program_.regions[r].parent;
+    if (frames_.signal_of(parent) >= 0) continue;
+    RegionFence& fence = regions_[r];
+    fence.update(base, frames_.motions().of(frames_.attached(parent)), 0.0);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t p = 0; p < fence.pair_count(); ++p) {
+      if (fence.faces(p)) least = std::min(least, fence.approach(p).left);
+    }
+    values[r] = least;
+  }
 }
 
 void TrueFacts::update_partner(std::size_t number, const Truth& truth, double torque_share) noexcept {
   double* values = of_partner(number);
   const RobotTruth& robot = truth.robots[number];
-  put_object(truth.objects[truth.objects.size() - truth.robots.size() + number], values);
+  put_object(truth.objects.size() - truth.robots.size() + number, truth, values);
   values[lang::truth_robot_speed] = robot.velocity.head<2>().norm();
   values[lang::truth_robot_turn] = robot.velocity.z();
   values[lang::truth_robot_torque] = torque_share;
@@ -72,6 +98,19 @@ void TrueFacts::note_stop(double time) noexcept {
 void TrueFacts::note_slip(double time) noexcept {
   double& slipped = values_[lang::run_slipped];
   if (std::isnan(slipped)) slipped = time;
+}
+
+void TrueFacts::note_torque(const Eigen::VectorXd& tau, bool is_switch) noexcept {
+  double& most = values_[lang::truth_switch];
+  if ((is_switch || was_switch_) && last_torque_)
+    most = std::max(most, (tau - *last_torque_).cwiseAbs().maxCoeff());
+  last_torque_ = tau;
+  was_switch_ = is_switch;
+}
+
+void TrueFacts::note_entry(int task, double time) noexcept {
+  double& entered = values_[values_.size() - program_.tasks.size() + static_cast<std::size_t>(task)];
+  if (std::isnan(entered)) entered = time;
 }
 
 double TrueFacts::look_up(const lang::ExpressionNode& node) const noexcept {

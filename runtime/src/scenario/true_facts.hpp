@@ -1,9 +1,12 @@
 /// What the plant measured, as conditions ask for it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "scenario/steady_force.hpp"
 #include "schedule/frame_table.hpp"
+#include "schedule/region_fence.hpp"
 #include "zwang/lang/scenario.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 
@@ -21,15 +24,25 @@ class TrueFacts {
   /// When the protective stop latched, and when slip was told first [s].
   void note_stop(double time) noexcept;
   void note_slip(double time) noexcept;
+  /// The torques that a tick gives, of which `is_switch` says that it went from one task to another.
+  void note_torque(const Eigen::VectorXd& tau, bool is_switch) noexcept;
+  /// `task` is one of the program's.
+  void note_entry(int task, double time) noexcept;
   /// NaN where nobody knows: an object that was never touched, a frame that hangs on a signal.
   double look_up(const lang::ExpressionNode& node) const noexcept;
   double quantity(int index) const noexcept { return values_[static_cast<std::size_t>(index)]; }
 
  private:
   double* of_partner(std::size_t number) noexcept;
+  void put_object(std::size_t object, const Truth& truth, double* values) noexcept;
+  void look_at_regions() noexcept;
 
   const lang::Program& program_;
   FrameTable frames_;
+  std::vector<RegionFence> regions_;  ///< about the footprint
+  std::vector<SteadyForce> steady_;   ///< of each object, then of each robot of the scene
+  std::optional<Eigen::VectorXd> last_torque_;
+  bool was_switch_ = false;     ///< in the tick that it is of
   std::vector<double> values_;  ///< in the order of lang::truth_names
   double time_ = 0.0;
 };

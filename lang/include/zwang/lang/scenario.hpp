@@ -31,6 +31,7 @@ struct Scenario {
   std::filesystem::path task;
   double time_limit = 600.0;  ///< [s] of the run; one that goes on for longer is `unfinished`
   std::uint64_t seed = 0;
+  std::optional<double> blend;  ///< [s] in the place of that of every task
   std::vector<ScenarioCell> cells;
 };
 
@@ -57,7 +58,8 @@ struct Expectation {
 
 /// What the plant measures, as expectations call it, and when the run told what. First come
 /// `truth_base_count` of the base, then `truth_object_count` of each object, then `truth_robot_count` of each
-/// robot of the scene, in the order of these enumerations.
+/// robot of the scene, in the order of these enumerations; then, of each region of the task file, how far
+/// inside of it the footprint is [m], and of each task when it was entered first [s].
 enum TruthOfBase {
   truth_x,
   truth_y,
@@ -67,13 +69,15 @@ enum TruthOfBase {
   truth_speed,
   truth_turn,
   truth_torque,
-  run_stopped,  ///< [s] when the protective stop latched
-  run_slipped,  ///< [s] when slip was told first
+  truth_switch,  ///< [N m] most that a motor's torque went in the two ticks of a switch of tasks, so far
+  run_stopped,   ///< [s] when the protective stop latched
+  run_slipped,   ///< [s] when slip was told first
   truth_base_count
 };
 enum TruthOfObject {
   truth_force,
   truth_peak,
+  truth_steady,  ///< [N] what `force` less `pull` has been for half a second, while the base kept its speed
   truth_touched,
   truth_object_x,
   truth_object_y,
@@ -90,7 +94,7 @@ enum TruthOfRobot {
   truth_robot_stopped,  ///< [s] when its protective stop latched
   truth_robot_count
 };
-std::vector<std::string> truth_names(const Scene& scene);
+std::vector<std::string> truth_names(const Program& program);
 
 /// Reads a scenario file, multiplies its matrix out, and checks the parameters that it names against those
 /// that the task file declares.

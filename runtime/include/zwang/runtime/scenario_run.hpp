@@ -38,6 +38,7 @@ struct CellResult {
   std::vector<PartnerResult> partners;
   double simulated = 0.0;  ///< [s]
   double wall = 0.0;       ///< [s]
+  double torque = 0.0;     ///< share of its limit, of the motor that came nearest to it, of any robot
   std::vector<ExpectationResult> expectations;
 };
 
