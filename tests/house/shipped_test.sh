@@ -25,6 +25,21 @@ while IFS= read -r file; do
 done < <(find specs examples -name '*.yaml' 2>/dev/null)
 if ((referring == 0)); then complain 'no shipped file names another: the search above is broken'; fi
 
+# A scenario in which something can be pressed says how hard, once nothing moves: by `steady`, or by the force at the end, or none ever.
+while IFS= read -r file; do
+  if grep -qE 'diagnostic: E|outcome: refused' "$file"; then continue; fi
+  scenes=$(grep -oE 'scenes/[a-z0-9_]+\.yaml' "$file" || true)
+  if [[ ! $scenes ]]; then
+    task=$(dirname "$file")/$(sed -nE 's/^task: *([^ ]+).*/\1/p' "$file")
+    scenes=$(grep -oE 'scenes/[a-z0-9_]+\.yaml' "$task" || true)
+  fi
+  for scene in $scenes; do
+    if ! grep -qE '^(objects|robots):' "specs/$scene" 2>/dev/null; then continue; fi
+    if grep -qE '\.steady|always: truth\.[a-z_]+\.force < 0\.1 N|at: end, that: abs\(truth\.[a-z_]+\.force - ' "$file"; then continue; fi
+    complain "$file does not say what is pressed steadily in $scene"
+  done
+done < <(find specs/scenarios -name '*.yaml')
+
 # Relative links of the documentation.
 links=0
 while IFS= read -r page; do
