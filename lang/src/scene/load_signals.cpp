@@ -86,8 +86,9 @@ void parse_script(const Node& node, SceneSignal& signal, Diagnostics& diagnostic
 }
 
 /// The longest delay of a signal, and of a pose that corrects the wheels, which remember no more.
-constexpr double longest_delay = 1.9;      // [s]
-constexpr double longest_fix_delay = 0.4;  // [s]
+constexpr double longest_delay = 1.9;          // [s]
+constexpr double longest_fix_delay = 0.4;      // [s]
+constexpr double longest_state_delay = 15e-3;  // [s] twenty ticks without a sample are a fault
 
 void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<Seen>& seen, bool is_first,
                        Diagnostics& diagnostics) {
@@ -239,8 +240,11 @@ StateNoise parse_state_noise(const Node& node, Diagnostics& diagnostics) {
   noise.yaw = not_negative(map, "yaw", dimension::angle, diagnostics);
   noise.velocity = not_negative(map, "velocity", dimension::velocity, diagnostics);
   noise.turn = not_negative(map, "turn", dimension::angular_velocity, diagnostics);
+  noise.delay = not_negative(map, "delay", dimension::time, diagnostics);
+  if (noise.delay > longest_state_delay)
+    diagnostics.add(wording::delayed_too_long(map.optional("delay")->span, map.what(), longest_state_delay));
   if (const Node* fix = map.optional("fix")) {
-    for (const char* key : {"position", "yaw", "velocity", "turn"}) {
+    for (const char* key : {"position", "yaw", "velocity", "turn", "delay"}) {
       const Node* measured = map.optional(key);
       if (measured != nullptr) diagnostics.add(wording::fix_of_measured(fix->span, key, measured->span));
     }

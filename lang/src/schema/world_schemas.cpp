@@ -109,7 +109,8 @@ Json base_state() {
                  object("standard deviations", {{"position", reference("quantity")},
                                                 {"yaw", reference("quantity")},
                                                 {"velocity", reference("quantity")},
-                                                {"turn", reference("quantity")}}),
+                                                {"turn", reference("quantity")},
+                                                {"delay", reference("quantity", "of whole samples")}}),
                  object("told by the wheels, and corrected", {{"fix", fix(), true}})});
 }
 

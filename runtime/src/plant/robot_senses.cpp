@@ -1,6 +1,7 @@
 #include "robot_senses.hpp"
 
 #include <Eigen/Geometry>
+#include <cmath>
 
 namespace zwang::runtime {
 
@@ -29,10 +30,31 @@ RobotSenses::RobotSenses(const lang::Program& program, const lang::Scene& scene,
       signals_(program, scene, number == 0 ? scene.signals : partner(scene, number).signals,
                footprints_of(scene, first), seed_of(seed, number)),
       noise_(seed_of(seed, number) ^ 0xD1B54A32D192ED03U) {
+  // A step of the simulation is no shorter than a quarter of a millisecond.
+  const auto most_on_way = static_cast<std::size_t>(std::ceil(state_.delay / 0.25e-3)) + 2;
+  if (state_.delay > 0.0) on_way_.assign(most_on_way, Sensed(program.robot.model));
   if (state_.fix) signals_.measure_base(*state_.fix, seed_of(seed, number) ^ 0xAEF17502108EF2D9U);
 }
 
-void RobotSenses::tell(const Sensed& actual, Sensed& sensed) noexcept {
+const Sensed& RobotSenses::arrived(const Sensed& actual) noexcept {
+  if (on_way_.empty()) return actual;
+  Sensed& place = on_way_[(oldest_ + waiting_) % on_way_.size()];
+  place.time = actual.time;
+  place.state = actual.state;
+  if (waiting_ + 1 < on_way_.size()) ++waiting_;
+  constexpr double rounding = 1e-9;  // [s]
+  const auto next_is_there = [&] {
+    return on_way_[(oldest_ + 1) % on_way_.size()].time <= actual.time - state_.delay + rounding;
+  };
+  while (waiting_ > 1 && next_is_there()) {
+    oldest_ = (oldest_ + 1) % on_way_.size();
+    --waiting_;
+  }
+  return on_way_[oldest_];
+}
+
+void RobotSenses::tell(const Sensed& now, Sensed& sensed) noexcept {
+  const Sensed& actual = arrived(now);
   sensed.time = actual.time;
   sensed.state = actual.state;
   sensed.base_measured = !state_.wheels_only;

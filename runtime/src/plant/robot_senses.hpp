@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "scene_signals.hpp"
 
@@ -21,11 +22,15 @@ class RobotSenses {
 
  private:
   void add_noise(solver::State& state) noexcept;
+  /// The sample that has arrived by now; of the first one until another has.
+  const Sensed& arrived(const Sensed& actual) noexcept;
 
   lang::StateNoise state_;
   SceneSignals signals_;
   Noise noise_;
-  solver::Pose start_;  ///< of the base
+  solver::Pose start_;          ///< of the base
+  std::vector<Sensed> on_way_;  ///< a ring, of samples that come late; empty where none does
+  std::size_t oldest_ = 0, waiting_ = 0;
 };
 
 }  // namespace zwang::runtime

@@ -94,6 +94,7 @@ struct StateNoise {
   double yaw = 0.0;          ///< [rad]
   double velocity = 0.0;     ///< [m/s]
   double turn = 0.0;         ///< [rad/s]
+  double delay = 0.0;        ///< [s] of whole samples, joints and stamp included
   bool wheels_only = false;  ///< the base is not measured tick by tick: the joints are, and where it starts
   /// With `wheels_only`: how somebody measures the base's pose now and then. Its name and source mean
   /// nothing.
