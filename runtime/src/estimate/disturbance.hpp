@@ -38,6 +38,8 @@ class DisturbanceObserver {
   /// P = p . yd, what `force()` gives at these rates. [W]
   double power(const Eigen::VectorXd& qd) noexcept;
 
+  /// What the model made of the last torques: accelerations of the joints that turn a wheel or have a motor.
+  const Eigen::VectorXd& expected() const noexcept { return expected_; }
   /// On the base at its origin, in its axes: x, y [N] and rz [N m]; low-passed.
   const solver::Vector3& base_force() const noexcept { return filtered_; }
   /// p of the last comparisons, their mean over `window()` of them; `motions().count` entries.

@@ -7,6 +7,7 @@
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
 #include "estimate/ticks.hpp"
+#include "guard/frozen_at_rest.hpp"
 #include "guard/frozen_wheel.hpp"
 #include "guard/joint_rates.hpp"
 #include "guard/motor_watch.hpp"
@@ -95,6 +96,7 @@ struct Runner::Parts {
         disturbance(program.robot, period),
         rates(model),
         frozen_wheel(program.robot),
+        frozen_at_rest(program.robot),
         motors(program.robot, period),
         slip(model),
         signs(model),
@@ -155,6 +157,7 @@ struct Runner::Parts {
   DisturbanceObserver disturbance;
   JointRates rates;
   FrozenWheel frozen_wheel;
+  FrozenAtRest frozen_at_rest;
   MotorWatch motors;
   SlipWatch slip;
   WheelSigns signs;
@@ -299,6 +302,7 @@ void Runner::Parts::compare() noexcept {
     motors.reset();
     return;
   }
+  stop(frozen_at_rest.look(estimated.state.q, tau, disturbance.expected(), sample.time));
   scheduler.estimate_force(disturbance.base_force());
   // A wheel that slides gives the ground less than its motor gives the wheel.
   if (slip.doubtful()) {
