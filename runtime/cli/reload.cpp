@@ -153,7 +153,7 @@ void Reloads::look(runtime::Runner& runner, double time) {
     return print_error("zwang: " + arguments_.file + " was not reloaded: " +
                        (is_over ? "the task is over" : "its robot is another") + "\n");
   const std::string name = "log-reload-" + std::to_string(past_.size() + 1);
-  runtime::LogContext context = context_of(arguments_, *next->program, next->diagnostics);
+  runtime::LogContext context = context_of(arguments_, next->diagnostics);
   context.facts["continues"] = last_log_;
   recorders_.push_back(record(runner, folder_, name, std::move(context)));
   last_log_ = name + ".mcap";

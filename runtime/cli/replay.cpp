@@ -1,6 +1,5 @@
 #include "zwang/runtime/replay.hpp"
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -20,17 +19,6 @@ std::string exactly(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", value);
   return text;
-}
-
-double period_of(const runtime::LogContext& context) {
-  const auto period = context.facts.find("period [s]");
-  if (period == context.facts.end()) throw Impossible("the log does not say its control period");
-  const std::string& text = period->second;
-  double seconds = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw Impossible("`" + text + "` in the log is not a control period");
-  return seconds;
 }
 
 constexpr std::size_t most_parts = 1000;
@@ -56,8 +44,13 @@ std::optional<fs::path> log_before(const fs::path& log, const runtime::LogContex
   return log.parent_path() / fs::path(before->second).filename();
 }
 
+std::string fact(const runtime::LogContext& context, const char* name) {
+  const auto found = context.facts.find(name);
+  return found == context.facts.end() ? "?" : found->second;
+}
+
 ordered_json as_json(const std::string& file, const runtime::ReplayResult& result, bool whole,
-                     const std::string& version) {
+                     const runtime::LogContext& context) {
   ordered_json first;
   if (result.first) {
     first = {{"time", result.first->time},
@@ -65,17 +58,21 @@ ordered_json as_json(const std::string& file, const runtime::ReplayResult& resul
              {"logged", result.first->logged},
              {"computed", result.first->computed}};
   }
-  return {{"file", file},   {"records", result.records}, {"equal", result.equal}, {"first_difference", first},
-          {"whole", whole}, {"zwang", version}};
+  return {{"file", file},          {"records", result.records},
+          {"equal", result.equal}, {"first_difference", first},
+          {"whole", whole},        {"zwang", fact(context, "zwang")}};
 }
 
 std::string as_text(const std::string& file, const runtime::ReplayResult& result, bool whole,
-                    const std::string& version) {
+                    const runtime::LogContext& context) {
   std::ostringstream out;
   out << file << ": " << result.records << " records, " << result.equal
       << " with the same torques to the last bit";
   out << (whole ? "\n" : "; the log is damaged\n");
+  const std::string version = fact(context, "zwang"), compiler = fact(context, "compiler");
   if (version != ZWANG_VERSION) out << "  logged by zwang " << version << ", replayed by " ZWANG_VERSION "\n";
+  if (compiler != __VERSION__)
+    out << "  logged by a program of the compiler " << compiler << ", replayed by one of " __VERSION__ "\n";
   if (const auto& d = result.first) {
     out << "  first difference at " << with_unit(d->time, "s") << ": " << d->column << " was "
         << exactly(d->logged) << ", is " << exactly(d->computed) << "\n";
@@ -95,15 +92,13 @@ int replay(const ReplayArguments& arguments) {
     parts.insert(parts.begin(), {*before, program_of(context)});
     before = log_before(*before, context);
   }
-  const runtime::ReplayResult result = runtime::replay(parts, period_of(log.context));
+  const runtime::ReplayResult result = runtime::replay(parts, runtime::logged_settings(log.context));
   const bool whole = log.closed && log.damage.empty();
-  const auto version = log.context.facts.find("zwang");
-  const std::string by = version == log.context.facts.end() ? "?" : version->second;
   print(arguments.format == Format::json
-            ? as_json(arguments.file, result, whole, by)
+            ? as_json(arguments.file, result, whole, log.context)
                       .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
                   "\n"
-            : printable(as_text(arguments.file, result, whole, by)));
+            : printable(as_text(arguments.file, result, whole, log.context)));
   return whole && result.records > 0 && result.equal == result.records ? exit_good : exit_bad;
 }
 

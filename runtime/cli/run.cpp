@@ -32,8 +32,10 @@ constexpr double blocked_for = 0.19;  // [s] of real time without a tick: the th
 
 volatile std::sig_atomic_t interrupted = 0;
 
-extern "C" void on_signal(int) {
+/// Who asks again does not want to wait for the stop, nor for a log that nobody reads: that ends the process.
+extern "C" void on_signal(int signal) {
   interrupted = 1;
+  std::signal(signal, SIG_DFL);
 }
 
 void catch_signals() {
@@ -192,7 +194,7 @@ int run(const RunArguments& arguments) {
 
   const fs::path folder = make_log_folder(arguments);
   Recorders recorders;
-  recorders.push_back(record(runner, folder, "log", context_of(arguments, *program, diagnostics)));
+  recorders.push_back(record(runner, folder, "log", context_of(arguments, diagnostics)));
   for (std::size_t i = 0; i < plant.partners().size(); ++i) {
     const lang::SceneRobot& robot = program->scene->robots[i];
     recorders.push_back(record(plant.partners()[i].runner, folder, "log-" + robot.name,

@@ -47,20 +47,16 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene&
                                const lang::SceneRobot& robot, const lang::Diagnostics& diagnostics) {
   runtime::LogContext context;
   context.sources = diagnostics.sources();
-  context.facts["zwang"] = ZWANG_VERSION;
-  context.facts["task"] = robot.program->path;
   context.facts["scene"] = scene.path;
   if (!robot.robot_path.empty()) context.facts["robot"] = robot.robot_path;
   context.facts["partner"] = robot.name;
   context.facts["seed"] = std::to_string(arguments.seed);
-  for (const lang::Parameter& p : robot.program->parameters)
-    context.facts["params." + p.name] = exactly(p.value);
   return context;
 }
 
 std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const fs::path& folder,
                                           const std::string& name, runtime::LogContext context) {
-  context.facts["period [s]"] = exactly(runner.period());
+  context.facts.merge(runner.facts());
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
   sinks.push_back(runtime::mcap_sink(folder / (name + ".mcap"), std::move(context)));
   sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
@@ -69,13 +65,10 @@ std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const fs::pat
   return recorder;
 }
 
-runtime::LogContext context_of(const RunArguments& arguments, const lang::Program& program,
-                               const lang::Diagnostics& diagnostics) {
+runtime::LogContext context_of(const RunArguments& arguments, const lang::Diagnostics& diagnostics) {
   runtime::LogContext context;
   context.sources = diagnostics.sources();
   std::map<std::string, std::string>& facts = context.facts;
-  facts["zwang"] = ZWANG_VERSION;
-  facts["task"] = arguments.file;
   if (arguments.overrides.robot) facts["robot"] = *arguments.overrides.robot;
   if (arguments.overrides.scene) facts["scene"] = *arguments.overrides.scene;
   facts["seed"] = std::to_string(arguments.seed);
@@ -83,7 +76,6 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Progra
   if (arguments.start_at) {
     facts["start_at [m]"] = exactly((*arguments.start_at)[0]) + ", " + exactly((*arguments.start_at)[1]);
   }
-  for (const lang::Parameter& p : program.parameters) facts["params." + p.name] = exactly(p.value);
   return context;
 }
 

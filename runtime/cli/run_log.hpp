@@ -19,8 +19,7 @@ using Recorders = std::vector<std::unique_ptr<runtime::Recorder>>;
 std::filesystem::path make_log_folder(const RunArguments& arguments);
 
 /// The files that were read and everything that the command line changed: the same run again needs no more.
-runtime::LogContext context_of(const RunArguments& arguments, const lang::Program& program,
-                               const lang::Diagnostics& diagnostics);
+runtime::LogContext context_of(const RunArguments& arguments, const lang::Diagnostics& diagnostics);
 /// Of one of the scene's robots: its task file alone says what it does.
 runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene& scene,
                                const lang::SceneRobot& robot, const lang::Diagnostics& diagnostics);

@@ -58,7 +58,7 @@ TEST(Replay, KnowsTheParametersThatAHostSetDuringTheRun) {
   const solver::Vector3 changed = run(program, 35.0, folder.path() / "changed.mcap");
   EXPECT_GT((changed - left_alone).norm(), 0.001) << "a harder push gains speed sooner";
   for (const char* name : {"left_alone.mcap", "changed.mcap"}) {
-    const ReplayResult result = replay(folder.path() / name, program, period);
+    const ReplayResult result = replay(folder.path() / name, program, {.period = period});
     EXPECT_EQ(result.records, ticks);
     EXPECT_EQ(result.equal, result.records) << name;
   }
@@ -91,9 +91,36 @@ TEST(Replay, KnowsWhenAHostResetTheStop) {
       EXPECT_EQ(runner.state(), RunState::running);
     }
   });
-  const ReplayResult result = replay(log, program, period);
+  const ReplayResult result = replay(log, program, {.period = period});
   EXPECT_EQ(result.records, ticks);
   EXPECT_EQ(result.equal, result.records) << (result.first ? result.first->time : 0.0);
+}
+
+/// A slew that the host asks for, and the period, are among the facts of the log.
+TEST(Replay, KnowsTheSettingsOfAHost) {
+  const test::TemporaryFolder folder;
+  const lang::Program program = wall_alignment();
+  const std::filesystem::path log = folder.path() / "log.mcap";
+  const RunnerSettings settings{.period = 2e-3, .max_slew = 0.5};
+  Runner runner(program, settings);
+  std::vector<std::unique_ptr<LogSink>> sinks;
+  sinks.push_back(mcap_sink(log, {{}, runner.facts()}));
+  Recorder recorder(std::move(sinks), runner.columns());
+  runner.record_to(&recorder);
+  Sensed sensed(program.robot.model, program.signals.size());
+  for (int i = 1; i <= 50; ++i) {
+    sensed.time = 2e-3 * i;
+    runner.step(sensed);
+  }
+  recorder.close();
+  const LogContext context = read_log(log, [](double, std::string_view) {}).context;
+  EXPECT_EQ(context.facts.at("task"), program.path);
+  EXPECT_EQ(context.facts.at("params.push"), "20");
+  const RunnerSettings logged = logged_settings(context);
+  EXPECT_EQ(logged.period, settings.period);
+  EXPECT_EQ(logged.max_slew, settings.max_slew);
+  EXPECT_EQ(replay(log, program, logged).equal, 50u);
+  EXPECT_LT(replay(log, program, {.period = 2e-3}).equal, 50u) << "of another slew";
 }
 
 /// The brake leaves out a motor that is found at fault, and sends it 0 of either sign.
@@ -105,7 +132,7 @@ TEST(Replay, KnowsANegativeZeroFromZero) {
       lang::Fault{.kind = lang::FaultKind::torque_lost, .at = 0.1, .joint = "front_left_wheel"});
   const std::filesystem::path log = folder.path() / "log.mcap";
   run(program, 0.0, log, options);
-  const ReplayResult result = replay(log, program, period);
+  const ReplayResult result = replay(log, program, {.period = period});
   EXPECT_EQ(result.records, ticks);
   EXPECT_EQ(result.equal, result.records);
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "run/run_facts.hpp"
 #include "run/sensed_columns.hpp"
 #include "zwang/lang/start.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -170,11 +171,15 @@ void replay_part(const ReplayPart& part, Runner& runner, ReplayResult& result) {
 
 }  // namespace
 
-ReplayResult replay(const std::vector<ReplayPart>& parts, double period) {
+RunnerSettings logged_settings(const LogContext& context) {
+  return settings_of(context.facts);
+}
+
+ReplayResult replay(const std::vector<ReplayPart>& parts, const RunnerSettings& settings) {
   ReplayResult result;
   std::optional<Runner> runner;
   for (const ReplayPart& part : parts) {
-    Runner next(part.program, {.period = period});
+    Runner next(part.program, settings);
     if (!runner) {
       runner = std::move(next);
     } else if (!runner->swap_program(next)) {
@@ -185,8 +190,8 @@ ReplayResult replay(const std::vector<ReplayPart>& parts, double period) {
   return result;
 }
 
-ReplayResult replay(const fs::path& log, const lang::Program& program, double period) {
-  return replay({{log, program}}, period);
+ReplayResult replay(const fs::path& log, const lang::Program& program, const RunnerSettings& settings) {
+  return replay({{log, program}}, settings);
 }
 
 }  // namespace zwang::runtime

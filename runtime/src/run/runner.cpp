@@ -16,6 +16,7 @@
 #include "guard/wrench_refusal.hpp"
 #include "run/limit_table.hpp"
 #include "run/log_layout.hpp"
+#include "run/run_facts.hpp"
 #include "run/shortfall.hpp"
 #include "run/signal_watch.hpp"
 #include "run/statement_table.hpp"
@@ -83,6 +84,7 @@ struct Runner::Parts {
   Parts(const lang::Program& program, const RunnerSettings& settings)
       : model(program.robot.model),
         period(period_of(program.robot, settings)),
+        facts(facts_of(settings, period)),
         scheduler(program, period),
         solver(model,
                {.row_capacity = scheduler.row_capacity(), .base_motion = true, .every_acceleration = false}),
@@ -116,6 +118,7 @@ struct Runner::Parts {
     transitions.reserve(kept_transitions);
     events.reserve(kept_events);
     is_judged.resize(program.signals.size(), false);
+    facts["task"] = program.path;
     for (const lang::Parameter& p : program.parameters) parameter_names.push_back(p.name);
   }
 
@@ -141,6 +144,7 @@ struct Runner::Parts {
   const solver::Model model;
   std::vector<std::string> parameter_names;
   double period;
+  RunFacts facts;  ///< but for the parameters
   Scheduler scheduler;
   solver::Solver solver;
   solver::Solution solution;
@@ -436,6 +440,13 @@ bool Runner::swap_program(Runner& next) noexcept {
 
 double Runner::period() const noexcept {
   return parts_->period;
+}
+
+std::map<std::string, std::string> Runner::facts() const {
+  RunFacts facts = parts_->facts;
+  for (std::size_t i = 0; i < parts_->parameter_names.size(); ++i)
+    facts["params." + parts_->parameter_names[i]] = exactly(parts_->scheduler.parameters()[i]);
+  return facts;
 }
 
 RunState Runner::state() const noexcept {

@@ -9,6 +9,7 @@
 
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/log_reader.hpp"
+#include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
 
@@ -16,6 +17,10 @@ namespace zwang::runtime {
 /// diagnostics say why. Throws std::runtime_error when the log says too little. Writes the files to a
 /// temporary folder, which is gone when it returns.
 std::optional<lang::Program> logged_program(const LogContext& context, lang::Diagnostics& diagnostics);
+
+/// How the runner of the log was set, as `Runner::facts` said it. Throws std::runtime_error when the log says
+/// too little.
+RunnerSettings logged_settings(const LogContext& context);
 
 struct ReplayDifference {
   double time = 0.0;  ///< [s]
@@ -33,7 +38,8 @@ struct ReplayResult {
 /// Every torque that was sent, compared bit by bit. Stops that came from outside are taken from the log's
 /// events, what a host reset from where the stop ended, parameters that it set from their columns. Throws
 /// std::runtime_error when the log cannot be opened, or does not hold what was sensed.
-ReplayResult replay(const std::filesystem::path& log, const lang::Program& program, double period);
+ReplayResult replay(const std::filesystem::path& log, const lang::Program& program,
+                    const RunnerSettings& settings);
 
 /// A log and the program of it.
 struct ReplayPart {
@@ -42,6 +48,6 @@ struct ReplayPart {
 };
 /// The same of a run whose program was swapped under way: each log begins where the last one ends. Throws
 /// std::runtime_error, too, when a program does not fit the robot of the one before.
-ReplayResult replay(const std::vector<ReplayPart>& parts, double period);
+ReplayResult replay(const std::vector<ReplayPart>& parts, const RunnerSettings& settings);
 
 }  // namespace zwang::runtime

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -68,6 +69,10 @@ class Runner {
   const Eigen::VectorXd& step(const Sensed& sensed, std::span<const double> extra = {}) noexcept;
 
   double period() const noexcept;  ///< [s] of its steps
+  /// For LogContext::facts: the task, its parameters as they stand, the settings, and by what it is computed.
+  /// What a replay needs beside the files and what is logged, but for `robot` and `scene`, where LoadOptions
+  /// named one.
+  std::map<std::string, std::string> facts() const;
   RunState state() const noexcept;
   /// The outcome is known and the base stands (or has had the time to).
   bool finished() const noexcept;

@@ -1,0 +1,22 @@
+/// How a run was computed, in the words of a log's facts.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "zwang/runtime/runner.hpp"
+
+namespace zwang::runtime {
+
+using RunFacts = std::map<std::string, std::string>;
+
+/// The version, the compiler and the library that torques depend on to their last bit, and the settings.
+RunFacts facts_of(const RunnerSettings& settings, double period);
+
+/// Throws std::runtime_error where they do not say the control period, or a number is none.
+RunnerSettings settings_of(const RunFacts& facts);
+
+/// With every digit.
+std::string exactly(double value);
+
+}  // namespace zwang::runtime
