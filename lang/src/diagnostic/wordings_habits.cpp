@@ -58,7 +58,7 @@ Diagnostic still_to_fill_in(const Span& span, const std::vector<Span>& others) {
   Diagnostic diagnostic =
       error("E105", span, "this is still to be filled in",
             "the comment above it says what with, and docs/language.md under \"The robot file\"");
-  for (const Span& other : others) diagnostic = with_related(diagnostic, other, "and here");
+  for (const Span& other : others) diagnostic.related.push_back({other, "and here"});
   return diagnostic;
 }
 
