@@ -213,12 +213,13 @@ class LogReader {
   void read_metadata(Reader& fields) {
     const std::string_view name = fields.text();
     std::map<std::string, std::string> facts = facts_of(fields.text());
+    if (name == mcap::end_name) {
+      const std::string& text = facts[mcap::end_sequence];
+      std::uint32_t sequence = next_sequence_;
+      std::from_chars(text.data(), text.data() + text.size(), sequence);
+      look_for_a_gap(sequence, "the end");
+    }
     if (name == mcap::facts_name) contents_.context.facts = std::move(facts);
-    if (name != mcap::end_name) return;
-    const std::string& text = facts[mcap::end_sequence];
-    std::uint32_t sequence = next_sequence_;
-    std::from_chars(text.data(), text.data() + text.size(), sequence);
-    look_for_a_gap(sequence, "the end");
   }
 
   void look_for_a_gap(std::uint32_t sequence, const std::string& before) {

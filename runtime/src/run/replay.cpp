@@ -40,7 +40,7 @@ class TemporaryFolder {
   fs::path of(const std::string& file) const {
     const fs::path path(file);
     if (path.is_absolute()) return (path_ / "absolute" / path.relative_path()).lexically_normal();
-    const fs::path inside = (path_ / "a/b/c/d/e/f/g/h" / path).lexically_normal();
+    fs::path inside = (path_ / "a/b/c/d/e/f/g/h" / path).lexically_normal();
     const std::string top = path_.string() + "/";
     if (inside.string().compare(0, top.size(), top) != 0)
       throw std::runtime_error("replay: `" + file + "` leads too far up");
@@ -106,7 +106,7 @@ std::optional<lang::Program> logged_program(const LogContext& context, lang::Dia
   if (task == context.facts.end() || context.sources.empty())
     throw std::runtime_error("replay: the log does not hold the files of the run");
   const TemporaryFolder folder;
-  std::ofstream(folder.path() / ".zwang-root");
+  const std::ofstream root(folder.path() / ".zwang-root");
   for (const lang::Source& source : context.sources) {
     const fs::path path = folder.of(source.path);
     fs::create_directories(path.parent_path());
