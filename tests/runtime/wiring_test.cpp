@@ -123,6 +123,7 @@ TEST(Wiring, WhatStandsWherePressedIsNotFrozen) {
   for (int i = 0; i < 5000; ++i) {
     sent.setConstant(i < 10 ? 0.0 : 0.3);
     if (i > 30 && i < 100) q.array() += 1e-3;
+    if (i >= 2000 && i < 2060) continue;  // lost samples
     ASSERT_FALSE(frozen.look(q, sent, expected, i * period)) << i;
   }
   // It is told nothing for a while, and then to press again: that moves it, if only by the wall's spring.

@@ -28,9 +28,9 @@ class FrozenAtRest {
   std::optional<Event> look(const Eigen::VectorXd& q, const Eigen::VectorXd& sent,
                             const Eigen::VectorXd& expected, double time) noexcept;
 
-  static constexpr double enough = 0.1;    ///< [rad] by the model
-  static constexpr double quiet = 1e-3;    ///< torque that moves nothing, of its motor's limit
-  static constexpr double longest = 0.05;  ///< [s] from one sample to the next
+  static constexpr double enough = 0.1;   ///< [rad] by the model
+  static constexpr double quiet = 1e-3;   ///< torque that moves nothing, of its motor's limit
+  static constexpr double longest = 0.1;  ///< [s] from one sample to the next, lost ones between
 
  private:
   struct Wheel {

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -53,11 +52,9 @@ class TemporaryFolder {
 };
 
 double number_of(const std::string& text) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw std::runtime_error("replay: `" + text + "` in the log is not a number");
-  return value;
+  const std::optional<double> value = number_in(text);
+  if (!value) throw std::runtime_error("replay: `" + text + "` in the log is not a number");
+  return *value;
 }
 
 double value_of(const json& record, const std::string& column) {

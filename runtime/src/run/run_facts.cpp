@@ -12,11 +12,9 @@ constexpr const char* period_key = "period [s]";
 constexpr const char* slew_key = "max_slew [N m/s]";
 
 double number_of(const std::string& text, const std::string& what) {
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    throw std::runtime_error("`" + text + "` in the log is not a " + what);
-  return value;
+  const std::optional<double> value = number_in(text);
+  if (!value) throw std::runtime_error("`" + text + "` in the log is not a " + what);
+  return *value;
 }
 
 std::string eigen_version() {
@@ -29,6 +27,13 @@ std::string eigen_version() {
 std::string exactly(double value) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::optional<double> number_in(const std::string& text) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
 }
 
 RunFacts facts_of(const RunnerSettings& settings, double period) {

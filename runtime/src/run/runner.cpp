@@ -423,6 +423,7 @@ bool Runner::swap_program(Runner& next) noexcept {
   std::swap(now.odometry, before.odometry);
   std::swap(now.rates, before.rates);
   std::swap(now.frozen_wheel, before.frozen_wheel);
+  std::swap(now.frozen_at_rest, before.frozen_at_rest);
   std::swap(now.slip, before.slip);
   std::swap(now.friction, before.friction);
   now.reckoning = before.reckoning;
