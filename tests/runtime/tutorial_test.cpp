@@ -1,5 +1,5 @@
-// The blocks of docs/tutorial.md are what they say: each is good, the mistake is refused in just these words,
-// and the last one runs.
+// The blocks of README.md and docs/tutorial.md are true. Each task is good and runs; each mistake is refused
+// in the words of the page.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -18,8 +18,8 @@ struct Block {
   int line = 0;
 };
 
-std::vector<Block> blocks() {
-  std::ifstream in(fs::path(ZWANG_SOURCE_DIR) / "docs/tutorial.md");
+std::vector<Block> blocks(const char* page = "docs/tutorial.md") {
+  std::ifstream in(fs::path(ZWANG_SOURCE_DIR) / page);
   std::vector<Block> result;
   bool is_inside = false;
   int number = 0;
@@ -100,6 +100,31 @@ TEST_F(Tutorial, the_last_block_squares_the_base_up) {
   EXPECT_EQ(report.at("outcome"), "done");
   EXPECT_NEAR(report.at("truth").at("base").at("yaw").get<double>(), 0.0, 0.1 * 0.0174532925199433);
   EXPECT_NEAR(report.at("truth").at("wall").at("steady_force").get<double>(), 20.0, 0.2);
+}
+
+using Readme = Tutorial;
+
+TEST_F(Readme, its_task_is_good_and_squares_the_base_up) {
+  const std::vector<Block> all = blocks("README.md");
+  ASSERT_EQ(all.at(0).language, "yaml");
+  write(all[0]);
+  const test::Result good = zwang({"validate", "--deny", "warnings", "mine.yaml"});
+  EXPECT_EQ(good.code, 0) << good.out << good.err;
+  const test::Result result = zwang({"run", "mine.yaml", "--quiet", "--format", "json"});
+  ASSERT_EQ(result.code, 0) << result.out << result.err;
+  const auto report = nlohmann::json::parse(result.out);
+  EXPECT_NEAR(report.at("truth").at("base").at("yaw").get<double>(), 0.0, 0.1 * 0.0174532925199433);
+}
+
+TEST_F(Readme, its_diagnostic_is_the_programs) {
+  const std::vector<Block> all = blocks("README.md");
+  ASSERT_EQ(all.at(1).language, "text");
+  std::string mistake = all[0].text;
+  mistake.replace(mistake.find("20 N, velocity"), 4, "900 N");
+  Program::write("press.yaml", mistake);
+  const test::Result result = zwang({"validate", "press.yaml"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.out.substr(0, all[1].text.size()), all[1].text);
 }
 
 }  // namespace
