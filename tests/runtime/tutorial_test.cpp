@@ -102,6 +102,32 @@ TEST_F(Tutorial, the_last_block_squares_the_base_up) {
   EXPECT_NEAR(report.at("truth").at("wall").at("steady_force").get<double>(), 20.0, 0.2);
 }
 
+/// Each block names its file: "yaml specs/mine.yaml". A task runs as soon as its scene stands beside it.
+TEST_F(Tutorial, part_2_grows_file_by_file_and_each_task_is_done) {
+#ifdef ZWANG_SANITIZED
+  GTEST_SKIP() << "long simulations, of which a sanitizer learns nothing new";
+#endif
+  const std::vector<Block> all = blocks("docs/tutorial_2.md");
+  int runs = 0, tests = 0;
+  for (const Block& block : all) {
+    constexpr std::string_view yaml = "yaml specs/";
+    if (!block.language.starts_with(yaml)) continue;
+    const std::string file = block.language.substr(yaml.size());
+    Program::write(file, block.text);
+    const std::string where = "docs/tutorial_2.md:" + std::to_string(block.line) + "\n";
+    const bool needs_its_scene = file == "mine.yaml" && block.text.find("$target") == std::string::npos;
+    if (needs_its_scene) continue;
+    const bool is_scenario = file.starts_with("scenarios/");
+    const test::Result result = is_scenario ? zwang({"test", file}) : zwang({"run", "mine.yaml", "--quiet"});
+    EXPECT_EQ(result.code, 0) << where << result.out << result.err;
+    const test::Result good = zwang({"validate", "--deny", "warnings", file, "mine.yaml"});
+    EXPECT_EQ(good.code, 0) << where << good.out << good.err;
+    ++(is_scenario ? tests : runs);
+  }
+  EXPECT_EQ(runs, 3);
+  EXPECT_EQ(tests, 1);
+}
+
 using Readme = Tutorial;
 
 TEST_F(Readme, its_task_is_good_and_squares_the_base_up) {
