@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <chrono>
@@ -6,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <tuple>
 
 #include "output.hpp"
 #include "reload.hpp"
@@ -67,10 +69,9 @@ std::vector<runtime::Column> truth_columns(const lang::Scene& scene) {
 }
 
 void put_truth(const runtime::Truth& truth, std::vector<double>& values) {
-  values[0] = truth.x;
-  values[1] = truth.y;
-  values[2] = truth.yaw;
-  for (std::size_t i = 0; i < truth.objects.size(); ++i) values[3 + i] = truth.objects[i].force;
+  const runtime::BaseTruthValues base = runtime::base_truth_values(truth);
+  std::copy(base.begin(), base.end(), values.begin());
+  for (std::size_t i = 0; i < truth.objects.size(); ++i) values[base.size() + i] = truth.objects[i].force;
 }
 
 /// One line that is written over itself on a terminal, and now and then a line elsewhere.
@@ -108,7 +109,8 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
              const lang::Program& program, bool with_watchdog, Reloads* reloads, Live& live,
              RunReport& report) {
   runtime::Sensed sensed(program.robot.model, program.signals.size());
-  std::vector<double> truth(3 + program.scene->objects.size() + program.scene->robots.size());
+  std::vector<double> truth(std::tuple_size_v<runtime::BaseTruthValues> + program.scene->objects.size() +
+                            program.scene->robots.size());
   runtime::SimulationSteps steps(runner.period());
   TruthWatch watch(plant.truth(), steps.period());
   Eigen::VectorXd tau;

@@ -22,6 +22,10 @@ constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"truth.base.turn", dimension::angular_velocity},
                                      {"truth.base.torque", dimension::none},
                                      {"truth.base.switch", dimension::torque},
+                                     {"truth.base.roll", dimension::angle},
+                                     {"truth.base.pitch", dimension::angle},
+                                     {"truth.base.acceleration", dimension::acceleration},
+                                     {"truth.base.push", dimension::force},
                                      {"run.stopped", dimension::time},
                                      {"run.slipped", dimension::time}};
 constexpr TruthQuantity of_object[] = {

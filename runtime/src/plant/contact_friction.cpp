@@ -94,6 +94,7 @@ void ContactFriction::push(const mjModel& model, mjData& data) noexcept {
     cut(bristle.stretch, limit / bristle.stiffness);
     Vector3d force = -(bristle.stiffness * bristle.stretch + bristle.damping * v);
     cut(force, limit);
+    bristle.force = force;
     add_force(force, point, bristle.bodies[1], data);
     add_force(-force, point, bristle.bodies[0], data);
   }

@@ -22,6 +22,13 @@ class ContactFriction {
   /// Sets `xfrc_applied` to the friction of the contacts that the last step found. Moves the bristles by one
   /// step.
   void push(const mjModel_& model, mjData_& data) noexcept;
+  /// What it set on each pair's bodies: `act(geom1, geom2, force on the second [N])`.
+  template <typename Act>
+  void for_each(Act act) const {
+    for (const Bristle& bristle : bristles_) {
+      if (bristle.load > 0.0) act(bristle.geoms[0], bristle.geoms[1], bristle.force);
+    }
+  }
 
  private:
   /// Of all contacts of one pair of geoms.
@@ -33,6 +40,7 @@ class ContactFriction {
     double damping = 0.0;                               ///< c [N s/m]
     Eigen::Vector3d stretch = Eigen::Vector3d::Zero();  ///< s [m], of the second body past the first
     double load = 0.0;                                  ///< N [N]
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< f [N] on the second body
     Eigen::Vector3d loaded_point, loaded_normal;        ///< sums over the contacts, each times its N
   };
   void find_loads(const mjModel_& model, const mjData_& data) noexcept;

@@ -34,7 +34,7 @@ ContactSpring contact_spring(const Touchable& one, const Touchable& other) {
       one.skin && other.skin ? one.skin->stiffness < other.skin->stiffness : one.skin.has_value();
   const Touchable::Skin& skin = first_is_softer ? *one.skin : *other.skin;
   const double mass = 1.0 / (one.inverse_mass + other.inverse_mass);
-  return {skin.stiffness, 2.0 * skin.damping * std::sqrt(skin.stiffness * mass)};
+  return {skin.stiffness, 2.0 * skin.damping * std::sqrt(skin.stiffness * mass), mass};
 }
 
 }  // namespace zwang::runtime

@@ -1,6 +1,8 @@
 /// What a contact in the bumper's plane is as a spring.
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -24,7 +26,12 @@ Touchable touchable_robot(const lang::SceneRobot* robot, double mass);
 
 struct ContactSpring {
   double stiffness = 0.0;  ///< K [N/m]
-  double damping = 0.0;    ///< c = 2 zeta sqrt(K m) [N s/m], m the reduced mass of the two that meet
+  double damping = 0.0;    ///< c = 2 zeta sqrt(K m) [N s/m]
+  double mass = 0.0;       ///< m [kg], the reduced mass of the two that meet
+
+  double impedance() const noexcept { return std::sqrt(stiffness * mass); }  ///< sqrt(K m) [N s/m]
+  /// pi sqrt(m/K) [s]: as long as a hit without damping.
+  double half_swing() const noexcept { return std::numbers::pi * std::sqrt(mass / stiffness); }
 };
 
 /// The two meet with the stiffness and damping ratio of the softer one; at least one has a skin.

@@ -13,7 +13,9 @@
 #include <utility>
 
 #include "contact_friction.hpp"
+#include "contact_reader.hpp"
 #include "moving_robot.hpp"
+#include "quiet_means.hpp"
 #include "simulated_object.hpp"
 #include "simulator.hpp"
 #include "zwang/lang/program.hpp"
@@ -59,9 +61,11 @@ struct MujocoPlant::Simulation {
     if (!data) refuse("MuJoCo has no memory for the simulation");
     find_addresses();
     for (const SimulatedRobot& one : described) require_as_written(*model, one);
-    owners = find_owners(*model, described);
-    set_springs(*model, owners, scene, described);
+    const std::vector<GeomOwner> owners = find_owners(*model, described);
+    contacts = ContactReader(owners, set_springs(*model, owners, scene, described), robots.size(),
+                             scene.objects.size());
     contact_friction = ContactFriction(*model, owners);
+    means.assign(robots.size(), QuietMeans(options.period));
     truth.corner_forces.assign(robot.footprint.size(), 0.0);
     for (const lang::SceneObject& object : scene.objects)
       truth.objects.push_back({object.name, 0.0, {}, 0.0});
@@ -168,6 +172,7 @@ struct MujocoPlant::Simulation {
           matrix_of(data->xquat + 4 * dock.body).transpose() * (hook - vector_of(data->xpos + 3 * dock.body));
       model->eq_active[dock.equality] = 1;
       truth.objects[dock.owner].latched = time();
+      contacts.note_catch(0, time());
     }
   }
 
@@ -180,6 +185,8 @@ struct MujocoPlant::Simulation {
         if (data->efc_id[row] != dock.equality) continue;
         const mjtNum* f = data->efc_force + row;
         owner.pull = -(f[0] * std::cos(outwards) + f[1] * std::sin(outwards));
+        contacts.add_push(0, {f[0], f[1]});
+        if (dock.owner >= objects.size()) contacts.add_push(dock.owner - objects.size() + 1, {-f[0], -f[1]});
       }
     }
   }
@@ -229,7 +236,7 @@ struct MujocoPlant::Simulation {
     friction[0] = coefficient;
   }
 
-  const GeomOwner& owner_of(int geom) const { return owners[static_cast<std::size_t>(geom)]; }
+  const GeomOwner& owner_of(int geom) const { return contacts.owner_of(geom); }
 
   /// Lets the robots sink into their wheels' contacts, then puts them exactly where they start, at rest, at
   /// t = 0: of the settled pose, height and tilt of the base are kept.
@@ -290,16 +297,6 @@ struct MujocoPlant::Simulation {
     return "`" + truth.objects[index].name + "`";
   }
 
-  /// What the first robot's outline touches in this contact: an index into the truth's objects, or -1.
-  int touched_object(const mjContact& contact) const {
-    const GeomOwner& one = owner_of(contact.geom1);
-    const GeomOwner& other = owner_of(contact.geom2);
-    const bool first_is_one = one.touches && one.robot == 0;
-    if (!first_is_one && !(other.touches && other.robot == 0)) return -1;
-    const GeomOwner& met = first_is_one ? other : one;
-    return met.touches ? static_cast<int>(objects.size()) + met.robot - 1 : met.object;
-  }
-
   /// One step; false when the simulation is void.
   bool step() noexcept {
     const double before = data->time;
@@ -343,31 +340,40 @@ struct MujocoPlant::Simulation {
     truth.x = at.x();
     truth.y = at.y();
     truth.yaw = yaw_of(first().base_rotation(*model, *data));
+    for (std::size_t r = 0; r < robots.size(); ++r) {
+      const Matrix3 rotation = robots[r].base_rotation(*model, *data);
+      BaseTruth& base = base_truth(r);
+      base.roll = std::atan2(rotation(2, 1), rotation(2, 2));
+      base.pitch = std::atan2(-rotation(2, 0), std::hypot(rotation(2, 1), rotation(2, 2)));
+    }
+  }
+
+  BaseTruth& base_truth(std::size_t robot) noexcept {
+    return robot == 0 ? truth.base : truth.robots[robot - 1].base;
+  }
+
+  /// After `contacts` and the docks were read; `before` [s] is the beginning of the step.
+  void read_means(double before) noexcept {
+    contact_friction.for_each([this](int geom1, int geom2, const Vector3& force) {
+      if (owner_of(geom1).touches) add_push(owner_of(geom1), -force);
+      if (owner_of(geom2).touches) add_push(owner_of(geom2), force);
+    });
+    for (std::size_t r = 0; r < robots.size(); ++r) {
+      const RobotContacts& of_robot = contacts.of_robot(r);
+      const Vector3 speed =
+          robots[r].base_rotation(*model, *data) * robots[r].base_twist(*model, *data).linear;
+      means[r].look(speed.head<2>(), of_robot.push, before < of_robot.hit_until);
+      base_truth(r).acceleration = means[r].acceleration();
+      base_truth(r).push = means[r].push();
+    }
+  }
+
+  void add_push(const GeomOwner& owner, const Vector3& force) noexcept {
+    contacts.add_push(static_cast<std::size_t>(owner.robot), force.head<2>());
   }
 
   /// Counted: MuJoCo's own clock adds up its steps and with them their rounding.
   double time() const { return static_cast<double>(steps_since_start) * model->opt.timestep; }
-
-  /// The contacts of the step that was just made are those at its beginning, `before`.
-  void read_contacts(double before) noexcept {
-    for (ObjectTruth& object : truth.objects) object.force = 0.0;
-    std::fill(truth.corner_forces.begin(), truth.corner_forces.end(), 0.0);
-    for (int c = 0; c < data->ncon; ++c) {
-      const int k = touched_object(data->contact[c]);
-      if (k < 0) continue;
-      std::array<mjtNum, 6> wrench{};
-      mj_contactForce(model.get(), data.get(), c, wrench.data());
-      ObjectTruth& object = truth.objects[static_cast<std::size_t>(k)];
-      object.force += wrench[0];
-      for (const int geom : {data->contact[c].geom1, data->contact[c].geom2}) {
-        const GeomOwner& owner = owner_of(geom);
-        if (owner.robot == 0 && owner.corner >= 0)
-          truth.corner_forces[static_cast<std::size_t>(owner.corner)] += wrench[0];
-      }
-      if (!object.touched) object.touched = before;
-    }
-    for (ObjectTruth& object : truth.objects) object.peak_force = std::max(object.peak_force, object.force);
-  }
 
   PlantStatus give(std::size_t robot, const Eigen::VectorXd& tau) noexcept {
     if (diverged) return PlantStatus::diverged;
@@ -387,9 +393,10 @@ struct MujocoPlant::Simulation {
     truth.velocity = velocity = now;
     read_base();
     for (MovingRobot& robot : robots) robot.read(*model, *data);
-    read_contacts(before);
+    contacts.read(*model, *data, before, truth);
     read_objects();
     read_pulls();
+    read_means(before);
     latch_hooks();
     return PlantStatus::ok;
   }
@@ -407,8 +414,9 @@ struct MujocoPlant::Simulation {
   std::string text;
   ModelPointer model;
   DataPointer data;
-  std::vector<GeomOwner> owners;  ///< by geom
+  ContactReader contacts;
   ContactFriction contact_friction;
+  std::vector<QuietMeans> means;  ///< by robot
   std::vector<SimulatedObject> objects;
   std::vector<SimulatedDock> docks;
   Vector3 velocity = Vector3::Zero();

@@ -91,7 +91,15 @@ bool SimulationSteps::tick_is_due() noexcept {
 }
 
 std::vector<Column> base_truth_columns() {
-  return {{"truth.base.x", "m", {}}, {"truth.base.y", "m", {}}, {"truth.base.yaw", "rad", {}}};
+  return {{"truth.base.x", "m", {}},       {"truth.base.y", "m", {}},
+          {"truth.base.yaw", "rad", {}},   {"truth.base.roll", "rad", {}},
+          {"truth.base.pitch", "rad", {}}, {"truth.base.acceleration", "m/s^2", {}},
+          {"truth.base.push", "N", {}}};
+}
+
+BaseTruthValues base_truth_values(const Truth& truth) noexcept {
+  return {truth.x,        truth.y, truth.yaw, truth.base.roll, truth.base.pitch, truth.base.acceleration,
+          truth.base.push};
 }
 
 ScenePartner::ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& settings)
@@ -172,7 +180,8 @@ struct ScenePlant::Parts {
     ScenePartner& partner = partners[i];
     Told& of = told[i];
     const ObjectTruth& own = simulation.truth().objects[scene.objects.size() + i];
-    const std::array<double, 3> truth{own.x, own.y, own.yaw};
+    const BaseTruth& base = simulation.truth().robots[i].base;
+    const BaseTruthValues truth{own.x, own.y, own.yaw, base.roll, base.pitch, base.acceleration, base.push};
     partner.torque = partner.runner.step(of.sensed, truth);
   }
 

@@ -255,25 +255,28 @@ std::vector<GeomOwner> find_owners(const mjModel& model, const std::vector<Simul
 /// and r = A (1 - d)/d; A is its estimate of the inverse mass at the contact and d the impedance. So f = K
 /// x + c v for k = K A (1 - d)/d, b = c A (1 - d)/d, apart from a/r, a mass of d/((1 - d) A) beside the
 /// robot's. solref holds (-k d, -b d): MuJoCo divides it by d and d^2, and multiplies k by d.
-void set_springs(mjModel& model, const std::vector<GeomOwner>& owners, const lang::Scene& scene,
-                 const std::vector<SimulatedRobot>& robots) {
+std::vector<ContactSpring> set_springs(mjModel& model, const std::vector<GeomOwner>& owners,
+                                       const lang::Scene& scene, const std::vector<SimulatedRobot>& robots) {
   const auto touchable = [&](const GeomOwner& owner) {
     if (owner.object >= 0) return touchable_object(scene.objects[static_cast<std::size_t>(owner.object)]);
     const auto r = static_cast<std::size_t>(owner.robot);
     return touchable_robot(owner.robot > 0 ? &scene.robots[r - 1] : nullptr,
                            robots[r].robot.model.total_mass());
   };
+  std::vector<ContactSpring> springs(static_cast<std::size_t>(model.npair));
   for (int p = 0; p < model.npair; ++p) {
     const int one = model.pair_geom1[p];
     const int other = model.pair_geom2[p];
     const GeomOwner &first = owner_of(owners, one), &second = owner_of(owners, other);
     if (first.is_floor() || second.is_floor()) continue;
     const ContactSpring spring = contact_spring(touchable(first), touchable(second));
+    springs[static_cast<std::size_t>(p)] = spring;
     const double inverse_mass = model.body_invweight0[2 * model.geom_bodyid[one]] +
                                 model.body_invweight0[2 * model.geom_bodyid[other]];
     model.pair_solref[2 * p] = -spring.stiffness * (1.0 - spring_impedance) * inverse_mass;
     model.pair_solref[2 * p + 1] = -spring.damping * (1.0 - spring_impedance) * inverse_mass;
   }
+  return springs;
 }
 
 }  // namespace zwang::runtime

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "contact_spring.hpp"
 #include "mjcf.hpp"
 
 struct mjModel_;
@@ -54,8 +55,9 @@ struct GeomOwner {
 /// By geom. The corners of the outline are the footprint's.
 std::vector<GeomOwner> find_owners(const mjModel_& model, const std::vector<SimulatedRobot>& robots);
 
-/// Gives every contact with an object or between robots the spring that the scene says.
-void set_springs(mjModel_& model, const std::vector<GeomOwner>& owners, const lang::Scene& scene,
-                 const std::vector<SimulatedRobot>& robots);
+/// Gives every contact with an object or between robots the spring that the scene says. Returns them by pair
+/// of geoms; those with the floor have none.
+std::vector<ContactSpring> set_springs(mjModel_& model, const std::vector<GeomOwner>& owners,
+                                       const lang::Scene& scene, const std::vector<SimulatedRobot>& robots);
 
 }  // namespace zwang::runtime

@@ -34,6 +34,10 @@ void TrueFacts::update(const Truth& truth, const solver::State& state, double to
   values_[lang::truth_speed] = truth.velocity.head<2>().norm();
   values_[lang::truth_turn] = truth.velocity.z();
   values_[lang::truth_torque] = torque_share;
+  values_[lang::truth_roll] = truth.base.roll;
+  values_[lang::truth_pitch] = truth.base.pitch;
+  values_[lang::truth_acceleration] = truth.base.acceleration;
+  values_[lang::truth_push] = truth.base.push;
   const std::size_t objects = truth.objects.size() - truth.robots.size();
   for (std::size_t k = 0; k < objects; ++k)
     put_object(k, truth, values_.data() + lang::truth_base_count + k * lang::truth_object_count);

@@ -70,8 +70,12 @@ enum TruthOfBase {
   truth_turn,
   truth_torque,
   truth_switch,  ///< [N m] most that a motor's torque went in the two ticks of a switch of tasks, so far
-  run_stopped,   ///< [s] when the protective stop latched
-  run_slipped,   ///< [s] when slip was told first
+  truth_roll,    ///< [rad] about the base's own x
+  truth_pitch,   ///< [rad] about its y
+  truth_acceleration,  ///< [m/s^2] of its origin, mean of 20 ms without hits
+  truth_push,          ///< [N] of the whole robot in the plane, mean of 20 ms without hits
+  run_stopped,         ///< [s] when the protective stop latched
+  run_slipped,         ///< [s] when slip was told first
   truth_base_count
 };
 enum TruthOfObject {

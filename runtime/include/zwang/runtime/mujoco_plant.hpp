@@ -24,9 +24,18 @@ struct ObjectTruth {
   double pull = 0.0;  ///< [N] with which that hook pulls the dock outwards, now; negative: inwards
 };
 
+/// Of a robot's base, beside its place and its planar motion.
+struct BaseTruth {
+  double roll = 0.0, pitch = 0.0;  ///< [rad] about its own x, then y; 0 on its wheels
+  /// Means over 20 ms. While a hit falls into them they keep their value.
+  double acceleration = 0.0;  ///< [m/s^2] of its origin, in the plane
+  double push = 0.0;          ///< [N] planar sum of all contacts and docks of the whole robot
+};
+
 /// Of another robot, beside what is an object's.
 struct RobotTruth {
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< as Truth::velocity
+  BaseTruth base;
 };
 
 struct Truth {
@@ -36,6 +45,7 @@ struct Truth {
   Eigen::Vector3d velocity;  ///< planar twist of the base in base axes: vx, vy [m/s], wz [rad/s]
   Eigen::Vector3d
       acceleration;  ///< rates of the components of `velocity` over the last step [m/s^2, m/s^2, rad/s^2]
+  BaseTruth base;
   std::vector<double> corner_forces;  ///< [N] normal force on each corner of the footprint, now
   std::vector<ObjectTruth> objects;   ///< the scene's objects, then its robots
   std::vector<RobotTruth> robots;     ///< the scene's

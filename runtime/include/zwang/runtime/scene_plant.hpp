@@ -1,6 +1,7 @@
 /// The simulated plant as a scene has it: what is measured, and what goes wrong.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -45,8 +46,12 @@ struct ScenePartner {
   Eigen::VectorXd torque;  ///< that it commanded last
 };
 
-/// Of a log's columns behind the runner's own: where the plant has the base, its x, y and yaw.
+/// Of a log's columns behind the runner's own: where the plant has the base, how it leans, speeds up and
+/// pushes.
 std::vector<Column> base_truth_columns();
+using BaseTruthValues = std::array<double, 7>;
+/// Of the first robot, in the order of the columns.
+BaseTruthValues base_truth_values(const Truth& truth) noexcept;
 
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
 /// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its

@@ -1,0 +1,45 @@
+/// What the contacts of a step come to: forces on objects, corners and robots, and which of them are hits.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact_spring.hpp"
+#include "simulator.hpp"
+#include "zwang/runtime/mujoco_plant.hpp"
+
+namespace zwang::runtime {
+
+/// Of one robot, in one step.
+struct RobotContacts {
+  Eigen::Vector2d push = Eigen::Vector2d::Zero();  ///< [N] of all that presses on it, in world axes
+  double hit_until = -1.0;                         ///< [s] when its last hit is over
+};
+
+class ContactReader {
+ public:
+  ContactReader() = default;
+  /// `owners` by geom, `springs` by pair of geoms, `objects` of the scene.
+  ContactReader(std::vector<GeomOwner> owners, std::vector<ContactSpring> springs, std::size_t robots,
+                std::size_t objects);
+
+  const GeomOwner& owner_of(int geom) const { return owners_[static_cast<std::size_t>(geom)]; }
+  /// The contacts of the step that was just made are those at its beginning, `before` [s].
+  void read(const mjModel_& model, const mjData_& data, double before, Truth& truth) noexcept;
+  /// To `push`: what else presses on a robot [N].
+  void add_push(std::size_t robot, const Eigen::Vector2d& force) noexcept { robots_[robot].push += force; }
+  /// A hook that catches is a hit.
+  void note_catch(std::size_t robot, double time) noexcept;
+  const RobotContacts& of_robot(std::size_t robot) const noexcept { return robots_[robot]; }
+
+ private:
+  int touched_object(int geom1, int geom2) const noexcept;
+  const ContactSpring* spring_of(const mjModel_& model, int geom1, int geom2) const noexcept;
+
+  std::vector<GeomOwner> owners_;
+  std::vector<ContactSpring> springs_;
+  std::vector<RobotContacts> robots_;
+  std::size_t objects_ = 0;
+};
+
+}  // namespace zwang::runtime
