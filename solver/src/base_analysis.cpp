@@ -17,6 +17,10 @@ namespace {
 
 constexpr double unreachable_share = 1e-8;
 constexpr double rank_tolerance = 1e-6;  // of singular values, relative to the largest
+/// Of an axis, where motors do not make every motion: the part that a motor must have of it. Motors that
+/// reach it only by turning the base about a centre of mass beside the axis have that offset over the radius
+/// of gyration, about 0.3 m, of it. No centre of mass is known to 3 mm, so that less is none.
+constexpr double least_motor_share = 1e-2;
 
 /// One pass of the sweeps over the ground, the freedoms of base and joints, and one row more.
 struct WhitenedRobot {
@@ -142,8 +146,10 @@ AxisAnalysis analyse_axis(const Model& model, const State& state, const AxisCons
   result.kappa = robot.rows.free_share(robot.last_row());
   result.effective_mass = result.kappa > unreachable_share ? 1.0 / B.squaredNorm() : infinity;
   if (result.kappa <= unreachable_share) return result;
-  const Eigen::VectorXd along = motor_directions(model, robot).transpose() * B;
-  result.reachable = along.size() > 0 && along.lpNorm<Eigen::Infinity>() > rank_tolerance * B.norm();
+  const Eigen::MatrixXd motors = motor_directions(model, robot);
+  const Eigen::VectorXd along = motors.transpose() * B;
+  const double least = rank_of(motors) == robot.rows.mobility() ? rank_tolerance : least_motor_share;
+  result.reachable = along.size() > 0 && along.lpNorm<Eigen::Infinity>() > least * B.norm();
   if (result.reachable) result.largest_force = largest_force(model, rest, row, result.effective_mass);
   return result;
 }

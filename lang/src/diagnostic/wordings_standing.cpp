@@ -1,9 +1,11 @@
 #include "diagnostic/wordings_standing.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings_physics.hpp"
+#include "robot/exact_wheels.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang::wording {
@@ -12,6 +14,18 @@ namespace {
 
 std::string in_length(double metres) {
   return std::abs(metres) < 0.1 ? figure(metres * 1e3, "mm") : figure(metres, "m");
+}
+
+std::string in_degrees(double radians) {
+  return figure(radians * 180.0 / std::numbers::pi, "deg");
+}
+
+/// Each part that is told by itself, or the larger one.
+std::string off_by(const Deviation& deviation) {
+  std::string text;
+  if (deviation.distance >= told_wheel_offset) text = in_length(deviation.distance);
+  if (deviation.angle >= told_axis_angle) text += (text.empty() ? "" : " and ") + in_degrees(deviation.angle);
+  return text;
 }
 
 std::string follows(const Coupling& coupling) {
@@ -95,6 +109,21 @@ Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::
             "mend a `radius`, or the height of the joint's <origin> in the URDF: where it ends is origin z - "
             "radius"),
       other_span, "this one reaches lowest");
+}
+
+Diagnostic nearly_exact_wheels(const Span& span, const std::vector<Deviation>& deviations) {
+  const Deviation& worst = deviations.front();
+  Diagnostic result =
+      warning("W812", span,
+              "joint " + in_ticks(worst.joint) + " is drawn " + off_by(worst) +
+                  " off its exact place: zwang takes the wheel as if it stood there",
+              "correct its <origin> in the URDF, or name a `base` that stands on the axle; zwang corrects " +
+                  in_length(most_wheel_offset) + " and " + in_degrees(most_axis_angle) + " at most");
+  for (const Deviation& deviation : deviations) {
+    result.related.push_back(
+        {deviation.span, in_ticks(deviation.joint) + " is drawn here, " + off_by(deviation) + " off"});
+  }
+  return result;
 }
 
 Diagnostic limit_without_width(const Span& span, const std::string& what) {

@@ -35,6 +35,15 @@ Diagnostic moving_support(const Span& span, const std::string& link, const std::
 /// `above`: by how much the wheel's lowest point is higher than that of `other`. [m]
 Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::string& other, double above,
                          const Span& other_span);
+/// How far a wheel's joint, or the one that steers it, is drawn from its exact place.
+struct Deviation {
+  std::string joint;
+  double distance = 0.0;  ///< [m]
+  double angle = 0.0;     ///< [rad]
+  Span span;              ///< of the joint in the URDF
+};
+/// Not empty, the worst first.
+Diagnostic nearly_exact_wheels(const Span& span, const std::vector<Deviation>& deviations);
 /// A limit of the robot file allows no motion at all.
 Diagnostic limit_without_width(const Span& span, const std::string& what);
 /// `depth`: how far one of the two has to move for them to part. [m]

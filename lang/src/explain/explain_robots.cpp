@@ -154,6 +154,32 @@ notices.)~",
           .part = ExcerptOf::robot,
           .example = "control_period: 50 ms",
           .instead = "control_period: 10 ms"},
+      Explanation{
+          .code = "W812",
+          .title = "a wheel that is drawn beside its axle",
+          .why =
+              R"~(Two wheels on one axle let a base turn. A wheel that is drawn a micron beside the axle would forbid it, in exact
+arithmetic. zwang therefore moves wheels onto the nearest exact place: axes level and along the base's x or y, one axle
+through the base's origin, steered wheels below their steering. It moves them by 5 mm and 2 deg at most, and tells it from
+0.1 mm and 0.05 deg on. Angles such as 1.57 and 3.14 in a URDF are the usual cause.)~",
+          .fix =
+              R"~(Write angles with all their digits, 3.141592653589793. If the axle really stands beside the origin of
+`base`, name a link that stands on the axle as `base`.)~",
+          .part = ExcerptOf::urdf,
+          .example = R"~(<joint name="right" type="continuous">
+  <parent link="base_link"/>
+  <child link="right_link"/>
+  <origin xyz="0.0013 -0.2 0.1" rpy="0 0 3.14"/>
+  <axis xyz="0 1 0"/>
+  <limit effort="5" velocity="10"/>
+</joint>)~",
+          .instead = R"~(<joint name="right" type="continuous">
+  <parent link="base_link"/>
+  <child link="right_link"/>
+  <origin xyz="0 -0.2 0.1" rpy="0 0 3.141592653589793"/>
+  <axis xyz="0 1 0"/>
+  <limit effort="5" velocity="10"/>
+</joint>)~"},
   };
   return entries;
 }

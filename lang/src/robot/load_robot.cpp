@@ -10,6 +10,7 @@
 #include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/check_joints.hpp"
+#include "robot/exact_wheels.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_speed.hpp"
@@ -40,6 +41,7 @@ class RobotBuilder {
     check_footprint();
     if (diagnostics_.error_count() > errors_before_) return std::nullopt;
     try {
+      stand_wheels_exactly(build_model(), file_, urdf_, diagnostics_);
       return assemble();
     } catch (const std::invalid_argument& error) {
       complain(error.what());
@@ -237,7 +239,7 @@ class RobotBuilder {
     return builder;
   }
 
-  Robot assemble() const {
+  solver::Model build_model() const {
     solver::ModelBuilder builder = add_links();
     for (const FrameText& frame : file_.frames) {
       builder.add_frame(frame.name.text, frame.parent.text, pose_of(frame));
@@ -249,9 +251,13 @@ class RobotBuilder {
                                            .holds_sideways = wheel.holds_sideways,
                                            .roller_angle = wheel.roller});
     }
+    return builder.build();
+  }
+
+  Robot assemble() const {
     Robot robot;
     robot.name = urdf_.name;
-    robot.model = builder.build();
+    robot.model = build_model();
     robot.base_frame = file_.base.text;
     robot.limits = file_.limits;
     robot.stop = file_.stop;

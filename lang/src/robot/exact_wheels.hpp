@@ -1,0 +1,53 @@
+/// Wheels that nearly stand where the ground's directions depend on each other, put where they do exactly.
+///
+/// A plain wheel at P with its axis along a lets the base's planar twist V = (vx, vy, w) no motion along a:
+///   (a, P x a) . V = 0.
+/// Two wheels on one axle say this twice, and the base keeps two motions. A wheel 13 um or 0.05 deg beside
+/// the axle says something else, in exact arithmetic: the base could only drive ahead. A drawing is rounded,
+/// an axle is not, so the nearest place on one axle is what the drawing means:
+///
+///   1. an axis that nearly is level, or nearly along x or y of the base, is so; that of a swivel, upright
+///   2. wheels that nearly share an axle on what carries them do, and an axle that nearly meets the axis
+///      that steers it meets it
+///   3. axles of base and steered wheels that nearly coincide while all joints are at 0 do, and run through
+///      the base's origin if they nearly do
+///
+/// Solver, odometry, guard and plant read one model, so that all of them see the same exact wheels.
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "robot/robot_file.hpp"
+#include "robot/urdf.hpp"
+#include "zwang/solver/model.hpp"
+
+namespace zwang::lang {
+
+/// How far from an exact place a wheel may be drawn. 5 mm are a tenth of the smallest wheelbase that
+/// drives, 2 deg the looseness of a hand-built axle; what is farther off is meant.
+inline constexpr double most_wheel_offset = 5e-3;                          // [m]
+inline constexpr double most_axis_angle = 2.0 * std::numbers::pi / 180.0;  // [rad]
+/// From here on it is told: a tenth of what changes a robot's motion by less than encoders see.
+inline constexpr double told_wheel_offset = 0.1e-3;                         // [m]
+inline constexpr double told_axis_angle = 0.05 * std::numbers::pi / 180.0;  // [rad]
+
+/// Where a wheel, or what steers it, stands exactly.
+struct ExactPlace {
+  int body = 0;
+  solver::Pose pose_in_parent;  ///< while its joint is at 0
+  double distance = 0.0;        ///< [m] from where it is drawn
+  double angle = 0.0;           ///< [rad] from how it is drawn
+
+  bool is_told() const { return distance >= told_wheel_offset || angle >= told_axis_angle; }
+};
+
+/// The bodies that do not stand exactly; none of a model that is exact up to rounding.
+std::vector<ExactPlace> exact_places(const solver::Model& model);
+
+/// Puts the joints of the URDF, of which `drawn` is the model, on their exact places. W812 tells how far
+/// that is.
+void stand_wheels_exactly(const solver::Model& drawn, const RobotFile& file, Urdf& urdf,
+                          Diagnostics& diagnostics);
+
+}  // namespace zwang::lang
