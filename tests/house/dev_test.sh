@@ -37,8 +37,16 @@ echo "cmake \$1" >>"$calls"
 echo "compiler's own chatter"
 [[ -z \$BUILD_FAILS ]]
 BODY
-unset ZWANG_SKIP_SETUP
-export ABSENT='' APT_FAILS='' SUDO_FAILS='' STALE='' BUILD_FAILS=''
+stand_in ctest <<BODY
+echo "ctest \$*" >>"$calls"
+mkdir -p "\$2/Testing/Temporary"
+printf '%s\n' "\$LOG" >"\$2/Testing/Temporary/LastTest.log"
+[[ \$LOG != *FAILED* ]] && exit 0
+printf '7:lang_test.shard_1\n9:house.rooms\n' >"\$2/Testing/Temporary/LastTestsFailed.log"
+exit 8
+BODY
+unset ZWANG_SKIP_SETUP ZWANG_LONG
+export ABSENT='' APT_FAILS='' SUDO_FAILS='' STALE='' BUILD_FAILS='' LOG=''
 
 failed=0
 complain() {
@@ -123,6 +131,43 @@ lacks "$err" 'chatter'
 STALE=1 BUILD_FAILS=1 try 'run when the build fails' 2 "$place/dev" run a.yaml
 is "$out" ''
 has "$err" "compiler's own chatter"
+
+try 'all tests' 0 "$place/dev" test
+has "$called" "-C shards -LE ^single"
+try 'tests by their names' 0 "$place/dev" test -R Tick
+has "$called" '-R Tick'
+lacks "$called" 'shards'
+export LOG='[ RUN      ] Tick.Good
+[       OK ] Tick.Good (1 ms)
+[ RUN      ] All/Tick.Bad/3
+[  FAILED  ] All/Tick.Bad/3, where GetParam() = 3 (2 ms)
+[  FAILED  ] All/Tick.Bad/3, where GetParam() = 3
+[  FAILED  ] 1 test, listed below:
+<end of output>
+[ RUN      ] Tick.EndsTheProcess
+<end of output>'
+try 'a test fails beside others in one process' 1 "$place/dev" test
+has "$err" 'release failed: house.rooms All/Tick.Bad/3 Tick.EndsTheProcess (did not come to its end)'
+export LOG='3/9 Test: house.rooms
+Test time =   0.50 sec
+4/9 Test: lang_test.shard_1
+[       OK ] Tick.Slow (2345 ms)
+[       OK ] Tick.Quick (4 ms)
+Test time =   2.60 sec'
+try 'the slowest tests' 0 "$place/dev" test
+has "$err" '2.3 s  Tick.Slow
+     0.5 s  house.rooms
+     0.0 s  Tick.Quick
+'
+export LOG=''
+mkdir -p "$place/build/asan" "$place/tests/fuzz/corpus"
+for target in task condition robot scene scenario; do ln -sf /bin/true "$place/build/asan/fuzz_$target"; done
+try 'all' 0 "$place/dev" test --all
+has "$called" "$place/build/tsan"
+has "$err" 'fuzzing scenario for 10 s'
+ZWANG_MOST_PROCESSOR_SECONDS=-1 try 'all in more than its time' 1 "$place/dev" test --all
+has "$err" 'time failed'
+
 touch -d '+2 minutes' "$place/CMakePresets.json"
 try 'run after the presets changed' 1 "$place/dev" run a.yaml
 has "$called" 'cmake -S'
