@@ -76,6 +76,7 @@ TEST(PlantMotion, ApparentMassIsTheModels) {
   compare_apparent_mass("mirrored mecanum", mirrored_mecanum_base());
   compare_apparent_mass("three omni wheels", omni_base());
   compare_apparent_mass("differential", differential_base());
+  compare_apparent_mass("mecanum at 30 deg", steep_mecanum_base());
 }
 
 struct Rms {
@@ -121,6 +122,30 @@ TEST(PlantMotion, OpenLoopAccelerationOfTheMecanumBase) {
     const Vector3 error = open_loop_error(robot, amplitude, {1.0, 0.7, 0.5});
     EXPECT_LE(error.maxCoeff(), 0.002) << "amplitude " << amplitude.transpose();
   }
+}
+
+// Wheels that spheres cannot stand for turn on hinges, and their contact holds one direction.
+TEST(PlantMotion, OpenLoopAccelerationOnHingedWheelsWithRollers) {
+  const lang::Robot robot = steep_mecanum_base();
+  for (const Vector3& amplitude :
+       {Vector3(0.5, 0.0, 0.0), Vector3(0.0, 0.5, 0.0), Vector3(0.0, 0.0, 1.0), Vector3(0.5, 0.5, 1.0)}) {
+    const Vector3 error = open_loop_error(robot, amplitude, {1.0, 0.7, 0.5});
+    EXPECT_LE(error.maxCoeff(), 0.005) << "amplitude " << amplitude.transpose();
+  }
+}
+
+// A wheel that holds sideways only, as an idle roller along its axis: it lets the base roll ahead freely.
+TEST(PlantMotion, AWheelThatHoldsSidewaysOnlyRollsFreely) {
+  const lang::Robot idle =
+      build_base({}, {{"a", 0.2, 0.2, 0.0}, {"b", 0.2, -0.2, 0.0}, {"c", -0.2, 0.0, 0.0}});
+  MujocoPlant plant(idle, empty_scene);
+  const Eigen::VectorXd tau = Eigen::VectorXd::Constant(3, 0.5);
+  for (int i = 0; i < 200; ++i) ASSERT_EQ(plant.apply(tau), PlantStatus::ok);
+  EXPECT_LT(plant.truth().velocity.norm(), 1e-3) << "its motors turn it on the spot";
+  Sensed sensed(idle.model);
+  ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+  const double axial = idle.model.bodies()[1].inertia.rotational(1, 1) + idle.model.joint(0).rotor_inertia;
+  EXPECT_NEAR(std::abs(sensed.state.qd[0]), 0.5 / axial * sensed.time, 0.01 * 0.5 / axial * sensed.time);
 }
 
 TEST(PlantMotion, OpenLoopAccelerationOfTheDifferentialBase) {

@@ -66,6 +66,14 @@ lang::Robot mirrored_mecanum_base() {
                          {"rear_right", -0.26, -0.16, -angle}});
 }
 
+lang::Robot steep_mecanum_base() {
+  const double angle = std::numbers::pi / 6.0;
+  return build_base({}, {{"fl", 0.23, 0.20, angle},
+                         {"fr", 0.23, -0.20, -angle},
+                         {"rl", -0.23, 0.20, -angle},
+                         {"rr", -0.23, -0.20, angle}});
+}
+
 lang::Robot omni_base() {
   std::vector<WheelPlace> places;
   const char* const names[] = {"a", "b", "c"};

@@ -40,6 +40,9 @@ lang::Robot build_base(const BaseDesign& design, const std::vector<WheelPlace>& 
 lang::Robot mecanum_base(const BaseDesign& design = {});
 /// Mecanum wheels mounted the wrong way round: the rollers at the ground lie as they should on top.
 lang::Robot mirrored_mecanum_base();
+/// Mecanum wheels with rollers at 30 deg: their inertia counts three times as much sideways as ahead, which
+/// no sphere has.
+lang::Robot steep_mecanum_base();
 /// Three omni wheels whose axes are radial; each holds its rolling direction.
 lang::Robot omni_base();
 lang::Robot differential_base(BaseDesign design = {});

@@ -1,5 +1,6 @@
 #include <algorithm>
-#include <stdexcept>
+#include <cmath>
+#include <numbers>
 
 #include "mjcf.hpp"
 #include "mjcf_text.hpp"
@@ -73,7 +74,8 @@ class RobotWriter {
       write_rollers(static_cast<std::size_t>(wheel));
     } else if (wheel >= 0) {
       const auto w = static_cast<std::size_t>(wheel);
-      text_ += sphere_geom(named("wheel", w), Vector3::Zero(), model_.wheels()[w].radius);
+      text_ += wheel_geom(named("wheel", w), model_.wheels()[w].radius,
+                          sphere != nullptr ? 0.0 : turn_of_held(model_.wheels()[w]));
     }
     for (std::size_t t = 0; t < simulated_.tips.size(); ++t) {
       if (simulated_.tips[t].body == index)
@@ -81,8 +83,6 @@ class RobotWriter {
     }
     for (int child = index + 1; child < model_.body_count(); ++child) {
       if (model_.bodies()[static_cast<std::size_t>(child)].parent != index) continue;
-      if (sphere != nullptr)
-        throw std::invalid_argument("plant: the wheel `" + body.name + "` carries another body");
       write_body(child);
     }
     text_ += "</body>\n";
@@ -185,14 +185,24 @@ class RobotWriter {
   void write_rolling(std::size_t w, const std::string& geom, double floor_friction) {
     text_ +=
         "<pair" + attribute("geom1", "floor") + attribute("geom2", geom) + " condim=\"3\" " + stiff() +
-        attribute("friction", list_of(floor_friction, sideways_friction(w, floor_friction), 0.0, 0.0, 0.0)) +
+        attribute("friction", list_of(floor_friction, second_friction(w, floor_friction), 0.0, 0.0, 0.0)) +
         "/>\n";
   }
 
-  /// Of a contact's second direction, across the wheel's rolling. Skidding wheels: side_friction.hpp.
-  double sideways_friction(std::size_t w, double floor_friction) const {
+  /// Of a contact's second direction: none across the only one that a hinged wheel holds. Skidding wheels:
+  /// side_friction.hpp.
+  double second_friction(std::size_t w, double floor_friction) const {
     const solver::Wheel& wheel = model_.wheels()[w];
-    return wheel.roller_angle || wheel.holds_sideways ? floor_friction : no_friction;
+    const bool is_hinged = sphere_of(wheel.body) == nullptr && !has_rollers(static_cast<int>(w));
+    return is_hinged && wheel.held_directions() == 1 ? no_friction : floor_friction;
+  }
+
+  /// From a wheel's rolling direction a x z to the first one that it holds, about z: the axis a lies a
+  /// quarter turn ahead, a roller's axis its angle further.
+  static double turn_of_held(const solver::Wheel& wheel) {
+    constexpr double quarter = 0.5 * std::numbers::pi;
+    if (wheel.roller_angle) return quarter + *wheel.roller_angle;
+    return wheel.holds_rolling ? 0.0 : quarter;
   }
 
   int wheel_of(int body) const {

@@ -65,6 +65,14 @@ inline std::string sphere_geom(const std::string& name, const solver::Vector3& a
          attribute("size", text_of(radius)) + "/>\n";
 }
 
+/// A wheel whose contact's first direction is turned by `turn` from its rolling direction, about the
+/// ground's normal; simulator.cpp reads it.
+inline std::string wheel_geom(const std::string& name, double radius, double turn) {
+  if (turn == 0.0) return sphere_geom(name, solver::Vector3::Zero(), radius);
+  return "<geom" + attribute("name", name) + attribute("type", "sphere") +
+         attribute("size", text_of(radius)) + attribute("user", text_of(turn)) + "/>\n";
+}
+
 /// A corner of an outline that was moved by `shift`; simulator.cpp reads its heading and its half angle.
 inline std::string corner_geom(const std::string& name, const Corner& corner, const solver::Vector3& shift) {
   return "<geom" + attribute("name", name) + attribute("type", "sphere") +

@@ -3,7 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
+
+#include "rolling_spheres.hpp"
 
 namespace zwang::runtime {
 
@@ -26,13 +27,12 @@ Matrix3 rotation_in_base(const solver::Model& model, int body) {
 
 }  // namespace
 
-RollerWheel build_rollers(const solver::Model& model, const solver::Wheel& wheel) {
+std::optional<RollerWheel> build_rollers(const solver::Model& model, const solver::Wheel& wheel) {
   const solver::Body& body = model.bodies()[static_cast<std::size_t>(wheel.body)];
   const double r = roller_share * wheel.radius;
   const double centre = wheel.radius - r;
   const double slant = std::abs(std::sin(*wheel.roller_angle));
-  if (slant < 0.3)
-    throw std::invalid_argument("plant: the rollers of `" + body.name + "` lie along its axis");
+  if (slant < 0.3) return std::nullopt;
   const double handover = std::numbers::pi / roller_count;
   const double reach = wheel.radius - centre * std::cos(handover);
   const double lean = slant * std::sin(handover);
@@ -62,6 +62,7 @@ RollerWheel build_rollers(const solver::Model& model, const solver::Wheel& wheel
     built.hub.rotational -= there.rotational;
     built.rollers.push_back(roller);
   }
+  if (!is_physical(built.hub)) return std::nullopt;
   return built;
 }
 

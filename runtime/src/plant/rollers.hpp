@@ -10,6 +10,7 @@
 ///   a^2 = r^2 + ((R - c cos t)^2 - r^2) / (sin delta sin t)^2
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "zwang/solver/model.hpp"
@@ -30,7 +31,8 @@ struct RollerWheel {
 
 inline constexpr int roller_count = 18;
 
-/// Throws std::invalid_argument where rollers of this kind do not fit the wheel.
-RollerWheel build_rollers(const solver::Model& model, const solver::Wheel& wheel);
+/// nullopt where rollers of this kind do not fit the wheel: they would lie along its axis, or would have more
+/// inertia than all of it.
+std::optional<RollerWheel> build_rollers(const solver::Model& model, const solver::Wheel& wheel);
 
 }  // namespace zwang::runtime

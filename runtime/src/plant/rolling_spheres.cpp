@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace zwang::runtime {
 
@@ -16,10 +15,6 @@ using solver::RigidInertia;
 using solver::Vector3;
 using solver::Wheel;
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("plant: " + what);
-}
-
 /// The wheel's inertia in base axes about its centre (the origin of its body), averaged over its spin.
 struct SpunInertia {
   double axial = 0.0;
@@ -27,25 +22,25 @@ struct SpunInertia {
   double offset = 0.0;  ///< of the centre of mass along the axis [m]
 };
 
-SpunInertia average_over_spin(const Body& body, double radius) {
+/// nullopt for a wheel out of balance: its centre of mass is not on its axis.
+std::optional<SpunInertia> average_over_spin(const Body& body, double radius) {
   const Vector3& axis = body.joint.axis;
   const Vector3 com = body.inertia.first_moment / body.inertia.mass;
   SpunInertia spun;
   spun.offset = com.dot(axis);
-  if ((com - spun.offset * axis).norm() > 0.02 * radius) {
-    refuse("the wheel `" + body.name + "` is out of balance: its centre of mass is not on its axis");
-  }
+  if ((com - spun.offset * axis).norm() > 0.02 * radius) return std::nullopt;
   spun.axial = axis.dot(body.inertia.rotational * axis);
   spun.diametral = 0.5 * (body.inertia.rotational.trace() - spun.axial);
   return spun;
 }
 
-RollingSphere sphere_for(const Model& model, int index) {
+/// nullopt for a wheel that is not on the base, carries something, is not level or drives nothing.
+std::optional<RollingSphere> sphere_for(const Model& model, int index) {
   const Wheel& wheel = model.wheels()[static_cast<std::size_t>(index)];
   const Body& body = model.bodies()[static_cast<std::size_t>(wheel.body)];
-  if (body.parent != 0) {
-    refuse("the wheel `" + body.name + "` holds one direction and is not on the base: not supported");
-  }
+  const auto hangs_on_it = [&](const Body& other) { return other.parent == wheel.body; };
+  if (body.parent != 0 || std::any_of(model.bodies().begin(), model.bodies().end(), hangs_on_it))
+    return std::nullopt;
   RollingSphere sphere;
   sphere.wheel = index;
   sphere.body = wheel.body;
@@ -53,15 +48,13 @@ RollingSphere sphere_for(const Model& model, int index) {
   sphere.radius = wheel.radius;
   sphere.mass = body.inertia.mass;
   sphere.axis = body.pose_in_parent.rotation * body.joint.axis;
-  if (std::abs(sphere.axis.z()) > 1e-3) refuse("the axis of the wheel `" + body.name + "` is not horizontal");
+  if (std::abs(sphere.axis.z()) > 1e-3) return std::nullopt;
   sphere.axis.z() = 0.0;
   sphere.axis.normalize();
   sphere.along = sphere.axis.cross(Vector3::UnitZ());
   const Vector3 held = Eigen::AngleAxisd(*wheel.roller_angle, Vector3::UnitZ()) * sphere.axis;
   const double driven = held.dot(sphere.along);
-  if (std::abs(driven) < 1e-3) {
-    refuse("the rollers of `" + body.name + "` lie along its axis: turning it moves nothing");
-  }
+  if (std::abs(driven) < 1e-3) return std::nullopt;
   sphere.slope = held.dot(sphere.axis) / driven;
   return sphere;
 }
@@ -71,24 +64,23 @@ Vector3 planar_row(const Vector3& direction, const Vector3& point) {
   return {direction.x(), direction.y(), point.x() * direction.y() - point.y() * direction.x()};
 }
 
-void require_physical(const RigidInertia& base) {
-  const Matrix3 c = solver::skew(base.first_moment / base.mass);
-  const Matrix3 at_com = base.rotational + base.mass * c * c;
+}  // namespace
+
+bool is_physical(const RigidInertia& inertia) {
+  if (!(inertia.mass > 0.0)) return false;
+  const Matrix3 c = solver::skew(inertia.first_moment / inertia.mass);
+  const Matrix3 at_com = inertia.rotational + inertia.mass * c * c;
   // Second moments of the mass: all positive is the triangle rule.
   const Matrix3 moments = 0.5 * at_com.trace() * Matrix3::Identity() - at_com;
   const double tolerance = 1e-6 * at_com.trace();
-  if (Eigen::SelfAdjointEigenSolver<Matrix3>(moments).eigenvalues().minCoeff() < -tolerance) {
-    refuse("the base's inertia is too small beside that of its wheels to be simulated");
-  }
+  return Eigen::SelfAdjointEigenSolver<Matrix3>(moments).eigenvalues().minCoeff() >= -tolerance;
 }
-
-}  // namespace
 
 bool is_rolling_sphere(const Wheel& wheel) {
   return wheel.roller_angle.has_value();
 }
 
-SphereBase replace_wheels_by_spheres(const Model& model) {
+std::optional<SphereBase> replace_wheels_by_spheres(const Model& model) {
   SphereBase result;
   result.base = model.bodies().front().inertia;
   Matrix3 wheel_form = Matrix3::Zero();   // of the planar twist, wheels of the model
@@ -96,10 +88,13 @@ SphereBase replace_wheels_by_spheres(const Model& model) {
   double reach = 0.0;
   for (std::size_t i = 0; i < model.wheels().size(); ++i) {
     if (!is_rolling_sphere(model.wheels()[i])) continue;
-    RollingSphere sphere = sphere_for(model, static_cast<int>(i));
+    const std::optional<RollingSphere> found = sphere_for(model, static_cast<int>(i));
+    if (!found) return std::nullopt;
+    RollingSphere sphere = *found;
     const Body& body = model.bodies()[static_cast<std::size_t>(sphere.body)];
-    const SpunInertia spun = average_over_spin(body, sphere.radius);
-    sphere.inertia = spun.axial + body.joint.rotor_inertia;  // J; scaled below
+    const std::optional<SpunInertia> spun = average_over_spin(body, sphere.radius);
+    if (!spun) return std::nullopt;
+    sphere.inertia = spun->axial + body.joint.rotor_inertia;  // J; scaled below
     const double weight = sphere.inertia / (sphere.radius * sphere.radius);
     const Vector3 rolling = planar_row(sphere.along, sphere.centre);
     const Vector3 sideways = planar_row(sphere.axis, sphere.centre);
@@ -109,8 +104,8 @@ SphereBase replace_wheels_by_spheres(const Model& model) {
     reach = std::max(reach, sphere.centre.head<2>().norm());
 
     RigidInertia rest;  // of the wheel that does not spin, beyond its mass at its centre
-    rest.first_moment = sphere.mass * spun.offset * sphere.axis;
-    rest.rotational = spun.diametral * (Matrix3::Identity() - sphere.axis * sphere.axis.transpose());
+    rest.first_moment = sphere.mass * spun->offset * sphere.axis;
+    rest.rotational = spun->diametral * (Matrix3::Identity() - sphere.axis * sphere.axis.transpose());
     result.base = result.base + rest.expressed_in({Matrix3::Identity(), sphere.centre});
     result.spheres.push_back(sphere);
   }
@@ -121,15 +116,12 @@ SphereBase replace_wheels_by_spheres(const Model& model) {
   const Matrix3 difference = wheel_form - scale * sphere_form;
   const double allowed = 5e-4 * model.total_mass();  // [kg], a quarter of the plant's accuracy
   if (difference.topLeftCorner<2, 2>().cwiseAbs().maxCoeff() > allowed ||
-      difference.topRightCorner<2, 1>().cwiseAbs().maxCoeff() > allowed * reach) {
-    refuse(
-        "the wheels' inertia differs between the base's directions, or couples them to yaw: spheres cannot "
-        "stand for these wheels");
-  }
+      difference.topRightCorner<2, 1>().cwiseAbs().maxCoeff() > allowed * reach)
+    return std::nullopt;
   const double yaw = difference(2, 2);
   // As a ring: a mass distribution of its own keeps the triangle rule. The ground holds roll and pitch.
   result.base.rotational.diagonal() += Vector3(0.5 * yaw, 0.5 * yaw, yaw);
-  require_physical(result.base);
+  if (!is_physical(result.base)) return std::nullopt;
   return result;
 }
 

@@ -13,7 +13,8 @@
 /// inertia I holds 1/2 I (v_e^2 + v_a^2) / R^2. As quadratic forms of the base's planar twist (vx, vy, wz),
 /// summed over the wheels, their difference must be a yaw inertia alone, which is then given to the base:
 /// 8 lx ly J / R^2 for four mecanum wheels at (+-lx, +-ly). I = c J, c chosen so that the traces of the xy
-/// parts agree: 1 for 45 degree rollers, 1/2 for three omni wheels. What is left over is refused.
+/// parts agree: 1 for 45 degree rollers, 1/2 for three omni wheels. Where something is left over, spheres
+/// do not stand for the wheels.
 /// The sphere does not turn about the vertical with the base: the wheel's own inertia about its diameters
 /// goes to the base too. The mass stays at the wheel's centre.
 ///
@@ -22,6 +23,7 @@
 /// counterpart in the wheel, so the plant adds I/R^2 wz z x v at each centre.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "zwang/solver/model.hpp"
@@ -47,11 +49,15 @@ struct SphereBase {
   solver::RigidInertia base;  ///< of the simulated base
 };
 
-/// True for wheels that are simulated as spheres on ball joints: those with rollers.
+/// True for wheels that may be simulated as spheres on ball joints: those with rollers.
 bool is_rolling_sphere(const solver::Wheel& wheel);
 
-/// Throws std::invalid_argument, with the reason, when the wheels cannot be simulated exactly as spheres.
-SphereBase replace_wheels_by_spheres(const solver::Model& model);
+/// A body can have this inertia: its mass is positive and its moments keep the triangle rule.
+bool is_physical(const solver::RigidInertia& inertia);
+
+/// nullopt where spheres cannot stand exactly for the wheels: wheels of different inertia, out of balance,
+/// behind a steering, not level. They are then simulated as hinged wheels (mjcf_robot.cpp).
+std::optional<SphereBase> replace_wheels_by_spheres(const solver::Model& model);
 
 /// The wrench that stands in for what the spheres have too much: I/R^2 wz z x v at each centre, in base axes
 /// and about the base's origin, at the base's twist in the same. Does not allocate.

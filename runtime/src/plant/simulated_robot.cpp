@@ -28,9 +28,7 @@ std::string in_millimetres(double metres) {
 /// The ground as the wheels' lowest points have it, on the average; small differences are levelled out.
 void level_wheels(const Model& model, SimulatedRobot& simulated) {
   for (const solver::Wheel& wheel : model.wheels()) {
-    if (!wheel.roller_angle && !wheel.holds_rolling) {
-      refuse("a wheel that does not hold rolling cannot be simulated");
-    }
+    if (wheel.held_directions() == 0) refuse("a wheel that holds no direction cannot be simulated");
   }
   if (model.wheels().empty()) refuse("a base on the ground needs wheels");
   const lang::WheelLevel level = lang::wheel_level(model);
@@ -88,13 +86,12 @@ SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers, int nu
     simulated.prefix += std::to_string(number) + "_";
   }
   simulated.tips = find_tips(robot.model);
-  if (real_rollers) {
-    simulated.spheres.base = robot.model.bodies().front().inertia;
-    for (const solver::Wheel& wheel : robot.model.wheels()) {
-      simulated.rollers.push_back(wheel.roller_angle ? build_rollers(robot.model, wheel) : RollerWheel{});
-    }
-  } else {
-    simulated.spheres = replace_wheels_by_spheres(robot.model);
+  const auto spheres = real_rollers ? std::nullopt : replace_wheels_by_spheres(robot.model);
+  simulated.spheres = spheres.value_or(SphereBase{{}, robot.model.bodies().front().inertia});
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    if (!real_rollers) break;
+    const auto built = wheel.roller_angle ? build_rollers(robot.model, wheel) : std::nullopt;
+    simulated.rollers.push_back(built.value_or(RollerWheel{}));
   }
   simulated.outline = lang::plane::convex_hull(robot.footprint);
   if (robot.model.base_type() != solver::BaseType::ground) {

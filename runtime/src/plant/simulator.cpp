@@ -91,8 +91,8 @@ int collide_deep(const mjModel* m, const mjData* d, mjContact* contact, int sphe
 
 mjfCollision collide_plane_sphere = nullptr;  ///< MuJoCo's own
 
-/// Turns the contact of a wheel so that its first tangent is the rolling direction: friction may differ
-/// between the two. Only in simulations of this file, as above.
+/// Turns the contact of a wheel so that its first tangent is the rolling direction, or as far from it as the
+/// wheel's geom says: friction may differ between the two. Only in simulations of this file, as above.
 int collide_along(const mjModel* m, const mjData* d, mjContact* contact, int plane, int sphere,
                   mjtNum margin) {
   const int count = collide_plane_sphere(m, d, contact, plane, sphere, margin);
@@ -101,7 +101,10 @@ int collide_along(const mjModel* m, const mjData* d, mjContact* contact, int pla
   const int joint = m->body_jntadr[body];
   if (m->jnt_type[joint] != mjJNT_HINGE) return count;
   const Eigen::Map<const Vector3> axis(d->xaxis + 3 * joint), normal(contact->frame);
-  Eigen::Map<Vector3>(contact->frame + 3) = axis.cross(normal).normalized();
+  Vector3 first = axis.cross(normal).normalized();
+  const double turn = m->geom_user[m->nuser_geom * sphere];
+  if (turn != 0.0) first = Eigen::AngleAxisd(turn, Vector3(normal)) * first;
+  Eigen::Map<Vector3>(contact->frame + 3) = first;
   return count;
 }
 
