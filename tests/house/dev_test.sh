@@ -33,7 +33,7 @@ stand_in ninja <<'BODY'
 if [[ -z $STALE ]]; then echo 'ninja: no work to do.'; else echo '[1/1] would compile'; fi
 BODY
 stand_in cmake <<BODY
-echo "cmake \$1" >>"$calls"
+echo "cmake \$*" >>"$calls"
 echo "compiler's own chatter"
 [[ -z \$BUILD_FAILS ]]
 BODY
@@ -170,9 +170,23 @@ has "$err" 'time failed'
 
 touch -d '+2 minutes' "$place/CMakePresets.json"
 try 'run after the presets changed' 1 "$place/dev" run a.yaml
-has "$called" 'cmake -S'
+has "$called" "-D ZWANG_BUILD_TESTS=ON -S $place --preset release"
 printf 'CMAKE_HOME_DIRECTORY:INTERNAL=/elsewhere\n' >"$place/build/release/CMakeCache.txt"
 try 'run in a checkout that was moved' 1 "$place/dev" run a.yaml
-has "$called" 'cmake --fresh'
+has "$called" '--fresh'
+
+touch -d '-1 minute' "$place/CMakePresets.json"
+# Who runs a task needs nothing that only tests are built with; who tests gets it without a second folder.
+rm -rf "$place/build/release/CMakeCache.txt" "$place/build/release/.configured"
+ABSENT='libgtest-dev' try 'run where nothing was ever built' 1 "$place/dev" run a.yaml
+lacks "$called" 'apt-get'
+has "$called" '-D ZWANG_BUILD_TESTS=OFF -D ZWANG_BUILD_BENCH=OFF'
+try 'run once more' 1 "$place/dev" run a.yaml
+is "$called" ''
+ABSENT='libgtest-dev' try 'test after run' 0 "$place/dev" test
+has "$called" 'install -y --no-install-recommends libgtest-dev'
+has "$called" '-D ZWANG_BUILD_TESTS=ON'
+try 'run after test' 1 "$place/dev" run a.yaml
+is "$called" ''
 
 exit "$failed"
