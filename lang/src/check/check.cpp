@@ -11,9 +11,7 @@
 
 namespace zwang::lang {
 
-namespace {
-
-bool is_set_somewhere(const TaskFile& file, const std::string& frame) {
+bool is_frame_set(const TaskFile& file, const std::string& frame) {
   const auto names_it = [&](const std::vector<SetText>& sets) {
     return std::any_of(sets.begin(), sets.end(), [&](const SetText& set) {
       return set.kind == SetKind::frame && set.name.text == frame;
@@ -27,6 +25,8 @@ bool is_set_somewhere(const TaskFile& file, const std::string& frame) {
            return names_it(task.set_on_entry) || any_exit(task.exits);
          });
 }
+
+namespace {
 
 /// Bool signals and `elapsed` do not flicker; everything that is measured as a number does.
 bool measures(const CheckContext& context, const Condition& condition) {
@@ -226,7 +226,7 @@ std::optional<int> check_frame(CheckContext& context, const Word& name) {
     return std::nullopt;
   }
   if (!index) {
-    if (is_set_somewhere(context.file, name.text)) {
+    if (is_frame_set(context.file, name.text)) {
       context.diagnostics.add(wording::frame_only_set(name.span, name.text));
     } else if (context.symbols.has_robot) {
       context.diagnostics.add(wording::unknown_frame(name.span, "frame", name.text,
@@ -295,8 +295,8 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
     if (task.require && !task.require->is_bad) require = check_condition(context, *task.require, task.groups);
     checked.requirements.push_back(std::move(require));
   }
-  check_flow(context, checked.conditions);
-  check_physics(context, scene, budget);
+  check_flow(context, checked.conditions, checked.always_conditions);
+  check_physics(context, scene, {checked.conditions, checked.always_conditions}, budget);
   if (scene && !diagnostics.has_errors()) {
     check_scene_names(context, *scene);
     check_unfed_signals(context, *scene);

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "check/context.hpp"
+#include "check/endings.hpp"
 #include "diagnostic/wordings.hpp"
 
 namespace zwang::lang {
@@ -103,7 +104,8 @@ std::vector<std::string> interrupting_tasks(const CheckContext& context) {
   return {reached.begin(), reached.end()};
 }
 
-void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>& conditions) {
+void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
+                const std::vector<Condition>& always_conditions) {
   check_ends(context, conditions);
   // What an unreadable part may have used or led to is not known: no guesses on top of errors.
   if (context.diagnostics.has_errors()) return;
@@ -117,6 +119,7 @@ void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>
   }
   for (const TaskText& task : context.file.tasks) check_hidden(context, task.exits);
   check_hidden(context, context.file.always_exits);
+  check_loops(context, conditions, always_conditions, reached);
   check_uses(context);
 }
 

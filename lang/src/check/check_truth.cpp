@@ -118,7 +118,9 @@ std::optional<double> fixed_value(const CheckContext& context, const Condition& 
 
 }  // namespace
 
-void check_is_open(CheckContext& context, const Condition& condition) {
+namespace {
+
+Interval root_of(const CheckContext& context, const Condition& condition) {
   std::vector<Interval> intervals;
   for (const ExpressionNode& node : condition.nodes) {
     const Interval none;
@@ -127,9 +129,20 @@ void check_is_open(CheckContext& context, const Condition& condition) {
     const Interval result = interval_of(context, node, a, b);
     intervals.push_back(result);
   }
-  const Interval& root = intervals.back();
-  if (root.low == root.high)
-    context.diagnostics.add(wording::decided_condition(condition.span, root.low > 0.5));
+  return intervals.empty() ? Interval{} : intervals.back();
+}
+
+}  // namespace
+
+bool is_decided(const CheckContext& context, const Condition& condition) {
+  const Interval root = root_of(context, condition);
+  return root.low == root.high;
+}
+
+void check_is_open(CheckContext& context, const Condition& condition) {
+  if (is_decided(context, condition))
+    context.diagnostics.add(
+        wording::decided_condition(condition.span, root_of(context, condition).low > 0.5));
 }
 
 void check_release(CheckContext& context, const ExitText& exit, const Condition& condition,

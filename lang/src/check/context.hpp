@@ -27,6 +27,9 @@ void check_time(CheckContext& context, const ValueText& value, const std::string
 /// The frame's index; E301 when there is none. nullopt for bad and unknown names.
 std::optional<int> check_frame(CheckContext& context, const Word& name);
 
+/// Whether some `set` of the file puts the frame elsewhere.
+bool is_frame_set(const TaskFile& file, const std::string& frame);
+
 /// The link of the robot that floats; empty where there is no robot.
 std::string base_of(const CheckContext& context);
 
@@ -53,7 +56,9 @@ void check_against_always(CheckContext& context, const TaskText& task);
 /// E506: `release` must lie on the far side of a single comparison's threshold.
 void check_release(CheckContext& context, const ExitText& exit, const Condition& condition,
                    const Dimension& compared);
-/// E505: a condition that the signs of its parts alone decide.
+/// Whether the signs of its parts alone decide the condition.
+bool is_decided(const CheckContext& context, const Condition& condition);
+/// E505: of such a condition.
 void check_is_open(CheckContext& context, const Condition& condition);
 void check_sets(CheckContext& context, const std::vector<SetText>& sets);
 /// nullopt on an error. `compared` takes what the two sides of a single comparison measure, `of_nodes` what
@@ -64,8 +69,9 @@ std::optional<Condition> check_condition(CheckContext& context, const ConditionT
 /// As `check_value`, where a number signal may drive as well.
 bool check_driver_value(CheckContext& context, const ValueText& value, const Dimension& expected,
                         const std::string& what);
-/// Unreachable tasks, tasks without an end, names without a use.
-void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>& conditions);
+/// Unreachable tasks, tasks and loops without an end, names without a use.
+void check_flow(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
+                const std::vector<Condition>& always_conditions);
 /// Tasks that `always` interrupts to, and those that these lead to: where `back` means something.
 std::vector<std::string> interrupting_tasks(const CheckContext& context);
 

@@ -126,6 +126,30 @@ Diagnostic nearly_exact_wheels(const Span& span, const std::vector<Deviation>& d
   return result;
 }
 
+Diagnostic mirrored_rollers(const Span& span, double lever, double mirrored) {
+  return warning(
+      "W868", span,
+      "the wheels turn this base with a lever of " + figure(lever, "m") + ", with mirrored rollers it is " +
+          figure(mirrored, "m"),
+      "`roller` is that of the roller on the ground, which seen from above is mirrored: change its "
+      "sign at every wheel");
+}
+
+Diagnostic wheel_across(const Span& span, const std::string& wheel, const Span& declared) {
+  return with_related(warning("W869", span,
+                              "wheel " + in_ticks(wheel) +
+                                  " turns about an axis across its own cylinder: it would "
+                                  "roll over its edge",
+                              "let the joint's `<axis>` point along the cylinder's z, in the link's axes"),
+                      declared, "the joint is declared here");
+}
+
+Diagnostic beyond_all_bodies(const Span& span, const std::string& link, const std::string& what,
+                             const std::string& value) {
+  return error("E858", span, "link " + in_ticks(link) + " cannot have " + what + " of " + value,
+               "look at the unit: a URDF is in kg, m and kg m^2");
+}
+
 Diagnostic limit_without_width(const Span& span, const std::string& what) {
   return error("E806", span, what + " allows nothing but standing still", "give the range a width");
 }

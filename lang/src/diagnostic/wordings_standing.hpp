@@ -44,6 +44,12 @@ struct Deviation {
 };
 /// Not empty, the worst first.
 Diagnostic nearly_exact_wheels(const Span& span, const std::vector<Deviation>& deviations);
+/// `lever`: with which the wheels turn the base, `mirrored`: that of the mirrored rollers. [m]
+Diagnostic mirrored_rollers(const Span& span, double lever, double mirrored);
+Diagnostic wheel_across(const Span& span, const std::string& wheel, const Span& declared);
+/// `value` with its unit: no body has so much, or so little.
+Diagnostic beyond_all_bodies(const Span& span, const std::string& link, const std::string& what,
+                             const std::string& value);
 /// A limit of the robot file allows no motion at all.
 Diagnostic limit_without_width(const Span& span, const std::string& what);
 /// `depth`: how far one of the two has to move for them to part. [m]

@@ -13,6 +13,7 @@ std::span<const Explanation> names();        ///< E3xx
 std::span<const Explanation> constraints();  ///< E4xx
 std::span<const Explanation> order();        ///< E5xx
 std::span<const Explanation> physics();      ///< E6xx
+std::span<const Explanation> reach();        ///< W416, W51x, W61x and more: what reads well and cannot work
 std::span<const Explanation> robots();       ///< E80x
 std::span<const Explanation> urdfs();        ///< E85x
 std::span<const Explanation> scenes();       ///< E9xx

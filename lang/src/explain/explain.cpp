@@ -17,7 +17,7 @@ std::vector<Explanation> gathered() {
   std::vector<Explanation> all;
   for (const std::span<const Explanation> part :
        {catalogue::text(), catalogue::quantities(), catalogue::names(), catalogue::constraints(),
-        catalogue::order(), catalogue::physics(), catalogue::robots(), catalogue::urdfs(),
+        catalogue::order(), catalogue::physics(), catalogue::reach(), catalogue::robots(), catalogue::urdfs(),
         catalogue::scenes()}) {
     all.insert(all.end(), part.begin(), part.end());
   }

@@ -16,7 +16,7 @@ limits.)~",
           .fix = "Keep one single value and write the others as ranges.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.1 m/s, force: 20 N}",
-          .instead = "x: {velocity: 0.1 m/s, force: +-20 N}"},
+          .instead = "x: {velocity: 0.1 m/s, force: +-5 N}"},
       Explanation{
           .code = "W402",
           .title = "a driver asks for more than `always` allows",
@@ -122,7 +122,7 @@ range from 5 N up would forbid just that. That zero is always allowed is what ma
           .fix = "Write the range from 0 or through 0. If the robot shall press, a single force does it.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.1 m/s, force: [5 N, 20 N]}",
-          .instead = "x: {velocity: 0.1 m/s, force: [0 N, 20 N]}"},
+          .instead = "x: {velocity: 0.1 m/s, force: [0 N, 5 N]}"},
       Explanation{
           .code = "E409",
           .title = "a frame that nothing can move",

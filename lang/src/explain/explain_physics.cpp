@@ -24,7 +24,7 @@ harder. The mass has wheels and rotors in it; `zwang plan` shows it.)~",
           .title = "a push that an acceleration limit caps in some cases",
           .why =
               R"~(The force is within what the acceleration limit leaves, but not always: the parameter's range allows
-more, or the effective mass is smaller at other angles of the joints.)~",
+more, or the effective mass is smaller at other angles of the joints. A spring, drawn far enough, asks for more than that as well.)~",
           .fix = "Narrow the parameter's range, ask for less, or allow more acceleration.",
           .part = ExcerptOf::task_file,
           .example = R"~(params:
@@ -69,8 +69,8 @@ against a bumper of stiffness K the first peak is F + sqrt(F^2 + K m v^2), F the
 the speed. The note is there when that is above 2.5 F, and tells the speed at which it is not.)~",
           .fix = "Arrive more slowly, or put a softer bumper on and say so in the robot file.",
           .part = ExcerptOf::group,
-          .example = "x: {velocity: 0.15 m/s, force: +-40 N}",
-          .instead = "x: {velocity: 0.06 m/s, force: +-40 N}"},
+          .example = "x: {velocity: 0.15 m/s, force: +-40 N, time_constant: 50 ms}",
+          .instead = "x: {velocity: 0.06 m/s, force: +-40 N, time_constant: 50 ms}"},
       Explanation{
           .code = "W604",
           .title = "a time constant that is too short",
@@ -99,13 +99,13 @@ press as well, each within its own range.)~",
 tasks:
   go:
     constraints:
-      go: {move: base_link, in: base_link, x: {velocity: 0.01 m/s, force: +-40 N}}
+      go: {move: base_link, in: base_link, x: {velocity: 0.01 m/s, force: +-40 N, time_constant: 10 ms}}
       stand: {move: base_link, in: askew, x: {velocity: 0 m/s}}
     timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(tasks:
   go:
     constraints:
-      go: {move: base_link, in: base_link, x: {velocity: 0.01 m/s, force: +-40 N}}
+      go: {move: base_link, in: base_link, x: {velocity: 0.01 m/s, force: +-40 N, time_constant: 10 ms}}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{
           .code = "W606",

@@ -167,6 +167,7 @@ of is told in its own words: a complaint that is only printed is a fault that so
     <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.001"/>
   </inertial>
   <visual>
+    <origin rpy="1.5708 0 0"/>
     <geometry><cylinder radius="0.1" length="0.05"/></geometry>
   </visual>
 </link>)~"},

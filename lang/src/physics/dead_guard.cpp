@@ -1,22 +1,31 @@
-// W602: a force range that the driver's own nu never reaches, so that a guard on `saturated` never fires.
+// W602, W619: a force range that a motion driver never reaches.
 //
-// Blocked (ds = 0), a driver asks for the acceleration b and its row presses with m b:
+// Blocked (ds = 0), a driver asks for the acceleration b, and the base presses with
 //
-//   velocity v          b = |v| / tau
-//   acceleration c      b = |c|
-//   position with a velocity range [-v, v]: far away the range decides, b = v / h
+//   m min(b, a_max)        a_max: of the acceleration ranges in force, of its own axis or of others
 //
-// less where the axis's own acceleration range folds in. Where another range stops the base at less than b,
-// the driver misses its b in the open already and runs into its bound: then the guard is not dead.
+//   velocity v             b = |v| / tau
+//   acceleration c         b = |c|
+//   position               b = v / h with a velocity range [-v, v], as far away the range decides; else no
+//   bound
+//
+// W602: an exit asks for `saturated`, and b does not reach the range. Where another range stops the base at
+// less than b, the driver misses its b in the open already and runs into its bound: that guard is not dead.
+// W619: of a velocity or an acceleration less than half of the range is pressed; of a position, whose demand
+// grows with the distance, less than a tenth: there the range is a bound for bases of any mass.
 #include <algorithm>
 #include <cmath>
 
+#include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_physics.hpp"
 #include "physics/questions.hpp"
 
 namespace zwang::lang {
 
 namespace {
+
+constexpr double generous = 0.5;           // of the range
+constexpr double generous_far_away = 0.1;  // of a position driver's
 
 struct Demand {
   double b = 0.0;     ///< [m/s^2] or [rad/s^2], signed; of a position driver either way
@@ -28,14 +37,13 @@ std::optional<Demand> demand_of(const PlannedAxis& axis) {
   if (axis.driver == solver::Quantity::velocity && axis.target)
     return Demand{*axis.target / axis.time_constant, false};
   if (axis.driver == solver::Quantity::acceleration && axis.target) return Demand{*axis.target, false};
-  if (axis.driver == solver::Quantity::position && velocity) {
-    return Demand{std::max(velocity->high, -velocity->low) / solver::ConstraintSet::horizon, true};
-  }
-  return std::nullopt;
+  if (axis.driver != solver::Quantity::position) return std::nullopt;
+  if (!velocity) return Demand{solver::infinity, true};
+  return Demand{std::max(velocity->high, -velocity->low) / solver::ConstraintSet::horizon, true};
 }
 
 /// Where a guard of the task asks for `group.axis.saturated`.
-std::optional<Span> guard_on(const CheckContext& context, const TaskText& task, const PlannedAxis& axis) {
+std::optional<Span> guard_on(const CheckContext& context, const PlannedTask& plan, const PlannedAxis& axis) {
   const std::string wanted =
       axis.group + (axis.is_feature() ? "" : "." + axis.text->name.text) + ".saturated";
   const auto find = [&](const std::vector<ExitText>& exits) -> std::optional<Span> {
@@ -46,38 +54,66 @@ std::optional<Span> guard_on(const CheckContext& context, const TaskText& task, 
     }
     return std::nullopt;
   };
-  const std::optional<Span> here = find(task.exits);
+  if (axis.group.empty()) return std::nullopt;
+  const std::optional<Span> here = find(plan.task->exits);
   return here ? here : find(context.file.always_exits);
+}
+
+/// The end of the range that the driver pushes towards; of one that pushes either way the nearer.
+double bound_of(const solver::Range& range, const Demand& demand) {
+  return demand.both ? std::min(range.high, -range.low) : demand.b > 0.0 ? range.high : -range.low;
+}
+
+AccelerationLimit nearest_limit(const PlannedTask& plan, const PlannedAxis& axis, const Demand& demand,
+                                bool own) {
+  if (!demand.both) return acceleration_limit(plan, axis, demand.b, own);
+  const AccelerationLimit ahead = acceleration_limit(plan, axis, 1.0, own);
+  const AccelerationLimit back = acceleration_limit(plan, axis, -1.0, own);
+  return ahead.most > back.most ? ahead : back;  // the side that presses harder counts
+}
+
+void ask_axis(const CheckContext& context, const PlannedTask& plan, const PlannedAxis& axis,
+              const Demand& demand, double mass, Remarks& remarks) {
+  const solver::Range& range = *axis[solver::Quantity::force];
+  const double bound = bound_of(range, demand);
+  if (!(bound > 0.0) || range.low > 0.0 || range.high < 0.0) return;  // E408
+  const AccelerationLimit own_limit = nearest_limit(plan, axis, demand, true);
+  const AccelerationLimit limit = nearest_limit(plan, axis, demand, false);
+  double b = std::abs(demand.b);
+  if (const auto& own = axis[solver::Quantity::acceleration]) b = std::min(b, bound_of(*own, demand));
+  // m v / tau = bound
+  const double time_constant =
+      axis.driver == solver::Quantity::velocity ? mass * std::abs(*axis.target) / bound : 0.0;
+  const std::optional<Span> guard = guard_on(context, plan, axis);
+  if (guard && limit.most >= b && mass * b < bound) {
+    remarks.add(wording::dead_guard(axis.span(solver::Quantity::force), axis.path, axis.turns(), mass, b,
+                                    mass * b, time_constant, *guard));
+    return;
+  }
+  const double made = std::min(b, own_limit.most);
+  if (!(mass * made < (demand.both ? generous_far_away : generous) * bound)) return;
+  const bool by_limit = own_limit.most < std::abs(demand.b);
+  wording::Unreached unreached{axis.path, axis.turns(), mass, made, mass * made, bound};
+  unreached.velocity = axis.driver == solver::Quantity::velocity ? *axis.target : 0.0;
+  unreached.time_constant = axis.time_constant;
+  // W604: a velocity wants four ticks.
+  const bool is_slow_enough = time_constant >= 4.0 * context.robot->control_period;
+  unreached.enough = by_limit || !is_slow_enough ? 0.0 : time_constant;
+  remarks.add(wording::never_reached(
+      axis.span(solver::Quantity::force), unreached,
+      by_limit && own_limit.from != nullptr ? own_limit.from->span(solver::Quantity::acceleration) : Span{}));
 }
 
 }  // namespace
 
 void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
-    const std::optional<solver::Range>& force = axis[solver::Quantity::force];
-    if (!axis.drives_motion() || !force || axis.group.empty() || !(axis.time_constant > 0.0)) continue;
-    const std::optional<Demand> demand = demand_of(axis);
-    const AxisFigures* figures = probe.figures(axis);
-    if (!demand || demand->b == 0.0 || figures == nullptr || !std::isfinite(figures->mass)) continue;
-    double b = std::abs(demand->b);
-    if (const auto& own = axis[solver::Quantity::acceleration]) {
-      b = std::min(b, demand->both      ? std::max(own->high, -own->low)
-                      : demand->b > 0.0 ? own->high
-                                        : -own->low);
-    }
-    const double bound = demand->both      ? std::min(force->high, -force->low)
-                         : demand->b > 0.0 ? force->high
-                                           : -force->low;
-    if (acceleration_limit(plan, axis, demand->b, false).most < b) continue;
-    const double pressed = figures->mass * b;
-    if (pressed >= bound) continue;
-    const std::optional<Span> guard = guard_on(context, *plan.task, axis);
-    if (!guard) continue;
-    // m v / tau = bound
-    const double time_constant =
-        axis.driver == solver::Quantity::velocity ? figures->mass * std::abs(*axis.target) / bound : 0.0;
-    remarks.add(wording::dead_guard(axis.span(solver::Quantity::force), axis.path, axis.turns(),
-                                    figures->mass, b, pressed, time_constant, *guard));
+    const bool is_asked = axis.drives_motion() && axis[solver::Quantity::force] && axis.text != nullptr &&
+                          !axis.is_soft && axis.time_constant > 0.0;
+    const std::optional<Demand> demand = is_asked ? demand_of(axis) : std::nullopt;
+    const AxisFigures* figures = demand && demand->b != 0.0 ? probe.figures(axis) : nullptr;
+    if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
+    ask_axis(context, plan, axis, *demand, figures->mass, remarks);
   }
 }
 

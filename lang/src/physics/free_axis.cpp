@@ -35,7 +35,7 @@ void ask_free(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.free) {
     const bool is_asked =
         axis.move.body == 0 && axis.is_placed && !axis.is_feature() && !probe.is_out_of_plane(axis);
-    if (!is_asked || !is_held_at_the_start(axis, probe)) continue;
+    if (!is_asked || remarks.any_at(axis.text->name.span) || !is_held_at_the_start(axis, probe)) continue;
     const AxisFigures& figures = *probe.figures(axis);
     remarks.add(wording::free_and_held(axis.text->name.span, axis.text->name.text, !figures.is_held));
   }

@@ -46,9 +46,30 @@ AccelerationLimit acceleration_limit(const PlannedTask& plan, const PlannedAxis&
 
 namespace {
 
-void ask_task(const CheckContext& context, const TaskText& task, Probe& probe, Remarks& remarks) {
-  PlannedTask plan = plan_task(context, task);
+/// What is the same in all tasks.
+struct Asked {
+  const ExitConditions& conditions;
+  std::vector<int> held_steerings;
+  double floor_friction;
+};
+
+/// Questions about the file as it is written, before any axis is taken out of the plan. No guesses on top of
+/// errors: what could not be read may be what decides.
+void ask_exits_of_task(const CheckContext& context, std::size_t index, const PlannedTask& plan,
+                       const Asked& asked, Probe& probe, Remarks& remarks) {
+  if (context.diagnostics.has_errors()) return;
+  ask_contradiction(plan, probe, remarks);
+  ask_exits(context, plan, plan.task->exits, asked.conditions.of_tasks[index], probe, remarks);
+  ask_stopping(context, plan, asked.conditions, index, probe, remarks);
+}
+
+void ask_task(const CheckContext& context, std::size_t index, const Asked& asked, Probe& probe,
+              Remarks& remarks) {
+  PlannedTask plan = plan_task(context, context.file.tasks[index]);
+  ask_exits_of_task(context, index, plan, asked, probe, remarks);
   ask_reach(plan, probe, remarks);
+  ask_steering(plan, asked.held_steerings, probe, remarks);
+  ask_square(plan, asked.held_steerings, asked.floor_friction, probe, remarks);
   ask_freedoms(plan, probe, remarks);
   ask_askew(plan, probe, remarks);
   ask_free(plan, probe, remarks);
@@ -57,6 +78,7 @@ void ask_task(const CheckContext& context, const TaskText& task, Probe& probe, R
   ask_top_speed(plan, *context.robot, remarks);
   ask_arm_force(plan, *context.robot, remarks);
   ask_press(plan, probe, remarks);
+  ask_springs(plan, probe, remarks);
   ask_dead_guard(context, plan, probe, remarks);
   ask_time_constant(plan, probe, remarks);
   ask_wheel_torque(plan, probe, remarks);
@@ -68,13 +90,20 @@ void ask_task(const CheckContext& context, const TaskText& task, Probe& probe, R
 
 }  // namespace
 
-void check_physics(CheckContext& context, const std::optional<Scene>& scene, double& budget) {
+void check_physics(CheckContext& context, const std::optional<Scene>& scene, const ExitConditions& conditions,
+                   double& budget) {
   if (!context.robot) return;
   try {
     Probe probe(*context.robot, scene, budget);
     Remarks remarks(context.diagnostics);
-    for (const TaskText& task : context.file.tasks) {
-      if (!probe.is_exhausted()) ask_task(context, task, probe, remarks);
+    const Asked asked{conditions, held_steerings(context, context.robot->model),
+                      scene.value_or(Scene{}).floor_friction};
+    if (!context.diagnostics.has_errors())
+      ask_exits(context, plan_always(context), context.file.always_exits, conditions.of_always, probe,
+                remarks);
+    for (std::size_t i = 0; i < context.file.tasks.size(); ++i) {
+      const TaskText& task = context.file.tasks[i];
+      if (!probe.is_exhausted()) ask_task(context, i, asked, probe, remarks);
       if (!probe.is_exhausted()) continue;
       context.diagnostics.add(wording::unasked(task.name.span, task.name.text));
       return;

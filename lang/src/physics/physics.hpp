@@ -6,7 +6,14 @@
 
 namespace zwang::lang {
 
+/// The condition of each exit; without nodes where it could not be read.
+struct ExitConditions {
+  const std::vector<std::vector<Condition>>& of_tasks;
+  const std::vector<Condition>& of_always;
+};
+
 /// Asks what can be asked of a file that may have other errors; notes only where they are wanted.
-void check_physics(CheckContext& context, const std::optional<Scene>& scene, double& budget);
+void check_physics(CheckContext& context, const std::optional<Scene>& scene, const ExitConditions& conditions,
+                   double& budget);
 
 }  // namespace zwang::lang

@@ -12,24 +12,6 @@ using solver::Quantity;
 constexpr std::array quantities{Quantity::position, Quantity::velocity, Quantity::acceleration,
                                 Quantity::force};
 
-struct Place {
-  solver::AttachedFrame frame{-1, {}};
-  bool is_known = true;  ///< false: it hangs on a signal
-};
-
-/// Where a frame is fixed: the parents stand before it in the table, so the chain ends.
-Place place_of(const Symbols& symbols, int index) {
-  Place place;
-  while (index > 0) {
-    const FrameDeclaration& declaration = symbols.frames[static_cast<std::size_t>(index)].declaration;
-    place.frame.pose = declaration.pose * place.frame.pose;
-    if (declaration.parent == FrameParent::body) place.frame.body = declaration.parent_index;
-    if (declaration.parent == FrameParent::signal) place.is_known = false;
-    index = declaration.parent == FrameParent::frame ? declaration.parent_index : 0;
-  }
-  return place;
-}
-
 std::optional<int> good_frame(const Symbols& symbols, const Word& name) {
   const std::optional<int> index = symbols.find_frame(name.text);
   if (!index || symbols.frames[static_cast<std::size_t>(*index)].is_bad) return std::nullopt;
@@ -91,6 +73,7 @@ void stand_between(PlannedAxis& axis, const Place& move, const Place& in) {
   axis.in = in.frame;
   axis.in_world = axis.in.body < 0;
   axis.is_placed = move.is_known && in.is_known;
+  axis.is_set = move.is_set || in.is_set;
 }
 
 /// Of an axis of a group: false when its frames or its name cannot be read.
@@ -103,7 +86,7 @@ bool measure_axis(const CheckContext& context, const GroupText& group, const Axi
   axis.move_name = group.move.text;
   axis.in_name = group.in.text;
   axis.axis = *named;
-  stand_between(axis, place_of(context.symbols, *move), place_of(context.symbols, *in));
+  stand_between(axis, place_of(context, *move), place_of(context, *in));
   return true;
 }
 
@@ -112,8 +95,8 @@ bool measure_feature(const CheckContext& context, const GroupText& group, Planne
   const std::optional<int> index = context.symbols.find_feature(group.feature.text);
   if (!index || context.symbols.features[static_cast<std::size_t>(*index)].is_bad) return false;
   const Feature& feature = context.symbols.features[static_cast<std::size_t>(*index)].feature;
-  Place move = place_of(context.symbols, feature.first);
-  Place in = place_of(context.symbols, feature.second);
+  Place move = place_of(context, feature.first);
+  Place in = place_of(context, feature.second);
   if (feature.kind == FeatureKind::direction) {
     axis.axis = feature.turns ? solver::Axis::rz : solver::Axis::x;
     axis.measure = solver::Measure::direction;
@@ -176,7 +159,7 @@ void plan_speed(const CheckContext& context, const GroupText& group, const AxisT
   const std::optional<StatementText>& velocity = text[Quantity::velocity];
   if (!move || !velocity || !velocity->is_range) return;
   const std::optional<double> most = known(context, velocity->high, dimension::velocity);
-  const int body = place_of(context.symbols, *move).frame.body;
+  const int body = place_of(context, *move).frame.body;
   if (!most || !(*most > 0.0) || body < 0) return;
   speeds.push_back({(in_always ? "always." : "") + group.name.text + ".speed", body, *most, velocity->span});
 }
@@ -253,6 +236,19 @@ void find_corners(std::vector<PlannedAxis>& axes) {
 
 }  // namespace
 
+Place place_of(const CheckContext& context, int index) {
+  Place place;
+  while (index > 0) {
+    const FrameDeclaration& declaration = context.symbols.frames[static_cast<std::size_t>(index)].declaration;
+    place.is_set = place.is_set || is_frame_set(context.file, declaration.name);
+    place.frame.pose = declaration.pose * place.frame.pose;
+    if (declaration.parent == FrameParent::body) place.frame.body = declaration.parent_index;
+    if (declaration.parent == FrameParent::signal) place.is_known = false;
+    index = declaration.parent == FrameParent::frame ? declaration.parent_index : 0;
+  }
+  return place;
+}
+
 double PlannedTask::speed_limit(const PlannedAxis& axis) const {
   const std::optional<solver::Range>& range = axis[solver::Quantity::velocity];
   double most = range ? std::max(range->high, -range->low) : solver::infinity;
@@ -263,10 +259,15 @@ double PlannedTask::speed_limit(const PlannedAxis& axis) const {
   return most;
 }
 
-PlannedTask plan_task(const CheckContext& context, const TaskText& task) {
+PlannedTask plan_always(const CheckContext& context) {
   PlannedTask plan;
-  plan.task = &task;
   plan_groups(context, context.file.always_groups, true, plan);
+  return plan;
+}
+
+PlannedTask plan_task(const CheckContext& context, const TaskText& task) {
+  PlannedTask plan = plan_always(context);
+  plan.task = &task;
   plan_groups(context, task.groups, false, plan);
   add_robot_limits(context, plan.axes);
   find_corners(plan.axes);

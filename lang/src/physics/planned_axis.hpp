@@ -26,6 +26,7 @@ struct PlannedAxis {
   solver::Axis other_axis = solver::Axis::x;  ///< of an angle: the one of `in`
   std::array<double, 6> coefficients{};       ///< of a direction
   bool is_placed = true;  ///< false: a frame hangs on a signal, so nobody knows yet where it is
+  bool is_set = false;    ///< a `set` of the file puts one of its frames elsewhere
   std::optional<solver::Quantity> driver;
   std::optional<double> target;  ///< at the start; none: `here`, or a signal's
   std::optional<double>
@@ -81,7 +82,18 @@ struct PlannedTask {
   double speed_limit(const PlannedAxis& axis) const;
 };
 
+struct Place {
+  solver::AttachedFrame frame{-1, {}};
+  bool is_known = true;  ///< false: it hangs on a signal
+  bool is_set = false;   ///< a `set` of the file puts it elsewhere
+};
+
+/// Where a frame is fixed: the parents stand before it in the table, so the chain ends.
+Place place_of(const CheckContext& context, int index);
+
 /// What can be read of the task; what is bad, and was complained of, is left out.
 PlannedTask plan_task(const CheckContext& context, const TaskText& task);
+/// The same of what is in force in every task; without a task.
+PlannedTask plan_always(const CheckContext& context);
 
 }  // namespace zwang::lang

@@ -78,7 +78,8 @@ Probe::Probe(const Robot& robot, const std::optional<Scene>& scene, double& budg
 }
 
 std::string Probe::frame_ahead() const {
-  if (base_mobility_ != 2) return "";
+  // A base that steers has another freedom once it has steered, and at any moment one arc to go along.
+  if (base_mobility_ != 2 || solver::analyse_base(robot_.model, states_[0]).base_mobility != 2) return "";
   double ahead = 0.0;
   for (const solver::Vector3& corner : robot_.footprint) ahead = std::max(ahead, corner.x());
   const std::string at = wording::figure(ahead > 0.05 ? ahead : 0.3, "m");
@@ -273,6 +274,45 @@ int Probe::rank(const std::vector<const PlannedAxis*>& axes) {
     rank = std::max(rank, rank_at(axes, general_[i]));
   }
   return rank;
+}
+
+int Probe::rank_at_start(const std::vector<const PlannedAxis*>& axes) {
+  const bool is_asked = axes.size() <= static_cast<std::size_t>(most_rows) && pay(axes.size(), 2.0);
+  return is_asked ? rank_at(axes, states_[0]) : static_cast<int>(axes.size());
+}
+
+int Probe::alignment(const PlannedAxis& a, const PlannedAxis& b) {
+  const bool is_known = a.is_placed && b.is_placed && !a.is_set && !b.is_set;
+  const bool is_named_alike = a.in_name == b.in_name && a.move_name == b.move_name;
+  if (a.move.body != b.move.body || (!is_known && !is_named_alike) || !pay(2, 0.1)) return 0;
+  // A base on the ground moves in the plane: what a row demands of it otherwise the ground meets.
+  const bool is_on_ground = robot_.model.base_type() == solver::BaseType::ground;
+  const auto is_close = [&](int body, const solver::ForceVector& m, const solver::ForceVector& n,
+                            double sign) {
+    solver::Vector3 angular = m.angular - sign * n.angular, linear = m.linear - sign * n.linear;
+    if (body == 0 && is_on_ground) {
+      angular.head<2>().setZero();
+      linear.z() = 0.0;
+    }
+    return angular.norm() + linear.norm() < 1e-9;
+  };
+  int sign = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const solver::Row row = row_along(a, general_[i]), other = row_along(b, general_[i]);
+    if (row.body != other.body || row.reference_body != other.reference_body) return 0;
+    const auto is_alike = [&](double s) {
+      return is_close(row.body, row.a, other.a, s) &&
+             (row.reference_body < 0 || is_close(row.reference_body, row.a_reference, other.a_reference, s));
+    };
+    const int found = is_alike(1.0) ? 1 : is_alike(-1.0) ? -1 : 0;
+    if (found == 0 || (i > 0 && found != sign)) return 0;
+    sign = found;
+  }
+  return sign;
+}
+
+double Probe::position_at_start(const PlannedAxis& axis) const {
+  return solver::coordinate_of(constraint_of(axis, 0.0), robot_.model, states_[0]).position;
 }
 
 int Probe::kinematic_rank(const std::vector<const PlannedAxis*>& axes) {

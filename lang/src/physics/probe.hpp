@@ -57,6 +57,12 @@ class Probe {
   int rank(const std::vector<const PlannedAxis*>& axes);
   /// The same without the ground and the joints: of the bodies' own coordinates.
   int kinematic_rank(const std::vector<const PlannedAxis*>& axes);
+  /// The same at the start pose alone.
+  int rank_at_start(const std::vector<const PlannedAxis*>& axes);
+  /// 1 where both axes are one motion, -1 where one is the other turned around, else 0.
+  int alignment(const PlannedAxis& a, const PlannedAxis& b);
+  /// The coordinate of an axis whose place is known. [m] or [rad]
+  double position_at_start(const PlannedAxis& axis) const;
   /// What a force driver presses with against something that blocks its axis, after the acceleration ranges
   /// among `limits` took their part: an entry for each configuration and direction in which it can be told.
   std::vector<Pressed> pressed(const PlannedAxis& axis, double force, const std::vector<PlannedAxis>& limits);

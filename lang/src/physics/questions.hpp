@@ -6,6 +6,8 @@
 #include <string>
 #include <tuple>
 
+#include "check/endings.hpp"
+#include "physics/physics.hpp"
 #include "physics/planned_axis.hpp"
 #include "physics/probe.hpp"
 
@@ -48,10 +50,12 @@ void ask_top_speed(const PlannedTask& plan, const Robot& robot, Remarks& remarks
 void ask_arm_force(const PlannedTask& plan, const Robot& robot, Remarks& remarks);
 /// E601, W601: force drivers and acceleration ranges.
 void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks);
-/// W602: a guard on `saturated` that never fires.
+/// W602: a guard on `saturated` that never fires. W619: a force range of which less than half is made.
 void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// N603: the first hit.
 void ask_impact(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W601: springs that an acceleration limit clips.
+void ask_springs(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W604: time constants too short for the braking, or for the tick.
 void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// N605: what other rows may add along a limited direction.
@@ -60,6 +64,35 @@ void ask_force_budget(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 void ask_wheel_torque(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W607: boundaries that ask for more braking than the motors have.
 void ask_boundary(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
+
+/// W416: ranges that exclude each other, drivers beyond a range.
+void ask_contradiction(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+
+/// Joints that steer a wheel and that no row of any task turns, by their number.
+std::vector<int> held_steerings(const CheckContext& context, const solver::Model& model);
+/// W643: motion that the wheels hold while nothing steers them.
+void ask_steering(const PlannedTask& plan, const std::vector<int>& held, Probe& probe, Remarks& remarks);
+/// E621, W621: a heading that a wall is to turn, and cannot. `floor_friction`: of the scene.
+void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings, double floor_friction,
+                Probe& probe, Remarks& remarks);
+
+/// W511: exits that the ranges in force decide. `exits` are those of the plan's task, or of `always`.
+void ask_exits(const CheckContext& context, const PlannedTask& plan, const std::vector<ExitText>& exits,
+               const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks);
+
+/// W620: guards on a distance that fire too late to stop. `index`: of the plan's task.
+void ask_stopping(const CheckContext& context, const PlannedTask& plan, const ExitConditions& conditions,
+                  std::size_t index, Probe& probe, Remarks& remarks);
+
+/// The most that ranges in force leave of a speed, and the range that leaves least; no path: the base itself.
+struct SpeedLimit {
+  double most = solver::infinity;  ///< [m/s] or [rad/s]
+  std::string path;
+  Span span;
+};
+/// Of a point on the base; infinite for points elsewhere.
+SpeedLimit most_speed(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe);
+SpeedLimit most_turning(const PlannedTask& plan, Probe& probe);
 
 /// Acceleration that the plan allows along the axis in the direction of `sign`: of ranges on that very axis,
 /// and on the base's own axes of the same kind. Infinite where there is none. `own`: the axis's own range

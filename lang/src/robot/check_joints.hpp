@@ -14,6 +14,10 @@ void check_starts(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnost
 /// not end at one height.
 void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& robot,
                         Diagnostics& diagnostics);
+/// W868: rollers that are mirrored.
+void check_rollers(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics);
+/// W869: wheels that turn across their own cylinder.
+void check_wheel_shapes(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
 /// Of a link and those fixed to it the one whose own inertia no body can have, or nullptr. A model merges
 /// them, and complains of the merged body by its first link's name.
 const UrdfLink* impossible_part(const Urdf& urdf, const std::string& link);

@@ -358,6 +358,8 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   std::optional<Robot> robot = build_robot(*file, *urdf, errors_before, diagnostics);
   if (!robot) return std::nullopt;
   check_wheels_stand(*file, *urdf, *robot, diagnostics);
+  check_rollers(*file, *robot, diagnostics);
+  check_wheel_shapes(*file, *urdf, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   check_speed_limits(*robot, diagnostics);
   return robot;

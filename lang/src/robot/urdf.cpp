@@ -97,14 +97,17 @@ std::optional<double> radius_of(const urdf::GeometrySharedPtr& geometry) {
   return std::nullopt;
 }
 
+/// Its largest round shape; a URDF's cylinder stands along its own z.
 template <typename Shapes>
-std::optional<double> largest_radius(const Shapes& shapes) {
-  std::optional<double> largest;
+void find_round_shape(const Shapes& shapes, UrdfLink& link) {
   for (const auto& shape : shapes) {
     const std::optional<double> radius = shape ? radius_of(shape->geometry) : std::nullopt;
-    if (radius && *radius > largest.value_or(0.0)) largest = radius;
+    if (!radius || !(*radius > link.radius.value_or(0.0))) continue;
+    link.radius = radius;
+    link.cylinder_axis.reset();
+    if (std::dynamic_pointer_cast<urdf::Cylinder>(shape->geometry))
+      link.cylinder_axis = to_pose(shape->origin).rotation.col(2);
   }
-  return largest;
 }
 
 Span span_of(const std::vector<XmlElement>& elements, std::string_view kind, const std::string& name) {
@@ -177,8 +180,9 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics) {
   urdf.name = model->getName();
   urdf.root = model->getRoot()->name;
   for (const auto& [name, link] : model->links_) {
-    UrdfLink result{name, {}, span_of(*elements, "link", name), largest_radius(link->collision_array)};
-    if (!result.radius) result.radius = largest_radius(link->visual_array);
+    UrdfLink result{name, {}, span_of(*elements, "link", name), {}, {}};
+    find_round_shape(link->collision_array, result);
+    if (!result.radius) find_round_shape(link->visual_array, result);
     if (link->inertial) result.inertia = to_inertia(*link->inertial);
     urdf.links.push_back(std::move(result));
   }

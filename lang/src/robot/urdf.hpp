@@ -18,6 +18,7 @@ struct UrdfLink {
   solver::RigidInertia inertia;  ///< zero where the file gives none
   Span span;
   std::optional<double> radius;  ///< [m] of its largest cylinder or sphere, of what collides if there is any
+  std::optional<solver::Vector3> cylinder_axis;  ///< unit vector in the link, where that is a cylinder
 };
 
 /// A <mimic>: another joint that this one follows.

@@ -8,7 +8,9 @@
 #include <set>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_standing.hpp"
 #include "robot/urdf.hpp"
+#include "spec/units.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -29,6 +31,13 @@ constexpr std::array number_rules{
     NumberRule{"axis", "xyz", 3},     NumberRule{"limit", "lower", 1},    NumberRule{"limit", "upper", 1},
     NumberRule{"limit", "effort", 1}, NumberRule{"limit", "velocity", 1},
 };
+
+/// Smaller than a grain of dust; 1 mg of mass 1 um across has 1e-18 kg m^2.
+constexpr double least_mass = 1e-9;      // [kg]
+constexpr double least_inertia = 1e-18;  // [kg m^2]
+/// A thousand tonnes, a kilometre across.
+constexpr double most_inertia = 1e12;  // [kg m^2]
+constexpr double most_distance = 1e3;  // [m]
 
 /// Exactly `count` finite decimal numbers with white space between them.
 std::optional<std::vector<double>> read_numbers(const std::string& text, std::size_t count) {
@@ -155,6 +164,8 @@ class UrdfChecker {
     const double kilograms = number(*mass, "value", 0.0);
     const Span span = elements_[*mass].find("value")->span;
     if (kilograms < 0.0 || kilograms > 1e6) return complain(wording::impossible_mass(span, link, kilograms));
+    if (kilograms > 0.0 && kilograms < least_mass)
+      return complain(wording::beyond_all_bodies(span, link, "a mass", format_number(kilograms) + " kg"));
     solver::Matrix3 m;
     const auto entry = [&](std::string_view key) { return number(*inertia, key, 0.0); };
     m << entry("ixx"), entry("ixy"), entry("ixz"), entry("ixy"), entry("iyy"), entry("iyz"), entry("ixz"),
@@ -165,6 +176,11 @@ class UrdfChecker {
 
   /// Whether a body can have it (the triangle rule) is asked of whole moving bodies, where dynamics need it.
   void check_inertia(const solver::Matrix3& m, const Span& span, const std::string& link) {
+    const double largest = m.cwiseAbs().maxCoeff();
+    if (largest > most_inertia || largest < least_inertia) {
+      return complain(
+          wording::beyond_all_bodies(span, link, "an inertia", format_number(largest) + " kg m^2"));
+    }
     const solver::Vector3 moments = Eigen::SelfAdjointEigenSolver<solver::Matrix3>(m).eigenvalues();
     const double tolerance = 1e-6 * moments.cwiseAbs().maxCoeff();
     if (moments(0) < -tolerance) complain(wording::impossible_inertia(span, link));
@@ -186,8 +202,18 @@ class UrdfChecker {
     if (parent.empty() || below.empty()) return;
     edges_.push_back({i, parent, below});
     const std::optional<std::size_t> origin = child(i, "origin");
-    if (origin) check_numbers(*origin);
+    if (origin && check_numbers(*origin)) check_distance(*origin, below);
     if (type->value != "fixed") check_motion(i, name, type->value);
+  }
+
+  void check_distance(std::size_t origin, const std::string& link) {
+    const XmlAttribute* xyz = elements_[origin].find("xyz");
+    const auto numbers = xyz != nullptr ? read_numbers(xyz->value, 3) : std::nullopt;
+    for (const double number : numbers.value_or(std::vector<double>{})) {
+      if (std::abs(number) <= most_distance) continue;
+      complain(wording::beyond_all_bodies(xyz->span, link, "a place", format_number(number) + " m"));
+      return;
+    }
   }
 
   std::string linked(std::size_t i, const std::string& joint, const std::string& role) {

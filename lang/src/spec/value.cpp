@@ -38,7 +38,16 @@ bool is_spelt_oddly(const std::string& text, const Span& span, Diagnostics& diag
   return true;
 }
 
-ValueText parse_value_text(const std::string& text, const Span& span, Diagnostics& diagnostics) {
+/// The unit that was meant; what an axis that does not turn presses with is no torque.
+std::string unit_meant(const std::string& unknown, const std::string& what) {
+  const std::string meant = nearest_unit(unknown);
+  const bool is_force =
+      what.ends_with(".x.force") || what.ends_with(".y.force") || what.ends_with(".z.force");
+  return is_force && meant == "N m" ? "N" : meant;
+}
+
+ValueText parse_value_text(const std::string& text, const std::string& what, const Span& span,
+                           Diagnostics& diagnostics) {
   ValueText value;
   value.span = span;
   const bool has_braces = text.starts_with("${") || text.starts_with("-${");
@@ -77,7 +86,7 @@ ValueText parse_value_text(const std::string& text, const Span& span, Diagnostic
         diagnostics.add(
             result.unknown.find('+') != std::string::npos || result.unknown.starts_with('-')
                 ? wording::computed_value(span, text)
-                : wording::unknown_unit(span, text, result.unknown, nearest_unit(result.unknown)));
+                : wording::unknown_unit(span, text, result.unknown, unit_meant(result.unknown, what)));
         break;
       case QuantityError::too_large:
         diagnostics.add(wording::number_out_of_range(span, text));
@@ -122,7 +131,7 @@ ValueText parse_value(const Node& node, const std::string& what, Diagnostics& di
     diagnostics.add(wording::range_where_value(node.span, what, trimmed(std::string_view(text).substr(2))));
     return bad;
   }
-  return parse_value_text(text, node.span, diagnostics);
+  return parse_value_text(text, what, node.span, diagnostics);
 }
 
 namespace {
@@ -192,7 +201,7 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
       diagnostics.add(wording::not_a_value(node.span, text));
       return statement;
     }
-    statement.high = parse_value_text(magnitude, node.span, diagnostics);
+    statement.high = parse_value_text(magnitude, what, node.span, diagnostics);
     statement.low = negated(statement.high);
     // The unit that is missing is missing behind the sign of both.
     if (!statement.high.quantity.has_unit)
@@ -233,6 +242,8 @@ bool require_quantity(const ValueText& value, const Dimension& expected, const s
     const bool is_rate = expected == dimension::time && quantity.dimension == dimension::frequency;
     const bool is_period = expected == dimension::frequency && quantity.dimension == dimension::time;
     Diagnostic diagnostic = wording::wrong_dimension(value.span, what, expected, quantity.dimension);
+    if (expected == dimension::force && quantity.dimension == dimension::torque)
+      diagnostic.help = "for example `" + quantity.number + " N`";
     if ((is_rate || is_period) && quantity.value > 0.0)
       diagnostic.help = wording::help_to_invert(1.0 / quantity.value, is_rate);
     diagnostics.add(std::move(diagnostic));

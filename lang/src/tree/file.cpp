@@ -98,7 +98,10 @@ std::optional<std::filesystem::path> resolve_path(const std::string& written,
                                                   const std::filesystem::path& base,
                                                   const std::filesystem::path& root, const Span& cause,
                                                   Diagnostics& diagnostics) {
-  if (written.empty() || written.find("://") != std::string::npos) {
+  // What is opened ends at a NUL, and other control bytes mislead whoever reads the message.
+  const bool has_control =
+      std::any_of(written.begin(), written.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  if (written.empty() || has_control || written.find("://") != std::string::npos) {
     diagnostics.add(wording::not_a_path(cause, written));
     return std::nullopt;
   }

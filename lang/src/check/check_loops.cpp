@@ -1,0 +1,190 @@
+// Tasks that follow each other without end, and pairs of them that a run flutters between.
+#include <algorithm>
+#include <set>
+
+#include "check/endings.hpp"
+#include "diagnostic/wordings_never.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// How long a switch takes where the task says nothing. [s]
+constexpr double default_blend = 0.2;
+
+using Names = std::set<std::string>;
+
+/// Where the task leads to, without ways that something certain always comes before.
+Names ways_from(const CheckContext& context, const TaskText& task, const std::vector<Condition>& conditions) {
+  Names ways;
+  for (std::size_t i = 0; i < task.exits.size(); ++i) {
+    const bool is_read = !conditions[i].nodes.empty();
+    const Ending before = ending_before(context, task, conditions, i);
+    const double dwell = task.exits[i].dwell ? present_value(context, *task.exits[i].dwell) : 0.0;
+    const double first = is_read ? earliest(context, task, task.exits[i], conditions[i]) : 0.0;
+    if (first <= before.time + dwell) ways.insert(task.exits[i].target.text);
+  }
+  if (task.timeout && !task.timeout->is_never) {
+    const double after = present_value(context, task.timeout->after);
+    TaskText rest = task;
+    rest.timeout.reset();
+    if (after <= ending_before(context, rest, conditions, rest.exits.size()).time)
+      ways.insert(task.timeout->target.text);
+  }
+  if (task.attempts) ways.insert(task.attempts->target.text);
+  return ways;
+}
+
+/// A task that says `timeout: never` and leads nowhere is meant to last; W503 tells of one that says nothing.
+bool is_meant_to_last(const TaskText& task) {
+  return task.exits.empty() && (!task.timeout || task.timeout->is_never);
+}
+
+class Ways {
+ public:
+  Ways(const CheckContext& context, const std::vector<std::vector<Condition>>& conditions)
+      : context_(context) {
+    for (const ExitText& exit : context.file.always_exits) always_.insert(exit.target.text);
+    for (std::size_t i = 0; i < context.file.tasks.size(); ++i)
+      from_.push_back(ways_from(context, context.file.tasks[i], conditions[i]));
+  }
+
+  /// Tasks from which a run can come to its end.
+  Names ending() const {
+    Names known{"done", "failed"};
+    for (bool has_grown = true; has_grown;) {
+      has_grown = false;
+      for (std::size_t i = 0; i < from_.size(); ++i) {
+        const std::string& name = context_.file.tasks[i].name.text;
+        if (known.contains(name) || !ends(i, known)) continue;
+        known.insert(name);
+        has_grown = true;
+      }
+    }
+    return known;
+  }
+
+ private:
+  bool ends(std::size_t task, const Names& known) const {
+    const auto leads_on = [&](const std::string& way) { return known.contains(way); };
+    // What `back` resumes may be any task that has been shown to end.
+    const bool goes_back = from_[task].contains("back") && known.size() > 2;
+    return is_meant_to_last(context_.file.tasks[task]) || goes_back ||
+           std::any_of(from_[task].begin(), from_[task].end(), leads_on) ||
+           std::any_of(always_.begin(), always_.end(), leads_on);
+  }
+
+  const CheckContext& context_;
+  Names always_;
+  std::vector<Names> from_;
+};
+
+void check_ways_out(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
+                    const Names& reached) {
+  const Names ending = Ways(context, conditions).ending();
+  std::vector<std::string> endless;
+  const TaskText* first = nullptr;
+  for (const TaskText& task : context.file.tasks) {
+    if (task.is_bad || ending.contains(task.name.text) || !reached.contains(task.name.text)) continue;
+    if (first == nullptr) first = &task;
+    endless.push_back(task.name.text);
+  }
+  if (first != nullptr) context.diagnostics.add(wording::no_way_out(first->name.span, endless));
+}
+
+/// An exit and the cases in which it is true.
+struct Way {
+  const ExitText* exit = nullptr;
+  std::vector<Case> cases;
+};
+
+double blend_of(const CheckContext& context, const TaskText& task) {
+  return task.blend ? present_value(context, *task.blend) : default_blend;
+}
+
+/// What a switch of tasks does not change: a place, a speed, a signal.
+bool outlasts_a_switch(const ExpressionNode& node) {
+  const bool is_motion = node.op == Op::coordinate && (node.what == CoordinateQuantity::position ||
+                                                       node.what == CoordinateQuantity::velocity);
+  return is_motion || node.op == Op::speed || node.op == Op::signal || node.op == Op::feature ||
+         node.op == Op::valid;
+}
+
+/// Exits to the task `to` that may fire before the task that they leave has faded in.
+std::vector<Way> quick_ways(const CheckContext& context, const TaskText& task, const std::string& to,
+                            const std::vector<Condition>& conditions) {
+  std::vector<Way> ways;
+  for (std::size_t i = 0; i < task.exits.size(); ++i) {
+    const ExitText& exit = task.exits[i];
+    if (exit.target.text != to || conditions[i].nodes.empty()) continue;
+    auto cases = cases_of(context, conditions[i], task.groups);
+    const bool is_quick = earliest(context, task, exit, conditions[i]) < blend_of(context, task);
+    if (cases && is_quick) ways.push_back({&exit, std::move(*cases)});
+  }
+  return ways;
+}
+
+/// Both true at one and the same value of something that both ask for, and of nothing that a switch changes.
+bool are_true_together(const Case& a, const Case& b) {
+  const auto lasts = [](const Case& one) {
+    return std::all_of(one.begin(), one.end(),
+                       [](const auto& entry) { return outlasts_a_switch(*entry.second.node); });
+  };
+  const bool shares =
+      std::any_of(a.begin(), a.end(), [&](const auto& entry) { return b.contains(entry.first); });
+  return shares && lasts(a) && lasts(b) && both(a, b).has_value();
+}
+
+bool flutter(const Way& there, const Way& back) {
+  return std::any_of(there.cases.begin(), there.cases.end(), [&](const Case& a) {
+    return std::any_of(back.cases.begin(), back.cases.end(),
+                       [&](const Case& b) { return are_true_together(a, b); });
+  });
+}
+
+void check_flutter(CheckContext& context, const std::vector<std::vector<Condition>>& conditions) {
+  const auto& tasks = context.file.tasks;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    for (std::size_t j = i + 1; j < tasks.size(); ++j) {
+      if (tasks[i].attempts || tasks[j].attempts) continue;
+      for (const Way& there : quick_ways(context, tasks[i], tasks[j].name.text, conditions[i])) {
+        for (const Way& back : quick_ways(context, tasks[j], tasks[i].name.text, conditions[j])) {
+          if (!flutter(there, back)) continue;
+          context.diagnostics.add(wording::to_and_fro(back.exit->when.span, tasks[j].name.text,
+                                                      tasks[i].name.text, there.exit->when.span));
+        }
+      }
+    }
+  }
+}
+
+/// An exit of `always` interrupts a task, and `back` resumes it while the interruption is still true.
+void check_flutter_back(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
+                        const std::vector<Condition>& always_conditions) {
+  static const std::vector<GroupText> none;
+  for (std::size_t a = 0; a < context.file.always_exits.size(); ++a) {
+    const ExitText& interrupts = context.file.always_exits[a];
+    const std::optional<int> target = context.symbols.find_task(interrupts.target.text);
+    if (!target || always_conditions[a].nodes.empty()) continue;
+    const TaskText& task = context.file.tasks[static_cast<std::size_t>(*target)];
+    auto cases = cases_of(context, always_conditions[a], none);
+    if (!cases || task.attempts) continue;
+    const Way there{&interrupts, std::move(*cases)};
+    for (const Way& back : quick_ways(context, task, "back", conditions[static_cast<std::size_t>(*target)])) {
+      if (!flutter(there, back)) continue;
+      context.diagnostics.add(wording::to_and_fro(back.exit->when.span, task.name.text,
+                                                  "what was interrupted", interrupts.when.span));
+    }
+  }
+}
+
+}  // namespace
+
+void check_loops(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
+                 const std::vector<Condition>& always_conditions, const std::set<std::string>& reached) {
+  check_ways_out(context, conditions, reached);
+  check_flutter(context, conditions);
+  check_flutter_back(context, conditions, always_conditions);
+}
+
+}  // namespace zwang::lang

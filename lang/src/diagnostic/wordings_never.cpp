@@ -1,0 +1,182 @@
+#include "diagnostic/wordings_never.hpp"
+
+#include <cmath>
+
+#include "diagnostic/make.hpp"
+
+namespace zwang::lang::wording {
+
+namespace {
+
+std::string within(double low, double high, const std::string& unit) {
+  if (std::isinf(low)) return "at most " + figure(high, unit);
+  if (std::isinf(high)) return "at least " + figure(low, unit);
+  return "within [" + figure(low, unit) + ", " + figure(high, unit) + "]";
+}
+
+Diagnostic related_where_known(Diagnostic diagnostic, const Span& span, const std::string& text) {
+  return span.exists() ? with_related(std::move(diagnostic), span, text) : diagnostic;
+}
+
+std::string ticked(const std::string& path) {
+  const bool is_name = path.find_first_of(" `") == std::string::npos;
+  return is_name ? "`" + path + "`" : path;
+}
+
+std::string by_the_range(const std::string& by) {
+  return by.empty() ? "this base keeps it so" : ticked(by) + " keeps it so";
+}
+
+struct Units {
+  const char *force, *mass, *acceleration, *speed, *way;
+};
+
+Units units(bool turns) {
+  return turns ? Units{"N m", "kg m^2", "rad/s^2", "rad/s", "deg"} : Units{"N", "kg", "m/s^2", "m/s", "m"};
+}
+
+}  // namespace
+
+Diagnostic excluding_ranges(const Span& span, const Bound& own, const Bound& other, const Span& other_span) {
+  return related_where_known(
+      warning("W416", span,
+              ticked(own.path) + " keeps the " + own.quantity + " " + within(own.low, own.high, own.unit) +
+                  ", " + ticked(other.path) + " keeps it " + within(other.low, other.high, other.unit) +
+                  ": no value is in both",
+              "widen one of the two ranges, or take it out"),
+      other_span, "the other range is here");
+}
+
+Diagnostic beyond_a_range(const Span& span, const Bound& asked, const Bound& range, const Span& range_span) {
+  return related_where_known(
+      warning("W416", span,
+              ticked(asked.path) + " asks for a " + asked.quantity + " of " + figure(asked.low, asked.unit) +
+                  ", " + ticked(range.path) + " keeps it " + within(range.low, range.high, range.unit) +
+                  ": it never gets there",
+              "ask for `" + figure(asked.low > range.high ? range.high : range.low, asked.unit) +
+                  "`, or widen the range"),
+      range_span, "the range is here");
+}
+
+Diagnostic no_way_out(const Span& span, const std::vector<std::string>& tasks) {
+  std::string names;
+  for (std::size_t i = 0; i < tasks.size() && i < 4; ++i) names += (i == 0 ? "`" : ", `") + tasks[i] + "`";
+  if (tasks.size() > 4) names += " and " + std::to_string(tasks.size() - 4) + " more";
+  return warning("W510", span, "no way leads from " + names + " to `done` or `failed`: the run never ends",
+                 "let an exit or a timeout lead to `done` or `failed`, or stop it by a signal: "
+                 "`always: {exits: [{when: stop_key, goto: failed}]}`");
+}
+
+Diagnostic to_and_fro(const Span& span, const std::string& from, const std::string& to, const Span& there) {
+  return with_related(
+      warning("W512", span,
+              "this may be true while the exit to `" + from + "` is: the run changes to and fro between `" +
+                  from + "` and " + ticked(to) + ", and neither comes into force",
+              "leave a gap between the two thresholds, or wait here: `for: 1 s`"),
+      there, "this exit leads here");
+}
+
+Diagnostic never_true(const Span& span, const std::string& what, double low, double high,
+                      const std::string& unit, const std::string& by, const Span& range) {
+  return related_where_known(warning("W511", span,
+                                     "this is never true: `" + what + "` stays " + within(low, high, unit) +
+                                         ", as " + by_the_range(by),
+                                     "compare with a value that it can come to, or take the exit out"),
+                             range, "it is bounded here");
+}
+
+Diagnostic always_true(const Span& span, const std::string& what, double low, double high,
+                       const std::string& unit, const std::string& by, const Span& range) {
+  return related_where_known(warning("W511", span,
+                                     "this is true at once: `" + what + "` stays " + within(low, high, unit) +
+                                         ", as " + by_the_range(by),
+                                     "compare with a value that it comes to later, or take the exit out"),
+                             range, "it is bounded here");
+}
+
+Diagnostic contradicts_itself(const Span& span) {
+  return warning("W511", span, "this is never true: its parts exclude each other",
+                 "join them with `or`, or look at the direction of the comparisons");
+}
+
+Diagnostic never_in_time(const Span& span, const std::string& by, const Span& end) {
+  return related_where_known(
+      warning("W511", span, "this is never true for so long: " + by + " ends the task before",
+              "shorten `for`, or let the task last longer"),
+      end, "the task ends here");
+}
+
+Diagnostic never_reached(const Span& span, const Unreached& u, const Span& limit) {
+  const Units unit = units(u.turns);
+  std::string help = "`force: +-" + figure(u.pressed, unit.force) + "` says what it makes";
+  if (u.enough > 0.0) help += ", `time_constant: " + figure(u.enough, "s") + "` makes more of it";
+  if (u.velocity != 0.0 && !limit.exists()) {
+    help += "; to press harder write `force: " + figure(std::copysign(u.bound, u.velocity), unit.force) +
+            ", velocity: +-" + figure(std::abs(u.velocity), unit.speed) + "`";
+  } else if (limit.exists()) {
+    help +=
+        "; to press harder allow an acceleration of `" + figure(u.bound / u.mass, unit.acceleration) + "`";
+  }
+  const std::string from =
+      u.velocity != 0.0 && !limit.exists()
+          ? figure(u.mass, unit.mass) + " x " + figure(std::abs(u.velocity), unit.speed) + " / " +
+                figure(u.time_constant, "s")
+          : figure(u.mass, unit.mass) + " x " + figure(u.acceleration, unit.acceleration);
+  return related_where_known(
+      warning("W619", span,
+              "blocked, `" + u.axis + "` presses with " + figure(u.pressed, unit.force) + " (" + from +
+                  "), never with " + figure(u.bound, unit.force),
+              help),
+      limit, "the acceleration is limited here");
+}
+
+Diagnostic clipped_spring(const Span& span, const Cap& cap, double clipped, const Span& limit) {
+  const Units unit = units(cap.turns);
+  const double degrees = 180.0 / 3.14159265358979;
+  return related_where_known(
+      warning("W601", span,
+              "`" + cap.axis + "` would push with " + figure(cap.wanted, unit.force) +
+                  ", the acceleration limit caps it at " + figure(cap.most, unit.force) + " (" +
+                  figure(cap.mass, unit.mass) + " x " + figure(cap.most / cap.mass, unit.acceleration) +
+                  "): from " + figure(cap.turns ? clipped * degrees : clipped, unit.way) +
+                  " on it is no spring",
+              "`force: +-" + figure(cap.most, unit.force) + "` says so, or allow an acceleration of `" +
+                  figure(cap.wanted / cap.mass, unit.acceleration) + "`"),
+      limit, "the acceleration is limited here");
+}
+
+Diagnostic stops_too_late(const Span& span, const LateGuard& g, const std::string& limit,
+                          const Span& limit_span) {
+  std::string message = figure(g.distance, "m") + " is too late at " + figure(g.speed, "m/s") + ": " +
+                        figure(g.way, "m") + " to stop";
+  if (g.reach > 0.0)
+    message += ", " + figure(g.reach, "m") + " of footprint before `" + g.signal + "` counts";
+  const double enough = std::ceil((g.way + g.reach) * 100.0) / 100.0;
+  std::string help = "ask at `" + figure(enough, "m") + "`";
+  if (g.slow_enough > 0.005)
+    help += ", or keep the speed below " + figure(std::floor(g.slow_enough * 1000.0) / 1000.0, "m/s");
+  return related_where_known(warning("W620", span, message, help), limit_span,
+                             (limit.empty() ? "the speed" : ticked(limit)) + " allows that speed");
+}
+
+Diagnostic cannot_square(const Span& span, const std::string& axis, double floor, double wall,
+                         const Span& exit) {
+  const std::string why = floor > 0.0 ? "a wall turns this base with " + figure(wall, "N m") +
+                                            ", the floor holds it with " + figure(floor, "N m")
+                                      : "the wheels hold the heading of this base, and no wall turns it";
+  const std::string help = "drive `rz` to a measured angle, or take a base that a wall can turn";
+  if (!exit.exists()) return warning("W621", span, "`" + axis + "` is free, but " + why, help);
+  return with_related(error("E621", span, "`" + axis + "` cannot tell square from stuck: " + why, help), exit,
+                      "this is true of a base that is stuck, too");
+}
+
+Diagnostic steering_stands(const Span& span, const std::string& axis, const std::string& steering,
+                           const std::string& link, const std::string& base) {
+  return warning("W643", span,
+                 "nothing moves along `" + axis +
+                     "`: the wheels hold it as they are steered, and nothing turns `" + steering + "`",
+                 "turn it in an earlier task, `steer: {move: " + link + ", in: " + base +
+                     ", rz: {position: 20 deg}}`, and drive ahead along `x`");
+}
+
+}  // namespace zwang::lang::wording

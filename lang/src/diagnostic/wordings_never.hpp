@@ -1,0 +1,71 @@
+/// What is said of a file that reads well and cannot work: ranges that exclude each other, exits that never
+/// come, loops without a way out, forces that are never reached.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnostic/wordings_physics.hpp"
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang::wording {
+
+/// What a path keeps to or, with low = high, asks for. SI.
+struct Bound {
+  std::string path;
+  std::string quantity;  ///< "velocity"
+  std::string unit;
+  double low = 0.0, high = 0.0;
+};
+Diagnostic excluding_ranges(const Span& span, const Bound& own, const Bound& other, const Span& other_span);
+Diagnostic beyond_a_range(const Span& span, const Bound& asked, const Bound& range, const Span& range_span);
+
+/// `task` comes first in the text; the names of all that follow each other. Not empty.
+Diagnostic no_way_out(const Span& span, const std::vector<std::string>& tasks);
+Diagnostic to_and_fro(const Span& span, const std::string& from, const std::string& to, const Span& there);
+
+/// `what` lies within [low, high] by the range `by`. SI.
+Diagnostic never_true(const Span& span, const std::string& what, double low, double high,
+                      const std::string& unit, const std::string& by, const Span& range);
+Diagnostic always_true(const Span& span, const std::string& what, double low, double high,
+                       const std::string& unit, const std::string& by, const Span& range);
+Diagnostic contradicts_itself(const Span& span);
+Diagnostic never_in_time(const Span& span, const std::string& by, const Span& end);
+
+/// What a blocked driver presses with, and its force range. SI.
+struct Unreached {
+  std::string axis;
+  bool turns = false;
+  double mass = 0.0, acceleration = 0.0;
+  double pressed = 0.0;        ///< mass x acceleration
+  double bound = 0.0;          ///< of the force range
+  double velocity = 0.0;       ///< of a velocity driver
+  double time_constant = 0.0;  ///< [s]
+  double enough = 0.0;         ///< a time constant with which it reaches the bound [s]; 0: none does
+};
+/// `limit`: where the acceleration is limited; may be nowhere.
+Diagnostic never_reached(const Span& span, const Unreached& unreached, const Span& limit);
+/// `clipped`: from which way on. [m] or [rad]
+Diagnostic clipped_spring(const Span& span, const Cap& cap, double clipped, const Span& limit);
+
+/// A guard on a distance. [m], [m/s]
+struct LateGuard {
+  std::string signal;
+  double distance = 0.0;
+  double speed = 0.0;
+  double way = 0.0;          ///< to stop
+  double reach = 0.0;        ///< of the footprint
+  double slow_enough = 0.0;  ///< 0: no speed is
+};
+/// `limit`: what allows the speed; empty: the robot itself.
+Diagnostic stops_too_late(const Span& span, const LateGuard& guard, const std::string& limit,
+                          const Span& limit_span);
+
+/// `floor` 0: the wheels hold the heading. [N m]. `exit`: that asks for it; none: W621.
+Diagnostic cannot_square(const Span& span, const std::string& axis, double floor, double wall,
+                         const Span& exit);
+
+Diagnostic steering_stands(const Span& span, const std::string& axis, const std::string& steering,
+                           const std::string& link, const std::string& base);
+
+}  // namespace zwang::lang::wording

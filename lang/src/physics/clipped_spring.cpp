@@ -1,0 +1,49 @@
+// W601 of a spring: drawn farther than s it pushes with no more than an acceleration limit leaves.
+//
+//   k s = m a_max      s: where it is clipped
+//
+// A force range says as much itself. Told where s is less than a spring is meant to be drawn: the way to a
+// place to go to, else what a base is pushed aside by somebody in its way, 0.2 m or 20 deg.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "diagnostic/wordings_never.hpp"
+#include "physics/questions.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+constexpr double pushed_aside = 0.2;                              // [m]
+constexpr double turned_aside = 20.0 * std::numbers::pi / 180.0;  // [rad]
+
+double drawn(const PlannedAxis& axis, const Probe& probe) {
+  const double aside = axis.turns() ? turned_aside : pushed_aside;
+  if (!axis.target || !axis.is_placed || axis.is_set) return aside;
+  return std::max(aside, std::abs(*axis.target - probe.position_at_start(axis)));
+}
+
+}  // namespace
+
+void ask_springs(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
+  for (const PlannedAxis& axis : plan.axes) {
+    if (!axis.is_spring || !axis.stiffness || !(*axis.stiffness > 0.0)) continue;
+    const AxisFigures* figures = probe.figures(axis);
+    if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
+    const AccelerationLimit ahead = acceleration_limit(plan, axis, 1.0, true);
+    const AccelerationLimit back = acceleration_limit(plan, axis, -1.0, true);
+    const AccelerationLimit& limit = ahead.most < back.most ? ahead : back;
+    if (!std::isfinite(limit.most)) continue;
+    const double most = figures->mass * limit.most;
+    double asked = *axis.stiffness * drawn(axis, probe);
+    if (const auto& range = axis[solver::Quantity::force])
+      asked = std::min(asked, std::max(range->high, -range->low));
+    if (asked <= most * (1.0 + 1e-6)) continue;
+    remarks.add(
+        wording::clipped_spring(axis.stiffness_span, {axis.path, axis.turns(), asked, most, figures->mass},
+                                most / *axis.stiffness, limit.from->span(solver::Quantity::acceleration)));
+  }
+}
+
+}  // namespace zwang::lang

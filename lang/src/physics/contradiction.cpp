@@ -1,0 +1,120 @@
+// W416: ranges in force that exclude each other, and drivers whose target lies outside of a range in force.
+//
+//   [l1, h1] and [l2, h2] of one quantity along one axis       h1 < l2 or h2 < l1: no value is in both
+//   target t beside [l, h]                                     t < l or t > h: never reached
+//
+// Two axes are one where their rows are alike, or opposite; positions also count from the same origin.
+// W402 tells of a driver beside a range of `always` with the same words for frames and axis.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "diagnostic/wordings_never.hpp"
+#include "physics/questions.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+using solver::Quantity;
+using solver::Range;
+
+constexpr std::array quantities{Quantity::position, Quantity::velocity, Quantity::acceleration};
+
+bool is_alike(const solver::AttachedFrame& a, const solver::AttachedFrame& b) {
+  return a.body == b.body && a.pose.rotation.isApprox(b.pose.rotation) &&
+         (a.pose.position - b.pose.position).norm() < 1e-9;
+}
+
+/// How `limit` bounds the axis: as it is, turned around, or (nullopt) not at all.
+std::optional<Range> seen_along(const PlannedAxis& axis, const PlannedAxis& limit, Quantity quantity,
+                                Probe& probe) {
+  const int sign = probe.alignment(axis, limit);
+  if (sign == 0) return std::nullopt;
+  const bool shares_origin = sign > 0 && axis.in_name == limit.in_name && is_alike(axis.move, limit.move) &&
+                             is_alike(axis.in, limit.in);
+  if (quantity == Quantity::position && !shares_origin) return std::nullopt;
+  const Range& range = *limit[quantity];
+  return sign > 0 ? range : Range{-range.high, -range.low};
+}
+
+bool may_exclude(const Range& a, const Range& b) {
+  const auto excludes = [](const Range& one, double low, double high) {
+    return one.high < low || one.low > high;
+  };
+  return excludes(a, b.low, b.high) || excludes(a, -b.high, -b.low);
+}
+
+wording::Bound bound_of(const PlannedAxis& axis, Quantity quantity, const Range& range) {
+  return {axis.path, word_of(quantity),
+          usual_unit(dimension_of(axis.turns() ? solver::Axis::rz : solver::Axis::x, quantity)), range.low,
+          range.high};
+}
+
+bool is_of_always(const PlannedAxis& axis) {
+  return axis.text != nullptr && axis.group.empty();
+}
+
+/// W402 is said of it.
+bool is_told_already(const PlannedAxis& axis, const PlannedAxis& limit, Quantity quantity) {
+  return is_of_always(limit) && !is_of_always(axis) && quantity != Quantity::position && !axis.is_feature() &&
+         axis.move_name == limit.move_name && axis.in_name == limit.in_name && axis.axis == limit.axis;
+}
+
+/// Whether the two exclude each other.
+bool compare_ranges(const PlannedAxis& axis, const PlannedAxis& earlier, Quantity quantity, Probe& probe,
+                    Remarks& remarks) {
+  if (!axis[quantity] || !earlier[quantity] || !may_exclude(*axis[quantity], *earlier[quantity]))
+    return false;
+  const std::optional<Range> other = seen_along(axis, earlier, quantity, probe);
+  const Range& own = *axis[quantity];
+  if (!other || (own.low <= other->high && other->low <= own.high)) return false;
+  // The robot file's limit is told at the task's range.
+  const bool is_written = axis.text != nullptr;
+  const PlannedAxis& at = is_written ? axis : earlier;
+  const PlannedAxis& from = is_written ? earlier : axis;
+  remarks.add(wording::excluding_ranges(at.span(quantity), bound_of(at, quantity, *at[quantity]),
+                                        bound_of(from, quantity, *from[quantity]), from.span(quantity)));
+  return true;
+}
+
+void compare_driver(const PlannedAxis& axis, const PlannedAxis& limit, Probe& probe, Remarks& remarks) {
+  const bool drives = axis.drives_motion() && axis.target && axis.text != nullptr;
+  if (!drives || &axis == &limit || !limit[*axis.driver] || is_told_already(axis, limit, *axis.driver))
+    return;
+  const double target = *axis.target;
+  if (!may_exclude({target, target}, *limit[*axis.driver])) return;
+  const std::optional<Range> range = seen_along(axis, limit, *axis.driver, probe);
+  if (!range || (range->low <= target && target <= range->high)) return;
+  remarks.add(wording::beyond_a_range(axis.driver_span(), bound_of(axis, *axis.driver, {target, target}),
+                                      bound_of(limit, *axis.driver, *range), limit.span(*axis.driver)));
+}
+
+/// One cause, one message: where many ranges exclude each other, the first pair is told.
+void ask_ranges(const PlannedTask& plan, Quantity quantity, Probe& probe, Remarks& remarks) {
+  for (std::size_t i = 0; i < plan.axes.size() && !probe.is_exhausted(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (compare_ranges(plan.axes[i], plan.axes[j], quantity, probe, remarks)) return;
+    }
+  }
+}
+
+}  // namespace
+
+void ask_contradiction(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
+  for (const solver::Quantity quantity : quantities) ask_ranges(plan, quantity, probe, remarks);
+  for (const PlannedAxis& axis : plan.axes) {
+    if (probe.is_exhausted()) return;
+    for (const PlannedAxis& limit : plan.axes) compare_driver(axis, limit, probe, remarks);
+    for (const PlannedSpeed& speed : plan.speeds) {
+      const bool is_asked = axis.driver == solver::Quantity::velocity && axis.target && !axis.turns() &&
+                            axis.move.body == speed.body && !speed.path.starts_with("always.");
+      if (!is_asked || std::abs(*axis.target) <= speed.most) continue;
+      remarks.add(wording::beyond_a_range(
+          axis.driver_span(), bound_of(axis, solver::Quantity::velocity, {*axis.target, *axis.target}),
+          {speed.path, "velocity", "m/s", 0.0, speed.most}, speed.span));
+    }
+  }
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,222 @@
+// W620: a guard on a distance, `nearest < d`, that fires too late to stop.
+//
+//   v (for + stale_after + blend/2) + v^2/2a + a T^2/2 <= d - reach          v T for the last two where v < a
+//   T
+//
+//   v      the base's speed limit in a task in which the exit is asked for
+//   a, T   the deceleration that the ranges of the task that stands leave, and its time constant; at `done`
+//   and
+//          `failed` the robot file's `stop`, and no T
+//   reach  of the footprint from the base's origin, from where a distance counts. A guard nearer than that
+//          counts from the footprint.
+//
+// Of two guards on one signal the wider one fires first: what it leads to is as fast as that task says.
+#include <algorithm>
+#include <cmath>
+
+#include "check/cases.hpp"
+#include "diagnostic/wordings_never.hpp"
+#include "physics/questions.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+using solver::Axis;
+using solver::Quantity;
+
+constexpr double default_blend = 0.2;  // [s]
+
+/// How the base comes to rest once the guard is true.
+struct Braking {
+  double deceleration = solver::infinity;  ///< [m/s^2]
+  double time_constant = 0.0;              ///< [s]
+  double delay = 0.0;                      ///< [s] before it brakes
+};
+
+double way_to_stop(double speed, const Braking& braking) {
+  const double a = braking.deceleration, T = braking.time_constant;
+  const double braked = speed < a * T ? speed * T : speed * speed / (2.0 * a) + 0.5 * a * T * T;
+  return speed * braking.delay + (std::isfinite(a) ? braked : speed * T);
+}
+
+/// The largest speed that stops within the way; the way grows with the speed.
+double speed_for(double way, const Braking& braking, double most) {
+  double low = 0.0, high = most;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (way_to_stop(middle, braking) > way ? high : low) = middle;
+  }
+  return low;
+}
+
+double present(const CheckContext& context, const std::optional<ValueText>& value, double none) {
+  return value ? present_value(context, *value) : none;
+}
+
+/// The number signal of a length that the exit compares, and with what; nullopt: it is no such guard.
+struct Guard {
+  int signal = -1;
+  double distance = 0.0;  ///< [m]
+};
+
+std::optional<Guard> guard_of(const CheckContext& context, const Condition& condition,
+                              const std::vector<GroupText>& groups) {
+  const auto cases = cases_of(context, condition, groups);
+  if (!cases) return std::nullopt;
+  for (const Case& one : *cases) {
+    std::optional<Guard> guard;
+    bool is_alone = true;
+    for (const auto& [key, demanded] : one) {
+      const ExpressionNode& node = *demanded.node;
+      const bool is_signal = node.op == Op::signal || node.op == Op::valid;
+      const SignalSymbol* signal =
+          node.op == Op::signal ? &context.symbols.signals[static_cast<std::size_t>(node.index)] : nullptr;
+      const bool measures = signal != nullptr && signal->signal.type == SignalType::number &&
+                            signal->dimension == dimension::length;
+      if (measures && std::isfinite(demanded.bounds.high)) guard = Guard{node.index, demanded.bounds.high};
+      is_alone = is_alone && is_signal;
+    }
+    if (guard && is_alone && guard->distance > 0.0) return guard;
+  }
+  return std::nullopt;
+}
+
+class StoppingQuestion {
+ public:
+  StoppingQuestion(const CheckContext& context, const ExitConditions& conditions, Probe& probe,
+                   Remarks& remarks)
+      : context_(context), conditions_(conditions), probe_(probe), remarks_(remarks) {}
+
+  /// In the task `index`: of its own exits and of those of `always`.
+  void ask(const PlannedTask& plan, std::size_t index) {
+    const SpeedLimit limit = fastest(plan);
+    if (!std::isfinite(limit.most) || !(limit.most > 0.0)) return;
+    const std::vector<Guarded> guards = guards_of(plan, index);
+    for (const Guarded& one : guards) {
+      const bool comes_later = std::any_of(guards.begin(), guards.end(), [&](const Guarded& other) {
+        return other.guard.signal == one.guard.signal && other.guard.distance > one.guard.distance;
+      });
+      if (!comes_later && one.exit->target.text != plan.task->name.text) compare(one, limit);
+    }
+  }
+
+ private:
+  struct Guarded {
+    const ExitText* exit;
+    Guard guard;
+  };
+
+  std::vector<Guarded> guards_of(const PlannedTask& plan, std::size_t index) const {
+    std::vector<Guarded> guards;
+    const auto add = [&](const std::vector<ExitText>& exits, const std::vector<Condition>& conditions,
+                         const std::vector<GroupText>& groups) {
+      for (std::size_t i = 0; i < exits.size(); ++i) {
+        if (const auto guard = guard_of(context_, conditions[i], groups))
+          guards.push_back({&exits[i], *guard});
+      }
+    };
+    static const std::vector<GroupText> none;
+    add(context_.file.always_exits, conditions_.of_always, none);
+    add(plan.task->exits, conditions_.of_tasks[index], plan.task->groups);
+    return guards;
+  }
+
+  /// Where the task drives the base with known velocities alone, no faster than those.
+  SpeedLimit fastest(const PlannedTask& plan) {
+    SpeedLimit limit = most_speed(plan, {0, {}}, probe_);
+    double squares = 0.0;
+    bool is_known = false;
+    for (const PlannedAxis& axis : plan.axes) {
+      if (!axis.driver || axis.move.body != 0 || axis.turns()) continue;
+      if (axis.driver != Quantity::velocity || !axis.target || axis.is_feature()) return limit;
+      squares += *axis.target * *axis.target;
+      is_known = true;
+    }
+    if (is_known) limit.most = std::min(limit.most, std::sqrt(squares));
+    return limit;
+  }
+
+  /// nullopt: the task goes on moving, or nobody knows how it brakes.
+  std::optional<Braking> braking_into(const ExitText& exit) {
+    const std::string& target = exit.target.text;
+    Braking braking;
+    if (target == "done" || target == "failed") {
+      const Stop& stop = probe_.robot().stop;
+      braking.deceleration = std::min(stop.deceleration, stop.force / probe_.robot().model.total_mass());
+      return braking;
+    }
+    const std::optional<int> task = context_.symbols.find_task(target);
+    if (!task) return std::nullopt;
+    const TaskText& text = context_.file.tasks[static_cast<std::size_t>(*task)];
+    const PlannedTask plan = plan_task(context_, text);
+    bool stands = false;
+    for (const PlannedAxis& axis : plan.axes) {
+      if (!axis.driver || axis.move.body != 0 || axis.turns() || axis.is_feature()) continue;
+      const bool is_still = axis.stands_still() || (axis.driver == Quantity::position && !axis.target);
+      if (!is_still) return std::nullopt;
+      const AxisFigures* figures = probe_.figures(axis);
+      if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
+      stands = true;
+      add_axis(plan, axis, figures->least_mass, braking);
+    }
+    if (!stands) return std::nullopt;
+    braking.delay = 0.5 * present(context_, text.blend, default_blend);
+    return braking;
+  }
+
+  /// The least of what the ranges along the axis leave, whichever way the base goes. Casters that trail along
+  /// the motion weigh least.
+  void add_axis(const PlannedTask& plan, const PlannedAxis& axis, double mass, Braking& braking) {
+    double a = std::min(acceleration_limit(plan, axis, 1.0, true).most,
+                        acceleration_limit(plan, axis, -1.0, true).most);
+    for (const PlannedAxis& other : plan.axes) {
+      const auto& force = other[Quantity::force];
+      const bool bounds = force && (&other == &axis || (!other.driver && probe_.alignment(axis, other) != 0));
+      if (bounds) a = std::min(a, std::min(force->high, -force->low) / mass);
+    }
+    braking.deceleration = std::min(braking.deceleration, a);
+    braking.time_constant = std::max(braking.time_constant, axis.time_constant);
+  }
+
+  void compare(const Guarded& one, const SpeedLimit& limit) {
+    std::optional<Braking> braking = braking_into(*one.exit);
+    if (!braking) return;
+    const auto signal = static_cast<std::size_t>(one.guard.signal);
+    const std::optional<ValueText>& stale_after = context_.file.signals[signal].stale_after;
+    braking->delay += present(context_, one.exit->dwell, 0.0) + present(context_, stale_after, 0.0);
+    const double outline = reach();
+    const double reach = one.guard.distance > outline ? outline : 0.0;
+    const double way = way_to_stop(limit.most, *braking);
+    if (way + reach <= one.guard.distance * (1.0 + 1e-6)) return;
+    const double slow_enough = speed_for(one.guard.distance - reach, *braking, limit.most);
+    remarks_.add(wording::stops_too_late(one.exit->when.span,
+                                         {context_.symbols.signals[signal].signal.name, one.guard.distance,
+                                          limit.most, way, reach, slow_enough},
+                                         limit.path, limit.span));
+  }
+
+  double reach() {
+    double most = 0.0;
+    const bool goes_sideways = probe_.base_mobility() == 3;
+    for (const solver::Vector3& corner : probe_.robot().footprint) {
+      most = std::max(most, std::abs(corner.x()));
+      if (goes_sideways) most = std::max(most, std::abs(corner.y()));
+    }
+    return most;
+  }
+
+  const CheckContext& context_;
+  const ExitConditions& conditions_;
+  Probe& probe_;
+  Remarks& remarks_;
+};
+
+}  // namespace
+
+void ask_stopping(const CheckContext& context, const PlannedTask& plan, const ExitConditions& conditions,
+                  std::size_t index, Probe& probe, Remarks& remarks) {
+  StoppingQuestion(context, conditions, probe, remarks).ask(plan, index);
+}
+
+}  // namespace zwang::lang
