@@ -142,7 +142,7 @@ std::vector<Mistake> mistakes() {
       {"two_drivers", "docking", "velocity: [-0.05 m/s, 0.05 m/s]", "velocity: 0.05 m/s", "E401", {}},
       {"swapped_frames", "docking", "in: standoff", "in: hook", "E405", "velocity: +-0.25 m/s"},
       {"dead_guard", "docking", "reach < 3 cm, for: 0.2 s", "reach < -3 cm, for: 0.2 s", "E505", {}},
-      {"release_on_the_wrong_side", "hospital", "release: 1.2 m", "release: 0.6 m", "E506", {}},
+      {"release_on_the_wrong_side", "hospital", "release: 1.5 m", "release: 0.6 m", "E506", {}},
       {"back_from_a_task_of_its_own",
        "hospital",
        "for: 1 s, goto: to_door",
