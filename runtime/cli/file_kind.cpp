@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "output.hpp"
+#include "plant_start.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/notes.hpp"
 #include "zwang/lang/program.hpp"
@@ -98,10 +99,12 @@ std::optional<FileKind> kind_by_key(const std::string& path) {
 }
 
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,
-                                   const lang::LoadOptions& options, bool with_notes) {
+                                   const Reading& reading) {
+  const lang::LoadOptions& options = reading.options;
   switch (kind) {
     case FileKind::robot:
       if (const auto robot = lang::load_robot(path, diagnostics)) {
+        if (reading.with_plant) check_plant(*robot, diagnostics);
         return "robot `" + robot->name + "`, " + count(robot->model.wheels().size(), "wheel") + ", " +
                with_unit(robot->model.total_mass(), "kg", 3);
       }
@@ -120,7 +123,9 @@ std::optional<std::string> read_as(FileKind kind, const std::string& path, lang:
     case FileKind::task:
       break;
   }
-  if (const auto program = (with_notes ? lang::load_with_notes : lang::load)(path, options, diagnostics)) {
+  if (const auto program =
+          (reading.with_notes ? lang::load_with_notes : lang::load)(path, options, diagnostics)) {
+    if (reading.with_plant) check_plant(*program, diagnostics);
     return count(program->tasks.size(), "task") + ", robot `" + program->robot.name + "`" +
            (program->scene ? ", with a scene" : "");
   }

@@ -14,9 +14,13 @@ const char* word_of(FileKind kind);
 /// By the file's first key, a misspelt one, too: its reader says what is wrong. nullopt when it is none of
 /// zwang's.
 std::optional<FileKind> kind_by_key(const std::string& path);
-/// What was read, in a few words; nothing when it is bad. `options` are a task file's. `with_notes`: notes
-/// are looked for, too.
+struct Reading {
+  lang::LoadOptions options = {};  ///< of a task file
+  bool with_notes = false;         ///< notes are looked for, too
+  bool with_plant = false;         ///< the simulated plant of a task or robot file is asked, E915
+};
+/// What was read, in a few words; nothing when it is bad.
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,
-                                   const lang::LoadOptions& options = {}, bool with_notes = false);
+                                   const Reading& reading = {});
 
 }  // namespace zwang::cli

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "output.hpp"
+#include "plant_start.hpp"
 #include "reload.hpp"
 #include "run_log.hpp"
 #include "run_report.hpp"
@@ -180,16 +181,18 @@ int run(const RunArguments& arguments) {
   lang::Diagnostics diagnostics;
   require_file(arguments.file);
   const std::optional<lang::Program> program = load(arguments, diagnostics);
+  std::unique_ptr<runtime::ScenePlant> plant;
+  if (program && program->scene && !diagnostics.has_errors()) {
+    runtime::ScenePlantOptions options = plant_options(*program);
+    options.seed = arguments.seed;
+    plant = start_plant(*program, options, diagnostics);
+  }
   const bool refused = !program || diagnostics.has_errors();
   report_diagnostics(diagnostics, refused, arguments.format);
   if (refused) return exit_bad;
   if (!program->scene)
     throw Impossible(arguments.file + ": names no scene to run in; give one with --scene FILE");
 
-  runtime::ScenePlantOptions options;
-  options.simulation.period = runtime::SimulationSteps(program->robot.control_period).period();
-  options.seed = arguments.seed;
-  runtime::ScenePlant plant(*program, options);
   runtime::RunnerSettings settings;
   settings.extra_columns = truth_columns(*program->scene);
   runtime::Runner runner(*program, settings);
@@ -197,9 +200,9 @@ int run(const RunArguments& arguments) {
   const fs::path folder = make_log_folder(arguments);
   Recorders recorders;
   recorders.push_back(record(runner, folder, "log", context_of(arguments, diagnostics)));
-  for (std::size_t i = 0; i < plant.partners().size(); ++i) {
+  for (std::size_t i = 0; i < plant->partners().size(); ++i) {
     const lang::SceneRobot& robot = program->scene->robots[i];
-    recorders.push_back(record(plant.partners()[i].runner, folder, "log-" + robot.name,
+    recorders.push_back(record(plant->partners()[i].runner, folder, "log-" + robot.name,
                                context_of(arguments, *program->scene, robot, diagnostics)));
   }
 
@@ -218,7 +221,7 @@ int run(const RunArguments& arguments) {
   const auto begin = Clock::now();
   std::optional<Reloads> reloads;
   if (arguments.watch) reloads.emplace(arguments, folder, *program, diagnostics, settings, recorders);
-  control(plant, runner, recorders, *program, arguments.watchdog, reloads ? &*reloads : nullptr, live,
+  control(*plant, runner, recorders, *program, arguments.watchdog, reloads ? &*reloads : nullptr, live,
           report);
   if (reloads) {
     reloads->end();
@@ -229,7 +232,7 @@ int run(const RunArguments& arguments) {
   for (const auto& recorder : recorders) recorder->close();
   live.end();
 
-  const std::size_t partner_logs = plant.partners().size();
+  const std::size_t partner_logs = plant->partners().size();
   for (std::size_t i = 0; i < recorders.size(); ++i) {
     const runtime::RecorderStatus log = recorders[i]->status();
     // The first robot's stand before and behind the partners'.

@@ -125,7 +125,7 @@ int validate(const ValidateArguments& arguments) {
     Checked& file = checked.emplace_back();
     file.path = path;
     file.kind = kind_of(path);
-    file.summary = read_as(file.kind, path, file.diagnostics, options, arguments.notes);
+    file.summary = read_as(file.kind, path, file.diagnostics, {options, arguments.notes, true});
     const bool is_denied = arguments.deny_warnings && file.diagnostics.count(lang::Severity::warning) > 0;
     file.is_good = file.summary && !file.diagnostics.has_errors() && !is_denied;
     is_good = is_good && file.is_good;

@@ -55,6 +55,38 @@ tasks:
     constraints: {still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
 )";
 
+// An arm that starts inside of a block: only the plant knows where its tip is. What `validate` calls good
+// starts, and what `run` refuses was told by `validate`, in the same words.
+TEST_F(Cli, ValidateRefusesWhatThePlantRefuses) {
+  const std::string arm = specs + "robots/mecanum_arm_base.yaml";
+  const fs::path task = write("stand.yaml", "zwang: 1\nrobot: none.yaml" + std::string(stand) +
+                                                "    timeout: {after: 0.01 s, goto: done}\n");
+  const auto scene_with_block = [&](const std::string& thickness) {
+    return write("block.yaml",
+                 "zwang_scene: 1\nstart: {at: [0 m, 0 m]}\nobjects:\n  block: {wall: {length: "
+                 "2 m, thickness: " +
+                     thickness + ", height: 3 m}, at: [0.41 m, 0 m]}\n")
+        .string();
+  };
+  for (const bool is_inside : {true, false}) {
+    const std::string scene = scene_with_block(is_inside ? "2 m" : "1 cm");
+    const Result good = zwang({"validate", task.string(), "--robot", arm, "--scene", scene});
+    const Result run = zwang({"run", task.string(), "--robot", arm, "--scene", scene, "--quiet"});
+    EXPECT_EQ(good.code, is_inside ? 1 : 0) << good.out;
+    EXPECT_EQ(run.code, is_inside ? 1 : 0) << run.err;
+    if (!is_inside) continue;
+    const std::string told = good.out.substr(0, good.out.rfind(task.string() + ": "));
+    EXPECT_TRUE(run.err.starts_with(told)) << run.err;
+    const std::string golden = std::string(ZWANG_SOURCE_DIR) + "/tests/conformance/cli_E915_tip.expected";
+    const std::string name = folder_.string() + "/";
+    std::string said = told;
+    for (std::size_t at = said.find(name); at != std::string::npos; at = said.find(name))
+      said.erase(at, name.size());
+    if (std::getenv("ZWANG_WRITE_EXPECTED") != nullptr) std::ofstream(golden) << said;
+    EXPECT_EQ(said, read(golden));
+  }
+}
+
 TEST_F(Cli, RunsTheShippedTaskAndTellsTheStoryInJson) {
   const Result r = zwang({"run", wall_align, "--format", "json"});
   EXPECT_EQ(r.code, 0) << r.err;

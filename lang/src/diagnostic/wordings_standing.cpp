@@ -90,6 +90,21 @@ Diagnostic loose_wheel(const Span& span, const std::string& wheel, const std::st
       declared, "it is declared here");
 }
 
+Diagnostic holds_nothing(const Span& span, const std::string& what) {
+  return error("E802", span, what + " holds neither `rolling` nor `sideways`: it carries, and drives nothing",
+               "delete `holds` for a plain wheel, or list its link under `supports`");
+}
+
+Diagnostic steered_skid(const Span& span, const std::string& wheel, const std::string& carrier,
+                        const Span& declared) {
+  return with_related(
+      error("E802", span,
+            "wheel " + in_ticks(wheel) + " slides sideways, and joint " + in_ticks(carrier) +
+                " steers it: the simulated plant has friction for such wheels on the base only",
+            "delete its `holds`: a wheel that is steered holds sideways, too"),
+      declared, "it is steered here");
+}
+
 Diagnostic moving_support(const Span& span, const std::string& link, const std::string& carrier,
                           const Span& declared) {
   return with_related(error("E802", span,
@@ -158,6 +173,11 @@ Diagnostic starts_inside(const Span& span, const std::string& robot, const std::
   return error("E913", span,
                robot + " starts inside " + in_ticks(other) + ": they overlap by " + in_length(depth),
                "move one of them: the footprint of a robot must be clear of what it could touch");
+}
+
+Diagnostic plant_refuses(const Span& span, const std::string& reason) {
+  return error("E915", span, "the simulated plant cannot start: " + reason,
+               "change the part that it names: `run` and `test` start with the simulated plant");
 }
 
 Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& wheel) {

@@ -29,6 +29,11 @@ Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span&
 /// `carrier`: a joint between the base and the wheel that does not steer it.
 Diagnostic loose_wheel(const Span& span, const std::string& wheel, const std::string& carrier,
                        const Span& declared);
+/// `what`: the wheel, whose `holds` is empty.
+Diagnostic holds_nothing(const Span& span, const std::string& what);
+/// The wheel slides sideways, `holds: [rolling]`, and hangs on the moving joint `carrier`.
+Diagnostic steered_skid(const Span& span, const std::string& wheel, const std::string& carrier,
+                        const Span& declared);
 /// Of `supports`: a link that joint `carrier` moves.
 Diagnostic moving_support(const Span& span, const std::string& link, const std::string& carrier,
                           const Span& declared);
@@ -54,6 +59,9 @@ Diagnostic beyond_all_bodies(const Span& span, const std::string& link, const st
 Diagnostic limit_without_width(const Span& span, const std::string& what);
 /// `depth`: how far one of the two has to move for them to part. [m]
 Diagnostic starts_inside(const Span& span, const std::string& robot, const std::string& other, double depth);
+
+/// What the simulated plant refuses to start with.
+Diagnostic plant_refuses(const Span& span, const std::string& reason);
 
 /// A speed that the wheels cannot turn to.
 struct TooFast {

@@ -32,7 +32,8 @@ joint `continuous` there.)~",
           .why =
               R"~(A wheel turns on its own joint and holds some direction on the ground: its roller's axis, or rolling
 and sideways. This one slides, is named twice, turns about an axis that points up, holds what no wheel can hold, has rollers that would let it
-drive nothing, or hangs on a joint that does not steer it: a rocker or a spring. Or one of `supports` moves.)~",
+drive nothing, slides sideways though it is steered, or hangs on a joint that does not steer it: a rocker or a spring. Or one of `supports`
+moves.)~",
           .fix =
               R"~(Give mecanum and omni wheels a `roller`, the angle about the base's +z from the wheel's axis to the
 roller's at the ground; plain wheels need none. `holds: [rolling]` is for skid steering.)~",

@@ -127,6 +127,16 @@ std::span<const Explanation> scenes() {
                          "lower than the robot's `bumper` pass below it.",
                   .fix = "Move the object, or the `start`. A wall's `at` lies on its face, which looks along "
                          "its own -x."},
+      Explanation{
+          .code = "E915",
+          .title = "what the simulated plant cannot start with",
+          .why =
+              "`validate` starts the simulated plant of each task and robot file, as `run` does. The plant "
+              "refuses a robot "
+              "or a scene that it cannot simulate. The message gives its reason.",
+          .fix = "Change what the message names. A part of an arm that starts inside an object, or a mass of "
+                 "a millionth of a "
+                 "gram, is the usual cause."},
   };
   return entries;
 }

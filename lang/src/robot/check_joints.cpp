@@ -97,6 +97,13 @@ void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& ro
           wording::upright_wheel(text_of(wheel)->joint.span, joint.name, urdf.find_joint(joint.name)->span));
     }
   }
+  for (const solver::Wheel& wheel : wheels) {
+    const int carrier = robot.model.bodies()[static_cast<std::size_t>(wheel.body)].parent;
+    if (carrier == 0 || wheel.roller_angle || wheel.holds_sideways) continue;
+    const Word& named = text_of(wheel)->joint;
+    const std::string& steering = robot.model.joint(carrier - 1).name;
+    diagnostics.add(wording::steered_skid(named.span, named.text, steering, urdf.find_joint(steering)->span));
+  }
   std::set<int> told;  // bodies: a rocker carries two wheels
   for (const solver::Wheel& wheel : wheels) {
     const auto& bodies = robot.model.bodies();

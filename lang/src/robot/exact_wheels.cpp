@@ -165,14 +165,23 @@ class ExactWheels {
     return axle;
   }
 
-  /// The wheels that a steering carries, on axles that meet its own axis where a motor turns it.
+  /// The wheels that a swivel carries, on axles that meet its own axis where a motor turns it. A wheel alone
+  /// stands right below it: beside it, driving would turn the steering.
   void align_on(int carrier) {
     std::vector<Axle> axles;
+    const bool has_motor = model_.joint(carrier - 1).actuated;
+    const Vector3 middle = pose_in_base(carrier).position;
     for (const Wheel& wheel : model_.wheels()) {
       if (holds_sideways(wheel) && model_.bodies()[at(wheel.body)].parent == carrier)
-        axles.push_back(axle_of(wheel.body, wheel.body, pose_in_base(carrier).position));
+        axles.push_back(axle_of(wheel.body, wheel.body, middle));
     }
-    align(std::move(axles), model_.joint(carrier - 1).actuated);
+    const bool is_alone = has_motor && axles.size() == 1;
+    const int alone = is_alone ? axles.front().body : 0;
+    align(std::move(axles), has_motor);
+    if (!is_alone) return;
+    const Vector3 along = axle_of(alone, alone, middle).along;
+    const double aside = along.dot(pose_in_base(alone).position - middle);
+    if (std::abs(aside) <= most_wheel_offset + rounding) move(alone, -aside * along);
   }
 
   /// Wheels on the base, and steerings whose axles meet their axis: those do not hold the base with a lever.

@@ -8,7 +8,7 @@
 ///
 ///   1. an axis that nearly is level, or nearly along x or y of the base, is so; that of a swivel, upright
 ///   2. wheels that nearly share an axle on what carries them do, and an axle that nearly meets the axis
-///      that steers it meets it
+///      that steers it meets it; a wheel alone stands right below
 ///   3. axles of base and steered wheels that nearly coincide while all joints are at 0 do, and run through
 ///      the base's origin if they nearly do
 ///

@@ -54,6 +54,7 @@ WheelText parse_wheel(const Node& node, Diagnostics& diagnostics) {
       }
     }
     if (map.optional("roller") != nullptr) diagnostics.add(wording::holds_and_roller(holds->span, what));
+    if (holds->items.empty()) diagnostics.add(wording::holds_nothing(holds->span, what));
   }
   map.finish();
   return wheel;

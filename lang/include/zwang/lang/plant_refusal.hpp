@@ -1,0 +1,17 @@
+/// What a simulated plant says of a robot and a scene that it cannot simulate, told as of the files.
+#pragma once
+
+#include <string>
+
+#include "zwang/lang/diagnostic.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/scene.hpp"
+
+namespace zwang::lang {
+
+/// E915, at the object, robot or joint of the scene and the robot that `reason` names in back ticks, else
+/// where the robot file begins to name joints. `scene` may be nullptr.
+void tell_plant_refusal(const std::string& reason, const Robot& robot, const Scene* scene,
+                        Diagnostics& diagnostics);
+
+}  // namespace zwang::lang
