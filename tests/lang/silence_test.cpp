@@ -235,6 +235,46 @@ std::string late_guard(Draw& d, bool fault) {
       head);
 }
 
+std::string flutter_in_a_ring(Draw& d, bool fault) {
+  const double most = d.number(0.8, 1.5), least = most * (fault ? d.number(0.3, 0.9) : d.number(1.1, 2.0));
+  const std::string head = "signals: {gap: {type: number, unit: m, stale_after: 200 ms}}\n";
+  const std::string still = drive("velocity: 0 m/s");
+  const auto below = [&](double part) { return "gap < " + q(most * part, "m"); };
+  return file(task("a", drive("velocity: 0.05 m/s"), exit_when(below(1.0), "b", 0.02), fails) +
+                  task("b", still, exit_when(below(0.95), "c", 0.02), fails) +
+                  task("c", still, exit_when("gap > " + q(least, "m"), "a", 0.02), fails),
+              head);
+}
+
+/// Without a force range the bound is what the motors make, here 101 N.
+std::string never_saturated(Draw& d, bool fault) {
+  const double v = d.number(0.05, 0.1), T = d.number(0.3, 0.5), made = mass * v / T;
+  const std::string bound = fault ? "" : ", force: " + range(-0.8 * made, 0.8 * made, "N");
+  return file(task("a", drive("velocity: " + q(v, "m/s") + ", time_constant: " + q(T, "s") + bound),
+                   exit_when("go.x.saturated and moved(base_link) > 1 cm", "done"), fails));
+}
+
+std::string force_beyond_a_sum(Draw& d, bool fault) {
+  const double most = d.number(10.0, 30.0), push = most * (fault ? d.number(1.1, 1.8) : d.number(0.3, 0.95));
+  const std::string head =
+      "always: {constraints: {soft: {move: base_link, in: base_link, x: {force: " + range(-most, most, "N") +
+      "}}}}\n";
+  return file(task("a",
+                   "constraints: {go: {move: bumper, in: base_link, x: {force: " + q(push, "N") +
+                       ", velocity: +-0.1 m/s}}}",
+                   "", "{after: 5 s, goto: done}"),
+              head);
+}
+
+std::string faster_than_a_norm(Draw& d, bool fault) {
+  const double most = d.number(0.1, 0.5), least = most * (fault ? d.number(1.1, 1.8) : d.number(0.2, 0.9));
+  return file(task(
+      "a",
+      "constraints: {go: {move: base_link, in: base_link, x: {velocity: " + range(least, least + 0.2, "m/s") +
+          "}, speed: {velocity: " + range(0.0, most, "m/s") + "}}}",
+      "", "{after: 5 s, goto: done}"));
+}
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all{
       {"two_ranges", {"W416"}, two_ranges},
@@ -247,6 +287,10 @@ const std::vector<Kind>& kinds() {
       {"clipped_spring", {"W601"}, clipped_spring},
       {"held_steering", {"W643", "E404"}, held_steering},
       {"late_guard", {"W620"}, late_guard},
+      {"flutter_in_a_ring", {"W512"}, flutter_in_a_ring},
+      {"never_saturated", {"W602"}, never_saturated},
+      {"force_beyond_a_sum", {"W416"}, force_beyond_a_sum},
+      {"faster_than_a_norm", {"W416"}, faster_than_a_norm},
   };
   return all;
 }
@@ -271,7 +315,7 @@ class Silence : public testing::Test {
     return all;
   }
 
-  static int count() { return std::getenv("ZWANG_LONG") != nullptr ? 200 : 60; }
+  static int count() { return std::getenv("ZWANG_LONG") != nullptr ? 200 : 70; }
 
   test::Folder folder_;
 };

@@ -1,4 +1,4 @@
-// Tasks that follow each other without end, and pairs of them that a run flutters between.
+// Tasks that follow each other without end, and rings of them that a run flutters around in.
 #include <algorithm>
 #include <set>
 
@@ -142,21 +142,71 @@ bool flutter(const Way& there, const Way& back) {
   });
 }
 
-void check_flutter(CheckContext& context, const std::vector<std::vector<Condition>>& conditions) {
-  const auto& tasks = context.file.tasks;
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    for (std::size_t j = i + 1; j < tasks.size(); ++j) {
-      if (tasks[i].attempts || tasks[j].attempts) continue;
-      for (const Way& there : quick_ways(context, tasks[i], tasks[j].name.text, conditions[i])) {
-        for (const Way& back : quick_ways(context, tasks[j], tasks[i].name.text, conditions[j])) {
-          if (!flutter(there, back)) continue;
-          context.diagnostics.add(wording::to_and_fro(back.exit->when.span, tasks[j].name.text,
-                                                      tasks[i].name.text, there.exit->when.span));
+/// Rings of tasks whose exits are all true at one and the same value.
+class Flutter {
+ public:
+  Flutter(CheckContext& context, const std::vector<std::vector<Condition>>& conditions) : context_(context) {
+    const auto& tasks = context.file.tasks;
+    hops_.resize(tasks.size());
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      for (const ExitText& exit : tasks[i].exits) add_hops(i, exit.target.text, conditions[i]);
+    }
+  }
+
+  void tell() {
+    for (first_ = 0; first_ < hops_.size(); ++first_) {
+      on_way_.assign(hops_.size(), false);
+      follow(first_, {}, nullptr);
+    }
+  }
+
+ private:
+  struct Hop {
+    std::size_t to;
+    Way way;
+  };
+
+  void add_hops(std::size_t from, const std::string& to, const std::vector<Condition>& conditions) {
+    const TaskText& task = context_.file.tasks[from];
+    const std::optional<int> target = context_.symbols.find_task(to);
+    const auto leads_there = [&](const Hop& hop) {
+      return target && hop.to == static_cast<std::size_t>(*target);
+    };
+    const bool is_known = std::any_of(hops_[from].begin(), hops_[from].end(), leads_there);
+    if (!target || is_known || task.attempts) return;
+    for (Way& way : quick_ways(context_, task, to, conditions))
+      hops_[from].push_back({static_cast<std::size_t>(*target), std::move(way)});
+  }
+
+  /// Each ring is found from the first of its tasks. True once one is told.
+  bool follow(std::size_t at, const Case& so_far, const ExitText* begin) {
+    on_way_[at] = true;
+    for (const Hop& hop : hops_[at]) {
+      if (hop.to < first_ || (hop.to != first_ && on_way_[hop.to])) continue;
+      for (const Case& one : hop.way.cases) {
+        if (--steps_ < 0) return true;
+        if (begin != nullptr && !are_true_together(so_far, one)) continue;
+        if (hop.to != first_) {
+          const std::optional<Case> joined = both(so_far, one);
+          if (joined && follow(hop.to, *joined, begin != nullptr ? begin : hop.way.exit)) return true;
+        } else if (begin != nullptr) {
+          const auto& tasks = context_.file.tasks;
+          context_.diagnostics.add(wording::to_and_fro(hop.way.exit->when.span, tasks[at].name.text,
+                                                       tasks[first_].name.text, begin->when.span));
+          return true;
         }
       }
     }
+    on_way_[at] = false;
+    return false;
   }
-}
+
+  CheckContext& context_;
+  std::vector<std::vector<Hop>> hops_;
+  std::vector<bool> on_way_;
+  std::size_t first_ = 0;
+  int steps_ = 20000;  ///< a file may be hostile
+};
 
 /// An exit of `always` interrupts a task, and `back` resumes it while the interruption is still true.
 void check_flutter_back(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
@@ -183,7 +233,7 @@ void check_flutter_back(CheckContext& context, const std::vector<std::vector<Con
 void check_loops(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
                  const std::vector<Condition>& always_conditions, const std::set<std::string>& reached) {
   check_ways_out(context, conditions, reached);
-  check_flutter(context, conditions);
+  Flutter(context, conditions).tell();
   check_flutter_back(context, conditions, always_conditions);
 }
 

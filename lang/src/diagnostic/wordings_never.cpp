@@ -70,10 +70,10 @@ Diagnostic no_way_out(const Span& span, const std::vector<std::string>& tasks) {
 Diagnostic to_and_fro(const Span& span, const std::string& from, const std::string& to, const Span& there) {
   return with_related(
       warning("W512", span,
-              "this may be true while the exit to `" + from + "` is: the run changes to and fro between `" +
-                  from + "` and " + ticked(to) + ", and neither comes into force",
-              "leave a gap between the two thresholds, or wait here: `for: 1 s`"),
-      there, "this exit leads here");
+              "this may be true while what leads to `" + from + "` is: the run is back in " + ticked(to) +
+                  " at once, goes around, and no task on the way comes into force",
+              "leave a gap between the thresholds, or wait here: `for: 1 s`"),
+      there, "the way there begins with this exit");
 }
 
 Diagnostic never_true(const Span& span, const std::string& what, double low, double high,
@@ -128,6 +128,16 @@ Diagnostic never_reached(const Span& span, const Unreached& u, const Span& limit
                   "), never with " + figure(u.bound, unit.force),
               help),
       limit, "the acceleration is limited here");
+}
+
+Diagnostic never_saturated(const Span& span, const Unreached& u, double motors) {
+  const Units unit = units(u.turns);
+  return warning("W602", span,
+                 "`" + u.axis + "` is never saturated: blocked, it presses with " +
+                     figure(u.pressed, unit.force) + " at most (" + figure(u.mass, unit.mass) + " x " +
+                     figure(u.acceleration, unit.acceleration) + "), the motors make " +
+                     figure(motors, unit.force),
+                 "give the axis a force range of `+-" + figure(0.9 * u.pressed, unit.force) + "` or less");
 }
 
 Diagnostic clipped_spring(const Span& span, const Cap& cap, double clipped, const Span& limit) {

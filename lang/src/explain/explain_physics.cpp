@@ -47,7 +47,7 @@ tasks:
           .why =
               R"~(Blocked, a velocity driver asks for the acceleration velocity / time_constant and presses with the
 effective mass times that. When this is less than the axis's force range, the driver never comes to its bound and
-`saturated` stays false, however hard the obstacle.)~",
+`saturated` stays false, however hard the obstacle. Without a force range the bound is what the motors make.)~",
           .fix = "Narrow the force range or shorten the `time_constant`: the message has both numbers.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:

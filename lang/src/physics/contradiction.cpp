@@ -79,7 +79,9 @@ bool compare_ranges(const PlannedAxis& axis, const PlannedAxis& earlier, Quantit
 }
 
 void compare_driver(const PlannedAxis& axis, const PlannedAxis& limit, Probe& probe, Remarks& remarks) {
-  const bool drives = axis.drives_motion() && axis.target && axis.text != nullptr;
+  // A force range beside a motion driver is that driver's own; alone it bounds all rows from its level on.
+  const bool presses = axis.driver == Quantity::force && !limit.driver && limit.level <= axis.level;
+  const bool drives = (axis.drives_motion() || presses) && axis.target && axis.text != nullptr;
   if (!drives || &axis == &limit || !limit[*axis.driver] || is_told_already(axis, limit, *axis.driver))
     return;
   const double target = *axis.target;
@@ -99,6 +101,17 @@ void ask_ranges(const PlannedTask& plan, Quantity quantity, Probe& probe, Remark
   }
 }
 
+/// A norm is no less than the velocity along any axis.
+void compare_with_norm(const PlannedAxis& axis, const PlannedSpeed& speed, Remarks& remarks) {
+  const auto& range = axis[Quantity::velocity];
+  if (!range || axis.turns() || axis.move.body != speed.body || axis.is_feature() || axis.text == nullptr)
+    return;
+  if (std::max(range->low, -range->high) <= speed.most) return;
+  remarks.add(wording::excluding_ranges(axis.span(Quantity::velocity),
+                                        bound_of(axis, Quantity::velocity, *range),
+                                        {speed.path, "velocity", "m/s", 0.0, speed.most}, speed.span));
+}
+
 }  // namespace
 
 void ask_contradiction(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
@@ -107,6 +120,7 @@ void ask_contradiction(const PlannedTask& plan, Probe& probe, Remarks& remarks) 
     if (probe.is_exhausted()) return;
     for (const PlannedAxis& limit : plan.axes) compare_driver(axis, limit, probe, remarks);
     for (const PlannedSpeed& speed : plan.speeds) {
+      compare_with_norm(axis, speed, remarks);
       const bool is_asked = axis.driver == solver::Quantity::velocity && axis.target && !axis.turns() &&
                             axis.move.body == speed.body && !speed.path.starts_with("always.");
       if (!is_asked || std::abs(*axis.target) <= speed.most) continue;

@@ -9,10 +9,11 @@
 //   position               b = v / h with a velocity range [-v, v], as far away the range decides; else no
 //   bound
 //
-// W602: an exit asks for `saturated`, and b does not reach the range. Where another range stops the base at
-// less than b, the driver misses its b in the open already and runs into its bound: that guard is not dead.
-// W619: of a velocity or an acceleration less than half of the range is pressed; of a position, whose demand
-// grows with the distance, less than a tenth: there the range is a bound for bases of any mass.
+// W602: an exit asks for `saturated`, and b does not reach the range, or without one what the motors make.
+// Where another range stops the base at less than b, the driver misses its b in the open already and runs
+// into its bound: that guard is not dead. W619: of a velocity or an acceleration less than half of the range
+// is pressed; of a position, whose demand grows with the distance, less than a tenth: there the range is a
+// bound for bases of any mass.
 #include <algorithm>
 #include <cmath>
 
@@ -104,16 +105,31 @@ void ask_axis(const CheckContext& context, const PlannedTask& plan, const Planne
       by_limit && own_limit.from != nullptr ? own_limit.from->span(solver::Quantity::acceleration) : Span{}));
 }
 
+/// Its bound is what the motors make.
+void ask_without_range(const CheckContext& context, const PlannedTask& plan, const PlannedAxis& axis,
+                       const Demand& demand, const AxisFigures& figures, Remarks& remarks) {
+  const std::optional<Span> guard = guard_on(context, plan, axis);
+  const double b = std::abs(demand.b);
+  const bool is_clipped = nearest_limit(plan, axis, demand, true).most < b;
+  if (!guard || is_clipped || figures.mass * b >= figures.force) return;
+  remarks.add(wording::never_saturated(
+      *guard, {axis.path, axis.turns(), figures.mass, b, figures.mass * b, figures.force}, figures.force));
+}
+
 }  // namespace
 
 void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
-    const bool is_asked = axis.drives_motion() && axis[solver::Quantity::force] && axis.text != nullptr &&
-                          !axis.is_soft && axis.time_constant > 0.0;
+    const bool is_asked =
+        axis.drives_motion() && axis.text != nullptr && !axis.is_soft && axis.time_constant > 0.0;
     const std::optional<Demand> demand = is_asked ? demand_of(axis) : std::nullopt;
     const AxisFigures* figures = demand && demand->b != 0.0 ? probe.figures(axis) : nullptr;
     if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
-    ask_axis(context, plan, axis, *demand, figures->mass, remarks);
+    if (axis[solver::Quantity::force]) {
+      ask_axis(context, plan, axis, *demand, figures->mass, remarks);
+    } else if (!context.diagnostics.has_errors()) {
+      ask_without_range(context, plan, axis, *demand, *figures, remarks);
+    }
   }
 }
 
