@@ -1,7 +1,8 @@
-/// A file that is only ever appended to, and words for what goes wrong with it.
+/// A file that is appended to and read back, and words for what goes wrong with it.
 #pragma once
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -21,12 +22,19 @@ class LogFile {
 
   /// Each returns what went wrong, or nothing.
   std::string open() {
-    file_ = std::fopen(path_.c_str(), "wb");
+    file_ = std::fopen(path_.c_str(), "wb+");
     return file_ == nullptr ? path_.string() + ": " + std::strerror(errno) : "";
   }
   std::string append(std::string_view bytes) {
     size_ += bytes.size();
     return std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size() ? "" : failed("written");
+  }
+  /// What was appended and flushed; fewer bytes at the end, and where it cannot be read.
+  std::string read_at(std::size_t offset, std::size_t bytes) const {
+    std::string read(bytes, '\0');
+    const ssize_t count = ::pread(::fileno(file_), read.data(), bytes, static_cast<off_t>(offset));
+    read.resize(count > 0 ? static_cast<std::size_t>(count) : 0);
+    return read;
   }
   std::string flush() { return std::fflush(file_) == 0 ? "" : failed("written"); }
   std::string close() {

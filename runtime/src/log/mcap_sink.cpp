@@ -4,6 +4,7 @@
 #include "log/compression.hpp"
 #include "log/log_file.hpp"
 #include "log/mcap_format.hpp"
+#include "log/source_paths.hpp"
 #include "log/tick_json.hpp"
 #include "zwang/runtime/recorder.hpp"
 
@@ -40,7 +41,7 @@ std::string map_of(const std::map<std::string, std::string>& facts) {
 class McapSink : public LogSink {
  public:
   McapSink(const std::filesystem::path& path, LogContext context)
-      : file_(path), context_(std::move(context)) {}
+      : file_(path), context_(with_paths_from_one_folder(std::move(context))) {}
 
   std::string open(const std::vector<Column>& columns) override {
     json_ = std::make_unique<TickJson>(columns);
@@ -54,6 +55,7 @@ class McapSink : public LogSink {
     for (const lang::Source& source : context_.sources) {
       if (error.empty()) error = append_attachment(source);
     }
+    first_chunk_ = file_.size();
     return error.empty() ? file_.flush() : error;
   }
 
@@ -88,7 +90,7 @@ class McapSink : public LogSink {
       error = append_metadata(mcap::end_name, {{mcap::end_sequence, std::to_string(sequence_)}});
     // Chunks and attachments have CRCs of their own; schema, facts and the index of each chunk have this one.
     if (error.empty()) error = append(mcap::record(Opcode::data_end, Content().u32(data_crc_).bytes()));
-    if (error.empty()) error = append(summary());
+    if (error.empty()) error = append_summary();
     const std::string closing = file_.close();
     return error.empty() ? closing : error;
   }
@@ -158,19 +160,6 @@ class McapSink : public LogSink {
     for (const Stamp& stamp : chunk_times_) stamps.u64(stamp.time).u64(stamp.offset);
     const std::string index =
         mcap::record(Opcode::message_index, Content().u16(tick_id).text(stamps.bytes()).bytes());
-    const std::uint64_t start = file_.size();
-    chunk_index_ +=
-        mcap::record(Opcode::chunk_index, Content()
-                                              .u64(first->time)
-                                              .u64(last->time)
-                                              .u64(start)
-                                              .u64(whole.size())
-                                              .text(Content().u16(tick_id).u64(start + whole.size()).bytes())
-                                              .u64(index.size())
-                                              .text("zstd")
-                                              .u64(packed->size())
-                                              .u64(chunk_.size())
-                                              .bytes());
     begin_ = std::min(begin_, first->time);
     end_ = std::max(end_, last->time);
     ++chunks_;
@@ -188,21 +177,63 @@ class McapSink : public LogSink {
     return mcap::record(Opcode::statistics, content.bytes());
   }
 
-  /// The summary, and the footer with the CRC of the summary and of its own fields before the CRC.
-  std::string summary() const {
-    std::string whole = schema_and_channel_ + statistics() + chunk_index_ + index_;
+  /// The index of the chunk that begins at `place`, and where the record behind it begins. Empty where none
+  /// does.
+  std::string chunk_index_at(std::size_t place, std::size_t& next) const {
+    constexpr std::string_view compression = "zstd";
+    constexpr std::size_t fields = 8 + 8 + 8 + 4 + (4 + compression.size()) + 8;
+    const std::string chunk = file_.read_at(place, mcap::record_head + fields);
+    mcap::Reader head(chunk);
+    const unsigned char opcode = head.opcode();
+    const std::size_t size = mcap::record_head + static_cast<std::size_t>(head.u64());
+    next = place + size;
+    if (opcode != Opcode::chunk) return "";
+    const std::uint64_t first = head.u64(), last = head.u64(), unpacked = head.u64();
+    head.u32();
+    head.text();
+    const std::uint64_t packed = head.u64();
+    const std::string of_messages = file_.read_at(next, mcap::record_head);
+    mcap::Reader index(of_messages);
+    index.opcode();
+    const std::uint64_t index_size = mcap::record_head + index.u64();
+    if (!head.good() || !index.good()) return "";
     Content content;
-    content.u64(file_.size()).u64(0);
+    content.u64(first).u64(last).u64(place).u64(size).text(Content().u16(tick_id).u64(next).bytes());
+    content.u64(index_size).text(compression).u64(packed).u64(unpacked);
+    return mcap::record(Opcode::chunk_index, content.bytes());
+  }
+
+  /// The summary, and the footer with the CRC of the summary and of its own fields before the CRC. The chunks
+  /// are read back for it: an index of 20 chunks a second, kept in memory, would grow for as long as a run.
+  std::string append_summary() {
+    const std::size_t begin = file_.size();
+    std::string error = file_.flush();
+    std::uint32_t crc = crc32("");
+    const auto put = [&](std::string_view bytes) {
+      crc = crc32(bytes, crc);
+      if (error.empty()) error = file_.append(bytes);
+    };
+    put(schema_and_channel_ + statistics());
+    for (std::size_t place = first_chunk_, next = 0; place < begin && error.empty(); place = next) {
+      put(chunk_index_at(place, next));
+      if (next <= place) break;
+    }
+    put(index_);
+    Content content;
+    content.u64(begin).u64(0);
     Content head;  // of the footer's record, whose length is known
     head.raw(std::string(1, static_cast<char>(Opcode::footer))).u64(content.bytes().size() + 4);
-    content.u32(crc32(whole + head.bytes() + content.bytes()));
-    return whole + mcap::record(Opcode::footer, content.bytes()) + std::string(mcap::magic);
+    crc = crc32(head.bytes() + content.bytes(), crc);
+    content.u32(crc);
+    const std::string footer = mcap::record(Opcode::footer, content.bytes()) + std::string(mcap::magic);
+    return error.empty() ? file_.append(footer) : error;
   }
 
   LogFile file_;
   LogContext context_;
   std::unique_ptr<TickJson> json_;
-  std::string schema_and_channel_, index_, chunk_index_;  // of the summary
+  std::string schema_and_channel_, index_;  // of the summary
+  std::size_t first_chunk_ = 0;             ///< [bytes] where it begins
   std::string chunk_;
   std::vector<Stamp> chunk_times_;
   std::uint32_t data_crc_ = 0;
