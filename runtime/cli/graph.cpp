@@ -207,7 +207,7 @@ int graph(const GraphArguments& arguments) {
     return exit_bad;
   }
   const Graph graph = graph_of(*program);
-  print(arguments.format == GraphFormat::dot ? dot(graph) : mermaid(graph));
+  print_data(arguments.format == GraphFormat::dot ? dot(graph) : mermaid(graph));
   return exit_good;
 }
 

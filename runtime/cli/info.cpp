@@ -101,11 +101,13 @@ int info(const InfoArguments& arguments) {
           tasks.push_back({time, std::string(task)});
         }
       });
-  print(arguments.format == Format::json
-            ? as_json(arguments.file, log, tasks, events)
-                      .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
-                  "\n"
-            : printable(as_text(arguments.file, log, tasks, events)));
+  if (arguments.format == Format::json) {
+    print_data(as_json(arguments.file, log, tasks, events)
+                   .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+               "\n");
+  } else {
+    print(as_text(arguments.file, log, tasks, events));
+  }
   return log.closed && log.damage.empty() ? exit_good : exit_bad;
 }
 

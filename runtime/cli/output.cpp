@@ -10,35 +10,40 @@
 #include <filesystem>
 #include <numbers>
 
+#include "zwang/lang/printable.hpp"
+
 namespace zwang::cli {
 
-void print(std::string_view text) {
-  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+namespace {
+
+void write(std::string_view bytes) {
+  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
   if (!written || std::fflush(stdout) != 0) {
     throw Impossible(std::string("cannot write to the standard output: ") + std::strerror(errno));
   }
 }
 
-void print_error(std::string_view text) {
-  const std::string shown = printable(text);
-  std::fwrite(shown.data(), 1, shown.size(), stderr);
-  std::fflush(stderr);
+}  // namespace
+
+void print(std::string_view text) {
+  write(lang::printable(text));
 }
 
-std::string printable(std::string_view text) {
-  std::string shown;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool is_control = (byte < 0x20 && c != '\n' && c != '\t') || byte == 0x7F;
-    if (!is_control) {
-      shown += c;
-      continue;
-    }
-    char hex[8];
-    std::snprintf(hex, sizeof hex, "\\x%02x", static_cast<unsigned>(byte));
-    shown += hex;
-  }
-  return shown;
+void print_data(std::string_view text) {
+  stdout_is_terminal() ? print(text) : write(text);
+}
+
+void print_over(std::string_view line) {
+  std::string whole = "\r";
+  whole += lang::printable(line, "");
+  whole += "\033[K";
+  write(whole);
+}
+
+void print_error(std::string_view text) {
+  const std::string shown = lang::printable(text);
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
+  std::fflush(stderr);
 }
 
 bool stdout_is_terminal() noexcept {

@@ -15,12 +15,15 @@ class Impossible : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes to stdout at once. Throws Impossible when stdout is closed or full.
+/// For people: written to stdout at once, as `lang::printable` has it. Throws Impossible when stdout is
+/// closed or full.
 void print(std::string_view text);
-void print_error(std::string_view text);  ///< control bytes as `printable` has them
+/// For programs: JSON, a graph, a file's text. Byte for byte, but on a terminal as `print` has it.
+void print_data(std::string_view text);
+/// For people, in the place of the terminal's last line.
+void print_over(std::string_view line);
+void print_error(std::string_view text);  ///< as `print` has it, to stderr
 
-/// Control bytes but the ends of lines as \xNN: what a log or a name says must not write to the terminal.
-std::string printable(std::string_view text);
 bool stdout_is_terminal() noexcept;
 
 /// Keeps the three standard descriptors from being reused by a file that is opened later. Throws Impossible

@@ -251,7 +251,7 @@ int plan(const PlanArguments& arguments) {
     } else {
       lang::render_human(diagnostics, text);
     }
-    print(text.str());
+    print_data(text.str());
     return exit_bad;
   }
   std::vector<int> wanted;
@@ -267,7 +267,7 @@ int plan(const PlanArguments& arguments) {
   std::vector<TaskPlan> plans;
   for (const int index : wanted) plans.push_back(planner.plan(index));
   if (arguments.format == Format::json) {
-    print(json(plans, base.mobility, planner.configurations(), diagnostics));
+    print_data(json(plans, base.mobility, planner.configurations(), diagnostics));
     return exit_good;
   }
   for (const TaskPlan& task : plans) {

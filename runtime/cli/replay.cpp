@@ -94,11 +94,13 @@ int replay(const ReplayArguments& arguments) {
   }
   const runtime::ReplayResult result = runtime::replay(parts, runtime::logged_settings(log.context));
   const bool whole = log.closed && log.damage.empty();
-  print(arguments.format == Format::json
-            ? as_json(arguments.file, result, whole, log.context)
-                      .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
-                  "\n"
-            : printable(as_text(arguments.file, result, whole, log.context)));
+  if (arguments.format == Format::json) {
+    print_data(as_json(arguments.file, result, whole, log.context)
+                   .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
+               "\n");
+  } else {
+    print(as_text(arguments.file, result, whole, log.context));
+  }
   return whole && result.records > 0 && result.equal == result.records ? exit_good : exit_bad;
 }
 

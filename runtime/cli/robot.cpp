@@ -229,7 +229,7 @@ void show(const lang::Robot& robot, Format format) {
     const ordered_json whole = {
         {"robot", robot.name}, {"drive", drive_of(robot.model)}, {"mass", robot.model.total_mass()},
         {"wheels", wheels},    {"analysis", json(analysis)},     {"missing", gaps(robot)}};
-    print(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    print_data(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
     return;
   }
   std::string text = "robot `" + robot.name + "`, " + number(robot.model.total_mass()) + " kg, " +
@@ -269,7 +269,7 @@ void show(const lang::RobotDraft& draft, Format format) {
         {"mass", draft.mass},         {"wheels", wheels},         {"casters", casters},
         {"supports", draft.supports}, {"missing", draft.missing}, {"assumptions", draft.assumption_notes},
         {"assumed", assumed}};
-    print(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
+    print_data(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
     return;
   }
   std::string text = "URDF of `" + draft.name + "`, " + number(draft.mass) + " kg, " + draft.drive + "\n\n";
@@ -299,7 +299,7 @@ int refused(const lang::Diagnostics& diagnostics, Format format) {
   } else {
     lang::render_human(diagnostics, text);
   }
-  print(text.str());
+  print_data(text.str());
   return exit_bad;
 }
 
@@ -335,7 +335,7 @@ int robot_init(const RobotInitArguments& arguments) {
   if (!draft) return refused(diagnostics, Format::human);
   if (draft->wheels.empty()) throw Impossible(arguments.urdf + ": no wheels found: a robot file needs some");
   if (!arguments.out) {
-    print(draft->text);
+    print_data(draft->text);
     return exit_good;
   }
   std::ofstream file(*arguments.out, std::ios::binary);

@@ -54,7 +54,7 @@ void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Form
     const nlohmann::ordered_json whole = {
         {"outcome", "refused"},
         {"diagnostics", nlohmann::ordered_json::parse(lang::render_json(diagnostics))}};
-    print(whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    print_data(whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     return;
   }
   std::ostringstream text;
@@ -87,14 +87,15 @@ class Live {
       const auto now = Clock::now();
       if (now - last_ < terminal_refresh) return;
       last_ = now;
-      print("\r" + live_line(runner, time) + "\033[K");
+      print_over(live_line(runner, time));
     } else if (time >= next_line_) {
       next_line_ += line_every;
       print(live_line(runner, time) + "\n");
     }
   }
   void end() {
-    if (shown_) print(terminal_ ? "\r\033[K" : "\n");
+    if (!shown_) return;
+    terminal_ ? print_over("") : print("\n");
   }
 
  private:
@@ -242,8 +243,11 @@ int run(const RunArguments& arguments) {
       report.log_error = std::to_string(log.dropped) + " records were dropped";
   }
   const lang::Diagnostics& of_files = reloads ? reloads->diagnostics() : diagnostics;
-  print(arguments.format == Format::json ? json_report(report, runner, of_files)
-                                         : human_report(report, runner, of_files));
+  if (arguments.format == Format::json) {
+    print_data(json_report(report, runner, of_files));
+  } else {
+    print(human_report(report, runner, of_files));
+  }
   if (!report.log_error.empty()) {
     print_error("zwang: the log is incomplete: " + report.log_error + "\n");
     return exit_impossible;

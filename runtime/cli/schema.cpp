@@ -6,7 +6,7 @@
 namespace zwang::cli {
 
 int schema(const SchemaArguments& arguments) {
-  print(lang::json_schema(arguments.kind));
+  print_data(lang::json_schema(arguments.kind));
   return exit_good;
 }
 

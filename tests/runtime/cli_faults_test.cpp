@@ -22,6 +22,7 @@ using nlohmann::json;
 using test::read;
 using test::Result;
 using Clock = std::chrono::steady_clock;
+using std::string_literals::operator""s;
 
 const std::string specs = std::string(ZWANG_SOURCE_DIR) + "/specs/";
 
@@ -268,6 +269,54 @@ TEST_F(FromOutside, WhatALogSaysDoesNotWriteToTheTerminal) {
   const Result replay = zwang({"replay", "log/log.mcap"});
   EXPECT_EQ(replay.code, 2);
   EXPECT_EQ(replay.err, "zwang: `\\x1b[31m` in the log is not a control period\n");
+}
+
+/// A file's name is anybody's, and a file's text need not be UTF-8.
+TEST_F(FromOutside, WhatANameOrAFileSaysDoesNotWriteToTheTerminal) {
+  const std::string evil = "t\x1b[31m\xc2\x9b\xff\xe2\x80\xae.yaml";  // ESC, CSI, no UTF-8, right to left
+  const std::string shown = "t\\x1b[31m\\xc2\\x9b\\xff\\xe2\\x80\\xae.yaml";
+  fs::copy(specs, folder_ / "specs", fs::copy_options::recursive);
+  fs::copy_file(specs + "wall_align.yaml", folder_ / "specs" / evil);
+  write("specs/bad.yaml", "zwang: 1\nrobot: \x1b\x9b\xff.yaml\n");
+  write("specs/scenario.yaml", "zwang_scenario: 1\ntask: wall_align.yaml\nexpect: [{outcome: done}]\n");
+  fs::rename(folder_ / "specs/scenario.yaml", folder_ / "specs" / ("s" + evil));
+  const std::string named = "specs/" + evil;
+  for (const std::vector<std::string>& verb :
+       std::vector<std::vector<std::string>>{{"validate", named},
+                                             {"validate", "specs/bad.yaml"},
+                                             {"validate", named, "--format", "short"},
+                                             {"plan", named},
+                                             {"graph", "specs/bad.yaml"},
+                                             {"fmt", "--check", named},
+                                             {"run", named, "--log", "log\x1b\xff"},
+                                             {"test", "specs/s" + evil},
+                                             {"info", named},
+                                             {"robot", "inspect", named}}) {
+    const Result r = zwang(verb);
+    for (const std::string& text : {r.out, r.err}) {
+      for (const char* raw : {"\x1b", "\xc2\x9b", "\xff", "\xe2\x80\xae"})
+        EXPECT_EQ(text.find(raw), std::string::npos) << verb[0] << ": " << text;
+    }
+    const bool is_named = verb.size() == 2 && verb[1] == named && verb[0] != "plan" && verb[0] != "run";
+    if (is_named) {
+      EXPECT_NE((r.out + r.err).find(shown), std::string::npos) << verb[0] << r.out << r.err;
+    }
+  }
+}
+
+/// However its path was typed, a file is the same file.
+TEST_F(FromOutside, ALogDoesNotDependOnHowThePathIsTyped) {
+  fs::copy(specs, folder_ / "specs", fs::copy_options::recursive);
+  const std::string absolute = (folder_ / "specs/wall_align.yaml").string();
+  int n = 0;
+  for (const std::string& typed : {"specs/wall_align.yaml"s, "./specs//wall_align.yaml"s,
+                                   "specs/robots/../wall_align.yaml"s, absolute}) {
+    const std::string log = "log" + std::to_string(n++);
+    const std::string robot = fs::path(typed).parent_path().string() + "/robots/omni_base.yaml";
+    ASSERT_EQ(zwang({"run", typed, "--robot", robot, "--log", log, "--quiet"}).code, 0) << typed;
+    EXPECT_TRUE(read(folder_ / log / "log.mcap") == read(folder_ / "log0/log.mcap")) << typed;
+  }
+  EXPECT_EQ(zwang({"replay", "log3/log.mcap"}).code, 0);
 }
 
 TEST_F(FromOutside, TwoRunsWithOneSeedWriteTheSameMcap) {

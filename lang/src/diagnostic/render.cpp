@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <ostream>
 
 #include "diagnostic/severity.hpp"
+#include "tree/code_point.hpp"
 #include "tree/text.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
@@ -15,15 +17,21 @@ std::string place(const Diagnostics& diagnostics, const Span& span) {
          std::to_string(span.begin.column);
 }
 
-/// Code points of `line` in [begin, end), a tab as one space, control bytes as `?`: one column each.
+/// Code points of `line` in [begin, end), a tab as one space, what must not reach a terminal as `?`: one
+/// column each, as `Position` counts them. There a byte that continues no character has no column of its own.
 std::string columns(std::string_view line, std::size_t begin, std::size_t end) {
   std::string result;
   std::size_t column = 0;
-  for (const char c : line) {
-    if (!is_continuation_byte(c)) ++column;
-    if (column <= begin || column > end) continue;
-    const auto byte = static_cast<unsigned char>(c);
-    result += c == '\t' ? ' ' : (byte < 0x20 || byte == 0x7F) ? '?' : c;
+  for (std::size_t at = 0; at < line.size();) {
+    const std::optional<CodePoint> c = decode(line, at);
+    const std::size_t bytes = c ? c->bytes : 1;
+    const bool has_column = !is_continuation_byte(line[at]);
+    if (has_column) ++column;
+    if (has_column && column > begin && column <= end) {
+      const bool is_safe = c && c->value >= 0x20 && !is_control(c->value) && !is_deceptive(c->value);
+      result += is_safe ? std::string(line.substr(at, bytes)) : line[at] == '\t' ? " " : "?";
+    }
+    at += bytes;
   }
   return result;
 }

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+
+#include "tree/code_point.hpp"
+#include "zwang/lang/printable.hpp"
 
 namespace zwang::lang {
 
@@ -69,20 +73,31 @@ std::string joined_at_decimal_comma(std::string_view before, std::string_view be
   return is_whole && !rest.empty() && is_digit(rest[0]) ? whole + "." + rest : "";
 }
 
-std::string escaped(std::string_view text) {
+std::string printable(std::string_view text, std::string_view kept) {
   static constexpr std::array<char, 17> digits{"0123456789abcdef"};
   std::string result;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte != 0x7F) {
-      result += c;
-    } else {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::optional<CodePoint> c = decode(text, at);
+    const bool is_bare_control = c && c->value < 0x20;
+    const bool stays = is_bare_control ? kept.find(text[at]) != std::string_view::npos
+                                       : c && !is_control(c->value) && !is_deceptive(c->value);
+    const std::size_t bytes = c ? c->bytes : 1;
+    for (const char byte : text.substr(at, bytes)) {
+      if (stays) {
+        result += byte;
+        continue;
+      }
       result += "\\x";
-      result += digits[byte >> 4u];
-      result += digits[byte & 0xFu];
+      result += digits[static_cast<unsigned char>(byte) >> 4u];
+      result += digits[static_cast<unsigned char>(byte) & 0xFu];
     }
+    at += bytes;
   }
   return result;
+}
+
+std::string escaped(std::string_view text) {
+  return printable(text, "");
 }
 
 std::string in_ticks(std::string_view text) {

@@ -36,7 +36,7 @@ std::string lower_case(std::string_view text);
 /// A decimal comma ends an item in brackets: `0,08 m/s` comes as `0` and `08 m/s`. What was meant, `0.08
 /// m/s`; empty where the two are something else.
 std::string joined_at_decimal_comma(std::string_view before, std::string_view behind);
-/// Control bytes as \xNN, so that a hostile file cannot write to the terminal.
+/// As `printable`, on one line: a hostile file cannot write to the terminal.
 std::string escaped(std::string_view text);
 /// Shortened for a message: `a very long wo...`.
 std::string in_ticks(std::string_view text);
