@@ -1,9 +1,12 @@
 #include "file_kind.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "output.hpp"
 #include "plant_start.hpp"
@@ -14,6 +17,8 @@
 #include "zwang/lang/scene_for_robot.hpp"
 
 namespace zwang::cli {
+
+namespace fs = std::filesystem;
 
 lang::LoadOptions TaskOverrides::load_options() const {
   lang::LoadOptions options;
@@ -96,6 +101,61 @@ std::optional<FileKind> kind_by_key(const std::string& path) {
     if (const std::string_view key = key_of(line); !key.empty()) return kind_of_key(key);
   }
   return std::nullopt;
+}
+
+namespace {
+
+/// Breadth first, and what is no link before what is one: a loop of links ends where it began.
+class Folders {
+ public:
+  std::vector<std::string> files_below(const fs::path& folder) {
+    walk(folder);
+    while (!links_.empty()) {
+      const std::vector<fs::path> links = std::exchange(links_, {});
+      for (const fs::path& link : links) fs::is_directory(link) ? walk(link) : take(link);
+    }
+    std::sort(files_.begin(), files_.end());
+    return files_;
+  }
+
+ private:
+  bool is_new(const fs::path& path) { return seen_.insert(fs::canonical(path)).second; }
+
+  void walk(const fs::path& folder) {
+    if (!is_new(folder)) return;
+    std::vector<fs::path> entries;
+    for (const auto& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
+    std::sort(entries.begin(), entries.end());
+    for (const fs::path& entry : entries) {
+      if (!fs::exists(entry)) continue;  // a link that leads nowhere
+      if (fs::is_symlink(entry)) {
+        links_.push_back(entry);
+      } else if (fs::is_directory(entry)) {
+        walk(entry);
+      } else {
+        take(entry);
+      }
+    }
+  }
+
+  void take(const fs::path& file) {
+    const bool is_yaml = file.extension() == ".yaml" || file.extension() == ".yml";
+    if (is_yaml && fs::is_regular_file(file) && is_new(file)) files_.push_back(file.string());
+  }
+
+  std::set<fs::path> seen_;
+  std::vector<fs::path> links_;
+  std::vector<std::string> files_;
+};
+
+}  // namespace
+
+std::vector<std::string> yaml_files_below(const std::string& folder) {
+  try {
+    return Folders().files_below(folder);
+  } catch (const fs::filesystem_error& error) {
+    throw Impossible(error.path1().string() + ": " + error.code().message());
+  }
 }
 
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "zwang/lang/program.hpp"
 
@@ -14,6 +15,10 @@ const char* word_of(FileKind kind);
 /// By the file's first key, a misspelt one, too: its reader says what is wrong. nullopt when it is none of
 /// zwang's.
 std::optional<FileKind> kind_by_key(const std::string& path);
+/// The YAML files below a folder, in the order of their names. Links are followed; a file that several names
+/// lead to is there once, by the name without a link where it has one. Throws Impossible for a folder that
+/// cannot be read.
+std::vector<std::string> yaml_files_below(const std::string& folder);
 struct Reading {
   lang::LoadOptions options = {};  ///< of a task file
   bool with_notes = false;         ///< notes are looked for, too

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
@@ -14,6 +15,10 @@
 #include "zwang/lang/scenario.hpp"
 #include "zwang/runtime/scenario_run.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace zwang::cli {
 
 namespace {
@@ -21,11 +26,25 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal sets it");
+
+/// Who asks again does not want to wait for the report.
+extern "C" void on_interrupt(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+
+void catch_signals() {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
+}
+
 /// A file of a folder. What is none of zwang's is named: it may have been meant as a scenario.
-bool is_scenario(const fs::path& path) {
-  if (path.extension() != ".yaml" && path.extension() != ".yml") return false;
-  const std::optional<FileKind> kind = kind_by_key(path.string());
-  if (!kind) print_error("zwang: " + path.string() + " is passed over: its first key is none of zwang's\n");
+bool is_scenario(const std::string& path) {
+  const std::optional<FileKind> kind = kind_by_key(path);
+  if (!kind) print_error("zwang: " + path + " is passed over: its first key is none of zwang's\n");
   return kind == FileKind::scenario;
 }
 
@@ -38,11 +57,8 @@ std::vector<std::string> scenario_files(const std::vector<std::string>& paths) {
       files.push_back(path);
       continue;
     }
-    std::vector<std::string> found;
-    for (const auto& entry : fs::recursive_directory_iterator(path)) {
-      if (entry.is_regular_file() && is_scenario(entry.path())) found.push_back(entry.path().string());
-    }
-    std::sort(found.begin(), found.end());
+    std::vector<std::string> found = yaml_files_below(path);
+    std::erase_if(found, [](const std::string& file) { return !is_scenario(file); });
     if (found.empty()) throw Impossible(path + ": there is no scenario file in it");
     files.insert(files.end(), found.begin(), found.end());
   }
@@ -64,6 +80,16 @@ std::vector<std::string> codes_of(const lang::Diagnostics& diagnostics) {
   return codes;
 }
 
+/// Each run makes a simulation of 100 MB twice, and frees it. Where the pages go back to the system, it costs
+/// four times what the run does to get them anew.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int beyond_any_simulation = 1 << 30;  // [bytes]
+  mallopt(M_MMAP_THRESHOLD, beyond_any_simulation);
+  mallopt(M_TRIM_THRESHOLD, beyond_any_simulation);
+#endif
+}
+
 /// One line that is written over itself; nothing where stdout is no terminal.
 class Progress {
  public:
@@ -74,10 +100,12 @@ class Progress {
     failed_ += passed ? 0U : 1U;
     if (!shown_) return;
     std::ostringstream line;
-    line << '\r' << finished_ << " of " << runs_ << " runs";
+    line << finished_ << " of " << runs_ << " runs";
     if (failed_ > 0) line << ", " << failed_ << " failed";
-    print(line.str() + "\033[K");
-    if (finished_ == runs_) print("\r\033[K");
+    print_over(line.str());
+  }
+  void end() const {
+    if (shown_) print_over("");
   }
 
  private:
@@ -108,20 +136,20 @@ class Loader {
 
 void work(const std::vector<Job>& jobs, std::atomic<std::size_t>& next, Loader& loader,
           std::vector<ScenarioReport>& reports, Progress& progress) {
-  for (std::size_t j = next++; j < jobs.size(); j = next++) {
+  for (std::size_t j = next++; j < jobs.size() && !interrupted; j = next++) {
     const Job& job = jobs[j];
     ScenarioReport& report = reports[job.report];
     const lang::ScenarioCell& cell = job.scenario->cells[job.cell];
     std::vector<std::string> codes;
     runtime::CellResult& result = report.cells[job.cell];
     if (const auto run = loader.load(job, report, codes)) {
-      result = runtime::run_cell(*job.scenario, cell, *run, codes);
+      result = runtime::run_cell(*job.scenario, cell, *run, codes, &interrupted);
     } else {
       result.name = cell.name;
       result.outcome = "error";
       result.because = "the scenario file";
     }
-    progress.done(result.passed);
+    if (is_over(result)) progress.done(result.passed);
   }
 }
 
@@ -138,9 +166,14 @@ int test(const TestArguments& arguments) {
     reports[i].readable = scenarios[i].has_value();
     if (!scenarios[i]) continue;
     reports[i].cells.resize(scenarios[i]->cells.size());
-    for (std::size_t c = 0; c < scenarios[i]->cells.size(); ++c) jobs.push_back({i, c, &*scenarios[i]});
+    for (std::size_t c = 0; c < scenarios[i]->cells.size(); ++c) {
+      reports[i].cells[c].name = scenarios[i]->cells[c].name;
+      jobs.push_back({i, c, &*scenarios[i]});
+    }
   }
 
+  catch_signals();
+  keep_freed_memory();
   const auto begin = Clock::now();
   Progress progress(jobs.size(), arguments.format == Format::human);
   Loader loader;
@@ -151,15 +184,21 @@ int test(const TestArguments& arguments) {
   for (std::size_t t = 0; t < std::min(wanted, jobs.size()); ++t)
     threads.emplace_back([&] { work(jobs, next, loader, reports, progress); });
   for (std::thread& thread : threads) thread.join();
+  progress.end();
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
 
-  print(arguments.format == Format::json ? json_report(reports, seconds) : human_report(reports, seconds));
+  if (arguments.format == Format::json) {
+    print_data(json_report(reports, seconds));
+  } else {
+    print(human_report(reports, seconds));
+  }
   if (arguments.junit) {
     std::ofstream file(*arguments.junit, std::ios::binary);
     file << junit_report(reports);
     if (!file.flush()) throw Impossible(*arguments.junit + ": cannot be written");
   }
-  return std::all_of(reports.begin(), reports.end(), passed) ? exit_good : exit_bad;
+  if (!std::all_of(reports.begin(), reports.end(), passed)) return exit_bad;
+  return interrupted ? exit_impossible : exit_good;
 }
 
 }  // namespace zwang::cli

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "output.hpp"
+#include "zwang/lang/printable.hpp"
 
 namespace zwang::cli {
 
@@ -72,6 +73,7 @@ struct Summary {
 std::vector<Summary> summarise(const ScenarioReport& report) {
   std::vector<Summary> summaries;
   for (const CellResult& cell : report.cells) {
+    if (!is_over(cell)) continue;
     summaries.resize(std::max(summaries.size(), cell.expectations.size()));
     for (std::size_t i = 0; i < cell.expectations.size(); ++i) {
       const ExpectationResult& result = cell.expectations[i];
@@ -95,6 +97,7 @@ void describe(const ScenarioReport& report, std::ostream& out) {
     return;
   }
   for (const CellResult& cell : report.cells) {
+    if (!is_over(cell)) continue;
     out << (cell.passed ? "  ok    " : "  FAIL  ") << padded(cell.name, 48) << "  " << outcome_text(cell);
     if (cell.simulated > 0.0)
       out << " after " << seconds_of(cell.simulated, 2) << " (" << seconds_of(cell.wall, 2)
@@ -140,9 +143,10 @@ std::string failure_of(const CellResult& cell) {
   return outcome_text(cell);
 }
 
+/// For XML, which takes no control characters and nothing that is not UTF-8.
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : lang::printable(text)) {
     switch (c) {
       case '&':
         out += "&amp;";
@@ -157,7 +161,7 @@ std::string escaped(const std::string& text) {
         out += "&quot;";
         break;
       default:
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+        out += c == '\n' || c == '\t' ? ' ' : c;
     }
   }
   return out;
@@ -165,8 +169,13 @@ std::string escaped(const std::string& text) {
 
 std::size_t failures(const ScenarioReport& report) {
   if (!report.readable) return 1;
-  return static_cast<std::size_t>(std::count_if(report.cells.begin(), report.cells.end(),
-                                                [](const CellResult& cell) { return !cell.passed; }));
+  return static_cast<std::size_t>(
+      std::count_if(report.cells.begin(), report.cells.end(),
+                    [](const CellResult& cell) { return is_over(cell) && !cell.passed; }));
+}
+
+std::size_t runs_over(const ScenarioReport& report) {
+  return static_cast<std::size_t>(std::count_if(report.cells.begin(), report.cells.end(), is_over));
 }
 
 nlohmann::ordered_json json_of(const CellResult& cell) {
@@ -192,13 +201,17 @@ nlohmann::ordered_json json_of(const CellResult& cell) {
 
 }  // namespace
 
+bool is_over(const CellResult& cell) {
+  return !cell.outcome.empty() && cell.outcome != "interrupted";
+}
+
 bool passed(const ScenarioReport& report) {
   return failures(report) == 0;
 }
 
 std::string human_report(const std::vector<ScenarioReport>& reports, double seconds) {
   std::ostringstream out;
-  std::size_t runs = 0, good = 0, unreadable = 0;
+  std::size_t runs = 0, over = 0, good = 0, unreadable = 0;
   for (const ScenarioReport& report : reports) {
     describe(report, out);
     if (!report.readable) {
@@ -206,9 +219,11 @@ std::string human_report(const std::vector<ScenarioReport>& reports, double seco
       continue;
     }
     runs += report.cells.size();
-    good += report.cells.size() - failures(report);
+    over += runs_over(report);
+    good += runs_over(report) - failures(report);
   }
-  out << hardest_motor(reports) << good << " of " << runs << " runs as expected";
+  out << hardest_motor(reports) << good << " of " << over << " runs as expected";
+  if (over < runs) out << ", interrupted before " << count(runs - over, "more run");
   if (unreadable > 0) out << ", and " << count(unreadable, "file") << " with errors";
   out << ", in " << seconds_of(seconds, 1) << "\n";
   return out.str();
@@ -217,16 +232,22 @@ std::string human_report(const std::vector<ScenarioReport>& reports, double seco
 std::string json_report(const std::vector<ScenarioReport>& reports, double seconds) {
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   bool good = true;
+  std::size_t missing = 0;
   for (const ScenarioReport& report : reports) {
     nlohmann::ordered_json cells = nlohmann::ordered_json::array();
-    for (const CellResult& cell : report.cells) cells.push_back(json_of(cell));
+    for (const CellResult& cell : report.cells) {
+      if (is_over(cell)) cells.push_back(json_of(cell));
+    }
     good = good && passed(report);
+    missing += report.cells.size() - cells.size();
     files.push_back({{"file", report.path},
                      {"passed", passed(report)},
                      {"runs", cells},
                      {"diagnostics", nlohmann::ordered_json::parse(lang::render_json(report.diagnostics))}});
   }
-  const nlohmann::ordered_json whole = {{"passed", good}, {"seconds", seconds}, {"scenarios", files}};
+  nlohmann::ordered_json whole = {
+      {"passed", good && missing == 0}, {"seconds", seconds}, {"scenarios", files}};
+  if (missing > 0) whole["interrupted_before"] = missing;
   return whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -235,8 +256,9 @@ std::string junit_report(const std::vector<ScenarioReport>& reports) {
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
   for (const ScenarioReport& report : reports) {
     const std::size_t tests = report.readable ? report.cells.size() : 1;
+    const std::size_t skipped = report.cells.size() - runs_over(report);
     out << "  <testsuite name=\"" << escaped(report.path) << "\" tests=\"" << tests << "\" failures=\""
-        << failures(report) << "\">\n";
+        << failures(report) << "\" skipped=\"" << skipped << "\">\n";
     if (!report.readable) {
       std::ostringstream text;
       lang::render_human(report.diagnostics, text);
@@ -248,7 +270,9 @@ std::string junit_report(const std::vector<ScenarioReport>& reports) {
     for (const CellResult& cell : report.cells) {
       out << "    <testcase name=\"" << escaped(cell.name) << "\" classname=\"" << escaped(report.path)
           << "\" time=\"" << number(cell.wall, 3) << "\">";
-      if (!cell.passed) {
+      if (!is_over(cell)) {
+        out << "<skipped message=\"interrupted\"/>";
+      } else if (!cell.passed) {
         std::string missed;
         for (const ExpectationResult& result : cell.expectations) {
           if (!result.held) missed += result.text + "  " + margin_text(result) + "\n";

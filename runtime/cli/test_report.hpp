@@ -18,9 +18,13 @@ struct ScenarioReport {
   bool readable = false;
 };
 
+/// It ran to its end: it was not interrupted, nor still to come then.
+bool is_over(const runtime::CellResult& cell);
+/// Of the runs that are over.
 bool passed(const ScenarioReport& report);
 
-/// Every run in a line, those that failed with what they missed; then each expectation with its least margin.
+/// Every run that is over in a line, those that failed with what they missed; then each expectation with its
+/// least margin.
 std::string human_report(const std::vector<ScenarioReport>& reports, double seconds);
 std::string json_report(const std::vector<ScenarioReport>& reports, double seconds);
 std::string junit_report(const std::vector<ScenarioReport>& reports);

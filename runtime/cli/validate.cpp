@@ -24,20 +24,11 @@ struct Checked {
   bool is_good = false;
 };
 
-/// zwang's own files below a folder, in the order of their names; links are not followed.
+/// zwang's own files below a folder, in the order of their names.
 std::vector<std::string> files_below(const std::string& folder) {
-  std::vector<std::string> files;
-  std::error_code error;
-  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    const fs::path& path = at->path();
-    const bool is_yaml = path.extension() == ".yaml" || path.extension() == ".yml";
-    if (is_yaml && at->is_regular_file() && !at->is_symlink() && kind_by_key(path.string())) {
-      files.push_back(path.string());
-    }
-  }
-  if (error) throw Impossible(folder + ": " + error.message());
+  std::vector<std::string> files = yaml_files_below(folder);
+  std::erase_if(files, [](const std::string& path) { return !kind_by_key(path); });
   if (files.empty()) throw Impossible(folder + ": no task, robot or scene file below this folder");
-  std::sort(files.begin(), files.end());
   return files;
 }
 
@@ -132,8 +123,8 @@ int validate(const ValidateArguments& arguments) {
     if (arguments.format == ReportFormat::human) print(human(file, arguments));
     if (arguments.format == ReportFormat::one_line) print(short_lines(file, arguments));
   }
-  if (arguments.format == ReportFormat::json) print(json(checked, is_good, arguments));
-  if (arguments.format == ReportFormat::sarif) print(sarif(checked, arguments));
+  if (arguments.format == ReportFormat::json) print_data(json(checked, is_good, arguments));
+  if (arguments.format == ReportFormat::sarif) print_data(sarif(checked, arguments));
   return is_good ? exit_good : exit_bad;
 }
 

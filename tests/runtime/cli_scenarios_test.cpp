@@ -1,5 +1,6 @@
 // `zwang test`: which files it takes, what it says of those that it cannot run, and of those that it can.
 #include <fcntl.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using test::read;
 using test::Result;
+using std::string_literals::operator""s;
 
 std::size_t times(const std::string& text, const std::string& words) {
   std::size_t found = 0;
@@ -239,6 +241,61 @@ TEST_F(ManyRuns, AreCountedInOneLineOfTheTerminal) {
       shown.find("\r1 of 2 runs" + clear + "\r2 of 2 runs, 1 failed" + clear + "\r" + clear + "good.yaml"),
       0u)
       << shown;
+}
+
+/// The memory of a simulation is taken from the system once, not for each run: 1000 runs had cost four times
+/// as much time in the system as in the program. A page is 4 kB.
+TEST_F(ManyRuns, TakeTheirMemoryOnce) {
+#ifdef ZWANG_SANITIZED
+  GTEST_SKIP() << "a sanitizer owns malloc";
+#endif
+  const auto page_faults = [this](const std::string& waits) {
+    write("good.yaml",
+          scenario("zwang_scenario", "elapsed < 9 s") + "matrix: {params.wait: [" + waits + "]}\n");
+    rusage before{}, after{};
+    getrusage(RUSAGE_CHILDREN, &before);
+    EXPECT_EQ(zwang({"test", "good.yaml", "--jobs", "1"}).code, 0);
+    getrusage(RUSAGE_CHILDREN, &after);
+    return after.ru_minflt - before.ru_minflt;
+  };
+  const long one = page_faults("0.1 s");
+  std::string waits = "0.1 s";
+  for (int i = 2; i <= 20; ++i) waits += ", 0.0" + std::to_string(10 + i) + " s";
+  const long twenty = page_faults(waits);
+  std::printf("%ld page faults of one run, %ld of twenty\n", one, twenty);
+  EXPECT_LT(twenty, 3 * one);
+}
+
+/// What it has is printed: the runs that are over, and how many are not. The others are neither good nor bad.
+TEST_F(ManyRuns, AreReportedAsFarAsTheyCameWhenASignalStopsThem) {
+  write("good.yaml", scenario("zwang_scenario", "elapsed < 9 s") +
+                         "matrix: {params.wait: [0.1 s, 100000 s, 0.2 s]}\n" + "time_limit: 100000 s\n");
+  for (const int signal : {SIGINT, SIGTERM}) {
+    for (const char* format : {"human", "json"}) {
+      fs::remove(folder_ / "junit.xml");
+      const pid_t child =
+          start({"test", "good.yaml", "--jobs", "1", "--format", format, "--junit", "junit.xml"});
+      std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+      kill(child, signal);
+      const Result r = finish(child);
+      EXPECT_EQ(r.code, 2) << r.out << r.err;
+      const std::string junit = read(folder_ / "junit.xml");
+      EXPECT_EQ(times(junit, "<skipped"), 2u) << junit;
+      EXPECT_EQ(times(junit, "<failure"), 0u) << junit;
+      if (format == "json"s) {
+        const json whole = json::parse(r.out);
+        EXPECT_EQ(whole["passed"], false);
+        EXPECT_EQ(whole["interrupted_before"], 2);
+        ASSERT_EQ(whole["scenarios"][0]["runs"].size(), 1u);
+        EXPECT_EQ(whole["scenarios"][0]["runs"][0]["outcome"], "done");
+      } else {
+        EXPECT_NE(r.out.find("  ok    wait 0.1 s"), std::string::npos) << r.out;
+        EXPECT_NE(r.out.find("1 of 1 runs as expected, interrupted before 2 more runs, in "),
+                  std::string::npos)
+            << r.out;
+      }
+    }
+  }
 }
 
 /// The crate stands 3 m away: 3 m more than 0 m, and by which share is not to be said.

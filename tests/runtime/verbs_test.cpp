@@ -56,6 +56,26 @@ TEST_F(Verbs, ValidatePassesOverWhatIsNotOursInAFolder) {
   EXPECT_EQ(json::parse(r.out)["files"].size(), 2u) << r.out;  // the task and its robot
 }
 
+/// A folder of links, as a build system or a package manager leaves it. A loop of them ends.
+TEST_F(Verbs, ValidateFollowsLinksInAFolder) {
+  endless();
+  fs::create_directories(folder_ / "linked");
+  fs::create_directory_symlink(folder_ / "robots", folder_ / "linked/robots");
+  fs::create_symlink(folder_ / "endless.yaml", folder_ / "linked/task.yaml");
+  fs::create_directory_symlink(folder_ / "linked", folder_ / "linked/loop");
+  fs::create_symlink("nowhere", folder_ / "linked/broken.yaml");
+  Result r = zwang({"validate", "linked", "--format", "json"});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  json files = json::parse(r.out)["files"];
+  ASSERT_EQ(files.size(), 2u) << r.out;
+  EXPECT_EQ(files[0]["file"], "linked/robots/mini.yaml");
+  EXPECT_EQ(files[1]["file"], "linked/task.yaml");
+  r = zwang({"validate", ".", "--format", "json"});
+  files = json::parse(r.out)["files"];
+  ASSERT_EQ(files.size(), 2u) << "each file once: " << r.out;
+  EXPECT_EQ(files[0]["file"], "./endless.yaml") << "by its own name";
+}
+
 TEST_F(Verbs, DeniedWarningsRefuseTheFile) {
   const std::string file = endless();
   Result r = zwang({"validate", file});

@@ -75,7 +75,8 @@ const Eigen::VectorXd& step(Runner& runner, const Sensed& sensed, double time, T
 }
 
 void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, const lang::Program& program,
-              std::vector<ExpectationWatch>& watches, CellResult& result) {
+              std::vector<ExpectationWatch>& watches, const std::atomic<bool>* interrupted,
+              CellResult& result) {
   ScenePlantOptions options;
   SimulationSteps steps(program.robot.control_period);
   options.simulation.period = steps.period();
@@ -89,7 +90,8 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   std::vector<bool> had_stopped(partners.size(), false);
   Eigen::VectorXd tau;
   PlantStatus status = PlantStatus::ok;
-  while (!runner.finished() && plant.truth().time < scenario.time_limit) {
+  const auto is_interrupted = [interrupted] { return interrupted != nullptr && interrupted->load(); };
+  while (!runner.finished() && plant.truth().time < scenario.time_limit && !is_interrupted()) {
     // A sample that does not arrive is the runtime's to deal with: it steps on what it has.
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
@@ -109,7 +111,9 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   }
   result.partners = results_of(plant);
   result.simulated = plant.truth().time;
-  if (status == PlantStatus::diverged) {
+  if (is_interrupted()) {
+    result.outcome = "interrupted";
+  } else if (status == PlantStatus::diverged) {
     result.outcome = "diverged";
   } else if (!runner.finished()) {
     result.outcome = "unfinished";
@@ -122,7 +126,8 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
 }  // namespace
 
 CellResult run_cell(const lang::Scenario& scenario, const lang::ScenarioCell& cell,
-                    const lang::ScenarioRun& run, const std::vector<std::string>& codes) {
+                    const lang::ScenarioRun& run, const std::vector<std::string>& codes,
+                    const std::atomic<bool>* interrupted) {
   CellResult result;
   result.name = cell.name;
   std::vector<ExpectationWatch> watches;
@@ -135,7 +140,7 @@ CellResult run_cell(const lang::Scenario& scenario, const lang::ScenarioCell& ce
     }
   } else {
     try {
-      simulate(scenario, cell, *run.program, watches, result);
+      simulate(scenario, cell, *run.program, watches, interrupted, result);
     } catch (const std::exception& error) {
       result.outcome = "error";
       result.because = error.what();

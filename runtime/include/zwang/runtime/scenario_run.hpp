@@ -1,6 +1,7 @@
 /// Runs one cell of a scenario and judges what was expected of it, by the plant's own measurements.
 #pragma once
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,7 +33,8 @@ struct PartnerResult {
 struct CellResult {
   std::string name;
   bool passed = false;
-  /// Of the first robot, which ends the run: done, failed, stopped, diverged, refused, unfinished, error
+  /// Of the first robot, which ends the run: done, failed, stopped, diverged, refused, unfinished, error;
+  /// interrupted when it was told to end
   std::string outcome;
   std::string because;  ///< of a stop or an error; the codes of a refusal
   std::vector<PartnerResult> partners;
@@ -43,8 +45,10 @@ struct CellResult {
 };
 
 /// `codes` are those of the task's errors and warnings. Touches nothing outside of its arguments:
-/// cells may run side by side on threads.
+/// cells may run side by side on threads. Once `interrupted` is true, which another thread or a signal sets,
+/// it ends within a tick.
 CellResult run_cell(const lang::Scenario& scenario, const lang::ScenarioCell& cell,
-                    const lang::ScenarioRun& run, const std::vector<std::string>& codes = {});
+                    const lang::ScenarioRun& run, const std::vector<std::string>& codes = {},
+                    const std::atomic<bool>* interrupted = nullptr);
 
 }  // namespace zwang::runtime
