@@ -130,6 +130,17 @@ Diagnostic never_reached(const Span& span, const Unreached& u, const Span& limit
       limit, "the acceleration is limited here");
 }
 
+Diagnostic limited_range(const Span& span, const Unreached& u, const Span& limit) {
+  const Units unit = units(u.turns);
+  return related_where_known(
+      make("N619", Severity::note, span,
+           "blocked, `" + u.axis + "` presses with " + figure(u.pressed, unit.force) + " at most (" +
+               figure(u.mass, unit.mass) + " x " + figure(u.acceleration, unit.acceleration) +
+               "), not with " + figure(u.bound, unit.force),
+           ""),
+      limit, "the acceleration is limited here");
+}
+
 Diagnostic never_saturated(const Span& span, const Unreached& u, double motors) {
   const Units unit = units(u.turns);
   return warning("W602", span,

@@ -45,6 +45,8 @@ struct Unreached {
 };
 /// `limit`: where the acceleration is limited; may be nowhere.
 Diagnostic never_reached(const Span& span, const Unreached& unreached, const Span& limit);
+/// N619: of a position driver.
+Diagnostic limited_range(const Span& span, const Unreached& unreached, const Span& limit);
 /// A guard on `saturated`, at `span`, of a driver that has no force range. `motors`: what they make along it.
 Diagnostic never_saturated(const Span& span, const Unreached& unreached, double motors);
 /// `clipped`: from which way on. [m] or [rad]

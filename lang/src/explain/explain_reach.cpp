@@ -106,6 +106,16 @@ velocity, and with no more than an acceleration limit leaves. Nothing adds up ov
           .example = "x: {velocity: 0.05 m/s, force: +-20 N}",
           .instead = "x: {force: 20 N, velocity: +-0.05 m/s}"},
       Explanation{
+          .code = "N619",
+          .title = "what an acceleration limit leaves of a force range",
+          .why =
+              R"~(A position driver asks for the more the farther it has to go, up to its force range. An acceleration limit in force leaves its
+effective mass times the limit: that is what the base presses with, where this is less.)~",
+          .fix = "Narrow the force range to say so, or allow more acceleration.",
+          .part = ExcerptOf::group,
+          .example = "move: bumper\nin: world\nx: {position: 1 m, force: +-40 N, acceleration: +-0.5 m/s^2}",
+          .instead = "move: bumper\nin: world\nx: {position: 1 m, force: +-10 N, acceleration: +-0.5 m/s^2}"},
+      Explanation{
           .code = "W620",
           .title = "a guard on a distance that fires too late",
           .why =

@@ -1,4 +1,4 @@
-// W602, W619: a force range that a motion driver never reaches.
+// W602, W619, N619: a force range that a motion driver never reaches.
 //
 // Blocked (ds = 0), a driver asks for the acceleration b, and the base presses with
 //
@@ -6,14 +6,17 @@
 //
 //   velocity v             b = |v| / tau
 //   acceleration c         b = |c|
-//   position               b = v / h with a velocity range [-v, v], as far away the range decides; else no
-//   bound
+//   position               b = v / h with a velocity range [-v, v], as far away the range decides
 //
 // W602: an exit asks for `saturated`, and b does not reach the range, or without one what the motors make.
 // Where another range stops the base at less than b, the driver misses its b in the open already and runs
-// into its bound: that guard is not dead. W619: of a velocity or an acceleration less than half of the range
-// is pressed; of a position, whose demand grows with the distance, less than a tenth: there the range is a
-// bound for bases of any mass.
+// into its bound: that guard is not dead.
+//
+// W619: less than half of the range is pressed. Up to twice what is made, a range is taken for a rounded
+// bound.
+//
+// N619: the demand of a position grows with the distance, so that its range is a bound for bases of any mass.
+// What an acceleration limit leaves of it is a note.
 #include <algorithm>
 #include <cmath>
 
@@ -25,8 +28,7 @@ namespace zwang::lang {
 
 namespace {
 
-constexpr double generous = 0.5;           // of the range
-constexpr double generous_far_away = 0.1;  // of a position driver's
+constexpr double generous = 0.5;  // of the range
 
 struct Demand {
   double b = 0.0;     ///< [m/s^2] or [rad/s^2], signed; of a position driver either way
@@ -92,9 +94,15 @@ void ask_axis(const CheckContext& context, const PlannedTask& plan, const Planne
     return;
   }
   const double made = std::min(b, own_limit.most);
-  if (!(mass * made < (demand.both ? generous_far_away : generous) * bound)) return;
   const bool by_limit = own_limit.most < std::abs(demand.b);
   wording::Unreached unreached{axis.path, axis.turns(), mass, made, mass * made, bound};
+  if (demand.both && by_limit) {
+    if (context.with_notes && mass * made < bound)
+      remarks.add(wording::limited_range(axis.span(solver::Quantity::force), unreached,
+                                         own_limit.from->span(solver::Quantity::acceleration)));
+    return;
+  }
+  if (!(mass * made < generous * bound)) return;
   unreached.velocity = axis.driver == solver::Quantity::velocity ? *axis.target : 0.0;
   unreached.time_constant = axis.time_constant;
   // W604: a velocity wants four ticks.
