@@ -28,7 +28,7 @@ std::optional<lang::Program> load(const char* path) {
 /// In the place of the plant stands your robot: anything that can sense and apply.
 int run(const lang::Program& program, runtime::Plant& plant) {
   runtime::Runner runner(program);  // allocates; the loop does not
-  runtime::Sensed sensed(program.robot.model, program.signals.size());
+  runtime::Sensed sensed(program);
   bool pushed_harder = false;
   while (!runner.finished() && sensed.time < 60.0) {
     // A robot fills in its signals, too: sensed.signals[i] = {.valid = true, .stamp = ..., .number = ...}. A

@@ -101,7 +101,7 @@ int main(int argc, char** argv) try {
   if (!program) return 2;
   PlanarBase plant(program->robot);
   runtime::Runner runner(*program);
-  runtime::Sensed sensed(program->robot.model, program->signals.size());
+  runtime::Sensed sensed(*program);
   while (!runner.finished() && sensed.time < 60.0) {
     plant.sense(sensed);
     plant.apply(runner.step(sensed));

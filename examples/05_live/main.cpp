@@ -34,7 +34,7 @@ int main(int argc, char** argv) try {
   if (!program || !program->scene || !other) return 2;
   runtime::ScenePlant plant(*program);
   runtime::Runner runner(*program), next(*other);  // both are ready before the loop begins
-  runtime::Sensed sensed(program->robot.model, program->signals.size());
+  runtime::Sensed sensed(*program);
   // On a robot it would cut the motors' current: the thread that should do it is the one that is blocked.
   runtime::Watchdog watchdog(1.0, [] { std::fputs("the loop is blocked\n", stderr); });
   while (!runner.finished()) {
@@ -44,7 +44,10 @@ int main(int argc, char** argv) try {
     if (tick == 500) std::printf("push 30 N: %s\n", runner.set_parameter("push", 30.0) ? "taken" : "refused");
     if (tick == 600)
       std::printf("push 300 N: %s\n", runner.set_parameter("push", 300.0) ? "taken" : "refused");
-    if (tick == 1000) std::printf("the other task: %s\n", runner.swap_program(next) ? "runs" : "refused");
+    if (tick == 1000) {
+      const std::string swapped = runtime::describe(runner.swap_program(next));
+      std::printf("the other task: %s\n", swapped.c_str());
+    }
     if (tick == 2000) runner.guard().stop(runtime::EventCode::requested);
     if (plant.apply(runner.step(sensed)) != runtime::PlantStatus::ok) return 1;
   }

@@ -17,12 +17,10 @@ constexpr auto look_every = std::chrono::milliseconds(50);
 
 }  // namespace
 
-Reloads::Reloads(const RunArguments& arguments, fs::path folder, const lang::Program& program,
-                 const lang::Diagnostics& diagnostics, const runtime::RunnerSettings& settings,
-                 Recorders& recorders)
+Reloads::Reloads(const RunArguments& arguments, fs::path folder, const lang::Diagnostics& diagnostics,
+                 const runtime::RunnerSettings& settings, Recorders& recorders)
     : arguments_(arguments),
       folder_(std::move(folder)),
-      program_(program),
       first_(diagnostics),
       settings_(settings),
       recorders_(recorders) {
@@ -81,16 +79,6 @@ void Reloads::watch() {
   }
 }
 
-/// What the plant measures for the program, it measures in the order of its signals.
-bool Reloads::fits(const lang::Program& next) const {
-  return std::equal(next.signals.begin(), next.signals.end(), program_.signals.begin(),
-                    program_.signals.end(), [&](const lang::Signal& a, const lang::Signal& b) {
-                      return a.name == b.name && a.type == b.type &&
-                             next.frames[static_cast<std::size_t>(a.in)].name ==
-                                 program_.frames[static_cast<std::size_t>(b.in)].name;
-                    });
-}
-
 /// The plant was built of the robot and scene files, and of what the task files of other robots say: the
 /// first of them whose text is another one now. Empty: none.
 std::string Reloads::changed_beside_the_task() const {
@@ -124,8 +112,6 @@ void Reloads::load() {
     const bool is_good = next->program && !next->diagnostics.has_errors();
     if (!is_good) {
       refusal = "it has errors";
-    } else if (!fits(*next->program)) {
-      refusal = "its signals are others";
     } else {
       next->runner = std::make_unique<runtime::Runner>(*next->program, settings_);
     }
@@ -149,9 +135,9 @@ void Reloads::look(runtime::Runner& runner, double time) {
     is_loaded_ = false;
   }
   const bool is_over = runner.state() != runtime::RunState::running;
-  if (is_over || !runner.swap_program(*next->runner))
-    return print_error("zwang: " + arguments_.file + " was not reloaded: " +
-                       (is_over ? "the task is over" : "its robot is another") + "\n");
+  if (is_over) return tell_refusal("the task is over");
+  if (const runtime::SwapResult swap = runner.swap_program(*next->runner); !swap)
+    return tell_refusal(runtime::describe(swap));
   const std::string name = "log-reload-" + std::to_string(past_.size() + 1);
   runtime::LogContext context = context_of(arguments_, next->diagnostics);
   context.facts["continues"] = last_log_;

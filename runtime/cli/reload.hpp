@@ -24,9 +24,8 @@ namespace zwang::cli {
 class Reloads {
  public:
   /// What is referred to must outlive it.
-  Reloads(const RunArguments& arguments, std::filesystem::path folder, const lang::Program& program,
-          const lang::Diagnostics& diagnostics, const runtime::RunnerSettings& settings,
-          Recorders& recorders);
+  Reloads(const RunArguments& arguments, std::filesystem::path folder, const lang::Diagnostics& diagnostics,
+          const runtime::RunnerSettings& settings, Recorders& recorders);
   ~Reloads();
   Reloads(const Reloads&) = delete;
   Reloads& operator=(const Reloads&) = delete;
@@ -55,13 +54,11 @@ class Reloads {
   Stamps stamps() const;
   void watch();
   void load();
-  bool fits(const lang::Program& next) const;
   std::string changed_beside_the_task() const;
   void tell_refusal(const std::string& why) const;
 
   const RunArguments& arguments_;
   const std::filesystem::path folder_;
-  const lang::Program& program_;
   const lang::Diagnostics& first_;
   const runtime::RunnerSettings& settings_;
   Recorders& recorders_;

@@ -110,7 +110,7 @@ class Live {
 void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorders& recorders,
              const lang::Program& program, bool with_watchdog, Reloads* reloads, Live& live,
              RunReport& report) {
-  runtime::Sensed sensed(program.robot.model, program.signals.size());
+  runtime::Sensed sensed(program);
   std::vector<double> truth(std::tuple_size_v<runtime::BaseTruthValues> + program.scene->objects.size() +
                             program.scene->robots.size());
   runtime::SimulationSteps steps(runner.period());
@@ -221,7 +221,7 @@ int run(const RunArguments& arguments) {
   catch_signals();
   const auto begin = Clock::now();
   std::optional<Reloads> reloads;
-  if (arguments.watch) reloads.emplace(arguments, folder, *program, diagnostics, settings, recorders);
+  if (arguments.watch) reloads.emplace(arguments, folder, diagnostics, settings, recorders);
   control(*plant, runner, recorders, *program, arguments.watchdog, reloads ? &*reloads : nullptr, live,
           report);
   if (reloads) {

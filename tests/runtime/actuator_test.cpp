@@ -227,8 +227,15 @@ TEST(HotReload, SwapsAtATickWithoutAJump) {
   EXPECT_LE(after, 2.0 * 2.0 * apart * period / Runner::handover);
 
   Runner other(shipped_program("obstacle.yaml", "omni"), {.period = period});
-  EXPECT_FALSE(runner.swap_program(other));
-  EXPECT_FALSE(runner.swap_program(next)) << "what has run would go on in the middle of its task";
+  EXPECT_EQ(runner.swap_program(other).refusal, SwapRefusal::joints);
+  EXPECT_EQ(runner.swap_program(next).refusal, SwapRefusal::has_run);
+  Runner slower(drive, {.period = 2.0 * period});
+  EXPECT_EQ(runner.swap_program(slower).refusal, SwapRefusal::period);
+  runner.guard().stop(EventCode::requested);
+  Runner late(drive, {.period = period});
+  const SwapResult refused = runner.swap_program(late);
+  EXPECT_EQ(refused.refusal, SwapRefusal::stopped);
+  EXPECT_EQ(describe(refused), "the protective stop is latched");
 }
 
 TEST(HotReload, AHalfWrittenFileIsRefusedOrWholeInItself) {

@@ -190,6 +190,67 @@ TEST(Guard, AClockThatStandsGoesBackOrJumpsIsRefusedAndCounted) {
   EXPECT_EQ(bench.admit_after(period), SampleStatus::good) << "the clock goes on from where it jumped to";
 }
 
+/// Values and stamp are judged apart: once the stop is latched it brakes by the values, whatever the stamp.
+TEST(Guard, AStopBrakesByGoodValuesWhateverTheirStamp) {
+  Bench bench;
+  ASSERT_EQ(bench.admit_after(3.0), SampleStatus::good);
+  bench.sensed.time = 1.0;
+  for (int i = 0; i < 20; ++i) {
+    bench.sensed.state.q.array() += 0.01;
+    EXPECT_EQ(bench.admit_after(period), SampleStatus::bad_clock) << i;
+  }
+  EXPECT_EQ(bench.guard.reason(), EventCode::clock_back);
+  EXPECT_NEAR(bench.guard.stop_event().value, -2.0 + 20 * period, 1e-9);
+  double last = bench.guard.time();
+  EXPECT_EQ(last, 3.0);
+  const auto brakes = [&](SampleStatus expected) {
+    bench.sensed.state.q.array() += 0.01;
+    bench.sensed.state.qd.setConstant(10.0);
+    EXPECT_EQ(bench.guard.admit(bench.sensed), expected) << bench.sensed.time;
+    EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::stopped);
+    EXPECT_LT(bench.tau.maxCoeff(), 0.0) << "against 10 rad/s";
+    EXPECT_GT(bench.guard.time(), last);
+    last = bench.guard.time();
+  };
+  bench.sensed.time += period;
+  brakes(SampleStatus::untimely);
+  bench.sensed.time += period;
+  brakes(SampleStatus::good);  // the stamp that went back is the clock's zero
+  EXPECT_NEAR(bench.guard.clock_shift(), 2.0, 1e-9);
+  for (const double stamp : {bench.sensed.time, -5.0, 1e3, nan, inf, -5.0}) {
+    bench.sensed.time = stamp;
+    brakes(SampleStatus::untimely);
+  }
+  bench.sensed.state.qd(2) = nan;
+  EXPECT_EQ(bench.guard.admit(bench.sensed), SampleStatus::not_finite);
+  bench.guard.reset();
+  bench.sensed.state.qd(2) = 0.0;
+  bench.sensed.time = -50.0;
+  EXPECT_EQ(bench.guard.admit(bench.sensed), SampleStatus::good);
+  EXPECT_GT(bench.guard.time(), last) << "after a reset, too";
+}
+
+/// Under one stamp: other values are samples of a clock that stands, the same ones are no sample.
+TEST(Guard, AClockThatStandsIsToldFromSamplesThatStayAway) {
+  Bench stands, silent;
+  for (Bench* bench : {&stands, &silent}) {
+    ASSERT_EQ(bench->admit_after(0.0), SampleStatus::good);
+    for (int i = 0; i < 20; ++i) {
+      if (bench == &stands) bench->sensed.state.q.array() += 1e-3;
+      EXPECT_EQ(bench->admit_after(0.0), SampleStatus::bad_clock);
+    }
+  }
+  EXPECT_EQ(stands.guard.reason(), EventCode::clock_stands);
+  EXPECT_EQ(silent.guard.reason(), EventCode::lost_ticks);
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(silent.admit_after(0.0), SampleStatus::bad_clock) << "the brake goes by memory";
+    EXPECT_EQ(silent.guard.refusal().code, EventCode::sample_lost);
+    stands.sensed.state.q.array() += 1e-3;
+    EXPECT_EQ(stands.admit_after(0.0), SampleStatus::untimely);
+  }
+  EXPECT_EQ(stands.admit_after(0.0), SampleStatus::untimely) << "it has come to rest";
+}
+
 TEST(Guard, ARefusedSampleHoldsTheLastTorques) {
   Bench bench;
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);

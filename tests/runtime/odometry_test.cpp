@@ -50,6 +50,18 @@ TEST(Odometry, ACircleClosesExactly) {
   EXPECT_NEAR(odometry.slip(), 0.0, 1e-12);
 }
 
+/// A base at 0.4 m/s does not move 4 m because its clock jumps by 10 s.
+TEST(Odometry, AClockThatJumpsMovesNothing) {
+  for (const double jump : {10.0, -10.0}) {
+    Base base;
+    Odometry odometry(base.robot.model);
+    roll(base.state, 0.4, 0.0, 0.0);
+    odometry.update(0.0, base.state);
+    odometry.update(jump, base.state);
+    EXPECT_LE(std::abs(base.state.base_pose.position.x()), 0.4 * Odometry::longest_step + 1e-12);
+  }
+}
+
 TEST(Odometry, HalfACircleEndsADiameterAway) {
   Base base;
   Odometry odometry(base.robot.model);

@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
         Injected{"frozen for 10 ms", FaultKind::samples_frozen, 0.010},
         Injected{"frozen for 200 ms", FaultKind::samples_frozen, 0.200, "", 0.0, EventCode::frozen, 20},
         Injected{"clock backwards for 5 ms", FaultKind::clock_backwards, 0.005},
-        Injected{"clock backwards", FaultKind::clock_backwards, 0.100, "", 0.0, EventCode::lost_ticks, 20},
+        Injected{"clock backwards", FaultKind::clock_backwards, 0.100, "", 0.0, EventCode::clock_back, 20},
         Injected{"floor of ice for 1 s", FaultKind::floor_friction, 1.0, "", 0.05},
         Injected{"23 kg of payload", FaultKind::payload, 10.0, "", 23.0},
         Injected{"23 kg less", FaultKind::payload, 10.0, "", -23.0}),

@@ -67,7 +67,7 @@ void Odometry::update(double time, solver::State& state) noexcept {
     const Past& last = past_[(updates_ - 1) % past_.size()];
     // The mean of both ends is exact to the second order in the period.
     const solver::MotionVector mean = (twist_ + seen.twist) * 0.5;
-    pose_ = pose_ * way_along(mean, std::max(0.0, time - last.time));
+    pose_ = pose_ * way_along(mean, std::clamp(time - last.time, 0.0, longest_step));
   }
   started_ = true;
   twist_ = seen.twist;

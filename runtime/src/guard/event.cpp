@@ -40,6 +40,16 @@ const char* to_string(EventCode code) noexcept {
       return "wheel_reversed";
     case EventCode::motors_reversed:
       return "motors_reversed";
+    case EventCode::clock_back:
+      return "clock_back";
+    case EventCode::clock_stands:
+      return "clock_stands";
+    case EventCode::clock_rate:
+      return "clock_rate";
+    case EventCode::wrench_impossible:
+      return "wrench_impossible";
+    case EventCode::clock_drift:
+      return "clock_drift";
     case EventCode::sensor_bias:
       return "sensor_bias";
     case EventCode::clock_refused:
@@ -65,7 +75,7 @@ const char* describe(EventCode code) noexcept {
     case EventCode::bad_sample:
       return "a sample with a number that cannot be, or of the wrong size";
     case EventCode::lost_ticks:
-      return "too long without a good sample";
+      return "too long without a good sample, or a clock that jumped ahead";
     case EventCode::frozen:
       return "the robot moves, and a position of it does not change";
     case EventCode::bad_torque:
@@ -96,6 +106,16 @@ const char* describe(EventCode code) noexcept {
       return "a wheel's encoder counts the wrong way round";
     case EventCode::motors_reversed:
       return "the base accelerates against what its motors are told";
+    case EventCode::clock_back:
+      return "the samples' clock went back";
+    case EventCode::clock_stands:
+      return "the samples' clock stands while their values change";
+    case EventCode::clock_rate:
+      return "the samples' clock runs at another rate than the control period";
+    case EventCode::wrench_impossible:
+      return "a wrench from outside is larger than anything can press with; it counts as 0";
+    case EventCode::clock_drift:
+      return "the samples' clock and the control period differ by more than a tenth";
     case EventCode::clock_refused:
       return "a sample's time was refused";
     case EventCode::sample_lost:

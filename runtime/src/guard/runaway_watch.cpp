@@ -45,12 +45,19 @@ double excess(const AxisConstraint& c, double velocity, const Margin& margin) no
   return outside(velocity, low, high) / std::max(least, margin.share * std::abs(bound));
 }
 
-/// The largest of the constraints that are in force, wholly and still.
+/// What says how the base moves. The tool of an arm that is led by hand is no base that runs away: an arm is
+/// bounded by JointLimits.
+bool is_of_base(const AxisConstraint& c) noexcept {
+  constexpr int base = 0;
+  return c.move.body <= base && c.in.body <= base;
+}
+
+/// The largest of the base's constraints that are in force, wholly and still.
 double largest_excess(const solver::ConstraintSet& set, const Margin& margin) noexcept {
   const std::vector<AxisConstraint>& all = set.constraints();
   double largest = 0.0;
   for (std::size_t i = 0; i < all.size() && i < set.coordinates().size(); ++i) {
-    if (all[i].alpha < 1.0 || all[i].progress < 1.0) continue;
+    if (!is_of_base(all[i]) || all[i].alpha < 1.0 || all[i].progress < 1.0) continue;
     largest = std::max(largest, excess(all[i], set.coordinates()[i].velocity, margin));
   }
   return largest;

@@ -29,9 +29,11 @@ namespace zwang::runtime {
 /// it.) So of all the time since a speed was exceeded, and of that in which T grows alone: what motors took
 /// between two pushes none of them gave. But it is a fault where the base is far beyond what is allowed and
 /// still gets faster: whoever does that, several motors that are wired the wrong way round or somebody
-/// strong, the base is not to be moved so. A limit that is tightened under way, a contact that turns the
-/// base, a motion that rows bring about together: in each of them T falls, or W > 0. The hit of another robot
-/// is over before `dwell`. Does not allocate, lock, throw or print after construction.
+/// strong, the base is not to be moved so. Only constraints between base and world count: whoever leads an
+/// arm by hand does work on the robot, and its joints have limits of their own. A limit that is tightened
+/// under way, a contact that turns the base, a motion that rows bring about together: in each of them T
+/// falls, or W > 0. The hit of another robot is over before `dwell`. Does not allocate, lock, throw or print
+/// after construction.
 class RunawayWatch {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;

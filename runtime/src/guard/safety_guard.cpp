@@ -50,6 +50,8 @@ const char* to_string(SampleStatus status) noexcept {
       return "not finite";
     case SampleStatus::bad_clock:
       return "bad clock";
+    case SampleStatus::untimely:
+      return "untimely";
   }
   return "?";
 }
@@ -77,6 +79,7 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
       last_(limit_),
       next_(limit_),
       last_q_(limit_),
+      last_qd_(limit_),
       arm_(std::make_unique<ArmHold>(robot.model)),
       frozen_(std::make_unique<FrozenState>(limit_.size())),
       brake_(std::make_unique<WheelBrake>(robot, settings.period)) {
@@ -98,7 +101,12 @@ SafetyGuard& SafetyGuard::operator=(SafetyGuard&&) noexcept = default;
 
 /// When the present tick is, whatever its sample says.
 double SafetyGuard::due() const noexcept {
-  return has_time_ ? last_time_ + (lost_ticks_ + 1) * settings_.period : 0.0;
+  return has_begun_ ? time() + (lost_ticks_ + 1) * settings_.period : 0.0;
+}
+
+bool SafetyGuard::is_timely(double stamp) const noexcept {
+  const double step = stamp - last_time_;
+  return plausible(stamp, latest_plausible) && (!has_time_ || (step > 0.0 && step <= settings_.max_step));
 }
 
 /// The first entry that no robot can have; code `none` when there is none.
@@ -106,13 +114,11 @@ Event SafetyGuard::find_bad_entry(const Sensed& sensed) const noexcept {
   using namespace event_signal;
   const solver::State& s = sensed.state;
   const auto joints = static_cast<int>(limit_.size());
-  const double step = sensed.time - last_time_;
-  const bool is_timely =
-      plausible(sensed.time, latest_plausible) && (!has_time_ || (step > 0.0 && step <= settings_.max_step));
   const auto bad = [&](int signal, double value) {
-    return Event{EventCode::bad_sample, is_timely ? sensed.time : due(), signal, value};
+    const double when = is_timely(sensed.time) ? sensed.time + clock_shift_ : due();
+    return Event{EventCode::bad_sample, when, signal, value};
   };
-  if (!plausible(sensed.time, latest_plausible)) return bad(event_signal::time, sensed.time);
+  if (!stopped() && !plausible(sensed.time, latest_plausible)) return bad(event_signal::time, sensed.time);
   if (s.q.size() != joints || s.qd.size() != joints || s.tau_ff.size() != joints) {
     return bad(-1, static_cast<double>(s.q.size()));
   }
@@ -147,39 +153,73 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
     latch(bad);
     return SampleStatus::not_finite;
   }
-  if (!has_time_) {
-    has_time_ = true;
-    last_time_ = sensed.time;
-    lost_ticks_ = 0;
-    frozen_->look(sensed.state.q, 0.0);
-    return SampleStatus::good;
-  }
-  const double step = sensed.time - last_time_;
+  const bool was_stopped = stopped();
+  const double step = has_time_ ? sensed.time - last_time_ : 0.0;
   if (step > (settings_.max_lost_ticks + clock_rounding) * settings_.period) {
-    latch({EventCode::lost_ticks, sensed.time, event_signal::time, step});
+    latch({EventCode::lost_ticks, sensed.time + clock_shift_, event_signal::time, step});
   }
-  if (step <= 0.0 || step > settings_.max_step) {
-    ++counters_.refused_clock;
-    // Where no sample arrives, the last one is shown again.
-    const EventCode code = step == 0.0 ? EventCode::sample_lost : EventCode::clock_refused;
-    const double now = due();
-    refusal_ = {code, now, event_signal::time, sensed.time};
-    if (++lost_ticks_ >= settings_.max_lost_ticks)
-      latch({EventCode::lost_ticks, now, event_signal::time, step});
-    // After a jump ahead the clock goes on from there; a clock that went back has to catch up first.
-    if (step > settings_.max_step) last_time_ = sensed.time;
-    return SampleStatus::bad_clock;
-  }
-  last_time_ = sensed.time;
-  lost_ticks_ = 0;
-  watch_for_a_frozen_state(sensed.state, step);
+  if (!is_timely(sensed.time)) return was_stopped ? take_untimely(sensed) : refuse_stamp(sensed);
+  stamp_says_nothing_ = false;
+  take_stamp(sensed.time);
+  take_values(sensed.state, step);
+  has_time_ = true;
   return SampleStatus::good;
 }
 
-void SafetyGuard::watch_for_a_frozen_state(const solver::State& state, double step) noexcept {
+/// Where no sample arrives, the last one is shown again.
+bool SafetyGuard::is_shown_again(const Sensed& sensed) const noexcept {
+  return sensed.time == last_time_ && sensed.state.q == last_q_ && sensed.state.qd == last_qd_ &&
+         sensed.state.base_pose.position == last_position_;
+}
+
+/// A few of them are ridden through.
+SampleStatus SafetyGuard::refuse_stamp(const Sensed& sensed) noexcept {
+  ++counters_.refused_clock;
+  const double step = sensed.time - last_time_;
+  const bool is_lost = is_shown_again(sensed);
+  stamp_says_nothing_ = step == 0.0 && !is_lost;
+  const double now = due();
+  refusal_ = {is_lost ? EventCode::sample_lost : EventCode::clock_refused, now, event_signal::time,
+              sensed.time};
+  if (++lost_ticks_ >= settings_.max_lost_ticks) {
+    const EventCode reason = step < 0.0            ? EventCode::clock_back
+                             : stamp_says_nothing_ ? EventCode::clock_stands
+                                                   : EventCode::lost_ticks;
+    latch({reason, now, event_signal::time, step});
+  }
+  // After a jump ahead the clock goes on from there; one that went back may catch up before the stop latches.
+  if (step > settings_.max_step) last_time_ = sensed.time;
+  return SampleStatus::bad_clock;
+}
+
+/// The latched stop brakes by any good values. Once they change under one stamp, the stamp does not tell any
+/// more whether a sample has arrived.
+SampleStatus SafetyGuard::take_untimely(const Sensed& sensed) noexcept {
+  ++counters_.refused_clock;
+  if (is_shown_again(sensed) && !stamp_says_nothing_) {
+    refusal_ = {EventCode::sample_lost, due(), event_signal::time, sensed.time};
+    ++lost_ticks_;
+    return SampleStatus::bad_clock;
+  }
+  refusal_ = {EventCode::clock_refused, due(), event_signal::time, sensed.time};
+  stamp_says_nothing_ = sensed.time == last_time_;
+  take_stamp(plausible(sensed.time, latest_plausible) ? sensed.time : last_time_);
+  take_values(sensed.state, settings_.period);
+  return SampleStatus::untimely;
+}
+
+void SafetyGuard::take_stamp(double stamp) noexcept {
+  if (has_begun_ && stamp + clock_shift_ <= time()) clock_shift_ = due() - stamp;
+  last_time_ = stamp;
+  has_begun_ = true;
+  lost_ticks_ = 0;
+}
+
+/// `step` [s] since the last ones; 0: there are none to compare with.
+void SafetyGuard::take_values(const solver::State& state, double step) noexcept {
   const bool moves = state.qd.lpNorm<Eigen::Infinity>() > moving_joint ||
                      state.base_twist.linear.lpNorm<Eigen::Infinity>() > moving_base;
-  const bool stands = state.q == last_q_ && state.base_pose.position == last_position_;
+  const bool stands = step > 0.0 && state.q == last_q_ && state.base_pose.position == last_position_;
   frozen_ticks_ = moves && stands ? frozen_ticks_ + 1 : 0;
   if (frozen_ticks_ > 0) ++counters_.frozen;
   if (frozen_ticks_ >= settings_.max_lost_ticks) {
@@ -190,6 +230,7 @@ void SafetyGuard::watch_for_a_frozen_state(const solver::State& state, double st
     stop(EventCode::frozen, event_signal::of_joint(frozen_->joint(), event_signal::q), frozen_->pace());
   }
   last_q_ = state.q;
+  last_qd_ = state.qd;
   last_position_ = state.base_pose.position;
 }
 
@@ -278,7 +319,7 @@ GuardStatus SafetyGuard::send(Eigen::VectorXd& tau, GuardStatus status) noexcept
 }
 
 void SafetyGuard::stop(EventCode reason, int signal, double value) noexcept {
-  latch({reason, has_time_ ? last_time_ : 0.0, signal, value});
+  latch({reason, has_begun_ ? time() : 0.0, signal, value});
 }
 
 void SafetyGuard::latch(const Event& event) noexcept {

@@ -175,6 +175,7 @@ double SceneSignals::distance(const Truth& truth, int number, const solver::Stat
 SignalSample SceneSignals::measured(Source& source, const Truth& truth,
                                     const solver::State& state) const noexcept {
   SignalSample sample;
+  sample.type = source.type;
   sample.valid = true;
   sample.stamp = truth.time;
   const SceneSignal& signal = source.signal;

@@ -38,6 +38,8 @@ class LogLayout {
             const std::vector<Column>& extra);
 
   const std::vector<Column>& columns() const noexcept { return columns_; }
+  /// Where a snapshot has each of the program's signals. Does not allocate.
+  void signals_at(const std::vector<std::size_t>& places) noexcept { inputs_.signals_at(places); }
   /// The record of a tick, one value a column; valid until the next call. Does not allocate.
   std::span<const double> fill(const StatementTable& statements, const Tick& tick) noexcept;
 

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
@@ -129,11 +130,23 @@ std::optional<lang::Program> logged_program(const LogContext& context, lang::Dia
 
 namespace {
 
-void replay_part(const ReplayPart& part, Runner& runner, ReplayResult& result) {
+/// The snapshots of all parts are laid out for the first program, which `swap_program` has matched.
+std::vector<std::size_t> places_in(const lang::Program& first, const lang::Program& program) {
+  std::vector<std::size_t> places;
+  for (const lang::Signal& signal : program.signals) {
+    const auto found = std::find_if(first.signals.begin(), first.signals.end(),
+                                    [&](const lang::Signal& other) { return other.name == signal.name; });
+    places.push_back(static_cast<std::size_t>(found - first.signals.begin()));
+  }
+  return places;
+}
+
+void replay_part(const lang::Program& first, const ReplayPart& part, Runner& runner, ReplayResult& result) {
   const lang::Program& program = part.program;
   const solver::Model& model = program.robot.model;
-  const SensedColumns inputs(model, program.signals, program.parameters);
-  Sensed sensed(model, program.signals.size());
+  SensedColumns inputs(model, program.signals, program.parameters);
+  inputs.signals_at(places_in(first, program));
+  Sensed sensed(first);
   std::vector<double> parameters(program.parameters.size());
   std::vector<double> values(inputs.columns().size());
   std::vector<std::string> torques;
@@ -179,10 +192,11 @@ ReplayResult replay(const std::vector<ReplayPart>& parts, const RunnerSettings& 
     Runner next(part.program, settings);
     if (!runner) {
       runner = std::move(next);
-    } else if (!runner->swap_program(next)) {
-      throw std::runtime_error("replay: the program of " + part.log.string() + " cannot go on there");
+    } else if (const SwapResult swap = runner->swap_program(next); !swap) {
+      throw std::runtime_error("replay: the program of " + part.log.string() +
+                               " cannot go on there: " + describe(swap));
     }
-    replay_part(part, *runner, result);
+    replay_part(parts.front().program, part, *runner, result);
   }
   return result;
 }

@@ -7,18 +7,21 @@
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
 #include "estimate/ticks.hpp"
+#include "guard/clock_rate.hpp"
 #include "guard/frozen_at_rest.hpp"
 #include "guard/frozen_wheel.hpp"
 #include "guard/joint_rates.hpp"
 #include "guard/motor_watch.hpp"
 #include "guard/slip_watch.hpp"
 #include "guard/wheel_signs.hpp"
+#include "guard/wrench_bound.hpp"
 #include "guard/wrench_refusal.hpp"
 #include "run/limit_table.hpp"
 #include "run/log_layout.hpp"
 #include "run/run_facts.hpp"
 #include "run/shortfall.hpp"
 #include "run/signal_watch.hpp"
+#include "run/snapshot_signals.hpp"
 #include "run/statement_table.hpp"
 #include "schedule/at_rest.hpp"
 #include "zwang/runtime/odometry.hpp"
@@ -96,6 +99,7 @@ struct Runner::Parts {
         press(model),
         arm(model),
         disturbance(program.robot, period),
+        clock_rate(period),
         rates(model),
         frozen_wheel(program.robot),
         frozen_at_rest(program.robot),
@@ -103,7 +107,9 @@ struct Runner::Parts {
         slip(model),
         signs(model),
         wrenches(model),
+        wrench_bound(program, period, lost_ticks(period)),
         signals(program.signals),
+        snapshot(program),
         signal_watch(program),
         signal_words(event_signals(model, signal_names(program))),
         guard(program.robot,
@@ -124,6 +130,8 @@ struct Runner::Parts {
 
   /// What is known of a good sample: itself, or with the base as the wheels tell it.
   void estimate(const Sensed& sensed) noexcept;
+  void take_signals(const Sensed& sensed) noexcept;
+  void judge_clock(const Sensed& sensed) noexcept;
   void mend_rates() noexcept;
   /// Everything between that and the guard. False when there are no torques to send.
   bool control() noexcept;
@@ -132,7 +140,9 @@ struct Runner::Parts {
   /// After a swap of programs: what was sent last fades out of the torques.
   void hand_over() noexcept;
   bool has_the_joints_of(const Parts& other) const noexcept;
-  void judge_sensors(const Sensed& sensed) noexcept;
+  void take_events_of(Parts& before) noexcept;
+  void judge_sensors() noexcept;
+  void judge_wrenches() noexcept;
   void tell(const Event& event) noexcept;
   /// The protective stop, where a watch found something.
   void stop(const std::optional<Event>& found) noexcept;
@@ -159,6 +169,7 @@ struct Runner::Parts {
   Press press;
   solver::JointLoads arm;
   DisturbanceObserver disturbance;
+  ClockRate clock_rate;
   JointRates rates;
   FrozenWheel frozen_wheel;
   FrozenAtRest frozen_at_rest;
@@ -166,7 +177,9 @@ struct Runner::Parts {
   SlipWatch slip;
   WheelSigns signs;
   WrenchRefusal wrenches;
+  WrenchBound wrench_bound;
   const std::vector<lang::Signal> signals;
+  SnapshotSignals snapshot;  ///< where they are in it
   SignalWatch signal_watch;
   const std::vector<std::string> signal_words;  ///< of events
   std::vector<bool> is_judged;                  ///< of each signal: it was looked at when the run began
@@ -194,14 +207,13 @@ struct Runner::Parts {
 };
 
 void Runner::Parts::estimate(const Sensed& sensed) noexcept {
-  estimated.time = sensed.time;
+  const double time = guard.time();
+  estimated.time = time;
   estimated.state = sensed.state;
-  stop(rates.look(estimated.state, sensed.time));
-  stop(frozen_wheel.look(estimated.state, tau, sensed.time));
+  stop(rates.look(estimated.state, time));
+  stop(frozen_wheel.look(estimated.state, tau, time));
   if (guard.stopped()) mend_rates();
-  // A snapshot may have fewer or more signals than the program; the sample keeps its size.
-  std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), sample.signals.size()),
-              sample.signals.begin());
+  take_signals(sensed);
   solver::Pose& base = estimated.state.base_pose;
   const bool is_new = sensed.base_measured || !reckoning;
   if (is_new && model.base_type() == solver::BaseType::ground) base = level(base);
@@ -211,14 +223,38 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   }
   if (!reckoning) odometry.start_at(base);
   reckoning = true;
-  if (sensed.base_fix && sensed.base_fix->stamp > last_fix) {
+  if (sensed.base_fix) {
+    const double stamp = sensed.base_fix->stamp + guard.clock_shift();
     // One that is stamped ahead must not keep out those that follow.
-    if (sensed.base_fix->stamp <= sensed.time + 0.5 * period) {
-      last_fix = sensed.base_fix->stamp;
+    if (stamp > last_fix && stamp <= time + 0.5 * period) {
+      last_fix = stamp;
       odometry.correct(last_fix, sensed.base_fix->pose);
     }
   }
-  odometry.update(sensed.time, estimated.state);
+  odometry.update(time, estimated.state);
+}
+
+/// A snapshot of another size was not laid out for these signals: no sample has come.
+void Runner::Parts::take_signals(const Sensed& sensed) noexcept {
+  sample.time = guard.time();
+  if (sensed.signals.size() != snapshot.size()) {
+    for (SignalSample& nothing : sample.signals) nothing.valid = false;
+    return;
+  }
+  for (std::size_t i = 0; i < sample.signals.size(); ++i) {
+    sample.signals[i] = sensed.signals[snapshot.places()[i]];
+    sample.signals[i].stamp += guard.clock_shift();
+  }
+}
+
+void Runner::Parts::judge_clock(const Sensed& sensed) noexcept {
+  if (guard.stopped()) return clock_rate.begin();
+  const auto found = clock_rate.look(sensed.time);
+  if (found && latches_the_stop(found->code)) {
+    guard.stop(found->code, found->signal, found->value);
+  } else if (found) {
+    tell(*found);
+  }
 }
 
 /// A stop for rates that are wrong is over when the base stands by those that are not.
@@ -270,7 +306,7 @@ void Runner::Parts::hand_over() noexcept {
 }
 
 bool Runner::Parts::has_the_joints_of(const Parts& other) const noexcept {
-  if (model.joint_count() != other.model.joint_count() || period != other.period) return false;
+  if (model.joint_count() != other.model.joint_count()) return false;
   for (int j = 0; j < model.joint_count(); ++j) {
     if (model.joint(j).name != other.model.joint(j).name) return false;
   }
@@ -284,8 +320,11 @@ void Runner::Parts::tell(const Event& told) noexcept {
   if (event.code == EventCode::none || is_stop) event = told;
 }
 
+/// Under a clock of another rate all that is computed with dt is wrong, and accuses motors and encoders.
 void Runner::Parts::stop(const std::optional<Event>& found) noexcept {
-  if (found) guard.stop(found->code, found->signal, found->value);
+  if (!found) return;
+  if (clock_rate.is_off()) return guard.stop(EventCode::clock_rate, event_signal::time, clock_rate.rate());
+  guard.stop(found->code, found->signal, found->value);
 }
 
 /// Samples that are refused one after the other for one reason are one event.
@@ -317,21 +356,29 @@ void Runner::Parts::compare() noexcept {
 }
 
 /// A force that is measured before anything moved is the sensor's own.
-void Runner::Parts::judge_sensors(const Sensed& sensed) noexcept {
-  if (!start) start = sensed.time;
-  if (sensed.time - *start > start_window) return;
-  const std::size_t count = std::min(signals.size(), sensed.signals.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const SignalSample& measured = sensed.signals[i];
+void Runner::Parts::judge_sensors() noexcept {
+  const double time = estimated.time;
+  if (!start) start = time;
+  if (time - *start > start_window) return;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const SignalSample& measured = sample.signals[i];
     if (is_judged[i] || !measured.valid) continue;
     is_judged[i] = true;
     double reads = 0.0;
     if (signals[i].type == lang::SignalType::wrench) reads = measured.wrench.linear.norm();
     if (signals[i].measures_force) reads = measured.number;
     if (!(std::abs(reads) > quiet_sensor)) continue;
-    tell({EventCode::sensor_bias, sensed.time,
-          event_signal::measured(model.joint_count(), static_cast<int>(i)), reads});
+    tell({EventCode::sensor_bias, time, event_signal::measured(model.joint_count(), static_cast<int>(i)),
+          reads});
   }
+}
+
+/// Behind `estimate`, which knows the speed that a hit may have.
+void Runner::Parts::judge_wrenches() noexcept {
+  const auto found = wrench_bound.look(estimated.state, sample.signals, estimated.time);
+  if (!found) return;
+  tell(*found);
+  if (wrench_bound.is_due()) guard.stop(found->code, found->signal, found->value);
 }
 
 Shortfall Runner::Parts::find_shortfall() const noexcept {
@@ -360,14 +407,17 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   p.event = {};
   if (p.recorder != nullptr) p.given_parameters = p.scheduler.parameters();
   const SampleStatus status = p.guard.admit(sensed);
-  const bool good = status == SampleStatus::good;
+  const bool is_timely = status == SampleStatus::good;
+  const bool good = is_timely || status == SampleStatus::untimely;
   bool solved = false;
   p.tell_refusal(status);
-  if (good) {
-    p.estimate(sensed);
-    p.judge_sensors(sensed);
-    if (const auto refused = p.signal_watch.look(sensed)) p.tell(*refused);
+  if (status != SampleStatus::not_finite) p.judge_clock(sensed);
+  if (good) p.estimate(sensed);
+  if (is_timely) {
+    p.judge_sensors();
+    if (const auto refused = p.signal_watch.look(sensed, p.snapshot.size(), p.sample)) p.tell(*refused);
   }
+  if (good) p.judge_wrenches();
   if (good && !p.guard.stopped()) {
     const bool computed = p.control();
     if (!computed) p.guard.stop(EventCode::solver, -1, static_cast<double>(p.solver_status));
@@ -413,14 +463,31 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   return p.tau;
 }
 
-bool Runner::swap_program(Runner& next) noexcept {
-  const bool has_run = next.parts_->scheduler.task() >= 0;
-  if (parts_->guard.stopped() || has_run || !next.parts_->has_the_joints_of(*parts_)) return false;
+/// Their signals are those of the program that runs now.
+void Runner::Parts::take_events_of(Parts& before) noexcept {
+  events.swap(before.events);
+  std::swap(event_count, before.event_count);
+  const int first = event_signal::measured(model.joint_count(), 0);
+  for (Event& told : events) {
+    if (told.signal < first) continue;
+    const int now = snapshot.index_of(static_cast<std::size_t>(told.signal - first), before.snapshot);
+    told.signal = now < 0 ? -1 : first + now;
+  }
+}
+
+SwapResult Runner::swap_program(Runner& next) noexcept {
+  if (parts_->guard.stopped()) return {SwapRefusal::stopped};
+  if (next.parts_->scheduler.task() >= 0) return {SwapRefusal::has_run};
+  if (!next.parts_->has_the_joints_of(*parts_)) return {SwapRefusal::joints};
+  if (next.parts_->period != parts_->period) return {SwapRefusal::period};
+  const SwapResult matched = next.parts_->snapshot.match(parts_->snapshot);
+  if (!matched) return matched;
   std::swap(parts_, next.parts_);
   Parts& now = *parts_;
   Parts& before = *next.parts_;
   std::swap(now.guard, before.guard);
   std::swap(now.odometry, before.odometry);
+  std::swap(now.clock_rate, before.clock_rate);
   std::swap(now.rates, before.rates);
   std::swap(now.frozen_wheel, before.frozen_wheel);
   std::swap(now.frozen_at_rest, before.frozen_at_rest);
@@ -429,14 +496,16 @@ bool Runner::swap_program(Runner& next) noexcept {
   now.reckoning = before.reckoning;
   now.last_fix = before.last_fix;
   now.start = before.start;
-  now.events.swap(before.events);
-  std::swap(now.event_count, before.event_count);
+  now.take_events_of(before);
+  now.wrench_bound.go_on_from(before.wrench_bound);
+  now.snapshot.go_on_from(before.snapshot);
+  now.layout.signals_at(now.snapshot.places());
   now.disturbance.pause();
   now.motors.reset();
   now.tau = before.tau;
   now.handed_over_for = 0.0;
   now.recorder = nullptr;
-  return true;
+  return {};
 }
 
 double Runner::period() const noexcept {

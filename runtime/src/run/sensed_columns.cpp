@@ -96,7 +96,8 @@ void visit_sample(Visitor& v, Sample& sample, lang::SignalType type) noexcept {
 
 /// The same order for both ways; `SensedColumns` names it.
 template <typename Visitor, typename Snapshot>
-void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>& types) noexcept {
+void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>& types,
+                    const std::vector<std::size_t>& places) noexcept {
   v.number(s.time);
   visit_all(v, s.state.q);
   visit_all(v, s.state.qd);
@@ -109,8 +110,14 @@ void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>
     v.number(fix.stamp);
     visit_pose(v, fix.pose);
   });
-  for (std::size_t i = 0; i < types.size() && i < s.signals.size(); ++i)
-    visit_sample(v, s.signals[i], types[i]);
+  for (std::size_t i = 0; i < types.size(); ++i) {
+    SignalSample missing;
+    if (places[i] < s.signals.size()) {
+      visit_sample(v, s.signals[places[i]], types[i]);
+    } else {
+      visit_sample(v, missing, types[i]);
+    }
+  }
 }
 
 }  // namespace
@@ -129,6 +136,7 @@ SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang:
   name("sensed.fix", pose_parts);
   for (const lang::Signal& signal : signals) {
     const std::string of = "sensed.signal." + signal.name;
+    places_.push_back(types_.size());
     types_.push_back(signal.type);
     name(of, {".valid", ".stamp"});
     if (signal.type == lang::SignalType::pose) {
@@ -146,6 +154,10 @@ SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang:
     name("params." + parameter.name, {""});
     columns_.back().span = parameter.span;
   }
+}
+
+void SensedColumns::signals_at(const std::vector<std::size_t>& places) noexcept {
+  std::copy(places.begin(), places.end(), places_.begin());
 }
 
 void SensedColumns::name(const std::string& of, std::initializer_list<const char*> parts) {
@@ -167,13 +179,13 @@ void SensedColumns::write(const Sensed& sensed, std::span<const double> paramete
             values.begin() + static_cast<std::ptrdiff_t>(first_parameter_));
   if (!sized) return;
   Writer writer{values};
-  visit_snapshot(writer, sensed, types_);
+  visit_snapshot(writer, sensed, types_, places_);
 }
 
 void SensedColumns::read(std::span<const double> values, Sensed& sensed,
                          std::span<double> parameters) const noexcept {
   Reader reader{values};
-  visit_snapshot(reader, sensed, types_);
+  visit_snapshot(reader, sensed, types_, places_);
   std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first_parameter_), parameters.size(),
               parameters.begin());
 }

@@ -20,6 +20,8 @@ class SensedColumns {
                 const std::vector<lang::Parameter>& parameters);
 
   const std::vector<Column>& columns() const noexcept { return columns_; }
+  /// Where a snapshot has each of the signals; without it in their own order. Does not allocate.
+  void signals_at(const std::vector<std::size_t>& places) noexcept;
   /// As many values as columns. Does not allocate. `parameters` as they stood when the tick began.
   void write(const Sensed& sensed, std::span<const double> parameters,
              std::span<double> values) const noexcept;
@@ -31,6 +33,7 @@ class SensedColumns {
   void name(const std::string& of, std::initializer_list<const char*> parts);
 
   std::vector<lang::SignalType> types_;
+  std::vector<std::size_t> places_;
   std::size_t first_parameter_ = 0;
   std::vector<Column> columns_;
 };

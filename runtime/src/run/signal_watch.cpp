@@ -22,21 +22,26 @@ std::optional<Event> SignalWatch::look_at_fix(const Sensed& sensed) noexcept {
   return Event{EventCode::signal_refused, sensed.time, event_signal::base_pose, is_timely ? 0.0 : lead};
 }
 
-std::optional<Event> SignalWatch::look(const Sensed& sensed) noexcept {
+std::optional<Event> SignalWatch::look(const Sensed& sensed, std::size_t expected,
+                                       const Sensed& sample_of_program) noexcept {
+  const std::size_t size = sensed.signals.size();
+  if (size != 0 && size != expected && !size_is_told_) {
+    size_is_told_ = true;
+    return Event{EventCode::signal_refused, sample_of_program.time, -1, static_cast<double>(size)};
+  }
   if (const auto refused = look_at_fix(sensed)) return refused;
-  const std::size_t count = std::min(signals_.size(), sensed.signals.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const SignalSample& sample = sensed.signals[i];
+  for (std::size_t i = 0; i < signals_.size(); ++i) {
+    const SignalSample& sample = sample_of_program.signals[i];
     Watched& watched = signals_[i];
     // One that stays until the next comes gets old, and that is no fault.
     if (!sample.valid || watched.is_told || sample.stamp == watched.stamp) continue;
     watched.stamp = sample.stamp;
-    const double lead = sample.stamp - sensed.time;
+    const double lead = sample.stamp - sample_of_program.time;
     const bool is_timely = lead <= ahead && lead >= -behind;
     if (is_timely && is_sound(sample, watched.type)) continue;
     watched.is_told = true;
     const int signal = event_signal::measured(joints_, static_cast<int>(i));
-    return Event{EventCode::signal_refused, sensed.time, signal, is_timely ? 0.0 : lead};
+    return Event{EventCode::signal_refused, sample_of_program.time, signal, is_timely ? 0.0 : lead};
   }
   return std::nullopt;
 }

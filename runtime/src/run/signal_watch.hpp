@@ -19,9 +19,10 @@ class SignalWatch {
  public:
   explicit SignalWatch(const lang::Program& program);
 
-  /// Every good sample. Each signal is told once. The event's value: by how much its stamp is ahead [s]; 0
-  /// where it is not the stamp.
-  std::optional<Event> look(const Sensed& sensed) noexcept;
+  /// Every good sample: as it came, and with the program's signals out of it. `expected`: how many signals
+  /// the snapshot should have. Each signal is told once. The event's value: by how much its stamp is ahead
+  /// [s]; 0 where it is not the stamp. Of a snapshot of another size, once: no signal, and its size.
+  std::optional<Event> look(const Sensed& sensed, std::size_t expected, const Sensed& sample) noexcept;
 
   static constexpr double ahead = 0.1;    ///< [s] a stamp of the next few ticks is only early
   static constexpr double behind = 60.0;  ///< [s]
@@ -39,6 +40,7 @@ class SignalWatch {
   std::vector<Watched> signals_;
   Watched fix_{.type = lang::SignalType::pose};
   int joints_;
+  bool size_is_told_ = false;
 };
 
 }  // namespace zwang::runtime

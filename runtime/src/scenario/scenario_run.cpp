@@ -85,7 +85,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   ScenePlant plant(program, options);
   Runner runner(program);
   TrueFacts facts(program);
-  Sensed sensed(program.robot.model, program.signals.size());
+  Sensed sensed(program);
   const std::vector<ScenePartner>& partners = plant.partners();
   std::vector<bool> had_stopped(partners.size(), false);
   Eigen::VectorXd tau;

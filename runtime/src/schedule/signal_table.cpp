@@ -32,6 +32,7 @@ solver::Pose between(const solver::Pose& a, const solver::Pose& b, double part) 
 }  // namespace
 
 bool is_sound(const SignalSample& sample, lang::SignalType type) noexcept {
+  if (sample.type && *sample.type != type) return false;
   switch (type) {
     case lang::SignalType::boolean:
       return true;

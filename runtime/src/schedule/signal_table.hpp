@@ -10,7 +10,7 @@
 
 namespace zwang::runtime {
 
-/// Its numbers are finite, and what turns something is a rotation.
+/// It is of the signal's type, its numbers are finite, and what turns something is a rotation.
 bool is_sound(const SignalSample& sample, lang::SignalType type) noexcept;
 
 class SignalTable {

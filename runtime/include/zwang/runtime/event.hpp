@@ -28,8 +28,14 @@ enum class EventCode {
   rate_contradicts,  ///< the rate of a joint is not that of its position
   wheel_reversed,    ///< what a wheel contradicts the others by is gone when its rate is given the other sign
   motors_reversed,   ///< the base accelerates against what its motors are told
+  clock_back,        ///< the samples' clock went back; `value`: by how much [s], negative
+  clock_stands,      ///< the samples' clock stands while their values change
+  clock_rate,  ///< the samples' clock runs faster or slower than the control period; `value`: how many times
+  wrench_impossible,  ///< a wrench from outside that nothing can press with counts as 0; told, a stop if it
+                      ///< goes on
   // Those that are only told.
   clock_refused,  ///< time went backwards, or jumped
+  clock_drift,    ///< the samples' clock is off by more than a tenth; `value`: its rate
   sample_lost,    ///< none has arrived since the last tick
   sensor_bias,    ///< a force is measured before anything has moved
   slip,
@@ -47,7 +53,9 @@ inline constexpr bool latches_the_stop(EventCode code) {
 
 struct Event {
   EventCode code = EventCode::none;
-  double time = 0.0;   ///< [s] of the sample; where it has no good time, when it was due
+  /// [s] of the sample; where it has no good time, when it was due. After a clock that went back it goes on
+  /// from where it was.
+  double time = 0.0;
   int signal = -1;     ///< index into `event_signals`
   double value = 0.0;  ///< what the signal read, or what is wrong with it; SI
 };

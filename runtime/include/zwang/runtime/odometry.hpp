@@ -34,6 +34,8 @@ class Odometry {
   /// its rotation is none, and then nothing happens.
   bool correct(double stamp, const solver::Pose& measured) noexcept;
 
+  static constexpr double longest_step = 0.1;  ///< [s] beyond it a clock jumped, and the base did not
+
   double slip() const noexcept { return slip_; }  ///< [m/s] by which the wheels contradict each other
   const solver::Pose& pose() const noexcept { return pose_; }
 

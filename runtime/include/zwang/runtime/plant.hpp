@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "zwang/lang/program.hpp"
 #include "zwang/solver/state.hpp"
 
 namespace zwang::runtime {
@@ -16,9 +17,11 @@ namespace zwang::runtime {
 /// a sample with the stamp of the last one is the last one. The runtime keeps the latest valid sample and
 /// calls the signal invalid when that is older than the task file's `stale_after`; a signal that was never
 /// received ages from the start of the run. Samples are ignored, as if they had not come, that are not
-/// `valid`, hold a number that is not finite or a rotation that is none, are older than one that came before,
-/// or are stamped later than the snapshot.
+/// `valid`, are of another type than the signal, hold a number that is not finite or a rotation that is none,
+/// are older than one that came before, or are stamped later than the snapshot.
 struct SignalSample {
+  std::optional<lang::SignalType>
+      type;            ///< which value counts; not the signal's own: ignored; none: not told
   bool valid = false;  ///< false: nothing was measured, or nothing to be trusted
   double stamp = 0.0;  ///< [s] when it was measured, by the clock of `Sensed::time`
   bool boolean = false;
@@ -40,6 +43,10 @@ struct MeasuredPose {
 struct Sensed {
   explicit Sensed(const solver::Model& model, std::size_t signal_count = 0)
       : state(model), signals(signal_count) {}
+  /// For the robot and the signals of the program, whose samples carry their types.
+  explicit Sensed(const lang::Program& program) : Sensed(program.robot.model, program.signals.size()) {
+    for (std::size_t i = 0; i < signals.size(); ++i) signals[i].type = program.signals[i].type;
+  }
   double time = 0.0;  ///< [s] by any clock that goes on evenly; it may count from 1970
   solver::State state;
   /// Whether the state's base pose and twist are measured: say so on every snapshot, or the runtime reckons
@@ -49,7 +56,8 @@ struct Sensed {
   /// For the reckoning, where somebody measures it now and then. The same stamp again is the same
   /// measurement.
   std::optional<MeasuredPose> base_fix;
-  /// Parallel to lang::Program::signals, and sized once. Those that are missing are never received.
+  /// Parallel to the signals of the program that the runner was made with, also after a swap of programs,
+  /// and sized once. Empty: nothing is measured. Of another size: none is taken, and that is told.
   std::vector<SignalSample> signals;
 };
 

@@ -48,6 +48,27 @@ struct ShortfallReport {
   std::vector<std::string> held_back_by;  ///< the strongest first
 };
 
+/// Why a program is not swapped in.
+enum class SwapRefusal {
+  none,            ///< it is
+  stopped,         ///< the protective stop is latched
+  has_run,         ///< it has run before
+  joints,          ///< its joints are others
+  period,          ///< its control period is another
+  signal_missing,  ///< a signal of it is not measured in this run
+  signal_type,     ///< a signal of it is measured as another type
+  signal_frame,    ///< a pose or a wrench of it is seen from another frame
+};
+const char* describe(SwapRefusal refusal) noexcept;  ///< a sentence without its end
+
+struct SwapResult {
+  SwapRefusal refusal = SwapRefusal::none;
+  const char* signal = "";  ///< its name, where the refusal is about one; as long as the next runner lives
+  explicit operator bool() const noexcept { return refusal == SwapRefusal::none; }
+};
+/// The sentence with the signal's name. Allocates.
+std::string describe(const SwapResult& result);
+
 struct RunnerSettings {
   /// [s] between steps, 0.1 to 10 ms; where none is given, the robot file's `control_period`.
   std::optional<double> period;
@@ -84,9 +105,10 @@ class Runner {
   /// From the next step on the program of `next` runs, from its start task, on the same robot: build it on
   /// another thread, from a file that may have changed, and swap between two steps. Guard, estimates and
   /// events stay; what the torques differ by fades within `handover`; the recorder is let go, as columns may
-  /// differ. `next` gets the old program. False, and nothing happens, when `next` has run before, the joints
-  /// are not the same, or the protective stop is latched. Does not allocate, lock, throw or print.
-  bool swap_program(Runner& next) noexcept;
+  /// differ. `next` gets the old program. Snapshots stay as they are, laid out for the program that the
+  /// runner was made with: the next one finds its signals among them by name, type and frame. Where it is
+  /// refused nothing happens, and the result says why. Does not allocate, lock, throw or print.
+  SwapResult swap_program(Runner& next) noexcept;
   static constexpr double handover = 0.2;  ///< [s]
 
   /// The columns of a log of this run. A recorder made with them may be attached before the first step; it

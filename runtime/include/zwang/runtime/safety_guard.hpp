@@ -17,6 +17,7 @@ enum class SampleStatus {
   good,
   not_finite,  ///< a number in it is not finite, or beyond anything a robot can have
   bad_clock,   ///< time stood still, went backwards or jumped
+  untimely,    ///< the same, but the stop is latched and the values are good: it brakes by them
 };
 const char* to_string(SampleStatus status) noexcept;
 
@@ -64,12 +65,15 @@ class SafetyGuard {
   /// Every sample comes through here first. Numbers that are not finite latch the stop at once, and so do
   /// `max_lost_ticks` without a good sample, with samples that say to move and stand where the last one did,
   /// or with positions that rolled evenly and from one sample to the next do not change any more.
+  /// Values and stamp are judged apart. While the stop is latched any good values are `good` or `untimely`,
+  /// and a stamp that went back or jumped is where the clock goes on from. A sample with the stamp and the
+  /// values of the last one has not arrived.
   SampleStatus admit(const Sensed& sensed) noexcept;
 
   /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew;
   /// the brake's when the stop is latched, from memory on a frozen sample; an arm is held where it was. A
   /// joint of an arm that is faster than it may be, or could hardly be kept in its travel, latches the stop.
-  /// `tau` keeps its size. Call it when `admit` said good.
+  /// `tau` keeps its size. Call it when `admit` said good or untimely.
   GuardStatus output(const Sensed& sensed, const Eigen::VectorXd& wanted, Eigen::VectorXd& tau) noexcept;
   /// The torques to send when `admit` refused the sample: the last ones, or when the stop is latched those
   /// that brake what the last good sample said, and bear an arm.
@@ -82,6 +86,10 @@ class SafetyGuard {
   EventCode reason() const noexcept { return stop_event_.code; }  ///< `none` while nothing latched the stop
   /// Releases the stop; the clock starts anew.
   void reset() noexcept;
+  /// [s] of the last good or untimely sample. It never goes back: after a stamp that does, it goes on by a
+  /// period, and `clock_shift` [s] is what it is ahead of the stamps by.
+  double time() const noexcept { return last_time_ + clock_shift_; }
+  double clock_shift() const noexcept { return clock_shift_; }
 
   const GuardCounters& counters() const noexcept { return counters_; }
   /// What latched the stop; its code is `none` while nothing did.
@@ -91,12 +99,17 @@ class SafetyGuard {
 
  private:
   double due() const noexcept;
+  bool is_timely(double stamp) const noexcept;
+  bool is_shown_again(const Sensed& sensed) const noexcept;
   Event find_bad_entry(const Sensed& sensed) const noexcept;
+  SampleStatus refuse_stamp(const Sensed& sensed) noexcept;
+  SampleStatus take_untimely(const Sensed& sensed) noexcept;
+  void take_stamp(double stamp) noexcept;
   void latch(const Event& event) noexcept;
   void brake(const Sensed& sensed) noexcept;
   void brake_blind() noexcept;
   void clamp_next() noexcept;
-  void watch_for_a_frozen_state(const solver::State& state, double step) noexcept;
+  void take_values(const solver::State& state, double step) noexcept;
   bool is_frozen() const noexcept;
   GuardStatus send(Eigen::VectorXd& tau, GuardStatus status) noexcept;
 
@@ -105,15 +118,18 @@ class SafetyGuard {
   Eigen::VectorXd step_;   ///< [N m] that each may change by in a tick
   Eigen::VectorXd last_;   ///< sent last
   Eigen::VectorXd next_;
-  Eigen::VectorXd last_q_;  ///< of the last good sample, as is the position
+  Eigen::VectorXd last_q_, last_qd_;  ///< of the last sample that was taken, as is the position
   solver::Vector3 last_position_ = solver::Vector3::Zero();
   std::unique_ptr<ArmHold> arm_;
   std::unique_ptr<FrozenState> frozen_;
   std::unique_ptr<JointLimits> joint_limits_;
   std::unique_ptr<WheelBrake> brake_;
   int frozen_ticks_ = 0;
-  double last_time_ = 0.0;
+  double last_time_ = 0.0;    ///< [s] its stamp
+  double clock_shift_ = 0.0;  ///< [s]
   bool has_time_ = false;
+  bool has_begun_ = false;           ///< a sample was taken since construction
+  bool stamp_says_nothing_ = false;  ///< it stood while the values changed
   int lost_ticks_ = 0;
   Event stop_event_;
   Event refusal_;
