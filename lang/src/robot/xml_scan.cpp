@@ -30,9 +30,9 @@ class XmlScanner {
       if (text_[at_] != '<') {
         scan_text();
       } else if (rest().starts_with("<!--")) {
-        skip_past("-->", "this comment does not end");
+        skip_past("<!--", "-->", "this comment does not end");
       } else if (rest().starts_with("<?")) {
-        skip_past("?>", "this declaration does not end");
+        skip_past("<?", "?>", "this declaration does not end");
       } else if (rest().starts_with("<!")) {
         stop("a URDF has no DOCTYPE, entities or CDATA", at_, at_ + 2);
       } else if (rest().starts_with("</")) {
@@ -62,10 +62,11 @@ class XmlScanner {
     throw Abandoned{};
   }
 
-  void skip_past(std::string_view mark, const char* complaint) {
-    const std::size_t end = text_.find(mark, at_);
+  /// The two marks share no character: `<!-->` opens a comment and does not close it.
+  void skip_past(std::string_view open, std::string_view close, const char* complaint) {
+    const std::size_t end = text_.find(close, at_ + open.size());
     if (end == std::string_view::npos) stop(complaint, at_, at_ + 2);
-    at_ = end + mark.size();
+    at_ = end + close.size();
   }
 
   void skip_spaces() {
