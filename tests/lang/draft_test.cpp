@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <regex>
+#include <set>
 
+#include "robot/urdf.hpp"
 #include "support.hpp"
 #include "zwang/lang/format.hpp"
 #include "zwang/lang/robot_draft.hpp"
@@ -123,12 +125,15 @@ TEST_F(RealDraft, cannot_tell_mecanum_from_skid) {
   }
 }
 
-TEST_F(RealDraft, comes_to_a_model_for_every_robot) {
+// docs/limits.md: wheels behind a spring, and wheels whose joints do not turn, come to none yet.
+TEST_F(RealDraft, comes_to_a_model_for_every_robot_whose_wheels_turn_on_the_base) {
+  const std::set<std::string> without_a_model = {"create3", "mp_400"};
   for (const auto& file : std::filesystem::directory_iterator(real)) {
-    if (file.path().extension() != ".urdf" || file.path().stem() == "husky_bullet") continue;
+    Diagnostics diagnostics;
+    if (file.path().extension() != ".urdf" || !read_urdf(file.path(), {}, diagnostics)) continue;
     const auto draft = this->draft(file.path());
     ASSERT_TRUE(draft);
-    EXPECT_FALSE(draft->assumed.empty()) << file.path();
+    EXPECT_EQ(draft->assumed.empty(), without_a_model.contains(file.path().stem().string())) << file.path();
   }
 }
 

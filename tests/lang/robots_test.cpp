@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "check/room.hpp"
 #include "robot/urdf.hpp"
@@ -24,16 +25,22 @@ class RealRobots : public testing::Test {
 TEST_F(RealRobots, are_read_as_one_tree) {
   int read = 0;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
-    if (file.path().extension() != ".urdf" || file.path().stem() == "husky_bullet") continue;
+    if (file.path().extension() != ".urdf") continue;
     Diagnostics diagnostics;
     const auto urdf = read_urdf(file.path(), {}, diagnostics);
-    ASSERT_TRUE(urdf) << rendered(diagnostics);
+    if (!urdf) {  // an unexpanded macro, a negative inertia, a material that nothing defines
+      const std::set<std::string> known = {"E855", "E858", "E860"};
+      for (const Diagnostic& d : diagnostics.all())
+        EXPECT_TRUE(known.contains(d.code)) << rendered(diagnostics);
+      EXPECT_TRUE(diagnostics.has_errors()) << file.path();
+      continue;
+    }
     EXPECT_EQ(urdf->joints.size() + 1, urdf->links.size()) << file.path();
     EXPECT_NE(urdf->find_link(urdf->root), nullptr);
     EXPECT_EQ(urdf->joint_above(urdf->root), nullptr);
     ++read;
   }
-  EXPECT_GE(read, 9);
+  EXPECT_GE(read, 14);
 }
 
 TEST_F(RealRobots, an_unexpanded_macro_is_refused_at_its_place) {
