@@ -54,6 +54,8 @@ const char* to_string(EventCode code) noexcept {
       return "entry_refused";
     case EventCode::signal_refused:
       return "signal_refused";
+    case EventCode::probed:
+      return "probed";
   }
   return "?";
 }
@@ -110,6 +112,8 @@ const char* describe(EventCode code) noexcept {
       return "what a task requires to be entered does not hold";
     case EventCode::signal_refused:
       return "samples of a signal come by another clock, or with numbers that are none";
+    case EventCode::probed:
+      return "no encoder counted where the motors should have moved the base; told to move back, it did";
   }
   return "?";
 }

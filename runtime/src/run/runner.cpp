@@ -7,8 +7,9 @@
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
 #include "estimate/ticks.hpp"
-#include "guard/frozen_at_rest.hpp"
+#include "guard/blind_budget.hpp"
 #include "guard/frozen_wheel.hpp"
+#include "guard/hook_latch.hpp"
 #include "guard/joint_rates.hpp"
 #include "guard/motor_watch.hpp"
 #include "guard/slip_watch.hpp"
@@ -98,7 +99,8 @@ struct Runner::Parts {
         disturbance(program.robot, period),
         rates(model),
         frozen_wheel(program.robot),
-        frozen_at_rest(program.robot),
+        blind_budget(program.robot),
+        hook_latch(program),
         motors(program.robot, period),
         slip(model),
         signs(model),
@@ -125,6 +127,10 @@ struct Runner::Parts {
   /// What is known of a good sample: itself, or with the base as the wheels tell it.
   void estimate(const Sensed& sensed) noexcept;
   void mend_rates() noexcept;
+  /// Whether encoders confirm what the motors were told.
+  void confirm(const Sensed& sensed) noexcept;
+  /// The torques to send, or the brake's; and what is expected of them.
+  void send(bool good, bool solved) noexcept;
   /// Everything between that and the guard. False when there are no torques to send.
   bool control() noexcept;
   /// What motors and wheels made of the last command.
@@ -161,7 +167,8 @@ struct Runner::Parts {
   DisturbanceObserver disturbance;
   JointRates rates;
   FrozenWheel frozen_wheel;
-  FrozenAtRest frozen_at_rest;
+  BlindBudget blind_budget;
+  HookLatch hook_latch;
   MotorWatch motors;
   SlipWatch slip;
   WheelSigns signs;
@@ -198,6 +205,7 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   estimated.state = sensed.state;
   stop(rates.look(estimated.state, sensed.time));
   stop(frozen_wheel.look(estimated.state, tau, sensed.time));
+  confirm(sensed);
   if (guard.stopped()) mend_rates();
   // A snapshot may have fewer or more signals than the program; the sample keeps its size.
   std::copy_n(sensed.signals.begin(), std::min(sensed.signals.size(), sample.signals.size()),
@@ -219,6 +227,30 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
     }
   }
   odometry.update(sensed.time, estimated.state);
+}
+
+void Runner::Parts::confirm(const Sensed& sensed) noexcept {
+  if (blind_budget.is_blind() && !guard.stopped()) blind_budget.begin();  // the stop was reset
+  hook_latch.look(sensed, scheduler.parameters(), blind_budget);
+  const std::optional<Event> found = blind_budget.look(estimated.state.q, sensed.time);
+  if (found && found->code == EventCode::probed) tell(*found);
+  if (found) stop(found);
+  guard.brake_by_model(blind_budget.takes_over());
+}
+
+void Runner::Parts::send(bool good, bool solved) noexcept {
+  if (good && blind_budget.takes_over()) {
+    if (guard.stopped()) wanted.setZero();
+    blind_budget.give_back(wanted);
+  }
+  guard_status = good ? guard.output(estimated, wanted, tau) : guard.output_blind(tau);
+  if (solved && !guard.stopped()) {
+    disturbance.expect(solver, solution, sample.state, friction.torque(), tau, sample.time);
+    blind_budget.expect(disturbance, friction.torque(), tau);
+    return;
+  }
+  if (good) disturbance.pause();
+  if (guard.stopped()) blind_budget.expect_brake(tau);
 }
 
 /// A stop for rates that are wrong is over when the base stands by those that are not.
@@ -306,10 +338,10 @@ void Runner::Parts::compare() noexcept {
     motors.reset();
     return;
   }
-  stop(frozen_at_rest.look(estimated.state.q, tau, disturbance.expected(), sample.time));
   scheduler.estimate_force(disturbance.base_force());
-  // A wheel that slides gives the ground less than its motor gives the wheel.
-  if (slip.doubtful()) {
+  // A wheel that slides gives the ground less than its motor gives the wheel; what no encoder tells, tells
+  // nothing of a motor.
+  if (slip.doubtful() || blind_budget.takes_over()) {
     motors.reset();
     return;
   }
@@ -344,7 +376,7 @@ void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   // Where one wheel's encoder is dead, the others do not tell how the base moves.
   const Event& reason = guard.stop_event();
   const bool is_dead = reason.code == EventCode::frozen && event_signal::joint_of(reason.signal) >= 0;
-  const bool is_seen = good_sample && !is_dead;
+  const bool is_seen = good_sample && !is_dead && !blind_budget.takes_over();
   stands = stands || (is_seen && is_at_rest(estimated.state.base_twist)) ||
            static_cast<double>(stopped_ticks) * period > longest_stop;
 }
@@ -373,12 +405,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
     if (!computed) p.guard.stop(EventCode::solver, -1, static_cast<double>(p.solver_status));
     solved = computed && !p.guard.stopped();
   }
-  p.guard_status = good ? p.guard.output(p.estimated, p.wanted, p.tau) : p.guard.output_blind(p.tau);
-  if (solved && !p.guard.stopped()) {
-    p.disturbance.expect(p.solver, p.solution, p.sample.state, p.friction.torque(), p.tau, p.sample.time);
-  } else if (good) {
-    p.disturbance.pause();
-  }
+  p.send(good, solved);
   if (!p.guard.stopped()) {
     p.stop_is_told = false;
     p.stopped_ticks = 0;
@@ -423,7 +450,8 @@ bool Runner::swap_program(Runner& next) noexcept {
   std::swap(now.odometry, before.odometry);
   std::swap(now.rates, before.rates);
   std::swap(now.frozen_wheel, before.frozen_wheel);
-  std::swap(now.frozen_at_rest, before.frozen_at_rest);
+  std::swap(now.blind_budget, before.blind_budget);
+  now.hook_latch.take_over(before.hook_latch);
   std::swap(now.slip, before.slip);
   std::swap(now.friction, before.friction);
   now.reckoning = before.reckoning;
