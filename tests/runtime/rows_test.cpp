@@ -4,69 +4,16 @@
 
 #include <functional>
 
+#include "planar_course.hpp"
 #include "scheduler_bench.hpp"
-#include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
 namespace {
 
 using namespace test;
 
-/// A program on the planar base, with forces from outside.
-struct Course {
-  explicit Course(const lang::Program& p) : program(p), runner(p), sensed(p.robot.model, p.signals.size()) {}
-  void tick(const Eigen::Vector3d& force = Eigen::Vector3d::Zero()) {
-    base.sense(sensed);
-    tau = runner.step(sensed);
-    base.step(tau, force);
-  }
-  void run(
-      double seconds, const std::function<void()>& look = [] {}) {
-    const double end = base.time + seconds - 1e-9;
-    while (base.time < end) {
-      tick();
-      look();
-    }
-  }
-  Eigen::Vector3d commanded() const { return base.commanded(tau); }
-  double speed() const { return base.V.head<2>().norm(); }
-
-  lang::Program program;
-  Runner runner;
-  Sensed sensed;
-  PlanarBase base;
-  Eigen::VectorXd tau;
-};
-
 double mass() {
   return PlanarBase().inertia()(0, 0);
-}
-
-/// Groups of `always` stand at level 0.
-lang::Group at_level_zero(lang::Group group) {
-  group.level = 0;
-  for (AxisStatements& a : group.axes) a.level = 0;
-  return group;
-}
-
-lang::Group inside(int region, double margin) {
-  lang::Group group;
-  group.name = "boundary";
-  group.kind = lang::GroupKind::inside;
-  group.region = region;
-  group.moves_footprint = true;
-  group.move = base_link;
-  group.margin.constant = margin;
-  return at_level_zero(group);
-}
-
-AxisStatements within(const std::string& name, Axis axis, Quantity quantity, double low, double high) {
-  AxisStatements a = free_axis(name, axis);
-  (quantity == Quantity::velocity       ? a.velocity
-   : quantity == Quantity::acceleration ? a.acceleration
-   : quantity == Quantity::force        ? a.force
-                                        : a.position) = between(low, high);
-  return a;
 }
 
 /// Wants to go at (vx, vy) in the world, turning at wz, whatever is in the way; keeps to 0.4 m/s^2.

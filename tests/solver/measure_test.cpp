@@ -249,6 +249,29 @@ TEST_F(PlanarRows, ACornerOfTheFootprintAtAnEdge) {
   EXPECT_NEAR(set.rows()[0].b, -solver::braking_speed(d - 0.1, 0.5, 0.010) / 0.010, 1e-9);
 }
 
+TEST_F(PlanarRows, OutsideOfAPositionRangeTheWayBackHasItsSpeed) {
+  // d < 0: b = min(-v/h, max((-min(v_brk(|d|), v_ret) - v)/h, -a_brk)), v the speed outwards.
+  state.base_twist.linear = {0.2, 0.0, 0.0};
+  base.position = Range{-solver::infinity, 0.0};
+  base.move.pose.position = {1000.0, 0.0, 0.0};
+  ASSERT_TRUE(set.add(base));
+  ASSERT_TRUE(set.fill(model, state));
+  const double h = 0.010, v = only().velocity;
+  for (const double braking : {0.5, 1e3}) {
+    for (const double v_ret : {0.0, 0.1, solver::infinity}) {
+      set[0].braking = braking;
+      set[0].return_speed = v_ret;
+      ASSERT_TRUE(set.fill(model, state));
+      const double d = only().position;
+      ASSERT_GT(d, 100.0);
+      const double back = std::min(std::sqrt(2.0 * 0.72 * braking * d), v_ret);
+      const double asked = set.rows()[0].b + only().acceleration_bias;
+      EXPECT_NEAR(asked, std::min(-v / h, std::max((-back - v) / h, -braking)),
+                  1e-3 * (1.0 + std::abs(asked)));
+    }
+  }
+}
+
 constexpr double horizon = 0.010;  // [s]
 
 // Along the curve v dv/dd is the deceleration: 0.72 of what may be used, less where d < d0 = 16 a h^2.

@@ -6,6 +6,7 @@
 #include "check/room.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "diagnostic/wordings_standing.hpp"
 
 namespace zwang::lang {
 
@@ -32,6 +33,29 @@ std::optional<double> known_value(const CheckContext& context, const ValueText& 
   return present_value(context, value);
 }
 
+/// Not below 0.
+void check_return_speed(CheckContext& context, const ValueText& value, const Dimension& expected,
+                        const std::string& what) {
+  if (check_value(context, value, expected, what) && present_value(context, value) < 0.0)
+    context.diagnostics.add(wording::not_positive(value.span, what, true));
+}
+
+bool has_position_range(const AxisText& text) {
+  const std::optional<StatementText>& position = text[Quantity::position];
+  return position && position->is_range;
+}
+
+/// `return` leads back into a range of positions: the axis must have one.
+void check_return(CheckContext& context, const AxisText& text, Axis axis, const std::string& path,
+                  const std::optional<ValueText>& return_speed) {
+  if (!return_speed) return;
+  check_return_speed(context, *return_speed, dimension_of(axis, Quantity::velocity), path + ".return");
+  const std::optional<StatementText>& position = text[Quantity::position];
+  const bool is_unread = position && !position->is_range && position->value.kind == ValueKind::bad;
+  if (!has_position_range(text) && !is_unread)
+    context.diagnostics.add(wording::return_without_range(return_speed->span, path));
+}
+
 /// One axis of one group.
 class AxisCheck {
  public:
@@ -56,6 +80,7 @@ class AxisCheck {
     check_compliance();
     check_speed();
     if (text_.weight) check_positive(*text_.weight, turns() ? dimension::inertia : dimension::mass, "weight");
+    check_return(context_, text_, axis_, path_, text_.return_speed);
   }
 
  private:
@@ -228,6 +253,8 @@ void check_inside(CheckContext& context, const GroupText& group) {
       present_value(context, *group.margin) < 0.0) {
     context.diagnostics.add(wording::not_positive(group.margin->span, what, true));
   }
+  if (group.return_speed)
+    check_return_speed(context, *group.return_speed, dimension::velocity, group.name.text + ".return");
   if (region) check_room(context, group, context.symbols.regions[static_cast<std::size_t>(*region)].region);
 }
 
@@ -279,6 +306,21 @@ void check_group_weight(CheckContext& context, const GroupText& group) {
   }
 }
 
+/// The group's `return` is that of each position range that gives none.
+void check_group_return(CheckContext& context, const GroupText& group) {
+  if (!group.return_speed) return;
+  bool is_used = false;
+  for (const AxisText& axis : group.axes) {
+    if (!has_position_range(axis) || axis.return_speed) continue;
+    is_used = true;
+    check_return_speed(context, *group.return_speed,
+                       dimension_of(axis_named(axis.name.text).value_or(Axis::x), Quantity::velocity),
+                       group.name.text + ".return, that of `" + axis.name.text + "`,");
+  }
+  if (!is_used && !group.is_incomplete)
+    context.diagnostics.add(wording::return_without_range(group.return_speed->span, group.name.text));
+}
+
 void check_group(CheckContext& context, const GroupText& group) {
   if (group.kind == GroupKind::inside) return check_inside(context, group);
   if (group.kind == GroupKind::feature) return check_feature_group(context, group);
@@ -292,6 +334,7 @@ void check_group(CheckContext& context, const GroupText& group) {
     check_time(context, *group.time_constant, group.name.text + ".time_constant", false);
   }
   check_group_weight(context, group);
+  check_group_return(context, group);
   if (group.axes.empty() && !group.is_incomplete)
     context.diagnostics.add(wording::group_without_axes(group.name.span, group.name.text));
   for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, move, in).check();

@@ -91,6 +91,8 @@ class Lowering {
     if (text.damping) axis.damping = value(*text.damping);
     const std::optional<ValueText>& weight = text.weight ? text.weight : group.weight;
     if (weight) axis.weight = value(*weight);
+    const std::optional<ValueText>& return_speed = text.return_speed ? text.return_speed : group.return_speed;
+    if (return_speed) axis.return_speed = value(*return_speed);
     axis.level = text.level.value_or(group.level.value_or(level));
     return axis;
   }
@@ -113,6 +115,7 @@ class Lowering {
         group.move =
             *checked_.symbols.find_frame(group.moves_footprint ? checked_.robot.base_frame : text.move.text);
         if (text.margin) group.margin = value(*text.margin);
+        if (text.return_speed) group.return_speed = value(*text.return_speed);
         break;
       case GroupKind::feature:
         group.feature = *checked_.symbols.find_feature(text.feature.text);

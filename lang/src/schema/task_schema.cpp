@@ -25,6 +25,12 @@ std::vector<Property> manner() {
        reference("value", "a mass: makes the rows soft, met to the fraction w / (w + effective mass)")}};
 }
 
+Property way_back() {
+  return {"return", reference("value",
+                              "how fast it comes back from outside of a position range; 0: not at "
+                              "all; where none is given, 0.1 m/s or 0.1 rad/s")};
+}
+
 std::vector<Property> statements() {
   std::vector<Property> properties = {
       {"position",
@@ -33,7 +39,8 @@ std::vector<Property> statements() {
       {"acceleration", statement("a single value accelerates so much, a range never more")},
       {"force", statement("a single value pushes so hard, a range beside a driver of motion spends no more")},
       {"stiffness", reference("value", "with `damping`: makes a spring of a position driver")},
-      {"damping", reference("value", "with `stiffness`")}};
+      {"damping", reference("value", "with `stiffness`")},
+      way_back()};
   for (Property& property : manner()) properties.push_back(std::move(property));
   return properties;
 }
@@ -47,6 +54,7 @@ Json group() {
   std::vector<Property> axes = {{"move", word("the frame that moves"), true},
                                 {"in", word("the frame whose axes these are"), true}};
   for (Property& property : manner()) axes.push_back(std::move(property));
+  axes.push_back(way_back());
   for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) axes.push_back({name, reference("axis")});
   std::vector<Property> speed = {{"velocity", reference("range"), true}};
   for (Property& property : manner()) speed.push_back(std::move(property));
@@ -58,6 +66,7 @@ Json group() {
                         {{"move", word("a frame, or `footprint`"), true},
                          {"inside", word("the name of a region"), true},
                          {"margin", reference("value", "distance kept from the border")},
+                         way_back(),
                          {"level", Json{{"type", "integer"}, {"minimum", 0}, {"maximum", 9}}}}),
                  object("statements about a feature", std::move(feature))});
 }

@@ -25,6 +25,13 @@ std::optional<int> parse_level(const Node& node, const std::string& path, int lo
   return parse_integer(node, path, lowest_level, 9, diagnostics);
 }
 
+/// `return`: the speed of the way back into a range or a region.
+void parse_return(MapReader& map, const std::string& path, std::optional<ValueText>& return_speed,
+                  Diagnostics& diagnostics) {
+  if (const Node* node = map.optional("return"))
+    return_speed = parse_value(*node, path + ".return", diagnostics);
+}
+
 /// What a group or an axis may say besides its statements.
 void parse_manner(MapReader& map, const std::string& path, std::optional<ValueText>& time_constant,
                   std::optional<ValueText>& weight, std::optional<int>& level, int lowest_level,
@@ -56,6 +63,7 @@ void parse_statements(MapReader& map, const std::string& path, AxisText& axis, i
   if (const Node* node = map.optional("damping")) {
     axis.damping = parse_value(*node, path + ".damping", diagnostics);
   }
+  parse_return(map, path, axis.return_speed, diagnostics);
 }
 
 /// What `0 deg` alone may have been meant as.
@@ -167,6 +175,7 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
     if (const Node* node = map.optional("margin")) {
       group.margin = parse_value(*node, path + ".margin", diagnostics);
     }
+    parse_return(map, path, group.return_speed, diagnostics);
     if (const Node* node = map.optional("level")) {
       group.level = parse_level(*node, path + ".level", lowest_level, diagnostics);
     }
@@ -174,6 +183,7 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
     if (const Node* node = map.required("move")) group.move = parse_word(*node, "`move`", diagnostics);
     if (const Node* node = map.required("in")) group.in = parse_word(*node, "`in`", diagnostics);
     parse_manner(map, path, group.time_constant, group.weight, group.level, lowest_level, diagnostics);
+    parse_return(map, path, group.return_speed, diagnostics);
     for (const char* name : {"x", "y", "z", "rx", "ry", "rz", "speed"}) {
       if (map.optional(name) == nullptr) continue;
       group.axes.push_back(
@@ -280,9 +290,9 @@ void parse_enter(const Node& node, TaskText& task, Diagnostics& diagnostics) {
 /// Whether the entry is a line of a group, rather than a group: `move: base_link`, `x: {velocity: ..}`.
 bool is_of_a_group(const Entry& entry) {
   static const std::vector<std::string> words{
-      "move",      "in",      "feature",  "inside",   "margin",       "level", "weight", "time_constant",
-      "stiffness", "damping", "position", "velocity", "acceleration", "force", "x",      "y",
-      "z",         "rx",      "ry",       "rz",       "speed"};
+      "move",   "in",        "feature", "inside",   "margin",   "level",        "weight", "time_constant",
+      "return", "stiffness", "damping", "position", "velocity", "acceleration", "force",  "x",
+      "y",      "z",         "rx",      "ry",       "rz",       "speed"};
   const Node& value = entry.value;
   if (std::find(words.begin(), words.end(), entry.key.text) == words.end()) return false;
   if (!value.is_mapping()) return value.kind != NodeKind::null;

@@ -63,7 +63,7 @@ struct AxisText {
   Word name;  ///< x, y, z, rx, ry, rz, speed; of a feature the group's name
   bool is_free = false;
   std::array<std::optional<StatementText>, 4> statements;  ///< by solver::Quantity
-  std::optional<ValueText> time_constant, stiffness, damping, weight;
+  std::optional<ValueText> time_constant, stiffness, damping, weight, return_speed;
   std::optional<int> level;
 
   bool is_speed() const { return name.text == "speed"; }
@@ -80,7 +80,7 @@ struct GroupText {
   Word region;   ///< of `inside`
   Word feature;  ///< of a feature group
   std::vector<AxisText> axes;
-  std::optional<ValueText> time_constant, weight, margin;
+  std::optional<ValueText> time_constant, weight, margin, return_speed;
   std::optional<int> level;
   bool is_incomplete = false;  ///< a key could not be read: what the group lacks may have been there
 };

@@ -86,7 +86,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
                            "missed.held_back_by.4"}) {  // the strongest first
     add(name, "", rows);
   }
-  add("event", "", words_up_to(EventCode::signal_refused));
+  add("event", "", words_up_to(EventCode::not_at_rest));
   add("event.signal", "", event_signals);
   add("event.value", "");
   add("estimated.force.x", "N");

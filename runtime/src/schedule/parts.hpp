@@ -34,6 +34,7 @@ struct ActiveAxis {
   std::size_t wanted = 0;  ///< index in `wanted` of its constraint, or of its first one
   bool lost = false;  ///< its axes hang on a pose signal that is not known now, or its value on such a signal
   AxisReading reading;
+  bool is_outside = false;  ///< of its position range or its region, by more than what a brake leaves
 };
 
 /// The pairs of features of a fence that are in force, by their indices.
@@ -104,12 +105,20 @@ struct Scheduler::Parts final : Facts {
   void list_fence(const ActiveAxis& a) noexcept;
   void want() noexcept;
   void want_axis(const ActiveAxis& a) noexcept;
+  void want_motion_ranges(const ActiveAxis& a, solver::AxisConstraint& c) const noexcept;
+  bool is_left_to_the_end(const ActiveAxis& a) const noexcept;
   solver::Driver driver_of(const ActiveAxis& a) const noexcept;
   bool is_lost(const ActiveAxis& a) const noexcept;
   void want_fence(const ActiveAxis& a, RegionFence& fence) noexcept;
   void want_standstill(const ActiveAxis& a) noexcept;
   InReach find_nearest(const ActiveAxis& a, RegionFence& fence) noexcept;
   void keep_in_reach(const ActiveAxis& a, InReach nearest) noexcept;
+  void lead_back() noexcept;
+  void find_way_back(ActiveAxis& a) noexcept;
+  void lead_back(const ActiveAxis& a, std::size_t index, const solver::Vector3& inwards) noexcept;
+  void note_excursion(ActiveAxis& a, double outside) noexcept;
+  void only_hold_back(solver::AxisConstraint& c) const noexcept;
+  void keep_energy_from_rising() noexcept;
   double braking_of(const solver::AxisConstraint& c, const lang::AxisStatements& s) const noexcept;
   double braking_along(const solver::Vector3& direction) const noexcept;
   void find_braking() noexcept;
@@ -118,6 +127,7 @@ struct Scheduler::Parts final : Facts {
   void read(const solver::Solution& solution) noexcept;
 
   const lang::Task& active() const noexcept { return tasks[task]; }
+  bool is_at_end() const noexcept { return tasks.ends(task); }
   double elapsed() const noexcept { return now - entered; }
   const lang::Group& group(const Origin& origin) const noexcept {
     return tasks[origin.task].groups[static_cast<std::size_t>(origin.group)];
@@ -155,6 +165,10 @@ struct Scheduler::Parts final : Facts {
   double entered = 0.0;   ///< [s] when the task was entered; later by what interruptions took
   double switched = 0.0;  ///< [s] when the present blend began
   double blend_time = 0.0;
+  double energy_at_end = 0.0;  ///< [J] kinetic, when an end was reached
+  double stood_for = 0.0;      ///< [s] in an end
+  bool has_stood = false;
+  std::optional<Excursion> excursion;
   std::vector<int> entries;  ///< of each task, since the start
   Interruption interruption;
   const solver::State* state = nullptr;  ///< of the present tick

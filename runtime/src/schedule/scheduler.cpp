@@ -123,7 +123,7 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   const std::size_t most_wanted = tasks.most_axes + most_pairs;
   axes.reserve(tasks.most_axes);
   wanted.reserve(most_wanted);
-  renewed.reserve(most_wanted);
+  renewed.reserve(2 * most_wanted);
   scratch.resize(tasks.most_nodes);
   const double force_scale = force_scale_of(model);
   blend.emplace(most_wanted, 3 * tasks.most_rows, force_scale, force_scale * radius);
@@ -189,6 +189,12 @@ Phase Scheduler::phase() const noexcept {
 }
 Outcome Scheduler::outcome() const noexcept {
   return parts_->outcome;
+}
+bool Scheduler::has_stood() const noexcept {
+  return parts_->has_stood;
+}
+const std::optional<Excursion>& Scheduler::excursion() const noexcept {
+  return parts_->excursion;
 }
 int Scheduler::task() const noexcept {
   return parts_->task;

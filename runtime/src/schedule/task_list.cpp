@@ -140,6 +140,7 @@ void shape(lang::Group& group, const lang::Program& program,
     rows.level = group.level;
     rows.span = group.span;
     rows.position = lang::ValueRange{group.margin, {.constant = solver::infinity}};
+    rows.return_speed = group.return_speed;
     group.axes = {rows};
   }
   if (group.kind == lang::GroupKind::feature) {
@@ -188,8 +189,10 @@ TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDe
   }
   tasks.push_back(brake_task("done", program.robot, base));
   tasks.push_back(brake_task("failed", program.robot, base));
-  for (lang::Task& task : tasks) {
-    add_holds(task, program.always, joints, frames, program.robot.model);
+  // Nothing of `always` drives in an end: every joint is held there.
+  for (int t = 0; t <= failed(); ++t) {
+    add_holds(tasks[static_cast<std::size_t>(t)], ends(t) ? lang::Always{} : program.always, joints, frames,
+              program.robot.model);
   }
   lang::Task always;
   always.name = "always";

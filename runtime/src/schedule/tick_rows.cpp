@@ -138,18 +138,27 @@ void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
   }
   if (s.weight) c.weight = s.weight->evaluate(parameters);
   if (s.acceleration) c.acceleration = value(*s.acceleration);
-  if (s.driver) c.driver = driver_of(a);
+  c.driver.reset();
+  if (s.driver && !is_left_to_the_end(a)) c.driver = driver_of(a);
   if (s.force && !s.driver) c.force = value(*s.force);
-  if (!s.position && !s.velocity) return;
+  if (s.position || s.velocity) want_motion_ranges(a, c);
+  if (is_at_end()) only_hold_back(c);
+}
+
+void Scheduler::Parts::want_motion_ranges(const ActiveAxis& a, solver::AxisConstraint& c) const noexcept {
+  const AxisStatements& s = *a.says;
+  const lang::Group& g = *a.group;
   // In axes that nobody knows, a range of places or of speeds allows no motion.
   const bool blind = !is_known(g.in) || !is_known(g.move);
-  const bool stands_by_driver = s.driver && *s.driver != Quantity::force;
+  const bool stands_by_driver = c.driver && !c.driver->makes_force();
   c.position.reset();
   c.velocity.reset();
   if (s.position && !blind) c.position = value(*s.position);
   if (s.velocity && !blind) c.velocity = value(*s.velocity);
   if (blind && !stands_by_driver) c.velocity = Range{0.0, 0.0};
-  if (c.position) c.braking = braking_of(c, s);
+  if (!c.position) return;
+  c.braking = braking_of(c, s);
+  c.return_speed = s.return_speed.evaluate(parameters);
 }
 
 /// A place for every pair of features that may come near.
@@ -218,6 +227,7 @@ InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) 
     const bool is_new =
         values_are_due || a.hangs_on_signal || w.far || c.measure == solver::Measure::distance;
     if (is_new) c = fence.constraint(i, move, in);
+    if (is_new) c.return_speed = g.return_speed.evaluate(parameters);
     if (is_new || c.braking != a_brk) renewed.push_back(static_cast<int>(a.wanted + i));
     c.level = g.level;
     c.braking = a_brk;
@@ -272,6 +282,7 @@ void Scheduler::Parts::want() noexcept {
     }
   }
   values_are_due = false;
+  lead_back();
 }
 
 bool Scheduler::Parts::is_lost(const ActiveAxis& a) const noexcept {
@@ -308,6 +319,7 @@ void Scheduler::Parts::put_constraints() noexcept {
     blend->renew(wanted, renewed, *set);
     return;
   }
+  if (is_at_end()) keep_energy_from_rising();
   // The tick of the switch already goes one tick's way, so that no alpha is ever 0.
   double progress = blend_time > 0.0 ? (now - switched + period) / blend_time : 1.0;
   if ((1.0 - progress) * blend_time < clock_rounding * period) progress = 1.0;

@@ -10,6 +10,7 @@ void Scheduler::Parts::sense(const Sensed& sensed) noexcept {
   state = &sensed.state;
   now = sensed.time;
   transition.reset();
+  excursion.reset();
   frames.update(model, sensed.state);
   signals.update(sensed, parameters, frames);
 }

@@ -1,5 +1,6 @@
 // Step 6 of the tick: the switch, `set`, and every `here`.
 #include "schedule/braking.hpp"
+#include "schedule/kinetic_energy.hpp"
 #include "schedule/parts.hpp"
 
 namespace zwang::runtime {
@@ -76,8 +77,10 @@ void Scheduler::Parts::enter() noexcept {
   frames.start_paths();
   // It is over where no `back` can follow.
   if (!tasks.leads_back[static_cast<std::size_t>(task)]) interruption = {};
-  if (tasks.ends(task)) {
+  if (is_at_end()) {
     phase = Phase::stopping;
+    energy_at_end = kinetic_energy(model, *state, frames.motions());
+    stood_for = 0.0;
     outcome = task == tasks.done() ? Outcome::done : Outcome::failed;
   }
 }

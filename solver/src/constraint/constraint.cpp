@@ -73,6 +73,14 @@ bool contains(const Range& range, double value) {
   return range.low <= value && value <= range.high;
 }
 
+/// The most acceleration towards a position bound, d before it at the speed v:
+///   d >= 0   (v_brk(d) - v) / h
+///   d < 0    what moves on outwards stops within h, -v / h; the way back begins with a_brk at most
+double acceleration_towards(double d, double v, const AxisConstraint& constraint, double h) {
+  const double on_curve = (approach_speed(d, constraint, h) - v) / h;
+  return d >= 0.0 ? on_curve : std::min(-v / h, std::max(on_curve, -constraint.braking));
+}
+
 /// The accelerations with which a range that the constraint has is kept, or met again within h.
 Range acceleration_range_within(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
                                 double h) {
@@ -82,8 +90,8 @@ Range acceleration_range_within(const AxisConstraint& constraint, Quantity quant
   }
   const double to_high = constraint.position->high - now.position;
   const double to_low = now.position - constraint.position->low;
-  return {(-braking_speed(to_low, constraint.braking, h) - now.velocity) / h,
-          (braking_speed(to_high, constraint.braking, h) - now.velocity) / h};
+  return {-acceleration_towards(to_low, -now.velocity, constraint, h),
+          acceleration_towards(to_high, now.velocity, constraint, h)};
 }
 
 /// The accelerations that a range allows now. One that is new, h longer than the horizon, has time to stop
@@ -146,6 +154,10 @@ double braking_speed(double distance, double braking, double h) noexcept {
   const double d = std::abs(distance);
   const double speed = d < d0 ? d / T : std::sqrt(2.0 * a * (d - 0.5 * d0));
   return std::copysign(speed, distance);
+}
+
+double approach_speed(double distance, const AxisConstraint& constraint, double h) noexcept {
+  return std::max(braking_speed(distance, constraint.braking, h), -constraint.return_speed);
 }
 
 /// For v >= d0/T: v^2 = 2 a (d - d0/2).

@@ -73,6 +73,12 @@ struct InForce {
   bool drives = false;  ///< carries its statement's driver
 };
 
+/// A frame that has come to stand outside of a position range or a region that holds it.
+struct Excursion {
+  Origin origin;
+  double distance = 0.0;  ///< how far outside [m] or [rad]
+};
+
 /// What the last solution said of an axis's driver.
 struct AxisReading {
   double force = 0.0;     ///< nu, or phi f of a force driver [N] or [N m]
@@ -109,8 +115,12 @@ class Scheduler {
   const std::vector<InForce>& in_force() const noexcept;
   const std::optional<Transition>& transition() const noexcept;  ///< of this tick
 
+  /// The first that began with this tick. It is over, and can begin anew, once the frame is inside.
+  const std::optional<Excursion>& excursion() const noexcept;
+
   Phase phase() const noexcept;
   Outcome outcome() const noexcept;  ///< none until `done` or `failed` is reached
+  bool has_stood() const noexcept;   ///< in phase `finished`: the base was seen to stand
   int task() const noexcept;
   /// [s] since the task was entered, interruptions left out.
   double elapsed() const noexcept;

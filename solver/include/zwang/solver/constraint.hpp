@@ -72,6 +72,8 @@ struct AxisConstraint {
   /// mass along the axis.
   double weight = infinity;
   double braking = 1.0;  ///< a_brk of a position range [m/s^2] or [rad/s^2]
+  /// v_ret of a position range [m/s] or [rad/s]: the speed of the way back into it. 0: it only holds back.
+  double return_speed = infinity;
   int level = 1;
 
   /// Fading: 1 in force, 0 gone. Drivers get R = L_jj (1 - alpha)/alpha and bounds times alpha.
@@ -178,6 +180,8 @@ inline constexpr double braking_share = 0.72;
 /// at 0 without decelerating harder than `braking`: v = d/T for d < d0, else sqrt(2 a (d - d0/2)); odd in d.
 /// a = braking_share braking, T = 4 h, d0 = a T^2. [m, m/s^2 -> m/s]
 double braking_speed(double distance, double braking, double horizon) noexcept;
+/// The same of a constraint's position range, inside as outside of it: outside, v = -min(|v|, v_ret).
+double approach_speed(double distance, const AxisConstraint& constraint, double horizon) noexcept;
 /// The distance at which that speed is the one that the curve allows. [m/s, m/s^2 -> m]
 double braking_distance(double speed, double braking, double horizon) noexcept;
 
