@@ -147,7 +147,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     }
     const bool in_task = runner.state() == runtime::RunState::running;
     status = plant.apply(tau);
-    if (status != PlantStatus::ok) break;
+    if (status != PlantStatus::ok || plant.truth().base.fallen) break;
     watch.look(plant.truth(), in_task);
   }
   report.outcome = to_string(runner.state());
@@ -157,10 +157,14 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     report.outcome = to_string(status);
     report.because = "the plant " + report.outcome;
   }
+  if (status == PlantStatus::ok && plant.truth().base.fallen) {
+    report.outcome = "fallen";
+    report.because = describe_fall(plant.truth().base);
+  }
   report.elapsed = sensed.time;
   report.objects = watch.objects(plant.truth());
-  for (const runtime::ScenePartner& partner : plant.partners())
-    report.partners.push_back(partner_report(partner));
+  for (std::size_t i = 0; i < plant.partners().size(); ++i)
+    report.partners.push_back(partner_report(plant.partners()[i], plant.truth().robots[i].base));
   report.x = plant.truth().x;
   report.y = plant.truth().y;
   report.yaw = plant.truth().yaw;

@@ -217,7 +217,7 @@ std::vector<ObjectReport> TruthWatch::objects(const runtime::Truth& truth) const
   return reports;
 }
 
-PartnerReport partner_report(const runtime::ScenePartner& partner) {
+PartnerReport partner_report(const runtime::ScenePartner& partner, const runtime::BaseTruth& base) {
   const runtime::Runner& runner = partner.runner;
   PartnerReport report;
   report.name = partner.name;
@@ -227,6 +227,10 @@ PartnerReport partner_report(const runtime::ScenePartner& partner) {
     report.task = task_name(runner.scheduler(), runner.scheduler().task());
   }
   if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
+  if (base.fallen) {
+    report.outcome = "fallen";
+    report.because = describe_fall(base);
+  }
   return report;
 }
 

@@ -65,8 +65,10 @@ timeout: {after: 10 s, goto: failed})~"},
           .title = "how hard the first hit is",
           .why =
               R"~(A force range holds what the robot presses with. The momentum with which it arrives nobody can hold:
-against a bumper of stiffness K the first peak is F + sqrt(F^2 + K m v^2), F the range, m the effective mass and v
-the speed. The note is there when that is above 2.5 F, and tells the speed at which it is not.)~",
+a mass m that arrives at v runs into the springs and dampers of what it hits, of all corners that strike together.
+Without a push the peak is v sqrt(K m) times 1 undamped, 0.81 at a damping ratio of 0.27, 1 at 0.5 and 2 at 1: a
+damper presses with c v at once. The note names the object of the scene that is hit hardest, or else the robot file's
+bumper. With a force range it is there when the peak is above 2.5 times that, and tells the speed at which it is not.)~",
           .fix = "Arrive more slowly, or put a softer bumper on and say so in the robot file.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.15 m/s, force: +-40 N, time_constant: 50 ms}",
@@ -235,6 +237,36 @@ tasks:
       contact: {move: base_link, in: wall, x: {force: 5 N}}
       sideways: {move: base_link, in: base_link, y: {velocity: 0 m/s}}
     timeout: {after: 10 s, goto: done})~"},
+      Explanation{
+          .code = "E640",
+          .title = "a base that falls over as it stands",
+          .why =
+              R"~(A base stands as long as its centre of mass lies above the area between its wheels and supports. The
+centre is that of the whole robot with its arm in `posture`. The distance in the message is from that area's edge.)~",
+          .fix = "Name every link that carries the base in `supports`; or mend the masses and places in the "
+                 "URDF."},
+      Explanation{
+          .code = "W640",
+          .title = "a motion or a push that could tip the base over",
+          .why =
+              R"~(A mass that lies d inside an edge of the supports and h above the floor tips over that edge when the base
+speeds up away from it with more than g d / h, or pushes away from it with more than m g d / z, z the height of its
+bumper. The warning compares that with the largest acceleration and force that the file allows, and with the
+deceleration of the protective stop.)~",
+          .fix =
+              "Limit the acceleration or the force to less than the message says. If the robot file does not "
+              "say `bumper: {height: ..}` and the height matters, say it.",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: 0.05 m/s, force: +-500 N}",
+          .instead = "x: {velocity: 0.05 m/s, force: +-20 N}"},
+      Explanation{
+          .code = "W642",
+          .title = "more force than the floor holds",
+          .why =
+              R"~(Wheels pass on what friction holds, mu N of each. If a driver asks for more, the wheels slip: the base
+presses with less than is asked for, and counts a way that it does not go. Loads of wheels are known on three points.
+On more points the driven wheels are taken to carry all of the weight.)~",
+          .fix = "Ask for less force or acceleration, or correct `floor: {friction: ..}` of the scene."},
   };
   return entries;
 }

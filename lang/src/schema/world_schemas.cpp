@@ -152,17 +152,17 @@ Json start_pose() {
 
 Json expectation() {
   const Json condition = word("a condition; truth.* is what the plant measured");
-  return any_of(
-      {object("",
-              {{"outcome",
-                one_of_words("", {"done", "failed", "stopped", "diverged", "refused", "unfinished"}), true},
-               {"of", word("a robot of the scene; the first one's when absent")}}),
-       object("", {{"diagnostic", word("the code that the task is refused with"), true}}),
-       object("", {{"at", one_of_words("", {"end"}), true}, {"that", condition, true}}),
-       object("", {{"within", reference("quantity"), true},
-                   {"of", word("what starts the time; the run's start when absent")},
-                   {"that", condition, true}}),
-       object("", {{"always", condition, true}})});
+  return any_of({object("", {{"outcome",
+                              one_of_words("", {"done", "failed", "stopped", "fallen", "diverged", "refused",
+                                                "unfinished"}),
+                              true},
+                             {"of", word("a robot of the scene; the first one's when absent")}}),
+                 object("", {{"diagnostic", word("the code that the task is refused with"), true}}),
+                 object("", {{"at", one_of_words("", {"end"}), true}, {"that", condition, true}}),
+                 object("", {{"within", reference("quantity"), true},
+                             {"of", word("what starts the time; the run's start when absent")},
+                             {"that", condition, true}}),
+                 object("", {{"always", condition, true}})});
 }
 
 }  // namespace

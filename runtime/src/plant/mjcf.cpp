@@ -6,6 +6,7 @@
 #include "mjcf_text.hpp"
 #include "object_geometry.hpp"
 #include "outline.hpp"
+#include "pair_friction.hpp"
 
 namespace zwang::runtime {
 
@@ -194,7 +195,7 @@ class MjcfWriter {
     const SimulatedRobot& two = robots_[r];
     if (one.outline.empty() || two.outline.empty()) return;
     const double rough = other > 0 ? scene_.robots[other - 1].friction : 0.0;
-    const double friction = std::max(rough, scene_.robots[r - 1].friction);
+    const double friction = pair_friction(rough, scene_.robots[r - 1].friction);
     for (std::size_t c = 0; c < one.outline.size(); ++c)
       write_spring(one.named("bumper", c), two.prefix + "bumper_prism", friction);
     for (std::size_t c = 0; c < two.outline.size(); ++c)
@@ -202,7 +203,7 @@ class MjcfWriter {
   }
 
   void write_meeting(std::size_t k, std::size_t other) {
-    const double friction = std::max(scene_.objects[k].friction, scene_.objects[other].friction);
+    const double friction = pair_friction(scene_.objects[k].friction, scene_.objects[other].friction);
     const bool k_round = scene_.objects[k].shape == ShapeKind::cylinder;
     const bool other_round = scene_.objects[other].shape == ShapeKind::cylinder;
     const std::string face = numbered("object", k) + "_face";

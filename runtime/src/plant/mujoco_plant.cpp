@@ -249,6 +249,7 @@ struct MujocoPlant::Simulation {
     if (std::any_of(robots.begin(), robots.end(), on_ground)) settle(starts);
     read_base();
     read_objects();
+    look_for_falls();
     truth.velocity.setZero();
     truth.acceleration.setZero();
   }
@@ -368,6 +369,15 @@ struct MujocoPlant::Simulation {
     }
   }
 
+  void look_for_falls() noexcept {
+    for (std::size_t r = 0; r < robots.size(); ++r) {
+      BaseTruth& base = base_truth(r);
+      if (base.fallen || !robots[r].is_on_ground()) continue;
+      const double upright = robots[r].base_rotation(*model, *data)(2, 2);  // the cosine of its lean
+      if (upright < std::cos(largest_lean) || contacts.of_robot(r).lies_on_floor) base.fallen = time();
+    }
+  }
+
   void add_push(const GeomOwner& owner, const Vector3& force) noexcept {
     contacts.add_push(static_cast<std::size_t>(owner.robot), force.head<2>());
   }
@@ -397,6 +407,7 @@ struct MujocoPlant::Simulation {
     read_objects();
     read_pulls();
     read_means(before);
+    look_for_falls();
     latch_hooks();
     return PlantStatus::ok;
   }
@@ -430,6 +441,14 @@ MujocoPlant::MujocoPlant(const lang::Robot& robot, const lang::Scene& scene,
     : simulation_(std::make_unique<Simulation>(robot, scene, options)) {}
 
 MujocoPlant::~MujocoPlant() = default;
+
+std::string describe_fall(const BaseTruth& base) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "fell over: roll %.0f deg, pitch %.0f deg", base.roll / degree,
+                base.pitch / degree);
+  return text.data();
+}
 
 PlantStatus MujocoPlant::sense(Sensed& sensed) noexcept {
   return simulation_->sense(0, sensed);
