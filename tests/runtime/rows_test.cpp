@@ -393,7 +393,7 @@ lang::Program switching(lang::Task a, lang::Task b) {
   return program({a, b});
 }
 
-TEST(Fading, APersistingForceRowBlendsItsForceAndASpringIsOne) {
+TEST(Blending, OfTwoSpringsIsTheirForcesByTheSharesOfTheSets) {
   const auto spring = [](double target) {
     AxisStatements a = drive("go.x", Axis::x, Quantity::position, target);
     a.stiffness = lang::Value{.constant = 200.0};
@@ -404,15 +404,19 @@ TEST(Fading, APersistingForceRowBlendsItsForceAndASpringIsOne) {
   bench.ticks_more(2);
   for (int i = 1; i <= 12; ++i) {
     bench.tick();
-    const auto& rows = bench.scheduler.constraints().rows();
-    ASSERT_EQ(rows.size(), 1u);
-    EXPECT_EQ(rows[0].kind, solver::RowKind::force);
-    EXPECT_EQ(rows[0].fade, 1.0);
-    EXPECT_NEAR(rows[0].force, 20.0 + 40.0 * std::min(1.0, 0.1 * i), 1e-9);
+    double force = 0.0;
+    for (int set = 0; set < bench.scheduler.set_count(); ++set) {
+      solver::ConstraintSet& constraints = bench.scheduler.constraints(set);
+      ASSERT_TRUE(constraints.fill(bench.program.robot.model, bench.sensed.state));
+      ASSERT_EQ(constraints.rows().size(), 1u);
+      EXPECT_EQ(constraints.rows()[0].kind, solver::RowKind::force);
+      force += bench.scheduler.share(set) * constraints.rows()[0].force;
+    }
+    EXPECT_NEAR(force, 20.0 + 40.0 * std::min(1.0, 0.1 * i), 1e-9);
   }
 }
 
-TEST(Fading, ASpringAndAMotionDriverAreNotOfOneKind) {
+TEST(Blending, ASpringAndAMotionDriverAreNotOfOneKind) {
   AxisStatements spring = drive("go.x", Axis::x, Quantity::position, 0.1);
   spring.stiffness = lang::Value{.constant = 200.0};
   spring.damping = lang::Value{.constant = 50.0};
@@ -420,32 +424,33 @@ TEST(Fading, ASpringAndAMotionDriverAreNotOfOneKind) {
   Bench bench(
       switching(task("a", {spring}, base_link, world_frame), task("b", {stiff}, base_link, world_frame)));
   bench.ticks_more(5);
-  ASSERT_EQ(bench.count(), 2);
-  EXPECT_NEAR(bench.constraint(0).alpha + bench.constraint(1).alpha, 1.0, 1e-12);
+  ASSERT_EQ(bench.scheduler.set_count(), 2);
+  EXPECT_EQ(bench.scheduler.in_force()[0].alpha, bench.scheduler.share(0));
 }
 
-TEST(Fading, ASumIsOnAtOnceAndLeavesWithItsAlpha) {
+TEST(Blending, ASumIsOnAtOnceInBothSetsAndLeavesWithItsSet) {
   const lang::Task limited = task("a", {within("go.x", Axis::x, Quantity::force, -20, 20)});
   const lang::Task other = task("b", {drive("go.y", Axis::y, Quantity::velocity, 0.0)});
+  const auto has_sum = [](const Bench& bench, int set) {
+    return std::ranges::any_of(bench.scheduler.constraints(set).constraints(),
+                               [](const auto& c) { return c.force && !c.driver && c.force->high == 20.0; });
+  };
   Bench entering(switching(other, limited));
   entering.ticks_more(3);
-  ASSERT_EQ(entering.scheduler.task(), 1);
-  for (const solver::Row& row : entering.scheduler.constraints().rows()) {
-    EXPECT_EQ(row.kind == solver::RowKind::sum ? row.fade : 1.0, 1.0);
-  }
+  ASSERT_EQ(entering.scheduler.set_count(), 2);
+  EXPECT_TRUE(has_sum(entering, 0) && has_sum(entering, 1));
   Bench leaving(switching(limited, other));
   leaving.ticks_more(2);
   for (int i = 1; i < 10; ++i) {
     leaving.tick();
-    double fade = -1.0;
-    for (const solver::Row& row : leaving.scheduler.constraints().rows()) {
-      if (row.kind == solver::RowKind::sum) fade = row.fade;
-    }
-    EXPECT_NEAR(fade, 1.0 - 0.1 * i, 1e-9);
+    ASSERT_EQ(leaving.scheduler.set_count(), 2);
+    EXPECT_FALSE(has_sum(leaving, 0));
+    EXPECT_TRUE(has_sum(leaving, 1));
+    EXPECT_NEAR(leaving.scheduler.share(1), 1.0 - 0.1 * i, 1e-9);
   }
 }
 
-TEST(Fading, AFrameThatWasSetInBetweenIsNotTheSameAxes) {
+TEST(Blending, AFrameThatWasSetInBetweenIsNotTheSameAxes) {
   for (const bool is_set : {false, true}) {
     lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::position, 0.5)}, base_link, 3);
     lang::Program p = switching(a, a);
@@ -456,11 +461,13 @@ TEST(Fading, AFrameThatWasSetInBetweenIsNotTheSameAxes) {
     Bench bench(p);
     bench.sensed.state.base_pose.position.x() = 0.2;
     bench.ticks_more(5);
-    EXPECT_EQ(bench.count(), is_set ? 2 : 1);
+    ASSERT_EQ(bench.scheduler.set_count(), 2);
+    const double alpha = bench.scheduler.in_force()[0].alpha;
+    EXPECT_NEAR(alpha, is_set ? bench.scheduler.share(0) : 1.0, 1e-12);
   }
 }
 
-TEST(Fading, WhatIsLimitedThroughoutIsLimitedInTheMiddleOfASwitchToo) {
+TEST(Blending, WhatIsLimitedThroughoutIsLimitedInTheMiddleOfASwitchToo) {
   // A boundary of `always` stays at full strength while the tasks beside it fade.
   lang::Program p = push_on(0.6, 0.0, 0.0);
   lang::Task other = p.tasks[0];

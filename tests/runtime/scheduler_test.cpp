@@ -281,7 +281,6 @@ TEST(Stop, DoneBrakesWithTheRobotsStopUntilTheBaseStands) {
   for (int i = 0; i < 3; ++i) {
     const solver::AxisConstraint& c = bench.constraint(i);
     const bool turns = c.axis == Axis::rz;
-    EXPECT_EQ(c.alpha, 1.0);
     EXPECT_EQ(c.driver->quantity, Quantity::velocity);
     EXPECT_EQ(c.driver->target, 0.0);
     EXPECT_NEAR(c.driver->force.high, turns ? 80.0 * 0.5 : 80.0, 1e-12);

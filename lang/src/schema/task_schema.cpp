@@ -1,4 +1,5 @@
 #include "schema/parts.hpp"
+#include "spec/shape.hpp"
 
 namespace zwang::lang::schema {
 
@@ -166,7 +167,7 @@ Json templates() {
 Json task_file() {
   Json schema = object(
       "A task of zwang",
-      {version("zwang"),
+      {version("zwang", newest_task_version),
        {"robot", word("the robot file, seen from this one"), true},
        {"scene", word("the scene file, for the simulated plant")},
        {"about", word("what this is for, in a line")},

@@ -23,7 +23,7 @@ void MotorWatch::reset() noexcept {
 
 std::optional<Event> MotorWatch::look(DisturbanceObserver& observer, const solver::State& state,
                                       const Eigen::VectorXd& sent,
-                                      const solver::ConstraintSet& set) noexcept {
+                                      const solver::ConstraintSet* set) noexcept {
   std::optional<Event> first = signs_.look(observer);
   const auto take = [&first](const std::optional<Event>& found) {
     if (!first) first = found;

@@ -45,13 +45,13 @@ double excess(const AxisConstraint& c, double velocity, const Margin& margin) no
   return outside(velocity, low, high) / std::max(least, margin.share * std::abs(bound));
 }
 
-/// The largest of the constraints that are in force, wholly and still.
-double largest_excess(const solver::ConstraintSet& set, const Margin& margin) noexcept {
-  const std::vector<AxisConstraint>& all = set.constraints();
+/// The largest of the constraints that are in force; none is while a switch blends.
+double largest_excess(const solver::ConstraintSet* set, const Margin& margin) noexcept {
+  if (set == nullptr) return 0.0;
+  const std::vector<AxisConstraint>& all = set->constraints();
   double largest = 0.0;
-  for (std::size_t i = 0; i < all.size() && i < set.coordinates().size(); ++i) {
-    if (all[i].alpha < 1.0 || all[i].progress < 1.0) continue;
-    largest = std::max(largest, excess(all[i], set.coordinates()[i].velocity, margin));
+  for (std::size_t i = 0; i < all.size() && i < set->coordinates().size(); ++i) {
+    largest = std::max(largest, excess(all[i], set->coordinates()[i].velocity, margin));
   }
   return largest;
 }
@@ -101,7 +101,7 @@ bool RunawayWatch::keeps(Force force) noexcept {
   return is_same;
 }
 
-std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
+std::optional<Event> RunawayWatch::look(const solver::ConstraintSet* set, double kinetic_energy, Force force,
                                         const ContactDepth& contact, bool is_pushed) noexcept {
   const double margins = largest_excess(set, near_margin);
   const bool exceeds = margins > 1.0;

@@ -49,7 +49,7 @@ class RunawayWatch {
   /// followed it; while somebody pushes the robot only what is far beyond its limits counts. The event names
   /// the motor that brakes hardest by what it is told: a wheel that drives itself has the largest share of
   /// the motion. Its value is that wheel's rate.
-  std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
+  std::optional<Event> look(const solver::ConstraintSet* set, double kinetic_energy, Force force,
                             const ContactDepth& contact, bool is_pushed) noexcept;
 
   static constexpr double margin = 0.01;       ///< [m/s] beyond a speed that is driven or allowed

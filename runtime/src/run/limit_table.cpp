@@ -125,10 +125,21 @@ void LimitTable::compare_force(const Indices& of, const solver::AxisConstraint& 
   }
 }
 
-void LimitTable::update(const StatementTable& statements, const solver::ConstraintSet& set,
+void LimitTable::update(const StatementTable& statements, const solver::ConstraintSet* set,
                         const std::vector<InForce>& in_force, const solver::Solution& solution,
                         const Eigen::VectorXd& tau) noexcept {
   tightest_ = -1;
+  if (set != nullptr) compare_rows(statements, *set, in_force, solution);
+  for (std::size_t j = 0; j < torque_.size(); ++j) {
+    const double limit = torque_[j];
+    const int index = static_cast<int>(first_torque_ + j);
+    if (limit > 0.0) compare(index, std::abs(tau(static_cast<Eigen::Index>(j))), -limit, limit);
+  }
+}
+
+void LimitTable::compare_rows(const StatementTable& statements, const solver::ConstraintSet& set,
+                              const std::vector<InForce>& in_force,
+                              const solver::Solution& solution) noexcept {
   const std::vector<solver::Row>& rows = set.rows();
   const std::size_t count = std::min(rows.size(), solution.rows.size());
   std::size_t r = 0;
@@ -137,19 +148,13 @@ void LimitTable::update(const StatementTable& statements, const solver::Constrai
     const int constraint = rows[first].constraint;
     while (r < count && rows[r].constraint == constraint) ++r;
     const auto i = static_cast<std::size_t>(constraint);
-    if (i >= in_force.size() || !in_force[i].active) continue;
+    if (i >= in_force.size()) continue;
     const solver::AxisConstraint& c = set.constraints()[i];
-    if (c.alpha < 1.0 || c.progress < 1.0) continue;
     const Indices& of = of_statement_[static_cast<std::size_t>(statements.id(in_force[i].origin))];
     compare_constraint(of, c, set.coordinates()[i], rows[first], solution);
     for (std::size_t k = first; k < r && of[3] >= 0; ++k) {
       compare_force(of, c, rows[k], solution.rows[k].nu);
     }
-  }
-  for (std::size_t j = 0; j < torque_.size(); ++j) {
-    const double limit = torque_[j];
-    const int index = static_cast<int>(first_torque_ + j);
-    if (limit > 0.0) compare(index, std::abs(tau(static_cast<Eigen::Index>(j))), -limit, limit);
   }
 }
 

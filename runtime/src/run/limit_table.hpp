@@ -16,8 +16,8 @@ class LimitTable {
  public:
   LimitTable(const StatementTable& statements, const lang::Robot& robot);
 
-  /// Takes in one tick. Rows that are fading are left out: they are not in force yet, or no more.
-  void update(const StatementTable& statements, const solver::ConstraintSet& set,
+  /// Takes in one tick. `set`: null while a switch blends, as no set's rows alone are in force then.
+  void update(const StatementTable& statements, const solver::ConstraintSet* set,
               const std::vector<InForce>& in_force, const solver::Solution& solution,
               const Eigen::VectorXd& tau) noexcept;
 
@@ -25,6 +25,8 @@ class LimitTable {
   std::optional<LimitReport> now() const;
 
  private:
+  void compare_rows(const StatementTable& statements, const solver::ConstraintSet& set,
+                    const std::vector<InForce>& in_force, const solver::Solution& solution) noexcept;
   /// How near a value came, so far: apart from the names, as it is what each tick goes through.
   struct Nearest {
     double limit = 0.0;

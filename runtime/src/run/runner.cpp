@@ -86,8 +86,10 @@ struct Runner::Parts {
         period(period_of(program.robot, settings)),
         facts(facts_of(settings, period)),
         scheduler(program, period),
-        solver(model,
-               {.row_capacity = scheduler.row_capacity(), .base_motion = true, .every_acceleration = false}),
+        solver(model, {.row_capacity = scheduler.row_capacity(),
+                       .set_capacity = scheduler.set_capacity(),
+                       .base_motion = true,
+                       .every_acceleration = false}),
         solution(model, scheduler.row_capacity()),
         estimated(model),
         sample(model, program.signals.size()),
@@ -132,6 +134,10 @@ struct Runner::Parts {
   /// After a swap of programs: what was sent last fades out of the torques.
   void hand_over() noexcept;
   bool has_the_joints_of(const Parts& other) const noexcept;
+  /// Null while a switch blends: no set's bounds are those in force then.
+  const solver::ConstraintSet* settled_constraints() const noexcept {
+    return scheduler.set_count() == 1 ? &scheduler.constraints() : nullptr;
+  }
   void judge_sensors(const Sensed& sensed) noexcept;
   void tell(const Event& event) noexcept;
   /// The protective stop, where a watch found something.
@@ -248,15 +254,15 @@ bool Runner::Parts::control() noexcept {
     if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
   }
   const bool is_filled = scheduler.fill_constraints();
-  if (const auto refused = wrenches.look(scheduler.constraints(), sample.state, sample.time)) tell(*refused);
-  solver_status = is_filled ? solver.solve(sample.state, scheduler.constraints().rows(), solution)
+  if (const auto refused = wrenches.look(scheduler.row_sets(), sample.state, sample.time)) tell(*refused);
+  solver_status = is_filled ? solver.solve(sample.state, scheduler.row_sets(), solution)
                             : solver::Status::capacity_exceeded;
   if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
   is_solution_of_rows = true;
   scheduler.observe(solution);
   wanted = solution.tau;
   if (!friction.empty()) {
-    friction.update(sample.state.qd, press.look(solver, scheduler.constraints().rows(), solution));
+    friction.update(sample.state.qd, press.look(solver, scheduler.row_sets(), solution));
     friction.compensate(wanted);
   }
   if (handed_over_for < handover) hand_over();
@@ -313,7 +319,7 @@ void Runner::Parts::compare() noexcept {
     motors.reset();
     return;
   }
-  stop(motors.look(disturbance, sample.state, tau, scheduler.constraints()));
+  stop(motors.look(disturbance, sample.state, tau, settled_constraints()));
 }
 
 /// A force that is measured before anything moved is the sensor's own.
@@ -390,7 +396,8 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   }
   if (p.guard.stopped()) p.brake_protectively(good);
   if (solved) {
-    p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau);
+    const solver::ConstraintSet* settled = p.settled_constraints();
+    p.limits.update(p.statements, settled, p.scheduler.in_force(), p.solution, p.tau);
   }
   if (p.recorder != nullptr) {
     const Shortfall shortfall = p.find_shortfall();
@@ -398,7 +405,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
                     p.given_parameters,
                     good ? p.estimated : sensed,
                     p.scheduler,
-                    solved ? &p.scheduler.constraints() : nullptr,
+                    solved,
                     p.solution,
                     p.solver_status,
                     p.guard_status,

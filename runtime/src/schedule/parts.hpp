@@ -116,6 +116,8 @@ struct Scheduler::Parts final : Facts {
   solver::Range value(const lang::ValueRange& range) const noexcept;
   const solver::AttachedFrame& axes_frame(const lang::Group& group, const ActiveAxis* a) const noexcept;
   void read(const solver::Solution& solution) noexcept;
+  void read_row(std::size_t set, const solver::Row& row, const solver::RowSolution& answer,
+                ActiveAxis& axis) noexcept;
 
   const lang::Task& active() const noexcept { return tasks[task]; }
   double elapsed() const noexcept { return now - entered; }
@@ -167,13 +169,12 @@ struct Scheduler::Parts final : Facts {
   std::size_t always_axes = 0;
   std::vector<double> scratch;
   std::vector<Wanted> wanted;
-  std::vector<int> renewed;    ///< those of `wanted` with values that the last tick did not have
-  bool values_are_due = true;  ///< of all that is wanted: another list, or other parameters
-  bool reach_changed = true;   ///< another pair of features is in force, or one no more
-  std::vector<InForce> in_force;
-  std::vector<ActiveAxis*> sources;  ///< of each in force its axis; null while it fades out
+  std::vector<int> renewed;          ///< those of `wanted` with values that the last tick did not have
+  bool values_are_due = true;        ///< of all that is wanted: another list, or other parameters
+  bool reach_changed = true;         ///< another pair of features is in force, or one no more
+  std::vector<ActiveAxis*> sources;  ///< of each constraint of all sets its axis; null while it leaves
   std::optional<Blend> blend;
-  std::optional<solver::ConstraintSet> set;
+  std::array<solver::RowSet, Blend::most_sets> row_sets;
 };
 
 }  // namespace zwang::runtime

@@ -62,15 +62,6 @@ std::vector<std::optional<solver::Range>> ranges_of(const std::vector<lang::Para
   return ranges;
 }
 
-/// About what the motors can do, for a bound that is infinite while it fades. [N]
-double force_scale_of(const solver::Model& model) {
-  double scale = 0.0;
-  for (const solver::Wheel& wheel : model.wheels()) {
-    scale += model.joint(wheel.body - 1).max_effort / wheel.radius;
-  }
-  return scale > 0.0 && std::isfinite(scale) ? scale : 10.0 * model.total_mass();
-}
-
 }  // namespace
 
 Scheduler::Parts::Parts(const lang::Program& given, double control_period)
@@ -125,11 +116,8 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   wanted.reserve(most_wanted);
   renewed.reserve(most_wanted);
   scratch.resize(tasks.most_nodes);
-  const double force_scale = force_scale_of(model);
-  blend.emplace(most_wanted, 3 * tasks.most_rows, force_scale, force_scale * radius);
-  in_force.reserve(blend->capacity());
-  sources.reserve(blend->capacity());
-  set.emplace(static_cast<int>(blend->capacity()), 4 * tasks.most_rows);
+  blend.emplace(most_wanted, tasks.most_rows);
+  sources.reserve(Blend::most_sets * blend->capacity());
 }
 
 void Scheduler::Parts::follow_paths(const lang::Condition& condition) noexcept {
@@ -169,17 +157,29 @@ void Scheduler::observe(const solver::Solution& solution) noexcept {
 }
 
 bool Scheduler::fill_constraints() noexcept {
-  return parts_->set->fill(parts_->frames.motions());
+  for (BlendedSet& set : parts_->blend->sets()) {
+    if (!set.constraints.fill(parts_->frames.motions())) return false;
+  }
+  return true;
 }
 
-solver::ConstraintSet& Scheduler::constraints() noexcept {
-  return *parts_->set;
+int Scheduler::set_count() const noexcept {
+  return static_cast<int>(parts_->blend->sets().size());
 }
-const solver::ConstraintSet& Scheduler::constraints() const noexcept {
-  return *parts_->set;
+solver::ConstraintSet& Scheduler::constraints(int set) noexcept {
+  return parts_->blend->set(set).constraints;
 }
-const std::vector<InForce>& Scheduler::in_force() const noexcept {
-  return parts_->in_force;
+const solver::ConstraintSet& Scheduler::constraints(int set) const noexcept {
+  return parts_->blend->set(set).constraints;
+}
+double Scheduler::share(int set) const noexcept {
+  return parts_->blend->set(set).share;
+}
+std::span<const solver::RowSet> Scheduler::row_sets() const noexcept {
+  return {parts_->row_sets.data(), parts_->blend->sets().size()};
+}
+const std::vector<InForce>& Scheduler::in_force(int set) const noexcept {
+  return parts_->blend->set(set).in_force;
 }
 const std::optional<Transition>& Scheduler::transition() const noexcept {
   return parts_->transition;
@@ -244,7 +244,10 @@ int Scheduler::always_task() const noexcept {
   return parts_->tasks.always();
 }
 int Scheduler::row_capacity() const noexcept {
-  return 4 * parts_->tasks.most_rows;
+  return static_cast<int>(Blend::most_sets) * set_capacity();
+}
+int Scheduler::set_capacity() const noexcept {
+  return Blend::rows_of_a_set(parts_->tasks.most_rows);
 }
 double Scheduler::period() const noexcept {
   return parts_->period;

@@ -1,4 +1,5 @@
-// Step 7 of the tick: the constraints of the active task, of `always`, and of what fades.
+// Step 7 of the tick: the constraints of the active task, of `always`, and of the tasks before while a switch
+// blends.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -121,6 +122,8 @@ void Scheduler::Parts::list_axis(const ActiveAxis& a) noexcept {
   Wanted& w = wanted.emplace_back();
   w.origin = a.origin;
   w.always = a.origin.task == tasks.always();
+  w.measured = a.says->target.signal >= 0;
+  w.lost = a.lost;
   w.move = {g.move, frames.settings_of(g.move)};
   w.in = a.entry_axes ? FrameKey{} : FrameKey{g.in, frames.settings_of(g.in)};
   w.constraint = measured(g, *a.says, &a);
@@ -160,6 +163,7 @@ void Scheduler::Parts::list_fence(const ActiveAxis& a) noexcept {
     w.origin = a.origin;
     w.origin.part = static_cast<int>(i);
     w.always = a.origin.task == tasks.always();
+    w.lost = a.lost;
     w.far = true;
   }
   in_reach[fence] = {};
@@ -286,7 +290,7 @@ void Scheduler::Parts::start_blend() noexcept {
   want();
   switched = now;
   blend_time = active().blend.evaluate(parameters);
-  blend->start(wanted, blend_time, *set);
+  blend->start(wanted, blend_time);
 }
 
 /// A signal that is lost or found changes what drives an axis. That is a switch like any other.
@@ -305,36 +309,51 @@ void Scheduler::Parts::put_constraints() noexcept {
   want();
   const bool is_same_list = !std::exchange(reach_changed, false);
   if (is_same_list && blend->rests()) {
-    blend->renew(wanted, renewed, *set);
+    blend->renew(wanted, renewed);
     return;
   }
-  // The tick of the switch already goes one tick's way, so that no alpha is ever 0.
+  // The tick of the switch already goes one tick's way, so that no share is ever 0.
   double progress = blend_time > 0.0 ? (now - switched + period) / blend_time : 1.0;
   if ((1.0 - progress) * blend_time < clock_rounding * period) progress = 1.0;
-  blend->put(wanted, progress, *set, in_force);
+  blend->put(wanted, progress);
   sources.clear();
-  for (const InForce& f : in_force) sources.push_back(f.active ? find(f.origin) : nullptr);
+  for (std::size_t i = 0; i < blend->sets().size(); ++i) {
+    const BlendedSet& set = blend->sets()[i];
+    for (const InForce& f : set.in_force) sources.push_back(f.active ? find(f.origin) : nullptr);
+    row_sets[i] = {&set.constraints.rows(), set.share};
+  }
 }
 
 /// What the solver made of the rows, for the guards of the next tick.
 void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
-  const std::vector<solver::Row>& rows = set->rows();
   for (ActiveAxis& a : axes) {
     if (!a.says->driver) a.reading = {};
   }
-  const std::size_t count = std::min(rows.size(), solution.rows.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const solver::Row& row = rows[i];
-    const solver::RowSolution& answer = solution.rows[i];
-    if (row.constraint < 0 || static_cast<std::size_t>(row.constraint) >= sources.size()) continue;
-    ActiveAxis* axis = sources[static_cast<std::size_t>(row.constraint)];
-    if (axis == nullptr) continue;
-    AxisReading& reading = axis->reading;
-    if (row.kind == solver::RowKind::driver || row.kind == solver::RowKind::force) {
-      reading = {answer.nu, answer.residual, answer.saturated};
-    } else if (!axis->says->driver && std::abs(answer.residual) > std::abs(reading.residual)) {
-      reading.residual = answer.residual;
+  std::size_t row = 0, first_source = 0;
+  for (std::size_t set = 0; set < blend->sets().size(); ++set) {
+    for (const solver::Row& asked : blend->sets()[set].constraints.rows()) {
+      if (row == solution.rows.size()) return;
+      const solver::RowSolution& answer = solution.rows[row++];
+      ActiveAxis* axis = sources[first_source + static_cast<std::size_t>(asked.constraint)];
+      if (axis != nullptr) read_row(set, asked, answer, *axis);
     }
+    first_source += blend->sets()[set].in_force.size();
+  }
+}
+
+/// Of the task that is active what its own set says; the force, which the sets before go on to make, of all.
+void Scheduler::Parts::read_row(std::size_t set, const solver::Row& row, const solver::RowSolution& answer,
+                                ActiveAxis& axis) noexcept {
+  AxisReading& reading = axis.reading;
+  if (row.kind == solver::RowKind::driver || row.kind == solver::RowKind::force) {
+    const double force = blend->sets()[set].share * answer.nu;
+    if (set > 0) {
+      reading.force += force;
+    } else {
+      reading = {force, answer.residual, answer.saturated};
+    }
+  } else if (set == 0 && !axis.says->driver && std::abs(answer.residual) > std::abs(reading.residual)) {
+    reading.residual = answer.residual;
   }
 }
 

@@ -14,6 +14,7 @@
 namespace zwang::solver {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double limit_horizon = 0.010;  ///< h [s], within which limits act
 
 enum class Axis { x, y, z, rx, ry, rz };
 
@@ -74,15 +75,10 @@ struct AxisConstraint {
   double braking = 1.0;  ///< a_brk of a position range [m/s^2] or [rad/s^2]
   int level = 1;
 
-  /// Fading: 1 in force, 0 gone. Drivers get R = L_jj (1 - alpha)/alpha and bounds times alpha.
-  double alpha = 1.0;
-  bool leaving =
-      false;  ///< one-sided rows and sums enter at once; they leave with R(alpha), or with bounds / alpha
-  double blend = 0.0;  ///< [s] what an entering range excludes is met within max(h, (1 - alpha) blend)
-  /// A driver that persists over a switch: b (or f) goes from `before`'s to `driver`'s as `progress` goes
-  /// from 0 to 1.
-  std::optional<Driver> before;
-  double progress = 1.0;
+  /// Time within which a range acts on what is beyond it. [s] One that is new has a longer one than
+  /// `limit_horizon`: what is beyond it then has time to stop.
+  double position_horizon = limit_horizon;
+  double velocity_horizon = limit_horizon;
 };
 
 /// The present motion along a measure. [m, m/s] or [rad, rad/s]
@@ -114,8 +110,6 @@ struct Row {
   double lo = -infinity;  ///< bounds of nu [N] or [N m]; an infinite bound stands for what the motors can do
   double hi = infinity;
   double weight = infinity;  ///< w [kg] or [kg m^2] of a motion row, above 0; softness R = 1/w
-  double fade = 1.0;  ///< alpha: bounds and force times alpha, softness R = 1/w + L_jj (1 - alpha)/alpha; of
-                      ///< a sum, bounds divided by alpha
   int level = 1;
 };
 
@@ -137,15 +131,13 @@ class ConstraintSet {
   const std::vector<Coordinate>& coordinates() const noexcept { return coordinates_; }
   const std::vector<Row>& rows() const noexcept { return rows_; }
 
-  static constexpr double horizon = 0.010;  ///< h [s], within which limits act
+  static constexpr double horizon = limit_horizon;
 
  private:
   bool fill_all(BodyMotions& motions) noexcept;
   bool fill_one(int index, BodyMotions& motions) noexcept;
-  bool push_driver(const AxisConstraint& constraint, const Coordinate& now, double horizon,
-                   const Row& along) noexcept;
-  bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, double horizon,
-                   const Row& along) noexcept;
+  bool push_driver(const AxisConstraint& constraint, const Coordinate& now, const Row& along) noexcept;
+  bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, const Row& along) noexcept;
   Row* push(const Row& row) noexcept;  ///< null when full
 
   std::vector<AxisConstraint> constraints_;
