@@ -2,13 +2,13 @@
 #include <atomic>
 #include <charconv>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <tuple>
 
+#include "interruption.hpp"
 #include "output.hpp"
 #include "plant_start.hpp"
 #include "reload.hpp"
@@ -33,22 +33,6 @@ constexpr double line_every = 1.0;  // [s] of the run, where there is no termina
 constexpr auto longest_signal_stop = std::chrono::milliseconds(300);
 constexpr double blocked_for = 0.19;  // [s] of real time without a tick: the thread is blocked
 
-volatile std::sig_atomic_t interrupted = 0;
-
-/// Who asks again does not want to wait for the stop, nor for a log that nobody reads: that ends the process.
-extern "C" void on_signal(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
-}
-
-void catch_signals() {
-  interrupted = 0;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  // The terminal, or the connection to it, is gone; under nohup that is to be ignored.
-  if (std::signal(SIGHUP, on_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-}
-
 void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Format format) {
   if (refused && format == Format::json) {
     const nlohmann::ordered_json whole = {
@@ -70,7 +54,7 @@ std::vector<runtime::Column> truth_columns(const lang::Scene& scene) {
 }
 
 void put_truth(const runtime::Truth& truth, std::vector<double>& values) {
-  const runtime::BaseTruthValues base = runtime::base_truth_values(truth);
+  const runtime::BaseTruthValues base = runtime::base_truth_values(truth.x, truth.y, truth.yaw, truth.base);
   std::copy(base.begin(), base.end(), values.begin());
   for (std::size_t i = 0; i < truth.objects.size(); ++i) values[base.size() + i] = truth.objects[i].force;
 }
@@ -108,8 +92,8 @@ class Live {
 
 /// The run itself; what it leaves is in the arguments and in the report.
 void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorders& recorders,
-             const lang::Program& program, bool with_watchdog, Reloads* reloads, Live& live,
-             RunReport& report) {
+             const lang::Program& program, bool with_watchdog, Reloads* reloads,
+             const std::atomic<bool>& interrupted, Live& live, RunReport& report) {
   runtime::Sensed sensed(program);
   std::vector<double> truth(std::tuple_size_v<runtime::BaseTruthValues> + program.scene->objects.size() +
                             program.scene->robots.size());
@@ -123,7 +107,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   std::optional<runtime::Watchdog> watchdog;
   if (with_watchdog) watchdog.emplace(blocked_for, nullptr);
   while (!runner.finished()) {
-    if (interrupted != 0 && !give_up) {
+    if (interrupted && !give_up) {
       give_up = Clock::now() + longest_signal_stop;
       runner.guard().stop(runtime::EventCode::requested);
     }
@@ -218,12 +202,12 @@ int run(const RunArguments& arguments) {
   RunReport report;
   report.seed = arguments.seed;
   report.logs.push_back((folder / "log.csv").string());
-  catch_signals();
+  const std::atomic<bool>& interrupted = catch_interruption();
   const auto begin = Clock::now();
   std::optional<Reloads> reloads;
   if (arguments.watch) reloads.emplace(arguments, folder, diagnostics, settings, recorders);
-  control(*plant, runner, recorders, *program, arguments.watchdog, reloads ? &*reloads : nullptr, live,
-          report);
+  control(*plant, runner, recorders, *program, arguments.watchdog, reloads ? &*reloads : nullptr, interrupted,
+          live, report);
   if (reloads) {
     reloads->end();
     report.before = reloads->before();

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
@@ -9,6 +8,7 @@
 #include <thread>
 
 #include "file_kind.hpp"
+#include "interruption.hpp"
 #include "output.hpp"
 #include "test_report.hpp"
 #include "verbs.hpp"
@@ -25,21 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal sets it");
-
-/// Who asks again does not want to wait for the report.
-extern "C" void on_interrupt(int signal) {
-  interrupted = true;
-  std::signal(signal, SIG_DFL);
-}
-
-void catch_signals() {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // under nohup
-}
 
 /// A file of a folder. What is none of zwang's is named: it may have been meant as a scenario.
 bool is_scenario(const std::string& path) {
@@ -135,7 +120,7 @@ class Loader {
 };
 
 void work(const std::vector<Job>& jobs, std::atomic<std::size_t>& next, Loader& loader,
-          std::vector<ScenarioReport>& reports, Progress& progress) {
+          std::vector<ScenarioReport>& reports, const std::atomic<bool>& interrupted, Progress& progress) {
   for (std::size_t j = next++; j < jobs.size() && !interrupted; j = next++) {
     const Job& job = jobs[j];
     ScenarioReport& report = reports[job.report];
@@ -172,7 +157,7 @@ int test(const TestArguments& arguments) {
     }
   }
 
-  catch_signals();
+  const std::atomic<bool>& interrupted = catch_interruption();
   keep_freed_memory();
   const auto begin = Clock::now();
   Progress progress(jobs.size(), arguments.format == Format::human);
@@ -182,7 +167,7 @@ int test(const TestArguments& arguments) {
   const std::size_t wanted = arguments.jobs > 0 ? static_cast<std::size_t>(arguments.jobs) : cores;
   std::vector<std::thread> threads;
   for (std::size_t t = 0; t < std::min(wanted, jobs.size()); ++t)
-    threads.emplace_back([&] { work(jobs, next, loader, reports, progress); });
+    threads.emplace_back([&] { work(jobs, next, loader, reports, interrupted, progress); });
   for (std::thread& thread : threads) thread.join();
   progress.end();
   const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();

@@ -18,10 +18,6 @@ struct Linear {
   int node = -1;
 };
 
-bool is_comparison(Op op) {
-  return op == Op::less || op == Op::less_equal || op == Op::greater || op == Op::greater_equal;
-}
-
 Op opposite(Op op) {
   switch (op) {
     case Op::less:

@@ -11,7 +11,7 @@
 
 namespace zwang::lang {
 
-/// What a measured number may be. SI. Of a truth value 0 or 1.
+/// The range of a measured number, in SI. A truth value is 0 or 1.
 struct Bounds {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();

@@ -201,6 +201,14 @@ double present_value(const CheckContext& context, const ValueText& value) {
   return symbol == nullptr ? 0.0 : value.sign * symbol->parameter.value;
 }
 
+double dwell_of(const CheckContext& context, const ExitText& exit) {
+  return exit.dwell ? present_value(context, *exit.dwell) : 0.0;
+}
+
+double blend_of(const CheckContext& context, const TaskText& task) {
+  return task.blend ? present_value(context, *task.blend) : Task{}.blend.constant;
+}
+
 void check_time(CheckContext& context, const ValueText& value, const std::string& what, bool zero_allowed) {
   if (!check_value(context, value, dimension::time, what)) return;
   const double seconds = present_value(context, value);

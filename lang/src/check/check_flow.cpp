@@ -59,10 +59,9 @@ void check_ends(CheckContext& context, const std::vector<std::vector<Condition>>
 void check_hidden(CheckContext& context, const std::vector<ExitText>& exits) {
   for (std::size_t i = 0; i < exits.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      const auto dwell = [&](const ExitText& exit) {
-        return exit.dwell ? present_value(context, *exit.dwell) : 0.0;
-      };
-      if (exits[i].when.text != exits[j].when.text || dwell(exits[i]) < dwell(exits[j])) continue;
+      if (exits[i].when.text != exits[j].when.text ||
+          dwell_of(context, exits[i]) < dwell_of(context, exits[j]))
+        continue;
       context.diagnostics.add(wording::hidden_exit(exits[i].when.span, exits[j].when.span));
       break;
     }

@@ -9,9 +9,6 @@ namespace zwang::lang {
 
 namespace {
 
-/// How long a switch takes where the task says nothing. [s]
-constexpr double default_blend = 0.2;
-
 using Names = std::set<std::string>;
 
 /// Where the task leads to, without ways that something certain always comes before.
@@ -20,7 +17,7 @@ Names ways_from(const CheckContext& context, const TaskText& task, const std::ve
   for (std::size_t i = 0; i < task.exits.size(); ++i) {
     const bool is_read = !conditions[i].nodes.empty();
     const Ending before = ending_before(context, task, conditions, i);
-    const double dwell = task.exits[i].dwell ? present_value(context, *task.exits[i].dwell) : 0.0;
+    const double dwell = dwell_of(context, task.exits[i]);
     const double first = is_read ? earliest(context, task, task.exits[i], conditions[i]) : 0.0;
     if (first <= before.time + dwell) ways.insert(task.exits[i].target.text);
   }
@@ -67,7 +64,7 @@ class Ways {
  private:
   bool ends(std::size_t task, const Names& known) const {
     const auto leads_on = [&](const std::string& way) { return known.contains(way); };
-    // What `back` resumes may be any task that has been shown to end.
+    // `back` may resume any task that has been shown to end.
     const bool goes_back = from_[task].contains("back") && known.size() > 2;
     return is_meant_to_last(context_.file.tasks[task]) || goes_back ||
            std::any_of(from_[task].begin(), from_[task].end(), leads_on) ||
@@ -98,11 +95,7 @@ struct Way {
   std::vector<Case> cases;
 };
 
-double blend_of(const CheckContext& context, const TaskText& task) {
-  return task.blend ? present_value(context, *task.blend) : default_blend;
-}
-
-/// What a switch of tasks does not change: a place, a speed, a signal.
+/// A switch of tasks does not change a place, a speed or a signal.
 bool outlasts_a_switch(const ExpressionNode& node) {
   const bool is_motion = node.op == Op::coordinate && (node.what == CoordinateQuantity::position ||
                                                        node.what == CoordinateQuantity::velocity);

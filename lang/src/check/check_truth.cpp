@@ -99,10 +99,6 @@ Interval interval_of(const CheckContext& context, const ExpressionNode& node, co
   return {};
 }
 
-bool is_comparison(Op op) {
-  return op == Op::less || op == Op::less_equal || op == Op::greater || op == Op::greater_equal;
-}
-
 /// The value of a subtree that holds only constants and parameters; nullopt when something is measured.
 std::optional<double> fixed_value(const CheckContext& context, const Condition& condition, int index) {
   const ExpressionNode& node = condition.nodes[static_cast<std::size_t>(index)];

@@ -22,6 +22,10 @@ bool check_value(CheckContext& context, const ValueText& value, const Dimension&
                  const std::string& what);
 /// The value with the parameters as they are at the start. Of a checked value.
 double present_value(const CheckContext& context, const ValueText& value);
+/// [s] The exit's `for`; 0 where there is none.
+double dwell_of(const CheckContext& context, const ExitText& exit);
+/// [s] How long the switch into the task takes.
+double blend_of(const CheckContext& context, const TaskText& task);
 /// A time that must not be negative, or must be above zero.
 void check_time(CheckContext& context, const ValueText& value, const std::string& what, bool zero_allowed);
 /// The frame's index; E301 when there is none. nullopt for bad and unknown names.
@@ -56,6 +60,10 @@ void check_against_always(CheckContext& context, const TaskText& task);
 /// E506: `release` must lie on the far side of a single comparison's threshold.
 void check_release(CheckContext& context, const ExitText& exit, const Condition& condition,
                    const Dimension& compared);
+/// `<`, `<=`, `>` or `>=`.
+constexpr bool is_comparison(Op op) {
+  return op == Op::less || op == Op::less_equal || op == Op::greater || op == Op::greater_equal;
+}
 /// Whether the signs of its parts alone decide the condition.
 bool is_decided(const CheckContext& context, const Condition& condition);
 /// E505: of such a condition.

@@ -10,10 +10,6 @@ namespace {
 /// Two exits that are certain at the same instant: the upper one fires. [s]
 constexpr double tie = 1e-9;
 
-double dwell_of(const CheckContext& context, const ExitText& exit) {
-  return exit.dwell ? present_value(context, *exit.dwell) : 0.0;
-}
-
 bool is_elapsed(const Case& one) {
   return one.size() == 1 && one.begin()->second.node->op == Op::elapsed;
 }

@@ -13,9 +13,9 @@ struct Ending {
   Span span;
 };
 
-/// The start of the last stretch of time, as long as the exit's `for`, that ends before the timeout or
-/// another exit ends the task for certain; `exit` counts the exits of the task, past them no exit is left
-/// out. 0 and less: the `for` is too long.
+/// The latest time at which the exit's condition can become true and still fire. The timeout or another exit
+/// ends the task for certain, and the exit's `for` comes off that time. 0 and less: the `for` is too long.
+/// `exit` is the index of the exit in the task; past the last one, every exit counts as another one.
 Ending ending_before(const CheckContext& context, const TaskText& task,
                      const std::vector<Condition>& conditions, std::size_t exit);
 

@@ -1,5 +1,5 @@
-/// What is said of a file that reads well and cannot work: ranges that exclude each other, exits that never
-/// come, loops without a way out, forces that are never reached.
+/// Diagnostics of files that read well and cannot work. Ranges exclude each other, exits never come, loops
+/// have no way out, or forces are never reached.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace zwang::lang::wording {
 
-/// What a path keeps to or, with low = high, asks for. SI.
+/// The range that a path keeps to. With low = high, the value that it asks for. SI.
 struct Bound {
   std::string path;
   std::string quantity;  ///< "velocity"
@@ -32,7 +32,7 @@ Diagnostic always_true(const Span& span, const std::string& what, double low, do
 Diagnostic contradicts_itself(const Span& span);
 Diagnostic never_in_time(const Span& span, const std::string& by, const Span& end);
 
-/// What a blocked driver presses with, and its force range. SI.
+/// The force of a blocked driver, and its force range. SI.
 struct Unreached {
   std::string axis;
   bool turns = false;

@@ -67,7 +67,7 @@ double scrub(const Robot& robot, double friction) {
   double middle = 0.0, arms = 0.0;
   for (const double x : ahead) middle += x / static_cast<double>(ahead.size());
   for (const double x : ahead) arms += std::abs(x - middle) / static_cast<double>(model.wheels().size());
-  return friction * model.total_mass() * 9.81 * arms;
+  return friction * model.total_mass() * std::abs(model.gravity().z()) * arms;
 }
 
 /// Whether an exit of the task, other than to `failed`, asks how the axis turns.

@@ -1,12 +1,11 @@
 // W620: a guard on a distance, `nearest < d`, that fires too late to stop.
 //
-//   v (for + stale_after + blend/2) + v^2/2a + a T^2/2 <= d - reach          v T for the last two where v < a
-//   T
+//   v (for + stale_after + blend/2) + v^2/2a + a T^2/2 <= d - reach
+//   v (for + stale_after + blend/2) + v T              <= d - reach     where v < a T
 //
 //   v      the base's speed limit in a task in which the exit is asked for
 //   a, T   the deceleration that the ranges of the task that stands leave, and its time constant; at `done`
-//   and
-//          `failed` the robot file's `stop`, and no T
+//          and `failed` the robot file's `stop`, and no T
 //   reach  of the footprint from the base's origin, from where a distance counts. A guard nearer than that
 //          counts from the footprint.
 //
@@ -24,8 +23,6 @@ namespace {
 
 using solver::Axis;
 using solver::Quantity;
-
-constexpr double default_blend = 0.2;  // [s]
 
 /// How the base comes to rest once the guard is true.
 struct Braking {
@@ -48,10 +45,6 @@ double speed_for(double way, const Braking& braking, double most) {
     (way_to_stop(middle, braking) > way ? high : low) = middle;
   }
   return low;
-}
-
-double present(const CheckContext& context, const std::optional<ValueText>& value, double none) {
-  return value ? present_value(context, *value) : none;
 }
 
 /// The number signal of a length that the exit compares, and with what; nullopt: it is no such guard.
@@ -161,7 +154,7 @@ class StoppingQuestion {
       add_axis(plan, axis, figures->least_mass, braking);
     }
     if (!stands) return std::nullopt;
-    braking.delay = 0.5 * present(context_, text.blend, default_blend);
+    braking.delay = 0.5 * blend_of(context_, text);
     return braking;
   }
 
@@ -184,7 +177,8 @@ class StoppingQuestion {
     if (!braking) return;
     const auto signal = static_cast<std::size_t>(one.guard.signal);
     const std::optional<ValueText>& stale_after = context_.file.signals[signal].stale_after;
-    braking->delay += present(context_, one.exit->dwell, 0.0) + present(context_, stale_after, 0.0);
+    braking->delay +=
+        dwell_of(context_, *one.exit) + (stale_after ? present_value(context_, *stale_after) : 0.0);
     const double outline = reach();
     const double reach = one.guard.distance > outline ? outline : 0.0;
     const double way = way_to_stop(limit.most, *braking);

@@ -9,8 +9,6 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr double gravity = 9.81;  // [m/s^2]
-
 /// The frame hangs on the robot, not in the world or on what a signal sees.
 bool is_on_robot(const lang::Program& program, int frame) {
   while (frame >= 0) {
@@ -38,10 +36,8 @@ WrenchBound::WrenchBound(const lang::Program& program, double period, int longes
     : longest_(longest), keep_(std::exp(-period / memory)) {
   const lang::Robot& robot = program.robot;
   const solver::Model& model = robot.model;
-  double mass = 0.0;
-  for (const solver::Body& body : model.bodies()) mass += body.inertia.mass;
-  root_mass_ = std::sqrt(mass);
-  steady_ = mass * gravity;
+  root_mass_ = std::sqrt(model.total_mass());
+  steady_ = model.total_mass() * std::abs(model.gravity().z());
   for (const solver::Wheel& wheel : model.wheels()) {
     const solver::Joint& joint = model.joint(wheel.body - 1);
     if (joint.actuated) steady_ += joint.max_effort / wheel.radius;

@@ -97,9 +97,8 @@ std::vector<Column> base_truth_columns() {
           {"truth.base.push", "N", {}}};
 }
 
-BaseTruthValues base_truth_values(const Truth& truth) noexcept {
-  return {truth.x,        truth.y, truth.yaw, truth.base.roll, truth.base.pitch, truth.base.acceleration,
-          truth.base.push};
+BaseTruthValues base_truth_values(double x, double y, double yaw, const BaseTruth& base) noexcept {
+  return {x, y, yaw, base.roll, base.pitch, base.acceleration, base.push};
 }
 
 ScenePartner::ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& settings)
@@ -181,8 +180,7 @@ struct ScenePlant::Parts {
     Told& of = told[i];
     const ObjectTruth& own = simulation.truth().objects[scene.objects.size() + i];
     const BaseTruth& base = simulation.truth().robots[i].base;
-    const BaseTruthValues truth{own.x, own.y, own.yaw, base.roll, base.pitch, base.acceleration, base.push};
-    partner.torque = partner.runner.step(of.sensed, truth);
+    partner.torque = partner.runner.step(of.sensed, base_truth_values(own.x, own.y, own.yaw, base));
   }
 
   lang::Scene scene;

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
@@ -12,6 +11,7 @@
 
 #include "run/run_facts.hpp"
 #include "run/sensed_columns.hpp"
+#include "run/snapshot_signals.hpp"
 #include "zwang/lang/start.hpp"
 #include "zwang/runtime/runner.hpp"
 
@@ -132,13 +132,9 @@ namespace {
 
 /// The snapshots of all parts are laid out for the first program, which `swap_program` has matched.
 std::vector<std::size_t> places_in(const lang::Program& first, const lang::Program& program) {
-  std::vector<std::size_t> places;
-  for (const lang::Signal& signal : program.signals) {
-    const auto found = std::find_if(first.signals.begin(), first.signals.end(),
-                                    [&](const lang::Signal& other) { return other.name == signal.name; });
-    places.push_back(static_cast<std::size_t>(found - first.signals.begin()));
-  }
-  return places;
+  SnapshotSignals measured(first), own(program);
+  own.go_on_from(measured);
+  return own.places();
 }
 
 void replay_part(const lang::Program& first, const ReplayPart& part, Runner& runner, ReplayResult& result) {

@@ -1,4 +1,4 @@
-/// What a simulated plant says of a robot and a scene that it cannot simulate, told as of the files.
+/// The refusal of a simulated plant as a diagnostic, at its place in the files.
 #pragma once
 
 #include <string>

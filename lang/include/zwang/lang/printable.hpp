@@ -1,4 +1,4 @@
-/// What a file or a name says must not write to the terminal.
+/// Text of files and names that cannot control a terminal.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace zwang::lang {
 
-/// Control characters (C0, DEL, C1), characters that make a text look other than it is, and bytes that are
-/// not UTF-8 as \xNN, byte by byte; all else as it is. `kept` are control characters that stay.
+/// The text with \xNN for each byte of a control character (C0, DEL, C1), of a character that makes a text
+/// look other than it is, and for each byte that is not UTF-8. `kept` are control characters that stay.
 std::string printable(std::string_view text, std::string_view kept = "\n\t");
 
 }  // namespace zwang::lang

@@ -50,8 +50,8 @@ struct ScenePartner {
 /// pushes.
 std::vector<Column> base_truth_columns();
 using BaseTruthValues = std::array<double, 7>;
-/// Of the first robot, in the order of the columns.
-BaseTruthValues base_truth_values(const Truth& truth) noexcept;
+/// In the order of the columns. `x`, `y` [m] and `yaw` [rad] are those of the base in the world.
+BaseTruthValues base_truth_values(double x, double y, double yaw, const BaseTruth& base) noexcept;
 
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
 /// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its

@@ -1,0 +1,28 @@
+#include "interruption.hpp"
+
+#include <csignal>
+
+namespace zwang::cli {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal sets it");
+
+/// Who asks again does not want to wait for the end: that ends the process.
+extern "C" void on_interruption(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+const std::atomic<bool>& catch_interruption() {
+  interrupted = false;
+  std::signal(SIGINT, on_interruption);
+  std::signal(SIGTERM, on_interruption);
+  if (std::signal(SIGHUP, on_interruption) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  return interrupted;
+}
+
+}  // namespace zwang::cli
