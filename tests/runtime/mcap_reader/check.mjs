@@ -4,6 +4,7 @@ import {McapIndexedReader, McapStreamReader} from '@mcap/core';
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
+import {resolve} from 'node:path';
 import {decompress} from 'fzstd';
 
 const [zwang, task, folder] = process.argv.slice(2);
@@ -35,9 +36,12 @@ assert.equal(BigInt(messages), reader.statistics.messageCount);
 assert.equal(messages, info.records);
 assert.equal(info.whole, true);
 
+// A log names its files from a folder of its own choice: the one from which the task is the fact `task`.
+assert.ok(resolve(task).endsWith(info.facts.task), `${info.facts.task} is the task`);
+const seenFrom = resolve(task).slice(0, -info.facts.task.length);
 let attachments = 0;
 for await (const attachment of reader.readAttachments()) {
-  assert.equal(text(attachment.data), readFileSync(attachment.name, 'utf8'));
+  assert.equal(text(attachment.data), readFileSync(resolve(seenFrom, attachment.name), 'utf8'));
   attachments += 1;
 }
 assert.equal(attachments, info.files.length);
