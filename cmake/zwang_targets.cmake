@@ -15,13 +15,18 @@ if(ZWANG_SANITIZE)
   target_link_options(zwang_flags INTERFACE -fsanitize=${ZWANG_SANITIZE})
 endif()
 
-# zwang_precompiled(<target>): where a preset asks for it, what most files include is read once for all of them. Release
-# does without: there each file has to include what it uses.
-set(zwang_headers_of_most <Eigen/Dense> <algorithm> <array> <cmath> <filesystem> <functional> <limits> <map> <memory>
-  <numbers> <optional> <sstream> <string> <vector>)
+# zwang_precompiled(<target> [HEADER...]): the headers that most of its files include are read once for all of them. Every
+# file includes what it uses all the same: preset debug compiles without, and `./dev lint` reads the files by its commands.
+set(zwang_headers_of_most <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <filesystem> <functional> <limits>
+  <map> <memory> <numbers> <optional> <set> <span> <sstream> <string> <vector>)
+set(zwang_headers_of_solver <zwang/solver/constraint.hpp> <zwang/solver/frame.hpp> <zwang/solver/model.hpp>
+  <zwang/solver/spatial.hpp> <zwang/solver/state.hpp>)
+set(zwang_headers_of_lang ${zwang_headers_of_solver} <zwang/lang/diagnostic.hpp> <zwang/lang/program.hpp>
+  <zwang/lang/robot.hpp> <zwang/lang/scene.hpp>)
+set(zwang_headers_of_runtime ${zwang_headers_of_lang} <zwang/runtime/event.hpp> <zwang/runtime/plant.hpp>)
 function(zwang_precompiled target)
   if(ZWANG_PRECOMPILE)
-    target_precompile_headers(${target} PRIVATE ${zwang_headers_of_most})
+    target_precompile_headers(${target} PRIVATE ${zwang_headers_of_most} ${ARGN})
   endif()
 endfunction()
 
@@ -36,5 +41,5 @@ function(zwang_room name)
     PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
   target_compile_features(zwang_${name} PUBLIC cxx_std_20)
   target_link_libraries(zwang_${name} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:zwang_flags> ${ARG_PRIVATE})
-  zwang_precompiled(zwang_${name})
+  zwang_precompiled(zwang_${name} ${zwang_headers_of_${name}})
 endfunction()
