@@ -1,11 +1,14 @@
-// What a host may do while a task runs: set parameters, swap the program, look at events, stop.
+// What a host may do while a task runs: set parameters, swap the program, look at events, stop, write a log.
 //
-//   05_live TASK.yaml OTHER_TASK.yaml        specs/wall_align.yaml specs/obstacle.yaml
+//   05_live TASK.yaml OTHER_TASK.yaml LOG.mcap        specs/wall_align.yaml specs/obstacle.yaml
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <memory>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -16,8 +19,7 @@ namespace {
 
 using namespace zwang;
 
-std::optional<lang::Program> load(const char* path) {
-  lang::Diagnostics diagnostics;
+std::optional<lang::Program> load(const char* path, lang::Diagnostics& diagnostics) {
   auto program = lang::load(path, {}, diagnostics);
   lang::render_human(diagnostics, std::cerr);
   return program;
@@ -26,15 +28,23 @@ std::optional<lang::Program> load(const char* path) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 3) {
-    std::cerr << "usage: 05_live TASK.yaml OTHER_TASK.yaml\n";
+  if (argc != 4) {
+    std::cerr << "usage: 05_live TASK.yaml OTHER_TASK.yaml LOG.mcap\n";
     return 2;
   }
-  const auto program = load(argv[1]), other = load(argv[2]);
+  lang::Diagnostics diagnostics, of_the_other;
+  const auto program = load(argv[1], diagnostics), other = load(argv[2], of_the_other);
   if (!program || !program->scene || !other) return 2;
   runtime::ScenePlant plant(*program);
   runtime::Runner runner(*program), next(*other);  // both are ready before the loop begins
   runtime::Sensed sensed(*program);
+  runtime::LogContext context;
+  context.sources = diagnostics.sources();  // the files, as `load` read them
+  context.facts = runner.facts();           // what a replay needs beside them
+  std::vector<std::unique_ptr<runtime::LogSink>> sinks;
+  sinks.push_back(runtime::mcap_sink(argv[3], context));
+  runtime::Recorder recorder(std::move(sinks), runner.columns());
+  runner.record_to(&recorder);  // it outlives the runner's last step
   // On a robot it would cut the motors' current: the thread that should do it is the one that is blocked.
   runtime::Watchdog watchdog(1.0, [] { std::fputs("the loop is blocked\n", stderr); });
   while (!runner.finished()) {

@@ -50,6 +50,26 @@ while IFS= read -r page; do
 done < <(find ./*.md docs examples lang runtime solver specs tests -name '*.md' 2>/dev/null)
 if ((links == 0)); then complain 'no page links to another: the search above is broken'; fi
 
+# A block that names a file, as ```cpp examples/01_solver/main.cpp, stands there line by line, indented or not: so it compiles.
+blocks=0
+stands_in() {  # BLOCK FILE
+  awk '{ gsub(/^[ \t]+|[ \t]+$/, "") }
+       NR == FNR { wanted[n++] = $0; next }
+       { line[m++] = $0 }
+       END { for (i = 0; i + n <= m; i++) { for (j = 0; j < n && wanted[j] == line[i + j]; j++); if (j == n) exit 0 }
+             exit 1 }' "$1" "$2"
+}
+block=$(mktemp)
+trap 'rm -f "$block"' EXIT
+while IFS=: read -r page number fence; do
+  target=${fence#* }
+  blocks=$((blocks + 1))
+  sed -n "$((number + 1)),/^\`\`\`/p" "$page" | sed '$d' >"$block"
+  if [[ ! -f $target ]]; then complain "$page:$number: the block names $target, which does not exist"; continue; fi
+  if ! stands_in "$block" "$target"; then complain "$page:$number: the block does not stand in $target"; fi
+done < <(grep -nE '^```(cpp|cmake) [a-z]' docs/*.md)
+if ((blocks == 0)); then complain 'no block of a page names its file: the search above is broken'; fi
+
 # No path of one machine. Tests may look for optional data beside the checkout.
 parts=(.ci cmake docs examples lang runtime solver specs tests dev ./*.md ./CMake*)
 search() { grep -rnE "$@" "${parts[@]}" 2>/dev/null || true; }

@@ -25,7 +25,7 @@ for program in "$place"/build/[0-9]*/[0-9]*; do
     arguments=()
     case $program in
       */03_own_loop | */04_own_plant) arguments=("$source/specs/wall_align.yaml") ;;
-      */05_live) arguments=("$source/specs/wall_align.yaml" "$source/specs/obstacle.yaml") ;;
+      */05_live) arguments=("$source/specs/wall_align.yaml" "$source/specs/obstacle.yaml" "$place/live.mcap") ;;
     esac
     step "run $(basename "$program")" "$program" "${arguments[@]}"
     # A task that a robot without signals cannot do.
