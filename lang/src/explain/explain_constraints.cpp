@@ -10,9 +10,9 @@ std::span<const Explanation> constraints() {
           .code = "E401",
           .title = "an axis is driven twice",
           .why =
-              R"~(A single value drives, and an axis obeys one driver: it cannot be moved at a velocity and pushed with
-a force at once, since the world decides one of the two. What both lines can say together is a driver and its
-limits.)~",
+              R"~(A single value drives, and an axis obeys one driver. It cannot be moved at a velocity and pushed
+with a force at once: the world decides one of the two. Two lines on one axis can be a driver and
+its limit.)~",
           .fix = "Keep one single value and write the others as ranges.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.1 m/s, force: 20 N}",
@@ -21,8 +21,8 @@ limits.)~",
           .code = "W402",
           .title = "a driver asks for more than `always` allows",
           .why =
-              R"~(What stands under `always` holds first. The driver will never reach its value, and an exit that waits
-for it will never fire.)~",
+              R"~(Limits of `always` hold first. The driver will never reach its value, and an exit that waits for it
+will never fire.)~",
           .fix = "Ask for a value within the limit, or, if the limit is too narrow, widen it where it is "
                  "written.",
           .part = ExcerptOf::task_file,
@@ -55,11 +55,11 @@ tasks:
           .title = "an axis that this base cannot move",
           .why =
               R"~(A wheeled base stands on the ground, which holds its height, roll and pitch; some drives hold its
-sideways motion too. A driver there asks for a motion that no torque can make. A range is no demand, and
-standing still costs nothing: both may stay.)~",
+sideways motion too. A driver there asks for a motion that no torque can make. A range is no demand,
+and standing still costs nothing: both may stay.)~",
           .fix =
-              R"~(Leave the axis out. Where a base of two freedoms shall move sideways, move a frame that lies ahead of
-the axle: turning carries it to the side.)~",
+              R"~(Leave the axis out. Where a base of two freedoms shall move sideways, move a frame that lies ahead
+of the axle: turning carries it to the side.)~",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.1 m/s}\nz: {velocity: 0.1 m/s}",
           .instead = "x: {velocity: 0.1 m/s}"},
@@ -67,11 +67,11 @@ the axle: turning carries it to the side.)~",
           .code = "E405",
           .title = "a position in axes that move along",
           .why =
-              R"~(Seen from its own axes a frame is always at the same place; however the robot drives, the number stays
-what it is. So a position there can be neither reached nor kept.)~",
+              R"~(Seen from its own axes a frame is always at the same place; however the robot drives, the number
+stays what it is. So a position there can be neither reached nor kept.)~",
           .fix =
-              R"~(Give the position in a frame of the world. `here` is allowed: it means the place in the world at which
-the task was entered. Or drive a velocity.)~",
+              R"~(Give the position in a frame of the world. `here` is allowed: it means the place in the world at
+which the task was entered. Or drive a velocity.)~",
           .part = ExcerptOf::group,
           .example = "move: bumper\nin: base_link\nx: {position: 1 m}",
           .instead = "move: bumper\nin: world\nx: {position: 1 m}"},
@@ -103,8 +103,8 @@ tasks:
           .code = "W407",
           .title = "a row that others already imply",
           .why =
-              R"~(Two rows drive the same motion, whatever the robot's pose. With equal values one of them does nothing;
-with different ones neither is met.)~",
+              R"~(Two rows drive the same motion, whatever the robot's pose. With equal values one of them does
+nothing; with different ones neither is met.)~",
           .fix = "Leave one of them out, or write it as a range.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:
@@ -118,7 +118,8 @@ with different ones neither is met.)~",
           .title = "a force range without zero",
           .why =
               R"~(A force range says how much may be spent. Where nothing stands in the way no force is needed, and a
-range from 5 N up would forbid just that. That zero is always allowed is what makes every task solvable.)~",
+range from 5 N up would forbid just that. That zero is always allowed is what makes every task
+solvable.)~",
           .fix = "Write the range from 0 or through 0. If the robot shall press, a single force does it.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.1 m/s, force: [5 N, 20 N]}",
@@ -128,8 +129,8 @@ range from 5 N up would forbid just that. That zero is always allowed is what ma
           .title = "a frame that nothing can move",
           .why =
               R"~(`move` names what the robot moves: one of its links, or a frame that is carried by one. This frame
-stands in the world. For the same reason `speed` and `moved` of it are always 0, and a condition that asks for
-them is decided before the run.)~",
+stands in the world. For the same reason `speed` and `moved` of it are always 0, and a condition
+that asks for them is decided before the run.)~",
           .fix = "Swap the two: move a frame of the robot, `in` this one. In a condition, name a frame of "
                  "the robot.",
           .part = ExcerptOf::group,
@@ -177,8 +178,8 @@ tasks:
           .code = "E412",
           .title = "a feature that never changes",
           .why =
-              R"~(Both frames are carried by the same link, so the distance or angle between them is fixed when the robot
-is built. No motion can change it.)~",
+              R"~(Both frames are carried by the same link, so the distance or angle between them is fixed when the
+robot is built. No motion can change it.)~",
           .fix = "Measure from a frame of the robot to a frame of the world, or of another link.",
           .part = ExcerptOf::task_file,
           .example = R"~(features:
@@ -223,8 +224,9 @@ tasks:
           .code = "E414",
           .title = "a boundary with no inside",
           .why =
-              R"~(A point stays farther inside than the `margin`, a footprint with all its corners. No point of this region lies
-that deep, so the opposite edges push against each other and the base swings between them.)~",
+              R"~(A point stays farther inside than the `margin`, a footprint with all its corners. No point of this
+region lies that deep, so the opposite edges push against each other and the base swings between
+them.)~",
           .fix = "Make the margin smaller or the region larger.",
           .part = ExcerptOf::task_file,
           .example = R"~(regions:

@@ -10,11 +10,11 @@ std::span<const Explanation> names() {
           .code = "E301",
           .title = "an unknown name",
           .why =
-              R"~(A frame, a task, a group, a parameter, a signal, a region, a feature, a joint or a link is named that
-nobody declared. Frames come from the robot's URDF, from the robot file and from `frames:`.)~",
+              R"~(A frame, a task, a group, a parameter, a signal, a region, a feature, a joint or a link is named
+that nobody declared. Frames come from the robot's URDF, from the robot file and from `frames:`.)~",
           .fix =
-              R"~(Take the name that the help suggests, or declare it. An axis can be measured in a condition only if its
-group names it; `rz: free` does that and holds nothing.)~",
+              R"~(Take the name that the help suggests, or declare it. An axis can be measured in a condition only if
+its group names it; `rz: free` does that and holds nothing.)~",
           .part = ExcerptOf::group,
           .example = "move: bumpr\nin: base_link",
           .instead = "move: bumper\nin: base_link"},
@@ -23,8 +23,8 @@ group names it; `rz: free` does that and holds nothing.)~",
           .title = "declared and never used",
           .why =
               R"~(A parameter, frame, signal, region, feature or template that nothing refers to is left over, or the
-place that should refer to it does not. Setting an unused parameter changes nothing, which surprises whoever
-sets it.)~",
+place that should refer to it does not. Setting an unused parameter changes nothing, which surprises
+whoever sets it.)~",
           .fix = "Use it, or delete it.",
           .part = ExcerptOf::task_file,
           .example = "params:\n  push: 20 N",
@@ -39,8 +39,8 @@ tasks:
           .code = "E303",
           .title = "a template used in a way that it does not allow",
           .why =
-              R"~(A template says what it must be given, and of which kind. An argument that is missing, that is unknown
-or of another kind is told where the template is used; a template that uses itself would never end.)~",
+              R"~(A template names its arguments and their kinds. A use gives each of them, with a value of that kind,
+and no other. A template that uses itself would never end.)~",
           .fix = "Give the template what its `args:` ask for.",
           .part = ExcerptOf::task_file,
           .example = R"~(templates:

@@ -10,9 +10,9 @@ std::span<const Explanation> order() {
           .code = "W501",
           .title = "a measured quantity decides at a single instant",
           .why =
-              R"~(What is measured as a number has noise. Without `for` the first sample that strays across the
-threshold ends the task, and a velocity passes zero whenever it changes its sign. Bool signals and `elapsed`
-do not flicker and need none.)~",
+              R"~(A measured number has noise. Without `for` the first sample beyond the threshold ends the task. A
+velocity passes zero whenever it changes its sign. Bool signals and `elapsed` do not flicker and
+need none.)~",
           .fix = "Say how long the condition must hold without a break: `for: 0.1 s` is a hundred samples.",
           .part = ExcerptOf::task,
           .example = "exits:\n  - {when: speed(base_link) < 5 mm/s and elapsed > 1 s, goto: done}",
@@ -42,8 +42,8 @@ do not flicker and need none.)~",
           .code = "W503",
           .title = "a task that can run for ever",
           .why =
-              R"~(If the condition never comes true, because the wall is not there or the sensor is dead, the robot
-presses, drives or waits until somebody notices.)~",
+              R"~(The wall may be absent, or the sensor dead. If the condition never comes true, the robot presses,
+drives or waits until a person notices.)~",
           .fix =
               R"~(Give the task a timeout and say where it leads. If it shall really wait as long as it takes, say so:
 `timeout: never`.)~",
@@ -77,9 +77,9 @@ tasks:
           .code = "E505",
           .title = "a condition that is decided beforehand",
           .why =
-              R"~(A distance, a speed and a time are never negative; from that, and from the ranges of parameters, the
-condition is true at every moment or at none. An exit that always fires hides the task, and one that never
-fires hides what was meant.)~",
+              R"~(A distance, a speed and a time are never negative, and parameters have ranges. So this condition is
+true at every moment or at none. An exit that always fires hides the task, and one that never fires
+hides what was meant.)~",
           .fix = "Look at the direction of the comparison and at the sign of the number.",
           .part = ExcerptOf::task,
           .example = "exits:\n  - {when: speed(base_link) < -1 cm/s, for: 1 s, goto: done}\ntimeout: {after: "
@@ -91,11 +91,11 @@ fires hides what was meant.)~",
           .title = "`release` on the wrong side",
           .why =
               R"~(`release` keeps a condition true until the quantity has passed a second value, so that an exit does
-not flutter at its threshold. The second value has to lie behind the first; on the near side the condition
-would be taken back as soon as it is true.)~",
+not flutter at its threshold. The second value has to lie behind the first; on the near side the
+condition would be taken back as soon as it is true.)~",
           .fix =
-              R"~(After `<` write a release above the threshold, after `>` one below it. The condition must be a single
-comparison with a fixed value.)~",
+              R"~(After `<` write a release above the threshold, after `>` one below it. The condition must be a
+single comparison with a fixed value.)~",
           .part = ExcerptOf::task,
           .example = "exits:\n  - {when: speed(base_link) < 5 cm/s, release: 3 cm/s, for: 1 s, goto: done}\n"
                      "timeout: {after: 10 s, goto: failed}",
@@ -105,8 +105,8 @@ comparison with a fixed value.)~",
           .code = "W507",
           .title = "an exit hidden by an earlier one",
           .why =
-              R"~(Exits are asked from top to bottom and the first true one wins. An earlier exit has the same condition
-and needs no longer for it, so this one never has its turn.)~",
+              R"~(Exits are asked from top to bottom and the first true one wins. An earlier exit has the same
+condition and needs no longer for it, so this one never has its turn.)~",
           .fix = "Delete it, put it first, or give it the condition that it was meant to have.",
           .part = ExcerptOf::task,
           .example = R"~(exits:
@@ -130,7 +130,8 @@ way, so there is nothing to go back to.)~",
           .title = "a signal that the scene does not give",
           .why =
               R"~(A condition reads it, and in this scene it is never measured: it stays unknown. Under `always` that
-counts as true once its `stale_after` is over, in a task it never fires. Either way the run says nothing about the condition.)~",
+counts as true once its `stale_after` is over, in a task it never fires. Either way the run says
+nothing about the condition.)~",
           .fix =
               R"~(Give the signal a source under `signals` of the scene. A condition that is about its absence asks
 `valid(signal)`.)~"},

@@ -12,9 +12,9 @@ std::span<const Explanation> physics() {
           .code = "E601",
           .title = "a push that an acceleration limit caps",
           .why =
-              R"~(Before a contact zwang knows nothing of it: it predicts the acceleration that the force would give in
-the open and keeps that within the limit. So the robot presses with its effective mass times the limit, and no
-harder. The mass has wheels and rotors in it; `zwang plan` shows it.)~",
+              R"~(Before a contact zwang knows nothing of it: it predicts the acceleration that the force would give
+in the open and keeps that within the limit. So the robot presses with its effective mass times the
+limit, and no harder. The mass has wheels and rotors in it; `zwang plan` shows it.)~",
           .fix = "Ask for less force, or allow more acceleration: the message has both numbers.",
           .part = ExcerptOf::group,
           .example = "x: {force: 20 N, acceleration: +-0.3 m/s^2}",
@@ -23,8 +23,8 @@ harder. The mass has wheels and rotors in it; `zwang plan` shows it.)~",
           .code = "W601",
           .title = "a push that an acceleration limit caps in some cases",
           .why =
-              R"~(The force is within what the acceleration limit leaves, but not always: the parameter's range allows
-more, or the effective mass is smaller at other angles of the joints. A spring, drawn far enough, asks for more than that as well.)~",
+              R"~(The acceleration limit leaves enough force now, but not always. The parameter's range allows more,
+or the effective mass is smaller at other joint angles, or a spring is drawn farther.)~",
           .fix = "Narrow the parameter's range, ask for less, or allow more acceleration.",
           .part = ExcerptOf::task_file,
           .example = R"~(params:
@@ -46,8 +46,9 @@ tasks:
           .title = "a guard on `saturated` that never fires",
           .why =
               R"~(Blocked, a velocity driver asks for the acceleration velocity / time_constant and presses with the
-effective mass times that. When this is less than the axis's force range, the driver never comes to its bound and
-`saturated` stays false, however hard the obstacle. Without a force range the bound is what the motors make.)~",
+effective mass times that. When this is less than the axis's force range, the driver never comes to
+its bound and `saturated` stays false, however hard the obstacle. Without a force range the bound is
+what the motors make.)~",
           .fix = "Narrow the force range or shorten the `time_constant`: the message has both numbers.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:
@@ -64,9 +65,10 @@ timeout: {after: 10 s, goto: failed})~"},
           .code = "N603",
           .title = "how hard the first hit is",
           .why =
-              R"~(A force range holds what the robot presses with. The momentum with which it arrives nobody can hold:
-against a bumper of stiffness K the first peak is F + sqrt(F^2 + K m v^2), F the range, m the effective mass and v
-the speed. The note is there when that is above 2.5 F, and tells the speed at which it is not.)~",
+              R"~(A force range bounds the force that the robot presses with. It cannot bound the momentum with which
+the robot arrives. Against a bumper of stiffness K the first peak is F + sqrt(F^2 + K m v^2). F is
+the range, m the effective mass, v the speed. The note appears above 2.5 F, and gives the speed
+below which it is gone.)~",
           .fix = "Arrive more slowly, or put a softer bumper on and say so in the robot file.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.15 m/s, force: +-40 N, time_constant: 50 ms}",
@@ -75,9 +77,10 @@ the speed. The note is there when that is above 2.5 F, and tells the speed at wh
           .code = "W604",
           .title = "a time constant that is too short",
           .why =
-              R"~(A position driver that arrives at the velocity v brakes hardest with v / (2.718 time_constant). Where
-its acceleration range, or its force range over the effective mass, allows less, it overshoots. And no driver can
-be faster than the robot's `control_period`, 1 ms, lets it be: 4 of them for a velocity, 8 for a position.)~",
+              R"~(A position driver that arrives at the velocity v brakes hardest with v / (2.718 time_constant).
+Where its acceleration range, or its force range over the effective mass, allows less, it
+overshoots. And no driver can be faster than the robot's `control_period`, 1 ms, lets it be: 4 of
+them for a velocity, 8 for a position.)~",
           .fix = "Lengthen the `time_constant` to what the message says, or lower the velocity.",
           .part = ExcerptOf::group,
           .example =
@@ -110,8 +113,9 @@ tasks:
       Explanation{
           .code = "W606",
           .title = "a driver beyond the motors",
-          .why = R"~(What the wheels' torques make along this axis is less than what the driver asks for from
-rest. It runs at the motors' limit and does not follow its time constant.)~",
+          .why =
+              R"~(From rest, the driver asks for more than the wheels' torques make along this axis. It runs at the
+motors' limit and does not follow its time constant.)~",
           .fix = "Ask for less, or lengthen the `time_constant`: the message has the number.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 1 m/s, time_constant: 0.1 s}",
@@ -121,8 +125,9 @@ rest. It runs at the motors' limit and does not follow its time constant.)~",
           .title = "a boundary that the motors cannot hold",
           .why =
               R"~(Before a boundary the robot counts on a deceleration: the axis's acceleration range, else the robot
-file's. Times the effective mass that is a force, and the motors make less: the boundary can be overrun. A base that skids makes
-none sideways: a boundary that it stands askew to does not hold it back at all.)~",
+file's. Times the effective mass that is a force, and the motors make less: the boundary can be
+overrun. A base that skids makes none sideways: a boundary that it stands askew to does not hold it
+back at all.)~",
           .fix = "Limit the acceleration to what the message says. A base that skids: keep it square to the "
                  "boundary, or where it cannot come to one.",
           .part = ExcerptOf::group,
@@ -132,9 +137,10 @@ none sideways: a boundary that it stands askew to does not hold it back at all.)
           .code = "W609",
           .title = "a free axis that the wheels hold",
           .why =
-              R"~(An axis is left free so that what touches the base may move it: a wall turns it square, a socket guides its hook. Where
-the wheels hold the axis nothing does, and the task may end `done` without what it was meant for. Steered wheels hold the axis only
-while nobody steers: nothing is said where a row of the task does.)~",
+              R"~(An axis is left free so that what touches the base may move it: a wall turns it square, a socket
+guides its hook. Where the wheels hold the axis nothing does, and the task may end `done` without
+what it was meant for. Steered wheels hold the axis only while nobody steers: nothing is said where
+a row of the task does.)~",
           .fix = "Leave the axis out where it does not matter; else take a base that can be moved along it.",
           .part = ExcerptOf::group,
           .example = "x: {force: 1 N}\ny: free",
@@ -143,17 +149,17 @@ while nobody steers: nothing is said where a row of the task does.)~",
           .code = "N608",
           .title = "a file too large to be asked about the robot's model",
           .why =
-              R"~(Each axis that a file moves is put to the robot's model, and that takes time: little on a base with
-four wheels, much on a robot with a hundred joints. Checking always ends within two seconds; past that nothing is said
-about what the robot can do.)~",
+              R"~(zwang asks the robot's model about each axis that a file moves. That takes little time on a base
+with four wheels, and much on a robot with a hundred joints. Checking always ends within two
+seconds; past that nothing is said about what the robot can do.)~",
           .fix = "Split the file: a task file is one action, and a mission is made of several above it."},
       Explanation{
           .code = "W610",
           .title = "a driver that may not move anything",
           .why =
-              R"~(A range of accelerations or forces that ends at 0, or next to it, in the direction of the driver holds before the
-driver does: the axis stands still for ever, and nothing fails. So does a range of velocities of 0 beside a position
-to go to.)~",
+              R"~(A range of accelerations or forces ends at 0, or next to it, in the direction of the driver. The
+range wins: the axis stands still for ever, and nothing fails. A velocity range of 0 beside a
+position does the same.)~",
           .fix = "Widen the range. To stand still write `velocity: 0 m/s`.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.1 m/s, acceleration: [0 m/s^2, 0 m/s^2]}",
@@ -162,9 +168,10 @@ to go to.)~",
           .code = "W611",
           .title = "a speed that the wheels do not turn to",
           .why =
-              R"~(The `<limit velocity>` of the URDF says how fast a wheel's motor turns. To go this fast along the axis a wheel would
-have to turn faster: a real motor does not, while zwang plans and simulates as if it did. Along axes of the world, and of
-`speed`, nobody knows yet which way the base heads: there a speed is told that it reaches in no direction.)~",
+              R"~(The `<limit velocity>` of the URDF says how fast a wheel's motor turns. To go this fast along the
+axis a wheel would have to turn faster: a real motor does not, while zwang plans and simulates as if
+it did. Along axes of the world, and of `speed`, nobody knows yet which way the base heads: there a
+speed is told that it reaches in no direction.)~",
           .fix = "Stay within the speed of the message, or correct the URDF.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 4 m/s, time_constant: 2 s}",
@@ -173,20 +180,22 @@ have to turn faster: a real motor does not, while zwang plans and simulates as i
           .code = "W612",
           .title = "an arm without the force limit that its base has",
           .why =
-              R"~(A force range bounds what is pressed with at the frame that its group moves. A row that moves a frame of the arm
-against the world pushes with all motors, the wheels' too, and by as much as its own range allows: where it has none, an arm that
-meets something presses with its effective mass times the acceleration that it asks for, however gently the base may press. A row
-between the arm and the base presses no harder than the base for long: the base gives way.)~",
+              R"~(A force range bounds the force at the frame that its group moves. A row that moves a frame of the
+arm against the world pushes with all motors, the wheels' too. Only its own range bounds it. Without
+a range, an arm that meets an obstacle presses with its effective mass times the acceleration that
+it asks for. The base's own limit does not matter then. A row between the arm and the base presses
+no harder than the base for long: the base gives way.)~",
           .fix = "Give the arm's axis a force range of its own, or a force range alone on that axis under "
                  "`always`."},
       Explanation{
           .code = "W613",
           .title = "a distance that is to vanish",
           .why =
-              R"~(The distance of two points grows along the line between them, and two points that are one have no such line. Drawn to
-a distance of 0 the base never stands: what little it moves across the line makes it circle about the point, faster and faster. Heights
-count: a frame of the base and a point that lies higher or lower come no nearer than that, and the base swings across the point with
-all that its ranges allow.)~",
+              R"~(The distance of two points grows along the line between them, and two points that are one have no
+such line. Drawn to a distance of 0 the base never stands: what little it moves across the line
+makes it circle about the point, faster and faster. Heights count: a frame of the base never comes
+nearer to a point than their difference in height. Below that distance the base swings across the
+point with all that its ranges allow.)~",
           .fix = "Keep a distance; or drive two axes to the point, x and y of a group, on a base that moves "
                  "both ways.",
           .part = ExcerptOf::task_file,
@@ -212,10 +221,11 @@ tasks:
           .code = "W614",
           .title = "a base that holds itself up once it is askew",
           .why =
-              R"~(A base of two freedoms, a differential one, goes only where it heads. Square to an axis of the world it cannot move
-along it, and to stand still there asks for nothing. Askew by a hair it does move along it, by v sin(psi), and can stand still only by
-not moving at all: the row takes as much force as that needs, and a base that should press on a wall backs off it. In its own axes
-sideways stays sideways.)~",
+              R"~(A base of two freedoms, a differential one, goes only where it heads. Square to an axis of the world
+it cannot move along it, and to stand still there asks for nothing. Askew by a hair it does move
+along it, by v sin(psi). It can then stand still only by not moving at all. The row takes as much
+force as that needs, and a base that should press on a wall backs off. In its own axes sideways
+stays sideways.)~",
           .fix =
               "Stand still in the base's own axes, in a group of its own: `sideways: {move: base_link, in: "
               "base_link, y: {velocity: 0 m/s}}`. Or give the axis a later `level`: it gives way then.",

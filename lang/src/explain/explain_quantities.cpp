@@ -11,7 +11,8 @@ std::span<const Explanation> quantities() {
           .title = "a number without a unit",
           .why =
               R"~(`0.08` may be metres a second to you and millimetres to the next reader, and degrees were taken for
-radians often enough. A number says what it measures, unless it measures nothing: gears, fractions, counts.)~",
+radians often enough. A number says what it measures, unless it measures nothing: gears, fractions,
+counts.)~",
           .fix = "Write the unit behind the number. The help names the usual one, not necessarily the one "
                  "you meant.",
           .part = ExcerptOf::group,
@@ -22,8 +23,9 @@ radians often enough. A number says what it measures, unless it measures nothing
           .title = "a quantity of the wrong kind",
           .why =
               R"~(A velocity cannot be a force, whatever the number. zwang follows the dimension of every quantity,
-through parameters and through every sum, product and comparison of a condition. Angles have a dimension of
-their own here: `deg/s` is not a velocity, and on the axes rx, ry and rz a force is a torque.)~",
+through parameters and through every sum, product and comparison of a condition. Angles have a
+dimension of their own here: `deg/s` is not a velocity, and on the axes rx, ry and rz a force is a
+torque.)~",
           .fix = "Correct the unit, or move the value to the quantity that it was meant for.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 20 N}",
@@ -32,9 +34,9 @@ their own here: `deg/s` is not a velocity, and on the axes rx, ry and rz a force
           .code = "E203",
           .title = "an unknown unit",
           .why =
-              R"~(Units are written as the SI writes them: case matters (`N`, not `n`), and a product has a space (`N m`,
-because `Nm` could be a nanometre written hastily). Units whose zero is elsewhere, like degrees Celsius, and
-those that mean several things are not known on purpose.)~",
+              R"~(Units are written as the SI writes them: case matters (`N`, not `n`), and a product has a space
+(`N m`, because `Nm` could be a nanometre written hastily). Units whose zero is elsewhere, like
+degrees Celsius, and those that mean several things are not known on purpose.)~",
           .fix = "Take the unit that the help names. docs/language.md lists them all.",
           .part = ExcerptOf::group,
           .example = "rz: {force: 3 Nm}",
@@ -65,8 +67,8 @@ tasks:
           .code = "E205",
           .title = "not a condition",
           .why =
-              R"~(A condition is true or false. A quantity is neither until it is compared with another one, and what is
-true or false cannot be compared or added.)~",
+              R"~(A condition is true or false. A quantity is neither until it is compared with another one, and what
+is true or false cannot be compared or added.)~",
           .fix = "Compare the quantity with a value, or take the comparison away from what is a condition "
                  "already.",
           .part = ExcerptOf::task,

@@ -12,9 +12,9 @@ std::span<const Explanation> reach() {
           .code = "W416",
           .title = "ranges that exclude each other",
           .why =
-              R"~(Two ranges in force keep one quantity of one axis in two places, or a driver asks for a value that a range
-beside it never allows. The robot ends somewhere between and the file says nothing about where. Ranges of `always`, of the task and
-of the robot file count alike.)~",
+              R"~(Two ranges in force exclude each other, or a driver asks for a value that a range on its axis never
+allows. The robot ends somewhere between, and the file says nothing about where. Ranges of `always`,
+of the task and of the robot file count alike.)~",
           .fix = "Widen one of the two, take one out, or ask for a value that is in both.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:
@@ -29,11 +29,11 @@ timeout: {after: 10 s, goto: failed})~"},
           .code = "W510",
           .title = "tasks that no way leads out of",
           .why =
-              R"~(A run ends at `done` or `failed`. From these tasks no exit, timeout or exit of `always` leads there, or only ways that
-come too late: an exit that waits for time alone fires before them.)~",
+              R"~(A run ends at `done` or `failed`. No exit or timeout of these tasks leads there, and no exit of
+`always`. A way does not count if an exit that waits for time alone fires before it.)~",
           .fix =
-              R"~(Let an exit or a timeout lead to `done` or `failed`. A patrol that is meant to last is stopped by a signal:
-`always: {exits: [{when: stop_key, goto: failed}]}`.)~",
+              R"~(Let an exit or a timeout lead to `done` or `failed`. A patrol that is meant to last is stopped by a
+signal: `always: {exits: [{when: stop_key, goto: failed}]}`.)~",
           .part = ExcerptOf::task_file,
           .example = R"~(tasks:
   go:
@@ -49,8 +49,9 @@ come too late: an exit that waits for time alone fires before them.)~",
           .code = "W511",
           .title = "an exit that the ranges in force decide",
           .why =
-              R"~(Ranges keep what the condition asks for away from it, the timeout comes first, or the condition is true as soon as the
-task is entered. An exit to `failed` may watch over a range of positions or speeds, as somebody may push the robot: that is not told.)~",
+              R"~(Ranges exclude the value that the condition asks for, or the timeout comes first, or the condition
+is true at once on entry. An exit to `failed` may watch over a range of positions or speeds, because
+a person may push the robot: that is no warning.)~",
           .fix = "Compare with a value that the ranges leave, or take the exit out.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:
@@ -67,8 +68,8 @@ timeout: {after: 10 s, goto: failed})~"},
           .code = "W512",
           .title = "two exits that lead to and fro at once",
           .why =
-              R"~(One exit leads from a task to another, the other leads back, and one value of what both measure makes both true. The run
-then changes between the two tasks before either has faded in.)~",
+              R"~(One exit leads from a task to another, the other leads back, and one value of what both measure
+makes both true. The run then changes between the two tasks before either has faded in.)~",
           .fix = "Leave a gap between the two thresholds, or let one of the two wait with `for`.",
           .part = ExcerptOf::task_file,
           .example = R"~(signals:
@@ -97,8 +98,9 @@ tasks:
           .code = "W619",
           .title = "a force range of which less than half is made",
           .why =
-              R"~(A motion driver that something blocks presses with its effective mass times the acceleration that it asks for, m v / T for a
-velocity, and with no more than an acceleration limit leaves. Nothing adds up over time. Friction above that holds it up for ever.)~",
+              R"~(A blocked motion driver presses with its effective mass times the acceleration that it asks for: m v
+/ T for a velocity. An acceleration limit may leave less. Nothing adds up over time. Friction above
+that holds it up for ever.)~",
           .fix =
               R"~(Say what it makes, shorten the `time_constant`, or press with a force and limit the velocity:
 `x: {force: 20 N, velocity: +-0.05 m/s}`.)~",
@@ -109,8 +111,9 @@ velocity, and with no more than an acceleration limit leaves. Nothing adds up ov
           .code = "N619",
           .title = "what an acceleration limit leaves of a force range",
           .why =
-              R"~(A position driver asks for the more the farther it has to go, up to its force range. An acceleration limit in force leaves its
-effective mass times the limit: that is what the base presses with, where this is less.)~",
+              R"~(A position driver asks for the more the farther it has to go, up to its force range. An acceleration
+limit in force leaves its effective mass times the limit: that is what the base presses with, where
+this is less.)~",
           .fix = "Narrow the force range to say so, or allow more acceleration.",
           .part = ExcerptOf::group,
           .example = "move: bumper\nin: world\nx: {position: 1 m, force: +-40 N, acceleration: +-0.5 m/s^2}",
@@ -119,8 +122,9 @@ effective mass times the limit: that is what the base presses with, where this i
           .code = "W620",
           .title = "a guard on a distance that fires too late",
           .why =
-              R"~(Between the true distance and the brake lie the signal's `stale_after`, the exit's `for` and half of the blend. Then the base
-brakes with what its ranges leave: v^2/2a + a T^2/2. A distance counts from the base's origin, so the footprint is added.)~",
+              R"~(Between the true distance and the brake lie the signal's `stale_after`, the exit's `for` and half of
+the blend. Then the base brakes with what its ranges leave: v^2/2a + a T^2/2. A distance counts from
+the base's origin, so the footprint is added.)~",
           .fix = "Ask earlier, drive more slowly, or brake harder: the message has the numbers.",
           .part = ExcerptOf::task_file,
           .example = R"~(signals:
@@ -153,41 +157,45 @@ tasks:
           .code = "E621",
           .title = "a base that cannot tell square from stuck",
           .why =
-              R"~(The task leaves the heading free, presses, and an exit waits until the heading rests. The wheels of this base hold its heading,
-or the floor holds wheels that slide sideways with a larger moment than the push has at a corner. It rests as askew as it came, and the
-exit would call that square.)~",
+              R"~(The task leaves the heading free, presses, and an exit waits until the heading rests. The wheels of
+this base hold its heading. Or the floor holds wheels that slide sideways, with a larger moment than
+the push has at a corner. The base rests as askew as it came, and the exit would call that square.)~",
           .fix = "Drive `rz` to a measured angle, or take a base that a wall can turn."},
       Explanation{
           .code = "W621",
           .title = "a free heading that no wall turns",
           .why =
-              R"~(The heading is free, so that what the base presses on may turn it. The floor holds wheels that slide sideways with mu m g l, more
-than the push has at a corner of the footprint.)~",
+              R"~(The heading is free, so that what the base presses on may turn it. The floor holds wheels that slide
+sideways with mu m g l, more than the push has at a corner of the footprint.)~",
           .fix = "Drive `rz` to a measured angle, press harder, or take a base that a wall can turn."},
       Explanation{
           .code = "W643",
           .title = "motion that the steering does not allow",
           .why =
-              R"~(A steering that no row turns is held where it stands at the start. As it stands, the wheels hold this axis, and no driver of the
-base's own axes steers: nothing moves.)~",
+              R"~(A steering that no row turns is held where it stands at the start. As it stands, the wheels hold
+this axis, and no driver of the base's own axes steers: nothing moves.)~",
           .fix =
-              R"~(Turn the steering in an earlier task, `steer: {move: STEERED_LINK, in: base_link, rz: {position: 20 deg}}`, and drive ahead
-along `x`; or start with it turned (`posture` in the robot file).)~"},
+              R"~(Turn the steering in an earlier task,
+`steer: {move: STEERED_LINK, in: base_link, rz: {position: 20 deg}}`, and drive ahead along `x`; or
+start with it turned (`posture` in the robot file).)~"},
       Explanation{
           .code = "W868",
           .title = "rollers that are mirrored",
           .why =
-              R"~(A base on mecanum wheels turns by the lever of its rollers, the sum of half its length and half its width. Mirrored, the two
-are taken from each other: x and y work, and a tenth of the torque is left to turn with.)~",
+              R"~(A base on mecanum wheels turns by the lever of its rollers, the sum of half its length and half its
+width. Mirrored, the two are taken from each other: x and y work, and a tenth of the torque is left
+to turn with.)~",
           .fix =
-              R"~(`roller` is the angle from the wheel's axis to the roller *on the ground*. Usual: 45 deg at front left and rear right,
--45 deg at the others. Seen from above it is mirrored: change the sign at every wheel.)~"},
+              R"~(`roller` is the angle from the wheel's axis to the roller *on the ground*. Usual: 45 deg at front
+left and rear right, -45 deg at the others. Seen from above it is mirrored: change the sign at every
+wheel.)~"},
       Explanation{
           .code = "W869",
           .title = "a wheel that turns across its own cylinder",
           .why =
-              R"~(The link's largest round shape is a cylinder, and the joint's axis does not point along it. zwang rolls the wheel about the
-joint's axis: as drawn, it would roll over its edge. The axis may be given in the parent's axes, where a URDF has it in the link's.)~",
+              R"~(The link's largest round shape is a cylinder, and the joint's axis does not point along it. As
+drawn, it would roll over its edge, because zwang rolls the wheel about the joint's axis. A URDF
+gives the axis in the link's axes; this one may be in the parent's.)~",
           .fix = "Let the joint's `<axis>` point along the cylinder, or turn the shape's `<origin rpy>`."},
   };
   return entries;

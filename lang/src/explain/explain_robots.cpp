@@ -11,8 +11,8 @@ std::span<const Explanation> robots() {
           .title = "a fixed joint cannot move",
           .why = "The robot file names a joint as a wheel or an actuator that the URDF declares as fixed.",
           .fix =
-              R"~(Name the joint that turns. If it is this one, the URDF was written for a picture of the robot: make the
-joint `continuous` there.)~",
+              R"~(Name the joint that turns. If it is this one, the URDF was written for a picture of the robot: make
+the joint `continuous` there.)~",
           .part = ExcerptOf::urdf,
           .example = R"~(<joint name="left" type="fixed">
   <parent link="base_link"/>
@@ -31,12 +31,13 @@ joint `continuous` there.)~",
           .title = "a wheel that could not work",
           .why =
               R"~(A wheel turns on its own joint and holds some direction on the ground: its roller's axis, or rolling
-and sideways. This one slides, is named twice, turns about an axis that points up, holds what no wheel can hold, has rollers that would let it
-drive nothing, slides sideways though it is steered, or hangs on a joint that does not steer it: a rocker or a spring. Or one of `supports`
-moves.)~",
+and sideways. The message says which rule this wheel breaks. It slides, is named twice, or turns
+about an axis that points up. It holds a direction that no wheel can hold, or has rollers that let
+it drive nothing. It slides sideways though it is steered, or hangs on a rocker or a spring. Or one
+of `supports` moves.)~",
           .fix =
-              R"~(Give mecanum and omni wheels a `roller`, the angle about the base's +z from the wheel's axis to the
-roller's at the ground; plain wheels need none. `holds: [rolling]` is for skid steering.)~",
+              R"~(Give mecanum and omni wheels a `roller`: the angle from the wheel's axis to the roller's at the
+ground, about the base's +z. Plain wheels need none. `holds: [rolling]` is for skid steering.)~",
           .part = ExcerptOf::robot,
           .example = R"~(wheels:
   - {joint: left, radius: 0.1 m, roller: 45 deg, holds: [rolling]}
@@ -48,8 +49,8 @@ roller's at the ground; plain wheels need none. `holds: [rolling]` is for skid s
           .code = "E803",
           .title = "a base that hangs on a moving joint",
           .why =
-              R"~(`base` is the link that the wheels carry and that floats with three freedoms above the ground. A link
-below a moving joint is somewhere else whenever that joint moves.)~",
+              R"~(`base` is the link that the wheels carry and that floats with three freedoms above the ground. A
+link below a moving joint is somewhere else whenever that joint moves.)~",
           .fix = "Name the link that hangs on nothing that moves, often `base_link` or `base_footprint`.",
           .part = ExcerptOf::robot,
           .example = "base: left_link",
@@ -58,11 +59,11 @@ below a moving joint is somewhere else whenever that joint moves.)~",
           .code = "E804",
           .title = "a motor without strength",
           .why =
-              R"~(What a task can do is bounded by what the motors can give; zwang plans with that number and never
-commands more. Neither the robot file nor the URDF says it for this joint.)~",
+              R"~(The motors bound every task: zwang plans with their largest torque and never commands more. Neither
+the robot file nor the URDF gives it for this joint.)~",
           .fix =
-              R"~(Add `effort` with the largest torque on the wheel's side of the gear, from the data sheet. A URDF that
-says `effort="0"` says nothing.)~",
+              R"~(Add `effort` with the largest torque on the wheel's side of the gear, from the data sheet. A URDF
+that says `effort="0"` says nothing.)~",
           .part = ExcerptOf::urdf,
           .example = R"~(<joint name="left" type="continuous">
   <parent link="base_link"/>
@@ -81,8 +82,8 @@ says `effort="0"` says nothing.)~",
           .code = "E805",
           .title = "friction compensated in full",
           .why =
-              R"~(A controller that pays back all of the friction, or more, has a robot that keeps rolling by itself as
-soon as the friction is a little lower than was measured.)~",
+              R"~(Suppose that zwang gives back all of the friction. If the friction is a little lower than measured,
+the robot then keeps rolling by itself.)~",
           .fix = "Stay below 100 %; 80 % is usual.",
           .part = ExcerptOf::robot,
           .example = "friction: {left: {coulomb: 0.1 N m, compensate: 110 %}}",
@@ -108,12 +109,12 @@ soon as the friction is a little lower than was measured.)~",
           .code = "E808",
           .title = "a body that cannot exist",
           .why =
-              R"~(The equations of motion need masses above zero where something moves, and inertias that a real body
-could have: each of the three no larger than the sum of the other two. With other numbers the robot's
-accelerations would be nonsense, or infinite.)~",
+              R"~(A link that moves needs a mass above zero, and inertias that a real body could have. Each of the
+three inertias is at most the sum of the other two. With other numbers the robot's accelerations
+would be nonsense, or infinite.)~",
           .fix =
-              R"~(Correct the link in the URDF. The inertia of a box of mass m and sides a, b, c about its centre is
-m (b^2 + c^2) / 12, and so on.)~",
+              R"~(Correct the link in the URDF. The inertia of a box of mass m and sides a, b, c about its centre is m
+(b^2 + c^2) / 12, and so on.)~",
           .part = ExcerptOf::urdf,
           .example = R"~(<link name="left_link">
   <inertial>
@@ -137,8 +138,8 @@ m (b^2 + c^2) / 12, and so on.)~",
           .code = "E810",
           .title = "wheels that do not stand on one level",
           .why =
-              R"~(All wheels touch one floor. Where each ends below the base follows from its joint's place in the URDF
-and its `radius`; 2 mm about the middle are levelled out, more is a wrong number.)~",
+              R"~(All wheels touch one floor. The lowest point of each follows from its joint's place in the URDF and
+its `radius`. zwang levels out 2 mm about the middle. A larger difference is a wrong number.)~",
           .fix = "Mend the radius, or the height of the joint's `<origin>`: origin z - radius is the same "
                  "for all.",
           .part = ExcerptOf::robot,
@@ -148,9 +149,8 @@ and its `radius`; 2 mm about the middle are levelled out, more is a wrong number
           .code = "E811",
           .title = "a control period that is too long, or too short",
           .why =
-              R"~(What comes near a limit is braked within 10 ms, so that torques have to come as often, 100 times a
-second. Where a robot is driven more slowly, what it touches would be pressed, and limits passed, before anybody
-notices.)~",
+              R"~(Near a limit zwang brakes within 10 ms, so torques have to come at least 100 times a second. In a
+slower loop the robot would press, and pass limits, before a tick notices.)~",
           .fix = "Say how often the loop that embeds zwang steps it, or close a faster loop on the robot.",
           .part = ExcerptOf::robot,
           .example = "control_period: 50 ms",
@@ -159,13 +159,14 @@ notices.)~",
           .code = "W812",
           .title = "a wheel that is drawn beside its axle",
           .why =
-              R"~(Two wheels on one axle let a base turn. A wheel that is drawn a micron beside the axle would forbid it, in exact
-arithmetic. zwang therefore moves wheels onto the nearest exact place: axes level and along the base's x or y, one axle
-through the base's origin, steered wheels below their steering. It moves them by 5 mm and 2 deg at most, and tells it from
-0.1 mm and 0.05 deg on. Angles such as 1.57 and 3.14 in a URDF are the usual cause.)~",
+              R"~(Two wheels on one axle let a base turn. A wheel that is drawn a micron beside the axle would forbid
+it, in exact arithmetic. So zwang moves wheels onto the nearest exact place, by 5 mm and 2 deg at
+most. There, axes are level and along the base's x or y, one axle passes the base's origin, and
+steered wheels stand below their steering. The warning begins at 0.1 mm and 0.05 deg. Angles such as
+1.57 and 3.14 in a URDF are the usual cause.)~",
           .fix =
-              R"~(Write angles with all their digits, 3.141592653589793. If the axle really stands beside the origin of
-`base`, name a link that stands on the axle as `base`.)~",
+              R"~(Write angles with all their digits, 3.141592653589793. If the axle really stands beside the origin
+of `base`, name a link that stands on the axle as `base`.)~",
           .part = ExcerptOf::urdf,
           .example = R"~(<joint name="right" type="continuous">
   <parent link="base_link"/>

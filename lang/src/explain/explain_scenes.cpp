@@ -10,23 +10,21 @@ std::span<const Explanation> scenes() {
           .code = "E701",
           .title = "a signal that is measured as something else",
           .why =
-              "A task file says what a signal is, a scene or a robot what it reads. A pose in the place of "
-              "a number, or a distance in the place of a truth value, means that one of the two names "
-              "the wrong thing; the task would never get a sample that it can use.",
+              R"~(A task file says what a signal is, a scene or a robot what it reads. If they differ, one of the two
+names the wrong thing. The task would never get a sample that it can use.)~",
           .fix = "Give the signal another source in the scene, or declare it as what it is."},
       Explanation{
           .code = "W702",
           .title = "a signal that is too old before the next one comes",
           .why =
-              "A sample is as old as its `delay` when it comes, and one period of its `rate` older before "
-              "the next one does. Where that is more than the task file's `stale_after`, the signal is lost "
-              "between its samples, and what hangs on it stops and starts: axes in its frame stand still, "
-              "conditions are unknown, `always` fires.",
+              R"~(A sample is as old as its `delay` when it comes, and one period of its `rate` older before the next
+one does. If that is more than the task file's `stale_after`, the signal is lost between its
+samples. Then axes in its frame stop and start, conditions are unknown, and `always` fires.)~",
           .fix = "Give `stale_after` room for the delay and a few periods, or measure more often."},
       Explanation{
           .code = "E901",
           .title = "an object without a shape, or with two",
-          .why = "What the robot can meet has one shape: a `box`, a `cylinder` or a `wall`.",
+          .why = "An object has one shape: a `box`, a `cylinder` or a `wall`.",
           .fix = "Keep one of them.",
           .part = ExcerptOf::scene,
           .example =
@@ -36,40 +34,45 @@ std::span<const Explanation> scenes() {
           .code = "E902",
           .title = "an object that nothing can push, with a mass",
           .why =
-              "What is fixed, or follows a motion, is not moved by a push, so its mass could have no effect; "
-              "one of the two lines is a mistake.",
+              R"~(No push moves an object that is fixed or follows a motion, so its mass has no effect. One of the two
+lines is a mistake.)~",
           .fix = "Delete `mass` if it stands fast, `fixed` or `motion` if it can be pushed.",
           .part = ExcerptOf::scene,
           .example = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], fixed: true, mass: 3 kg}",
           .instead = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], mass: 3 kg}"},
-      Explanation{.code = "E903",
-                  .title = "an outcome that no run can have",
-                  .why = "A run ends as `done`, `failed`, `stopped`, `diverged`, `refused` or, at its "
-                         "time limit, `unfinished`. A misspelt outcome would never come true.",
-                  .fix = "Write one of them, as in `- outcome: done`."},
+      Explanation{
+          .code = "E903",
+          .title = "an outcome that no run can have",
+          .why =
+              R"~(A run ends as `done`, `failed`, `stopped`, `diverged`, `refused` or, at its time limit,
+`unfinished`. A misspelt outcome would never come true.)~",
+          .fix = "Write one of them, as in `- outcome: done`."},
       Explanation{
           .code = "E904",
           .title = "an expectation that says nothing, or two things",
-          .why = "Each entry of `expect` is one claim with one margin: `outcome`, `diagnostic`, `at: end`, "
-                 "`within` or `always`. A scenario without any could not fail.",
+          .why =
+              R"~(Each entry of `expect` is one claim with one margin: `outcome`, `diagnostic`, `at: end`, `within` or
+`always`. A scenario without any could not fail.)~",
           .fix = "Give each claim an entry of its own."},
-      Explanation{.code = "E905",
-                  .title = "a matrix of no size, or of too great a size",
-                  .why =
-                      "Every value of every key of `matrix` is tried with all others. A key without values "
-                      "leaves nothing to run; a product of too many is a mistake more often than a wish.",
-                  .fix = "Give each key a value, or split the scenario."},
+      Explanation{
+          .code = "E905",
+          .title = "a matrix of no size, or of too great a size",
+          .why =
+              R"~(Every value of every key of `matrix` is tried with all others. A key without values leaves nothing
+to run; a product of too many is a mistake more often than a wish.)~",
+          .fix = "Give each key a value, or split the scenario."},
       Explanation{
           .code = "E906",
           .title = "an interval that starts at something other than a time",
           .why = "`within` counts from the time that `of` names, and that is one the plant measures.",
-          .fix = "Name a time, for example `of: truth.wall.touched`, or leave `of` out to count from the "
-                 "start."},
+          .fix =
+              R"~(Name a time, for example `of: truth.wall.touched`, or leave `of` out to count from the start.)~"},
       Explanation{
           .code = "E907",
           .title = "a fault that is none",
-          .why = "A fault is one thing that goes wrong at one time: of the samples, the clock, a wheel's "
-                 "torque, the floor, the payload, the centre of mass, the inertia or the plant.",
+          .why =
+              R"~(A fault is one thing that goes wrong at one time. It concerns the samples, the clock, a wheel's
+torque, the floor, the payload, the centre of mass, the inertia or the plant.)~",
           .fix = "Name one thing, and give each other one an entry of its own.",
           .part = ExcerptOf::scene,
           .example = "faults:\n  - {at: 2 s, samples: nan, clock: backwards}",
@@ -78,65 +81,65 @@ std::span<const Explanation> scenes() {
           .code = "E908",
           .title = "a script, a motion or a signal that cannot be played",
           .why =
-              "A script is a list of times that rise, each with a value: true and false, or numbers of one "
-              "kind, as the signal of the task file is. A motion goes through one point at least. A signal "
-              "has one source that can give it, and some of its samples must arrive in time.",
-          .fix = "Order the steps by time, one `[time, value]` each and all values alike; keep one source a "
-                 "signal.",
+              R"~(A script is a list of times that rise, each with a value. The values are true and false, or numbers
+of one kind, like the task file's signal. A motion goes through one point at least. A signal has one
+source that can give it, and some of its samples must arrive in time.)~",
+          .fix =
+              R"~(Order the steps by time, one `[time, value]` each and all values alike; keep one source a signal.)~",
           .part = ExcerptOf::scene,
           .example = "signals:\n  loaded: {script: [[5 s, true], [3 s, false]]}",
           .instead = "signals:\n  loaded: {script: [[3 s, false], [5 s, true]]}"},
       Explanation{
           .code = "E909",
           .title = "a base that is measured, and is not",
-          .why = "`state` says how the robot knows where it is: measured on every tick, with some noise, or "
-                 "reckoned from its wheels and corrected now and then by a `fix`. It cannot be both.",
+          .why =
+              R"~(`state` says how the robot knows where it is: measured on every tick, with some noise, or reckoned
+from its wheels and corrected now and then by a `fix`. It cannot be both.)~",
           .fix = "Keep the `fix`, or the noise.",
           .part = ExcerptOf::scene,
           .example = "state: {position: 2 mm, fix: {noise: 1 cm, rate: 10 Hz}}",
           .instead = "state: {fix: {noise: 1 cm, rate: 10 Hz}}"},
-      Explanation{.code = "E910",
-                  .title = "too many robots",
-                  .why =
-                      "Every robot of a scene is simulated and controlled in the same tick as the first one, "
-                      "and reading a scene reads all of their files: there is a limit to that.",
-                  .fix = "Leave some out."},
+      Explanation{
+          .code = "E910",
+          .title = "too many robots",
+          .why =
+              R"~(Every robot of a scene is simulated and controlled in the same tick as the first one. Reading a
+scene reads all of their files. So their number has a limit.)~",
+          .fix = "Leave some out."},
       Explanation{
           .code = "E911",
           .title = "real rollers on wheels that have none",
           .why =
-              "`real_rollers` builds mecanum and omni wheels roller by roller. A robot without such wheels "
-              "would be the same with and without it, and a comparison would show nothing.",
+              R"~(`real_rollers` builds mecanum and omni wheels roller by roller. A robot without such wheels would be
+the same with and without it, and a comparison would show nothing.)~",
           .fix = "Delete `real_rollers`, or take a robot whose wheels have a `roller`."},
       Explanation{
           .code = "E912",
           .title = "a cell whose task is refused",
           .why =
-              "With the robot, the scene or the parameters of this cell the task file has an error that it "
-              "does not have otherwise. It would not run, and nothing that the scenario expects could come "
-              "true.",
+              R"~(With the robot, the scene or the parameters of this cell the task file has an error that it does not
+have otherwise. It would not run, and nothing that the scenario expects could come true.)~",
           .fix =
-              "Leave the robot, the scene or the value out of the matrix; or, if that is the claim, expect "
-              "`outcome: refused` or the `diagnostic` in a scenario of its own."},
-      Explanation{.code = "E913",
-                  .title = "a start inside of something",
-                  .why = "At the start the robot's footprint overlaps an object, or another robot's. What it "
-                         "could touch must "
-                         "stand clear of it: a wall through its middle would hold nothing, and nobody would "
-                         "feel it. Objects "
-                         "lower than the robot's `bumper` pass below it.",
-                  .fix = "Move the object, or the `start`. A wall's `at` lies on its face, which looks along "
-                         "its own -x."},
+              R"~(Leave the robot, the scene or the value out of the matrix. If the refusal is the claim, expect
+`outcome: refused` or the `diagnostic` in a scenario of its own.)~"},
+      Explanation{
+          .code = "E913",
+          .title = "a start inside of something",
+          .why =
+              R"~(At the start the robot's footprint overlaps an object, or another robot's. At the start it must
+touch nothing: a wall through its middle would hold nothing, and no sensor would feel it. Objects
+lower than the robot's `bumper` pass below it.)~",
+          .fix =
+              R"~(Move the object, or the `start`. A wall's `at` lies on its face, which looks along its own -x.)~"},
       Explanation{
           .code = "E915",
           .title = "what the simulated plant cannot start with",
           .why =
-              "`validate` starts the simulated plant of each task and robot file, as `run` does. The plant "
-              "refuses a robot "
-              "or a scene that it cannot simulate. The message gives its reason.",
-          .fix = "Change what the message names. A part of an arm that starts inside an object, or a mass of "
-                 "a millionth of a "
-                 "gram, is the usual cause."},
+              R"~(`validate` starts the simulated plant of each task and robot file, as `run` does. The plant refuses
+a robot or a scene that it cannot simulate. The message gives its reason.)~",
+          .fix =
+              R"~(Change what the message names. A part of an arm that starts inside an object, or a mass of a
+millionth of a gram, is the usual cause.)~"},
   };
   return entries;
 }

@@ -10,12 +10,13 @@ std::span<const Explanation> text() {
           .code = "E100",
           .title = "the text cannot be read as YAML",
           .why =
-              R"~(Before a file can mean something it must be YAML, and a careful kind of it: UTF-8, indented with
-spaces, quotes that close on their line, one document. A tab or an invisible character is refused even where
-YAML would let it pass, because two people would read the same file differently.)~",
+              R"~(zwang reads a careful kind of YAML: UTF-8, indented with spaces, quotes that close on their line,
+one document. A tab or an invisible character is refused even where YAML would let it pass, because
+two people would read the same file differently.)~",
           .fix =
               R"~(Look at the character under the mark. Indent with spaces; quote a text that starts with a special
-character; close every quote and bracket. A long text goes on in the next line, indented, without `|` or `>`.)~",
+character; close every quote and bracket. A long text goes on in the next line, indented, without
+`|` or `>`.)~",
           .part = ExcerptOf::task_file,
           .example = "about: |\n  squares up\n  to a wall",
           .instead = "about: squares up\n  to a wall"},
@@ -23,11 +24,11 @@ character; close every quote and bracket. A long text goes on in the next line, 
           .code = "E101",
           .title = "an unknown key",
           .why =
-              R"~(zwang never ignores a word: a limit that is misspelt would be a limit that is not there, and nobody
-would be told before the robot moves. So each key has to be one that the language knows in that place.)~",
+              R"~(zwang never ignores a word. A misspelt limit would be no limit, and you would learn of it when the
+robot moves. So each key must be one that the language knows in that place.)~",
           .fix =
-              R"~(Take the key that the help names. When it names none, it lists those that are known here; perhaps the
-line is indented too deep or not deep enough.)~",
+              R"~(Take the key that the help names. When it names none, it lists those that are known here; perhaps
+the line is indented too deep or not deep enough.)~",
           .part = ExcerptOf::group,
           .example = "x: {velcity: 0.1 m/s}",
           .instead = "x: {velocity: 0.1 m/s}"},
@@ -35,8 +36,8 @@ line is indented too deep or not deep enough.)~",
           .code = "E102",
           .title = "a key is given twice",
           .why =
-              R"~(Most YAML readers keep the last of two equal keys and say nothing. One of the two lines was meant to do
-something and would not.)~",
+              R"~(Most YAML readers keep the last of two equal keys and say nothing. One of the two lines was meant to
+do something and would not.)~",
           .fix = "Keep one of them, or give the second the name that it was meant to have.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.1 m/s}\ny: {velocity: 0 m/s}\ny: {velocity: [-0.1 m/s, 0.1 m/s]}",
@@ -55,8 +56,8 @@ timeout leads, which robot it is.)~",
           .code = "E104",
           .title = "the wrong shape",
           .why =
-              R"~(The key is right, but what stands behind it is a list where a value belongs, or a value where a list
-belongs, or a list of the wrong length. A range, for one, has exactly two ends.)~",
+              R"~(The key is right, but its value has another shape. It is a list in the place of a value, a value in
+the place of a list, or a list of the wrong length. A range, for example, has exactly two ends.)~",
           .fix = "Bring the value into the shape that the message names.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: [-0.1 m/s, 0 m/s, 0.1 m/s]}",
@@ -65,9 +66,9 @@ belongs, or a list of the wrong length. A range, for one, has exactly two ends.)
           .code = "E105",
           .title = "a value or a condition that cannot be read",
           .why =
-              R"~(Here a number, a name or a condition is due, and the text is none, or one that is out of bounds. In
-conditions the words are `and`, `or`, `not`, the comparisons `<`, `<=`, `>`, `>=`; there is no `==`, because a
-measured number is never exactly equal to anything.)~",
+              R"~(A number, a name or a condition belongs here, and the text is none, or is out of bounds. Conditions
+join comparisons (`<`, `<=`, `>`, `>=`) with `and`, `or`, `not`. There is no `==`, because a
+measured number never equals another one exactly.)~",
           .fix = "Write what the message asks for, at the mark.",
           .part = ExcerptOf::task,
           .example = "exits:\n  - {when: elapsed > 2 s && speed(base_link) < 5 mm/s, for: 0.1 s, goto: done}",
@@ -77,9 +78,9 @@ measured number is never exactly equal to anything.)~",
           .code = "E106",
           .title = "tags, anchors and merge keys are not part of zwang",
           .why =
-              R"~(YAML can give a value a type (`!!str`), name it (`&slow`), repeat it (`*slow`) and merge it (`<<`). A
-reader then has to run the file in the head to know what a line says. Parameters and templates do the same
-with names that the checks know.)~",
+              R"~(YAML can give a value a type (`!!str`), name it (`&slow`), repeat it (`*slow`) and merge it (`<<`).
+A reader then has to run the file in the head to know what a line says. Parameters and templates do
+the same with names that the checks know.)~",
           .fix = "Use `params:` for a value that occurs twice and `templates:` with `use:` for a task that "
                  "does.",
           .part = ExcerptOf::group,
@@ -89,8 +90,8 @@ with names that the checks know.)~",
           .code = "E107",
           .title = "a comma cut a condition in two",
           .why =
-              R"~(Inside `{..}` a comma ends a value. What follows it is then read as a new key, and the condition
-would lose its second half without a word.)~",
+              R"~(Inside `{..}` a comma ends a value. The rest of the condition is then read as a new key, and the
+condition would silently lose its second half.)~",
           .fix = "Quote the condition, or write the exit with one key a line.",
           .part = ExcerptOf::task,
           .example = "exits:\n  - {when: elapsed > 2 s, elapsed < 3 s, goto: done}",
@@ -109,12 +110,12 @@ words with another meaning, so it is not guessed at.)~",
           .code = "E109",
           .title = "a file that cannot be read",
           .why =
-              R"~(The file is not there, is not a regular file, or lies outside the folder that files may be read from:
-the nearest parent folder with an empty file `.zwang-root`, else the folder of the file on the command line.
-Nothing is fetched from the network. A file from somewhere else must not be able to make zwang read yours.)~",
+              R"~(The file does not exist, is not a regular file, or lies outside the root folder. The root is the
+nearest parent folder with an empty file `.zwang-root`, else the folder of the file on the command
+line. Nothing is fetched from the network. A file of another author must not make zwang read yours.)~",
           .fix =
-              R"~(Correct the path; it counts from the file that it is written in. If the place is right, mark the folder
-above both with an empty file named `.zwang-root`.)~",
+              R"~(Correct the path; it counts from the file that it is written in. If the place is right, mark the
+folder above both with an empty file named `.zwang-root`.)~",
           .part = ExcerptOf::task_file,
           .example = "robot: ../../elsewhere/robot.yaml",
           .instead = "robot: robots/mini.yaml"},
@@ -122,8 +123,8 @@ above both with an empty file named `.zwang-root`.)~",
           .code = "E110",
           .title = "the file is too large",
           .why =
-              R"~(A task, robot or scene file holds at most 256 KiB. Checking always ends within two seconds; that takes
-a bound on what there is to check.)~",
+              R"~(A task, robot or scene file holds at most 256 KiB. Checking always ends within two seconds; that
+takes a bound on what there is to check.)~",
           .fix = "Split it: a task file is one action, and a mission is made of several above it."},
       Explanation{.code = "E111",
                   .title = "a line is too long",
@@ -163,9 +164,9 @@ get in each other's way.)~",
           .code = "E118",
           .title = "an instruction to zwang that cannot be read",
           .why =
-              R"~(A comment that starts with `# zwang:` speaks to the program. There is one instruction: `allow`, a code
-and the reason. The reason is not optional: whoever reads the file next year has to know why somebody thought
-that the warning does not matter here.)~",
+              R"~(A comment that starts with `# zwang:` speaks to the program. There is one instruction: `allow`, a
+code and the reason. The reason is not optional: the next reader has to know why the warning does
+not matter here.)~",
           .fix = "Write `# zwang: allow CODE the reason`, or take `zwang:` out of the comment.",
           .part = ExcerptOf::task,
           .example = "constraints:\n  wait:  # zwang: allow W501\n    move: base_link\n    in: base_link\n"
@@ -177,8 +178,8 @@ that the warning does not matter here.)~",
           .code = "E119",
           .title = "a code that cannot be silenced",
           .why =
-              R"~(Either there is no such code, or it is an error. An error means that the file has no meaning that could
-be run; silencing it would not give it one.)~",
+              R"~(Either there is no such code, or it is an error. An error means that the file has no meaning that
+could be run; silencing it would not give it one.)~",
           .fix = "Correct the code, or mend what the error is about.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.1 m/s}  # zwang: allow W999 it is only a test",
@@ -187,8 +188,8 @@ be run; silencing it would not give it one.)~",
           .code = "W120",
           .title = "an `allow` that silences nothing",
           .why =
-              R"~(The comment allows a warning that zwang does not give on that line. Either it was mended since, or the
-comment slipped to another line when the file was edited, and the warning that it was meant for is loud.)~",
+              R"~(The comment allows a warning that zwang does not give on that line. Either the cause was mended, or
+an edit moved the comment to another line.)~",
           .fix =
               R"~(Delete the comment, or put it on the line that the warning names. Alone on a line it speaks for the
 next line that is not a comment.)~",

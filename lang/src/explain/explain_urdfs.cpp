@@ -27,8 +27,8 @@ std::span<const Explanation> urdfs() {
           .code = "E854",
           .title = "the URDF cannot be read as XML",
           .why =
-              R"~(The text breaks a rule of XML, or its outermost element is not `<robot>`. Document types and entities
-are refused: they let a file blow itself up, or read others.)~",
+              R"~(The text breaks a rule of XML, or its outermost element is not `<robot>`. Document types and
+entities are refused: they let a file blow itself up, or read others.)~",
           .fix = "Mend the place under the mark. A tag that is opened is closed, and the innermost first.",
           .part = ExcerptOf::urdf,
           .example = R"~(<link name="left_link">
@@ -46,8 +46,8 @@ are refused: they let a file blow itself up, or read others.)~",
           .code = "E855",
           .title = "xacro that nobody expanded",
           .why =
-              R"~(`${wheel_mass}` is a formula of xacro, the tool that many URDFs are written for. Most readers take it
-for 0 and say nothing, and the robot weighs nothing from then on.)~",
+              R"~(`${wheel_mass}` is a formula of xacro, the tool that many URDFs are written for. Most readers take
+it for 0 and say nothing, and the robot weighs nothing from then on.)~",
           .fix = "Run xacro on the source, `xacro robot.urdf.xacro > robot.urdf`, and use what it writes.",
           .part = ExcerptOf::urdf,
           .example = R"~(<link name="left_link">
@@ -66,8 +66,8 @@ for 0 and say nothing, and the robot weighs nothing from then on.)~",
           .code = "E856",
           .title = "not a number",
           .why =
-              R"~(URDF counts in SI without units, with a decimal point. `1,5` and `1.5kg` are read as 1 or as 0 by many
-programs; here they are told.)~",
+              R"~(URDF counts in SI without units, with a decimal point. `1,5` and `1.5kg` are read as 1 or as 0 by
+many programs; here they are told.)~",
           .fix = "Write a plain finite number, or as many of them as the message says, with spaces between.",
           .part = ExcerptOf::urdf,
           .example = R"~(<link name="left_link">
@@ -86,8 +86,8 @@ programs; here they are told.)~",
           .code = "E857",
           .title = "links and joints that do not make a tree",
           .why =
-              R"~(Every link but one hangs on exactly one joint, every joint joins two links that exist, and from the one
-root all others are reached. Anything else has no equations of motion as a tree.)~",
+              R"~(Every link but one hangs on exactly one joint, every joint joins two links that exist, and from the
+one root all others are reached. Anything else has no equations of motion as a tree.)~",
           .fix = "Mend the name that the message gives, or add the joint or link that is missing.",
           .part = ExcerptOf::urdf,
           .example = R"~(<joint name="left" type="continuous">
@@ -108,8 +108,8 @@ root all others are reached. Anything else has no equations of motion as a tree.
           .code = "E858",
           .title = "a mass or an inertia that is missing or impossible",
           .why =
-              R"~(An `<inertial>` gives a mass that is not negative and an inertia that is not negative about any axis.
-Half of one is worse than none: the rest would be taken for zero.)~",
+              R"~(An `<inertial>` gives a mass that is not negative and an inertia that is not negative about any
+axis. Half of one is worse than none: the rest would be taken for zero.)~",
           .fix = "Complete or correct the `<inertial>` of the link.",
           .part = ExcerptOf::urdf,
           .example = R"~(<link name="left_link">
@@ -150,8 +150,8 @@ lower end is not above the upper. `floating` and `planar` joints are what the ba
           .code = "E860",
           .title = "the URDF library refuses the robot",
           .why =
-              R"~(After zwang's own checks the file is read by urdfdom, the library that other tools use. What it complains
-of is told in its own words: a complaint that is only printed is a fault that somebody else finds later.)~",
+              R"~(After zwang's own checks the file is read by urdfdom, the library that other tools use. The message
+quotes its complaint, because a complaint that is only printed is easily missed.)~",
           .fix = "Mend what the message quotes; `check_urdf` prints the same.",
           .part = ExcerptOf::urdf,
           .example = R"~(<link name="left_link">
@@ -175,11 +175,13 @@ of is told in its own words: a complaint that is only printed is a fault that so
           .code = "E861",
           .title = "a wheel or a motor that mimics another joint",
           .why =
-              R"~(`<mimic>` says that a mechanism moves this joint together with another one. zwang knows each joint's own
-motion only: it would drive the two one against the other, and count on a mobility that the base does not have.)~",
+              R"~(`<mimic>` says that a mechanism moves this joint together with another one. zwang knows each joint's
+own motion only: it would drive the two one against the other, and count on a mobility that the base
+does not have.)~",
           .fix =
-              R"~(Where the joint has a motor of its own take the `<mimic>` out, it is often left over from a display. Where a
-mechanism moves it, leave it out of `wheels` and `actuated`, or make it `fixed`; two wheels on one axle are one wheel.)~",
+              R"~(Where the joint has a motor of its own take the `<mimic>` out, it is often left over from a display.
+Where a mechanism moves it, leave it out of `wheels` and `actuated`, or make it `fixed`; two wheels
+on one axle are one wheel.)~",
           .part = ExcerptOf::urdf,
           .example = R"~(<joint name="left" type="continuous">
   <parent link="base_link"/>
@@ -200,8 +202,8 @@ mechanism moves it, leave it out of `wheels` and `actuated`, or make it `fixed`;
           .code = "W862",
           .title = "joints that mimic others and swing freely",
           .why =
-              R"~(The fingers of a gripper often follow one of them by a `<mimic>`. zwang couples no joints, so those that nothing
-drives swing as if they were loose. Mostly nobody minds: a finger weighs little.)~",
+              R"~(The fingers of a gripper often follow one of them by a `<mimic>`. zwang couples no joints, so those
+that nothing drives swing as if they were loose. Mostly nobody minds: a finger weighs little.)~",
           .fix = "Where it matters make the joints `fixed` in the URDF; else allow the warning."},
   };
   return entries;

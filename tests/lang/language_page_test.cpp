@@ -1,0 +1,180 @@
+// docs/language.md is true: each block of it is good, or is refused in the words of the page, and no key of
+// the schemas is missing. A block says after its language what it is cut from; what it leaves out is supplied
+// here.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "support.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/scenario.hpp"
+#include "zwang/lang/scene.hpp"
+#include "zwang/lang/schema.hpp"
+
+namespace zwang::lang {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Block {
+  std::string kind;  ///< "yaml task", "yaml mistake group", "text", ""
+  std::string text;
+  int line = 0;
+};
+
+std::vector<Block> blocks(const std::string& path) {
+  std::vector<Block> result;
+  std::istringstream page(test::slurp(test::source_dir / path));
+  bool is_inside = false;
+  int number = 0;
+  for (std::string line; std::getline(page, line);) {
+    ++number;
+    if (line.starts_with("```")) {
+      is_inside = !is_inside;
+      if (is_inside) result.push_back({line.substr(3), "", number});
+    } else if (is_inside) {
+      result.back().text += line + "\n";
+    }
+  }
+  return result;
+}
+
+std::string indented(const std::string& text, std::size_t by) {
+  std::string result;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) result += std::string(by, ' ') + line + "\n";
+  return result;
+}
+
+bool has_key(const std::string& text, const std::string& key) {
+  return text.starts_with(key + ":") || text.find("\n" + key + ":") != std::string::npos;
+}
+
+/// The names that excerpts may use without declaring them.
+std::string task_file(std::string text) {
+  std::string before;
+  if (!has_key(text, "zwang")) before += "zwang: 1\n";
+  if (!has_key(text, "robot")) before += "robot: robots/mecanum_base.yaml\n";
+  if (!has_key(text, "frames")) before += "frames: {goal: {parent: world, at: [2 m, 0 m]}}\n";
+  if (!has_key(text, "regions"))
+    before += "regions: {corridor: {polygon: [[-1 m, -2 m], [8 m, -2 m], [8 m, 2 m], [-1 m, 2 m]]}}\n";
+  if (!has_key(text, "tasks")) text += "tasks:\n  go:\n    timeout: {after: 1 s, goto: done}\n";
+  std::smatch first;
+  if (!has_key(text, "start") && std::regex_search(text, first, std::regex("tasks:\n  (\\w+):")))
+    before += "start: " + first[1].str() + "\n";
+  return before + text;
+}
+
+std::string task(std::string text) {
+  if (!has_key(text, "exits") && !has_key(text, "timeout")) text += "timeout: {after: 10 s, goto: failed}\n";
+  return task_file("tasks:\n  go:\n" + indented(text, 4));
+}
+
+std::string group(const std::string& text) {
+  return task("constraints:\n  contact:\n    move: base_link\n    in: base_link\n" + indented(text, 4));
+}
+
+/// What is said about a block, which stands where the shipped files stand.
+Diagnostics said_about(const Block& block, const test::Folder& folder) {
+  const std::string part = block.kind.substr(block.kind.rfind(' ') + 1);
+  Diagnostics diagnostics;
+  if (part == "robot") {
+    load_robot(folder.write("robots/mine.yaml", block.text), diagnostics);
+  } else if (part == "scene") {
+    const std::string version = has_key(block.text, "zwang_scene") ? "" : "zwang_scene: 1\n";
+    load_scene(folder.write("mine.yaml", version + block.text), diagnostics);
+  } else if (part == "scenario") {
+    check_scenario(folder.write("mine.yaml", block.text), diagnostics);
+  } else {
+    std::string text = task_file(block.text);
+    if (part == "tasks") text = task_file("tasks:\n" + block.text);
+    if (part == "task") text = task(block.text);
+    if (part == "group") text = group(block.text);
+    load(folder.write("mine.yaml", text), {}, diagnostics);
+  }
+  return diagnostics;
+}
+
+class LanguagePage : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::copy(test::source_dir / "specs", folder_.path(),
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  }
+  const test::Folder folder_;
+};
+
+/// An excerpt may leave a name unused (W302), and is good otherwise.
+TEST_F(LanguagePage, each_block_is_good) {
+  int tried = 0;
+  for (const std::string page : {"docs/language.md", "docs/concepts.md"}) {
+    for (const Block& block : blocks(page)) {
+      if (!block.kind.starts_with("yaml") || block.kind.find("mistake") != std::string::npos) continue;
+      const Diagnostics diagnostics = said_about(block, folder_);
+      const int unused = test::count(diagnostics, "W302");
+      EXPECT_EQ(diagnostics.all().size(), static_cast<std::size_t>(unused))
+          << page << ":" << block.line << "\n"
+          << test::rendered(diagnostics);
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 20);
+}
+
+/// The block after a mistake holds the words of the diagnostic, a line each.
+TEST_F(LanguagePage, each_mistake_is_refused_in_these_words) {
+  const std::vector<Block> all = blocks("docs/language.md");
+  int tried = 0;
+  for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+    if (all[i].kind.find("mistake") == std::string::npos) continue;
+    const std::string said = test::rendered(said_about(all[i], folder_));
+    std::istringstream words(all[i + 1].text);
+    for (std::string line; std::getline(words, line);)
+      EXPECT_NE(said.find(line), std::string::npos) << "docs/language.md:" << all[i + 1].line << " " << said;
+    ++tried;
+  }
+  EXPECT_GT(tried, 0);
+}
+
+void gather_keys(const nlohmann::json& node, std::set<std::string>& keys) {
+  if (node.is_object() && node.contains("properties") && node["properties"].is_object()) {
+    for (const auto& [key, value] : node["properties"].items()) keys.insert(key);
+  }
+  if (node.is_object() && node.contains("enum")) {
+    for (const auto& word : node["enum"]) keys.insert(word.get<std::string>());
+  }
+  for (const auto& child : node) {
+    if (child.is_structured()) gather_keys(child, keys);
+  }
+}
+
+/// The words of the page's code: every second piece between backquotes, of one or of three.
+std::set<std::string> words_of_code() {
+  std::set<std::string> words;
+  std::istringstream page(test::slurp(test::source_dir / "docs/language.md"));
+  const std::regex word("[A-Za-z_]+");
+  bool is_code = false;
+  for (std::string piece; std::getline(page, piece, '`'); is_code = !is_code) {
+    if (!is_code) continue;
+    for (std::sregex_iterator at(piece.begin(), piece.end(), word), end; at != end; ++at)
+      words.insert(at->str());
+  }
+  return words;
+}
+
+TEST(LanguageOfThePage, has_every_key_and_word_of_the_schemas) {
+  const std::set<std::string> written = words_of_code();
+  for (const SchemaKind kind :
+       {SchemaKind::task, SchemaKind::robot, SchemaKind::scene, SchemaKind::scenario}) {
+    std::set<std::string> keys;
+    gather_keys(nlohmann::json::parse(json_schema(kind)), keys);
+    EXPECT_GT(keys.size(), 10u);
+    for (const std::string& key : keys) EXPECT_TRUE(written.contains(key)) << key;
+  }
+}
+
+}  // namespace
+}  // namespace zwang::lang
