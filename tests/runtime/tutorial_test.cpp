@@ -1,5 +1,5 @@
-// The blocks of README.md and docs/tutorial.md are true. Each task is good and runs; each mistake is refused
-// in the words of the page.
+// The blocks of README.md and of the tutorial's three parts are true. Each task is good and runs; each
+// mistake is refused in the words of the page.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -126,6 +126,50 @@ TEST_F(Tutorial, part_2_grows_file_by_file_and_each_task_is_done) {
   }
   EXPECT_EQ(runs, 3);
   EXPECT_EQ(tests, 1);
+}
+
+/// The commands of part 3 run where a reader runs them: beside the folder `specs`.
+class OwnRobot : public test::Program {
+ protected:
+  void SetUp() override {
+    fs::copy(fs::path(ZWANG_SOURCE_DIR) / "specs", folder_ / "specs", fs::copy_options::recursive);
+  }
+  /// Of `text zwang robot inspect FILE`: what that command prints.
+  std::string said_by(const std::string& command) {
+    std::istringstream words(command);
+    std::vector<std::string> arguments;
+    for (std::string word; words >> word;) arguments.push_back(word);
+    arguments.erase(arguments.begin(), arguments.begin() + 2);
+    const test::Result result = zwang(arguments);
+    return result.out + result.err;
+  }
+};
+
+/// Each block names its file, or the command whose words it holds.
+TEST_F(OwnRobot, part_3_comes_from_a_urdf_to_a_task_that_is_done) {
+  const std::vector<Block> all = blocks("docs/tutorial_3.md");
+  int files = 0, commands = 0;
+  for (const Block& block : all) {
+    const std::string where = "docs/tutorial_3.md:" + std::to_string(block.line) + "\n";
+    const std::string& kind = block.language;
+    if (kind.starts_with("text zwang ")) {
+      const std::string said = said_by(kind);
+      EXPECT_NE(said.find(block.text.substr(0, block.text.size() - 1)), std::string::npos) << where << said;
+      ++commands;
+    }
+    if (!kind.starts_with("xml ") && !kind.starts_with("yaml ")) continue;
+    const std::string file = kind.substr(kind.rfind(' ') + 1);
+    Program::write(file, block.text);
+    if (kind.starts_with("xml ") || kind.starts_with("yaml mistake ")) continue;
+    const test::Result good = zwang({"validate", "--deny", "warnings", file});
+    EXPECT_EQ(good.code, 0) << where << good.out << good.err;
+    if (file == "specs/mine.yaml") {
+      EXPECT_EQ(zwang({"run", file, "--quiet"}).code, 0) << where;
+    }
+    ++files;
+  }
+  EXPECT_EQ(files, 4);
+  EXPECT_EQ(commands, 5);
 }
 
 using Readme = Tutorial;
