@@ -16,48 +16,51 @@ Json statement(const char* description, std::vector<Json> more = {}) {
 
 std::vector<Property> manner() {
   return {
-      {"time_constant", reference("value", "how fast a driver gets there: 63 % of a velocity step after it")},
+      {"time_constant",
+       reference("value",
+                 "how fast a driver gets there: it has made 63 % of a velocity step after this time")},
       {"level", Json{{"type", "integer"},
                      {"minimum", 0},
                      {"maximum", 9},
-                     {"description", "what a lower number wants goes first, and strictly"}}},
+                     {"description", "a lower number goes first, strictly; 0 under `always` only"}}},
       {"weight",
-       reference("value", "a mass: makes the rows soft, met to the fraction w / (w + effective mass)")}};
+       reference("value", "a mass w that makes rows soft: they meet the share w / (w + effective mass)")}};
 }
 
 std::vector<Property> statements() {
   std::vector<Property> properties = {
       {"position",
-       statement("a single value moves there, a range stays inside", {one_of_words("", {"here"})})},
-      {"velocity", statement("a single value moves so fast, a range never faster")},
-      {"acceleration", statement("a single value accelerates so much, a range never more")},
-      {"force", statement("a single value pushes so hard, a range beside a driver of motion spends no more")},
-      {"stiffness", reference("value", "with `damping`: makes a spring of a position driver")},
+       statement("a single value drives there; a range keeps inside", {one_of_words("", {"here"})})},
+      {"velocity", statement("a single value drives at this velocity; a range limits it")},
+      {"acceleration", statement("a single value drives with this acceleration; a range limits it")},
+      {"force", statement("a single value drives with this force; a range beside a driver of motion limits "
+                          "the force that it spends")},
+      {"stiffness", reference("value", "with `damping`: a position driver becomes a spring")},
       {"damping", reference("value", "with `stiffness`")}};
   for (Property& property : manner()) properties.push_back(std::move(property));
   return properties;
 }
 
 Json axis() {
-  return any_of({one_of_words("says nothing, and lets conditions measure the axis", {"free"}),
+  return any_of({one_of_words("no statement; conditions can measure the axis", {"free"}),
                  filled(object("a single value drives, a range limits", statements()))});
 }
 
 Json group() {
   std::vector<Property> axes = {{"move", word("the frame that moves"), true},
-                                {"in", word("the frame whose axes these are"), true}};
+                                {"in", word("the frame whose axes count"), true}};
   for (Property& property : manner()) axes.push_back(std::move(property));
   for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) axes.push_back({name, reference("axis")});
   std::vector<Property> speed = {{"velocity", reference("range"), true}};
   for (Property& property : manner()) speed.push_back(std::move(property));
-  axes.push_back({"speed", object("the norm of the planar velocity", std::move(speed))});
+  axes.push_back({"speed", object("the norm of the velocity in the plane", std::move(speed))});
   std::vector<Property> feature = {{"feature", word("the name of a feature"), true}};
   for (Property& property : statements()) feature.push_back(std::move(property));
-  return any_of({object("statements about axes", std::move(axes)),
-                 object("stays inside a region",
+  return any_of({object("statements about the axes of a frame", std::move(axes)),
+                 object("keeps a frame or the footprint inside a region",
                         {{"move", word("a frame, or `footprint`"), true},
                          {"inside", word("the name of a region"), true},
-                         {"margin", reference("value", "distance kept from the border")},
+                         {"margin", reference("value", "the distance kept from the border")},
                          {"level", Json{{"type", "integer"}, {"minimum", 0}, {"maximum", 9}}}}),
                  object("statements about a feature", std::move(feature))});
 }
@@ -75,28 +78,32 @@ Json leads_to(const char* description) {
 }
 
 Json exit() {
-  return object("",
-                {{"when", reference("condition"), true},
-                 {"for", reference("value", "how long it must be true without a break")},
-                 {"release", reference("value", "once true it stays true until the quantity passes this")},
-                 {"goto", leads_to("a task, `done`, `failed`, or `back`"), true},
-                 {"set", reference("set")},
-                 {"note", word("for the log")}});
+  return object(
+      "", {{"when", reference("condition"), true},
+           {"for", reference("value", "how long the condition must hold without a break")},
+           {"release",
+            reference("value", "once true, the comparison stays true until its left side passes this value")},
+           {"goto", leads_to("a task, `done`, `failed`, or `back`"), true},
+           {"set", reference("set")},
+           {"note", word("for the log")}});
 }
 
 std::vector<Property> task_keys() {
-  return {{"about", word("what it is for")},
-          {"enter", object("on the way in", {{"require", reference("condition", "false on entry: `failed`")},
-                                             {"blend", reference("value", "how long the switch takes")},
-                                             {"set", reference("set")}})},
-          {"constraints", named("groups by their names", reference("group"))},
-          {"exits", list("asked from top to bottom; the first true one wins", reference("exit"))},
-          {"timeout", any_of({one_of_words("may run for ever", {"never"}),
-                              object("", {{"after", reference("value"), true},
-                                          {"goto", leads_to("a task, `done` or `failed`"), true}})})},
-          {"attempts", object("how often it may be entered",
-                              {{"max", Json{{"type", "integer"}, {"minimum", 1}}, true},
-                               {"goto", leads_to("where the next entry leads instead"), true}})}};
+  return {
+      {"about", word("a sentence for reports")},
+      {"enter", object("on entry", {{"require", reference("condition", "false on entry: `failed`")},
+                                    {"blend", reference("value", "how long the switch takes")},
+                                    {"set", reference("set")}})},
+      {"constraints", named("groups by their names", reference("group"))},
+      {"exits", list("evaluated from top to bottom; the first true exit fires", reference("exit"))},
+      {"timeout",
+       any_of({one_of_words("the task may run for ever", {"never"}),
+               object("", {{"after", reference("value"), true},
+                           {"goto", leads_to("a task, `done`, `failed`; `back` in a task that interrupts"),
+                            true}})})},
+      {"attempts", object("how often the task may be entered",
+                          {{"max", Json{{"type", "integer"}, {"minimum", 1}}, true},
+                           {"goto", leads_to("where entry max + 1 leads instead"), true}})}};
 }
 
 Json task_use() {
@@ -109,10 +116,10 @@ Json task_use() {
 
 Json parameters() {
   return named(
-      "values that may be set for one run, as `-p push=30N`",
+      "values that can be set for one run, as `-p push=30N`",
       any_of({reference("quantity"), object("", {{"value", reference("quantity"), true},
-                                                 {"range", reference("range", "what it may be set to")},
-                                                 {"help", word("one sentence for whoever sets it")}})}));
+                                                 {"range", reference("range", "the values that it may take")},
+                                                 {"help", word("a sentence for the person who sets it")}})}));
 }
 
 Json frames() {
@@ -133,20 +140,20 @@ Json regions() {
 
 Json signals() {
   return named(
-      "values that are measured outside",
+      "values that are measured outside of zwang",
       object("", {{"type", one_of_words("", {"bool", "number", "pose", "wrench"}), true},
                   {"unit", word("of a number")},
                   {"in", word("the frame that a pose or a wrench is seen from")},
-                  {"stale_after", reference("value", "the age at which a sample counts no more"), true}}));
+                  {"stale_after", reference("value", "a sample that is older counts as unknown"), true}}));
 }
 
 Json features() {
   std::vector<Property> direction = {{"move", word("the frame that moves"), true},
-                                     {"in", word("the frame whose axes these are"), true}};
+                                     {"in", word("the frame whose axes count"), true}};
   for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) {
     direction.push_back({name, reference("quantity", "its coefficient")});
   }
-  return named("coordinates that are no axis of one frame",
+  return named("coordinates that are not one axis of a frame",
                object("", {{"distance", tuple("between two frames", word("a frame"), 2, 2)},
                            {"angle", tuple("between two axes, as `hook.x`", word("frame.axis"), 2, 2)},
                            {"direction", object("a sum of axes", std::move(direction))}}));
@@ -156,8 +163,8 @@ Json templates() {
   const Json kinds =
       one_of_words("", {"frame", "task", "number", "length", "angle", "time", "mass", "velocity",
                         "acceleration", "force", "torque", "angular_velocity", "angular_acceleration"});
-  return named("tasks with holes",
-               object("", {{"args", named("what must be given, and of which kind", kinds)},
+  return named("tasks with arguments",
+               object("", {{"args", named("the arguments that a use must give, and their kinds", kinds)},
                            {"body", reference("task"), true}}));
 }
 
@@ -167,18 +174,18 @@ Json task_file() {
   Json schema = object(
       "A task of zwang",
       {version("zwang"),
-       {"robot", word("the robot file, seen from this one"), true},
-       {"scene", word("the scene file, for the simulated plant")},
-       {"about", word("what this is for, in a line")},
+       {"robot", word("the path of the robot file, from this file"), true},
+       {"scene", word("the path of the scene file, for the simulated robot")},
+       {"about", word("a sentence for reports")},
        {"params", parameters()},
        {"frames", frames()},
        {"regions", regions()},
        {"signals", signals()},
        {"features", features()},
        {"templates", templates()},
-       {"always", object("what holds in every task",
+       {"always", object("constraints and exits that hold in every task",
                          {{"constraints", named("groups by their names, at level 0", reference("group"))},
-                          {"exits", list("asked before those of the task", reference("exit"))}})},
+                          {"exits", list("evaluated before those of the task", reference("exit"))}})},
        {"start", word("the first task"), true},
        {"tasks", named("tasks by their names", reference("task")), true}});
   schema["definitions"] = {

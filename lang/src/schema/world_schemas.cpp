@@ -6,12 +6,12 @@ namespace zwang::lang::schema {
 namespace {
 
 Json wheel() {
-  return object("", {{"joint", word("the joint that it turns on"), true},
+  return object("", {{"joint", word("the joint that the wheel turns on"), true},
                      {"radius", reference("quantity"), true},
                      {"roller", reference("quantity",
                                           "mecanum and omni: from the wheel's axis to the roller's at "
                                           "the ground, about the base's +z")},
-                     {"holds", list("what a plain wheel holds; both when absent",
+                     {"holds", list("the directions that a plain wheel holds; default both",
                                     one_of_words("", {"rolling", "sideways"}))}});
 }
 
@@ -28,19 +28,19 @@ Json robot_frame() {
 }
 
 Json actuator() {
-  return object("",
-                {{"effort", reference("quantity", "largest torque on the joint's side; default the URDF's")},
-                 {"slew", reference("quantity", "how fast it may change; default all of it within 5 ms")},
-                 {"gear", reference("quantity", "turns of the motor for one of the joint")},
-                 {"rotor_inertia", reference("quantity", "of the rotor alone, before the gear")}});
+  return object(
+      "", {{"effort", reference("quantity", "largest torque on the joint's side; default the URDF's")},
+           {"slew", reference("quantity", "how fast the torque may change; default all of it within 5 ms")},
+           {"gear", reference("quantity", "turns of the motor for one of the joint")},
+           {"rotor_inertia", reference("quantity", "the inertia of the rotor alone, before the gear")}});
 }
 
 Json joint_friction() {
   return object(
       "", {{"coulomb", reference("quantity", "dry friction")},
-           {"presliding", reference("quantity", "angle or length that the joint gives before it slides")},
+           {"presliding", reference("quantity", "the angle or length that the joint gives before it slides")},
            {"viscous", reference("quantity", "friction that grows with the speed")},
-           {"compensate", reference("quantity", "the part that the controller makes up for")}});
+           {"compensate", reference("quantity", "the share that the controller gives back, below 100 %")}});
 }
 
 Json shape_sizes() {
@@ -58,26 +58,27 @@ Json motion_point() {
 }
 
 Json dock() {
-  return object("a socket that a hook latches in", {{"at", reference("point", "in the object's axes"), true},
-                                                    {"reach", reference("quantity")},
-                                                    {"hook", word("a frame of the robot"), true}});
+  return object("a socket in which a hook latches", {{"at", reference("point", "in the object's axes"), true},
+                                                     {"reach", reference("quantity")},
+                                                     {"hook", word("a frame of the robot"), true}});
 }
 
 Json scene_object() {
   Json sizes = shape_sizes();
-  return object("has one shape: box, cylinder or wall",
-                {{"box", sizes["box"]},
-                 {"cylinder", sizes["cylinder"]},
-                 {"wall", sizes["wall"]},
-                 {"at", reference("point", "in the world; of a wall, a point of its face"), true},
-                 {"yaw", reference("quantity")},
-                 {"mass", reference("quantity", "of what can be pushed")},
-                 {"fixed", Json{{"type", "boolean"}}},
-                 {"stiffness", reference("quantity", "of a contact, as N/m")},
-                 {"damping", reference("quantity", "of a contact, against the critical one")},
-                 {"friction", reference("quantity", "coefficient")},
-                 {"motion", filled(list("what it follows, whatever stands in its way", motion_point()))},
-                 {"dock", dock()}});
+  return object(
+      "has one shape: box, cylinder or wall",
+      {{"box", sizes["box"]},
+       {"cylinder", sizes["cylinder"]},
+       {"wall", sizes["wall"]},
+       {"at", reference("point", "in the world; of a wall, a point of its face"), true},
+       {"yaw", reference("quantity")},
+       {"mass", reference("quantity", "of an object that a push moves")},
+       {"fixed", Json{{"type", "boolean"}}},
+       {"stiffness", reference("quantity", "of a contact, as N/m")},
+       {"damping", reference("quantity", "of a contact, against the critical one")},
+       {"friction", reference("quantity", "coefficient")},
+       {"motion", filled(list("points in time that it follows, whatever stands in its way", motion_point()))},
+       {"dock", dock()}});
 }
 
 Json scene_signal() {
@@ -88,20 +89,20 @@ Json scene_signal() {
                  {"latch", word("an object or a robot with a dock")},
                  {"force_of", word("an object or a robot that the first one touches")},
                  {"noise", reference("quantity", "standard deviation")},
-                 {"bias", reference("quantity", "of a force: how much too large it is measured")},
+                 {"bias", reference("quantity", "added to a force")},
                  {"angle_noise", reference("quantity", "standard deviation")},
                  {"delay", reference("quantity")},
                  {"rate", reference("quantity")},
-                 {"dropouts", reference("quantity", "the part that never arrives")}});
+                 {"dropouts", reference("quantity", "the share that never arrives")}});
 }
 
 Json fix() {
-  return object("a pose of the base that somebody measures now and then",
+  return object("a pose of the base that is measured now and then",
                 {{"noise", reference("quantity", "standard deviation")},
                  {"angle_noise", reference("quantity", "standard deviation")},
                  {"delay", reference("quantity")},
                  {"rate", reference("quantity")},
-                 {"dropouts", reference("quantity", "the part that never arrives")}});
+                 {"dropouts", reference("quantity", "the share that never arrives")}});
 }
 
 Json base_state() {
@@ -111,12 +112,12 @@ Json base_state() {
                                                 {"velocity", reference("quantity")},
                                                 {"turn", reference("quantity")},
                                                 {"delay", reference("quantity", "of whole samples")}}),
-                 object("told by the wheels, and corrected", {{"fix", fix(), true}})});
+                 object("reckoned from the wheels, and corrected", {{"fix", fix(), true}})});
 }
 
 Json scene_robot() {
   return object("another robot, under a task file of its own",
-                {{"task", word("its task file, seen from this one"), true},
+                {{"task", word("the path of its task file, from this file"), true},
                  {"robot", word("in the place of the task's own")},
                  {"params", named("values for its task", reference("quantity"))},
                  {"at", reference("point", "where its base starts, in the world"), true},
@@ -125,18 +126,18 @@ Json scene_robot() {
                  {"damping", reference("quantity", "of a contact, against the critical one")},
                  {"friction", reference("quantity", "coefficient")},
                  {"dock", dock()},
-                 {"signals", named("where its task's signals come from", scene_signal())},
+                 {"signals", named("the sources of its task's signals", scene_signal())},
                  {"state", base_state()}});
 }
 
 Json fault() {
   return object(
       "one thing that goes wrong",
-      {{"at", reference("quantity", "when it begins"), true},
-       {"for", reference("quantity", "to the end when absent")},
+      {{"at", reference("quantity", "when the fault begins"), true},
+       {"for", reference("quantity", "how long it lasts; default to the end")},
        {"samples", one_of_words("", {"lost", "nan", "inf", "huge", "frozen", "dead"})},
        {"clock", one_of_words("", {"backwards", "ahead"})},
-       {"robot", word("one of `robots`; the first one when absent")},
+       {"robot", word("one of `robots`; default the first robot")},
        {"wheel", word("a joint with a motor; of `floor_friction`, any wheel's")},
        {"torque", one_of_words("", {"lost", "stuck", "flipped"})},
        {"floor_friction", reference("quantity")},
@@ -147,7 +148,7 @@ Json fault() {
 }
 
 Json start_pose() {
-  return object("where the robot stands", {{"at", reference("point")}, {"yaw", reference("quantity")}});
+  return object("where the robot starts", {{"at", reference("point")}, {"yaw", reference("quantity")}});
 }
 
 Json expectation() {
@@ -156,11 +157,11 @@ Json expectation() {
       {object("",
               {{"outcome",
                 one_of_words("", {"done", "failed", "stopped", "diverged", "refused", "unfinished"}), true},
-               {"of", word("a robot of the scene; the first one's when absent")}}),
-       object("", {{"diagnostic", word("the code that the task is refused with"), true}}),
+               {"of", word("a robot of the scene; default the first robot")}}),
+       object("", {{"diagnostic", word("the code with which the task is refused, or warned of"), true}}),
        object("", {{"at", one_of_words("", {"end"}), true}, {"that", condition, true}}),
        object("", {{"within", reference("quantity"), true},
-                   {"of", word("what starts the time; the run's start when absent")},
+                   {"of", word("the time from which it counts; default the start of the run")},
                    {"that", condition, true}}),
        object("", {{"always", condition, true}})});
 }
@@ -169,17 +170,17 @@ Json expectation() {
 
 Json robot_file() {
   return object(
-      "What a URDF cannot say of a robot",
+      "The part of a robot that a URDF cannot say",
       {version("zwang_robot"),
-       {"urdf", word("seen from this file"), true},
+       {"urdf", word("the path of the URDF, from this file"), true},
        {"base", word("the link that floats"), true},
-       {"wheels", list("the drive follows from them", wheel()), true},
+       {"wheels", list("the wheels; the drive follows from them", wheel()), true},
        {"supports", list("links that stand on the ground and hold nothing", word("a link"))},
        {"actuated", named("motors by their joints", actuator()), true},
-       {"limits", object("of the base, where a task gives none",
+       {"limits", object("ranges of the base, if a task gives none",
                          {{"acceleration", base_ranges("")}, {"velocity", base_ranges("")}})},
        {"stop",
-        object("the one brake",
+        object("the brake of `done`, `failed` and the protective stop",
                {{"deceleration", reference("quantity"), true}, {"force", reference("quantity"), true}}),
         true},
        {"posture", named("where joints stand at the start", reference("quantity"))},
@@ -193,25 +194,25 @@ Json robot_file() {
 }
 
 Json scene_file() {
-  return object("What stands around a simulated robot",
+  return object("The world around a simulated robot",
                 {version("zwang_scene"),
                  {"start", start_pose()},
                  {"floor", object("", {{"friction", reference("quantity")}})},
                  {"real_rollers",
                   Json{{"type", "boolean"}, {"description", "mecanum and omni wheels roller by roller"}}},
-                 {"objects", named("what the robot can meet", scene_object())},
+                 {"objects", named("the things that the robot can meet", scene_object())},
                  {"robots", named("other robots, with tasks of their own", scene_robot())},
-                 {"signals", named("where the task's signals come from", scene_signal())},
+                 {"signals", named("the sources of the task's signals", scene_signal())},
                  {"state", base_state()},
-                 {"faults", list("what goes wrong, and when", fault())}});
+                 {"faults", list("faults, and when they begin", fault())}});
 }
 
 Json scenario_file() {
   const Json one_or_more = any_of({word(""), list("", word(""))});
   return object("A claim about a task, and how to test it",
                 {version("zwang_scenario"),
-                 {"about", word("what it is for")},
-                 {"task", word("the task file, seen from this one"), true},
+                 {"about", word("a sentence for reports")},
+                 {"task", word("the path of the task file, from this file"), true},
                  {"time_limit", reference("quantity", "a longer run is unfinished")},
                  {"seed", Json{{"type", "integer"}, {"minimum", 0}}},
                  {"blend", reference("quantity", "in the place of that of every task")},
@@ -223,7 +224,7 @@ Json scenario_file() {
                  {"matrix", named("every combination is run: robot, start_at, start_yaw, params.NAME, faults",
                                   list("", Json::object()))},
                  {"faults", named("sets of faults, for the matrix", list("", fault()))},
-                 {"expect", list("what must come true", expectation()), true}});
+                 {"expect", list("the expectations", expectation()), true}});
 }
 
 }  // namespace zwang::lang::schema
