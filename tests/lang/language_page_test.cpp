@@ -7,6 +7,8 @@
 #include <regex>
 #include <set>
 
+#include "spec/expression.hpp"
+#include "spec/units.hpp"
 #include "support.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/robot.hpp"
@@ -174,6 +176,22 @@ TEST(LanguageOfThePage, has_every_key_and_word_of_the_schemas) {
     EXPECT_GT(keys.size(), 10u);
     for (const std::string& key : keys) EXPECT_TRUE(written.contains(key)) << key;
   }
+}
+
+TEST(LanguageOfThePage, has_every_function_and_only_units_that_are_known) {
+  const std::string page = test::slurp(test::source_dir / "docs/language.md");
+  for (const std::string& function : function_names())
+    EXPECT_NE(page.find("| `" + function + "("), std::string::npos) << function;
+  const std::string table = page.substr(page.find("| dimension | units |"));
+  std::istringstream rows(table.substr(0, table.find("\n\n")));
+  int units = 0;
+  for (std::string row; std::getline(rows, row);) {
+    const std::size_t begin = row.find('`');
+    if (begin == std::string::npos) continue;
+    std::istringstream words(row.substr(begin + 1, row.find('`', begin + 1) - begin - 1));
+    for (std::string unit; words >> unit; ++units) EXPECT_TRUE(is_unit_name(unit)) << unit;
+  }
+  EXPECT_EQ(units, 20);
 }
 
 }  // namespace
