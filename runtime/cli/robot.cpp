@@ -333,7 +333,12 @@ int robot_init(const RobotInitArguments& arguments) {
   }
   const auto draft = lang::draft_robot(arguments.urdf, named.generic_string(), diagnostics);
   if (!draft) return refused(diagnostics, Format::human);
-  if (draft->wheels.empty()) throw Impossible(arguments.urdf + ": no wheels found: a robot file needs some");
+  if (draft->wheels.empty()) {
+    std::string reason = ": no wheels found: a robot file needs some";
+    if (!draft->wheels_that_stand.empty())
+      reason += "; `" + draft->wheels_that_stand.front() + "` is `fixed`, a wheel's joint is `continuous`";
+    throw Impossible(arguments.urdf + reason);
+  }
   if (!arguments.out) {
     print_data(draft->text);
     return exit_good;

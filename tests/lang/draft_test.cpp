@@ -45,8 +45,9 @@ class Draft : public testing::Test {
   }
 
   void expect_refused_until_filled(const RobotDraft& draft) {
-    EXPECT_NE(said_of(draft.text).find("FILL_IN"), std::string::npos) << draft.text;
-    EXPECT_EQ(said_of(filled(draft.text)), "") << filled(draft.text);
+    const bool is_open = draft.text.find(": FILL_IN") != std::string::npos;
+    EXPECT_EQ(said_of(draft.text).find("FILL_IN") != std::string::npos, is_open) << draft.text;
+    EXPECT_EQ(said_of(filled(draft.text)).find("error"), std::string::npos) << filled(draft.text);
     Diagnostics diagnostics;
     EXPECT_EQ(format_file(folder_.write("robot.yaml", draft.text), diagnostics), draft.text) << "laid out";
   }
@@ -125,16 +126,18 @@ TEST_F(RealDraft, cannot_tell_mecanum_from_skid) {
   }
 }
 
-// docs/limits.md: wheels behind a spring, and wheels whose joints do not turn, come to none yet.
-TEST_F(RealDraft, comes_to_a_model_for_every_robot_whose_wheels_turn_on_the_base) {
-  const std::set<std::string> without_a_model = {"create3", "mp_400"};
+// All but the one that holds macros. No body can have the inertia of TIAGo's first arm link; its base comes
+// to one.
+TEST_F(RealDraft, comes_to_a_model_for_every_robot) {
+  int drafted = 0;
   for (const auto& file : std::filesystem::directory_iterator(real)) {
-    Diagnostics diagnostics;
-    if (file.path().extension() != ".urdf" || !read_urdf(file.path(), {}, diagnostics)) continue;
+    if (file.path().extension() != ".urdf" || file.path().stem() == "husky_bullet") continue;
     const auto draft = this->draft(file.path());
-    ASSERT_TRUE(draft);
-    EXPECT_EQ(draft->assumed.empty(), without_a_model.contains(file.path().stem().string())) << file.path();
+    ASSERT_TRUE(draft) << file.path();
+    EXPECT_FALSE(draft->assumed.empty()) << file.path();
+    ++drafted;
   }
+  EXPECT_GE(drafted, 18);
 }
 
 TEST_F(RealDraft, is_refused_until_filled_and_good_then) {
@@ -146,15 +149,48 @@ TEST_F(RealDraft, is_refused_until_filled_and_good_then) {
   }
 }
 
-TEST_F(RealDraft, of_wheels_on_a_rocker_is_refused_until_that_is_fixed) {
-  const auto draft = real_draft("ridgeback");
+// Rockers, wheel drops, suspensions: they carry wheels and do not steer them.
+TEST_F(RealDraft, holds_what_carries_wheels) {
+  for (const auto& [name, held] : {std::pair{"ridgeback", "fixed: [front_rocker]"},
+                                   {"create3", "fixed: [wheel_drop_left_joint, wheel_drop_right_joint]"},
+                                   {"pmb2", "fixed: [suspension_right_joint, suspension_left_joint]"}}) {
+    const auto draft = real_draft(name);
+    ASSERT_TRUE(draft) << name;
+    EXPECT_NE(draft->text.find(held), std::string::npos) << draft->text;
+    EXPECT_EQ(said_of(filled(draft->text)).find("error"), std::string::npos) << said_of(filled(draft->text));
+  }
+}
+
+TEST_F(RealDraft, gives_casters_no_motor) {
+  const auto draft = real_draft("pmb2");
   ASSERT_TRUE(draft);
-  EXPECT_NE(said_of(filled(draft->text)).find("make `front_rocker` `fixed` in the URDF"), std::string::npos);
+  EXPECT_EQ(draft->wheels.size(), 2U);
+  EXPECT_EQ(draft->casters.size(), 4U);
+  EXPECT_EQ(draft->text.find("caster", draft->text.find("actuated:")), std::string::npos) << draft->text;
+}
+
+TEST_F(RealDraft, proposes_rollers_where_axles_point_different_ways) {
+  const auto draft = real_draft("robotino");
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("roller: 90 deg"), std::string::npos) << draft->text;
+  ASSERT_EQ(draft->assumed.size(), 1U);
+}
+
+TEST_F(RealDraft, takes_revolute_wheels_of_a_simulator_for_wheels) {
+  const auto draft = real_draft("mp_400");  // limits of 1e16
+  ASSERT_TRUE(draft);
+  EXPECT_EQ(draft->wheels.size(), 2U);
+}
+
+// A circle of 0.164 m drawn from outside, 1 / cos(180 deg / 16) larger.
+TEST_F(RealDraft, proposes_the_outline_of_what_collides) {
+  const auto draft = real_draft("create3");
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("[0.167 m, 0 m]"), std::string::npos) << draft->text;
 }
 
 TEST_F(RealDraft, of_a_urdf_without_inertias_names_the_links) {
-  for (const auto& [name, link] :
-       {std::pair{"fetch", "r_gripper_finger_link"}, {"eddie", "front_left_struct_link"}}) {
+  for (const auto& [name, link] : {std::pair{"eddie", "front_left_struct_link"}}) {
     const auto draft = real_draft(name);
     ASSERT_TRUE(draft);
     bool is_named = false;

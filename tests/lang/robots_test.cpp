@@ -28,19 +28,14 @@ TEST_F(RealRobots, are_read_as_one_tree) {
     if (file.path().extension() != ".urdf") continue;
     Diagnostics diagnostics;
     const auto urdf = read_urdf(file.path(), {}, diagnostics);
-    if (!urdf) {  // an unexpanded macro, a negative inertia, a material that nothing defines
-      const std::set<std::string> known = {"E855", "E858", "E860"};
-      for (const Diagnostic& d : diagnostics.all())
-        EXPECT_TRUE(known.contains(d.code)) << rendered(diagnostics);
-      EXPECT_TRUE(diagnostics.has_errors()) << file.path();
-      continue;
-    }
+    if (file.path().stem() == "husky_bullet") continue;  // holds macros
+    ASSERT_TRUE(urdf) << file.path() << rendered(diagnostics);
     EXPECT_EQ(urdf->joints.size() + 1, urdf->links.size()) << file.path();
     EXPECT_NE(urdf->find_link(urdf->root), nullptr);
     EXPECT_EQ(urdf->joint_above(urdf->root), nullptr);
     ++read;
   }
-  EXPECT_GE(read, 14);
+  EXPECT_GE(read, 18);
 }
 
 TEST_F(RealRobots, an_unexpanded_macro_is_refused_at_its_place) {

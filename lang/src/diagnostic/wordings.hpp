@@ -187,6 +187,9 @@ Diagnostic back_without_interruption(const Span& span, bool under_always);
 // --- Robot files and URDFs: E801 to E860; scenes: E901 (robot.cpp) ---
 Diagnostic not_positive(const Span& span, const std::string& what, bool zero_allowed);
 Diagnostic fixed_joint(const Span& span, const std::string& joint, const Span& declared);
+/// Of a joint or a link that the robot file uses, and that hangs on a `link` of its `ignore`.
+Diagnostic ignored_part(const Span& span, const std::string& part, const std::string& link,
+                        const Span& ignored);
 Diagnostic sliding_wheel(const Span& span, const std::string& joint, const Span& declared);
 Diagnostic doubled_wheel(const Span& span, const std::string& joint);
 Diagnostic no_wheels(const Span& span);
@@ -223,6 +226,10 @@ Diagnostic unreached_link(const Span& span, const std::string& link, const std::
 Diagnostic incomplete_inertial(const Span& span, const std::string& link, const std::string& missing);
 Diagnostic impossible_mass(const Span& span, const std::string& link, double mass);
 Diagnostic impossible_inertia(const Span& span, const std::string& link);
+/// Of a link that is fixed to another: its `mass` [kg], and which share of the robot's that is.
+Diagnostic negligible_inertia(const Span& span, const std::string& link, double mass, double share);
+/// `share` of its largest moment by which each was moved.
+Diagnostic corrected_inertia(const Span& span, const std::string& link, double share);
 Diagnostic joint_type(const Span& span, const std::string& joint, const std::string& type);
 Diagnostic zero_axis(const Span& span, const std::string& joint);
 Diagnostic joint_without_limit(const Span& span, const std::string& joint, const std::string& type);

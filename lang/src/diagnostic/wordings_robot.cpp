@@ -16,6 +16,15 @@ Diagnostic fixed_joint(const Span& span, const std::string& joint, const Span& d
                       "it is declared here");
 }
 
+Diagnostic ignored_part(const Span& span, const std::string& part, const std::string& link,
+                        const Span& ignored) {
+  return with_related(error("E801", span,
+                            in_ticks(part) + (part == link ? " is left out by `ignore`"
+                                                           : " belongs to link " + in_ticks(link) +
+                                                                 ", which `ignore` leaves out")),
+                      ignored, "it is left out here");
+}
+
 Diagnostic sliding_wheel(const Span& span, const std::string& joint, const Span& declared) {
   return with_related(error("E802", span, "a wheel turns, but joint `" + joint + "` slides"), declared,
                       "it is declared here");
@@ -177,6 +186,21 @@ Diagnostic impossible_mass(const Span& span, const std::string& link, double mas
 
 Diagnostic impossible_inertia(const Span& span, const std::string& link) {
   return error("E858", span, "the inertia of link " + in_ticks(link) + " is negative about some axis");
+}
+
+Diagnostic negligible_inertia(const Span& span, const std::string& link, double mass, double share) {
+  return warning("W863", span,
+                 "no body has the inertia of link " + in_ticks(link) + ": it counts as a point of " +
+                     figure(mass, "kg") + ", " + figure(100.0 * share, "%") + " of the robot",
+                 "list it under `ignore` in the robot file, and it is not there at all");
+}
+
+Diagnostic corrected_inertia(const Span& span, const std::string& link, double share) {
+  return warning("W871", span,
+                 "no body has the inertia of link " + in_ticks(link) +
+                     ": one moment is larger than the other two together; each counts as if it were " +
+                     figure(100.0 * share, "%") + " of the largest off",
+                 "correct the link's `<inertia>`; often a product has the wrong sign");
 }
 
 Diagnostic joint_type(const Span& span, const std::string& joint, const std::string& type) {

@@ -52,8 +52,7 @@ Diagnostic loose_couplings(const Span& span, const std::vector<Coupling>& coupli
     message += ", and " + std::to_string(others) + (others > 1 ? " more do so" : " more does so");
   message += couplings.size() > 1 ? ": zwang couples no joints, they swing freely"
                                   : ": zwang couples no joints, it swings freely";
-  Diagnostic result =
-      warning("W862", span, std::move(message), "where that matters make them `fixed` in the URDF");
+  Diagnostic result = warning("W862", span, std::move(message), "where that matters list them under `fixed`");
   for (const Coupling& coupling : couplings) {
     if (&coupling == &couplings.front() || !coupling.has_leader)
       result.related.push_back({coupling.span, follows(coupling)});
@@ -81,13 +80,12 @@ Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span&
 
 Diagnostic loose_wheel(const Span& span, const std::string& wheel, const std::string& carrier,
                        const Span& declared) {
-  return with_related(
-      error("E802", span,
-            "wheel " + in_ticks(wheel) + " hangs on joint " + in_ticks(carrier) +
-                ", which moves and does not steer it",
-            "make " + in_ticks(carrier) +
-                " `fixed` in the URDF: zwang's bases stand level, without rockers and springs"),
-      declared, "it is declared here");
+  return with_related(error("E802", span,
+                            "wheel " + in_ticks(wheel) + " hangs on joint " + in_ticks(carrier) +
+                                ", which moves and does not steer it",
+                            "list " + in_ticks(carrier) +
+                                " under `fixed`: zwang's bases stand level, without rockers and springs"),
+                      declared, "it is declared here");
 }
 
 Diagnostic holds_nothing(const Span& span, const std::string& what) {
@@ -148,6 +146,18 @@ Diagnostic mirrored_rollers(const Span& span, double lever, double mirrored) {
           figure(mirrored, "m"),
       "`roller` is that of the roller on the ground, which seen from above is mirrored: change its "
       "sign at every wheel");
+}
+
+Diagnostic wheel_inertia_beyond_rim(const std::vector<HeavyWheel>& wheels) {
+  const HeavyWheel& first = wheels.front();
+  const std::string others =
+      wheels.size() > 1 ? "; so it is with " + std::to_string(wheels.size() - 1) + " more" : std::string();
+  return warning(
+      "W870", first.span,
+      "wheel " + in_ticks(first.joint) + " has " + figure(first.about_axle, "kg m^2") +
+          " about its axle, and its mass, all of it on the rim, has " + figure(first.on_the_rim, "kg m^2") +
+          others,
+      "give its link in the URDF the inertia of a disc, " + figure(0.5 * first.on_the_rim, "kg m^2"));
 }
 
 Diagnostic wheel_across(const Span& span, const std::string& wheel, const Span& declared) {

@@ -51,6 +51,14 @@ struct Deviation {
 Diagnostic nearly_exact_wheels(const Span& span, const std::vector<Deviation>& deviations);
 /// `lever`: with which the wheels turn the base, `mirrored`: that of the mirrored rollers. [m]
 Diagnostic mirrored_rollers(const Span& span, double lever, double mirrored);
+struct HeavyWheel {
+  Span span;
+  std::string joint;
+  double about_axle;  ///< [kg m^2]
+  double on_the_rim;  ///< [kg m^2] what its mass has at its radius
+};
+/// Not empty: who draws one so draws all so.
+Diagnostic wheel_inertia_beyond_rim(const std::vector<HeavyWheel>& wheels);
 Diagnostic wheel_across(const Span& span, const std::string& wheel, const Span& declared);
 /// `value` with its unit: no body has so much, or so little.
 Diagnostic beyond_all_bodies(const Span& span, const std::string& link, const std::string& what,

@@ -197,6 +197,24 @@ wheel.)~"},
 drawn, it would roll over its edge, because zwang rolls the wheel about the joint's axis. A URDF
 gives the axis in the link's axes; this one may be in the parent's.)~",
           .fix = "Let the joint's `<axis>` point along the cylinder, or turn the shape's `<origin rpy>`."},
+      Explanation{
+          .code = "W870",
+          .title = "a wheel with more inertia than its mass can have",
+          .why =
+              R"~(A wheel of mass m and radius R has at most m R^2 about its axle, if all of it is on the rim. URDFs that
+were written for a picture have 1 kg m^2 everywhere. The base then seems many times as heavy along the floor, and every force
+and acceleration is computed for that.)~",
+          .fix =
+              "Give the wheel's link the inertia of a disc, 1/2 m R^2 about the axle and 1/4 m R^2 across."},
+      Explanation{
+          .code = "W871",
+          .title = "an inertia that is nearly a body's",
+          .why =
+              R"~(No moment of inertia of a body about its centre of mass is larger than the sum of the other two. This
+link breaks the rule by little. zwang moves its moments to the nearest ones that keep it, by 10 % of the largest at most.
+Beyond that the robot is refused (E808).)~",
+          .fix = "Correct the link's `<inertia>`. Exporters of drawings give the products of inertia either "
+                 "sign."},
   };
   return entries;
 }

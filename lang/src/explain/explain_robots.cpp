@@ -8,11 +8,13 @@ std::span<const Explanation> robots() {
   static constexpr std::array entries{
       Explanation{
           .code = "E801",
-          .title = "a fixed joint cannot move",
-          .why = "The robot file names a joint as a wheel or an actuator that the URDF declares as fixed.",
+          .title = "a joint or link that the robot file uses and does not have",
+          .why =
+              R"~(The robot file names a joint as a wheel or an actuator, and the URDF or the file's own `fixed` holds it.
+Or it names a part that its own `ignore` leaves out.)~",
           .fix =
-              R"~(Name the joint that turns. If it is this one, the URDF was written for a picture of the robot: make
-the joint `continuous` there.)~",
+              R"~(Name the joint that turns, or take it out of `fixed` or `ignore`. If the URDF fixes this one, it was
+written for a picture of the robot: make the joint `continuous` there.)~",
           .part = ExcerptOf::urdf,
           .example = R"~(<joint name="left" type="fixed">
   <parent link="base_link"/>

@@ -150,27 +150,10 @@ lower end is not above the upper. `floating` and `planar` joints are what the ba
           .code = "E860",
           .title = "the URDF library refuses the robot",
           .why =
-              R"~(After zwang's own checks the file is read by urdfdom, the library that other tools use. The message
-quotes its complaint, because a complaint that is only printed is easily missed.)~",
-          .fix = "Mend what the message quotes; `check_urdf` prints the same.",
-          .part = ExcerptOf::urdf,
-          .example = R"~(<link name="left_link">
-  <inertial>
-    <mass value="1"/>
-    <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.001"/>
-  </inertial>
-  <visual/>
-</link>)~",
-          .instead = R"~(<link name="left_link">
-  <inertial>
-    <mass value="1"/>
-    <inertia ixx="0.001" ixy="0" ixz="0" iyy="0.002" iyz="0" izz="0.001"/>
-  </inertial>
-  <visual>
-    <origin rpy="1.5708 0 0"/>
-    <geometry><cylinder radius="0.1" length="0.05"/></geometry>
-  </visual>
-</link>)~"},
+              R"~(After zwang's own checks urdfdom reads links, joints, masses and simple shapes. Other tools use this
+library, too. The message quotes its complaint. It never sees materials, meshes, transmissions, or what is meant for a
+simulator.)~",
+          .fix = "Mend what the message quotes; `check_urdf` prints the same."},
       Explanation{
           .code = "E861",
           .title = "a wheel or a motor that mimics another joint",
@@ -204,7 +187,15 @@ on one axle are one wheel.)~",
           .why =
               R"~(The fingers of a gripper often follow one of them by a `<mimic>`. zwang couples no joints, so those
 that nothing drives swing as if they were loose. Mostly nobody minds: a finger weighs little.)~",
-          .fix = "Where it matters make the joints `fixed` in the URDF; else allow the warning."},
+          .fix = "Where it matters list the joints under `fixed` in the robot file; else allow the warning."},
+      Explanation{
+          .code = "W863",
+          .title = "an inertia that no body has, of a link too light to matter",
+          .why =
+              R"~(About some axis the inertia is negative, or it is smaller than that of a grain of dust. A body that
+moves cannot have it (E858). This link is fixed to another one and has less than 0.1 % of the robot's mass. It counts as
+a point.)~",
+          .fix = "Nothing needs to be done. `ignore: [LINK]` in the robot file leaves the link out."},
   };
   return entries;
 }

@@ -1,4 +1,5 @@
-// W868: rollers that are mirrored. W869: a wheel whose axis lies across its own cylinder.
+// W868: rollers that are mirrored. W869: a wheel whose axis lies across its own cylinder. W870: one with more
+// inertia than its mass has on the rim, m R^2.
 //
 //   sum |p_i x u_i|      p_i: a wheel's place from the middle of all, u_i: along its roller on the ground
 //
@@ -57,6 +58,20 @@ void check_wheel_shapes(const RobotFile& file, const Urdf& urdf, Diagnostics& di
     if (std::abs(joint->joint.axis.dot(*link->cylinder_axis)) >= across) continue;
     diagnostics.add(wording::wheel_across(wheel.joint.span, wheel.joint.text, joint->span));
   }
+}
+
+void check_wheel_inertias(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics) {
+  std::vector<wording::HeavyWheel> heavy;
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const solver::Body& body = robot.model.bodies()[static_cast<std::size_t>(wheel.body)];
+    const double about_axle = body.joint.axis.dot(body.inertia.rotational * body.joint.axis);
+    const double on_the_rim = body.inertia.mass * wheel.radius * wheel.radius;
+    if (about_axle <= on_the_rim) continue;
+    const auto text = std::find_if(file.wheels.begin(), file.wheels.end(),
+                                   [&](const WheelText& w) { return w.joint.text == body.joint.name; });
+    heavy.push_back({text->joint.span, body.joint.name, about_axle, on_the_rim});
+  }
+  if (!heavy.empty()) diagnostics.add(wording::wheel_inertia_beyond_rim(heavy));
 }
 
 }  // namespace zwang::lang

@@ -1,4 +1,3 @@
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -6,17 +5,17 @@
 #include <map>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "robot/drive_kind.hpp"
 #include "robot/load_robot.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
+#include "robot/weightless_links.hpp"
 #include "robot/wheel_search.hpp"
 #include "zwang/lang/robot_draft.hpp"
 
 namespace zwang::lang {
 
 namespace {
-
-enum class Drive { none, differential, rollers_or_skid, swivels, other };
 
 /// As precise as a drawing.
 std::string in_millimetres(double metres) {
@@ -27,72 +26,49 @@ std::string in_millimetres(double metres) {
 
 /// What stands in the open places.
 struct Filling {
-  std::string radius = fill_in, effort = fill_in, other_effort = fill_in, stop = fill_in, push = fill_in,
-              footprint = fill_in;
+  std::string radius = fill_in, effort = fill_in, footprint = fill_in;
   std::string holds = std::string("holds: ") + fill_in;  ///< of four wheels that may have rollers
   bool mecanum = false;
 };
 
-/// Of a link and all that is fixed to it, in the link's frame.
-solver::RigidInertia carried_inertia(const Urdf& urdf, const std::string& link) {
-  solver::RigidInertia inertia = urdf.find_link(link)->inertia;
-  for (const UrdfJoint& joint : urdf.joints) {
-    if (joint.parent != link || joint.joint.type != solver::JointType::fixed) continue;
-    inertia = inertia + carried_inertia(urdf, joint.child).expressed_in(joint.origin);
-  }
-  return inertia;
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// Links behind moving joints that have no mass, or no inertia about some axis through their centre of mass.
-std::vector<std::string> without_inertia(const Urdf& urdf) {
-  std::vector<std::string> names;
-  for (const UrdfJoint& joint : urdf.joints) {
-    if (joint.joint.type == solver::JointType::fixed) continue;
-    const solver::RigidInertia inertia = carried_inertia(urdf, joint.child);
-    bool is_good = inertia.mass > 0.0;
-    if (is_good) {
-      const solver::Matrix3 c = solver::skew(inertia.first_moment / inertia.mass);
-      const solver::Matrix3 at_com = inertia.rotational + inertia.mass * c * c;
-      is_good = (at_com.diagonal().array() > 0.0).all() && at_com.determinant() > 0.0;
-    }
-    if (!is_good) names.push_back(joint.child);
-  }
-  return names;
-}
-
-/// What the URDF leaves open, closed: joints between base and wheels stand still, links that move and have no
-/// inertia are balls of 5 cm, of 0.1 kg where they have no mass.
-Urdf completed(Urdf urdf, const FoundWheels& found) {
-  for (UrdfJoint& joint : urdf.joints) {
-    const bool stands = std::find(found.in_between.begin(), found.in_between.end(), joint.joint.name) !=
-                        found.in_between.end();
-    if (stands) joint.joint.type = solver::JointType::fixed;
-  }
-  const std::vector<std::string> open = without_inertia(urdf);
-  for (UrdfLink& link : urdf.links) {
-    if (std::find(open.begin(), open.end(), link.name) == open.end()) continue;
-    const double mass = link.inertia.mass > 0.0 ? link.inertia.mass : 0.1;
-    const solver::Vector3 com = link.inertia.first_moment / mass;
-    link.inertia =
-        solver::RigidInertia::from_com(mass, com, 0.4 * mass * 0.05 * 0.05 * solver::Matrix3::Identity());
-  }
-  return urdf;
+/// The first two digits, the next above.
+double rounded_up(double value) {
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::ceil(value / step - 1e-9) * step;
 }
 
 class Drafter {
  public:
   Drafter(const Urdf& urdf, FoundWheels found, std::string named_as)
-      : urdf_(urdf), found_(std::move(found)), named_as_(std::move(named_as)), drive_(drive()) {}
+      : urdf_(urdf),
+        found_(std::move(found)),
+        named_as_(std::move(named_as)),
+        drive_(drive_of(found_.wheels)) {
+    const std::vector<std::string> open = without_inertia(urdf_);
+    held_ = found_.in_between;
+    for (const std::string& name : found_.others) {
+      const UrdfJoint& joint = *urdf_.find_joint(name);
+      if (joint.mimic || contains(open, joint.child)) held_.push_back(name);
+    }
+    for (const std::string& link : open) {
+      if (!contains(held_, urdf_.joint_above(link)->joint.name)) weightless_.push_back(link);
+    }
+  }
 
   RobotDraft draft() {
     RobotDraft draft;
     draft.name = urdf_.name;
     draft.base = found_.base;
-    draft.drive = drive_in_words();
+    draft.drive = in_words(drive_, found_.wheels);
     for (const UrdfLink& link : urdf_.links) draft.mass += link.inertia.mass;
     draft.wheels = found_.wheels;
     draft.casters = found_.casters;
     draft.supports = found_.supports;
+    draft.wheels_that_stand = found_.wheels_that_stand;
     draft.missing = missing();
     draft.text = text(Filling{});
     return draft;
@@ -104,10 +80,8 @@ class Drafter {
     Filling filling;
     filling.radius = wording::figure(assumed_radius(), "m");
     filling.effort = "1 N m";
-    filling.stop = "1 m/s^2";
-    filling.push = "100 N";
     filling.footprint = corners();
-    if (drive_ != Drive::rollers_or_skid) return {{drive_in_words(), text(filling)}};
+    if (drive_ != Drive::rollers_or_skid) return {{in_words(drive_, found_.wheels), text(filling)}};
     std::vector<std::pair<std::string, std::string>> texts;
     filling.holds = "holds: [rolling]";
     texts.emplace_back("with plain wheels that skid", text(filling));
@@ -116,14 +90,16 @@ class Drafter {
     return texts;
   }
 
+  /// Links that move, lack mass or inertia, and are not held.
+  const std::vector<std::string>& weightless() const { return weightless_; }
+
   std::vector<std::string> assumptions() const {
     std::vector<std::string> lines;
     const bool any_effort = any([](const DraftWheel& w) { return !w.effort; });
     if (any_lacks_radius()) lines.push_back("wheels of radius " + wording::figure(assumed_radius(), "m"));
     if (any_effort) lines.push_back("1 N m of torque where the URDF gives none");
-    for (const std::string& joint : found_.in_between) lines.push_back("`" + joint + "` does not move");
-    if (!without_inertia(urdf_).empty())
-      lines.push_back("balls of 5 cm for links that move and have no inertia");
+    for (const std::string& joint : held_) lines.push_back("`" + joint + "` does not move");
+    if (!weightless_.empty()) lines.push_back("balls of 5 cm for links that move and have no inertia");
     return lines;
   }
 
@@ -137,45 +113,6 @@ class Drafter {
 
   bool any_lacks_radius() const {
     return any(lacks_radius) || std::any_of(found_.casters.begin(), found_.casters.end(), lacks_radius);
-  }
-
-  Drive drive() const {
-    const auto steered = std::count_if(found_.wheels.begin(), found_.wheels.end(),
-                                       [](const DraftWheel& w) { return !w.swivel.empty(); });
-    const auto count = static_cast<std::ptrdiff_t>(found_.wheels.size());
-    if (count == 0) return Drive::none;
-    if (steered == count) return Drive::swivels;
-    if (steered == 0 && count == 2) return Drive::differential;
-    if (steered == 0 && count == 4) return Drive::rollers_or_skid;
-    return Drive::other;
-  }
-
-  std::map<std::string, int> swivels() const {
-    std::map<std::string, int> count;
-    for (const DraftWheel& wheel : found_.wheels) {
-      if (!wheel.swivel.empty()) ++count[wheel.swivel];
-    }
-    return count;
-  }
-
-  std::string drive_in_words() const {
-    const std::string wheels = std::to_string(found_.wheels.size()) + " wheels";
-    switch (drive_) {
-      case Drive::none:
-        return "no wheels";
-      case Drive::differential:
-        return "differential: two plain wheels";
-      case Drive::rollers_or_skid:
-        return "four wheels that do not steer: mecanum or skid steering";
-      case Drive::swivels: {
-        const auto units = std::to_string(swivels().size());
-        const bool pairs = swivels().size() * 2 == found_.wheels.size();
-        return pairs ? units + " swivels with two driven wheels each" : units + " steered wheels";
-      }
-      case Drive::other:
-        break;
-    }
-    return wheels;
   }
 
   double assumed_radius() const {
@@ -200,6 +137,8 @@ class Drafter {
     if (drive_ == Drive::none) {
       lines.push_back(
           "wheels: no joint turns without end about a level axle and is called a wheel or is round");
+      for (const std::string& joint : found_.wheels_that_stand)
+        lines.push_back("a `continuous` joint where the URDF has `" + joint + "`, which is `fixed`");
     }
     std::vector<DraftWheel> all = found_.wheels;
     all.insert(all.end(), found_.casters.begin(), found_.casters.end());
@@ -208,22 +147,12 @@ class Drafter {
     if (drive_ == Drive::rollers_or_skid) {
       lines.push_back("whether the wheels have rollers (mecanum) or skid: a URDF does not tell");
     }
-    for (const std::string& joint : found_.in_between) {
-      lines.push_back("what `" + joint +
-                      "` does: it moves between the base and wheels; make it fixed, if it may be");
-    }
-    std::string coupled;
-    for (const std::string& name : found_.others) {
-      if (urdf_.find_joint(name)->mimic) coupled += (coupled.empty() ? "`" : ", `") + name + "`";
-    }
-    if (!coupled.empty())
-      lines.push_back("what moves joints with a <mimic>, which zwang does not couple: " + coupled);
-    std::string weightless;
-    for (const std::string& link : without_inertia(urdf_))
-      weightless += (weightless.empty() ? "`" : ", `") + link + "`";
-    if (!weightless.empty()) lines.push_back("masses and inertias of links that move: " + weightless);
+    std::string links;
+    for (const std::string& link : weightless_) links += (links.empty() ? "`" : ", `") + link + "`";
+    if (!links.empty()) lines.push_back("masses and inertias of links that move: " + links);
     lines.push_back("gears and rotor inertias: often larger than the wheels' own");
-    lines.push_back("`stop` and `footprint`: yours to choose");
+    lines.push_back(found_.outline.empty() ? "`footprint`: the base has no simple collision shape"
+                                           : "whether `stop` and `footprint`, which are proposed, are right");
     return lines;
   }
 
@@ -241,22 +170,48 @@ class Drafter {
 
   std::string corners() const {
     const auto [x, y] = reach();
-    const auto corner = [](double a, double b) {
-      return "[" + wording::figure(a, "m") + ", " + wording::figure(b, "m") + "]";
-    };
-    return "[" + corner(x, y) + ", " + corner(-x, y) + ", " + corner(-x, -y) + ", " + corner(x, -y) + "]";
+    return "[" + corner_text(x, y) + ", " + corner_text(-x, y) + ", " + corner_text(-x, -y) + ", " +
+           corner_text(x, -y) + "]";
   }
 
-  std::string wheel_line(const DraftWheel& wheel, const Filling& filling) const {
-    std::string line = "  - {joint: " + wheel.joint +
-                       ", radius: " + (wheel.radius ? in_millimetres(*wheel.radius) : filling.radius);
-    if (drive_ == Drive::rollers_or_skid && wheel.swivel.empty()) {
-      // Front left and rear right one way, the others the other way.
-      const bool is_first_diagonal = (wheel.at[0] > 0.0) == (wheel.at[1] > 0.0);
-      line += filling.mecanum ? std::string(", roller: ") + (is_first_diagonal ? "45 deg" : "-45 deg")
-                              : ", " + filling.holds;
+  static std::string corner_text(double x, double y) {
+    const auto metres = [](double value) {
+      return wording::figure(std::abs(value) < 1e-9 ? 0.0 : value, "m");
+    };
+    return "[" + metres(x) + ", " + metres(y) + "]";
+  }
+
+  bool may_have_rollers(const DraftWheel& wheel) const {
+    return drive_ == Drive::rollers_or_skid && wheel.swivel.empty();
+  }
+
+  /// On a mecanum base: front left and rear right one way, the others the other way.
+  static std::string mecanum_roller(const DraftWheel& wheel) {
+    return (wheel.at[0] > 0.0) == (wheel.at[1] > 0.0) ? "roller: 45 deg" : "roller: -45 deg";
+  }
+
+  std::string wheel_entry(const DraftWheel& wheel, const Filling& filling) const {
+    std::string entry = "  - {joint: " + wheel.joint +
+                        ", radius: " + (wheel.radius ? in_millimetres(*wheel.radius) : filling.radius);
+    if (may_have_rollers(wheel)) entry += ", " + (filling.mecanum ? mecanum_roller(wheel) : filling.holds);
+    if (drive_ == Drive::omni) entry += ", roller: 90 deg";
+    return entry + "}";
+  }
+
+  /// A line each; behind those that are open, in one column, what else they may be.
+  std::string wheel_lines(const std::vector<DraftWheel>& wheels, const Filling& filling) const {
+    std::size_t column = 0;
+    for (const DraftWheel& wheel : wheels) column = std::max(column, wheel_entry(wheel, filling).size() + 2);
+    std::string lines;
+    for (const DraftWheel& wheel : wheels) {
+      std::string line = wheel_entry(wheel, filling);
+      if (may_have_rollers(wheel) && !filling.mecanum) {
+        line.resize(column, ' ');
+        line += "# mecanum: " + mecanum_roller(wheel);
+      }
+      lines += line + "\n";
     }
-    return line + "}\n";
+    return lines;
   }
 
   std::string actuated(const Filling& filling) const {
@@ -268,12 +223,12 @@ class Drafter {
     };
     for (const DraftWheel& wheel : found_.wheels) line(wheel.joint, filling.effort);
     // A swivel with one wheel is steered by a motor, one with two by the difference of theirs.
-    for (const auto& [name, wheels] : swivels()) {
+    for (const auto& [name, wheels] : swivels_of(found_.wheels)) {
       if (wheels == 1) line(name, filling.effort);
     }
     for (const std::string& name : found_.others) {
       const UrdfJoint* joint = urdf_.find_joint(name);
-      if (joint->mimic) continue;  // a mechanism moves it, and no motor of its own
+      if (contains(held_, name)) continue;
       const bool slides = joint->joint.type == solver::JointType::prismatic;
       line(name, filling.effort == fill_in ? fill_in : slides ? "1 N" : "1 N m");
     }
@@ -281,68 +236,128 @@ class Drafter {
   }
 
   /// A comment that names what only the URDF can be given.
-  std::string weightless() const {
-    const std::vector<std::string> links = without_inertia(urdf_);
-    if (links.empty()) return "";
+  std::string weightless_links() const {
+    if (weightless_.empty()) return "";
     std::string text =
         "# It is refused, too, until the URDF gives these links, which move, the mass and inertia of a "
         "body:\n";
-    for (const std::string& link : links) text += "#   " + link + "\n";
+    for (const std::string& link : weightless_) text += "#   " + link + "\n";
     return text;
   }
 
-  std::string text(const Filling& filling) const {
+  static std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return "[" + text + "]\n";
+  }
+
+  /// As hard as most bases brake, and the force that this takes.
+  std::string stop() const {
+    double mass = 0.0;
+    for (const UrdfLink& link : urdf_.links) mass += link.inertia.mass;
+    const std::string force = mass > 0.0 ? wording::figure(rounded_up(mass), "N") : fill_in;
+    return "\n# The one brake of `done`, `failed` and the protective stop. Proposed: 1 m/s^2, and the force "
+           "that it "
+           "takes,\n# " +
+           wording::figure(mass, "kg") + " x 1 m/s^2.\nstop: {deceleration: 1 m/s^2, force: " + force + "}\n";
+  }
+
+  std::string footprint(const Filling& filling) const {
     const auto [x, y] = reach();
-    std::string text = "# The robot file of `" + urdf_.name +
-                       "`, drafted from its URDF. It is refused until every " + fill_in + " is replaced.\n" +
-                       weightless() + "zwang_robot: 1\nurdf: " + named_as_ + "\nbase: " + found_.base +
-                       "  # the link that floats\n\n";
+    const std::string wheels =
+        "The wheels alone reach " + wording::figure(2.0 * x, "m") + " x " + wording::figure(2.0 * y, "m");
+    if (!found_.outline.empty()) {
+      std::string text;
+      for (const Eigen::Vector2d& corner : found_.outline)
+        text += (text.empty() ? "" : ", ") + corner_text(corner.x(), corner.y());
+      return "\n# The outline from above, counter-clockwise. Proposed: around the wheels and the URDF's "
+             "collision "
+             "shapes that are\n# fixed to the base.\nfootprint: {polygon: [" +
+             text + "]}\n";
+    }
+    return "\n# The outline from above, counter-clockwise. " + wheels + ":\n# polygon: " + corners() +
+           "\nfootprint: {polygon: " + filling.footprint + "}\n";
+  }
+
+  /// Where the shipped tasks touch, hook and lead this robot; a name that a link has is the link's.
+  std::string frames() const {
+    if (found_.outline.empty())
+      return "\n# Tasks name places on the robot, as frames: {bumper: {parent: " + found_.base +
+             ", at: [0.3 m, 0 m]}}.\n";
+    double ahead = 0.0, behind = 0.0;
+    for (const Eigen::Vector2d& corner : found_.outline) {
+      ahead = std::max(ahead, corner.x());
+      behind = std::min(behind, corner.x());
+    }
+    std::string lines;
+    const auto add = [&](const char* name, double x, const char* yaw) {
+      if (urdf_.find_link(name) == nullptr)
+        lines += std::string("  ") + name + ": {parent: " + found_.base + ", at: " + corner_text(x, 0.0) +
+                 yaw + "}\n";
+    };
+    add("bumper", ahead, "");
+    add("hook", behind, ", yaw: 180 deg");
+    add("nose", ahead, "");
+    return "\n# Places that tasks name. Proposed: the middle of the outline's front and back. Of a base that "
+           "cannot drive "
+           "sideways,\n# `nose` is the point that x and y of a task lead.\nframes:\n" +
+           lines;
+  }
+
+  std::string text(const Filling& filling) const {
+    std::string text = weightless_links() + "zwang_robot: 1\nurdf: " + named_as_ + "\nbase: " + found_.base +
+                       "  # the link that floats\n";
+    if (!held_.empty())
+      text +=
+          "\n# They do not move here: they carry wheels and do not steer them, as rockers, springs and wheel "
+          "drops do, "
+          "follow\n# another joint by a <mimic>, or have no mass or inertia behind them.\nfixed: " +
+          listed(held_);
+    text += "\n";
     if (any_lacks_radius()) {
       text += "# radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.\n";
     }
     if (drive_ == Drive::rollers_or_skid) {
       text +=
-          "# Mecanum wheels: `roller: 45 deg` in the place of `holds` at front left and rear right, `roller: "
-          "-45 deg`\n"
-          "# at front right and rear left (from the wheel's axis to the roller's axis at the ground).\n"
-          "# Wheels that skid: `holds: [rolling]`.\n";
+          "# Wheels that skid: `holds: [rolling]`. Mecanum wheels: the `roller` that stands behind, in the "
+          "place of "
+          "`holds`\n"
+          "# (from the wheel's axis to the roller's axis at the ground).\n";
     }
     text += "wheels:\n";
-    for (const DraftWheel& wheel : found_.wheels) text += wheel_line(wheel, filling);
+    text += wheel_lines(found_.wheels, filling);
     if (!found_.casters.empty())
       text += "  # Casters: they have no motor, and the swivel above each follows.\n";
-    for (const DraftWheel& caster : found_.casters) text += wheel_line(caster, filling);
-    if (!found_.supports.empty()) {
-      text += "\n# They stand on the ground and hold nothing.\nsupports: [";
-      for (std::size_t i = 0; i < found_.supports.size(); ++i)
-        text += (i > 0 ? ", " : "") + found_.supports[i];
-      text += "]\n";
-    }
+    text += wheel_lines(found_.casters, filling);
+    if (!found_.supports.empty())
+      text += "\n# They stand on the ground and hold nothing.\nsupports: " + listed(found_.supports);
     text +=
         "\n# effort: the largest torque on the joint's side, as `2 N m`; without it the URDF's. Add gear "
         "and\n"
         "# rotor_inertia, as {gear: 20, rotor_inertia: 2 kg mm^2}: they are often larger than the wheel's "
         "own inertia.\n";
     text += actuated(filling);
-    text +=
-        "\n# The one brake of `done`, `failed` and the protective stop, as {deceleration: 1 m/s^2, force: 80 "
-        "N}.\n";
-    text += "stop: {deceleration: " + filling.stop + ", force: " + filling.push + "}\n";
-    text += "\n# The outline from above, counter-clockwise. The wheels alone reach " +
-            wording::figure(2.0 * x, "m") + " x " + wording::figure(2.0 * y, "m") +
-            ":\n# polygon: " + corners() + "\n";
-    text += "footprint: {polygon: " + filling.footprint + "}\n";
+    text += stop() + footprint(filling) + frames();
     text +=
         "\n# In force where a task gives none, as limits: {acceleration: {x: +-1 m/s^2}, velocity: {x: +-1 "
         "m/s}}.\n"
         "# How hard the first hit is depends on bumper: {stiffness: 20 kN/m, height: 0.15 m}.\n";
-    return text;
+    return head(text) + text;
+  }
+
+  std::string head(const std::string& body) const {
+    const bool is_open = body.find(fill_in) != std::string::npos;
+    return "# The robot file of `" + urdf_.name + "`, drafted from its URDF. " +
+           (is_open ? std::string("It is refused until every ") + fill_in + " is replaced.\n"
+                    : "What is marked as proposed is yours to check.\n");
   }
 
   const Urdf& urdf_;
   FoundWheels found_;
   std::string named_as_;
   Drive drive_;
+  std::vector<std::string> held_;        ///< joints of `fixed`
+  std::vector<std::string> weightless_;  ///< links
 };
 
 std::optional<Robot> build_from(const std::string& robot_file, const Urdf& urdf, Diagnostics& diagnostics) {
@@ -364,7 +379,7 @@ std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const s
   Drafter drafter(*urdf, found, named_as);
   RobotDraft draft = drafter.draft();
   draft.assumption_notes = drafter.assumptions();
-  const Urdf whole = completed(*urdf, found);
+  const Urdf whole = completed(*urdf, drafter.weightless());
   for (const auto& [as, text] : drafter.assumed_texts()) {
     Diagnostics unheard;  // of a file that is not the user's; what the URDF lacks is
     std::optional<Robot> robot = build_from(text, whole, unheard);

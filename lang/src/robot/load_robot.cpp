@@ -9,6 +9,7 @@
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_standing.hpp"
+#include "robot/adapt_urdf.hpp"
 #include "robot/check_joints.hpp"
 #include "robot/exact_wheels.hpp"
 #include "robot/robot_file.hpp"
@@ -29,6 +30,8 @@ class RobotBuilder {
       : file_(file), urdf_(std::move(urdf)), errors_before_(errors_before), diagnostics_(diagnostics) {}
 
   std::optional<Robot> build() {
+    adapt_urdf(file_, urdf_, diagnostics_);
+    if (diagnostics_.error_count() > errors_before_) return std::nullopt;
     check_base();
     apply_actuators();
     check_couplings(file_, urdf_, diagnostics_);
@@ -353,13 +356,16 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   if (!file || !file->urdf.exists()) return std::nullopt;
   const auto urdf_path = resolve_path(file->urdf.text, path, root, file->urdf.span, diagnostics);
   if (!urdf_path) return std::nullopt;
-  const std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics);
+  std::vector<std::string> ignored;
+  for (const Word& link : file->ignored) ignored.push_back(link.text);
+  const std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics, ignored);
   if (!urdf) return std::nullopt;
   std::optional<Robot> robot = build_robot(*file, *urdf, errors_before, diagnostics);
   if (!robot) return std::nullopt;
   check_wheels_stand(*file, *urdf, *robot, diagnostics);
   check_rollers(*file, *robot, diagnostics);
   check_wheel_shapes(*file, *urdf, diagnostics);
+  check_wheel_inertias(*file, *robot, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   check_speed_limits(*robot, diagnostics);
   return robot;

@@ -259,11 +259,17 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
     }
     if (wheels->items.empty()) diagnostics.add(wording::no_wheels(wheels->span));
   }
-  const Node* supports = map.optional("supports");
-  if (supports != nullptr && require_sequence(*supports, "`supports`", diagnostics)) {
-    for (const Node& item : supports->items)
-      file.supports.push_back(parse_word(item, "`supports`", diagnostics));
-  }
+  const auto words = [&](const char* key) {
+    std::vector<Word> list;
+    const Node* node = map.optional(key);
+    const std::string what = std::string("`") + key + "`";
+    if (node == nullptr || !require_sequence(*node, what, diagnostics)) return list;
+    for (const Node& item : node->items) list.push_back(parse_word(item, what, diagnostics));
+    return list;
+  };
+  file.fixed = words("fixed");
+  file.ignored = words("ignore");
+  file.supports = words("supports");
   const Node* actuated = map.required("actuated");
   if (actuated != nullptr &&
       require_mapping(*actuated, "`actuated`", diagnostics, actuators_example(*actuated))) {

@@ -45,6 +45,8 @@ struct RobotFile {
   Word urdf;
   Word base;
   std::vector<WheelText> wheels;
+  std::vector<Word> fixed;    ///< joints that do not move, whatever the URDF says
+  std::vector<Word> ignored;  ///< links that are left out, with all that hangs on them
   std::vector<Word> supports;
   std::vector<ActuatorText> actuators;
   std::vector<PostureText> posture;

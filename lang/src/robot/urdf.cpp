@@ -4,12 +4,16 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <mutex>
+#include <numbers>
 #include <set>
 
 #include "diagnostic/wordings.hpp"
+#include "robot/possible_inertia.hpp"
 #include "robot/urdf_check.hpp"
+#include "robot/urdf_excerpt.hpp"
 #include "robot/xml_scan.hpp"
 #include "tree/file.hpp"
 
@@ -47,11 +51,12 @@ solver::Pose to_pose(const urdf::Pose& pose) {
           {pose.position.x, pose.position.y, pose.position.z}};
 }
 
-solver::RigidInertia to_inertia(const urdf::Inertial& inertial) {
+solver::RigidInertia to_inertia(const urdf::Inertial& inertial, bool is_point_mass) {
   solver::Matrix3 m;
   m << inertial.ixx, inertial.ixy, inertial.ixz, inertial.ixy, inertial.iyy, inertial.iyz, inertial.ixz,
       inertial.iyz, inertial.izz;
   const solver::Pose pose = to_pose(inertial.origin);
+  if (is_point_mass) m.setZero();
   const solver::Matrix3 turned = pose.rotation * m * pose.rotation.transpose();
   return solver::RigidInertia::from_com(inertial.mass, pose.position, turned);
 }
@@ -69,6 +74,10 @@ solver::JointType to_type(int type) {
   }
 }
 
+/// Simulators' files give wheels that are `revolute` limits of 1e16 rad; nothing that stops turns more than
+/// 100 times.
+constexpr double without_end = 200.0 * std::numbers::pi;  // [rad]
+
 UrdfJoint to_joint(const urdf::Joint& joint) {
   UrdfJoint result;
   result.parent = joint.parent_link_name;
@@ -82,6 +91,9 @@ UrdfJoint to_joint(const urdf::Joint& joint) {
     // 0 is how URDFs say that they do not know.
     if (joint.limits->effort > 0.0) result.joint.max_effort = joint.limits->effort;
     if (joint.limits->velocity > 0.0) result.joint.max_velocity = joint.limits->velocity;
+    const bool turns = result.joint.type == solver::JointType::revolute;
+    if (turns && joint.limits->lower < -without_end && joint.limits->upper > without_end)
+      result.joint.type = solver::JointType::continuous;
     if (result.joint.type != solver::JointType::continuous) {
       result.joint.lower = joint.limits->lower;
       result.joint.upper = joint.limits->upper;
@@ -110,6 +122,33 @@ void find_round_shape(const Shapes& shapes, UrdfLink& link) {
   }
 }
 
+/// Corners of a shape that stands on the floor or hangs above it: of a box all, of round ones a circle's.
+void add_corners(const urdf::Geometry& geometry, const solver::Pose& pose,
+                 std::vector<solver::Vector3>& corners) {
+  if (const auto* box = dynamic_cast<const urdf::Box*>(&geometry)) {
+    for (const double x : {-0.5, 0.5}) {
+      for (const double y : {-0.5, 0.5}) {
+        for (const double z : {-0.5, 0.5})
+          corners.push_back(pose * solver::Vector3(x * box->dim.x, y * box->dim.y, z * box->dim.z));
+      }
+    }
+    return;
+  }
+  const auto* cylinder = dynamic_cast<const urdf::Cylinder*>(&geometry);
+  const auto* sphere = dynamic_cast<const urdf::Sphere*>(&geometry);
+  if (cylinder == nullptr && sphere == nullptr) return;
+  constexpr int sides = 16;
+  const double outside = 1.0 / std::cos(std::numbers::pi / sides);  // the circle lies inside
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides;
+    const solver::Vector3 round = outside * solver::Vector3(std::cos(angle), std::sin(angle), 0.0);
+    if (sphere != nullptr) corners.push_back(pose.position + sphere->radius * round);
+    if (cylinder == nullptr) continue;
+    for (const double z : {-0.5, 0.5})
+      corners.push_back(pose * (cylinder->radius * round + solver::Vector3(0.0, 0.0, z * cylinder->length)));
+  }
+}
+
 Span span_of(const std::vector<XmlElement>& elements, std::string_view kind, const std::string& name) {
   for (const XmlElement& element : elements) {
     const XmlAttribute* attribute = element.find("name");
@@ -129,6 +168,18 @@ std::map<int, UrdfMimic> find_mimics(const std::vector<XmlElement>& elements) {
     mimics.try_emplace(element.parent, UrdfMimic{joint != nullptr ? joint->value : "", element.span});
   }
   return mimics;
+}
+
+/// Of links that move by themselves; what is fixed to another is judged with it.
+void correct_inertias(Urdf& urdf, Diagnostics& diagnostics) {
+  for (UrdfLink& link : urdf.links) {
+    const UrdfJoint* above = urdf.joint_above(link.name);
+    if (above == nullptr || above->joint.type == solver::JointType::fixed) continue;
+    const std::optional<CorrectedInertia> possible = corrected(link.inertia);
+    if (!possible) continue;
+    link.inertia = possible->inertia;
+    diagnostics.add(wording::corrected_inertia(link.span, link.name, possible->share));
+  }
 }
 
 template <typename Items, typename Match>
@@ -151,16 +202,19 @@ const UrdfJoint* Urdf::joint_above(const std::string& link) const {
   return find_in(joints, [&](const UrdfJoint& j) { return j.child == link; });
 }
 
-std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause,
-                              Diagnostics& diagnostics) {
+std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics,
+                              const std::vector<std::string>& ignored) {
   const std::optional<int> source = read_file(path, urdf_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
-  return read_urdf(*source, diagnostics);
+  return read_urdf(*source, diagnostics, ignored);
 }
 
-std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics) {
-  const auto elements = scan_xml(source, diagnostics);
-  if (!elements || !check_urdf(*elements, diagnostics)) return std::nullopt;
+std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::vector<std::string>& ignored) {
+  auto elements = scan_xml(source, diagnostics);
+  if (!elements) return std::nullopt;
+  LeftOut left_out = leave_out(ignored, *elements);
+  const std::optional<UrdfFindings> findings = check_urdf(*elements, diagnostics);
+  if (!findings) return std::nullopt;
 
   urdf::ModelInterfaceSharedPtr model;
   std::string message;
@@ -168,7 +222,7 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics) {
     static std::mutex one_trap;  // console_bridge's handler is the process's
     const std::lock_guard lock(one_trap);
     const MessageTrap trap;
-    model = urdf::parseURDF(diagnostics.source(source).text);
+    model = urdf::parseURDF(urdf_excerpt(*elements));
     message = trap.first();
   }
   if (!model || !message.empty()) {
@@ -177,13 +231,17 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics) {
   }
 
   Urdf urdf;
+  urdf.left_out = std::move(left_out);
   urdf.name = model->getName();
   urdf.root = model->getRoot()->name;
   for (const auto& [name, link] : model->links_) {
-    UrdfLink result{name, {}, span_of(*elements, "link", name), {}, {}};
+    UrdfLink result{name, {}, span_of(*elements, "link", name), {}, {}, {}};
+    for (const auto& shape : link->collision_array) {
+      if (shape && shape->geometry) add_corners(*shape->geometry, to_pose(shape->origin), result.corners);
+    }
     find_round_shape(link->collision_array, result);
     if (!result.radius) find_round_shape(link->visual_array, result);
-    if (link->inertial) result.inertia = to_inertia(*link->inertial);
+    if (link->inertial) result.inertia = to_inertia(*link->inertial, findings->point_masses.contains(name));
     urdf.links.push_back(std::move(result));
   }
   // In the order of the text, which is the author's order of joints.
@@ -198,6 +256,7 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics) {
     const auto mimic = mimics.find(static_cast<int>(&element - elements->data()));
     if (mimic != mimics.end()) urdf.joints.back().mimic = mimic->second;
   }
+  correct_inertias(urdf, diagnostics);
   return urdf;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/left_out.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/solver/model.hpp"
 
@@ -19,6 +20,7 @@ struct UrdfLink {
   Span span;
   std::optional<double> radius;  ///< [m] of its largest cylinder or sphere, of what collides if there is any
   std::optional<solver::Vector3> cylinder_axis;  ///< unit vector in the link, where that is a cylinder
+  std::vector<solver::Vector3> corners;  ///< [m] in the link, of the shapes that collide; a mesh has none
 };
 
 /// A <mimic>: another joint that this one follows.
@@ -42,14 +44,18 @@ struct Urdf {
   std::string root;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  LeftOut left_out;
 
   const UrdfLink* find_link(const std::string& link) const;
   const UrdfJoint* find_joint(const std::string& joint) const;
   const UrdfJoint* joint_above(const std::string& link) const;
 };
 
-std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics);
+/// `ignored`: links that are left out, and not looked at.
+std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics,
+                              const std::vector<std::string>& ignored = {});
 /// Of a source that was read already.
-std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics);
+std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics,
+                              const std::vector<std::string>& ignored = {});
 
 }  // namespace zwang::lang

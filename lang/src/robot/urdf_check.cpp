@@ -1,8 +1,8 @@
 #include "robot/urdf_check.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <set>
@@ -10,6 +10,7 @@
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/urdf.hpp"
+#include "robot/xml_numbers.hpp"
 #include "spec/units.hpp"
 #include "tree/text.hpp"
 
@@ -38,26 +39,9 @@ constexpr double least_inertia = 1e-18;  // [kg m^2]
 /// A thousand tonnes, a kilometre across.
 constexpr double most_inertia = 1e12;  // [kg m^2]
 constexpr double most_distance = 1e3;  // [m]
-
-/// Exactly `count` finite decimal numbers with white space between them.
-std::optional<std::vector<double>> read_numbers(const std::string& text, std::size_t count) {
-  std::vector<double> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (true) {
-    while (at < end && (*at == ' ' || *at == '\t' || *at == '\n' || *at == '\r')) ++at;
-    if (at == end) break;
-    if (*at == '+') ++at;
-    double number = 0.0;
-    const auto [next, error] = std::from_chars(at, end, number);
-    const bool is_separated = next == end || *next == ' ' || *next == '\t' || *next == '\n' || *next == '\r';
-    if (error != std::errc{} || !std::isfinite(number) || !is_separated) return std::nullopt;
-    numbers.push_back(number);
-    at = next;
-  }
-  if (numbers.size() != count) return std::nullopt;
-  return numbers;
-}
+/// Of the robot's mass: what a link that is fixed to another adds to an inertia is then less than anybody
+/// knows it by.
+constexpr double negligible_share = 1e-3;
 
 class UrdfChecker {
  public:
@@ -68,10 +52,10 @@ class UrdfChecker {
     }
   }
 
-  bool check() {
+  std::optional<UrdfFindings> check() {
     if (elements_[0].name != "robot") {
       complain(wording::not_urdf(elements_[0].span, elements_[0].name));
-      return false;
+      return std::nullopt;
     }
     for (const std::size_t i : children_[0]) {
       const XmlElement& element = elements_[i];
@@ -81,8 +65,10 @@ class UrdfChecker {
     }
     if (links_.size() > most_links) complain(wording::too_many_links(elements_[0].span, most_links));
     if (links_.empty()) complain(wording::no_links(elements_[0].span));
+    judge_impossible_inertias();
     if (is_good_) check_tree();
-    return is_good_;
+    if (!is_good_) return std::nullopt;
+    return std::move(findings_);
   }
 
  private:
@@ -171,19 +157,42 @@ class UrdfChecker {
     m << entry("ixx"), entry("ixy"), entry("ixz"), entry("ixy"), entry("iyy"), entry("iyz"), entry("ixz"),
         entry("iyz"), entry("izz");
     // All zero: a point, or a mass that only counts together with the body that it is fixed to.
-    if (kilograms > 0.0 && !m.isZero(0.0)) check_inertia(m, elements_[*inertia].span, link);
+    total_mass_ += kilograms;
+    if (kilograms > 0.0 && !m.isZero(0.0)) check_inertia(m, kilograms, elements_[*inertia].span, link);
   }
 
   /// Whether a body can have it (the triangle rule) is asked of whole moving bodies, where dynamics need it.
-  void check_inertia(const solver::Matrix3& m, const Span& span, const std::string& link) {
+  void check_inertia(const solver::Matrix3& m, double mass, const Span& span, const std::string& link) {
     const double largest = m.cwiseAbs().maxCoeff();
     if (largest > most_inertia || largest < least_inertia) {
-      return complain(
-          wording::beyond_all_bodies(span, link, "an inertia", format_number(largest) + " kg m^2"));
+      const std::string figure = format_number(largest) + " kg m^2";
+      impossible_inertias_.push_back(
+          {link, span, mass, wording::beyond_all_bodies(span, link, "an inertia", figure)});
+      return;
     }
     const solver::Vector3 moments = Eigen::SelfAdjointEigenSolver<solver::Matrix3>(m).eigenvalues();
     const double tolerance = 1e-6 * moments.cwiseAbs().maxCoeff();
-    if (moments(0) < -tolerance) complain(wording::impossible_inertia(span, link));
+    if (moments(0) < -tolerance)
+      impossible_inertias_.push_back({link, span, mass, wording::impossible_inertia(span, link)});
+  }
+
+  /// No body has them. Of an antenna it does not matter.
+  void judge_impossible_inertias() {
+    for (ImpossibleInertia& inertia : impossible_inertias_) {
+      const double share = inertia.mass / total_mass_;
+      if (!is_fixed(inertia.link) || share > negligible_share) {
+        complain(std::move(inertia.complaint));
+        continue;
+      }
+      diagnostics_.add(wording::negligible_inertia(inertia.span, inertia.link, inertia.mass, share));
+      findings_.point_masses.insert(inertia.link);
+    }
+  }
+
+  bool is_fixed(const std::string& link) const {
+    return std::any_of(edges_.begin(), edges_.end(), [&](const Edge& edge) {
+      return edge.child == link && elements_[edge.joint].find("type")->value == "fixed";
+    });
   }
 
   void check_joint(std::size_t i) {
@@ -292,18 +301,28 @@ class UrdfChecker {
     std::string child;
   };
 
+  struct ImpossibleInertia {
+    std::string link;
+    Span span;
+    double mass;  ///< [kg]
+    Diagnostic complaint;
+  };
+
   const std::vector<XmlElement>& elements_;
   Diagnostics& diagnostics_;
   std::vector<std::vector<std::size_t>> children_;
   std::map<std::string, std::size_t> links_;
   std::map<std::string, std::size_t> joints_;
   std::vector<Edge> edges_;
+  double total_mass_ = 0.0;  ///< [kg]
+  std::vector<ImpossibleInertia> impossible_inertias_;
+  UrdfFindings findings_;
   bool is_good_ = true;
 };
 
 }  // namespace
 
-bool check_urdf(const std::vector<XmlElement>& elements, Diagnostics& diagnostics) {
+std::optional<UrdfFindings> check_urdf(const std::vector<XmlElement>& elements, Diagnostics& diagnostics) {
   return UrdfChecker(elements, diagnostics).check();
 }
 

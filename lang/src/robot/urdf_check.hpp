@@ -1,14 +1,21 @@
 /// What is checked on a URDF's own words before and beside its library, which accepts nearly everything.
 #pragma once
 
+#include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "robot/xml_scan.hpp"
 
 namespace zwang::lang {
 
+struct UrdfFindings {
+  std::set<std::string> point_masses;  ///< links whose inertia no body has, too light for it to matter
+};
+
 /// Numbers readable and finite, macros expanded, links and joints named and of known types, masses and
-/// inertias possible, axes and limits usable, one tree. Writes what is wrong; false when anything is.
-bool check_urdf(const std::vector<XmlElement>& elements, Diagnostics& diagnostics);
+/// inertias possible, axes and limits usable, one tree. Writes what is wrong; nullopt when anything is.
+std::optional<UrdfFindings> check_urdf(const std::vector<XmlElement>& elements, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "tree/text.hpp"
 
@@ -25,6 +26,32 @@ bool mentions(const std::string& name, const char* word) {
   return lower_case(name).find(word) != std::string::npos;
 }
 
+/// Counter-clockwise (Andrew's monotone chain). Empty where the points span no area.
+std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
+  constexpr double flat = 1e-6;  // [m^2] of a turn that is none
+  const auto by_x_then_y = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+  };
+  std::sort(points.begin(), points.end(), by_x_then_y);
+  std::vector<Eigen::Vector2d> hull;
+  const auto add_chain = [&](auto begin, auto end) {
+    const std::size_t start = hull.size();
+    for (auto point = begin; point != end; ++point) {
+      while (hull.size() >= start + 2) {
+        const Eigen::Vector2d last = hull.back() - hull[hull.size() - 2];
+        const Eigen::Vector2d next = *point - hull.back();
+        if (last.x() * next.y() - last.y() * next.x() > flat) break;
+        hull.pop_back();
+      }
+      hull.push_back(*point);
+    }
+    if (!hull.empty()) hull.pop_back();  // the other chain's first
+  };
+  add_chain(points.begin(), points.end());
+  add_chain(points.rbegin(), points.rend());
+  return hull.size() >= 3 ? hull : std::vector<Eigen::Vector2d>{};
+}
+
 class WheelSearch {
  public:
   explicit WheelSearch(const Urdf& urdf) : urdf_(urdf) {
@@ -39,6 +66,8 @@ class WheelSearch {
     drop_casters();
     find_balls();
     find_others();
+    if (found_.wheels.empty()) find_wheels_that_stand();
+    find_outline();
     return found_;
   }
 
@@ -90,7 +119,8 @@ class WheelSearch {
     for (const UrdfJoint& joint : urdf_.joints) {
       const bool turns_for_ever = joint.joint.type == solver::JointType::continuous;
       if (!turns_for_ever || std::abs(axis_of(joint).z()) > level || !is_last(joint)) continue;
-      const bool is_named = mentions(joint.joint.name, "wheel") || mentions(joint.child, "wheel");
+      const bool is_named = mentions(joint.joint.name, "wheel") || mentions(joint.child, "wheel") ||
+                            mentions(joint.joint.name, "caster");
       if (by_name ? is_named : urdf_.find_link(joint.child)->radius.has_value()) result.push_back(&joint);
     }
     return result;
@@ -102,10 +132,12 @@ class WheelSearch {
     wheel.link = joint.child;
     const solver::Vector3& at = in_base_.at(joint.child).position;
     wheel.at = {at.x(), at.y(), at.z()};
+    wheel.axle = axis_of(joint).head<2>();
     wheel.radius = urdf_.find_link(joint.child)->radius;
     if (std::isfinite(joint.joint.max_effort)) wheel.effort = joint.joint.max_effort;
     for (const UrdfJoint* above = carrier(joint.parent); above != nullptr; above = carrier(above->parent)) {
-      if (std::abs(axis_of(*above).z()) > upright) {
+      const bool slides = above->joint.type == solver::JointType::prismatic;
+      if (!slides && std::abs(axis_of(*above).z()) > upright) {
         wheel.swivel = above->joint.name;
       } else {
         note(found_.in_between, above->joint.name);
@@ -150,6 +182,34 @@ class WheelSearch {
                       [&](const DraftWheel& wheel) { return wheel.joint == name || wheel.swivel == name; });
       if (!is_known) found_.others.push_back(name);
     }
+  }
+
+  void find_wheels_that_stand() {
+    for (const UrdfJoint& joint : urdf_.joints) {
+      if (!moves(joint) && mentions(joint.joint.name, "wheel") && !mentions(joint.joint.name, "caster"))
+        found_.wheels_that_stand.push_back(joint.joint.name);
+    }
+  }
+
+  /// Around what collides with the base and around the wheels. Where the heaviest link of the base is a mesh,
+  /// nobody knows.
+  void find_outline() {
+    std::vector<Eigen::Vector2d> corners;
+    const UrdfLink* heaviest = nullptr;
+    for (const UrdfLink& link : urdf_.links) {
+      if (carrier(link.name) != carrier(found_.base)) continue;
+      if (heaviest == nullptr || link.inertia.mass > heaviest->inertia.mass) heaviest = &link;
+      for (const solver::Vector3& corner : link.corners)
+        corners.emplace_back((in_base_.at(link.name) * corner).head<2>());
+    }
+    if (heaviest == nullptr || heaviest->corners.empty()) return;
+    for (const DraftWheel& wheel : found_.wheels) {
+      const Eigen::Vector2d ahead =
+          wheel.radius.value_or(0.0) * Eigen::Vector2d(wheel.axle.y(), -wheel.axle.x());
+      for (const double side : {-1.0, 1.0})
+        corners.emplace_back(Eigen::Vector2d(wheel.at[0], wheel.at[1]) + side * ahead);
+    }
+    found_.outline = convex_hull(std::move(corners));
   }
 
   const Urdf& urdf_;

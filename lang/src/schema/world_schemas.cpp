@@ -175,6 +175,8 @@ Json robot_file() {
        {"urdf", word("the path of the URDF, from this file"), true},
        {"base", word("the link that floats"), true},
        {"wheels", list("the wheels; the drive follows from them", wheel()), true},
+       {"fixed", list("joints of the URDF that do not move here", word("a joint"))},
+       {"ignore", list("links of the URDF that are left out, with all that hangs on them", word("a link"))},
        {"supports", list("links that stand on the ground and hold nothing", word("a link"))},
        {"actuated", named("motors by their joints", actuator()), true},
        {"limits", object("ranges of the base, if a task gives none",

@@ -14,10 +14,11 @@ namespace zwang::lang {
 struct DraftWheel {
   std::string joint;
   std::string link;
-  std::array<double, 3> at{};    ///< [m] in the base
-  std::optional<double> radius;  ///< [m] of the link's largest cylinder or sphere
-  std::optional<double> effort;  ///< [N m] of the URDF's limit
-  std::string swivel;            ///< the joint that steers it; empty: fixed to the base
+  std::array<double, 3> at{};      ///< [m] in the base
+  Eigen::Vector2d axle{0.0, 1.0};  ///< direction in the base, from above
+  std::optional<double> radius;    ///< [m] of the link's largest cylinder or sphere
+  std::optional<double> effort;    ///< [N m] of the URDF's limit
+  std::string swivel;              ///< the joint that steers it; empty: fixed to the base
 };
 
 /// The draft with its open places filled by assumption, to be looked at and not to be run.
@@ -32,11 +33,13 @@ struct RobotDraft {
   std::string drive;  ///< what the wheels look like, in words
   double mass = 0.0;  ///< [kg] of all links
   std::vector<DraftWheel> wheels;
-  std::vector<DraftWheel> casters;            ///< wheels on swivels, and no motor of either
-  std::vector<std::string> supports;          ///< links
-  std::vector<std::string> missing;           ///< what could not be known, a line each
-  std::vector<AssumedRobot> assumed;          ///< one for each kind of wheel that it may have; empty where no
-                                              ///< assumption makes a model of it
+  std::vector<DraftWheel> casters;    ///< wheels on swivels, and no motor of either
+  std::vector<std::string> supports;  ///< links
+  std::vector<std::string>
+      wheels_that_stand;              ///< `fixed` joints that are called wheels, where no wheel was found
+  std::vector<std::string> missing;   ///< what could not be known, a line each
+  std::vector<AssumedRobot> assumed;  ///< one for each kind of wheel that it may have; empty where no
+                                      ///< assumption makes a model of it
   std::vector<std::string> assumption_notes;  ///< what was assumed, a line each
   std::string text;  ///< the robot file; `FILL_IN` stands where it is refused until filled
 };

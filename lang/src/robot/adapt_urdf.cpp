@@ -1,0 +1,86 @@
+#include "robot/adapt_urdf.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+
+#include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_standing.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+template <typename Items, typename NameOf>
+std::vector<std::string> names_of(const Items& items, const NameOf& name_of) {
+  std::vector<std::string> names;
+  for (const auto& item : items) names.push_back(name_of(item));
+  return names;
+}
+
+/// X_PC of a joint at the position nearest to 0 that it can take.
+solver::Pose at_rest(const UrdfJoint& joint) {
+  const double q = std::clamp(0.0, joint.joint.lower, joint.joint.upper);
+  solver::Pose moved;
+  if (joint.joint.type == solver::JointType::prismatic) {
+    moved.position = q * joint.joint.axis;
+  } else {
+    moved.rotation = Eigen::AngleAxisd(q, joint.joint.axis).toRotationMatrix();
+  }
+  return joint.origin * moved;
+}
+
+void hold_joints(const std::vector<Word>& fixed, Urdf& urdf, Diagnostics& diagnostics) {
+  for (const Word& name : fixed) {
+    if (!name.exists()) continue;
+    const auto joint = std::find_if(urdf.joints.begin(), urdf.joints.end(),
+                                    [&](const UrdfJoint& j) { return j.joint.name == name.text; });
+    if (joint == urdf.joints.end()) {
+      const auto known = names_of(urdf.joints, [](const UrdfJoint& j) { return j.joint.name; });
+      diagnostics.add(wording::unknown_name(name.span, "joint", name.text, known));
+      continue;
+    }
+    if (joint->joint.type == solver::JointType::fixed) continue;
+    joint->origin = at_rest(*joint);
+    joint->joint = solver::Joint{};
+    joint->joint.name = name.text;
+    joint->mimic.reset();
+    joint->span = name.span;  // where a wheel or a motor on it finds out
+  }
+}
+
+/// Every joint and link that the file names elsewhere.
+std::vector<Word> used_parts(const RobotFile& file) {
+  std::vector<Word> parts{file.base};
+  for (const WheelText& wheel : file.wheels) parts.push_back(wheel.joint);
+  for (const ActuatorText& actuator : file.actuators) parts.push_back(actuator.joint);
+  for (const PostureText& posture : file.posture) parts.push_back(posture.joint);
+  for (const FrictionText& friction : file.friction) parts.push_back(friction.joint);
+  for (const FrameText& frame : file.frames) parts.push_back(frame.parent);
+  parts.insert(parts.end(), file.supports.begin(), file.supports.end());
+  return parts;
+}
+
+void check_left_out(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics) {
+  const auto known = names_of(urdf.links, [](const UrdfLink& l) { return l.name; });
+  std::map<std::string, Span> ignored;
+  for (const Word& link : file.ignored) {
+    if (link.exists()) ignored.emplace(link.text, link.span);
+    if (link.exists() && !urdf.left_out.contains(link.text))
+      diagnostics.add(wording::unknown_name(link.span, "link", link.text, known));
+  }
+  for (const Word& part : used_parts(file)) {
+    const auto gone = urdf.left_out.find(part.text);
+    if (gone == urdf.left_out.end()) continue;
+    diagnostics.add(wording::ignored_part(part.span, part.text, gone->second, ignored.at(gone->second)));
+  }
+}
+
+}  // namespace
+
+void adapt_urdf(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics) {
+  hold_joints(file.fixed, urdf, diagnostics);
+  check_left_out(file, urdf, diagnostics);
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,61 @@
+#include "robot/drive_kind.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zwang::lang {
+
+namespace {
+
+bool are_parallel(const std::vector<DraftWheel>& wheels) {
+  const Eigen::Vector2d& first = wheels.front().axle;
+  return std::all_of(wheels.begin(), wheels.end(), [&](const DraftWheel& wheel) {
+    return std::abs(first.x() * wheel.axle.y() - first.y() * wheel.axle.x()) < 0.1;
+  });
+}
+
+}  // namespace
+
+std::map<std::string, int> swivels_of(const std::vector<DraftWheel>& wheels) {
+  std::map<std::string, int> count;
+  for (const DraftWheel& wheel : wheels) {
+    if (!wheel.swivel.empty()) ++count[wheel.swivel];
+  }
+  return count;
+}
+
+Drive drive_of(const std::vector<DraftWheel>& wheels) {
+  const auto steered =
+      std::count_if(wheels.begin(), wheels.end(), [](const DraftWheel& w) { return !w.swivel.empty(); });
+  const auto count = static_cast<std::ptrdiff_t>(wheels.size());
+  if (count == 0) return Drive::none;
+  if (steered == count) return Drive::swivels;
+  if (steered == 0 && count == 2) return Drive::differential;
+  if (steered == 0 && count >= 3 && !are_parallel(wheels)) return Drive::omni;
+  if (steered == 0 && count == 4) return Drive::rollers_or_skid;
+  return Drive::other;
+}
+
+std::string in_words(Drive drive, const std::vector<DraftWheel>& wheels) {
+  const std::string count = std::to_string(wheels.size()) + " wheels";
+  switch (drive) {
+    case Drive::none:
+      return "no wheels";
+    case Drive::differential:
+      return "differential: two plain wheels";
+    case Drive::rollers_or_skid:
+      return "four wheels that do not steer: mecanum or skid steering";
+    case Drive::omni:
+      return "omni: " + count + " whose axles point different ways";
+    case Drive::swivels: {
+      const auto units = std::to_string(swivels_of(wheels).size());
+      const bool pairs = swivels_of(wheels).size() * 2 == wheels.size();
+      return pairs ? units + " swivels with two driven wheels each" : units + " steered wheels";
+    }
+    case Drive::other:
+      break;
+  }
+  return count;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,20 @@
+/// What kind of drive wheels look like, from their places and axles alone.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/robot_draft.hpp"
+
+namespace zwang::lang {
+
+enum class Drive { none, differential, rollers_or_skid, omni, swivels, other };
+
+Drive drive_of(const std::vector<DraftWheel>& wheels);
+std::string in_words(Drive drive, const std::vector<DraftWheel>& wheels);
+
+/// How many wheels each steering joint carries.
+std::map<std::string, int> swivels_of(const std::vector<DraftWheel>& wheels);
+
+}  // namespace zwang::lang

@@ -1,0 +1,19 @@
+/// Links that a robot file leaves out of its URDF are taken away before anything is asked of them.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "robot/xml_scan.hpp"
+
+namespace zwang::lang {
+
+/// What went: links and joints by their names, each with the link of the list that it hung on.
+using LeftOut = std::map<std::string, std::string>;
+
+/// Takes the links away, with all that hangs on them by joints. The URDF's root stays: without it there is no
+/// robot.
+LeftOut leave_out(const std::vector<std::string>& links, std::vector<XmlElement>& elements);
+
+}  // namespace zwang::lang
