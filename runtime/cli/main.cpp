@@ -7,7 +7,9 @@
 #include <memory>
 
 #include "output.hpp"
+#include "shipped.hpp"
 #include "verbs.hpp"
+#include "zwang/lang/nearest.hpp"
 #include "zwang/lang/quantity.hpp"
 
 namespace {
@@ -96,6 +98,7 @@ void add_validate(CLI::App& app, std::function<int()>& chosen) {
   add_overrides(*verb, arguments->overrides);
   verb->callback([=, &chosen] {
     arguments->deny_warnings = !deny->empty();
+    for (std::string& file : arguments->files) file = file_or_shipped(file);
     chosen = [=] { return validate(*arguments); };
   });
 }
@@ -138,7 +141,10 @@ void add_graph(CLI::App& app, std::function<int()>& chosen) {
   add_overrides(*verb, arguments->overrides);
   takes(verb->add_option("--format", arguments->format, "dot (default, for Graphviz) or mermaid"),
         graph_formats);
-  verb->callback([=, &chosen] { chosen = [=] { return graph(*arguments); }; });
+  verb->callback([=, &chosen] {
+    arguments->file = file_or_shipped(arguments->file);
+    chosen = [=] { return graph(*arguments); };
+  });
 }
 
 void add_plan(CLI::App& app, std::function<int()>& chosen) {
@@ -149,7 +155,10 @@ void add_plan(CLI::App& app, std::function<int()>& chosen) {
   add_overrides(*verb, arguments->overrides);
   takes(verb->add_option("--format", arguments->format, "human (default) or json: one object on stdout"),
         formats);
-  verb->callback([=, &chosen] { chosen = [=] { return plan(*arguments); }; });
+  verb->callback([=, &chosen] {
+    arguments->file = file_or_shipped(arguments->file);
+    chosen = [=] { return plan(*arguments); };
+  });
 }
 
 void add_robot(CLI::App& app, std::function<int()>& chosen) {
@@ -168,6 +177,30 @@ void add_robot(CLI::App& app, std::function<int()>& chosen) {
   init->callback([=, &chosen] { chosen = [=] { return robot_init(*begun); }; });
 }
 
+void add_init(CLI::App& app, std::function<int()>& chosen) {
+  const auto arguments = std::make_shared<InitArguments>();
+  CLI::App* verb = app.add_subcommand("init", "Make a folder with a task, its robot, scene and scenario");
+  verb->add_option("folder", arguments->folder, "a folder that is new or empty")->required();
+  verb->callback([=, &chosen] { chosen = [=] { return init(*arguments); }; });
+}
+
+void add_doctor(CLI::App& app, std::function<int()>& chosen) {
+  CLI::App* verb =
+      app.add_subcommand("doctor", "Say what this machine offers, and how to get what is missing");
+  verb->callback([&chosen] { chosen = [] { return doctor(); }; });
+}
+
+/// `runn` is answered with `run`; empty when the first word is a verb, an option, or like none.
+std::string verb_meant(const CLI::App& app, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (word.empty() || word.front() == '-' || std::find(verbs.begin(), verbs.end(), word) != verbs.end())
+    return "";
+  const std::string meant = zwang::lang::nearest(word, verbs);
+  return "no verb `" + word + "`" + (meant.empty() ? "" : "; did you mean `zwang " + meant + "`?");
+}
+
 int parse_and_do(int argc, char** argv) {
   CLI::App app("Checks and runs task files for robots that touch the world.", "zwang");
   app.set_version_flag("--version", "zwang " ZWANG_VERSION);
@@ -181,6 +214,8 @@ int parse_and_do(int argc, char** argv) {
   add_graph(app, chosen);
   add_plan(app, chosen);
   add_robot(app, chosen);
+  add_init(app, chosen);
+  add_doctor(app, chosen);
 
   RunArguments to_run;
   std::optional<std::string> yaw_text, at_text, seed_text;
@@ -234,6 +269,8 @@ int parse_and_do(int argc, char** argv) {
     print(text.str());
     return exit_good;
   } catch (const CLI::ParseError& mistake) {
+    const std::string unknown_verb = verb_meant(app, argc, argv);
+    if (!unknown_verb.empty()) throw Impossible(unknown_verb + "\nTry `zwang --help`.");
     // CLI11's own exit codes say nothing that ours do not.
     std::string verb;  // the innermost that was named
     for (auto below = app.get_subcommands(); !below.empty(); below = below.front()->get_subcommands())
@@ -244,6 +281,7 @@ int parse_and_do(int argc, char** argv) {
   if (test_verb->parsed()) return test(to_test);
   if (info_verb->parsed()) return info(to_tell);
   if (replay_verb->parsed()) return replay(to_replay);
+  to_run.file = file_or_shipped(to_run.file);
   if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);
   if (at_text) to_run.start_at = point(*at_text);

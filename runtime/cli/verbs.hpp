@@ -91,6 +91,13 @@ struct RunArguments {
 };
 int run(const RunArguments& arguments);
 
+struct InitArguments {
+  std::string folder;
+};
+int init(const InitArguments& arguments);
+
+int doctor();
+
 struct PlanArguments {
   std::string file;
   TaskOverrides overrides;

@@ -36,6 +36,47 @@ class Verbs : public test::Program {
   std::string endless() { return task("endless.yaml", read(conformance / "W503_endless.yaml")); }
 };
 
+TEST_F(Verbs, AMistypedVerbIsAnsweredWithTheOneThatWasMeant) {
+  const Result r = zwang({"runn", "wall_align.yaml"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_TRUE(contains(r.err, "did you mean `zwang run`?")) << r.err;
+  EXPECT_TRUE(contains(zwang({"xyzzy"}).err, "no verb `xyzzy`\n"));
+}
+
+TEST_F(Verbs, AShippedTaskIsFoundByItsName) {
+  const Result r = zwang({"plan", "wall_align", "--format", "json"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  const Result mistyped = zwang({"plan", "wall_alihn"});
+  EXPECT_EQ(mistyped.code, 2);
+  EXPECT_TRUE(contains(mistyped.err, "did you mean `wall_align`")) << mistyped.err;
+  // A file of the user's is the user's.
+  write("wall_align", "zwang: 1\n");
+  EXPECT_EQ(zwang({"plan", "wall_align"}).code, 1);
+}
+
+TEST_F(Verbs, InitMakesAFolderThatRuns) {
+  Result r = zwang({"init", "mine"});
+  ASSERT_EQ(r.code, 0) << r.err;
+  r = zwang({"validate", "mine", "--deny", "warnings"});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  r = zwang({"test", "mine/scenarios"});
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  for (const char* kind : {"task", "robot", "scene", "scenario"})
+    EXPECT_EQ(read(folder_ / "mine/schemas" / (std::string(kind) + ".json")), zwang({"schema", kind}).out);
+  EXPECT_TRUE(json::accept(read(folder_ / "mine/.vscode/settings.json")));
+  r = zwang({"init", "mine"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_TRUE(contains(r.err, "is there already")) << r.err;
+}
+
+TEST_F(Verbs, DoctorSaysWhatIsThere) {
+  const Result r = zwang({"doctor"});
+  EXPECT_EQ(r.code, 0) << r.err;
+  for (const char* subject : {"zwang ", "MuJoCo ", "real-time priority", "locked memory", "shipped files"})
+    EXPECT_TRUE(contains(r.out, subject)) << r.out;
+  EXPECT_TRUE(contains(r.out, specs.string())) << r.out;
+}
+
 TEST_F(Verbs, ValidateReadsFolders) {
   Result r = zwang({"validate", specs.string(), "--format", "json"});
   EXPECT_EQ(r.code, 0) << r.out << r.err;

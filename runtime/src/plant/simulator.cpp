@@ -282,4 +282,8 @@ std::vector<ContactSpring> set_springs(mjModel& model, const std::vector<GeomOwn
   return springs;
 }
 
+const char* mujoco_version() noexcept {
+  return mj_versionString();
+}
+
 }  // namespace zwang::runtime

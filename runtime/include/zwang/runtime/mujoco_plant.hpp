@@ -51,6 +51,9 @@ struct Truth {
   std::vector<RobotTruth> robots;     ///< the scene's
 };
 
+/// Of the library that is loaded, as `2.3.7`.
+const char* mujoco_version() noexcept;
+
 struct MujocoPlantOptions {
   double period = 1e-3;                           ///< [s] of a simulation step
   std::optional<std::array<double, 2>> start_at;  ///< overrides the scene's

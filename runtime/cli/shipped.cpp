@@ -1,0 +1,52 @@
+#include "shipped.hpp"
+
+#include <vector>
+
+#include "output.hpp"
+#include "zwang/lang/nearest.hpp"
+
+namespace zwang::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_bare_name(const std::string& file) {
+  return !file.empty() && file.find('/') == std::string::npos && fs::path(file).extension() != ".mcap";
+}
+
+std::vector<std::string> task_names(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& file : fs::directory_iterator(folder, error)) {
+    if (file.path().extension() == ".yaml") names.push_back(file.path().stem().string());
+  }
+  return names;
+}
+
+}  // namespace
+
+std::optional<fs::path> shipped_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) return std::nullopt;
+  for (const char* way : {"../share/zwang/specs", "../../specs"}) {
+    const fs::path folder = (program.parent_path() / way).lexically_normal();
+    if (fs::exists(folder / "wall_align.yaml", error)) return folder;
+  }
+  return std::nullopt;
+}
+
+std::string file_or_shipped(const std::string& file) {
+  std::error_code error;
+  if (!is_bare_name(file) || fs::exists(fs::symlink_status(file, error))) return file;
+  const std::optional<fs::path> folder = shipped_folder();
+  if (!folder) return file;
+  const std::string name = fs::path(file).extension() == ".yaml" ? fs::path(file).stem().string() : file;
+  if (fs::exists(*folder / (name + ".yaml"), error)) return (*folder / (name + ".yaml")).string();
+  const std::string meant = lang::nearest(name, task_names(*folder));
+  if (meant.empty()) return file;
+  throw Impossible(file + ": no such file; did you mean `" + meant + "`, which ships with zwang?");
+}
+
+}  // namespace zwang::cli
