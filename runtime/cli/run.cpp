@@ -137,6 +137,8 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   report.outcome = to_string(runner.state());
   if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
   if (give_up && !runner.finished()) report.because += "; the run was ended before the robot stood";
+  if (runner.may_still_move())
+    report.because += std::string(report.because.empty() ? "" : "; ") + runtime::unseen_rest;
   if (status != PlantStatus::ok) {
     report.outcome = to_string(status);
     report.because = "the plant " + report.outcome;

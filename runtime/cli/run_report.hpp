@@ -68,7 +68,7 @@ struct Chapter {
 
 struct RunReport {
   std::string outcome;     ///< done, failed, stopped, diverged; the first robot's
-  std::string because;     ///< of a stop; empty otherwise
+  std::string because;     ///< of a stop, or of a base that may still move; empty otherwise
   double elapsed = 0.0;    ///< [s]
   double wall_time = 0.0;  ///< [s] that it took
   std::uint64_t seed = 0;
