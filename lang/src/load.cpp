@@ -3,6 +3,7 @@
 #include "load_within.hpp"
 #include "lower/lower.hpp"
 #include "robot/load_robot.hpp"
+#include "scene/check_inside.hpp"
 #include "scene/check_scene.hpp"
 #include "scene/load_robots.hpp"
 #include "scene/load_scene.hpp"
@@ -68,6 +69,7 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
   if (!checked) return std::nullopt;
   Program program = lower(std::move(*checked));
   program.path = path.string();
+  check_inside(program, diagnostics);
   return program;
 }
 

@@ -135,7 +135,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     watch.look(plant.truth(), in_task);
   }
   report.outcome = to_string(runner.state());
-  if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
+  report.because = runner.because();
   if (give_up && !runner.finished()) report.because += "; the run was ended before the robot stood";
   if (status != PlantStatus::ok) {
     report.outcome = to_string(status);

@@ -54,7 +54,7 @@ class TruthWatch {
 struct PartnerReport {
   std::string name;
   std::string outcome;  ///< done, failed, stopped, or unfinished
-  std::string because;  ///< of a stop
+  std::string because;  ///< of a stop, and of a base that may still move
   std::string task;     ///< that was active; empty when none was
 };
 PartnerReport partner_report(const runtime::ScenePartner& partner);
@@ -68,7 +68,7 @@ struct Chapter {
 
 struct RunReport {
   std::string outcome;     ///< done, failed, stopped, diverged; the first robot's
-  std::string because;     ///< of a stop; empty otherwise
+  std::string because;     ///< of a stop, and of a base that may still move; else empty
   double elapsed = 0.0;    ///< [s]
   double wall_time = 0.0;  ///< [s] that it took
   std::uint64_t seed = 0;

@@ -166,7 +166,7 @@ TEST_F(WholeLanguage, always_stands_at_level_zero) {
   EXPECT_EQ(manners.axes[0].level, 0);
   EXPECT_EQ(manners.axes[0].force->low.parameter, 0);
   EXPECT_DOUBLE_EQ(manners.axes[0].force->low.sign, -1.0);
-  EXPECT_TRUE(manners.axes[1].is_planar_speed);
+  EXPECT_TRUE(manners.axes[1].is_planar);
   ASSERT_EQ(program_->always.exits.size(), 1u);
   EXPECT_DOUBLE_EQ(program_->always.exits[0].release->constant, 1.2);
 }

@@ -6,6 +6,7 @@
 #include "check/room.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "diagnostic/wordings_standing.hpp"
 
 namespace zwang::lang {
 
@@ -32,6 +33,29 @@ std::optional<double> known_value(const CheckContext& context, const ValueText& 
   return present_value(context, value);
 }
 
+/// Not below 0.
+void check_return_speed(CheckContext& context, const ValueText& value, const Dimension& expected,
+                        const std::string& what) {
+  if (check_value(context, value, expected, what) && present_value(context, value) < 0.0)
+    context.diagnostics.add(wording::not_positive(value.span, what, true));
+}
+
+bool has_position_range(const AxisText& text) {
+  const std::optional<StatementText>& position = text[Quantity::position];
+  return position && position->is_range;
+}
+
+/// `return` leads back into a range of positions: the axis must have one.
+void check_return(CheckContext& context, const AxisText& text, Axis axis, const std::string& path,
+                  const std::optional<ValueText>& return_speed) {
+  if (!return_speed) return;
+  check_return_speed(context, *return_speed, dimension_of(axis, Quantity::velocity), path + ".return");
+  const std::optional<StatementText>& position = text[Quantity::position];
+  const bool is_unread = position && !position->is_range && position->value.kind == ValueKind::bad;
+  if (!has_position_range(text) && !is_unread)
+    context.diagnostics.add(wording::return_without_range(return_speed->span, path));
+}
+
 /// One axis of one group.
 class AxisCheck {
  public:
@@ -54,8 +78,9 @@ class AxisCheck {
     check_force_range();
     if (text_.time_constant) check_time(context_, *text_.time_constant, path_ + ".time_constant", false);
     check_compliance();
-    check_speed();
+    check_norms();
     if (text_.weight) check_positive(*text_.weight, turns() ? dimension::inertia : dimension::mass, "weight");
+    check_return(context_, text_, axis_, path_, text_.return_speed);
   }
 
  private:
@@ -75,13 +100,20 @@ class AxisCheck {
     }
   }
 
-  void check_speed() {
-    const std::optional<StatementText>& velocity = text_[Quantity::velocity];
-    if (!text_.is_speed() || feature_ != nullptr || !velocity || !velocity->is_range) return;
-    const ValueText& low = velocity->low;
-    const bool is_known = low.kind == ValueKind::quantity && low.quantity.dimension == dimension::velocity;
-    if (is_known && low.quantity.value != 0.0)
-      context_.diagnostics.add(wording::speed_from_zero(velocity->span, path_ + ".velocity"));
+  /// A norm begins at 0.
+  void check_norms() {
+    if (!text_.is_norm() || feature_ != nullptr) return;
+    for (const Quantity quantity : {Quantity::velocity, Quantity::acceleration, Quantity::force}) {
+      const std::optional<StatementText>& range = text_[quantity];
+      if (!range || !range->is_range) continue;
+      const ValueText& low = range->low;
+      const bool is_known =
+          low.kind == ValueKind::quantity && low.quantity.dimension == dimension_of(axis_, quantity);
+      if (!is_known || low.quantity.value == 0.0) continue;
+      const std::string what = path_ + "." + word_of(quantity);
+      context_.diagnostics.add(text_.is_speed() ? wording::speed_from_zero(range->span, what)
+                                                : wording::norm_from_zero(range->span, what));
+    }
   }
 
   /// `stiffness` and `damping` make a spring of a position driver, in the place of the time constant.
@@ -228,6 +260,8 @@ void check_inside(CheckContext& context, const GroupText& group) {
       present_value(context, *group.margin) < 0.0) {
     context.diagnostics.add(wording::not_positive(group.margin->span, what, true));
   }
+  if (group.return_speed)
+    check_return_speed(context, *group.return_speed, dimension::velocity, group.name.text + ".return");
   if (region) check_room(context, group, context.symbols.regions[static_cast<std::size_t>(*region)].region);
 }
 
@@ -269,7 +303,7 @@ void check_positions(CheckContext& context, const GroupText& group, const std::o
 void check_group_weight(CheckContext& context, const GroupText& group) {
   if (!group.weight) return;
   for (const AxisText& axis : group.axes) {
-    if (axis.weight || axis.is_free || axis.is_speed()) continue;
+    if (axis.weight || axis.is_free || axis.is_norm()) continue;
     const bool turns = is_rotation(axis_named(axis.name.text).value_or(Axis::x));
     const std::string what = group.name.text + ".weight, that of `" + axis.name.text + "`,";
     if (!check_value(context, *group.weight, turns ? dimension::inertia : dimension::mass, what)) return;
@@ -277,6 +311,21 @@ void check_group_weight(CheckContext& context, const GroupText& group) {
   if (present_value(context, *group.weight) <= 0.0) {
     context.diagnostics.add(wording::not_positive(group.weight->span, group.name.text + ".weight", false));
   }
+}
+
+/// The group's `return` is that of each position range that gives none.
+void check_group_return(CheckContext& context, const GroupText& group) {
+  if (!group.return_speed) return;
+  bool is_used = false;
+  for (const AxisText& axis : group.axes) {
+    if (!has_position_range(axis) || axis.return_speed) continue;
+    is_used = true;
+    check_return_speed(context, *group.return_speed,
+                       dimension_of(axis_named(axis.name.text).value_or(Axis::x), Quantity::velocity),
+                       group.name.text + ".return, that of `" + axis.name.text + "`,");
+  }
+  if (!is_used && !group.is_incomplete)
+    context.diagnostics.add(wording::return_without_range(group.return_speed->span, group.name.text));
 }
 
 void check_group(CheckContext& context, const GroupText& group) {
@@ -292,6 +341,7 @@ void check_group(CheckContext& context, const GroupText& group) {
     check_time(context, *group.time_constant, group.name.text + ".time_constant", false);
   }
   check_group_weight(context, group);
+  check_group_return(context, group);
   if (group.axes.empty() && !group.is_incomplete)
     context.diagnostics.add(wording::group_without_axes(group.name.span, group.name.text));
   for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, move, in).check();
@@ -342,7 +392,7 @@ void check_against_always(CheckContext& context, const TaskText& task) {
       for (const AxisText& axis : group.axes) {
         for (const AxisText& limit : limiting.axes) {
           const bool is_limited = axis.name.text == limit.name.text ||
-                                  (limit.is_speed() && (axis.name.text == "x" || axis.name.text == "y"));
+                                  (limit.is_norm() && (axis.name.text == "x" || axis.name.text == "y"));
           if (!is_limited) continue;
           for (const solver::Quantity quantity :
                {solver::Quantity::velocity, solver::Quantity::acceleration, solver::Quantity::force}) {

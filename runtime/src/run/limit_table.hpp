@@ -16,15 +16,18 @@ class LimitTable {
  public:
   LimitTable(const StatementTable& statements, const lang::Robot& robot);
 
-  /// Takes in one tick. Rows that are fading are left out: they are not in force yet, or no more.
+  /// Takes in one tick. `set`: the newest one; `blends`: others are in force beside it.
   void update(const StatementTable& statements, const solver::ConstraintSet& set,
               const std::vector<InForce>& in_force, const solver::Solution& solution,
-              const Eigen::VectorXd& tau) noexcept;
+              const Eigen::VectorXd& tau, bool blends) noexcept;
 
   std::vector<LimitReport> reports() const;
   std::optional<LimitReport> now() const;
 
  private:
+  void compare_rows(const StatementTable& statements, const solver::ConstraintSet& set,
+                    const std::vector<InForce>& in_force, const solver::Solution& solution,
+                    bool blends) noexcept;
   /// How near a value came, so far: apart from the names, as it is what each tick goes through.
   struct Nearest {
     double limit = 0.0;

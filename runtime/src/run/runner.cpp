@@ -60,6 +60,12 @@ std::vector<std::string> signal_names(const lang::Program& program) {
   return names;
 }
 
+std::vector<std::string> row_names(const StatementTable& statements) {
+  std::vector<std::string> names;
+  for (const Statement& statement : statements.all()) names.push_back(statement.name);
+  return names;
+}
+
 /// On the floor, whose normal is the world's z: roll and pitch of the body on its springs are no slope that
 /// it could roll down.
 solver::Pose level(const solver::Pose& pose) {
@@ -89,8 +95,10 @@ struct Runner::Parts {
         period(period_of(program.robot, settings)),
         facts(facts_of(settings, period)),
         scheduler(program, period),
-        solver(model,
-               {.row_capacity = scheduler.row_capacity(), .base_motion = true, .every_acceleration = false}),
+        solver(model, {.row_capacity = scheduler.row_capacity(),
+                       .set_capacity = scheduler.set_capacity(),
+                       .base_motion = true,
+                       .every_acceleration = false}),
         solution(model, scheduler.row_capacity()),
         estimated(model),
         sample(model, program.signals.size()),
@@ -111,10 +119,10 @@ struct Runner::Parts {
         signals(program.signals),
         snapshot(program),
         signal_watch(program),
-        signal_words(event_signals(model, signal_names(program))),
         guard(program.robot,
               {.period = period, .max_lost_ticks = lost_ticks(period), .max_slew = settings.max_slew}),
         statements(scheduler, program),
+        signal_words(event_signals(model, signal_names(program), row_names(statements))),
         limits(statements, program.robot),
         layout(statements, scheduler, model, program, signal_words, settings.extra_columns),
         given_parameters(scheduler.parameters()),
@@ -143,7 +151,10 @@ struct Runner::Parts {
   void take_events_of(Parts& before) noexcept;
   void judge_sensors() noexcept;
   void judge_wrenches() noexcept;
+  bool blends() const noexcept { return scheduler.set_count() > 1; }
   void tell(const Event& event) noexcept;
+  void tell_excursion() noexcept;
+  void tell_doubt() noexcept;
   /// The protective stop, where a watch found something.
   void stop(const std::optional<Event>& found) noexcept;
   void tell_refusal(SampleStatus status) noexcept;
@@ -181,8 +192,7 @@ struct Runner::Parts {
   const std::vector<lang::Signal> signals;
   SnapshotSignals snapshot;  ///< where they are in it
   SignalWatch signal_watch;
-  const std::vector<std::string> signal_words;  ///< of events
-  std::vector<bool> is_judged;                  ///< of each signal: it was looked at when the run began
+  std::vector<bool> is_judged;  ///< of each signal: it was looked at when the run began
   std::vector<Event> events;
   std::uint64_t event_count = 0;
   bool stop_is_told = false;
@@ -190,6 +200,7 @@ struct Runner::Parts {
   Event event;                               ///< of this tick; code `none` when there is none
   SafetyGuard guard;
   StatementTable statements;
+  const std::vector<std::string> signal_words;  ///< of events
   LimitTable limits;
   LogLayout layout;
   std::vector<double> given_parameters;  ///< as they stood when the tick began
@@ -203,7 +214,9 @@ struct Runner::Parts {
   std::vector<Transition> transitions;
   std::uint64_t transition_count = 0;
   std::uint64_t stopped_ticks = 0;
-  bool stands = false;  ///< after a protective stop
+  RestWatch rest;                ///< after a protective stop
+  bool is_past_stop = false;     ///< a protective stop is over, by its time if not by rest
+  bool is_rest_doubted = false;  ///< and nobody saw the base stand
 };
 
 void Runner::Parts::estimate(const Sensed& sensed) noexcept {
@@ -276,23 +289,26 @@ bool Runner::Parts::control() noexcept {
   if (guard.stopped()) return true;  // a motor is not to be trusted
   arm.bear(sample.state);            // it floats where nothing is said of it
   is_solution_of_rows = false;
+  const bool was_finished = scheduler.phase() == Phase::finished;
   scheduler.tick(sample);
+  if (!was_finished && scheduler.phase() == Phase::finished && !scheduler.has_stood()) tell_doubt();
   if (scheduler.transition()) {
     if (scheduler.transition()->refusal == Refusal::require)
       tell({EventCode::entry_refused, sample.time, -1, static_cast<double>(scheduler.transition()->refused)});
     ++transition_count;
     if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
   }
+  tell_excursion();
   const bool is_filled = scheduler.fill_constraints();
-  if (const auto refused = wrenches.look(scheduler.constraints(), sample.state, sample.time)) tell(*refused);
-  solver_status = is_filled ? solver.solve(sample.state, scheduler.constraints().rows(), solution)
+  if (const auto refused = wrenches.look(scheduler.row_sets(), sample.state, sample.time)) tell(*refused);
+  solver_status = is_filled ? solver.solve(sample.state, scheduler.row_sets(), solution)
                             : solver::Status::capacity_exceeded;
   if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
   is_solution_of_rows = true;
   scheduler.observe(solution);
   wanted = solution.tau;
   if (!friction.empty()) {
-    friction.update(sample.state.qd, press.look(solver, scheduler.constraints().rows(), solution));
+    friction.update(sample.state.qd, press.look(solver, scheduler.row_sets(), solution));
     friction.compensate(wanted);
   }
   if (handed_over_for < handover) hand_over();
@@ -318,6 +334,15 @@ void Runner::Parts::tell(const Event& told) noexcept {
   if (events.size() < events.capacity()) events.push_back(told);
   const bool is_stop = latches_the_stop(told.code);
   if (event.code == EventCode::none || is_stop) event = told;
+}
+
+void Runner::Parts::tell_excursion() noexcept {
+  const std::optional<Excursion>& excursion = scheduler.excursion();
+  if (!excursion) return;
+  const int row = statements.id(excursion->origin);
+  tell({EventCode::outside, sample.time,
+        event_signal::of_row(model.joint_count(), static_cast<int>(signals.size()), row),
+        excursion->distance});
 }
 
 /// Under a clock of another rate all that is computed with dt is wrong, and accuses motors and encoders.
@@ -352,7 +377,7 @@ void Runner::Parts::compare() noexcept {
     motors.reset();
     return;
   }
-  stop(motors.look(disturbance, sample.state, tau, scheduler.constraints()));
+  stop(motors.look(disturbance, sample.state, tau, scheduler.constraints(), blends()));
 }
 
 /// A force that is measured before anything moved is the sensor's own.
@@ -391,9 +416,21 @@ void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   // Where one wheel's encoder is dead, the others do not tell how the base moves.
   const Event& reason = guard.stop_event();
   const bool is_dead = reason.code == EventCode::frozen && event_signal::joint_of(reason.signal) >= 0;
-  const bool is_seen = good_sample && !is_dead;
-  stands = stands || (is_seen && is_at_rest(estimated.state.base_twist)) ||
-           static_cast<double>(stopped_ticks) * period > longest_stop;
+  if (good_sample && !is_dead) {
+    rest.look(estimated.state.base_twist, period);
+  } else {
+    rest.doubt();
+  }
+  if (rest.stood_for() >= rest_dwell) is_past_stop = true;
+  if (is_past_stop || static_cast<double>(stopped_ticks) * period <= longest_stop) return;
+  is_past_stop = is_rest_doubted = true;
+  tell_doubt();
+}
+
+/// The longest time of a stop is over.
+void Runner::Parts::tell_doubt() noexcept {
+  tell({EventCode::not_at_rest, estimated.time, event_signal::base_twist,
+        estimated.state.base_twist.linear.norm()});
 }
 
 Runner::Runner(const lang::Program& program, const RunnerSettings& settings)
@@ -432,7 +469,8 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   if (!p.guard.stopped()) {
     p.stop_is_told = false;
     p.stopped_ticks = 0;
-    p.stands = false;
+    p.rest.begin();
+    p.is_past_stop = p.is_rest_doubted = false;
   }
   if (p.guard.stopped() && !p.stop_is_told) {
     p.stop_is_told = true;
@@ -440,7 +478,8 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   }
   if (p.guard.stopped()) p.brake_protectively(good);
   if (solved) {
-    p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau);
+    p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau,
+                    p.blends());
   }
   if (p.recorder != nullptr) {
     const Shortfall shortfall = p.find_shortfall();
@@ -448,7 +487,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
                     p.given_parameters,
                     good ? p.estimated : sensed,
                     p.scheduler,
-                    solved ? &p.scheduler.constraints() : nullptr,
+                    solved,
                     p.solution,
                     p.solver_status,
                     p.guard_status,
@@ -467,11 +506,11 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
 void Runner::Parts::take_events_of(Parts& before) noexcept {
   events.swap(before.events);
   std::swap(event_count, before.event_count);
-  const int first = event_signal::measured(model.joint_count(), 0);
   for (Event& told : events) {
-    if (told.signal < first) continue;
-    const int now = snapshot.index_of(static_cast<std::size_t>(told.signal - first), before.snapshot);
-    told.signal = now < 0 ? -1 : first + now;
+    const auto was = static_cast<std::size_t>(told.signal);
+    if (told.signal < 0 || was >= before.signal_words.size()) continue;
+    const auto now = std::find(signal_words.begin(), signal_words.end(), before.signal_words[was]);
+    told.signal = now == signal_words.end() ? -1 : static_cast<int>(now - signal_words.begin());
   }
 }
 
@@ -533,8 +572,20 @@ RunState Runner::state() const noexcept {
 }
 
 bool Runner::finished() const noexcept {
-  if (parts_->guard.stopped()) return parts_->stands;
+  if (parts_->guard.stopped()) return parts_->is_past_stop;
   return parts_->scheduler.phase() == Phase::finished;
+}
+
+bool Runner::may_still_move() const noexcept {
+  if (parts_->guard.stopped()) return parts_->is_rest_doubted;
+  return finished() && !parts_->scheduler.has_stood();
+}
+
+std::string Runner::because() const {
+  std::string words;
+  if (parts_->guard.stopped()) words = describe(parts_->guard.reason());
+  if (may_still_move()) words += (words.empty() ? "" : "; ") + std::string("the base may still move");
+  return words;
 }
 
 std::vector<Column> Runner::columns() const {

@@ -97,6 +97,10 @@ class Runner {
   RunState state() const noexcept;
   /// The outcome is known and the base stands (or has had the time to).
   bool finished() const noexcept;
+  /// Of a run that is over: its stop had the time that it may take, and nobody saw the base stand.
+  bool may_still_move() const noexcept;
+  /// For people: the reason of a stop, and whether the base may still move; mostly empty. Allocates.
+  std::string because() const;
 
   /// Sets a parameter of the task file, in SI, between two steps. False, and nothing happens, for a name that
   /// is unknown and a value outside the parameter's range. Does not allocate.
