@@ -92,8 +92,8 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       braking(solver::Vector3::Zero()),
       start(given.start),
       entries(tasks.tasks.size(), 0),
-      guards(tasks.most_exits, control_period, Unknown::does_not_fire),
-      always_guards(tasks.most_exits, control_period, Unknown::fires_when_stale) {
+      guards(tasks.most_exits, tasks.most_nodes, control_period, Unknown::does_not_fire),
+      always_guards(tasks.most_exits, tasks.most_nodes, control_period, Unknown::fires_when_stale) {
   std::size_t most_pairs = 0;
   for (const lang::Task& t : tasks.tasks) {
     if (t.require) follow_paths(*t.require);
@@ -124,7 +124,8 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   axes.reserve(tasks.most_axes);
   wanted.reserve(most_wanted);
   renewed.reserve(most_wanted);
-  scratch.resize(tasks.most_nodes);
+  for (const lang::Task& t : tasks.tasks)
+    left.emplace_back(t.exits.size(), tasks.most_nodes, given.signals.size());
   const double force_scale = force_scale_of(model);
   blend.emplace(most_wanted, 3 * tasks.most_rows, force_scale, force_scale * radius);
   in_force.reserve(blend->capacity());
