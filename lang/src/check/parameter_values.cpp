@@ -14,6 +14,8 @@ namespace zwang::lang {
 
 namespace {
 
+constexpr double least_magnitude = 1e-15;  ///< of any quantity that a file can give, but 0 [SI]
+
 const ParameterSymbol* good_parameter(const CheckContext& context, const ValueText& value) {
   if (value.kind != ValueKind::parameter) return nullptr;
   const ParameterSymbol* symbol = context.symbols.find_parameter(value.name);

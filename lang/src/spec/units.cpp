@@ -262,9 +262,9 @@ QuantityResult parse_quantity(std::string_view text) {
   // No robot is in a thousand kilometres, or has a thousand tonnes; and what is lost in rounding is a slip.
   const bool is_length = quantity.dimension == dimension::length,
              is_mass = quantity.dimension == dimension::mass;
-  const double most = is_length || is_mass ? 1e6 : most_magnitude;
+  const double most = is_length || is_mass ? 1e6 : 1e12;
   const double size = std::abs(quantity.value);
-  if (!std::isfinite(size) || size > most || (size < least_magnitude && value != 0.0))
+  if (!std::isfinite(size) || size > most || (size < 1e-15 && value != 0.0))
     result.error = QuantityError::too_large;
   return result;
 }

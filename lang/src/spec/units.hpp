@@ -42,9 +42,6 @@ struct QuantityResult {
   std::string unknown;  ///< the part that is no unit
 };
 
-/// No quantity of a file is smaller in SI, but 0; and none is larger.
-inline constexpr double least_magnitude = 1e-15, most_magnitude = 1e12;
-
 /// The whole text must be one finite decimal number with or without a unit.
 QuantityResult parse_quantity(std::string_view text);
 
