@@ -131,9 +131,10 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     }
     const bool in_task = runner.state() == runtime::RunState::running;
     status = plant.apply(tau);
-    if (status != PlantStatus::ok) break;
+    if (status != PlantStatus::ok || plant.truth().base.fallen) break;
     watch.look(plant.truth(), in_task);
   }
+  if (runner.finished() && status == PlantStatus::ok) plant.end_lean();
   report.outcome = to_string(runner.state());
   if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
   if (give_up && !runner.finished()) report.because += "; the run was ended before the robot stood";
@@ -141,13 +142,18 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     report.outcome = to_string(status);
     report.because = "the plant " + report.outcome;
   }
+  if (status == PlantStatus::ok && plant.truth().base.fallen) {
+    report.outcome = "fallen";
+    report.because = describe_fall(plant.truth().base);
+  }
   report.elapsed = sensed.time;
   report.objects = watch.objects(plant.truth());
-  for (const runtime::ScenePartner& partner : plant.partners())
-    report.partners.push_back(partner_report(partner));
+  for (std::size_t i = 0; i < plant.partners().size(); ++i)
+    report.partners.push_back(partner_report(plant.partners()[i], plant.truth().robots[i].base));
   report.x = plant.truth().x;
   report.y = plant.truth().y;
   report.yaw = plant.truth().yaw;
+  report.base = plant.truth().base;
 }
 
 std::string headline(const RunArguments& arguments, const lang::Program& program) {

@@ -122,6 +122,10 @@ std::string truth_table(const RunReport& report) {
                                             with_unit(o.steady_force, "N", 5) + " at the end, with " +
                                             with_unit(o.peak_force, "N", 4) + " at most"});
   }
+  if (report.base.slipped) {
+    table.add({"wheels", "slide over the floor from " + seconds(*report.base.slipped) + " on, with " +
+                             with_unit(report.base.most_slip, "m/s") + " at most"});
+  }
   for (const AskedForce& a : report.asked) {
     table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
   }
@@ -217,7 +221,7 @@ std::vector<ObjectReport> TruthWatch::objects(const runtime::Truth& truth) const
   return reports;
 }
 
-PartnerReport partner_report(const runtime::ScenePartner& partner) {
+PartnerReport partner_report(const runtime::ScenePartner& partner, const runtime::BaseTruth& base) {
   const runtime::Runner& runner = partner.runner;
   PartnerReport report;
   report.name = partner.name;
@@ -227,6 +231,10 @@ PartnerReport partner_report(const runtime::ScenePartner& partner) {
     report.task = task_name(runner.scheduler(), runner.scheduler().task());
   }
   if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
+  if (base.fallen) {
+    report.outcome = "fallen";
+    report.because = describe_fall(base);
+  }
   return report;
 }
 
@@ -282,7 +290,14 @@ std::string json_report(const RunReport& report, const runtime::Runner& runner,
                      {"peak_force", o.peak_force},           {"yaw_at_touch", number_or_null(o.yaw_at_touch)},
                      {"latched", number_or_null(o.latched)}, {"pull", o.pull}};
   }
-  truth["base"] = {{"x", report.x}, {"y", report.y}, {"yaw", report.yaw}};
+  truth["base"] = {{"x", report.x},
+                   {"y", report.y},
+                   {"yaw", report.yaw},
+                   {"roll", report.base.roll},
+                   {"pitch", report.base.pitch},
+                   {"fallen", number_or_null(report.base.fallen)},
+                   {"slipped", number_or_null(report.base.slipped)},
+                   {"most_slip", report.base.most_slip}};
   ordered_json asked = ordered_json::array();
   for (const AskedForce& a : report.asked) {
     asked.push_back({{"row", a.row}, {"force", a.force}, {"unit", a.unit}});

@@ -53,11 +53,12 @@ class TruthWatch {
 /// Another robot of the scene, when the run ended.
 struct PartnerReport {
   std::string name;
-  std::string outcome;  ///< done, failed, stopped, or unfinished
+  std::string outcome;  ///< done, failed, stopped, fallen, or unfinished
   std::string because;  ///< of a stop
   std::string task;     ///< that was active; empty when none was
 };
-PartnerReport partner_report(const runtime::ScenePartner& partner);
+/// `base`: as the plant has it.
+PartnerReport partner_report(const runtime::ScenePartner& partner, const runtime::BaseTruth& base);
 
 /// A program that ran before the file was loaded again.
 struct Chapter {
@@ -67,7 +68,7 @@ struct Chapter {
 };
 
 struct RunReport {
-  std::string outcome;     ///< done, failed, stopped, diverged; the first robot's
+  std::string outcome;     ///< done, failed, stopped, fallen, diverged; the first robot's
   std::string because;     ///< of a stop; empty otherwise
   double elapsed = 0.0;    ///< [s]
   double wall_time = 0.0;  ///< [s] that it took
@@ -80,6 +81,7 @@ struct RunReport {
   std::vector<ObjectReport> objects;
   std::vector<PartnerReport> partners;
   double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the base, as the plant has it
+  runtime::BaseTruth base;
 };
 
 /// The row that is at its limit, in a line without its end.

@@ -44,8 +44,8 @@ lines is a mistake.)~",
           .code = "E903",
           .title = "an outcome that no run can have",
           .why =
-              R"~(A run ends as `done`, `failed`, `stopped`, `diverged`, `refused` or, at its time limit,
-`unfinished`. A misspelt outcome would never come true.)~",
+              R"~(A run ends as `done`, `failed`, `stopped`, `fallen`, `diverged`, `refused` or, at its
+time limit, `unfinished`. A misspelt outcome would never come true.)~",
           .fix = "Write one of them, as in `- outcome: done`."},
       Explanation{
           .code = "E904",
