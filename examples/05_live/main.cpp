@@ -1,4 +1,4 @@
-// What a host may do while a task runs: set parameters, swap the program, look at events, stop, write a log.
+// A host sets parameters, swaps the program, looks at events, stops, and writes a log while a task runs.
 //
 //   05_live TASK.yaml OTHER_TASK.yaml LOG.mcap        specs/wall_align.yaml specs/obstacle.yaml
 #include <cmath>

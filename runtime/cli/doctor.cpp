@@ -1,4 +1,4 @@
-// What this machine offers zwang, and how to get what is missing.
+// The verb `doctor` prints the means of this machine, and the way to each that is missing.
 #include <sched.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>

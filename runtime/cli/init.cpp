@@ -1,6 +1,5 @@
 // A folder to begin in: a task, its robot and scene, a scenario, and an editor that knows the files.
 #include <filesystem>
-#include <fstream>
 
 #include "output.hpp"
 #include "shipped.hpp"
@@ -14,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* scenario = R"~(# yaml-language-server: $schema=../schemas/scenario.json
-# What the task promises, from several headings. `zwang test scenarios` judges it by the simulator's truth.
+# The task keeps its promise from several headings. `zwang test scenarios` judges it by the simulator's truth.
 zwang_scenario: 1
 task: ../wall_align.yaml
 scene: ../scenes/wall_far.yaml
@@ -38,10 +37,7 @@ constexpr const char* editor_settings = R"~({
 
 void write(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
-  std::ofstream out(file, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw Impossible(file.string() + ": cannot be written");
+  write_file(file.string(), text);
 }
 
 }  // namespace
@@ -63,11 +59,8 @@ int init(const InitArguments& arguments) {
     }
     write(folder / "scenarios/wall_align.yaml", scenario);
     write(folder / ".vscode/settings.json", editor_settings);
-    for (const auto& [name, kind] : {std::pair{"task", lang::SchemaKind::task},
-                                     {"robot", lang::SchemaKind::robot},
-                                     {"scene", lang::SchemaKind::scene},
-                                     {"scenario", lang::SchemaKind::scenario}})
-      write(folder / "schemas" / (std::string(name) + ".json"), lang::json_schema(kind));
+    for (const auto& [name, kind] : schema_kinds)
+      write(folder / "schemas" / (name + ".json"), lang::json_schema(kind));
   } catch (const fs::filesystem_error& failure) {
     throw Impossible(failure.path1().string() + ": " + failure.code().message());
   }

@@ -121,14 +121,9 @@ void add_fmt(CLI::App& app, std::function<int()>& chosen) {
 }
 
 void add_schema(CLI::App& app, std::function<int()>& chosen) {
-  using zwang::lang::SchemaKind;
-  static const std::map<std::string, SchemaKind> kinds = {{"task", SchemaKind::task},
-                                                          {"robot", SchemaKind::robot},
-                                                          {"scene", SchemaKind::scene},
-                                                          {"scenario", SchemaKind::scenario}};
   const auto arguments = std::make_shared<SchemaArguments>();
   CLI::App* verb = app.add_subcommand("schema", "Print the JSON Schema of a kind of file, for editors");
-  takes(verb->add_option("kind", arguments->kind, "task (default), robot, scene or scenario"), kinds);
+  takes(verb->add_option("kind", arguments->kind, "task (default), robot, scene or scenario"), schema_kinds);
   verb->callback([=, &chosen] { chosen = [=] { return schema(*arguments); }; });
 }
 
@@ -190,8 +185,8 @@ void add_doctor(CLI::App& app, std::function<int()>& chosen) {
   verb->callback([&chosen] { chosen = [] { return doctor(); }; });
 }
 
-/// `runn` is answered with `run`; empty when the first word is a verb, an option, or like none.
-std::string verb_meant(const CLI::App& app, int argc, char** argv) {
+/// `runn` is answered with `run`. Empty when the first word is a verb or an option.
+std::string unknown_verb(const CLI::App& app, int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
   std::vector<std::string> verbs;
   for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
@@ -269,8 +264,8 @@ int parse_and_do(int argc, char** argv) {
     print(text.str());
     return exit_good;
   } catch (const CLI::ParseError& mistake) {
-    const std::string unknown_verb = verb_meant(app, argc, argv);
-    if (!unknown_verb.empty()) throw Impossible(unknown_verb + "\nTry `zwang --help`.");
+    const std::string unknown = unknown_verb(app, argc, argv);
+    if (!unknown.empty()) throw Impossible(unknown + "\nTry `zwang --help`.");
     // CLI11's own exit codes say nothing that ours do not.
     std::string verb;  // the innermost that was named
     for (auto below = app.get_subcommands(); !below.empty(); below = below.front()->get_subcommands())

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "zwang/lang/printable.hpp"
@@ -95,6 +96,13 @@ std::string place(const lang::Diagnostics& diagnostics, const lang::Span& span) 
   if (!span.exists()) return "";
   const std::filesystem::path path = diagnostics.source(span.source).path;
   return path.filename().string() + ":" + std::to_string(span.begin.line);
+}
+
+void write_file(const std::string& path, std::string_view text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Impossible(path + ": cannot be written");
 }
 
 void require_file(const std::string& path) {

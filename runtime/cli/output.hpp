@@ -40,6 +40,9 @@ std::string count(std::size_t n, std::string_view thing);  ///< `1 error`, `2 er
 /// `wall_align.yaml:27`; empty when the span does not exist.
 std::string place(const lang::Diagnostics& diagnostics, const lang::Span& span);
 
+/// In the place of what the file held. Throws Impossible where it cannot be written.
+void write_file(const std::string& path, std::string_view text);
+
 /// Throws Impossible unless the path is a regular file.
 void require_file(const std::string& path);
 

@@ -343,10 +343,7 @@ int robot_init(const RobotInitArguments& arguments) {
     print_data(draft->text);
     return exit_good;
   }
-  std::ofstream file(*arguments.out, std::ios::binary);
-  file << draft->text;
-  file.close();
-  if (!file) throw Impossible(*arguments.out + ": cannot be written");
+  write_file(*arguments.out, draft->text);
   print(*arguments.out + ": written; fill in\n" + listed("missing", draft->missing));
   return exit_good;
 }

@@ -2,7 +2,6 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <sstream>
 #include <thread>
@@ -177,11 +176,7 @@ int test(const TestArguments& arguments) {
   } else {
     print(human_report(reports, seconds));
   }
-  if (arguments.junit) {
-    std::ofstream file(*arguments.junit, std::ios::binary);
-    file << junit_report(reports);
-    if (!file.flush()) throw Impossible(*arguments.junit + ": cannot be written");
-  }
+  if (arguments.junit) write_file(*arguments.junit, junit_report(reports));
   if (!std::all_of(reports.begin(), reports.end(), passed)) return exit_bad;
   return interrupted ? exit_impossible : exit_good;
 }

@@ -55,6 +55,12 @@ struct FmtArguments {
 };
 int fmt(const FmtArguments& arguments);
 
+inline const std::map<std::string, lang::SchemaKind> schema_kinds = {
+    {"task", lang::SchemaKind::task},
+    {"robot", lang::SchemaKind::robot},
+    {"scene", lang::SchemaKind::scene},
+    {"scenario", lang::SchemaKind::scenario}};
+
 struct SchemaArguments {
   lang::SchemaKind kind = lang::SchemaKind::task;
 };

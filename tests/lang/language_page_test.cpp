@@ -7,6 +7,7 @@
 #include <regex>
 #include <set>
 
+#include "../page_blocks.hpp"
 #include "spec/expression.hpp"
 #include "spec/units.hpp"
 #include "support.hpp"
@@ -21,27 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Block {
-  std::string kind;  ///< "yaml task", "yaml mistake group", "text", ""
-  std::string text;
-  int line = 0;
-};
+using zwang::test::PageBlock;
 
-std::vector<Block> blocks(const std::string& path) {
-  std::vector<Block> result;
-  std::istringstream page(test::slurp(test::source_dir / path));
-  bool is_inside = false;
-  int number = 0;
-  for (std::string line; std::getline(page, line);) {
-    ++number;
-    if (line.starts_with("```")) {
-      is_inside = !is_inside;
-      if (is_inside) result.push_back({line.substr(3), "", number});
-    } else if (is_inside) {
-      result.back().text += line + "\n";
-    }
-  }
-  return result;
+std::vector<PageBlock> blocks(const std::string& page) {
+  return zwang::test::page_blocks(test::source_dir / page);
 }
 
 std::string indented(const std::string& text, std::size_t by) {
@@ -79,8 +63,8 @@ std::string group(const std::string& text) {
   return task("constraints:\n  contact:\n    move: base_link\n    in: base_link\n" + indented(text, 4));
 }
 
-/// What is said about a block, which stands where the shipped files stand.
-Diagnostics said_about(const Block& block, const test::Folder& folder) {
+/// The diagnostics of a block that stands where the shipped files stand.
+Diagnostics said_about(const PageBlock& block, const test::Folder& folder) {
   const std::string part = block.kind.substr(block.kind.rfind(' ') + 1);
   Diagnostics diagnostics;
   if (part == "robot") {
@@ -113,7 +97,7 @@ class LanguagePage : public testing::Test {
 TEST_F(LanguagePage, each_block_is_good) {
   int tried = 0;
   for (const std::string page : {"docs/language.md", "docs/concepts.md"}) {
-    for (const Block& block : blocks(page)) {
+    for (const PageBlock& block : blocks(page)) {
       if (!block.kind.starts_with("yaml") || block.kind.find("mistake") != std::string::npos) continue;
       const Diagnostics diagnostics = said_about(block, folder_);
       const int unused = test::count(diagnostics, "W302");
@@ -128,7 +112,7 @@ TEST_F(LanguagePage, each_block_is_good) {
 
 /// The block after a mistake holds the words of the diagnostic, a line each.
 TEST_F(LanguagePage, each_mistake_is_refused_in_these_words) {
-  const std::vector<Block> all = blocks("docs/language.md");
+  const std::vector<PageBlock> all = blocks("docs/language.md");
   int tried = 0;
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
     if (all[i].kind.find("mistake") == std::string::npos) continue;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "../page_blocks.hpp"
 #include "program.hpp"
 
 namespace zwang {
@@ -12,27 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Block {
-  std::string language;
-  std::string text;
-  int line = 0;
-};
+using test::PageBlock;
 
-std::vector<Block> blocks(const char* page = "docs/tutorial.md") {
-  std::ifstream in(fs::path(ZWANG_SOURCE_DIR) / page);
-  std::vector<Block> result;
-  bool is_inside = false;
-  int number = 0;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (line.starts_with("```")) {
-      is_inside = !is_inside;
-      if (is_inside) result.push_back({line.substr(3), "", number});
-    } else if (is_inside) {
-      result.back().text += line + "\n";
-    }
-  }
-  return result;
+std::vector<PageBlock> blocks(const char* page = "docs/tutorial.md") {
+  return test::page_blocks(fs::path(ZWANG_SOURCE_DIR) / page);
 }
 
 class Tutorial : public test::Program {
@@ -40,13 +24,13 @@ class Tutorial : public test::Program {
   void SetUp() override {
     fs::copy(fs::path(ZWANG_SOURCE_DIR) / "specs", folder_, fs::copy_options::recursive);
   }
-  void write(const Block& block) { Program::write("mine.yaml", block.text); }
+  void write(const PageBlock& block) { Program::write("mine.yaml", block.text); }
 };
 
 TEST_F(Tutorial, each_block_is_good) {
   int tried = 0;
-  for (const Block& block : blocks()) {
-    if (block.language != "yaml") continue;
+  for (const PageBlock& block : blocks()) {
+    if (block.kind != "yaml") continue;
     write(block);
     const test::Result result = zwang({"validate", "--deny", "warnings", "mine.yaml"});
     EXPECT_EQ(result.code, 0) << "docs/tutorial.md:" << block.line << "\n" << result.out << result.err;
@@ -56,8 +40,8 @@ TEST_F(Tutorial, each_block_is_good) {
 }
 
 TEST_F(Tutorial, each_block_runs) {
-  for (const Block& block : blocks()) {
-    if (block.language != "yaml") continue;
+  for (const PageBlock& block : blocks()) {
+    if (block.kind != "yaml") continue;
     write(block);
     const test::Result result =
         zwang({"run", "mine.yaml", "--scene", "scenes/wall.yaml", "--quiet", "--format", "json"});
@@ -67,17 +51,17 @@ TEST_F(Tutorial, each_block_runs) {
 }
 
 TEST_F(Tutorial, the_first_block_has_eight_lines) {
-  for (const Block& block : blocks()) {
-    if (block.language != "yaml") continue;
+  for (const PageBlock& block : blocks()) {
+    if (block.kind != "yaml") continue;
     EXPECT_EQ(std::count(block.text.begin(), block.text.end(), '\n'), 8);
     return;
   }
 }
 
 TEST_F(Tutorial, the_mistake_is_refused_in_these_words) {
-  const std::vector<Block> all = blocks();
+  const std::vector<PageBlock> all = blocks();
   for (std::size_t i = 0; i + 1 < all.size(); ++i) {
-    if (all[i].language != "yaml mistake") continue;
+    if (all[i].kind != "yaml mistake") continue;
     write(all[i]);
     const test::Result result = zwang({"validate", "mine.yaml"});
     EXPECT_EQ(result.code, 1);
@@ -88,9 +72,9 @@ TEST_F(Tutorial, the_mistake_is_refused_in_these_words) {
 }
 
 TEST_F(Tutorial, the_last_block_squares_the_base_up) {
-  std::optional<Block> last;
-  for (const Block& block : blocks()) {
-    if (block.language == "yaml") last = block;
+  std::optional<PageBlock> last;
+  for (const PageBlock& block : blocks()) {
+    if (block.kind == "yaml") last = block;
   }
   ASSERT_TRUE(last);
   write(*last);
@@ -107,12 +91,12 @@ TEST_F(Tutorial, part_2_grows_file_by_file_and_each_task_is_done) {
 #ifdef ZWANG_SANITIZED
   GTEST_SKIP() << "long simulations, of which a sanitizer learns nothing new";
 #endif
-  const std::vector<Block> all = blocks("docs/tutorial_2.md");
+  const std::vector<PageBlock> all = blocks("docs/tutorial_2.md");
   int runs = 0, tests = 0;
-  for (const Block& block : all) {
+  for (const PageBlock& block : all) {
     constexpr std::string_view yaml = "yaml specs/";
-    if (!block.language.starts_with(yaml)) continue;
-    const std::string file = block.language.substr(yaml.size());
+    if (!block.kind.starts_with(yaml)) continue;
+    const std::string file = block.kind.substr(yaml.size());
     Program::write(file, block.text);
     const std::string where = "docs/tutorial_2.md:" + std::to_string(block.line) + "\n";
     const bool needs_its_scene = file == "mine.yaml" && block.text.find("$target") == std::string::npos;
@@ -147,11 +131,11 @@ class OwnRobot : public test::Program {
 
 /// Each block names its file, or the command whose words it holds.
 TEST_F(OwnRobot, part_3_comes_from_a_urdf_to_a_task_that_is_done) {
-  const std::vector<Block> all = blocks("docs/tutorial_3.md");
+  const std::vector<PageBlock> all = blocks("docs/tutorial_3.md");
   int files = 0, commands = 0;
-  for (const Block& block : all) {
+  for (const PageBlock& block : all) {
     const std::string where = "docs/tutorial_3.md:" + std::to_string(block.line) + "\n";
-    const std::string& kind = block.language;
+    const std::string& kind = block.kind;
     if (kind.starts_with("text zwang ")) {
       const std::string said = said_by(kind);
       EXPECT_NE(said.find(block.text.substr(0, block.text.size() - 1)), std::string::npos) << where << said;
@@ -175,8 +159,8 @@ TEST_F(OwnRobot, part_3_comes_from_a_urdf_to_a_task_that_is_done) {
 using Readme = Tutorial;
 
 TEST_F(Readme, its_task_is_good_and_squares_the_base_up) {
-  const std::vector<Block> all = blocks("README.md");
-  ASSERT_EQ(all.at(0).language, "yaml");
+  const std::vector<PageBlock> all = blocks("README.md");
+  ASSERT_EQ(all.at(0).kind, "yaml");
   write(all[0]);
   const test::Result good = zwang({"validate", "--deny", "warnings", "mine.yaml"});
   EXPECT_EQ(good.code, 0) << good.out << good.err;
@@ -187,8 +171,8 @@ TEST_F(Readme, its_task_is_good_and_squares_the_base_up) {
 }
 
 TEST_F(Readme, its_diagnostic_is_the_programs) {
-  const std::vector<Block> all = blocks("README.md");
-  ASSERT_EQ(all.at(1).language, "text");
+  const std::vector<PageBlock> all = blocks("README.md");
+  ASSERT_EQ(all.at(1).kind, "text");
   std::string mistake = all[0].text;
   mistake.replace(mistake.find("20 N, velocity"), 4, "900 N");
   Program::write("press.yaml", mistake);

@@ -1,4 +1,4 @@
-/// What many runs came to.
+/// A table counts the outcomes of many runs.
 #pragma once
 
 #include <iosfwd>

@@ -18,7 +18,7 @@ constexpr double noise = 1e-10;      // [rad]
 constexpr double watched_for = 3.0;  // [s] after the onset
 constexpr double rests_for = 1.0;    // [s] after the end of a run
 
-/// What the encoders make of the true state.
+/// Encoders read the true state, in steps, until they fail.
 class Encoders {
  public:
   explicit Encoders(const Drawn& drawn)

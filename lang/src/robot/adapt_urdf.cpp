@@ -5,18 +5,10 @@
 #include <map>
 
 #include "diagnostic/wordings.hpp"
-#include "diagnostic/wordings_standing.hpp"
 
 namespace zwang::lang {
 
 namespace {
-
-template <typename Items, typename NameOf>
-std::vector<std::string> names_of(const Items& items, const NameOf& name_of) {
-  std::vector<std::string> names;
-  for (const auto& item : items) names.push_back(name_of(item));
-  return names;
-}
 
 /// X_PC of a joint at the position nearest to 0 that it can take.
 solver::Pose at_rest(const UrdfJoint& joint) {
@@ -36,8 +28,7 @@ void hold_joints(const std::vector<Word>& fixed, Urdf& urdf, Diagnostics& diagno
     const auto joint = std::find_if(urdf.joints.begin(), urdf.joints.end(),
                                     [&](const UrdfJoint& j) { return j.joint.name == name.text; });
     if (joint == urdf.joints.end()) {
-      const auto known = names_of(urdf.joints, [](const UrdfJoint& j) { return j.joint.name; });
-      diagnostics.add(wording::unknown_name(name.span, "joint", name.text, known));
+      diagnostics.add(wording::unknown_name(name.span, "joint", name.text, urdf.joint_names()));
       continue;
     }
     if (joint->joint.type == solver::JointType::fixed) continue;
@@ -62,12 +53,11 @@ std::vector<Word> used_parts(const RobotFile& file) {
 }
 
 void check_left_out(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics) {
-  const auto known = names_of(urdf.links, [](const UrdfLink& l) { return l.name; });
   std::map<std::string, Span> ignored;
   for (const Word& link : file.ignored) {
     if (link.exists()) ignored.emplace(link.text, link.span);
     if (link.exists() && !urdf.left_out.contains(link.text))
-      diagnostics.add(wording::unknown_name(link.span, "link", link.text, known));
+      diagnostics.add(wording::unknown_name(link.span, "link", link.text, urdf.link_names()));
   }
   for (const Word& part : used_parts(file)) {
     const auto gone = urdf.left_out.find(part.text);

@@ -29,9 +29,8 @@ void add_movers_above(const Urdf& urdf, const std::string& joint, std::set<std::
 
 bool is_possible(const solver::RigidInertia& inertia) {
   if (!(inertia.mass > 0.0)) return true;  // what it is fixed to may have the mass
-  const solver::Matrix3 c = solver::skew(inertia.first_moment / inertia.mass);
   const solver::Vector3 moments =
-      Eigen::SelfAdjointEigenSolver<solver::Matrix3>(inertia.rotational + inertia.mass * c * c).eigenvalues();
+      Eigen::SelfAdjointEigenSolver<solver::Matrix3>(inertia.rotational_at_com()).eigenvalues();
   return moments(0) + moments(1) >= moments(2) - 1e-6 * moments.cwiseAbs().maxCoeff();
 }
 

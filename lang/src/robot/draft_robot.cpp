@@ -64,7 +64,7 @@ class Drafter {
     draft.name = urdf_.name;
     draft.base = found_.base;
     draft.drive = in_words(drive_, found_.wheels);
-    for (const UrdfLink& link : urdf_.links) draft.mass += link.inertia.mass;
+    draft.mass = urdf_.mass();
     draft.wheels = found_.wheels;
     draft.casters = found_.casters;
     draft.supports = found_.supports;
@@ -253,8 +253,7 @@ class Drafter {
 
   /// As hard as most bases brake, and the force that this takes.
   std::string stop() const {
-    double mass = 0.0;
-    for (const UrdfLink& link : urdf_.links) mass += link.inertia.mass;
+    const double mass = urdf_.mass();
     const std::string force = mass > 0.0 ? wording::figure(rounded_up(mass), "N") : fill_in;
     return "\n# The one brake of `done`, `failed` and the protective stop. Proposed: 1 m/s^2, and the force "
            "that it "

@@ -1,4 +1,4 @@
-/// What kind of drive wheels look like, from their places and axles alone.
+/// The kind of drive, told from the places and axles of wheels alone.
 #pragma once
 
 #include <map>

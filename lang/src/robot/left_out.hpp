@@ -9,7 +9,7 @@
 
 namespace zwang::lang {
 
-/// What went: links and joints by their names, each with the link of the list that it hung on.
+/// Links and joints that went, by their names. Each has the link of the list that it hung on.
 using LeftOut = std::map<std::string, std::string>;
 
 /// Takes the links away, with all that hangs on them by joints. The URDF's root stays: without it there is no

@@ -53,12 +53,6 @@ class RobotBuilder {
   }
 
  private:
-  std::vector<std::string> link_names() const {
-    std::vector<std::string> names;
-    for (const UrdfLink& link : urdf_.links) names.push_back(link.name);
-    return names;
-  }
-
   /// The URDF's joint, or the complaint that there is none.
   UrdfJoint* moving_joint(const Word& name) {
     if (!name.exists() || !good_name(name.text)) return nullptr;
@@ -82,13 +76,14 @@ class RobotBuilder {
 
   void check_link(const Word& name) {
     if (!name.exists() || urdf_.find_link(name.text) != nullptr) return;
-    diagnostics_.add(wording::unknown_name(name.span, "link", name.text, link_names()));
+    diagnostics_.add(wording::unknown_name(name.span, "link", name.text, urdf_.link_names()));
   }
 
   /// The base floats: everything above it, up to the URDF's root, must be fixed to it.
   void check_base() {
     if (file_.base.exists() && urdf_.find_link(file_.base.text) == nullptr)
-      diagnostics_.add(wording::unknown_base(file_.base.span, file_.base.text, link_names(), urdf_.root));
+      diagnostics_.add(
+          wording::unknown_base(file_.base.span, file_.base.text, urdf_.link_names(), urdf_.root));
     for (const UrdfJoint* above = urdf_.joint_above(file_.base.text); above != nullptr;
          above = urdf_.joint_above(above->parent)) {
       if (above->joint.type != solver::JointType::fixed) {
@@ -188,7 +183,7 @@ class RobotBuilder {
   }
 
   void check_frames() {
-    std::vector<std::string> known = link_names();
+    std::vector<std::string> known = urdf_.link_names();
     for (const FrameText& frame : file_.frames) {
       if (frame.parent.exists() && std::find(known.begin(), known.end(), frame.parent.text) == known.end()) {
         diagnostics_.add(wording::unknown_frame(frame.parent.span, "link or earlier frame", frame.parent.text,

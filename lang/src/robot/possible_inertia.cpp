@@ -9,8 +9,7 @@ namespace zwang::lang {
 std::optional<CorrectedInertia> corrected(const solver::RigidInertia& inertia) {
   if (!(inertia.mass > 0.0)) return std::nullopt;
   const solver::Vector3 com = inertia.first_moment / inertia.mass;
-  const solver::Matrix3 c = solver::skew(com);
-  const Eigen::SelfAdjointEigenSolver<solver::Matrix3> at_com(inertia.rotational + inertia.mass * c * c);
+  const Eigen::SelfAdjointEigenSolver<solver::Matrix3> at_com(inertia.rotational_at_com());
   const solver::Vector3& moments = at_com.eigenvalues();
   constexpr double rounding = 1e-6;  // of the largest moment
   const double lacks = moments(2) - moments(0) - moments(1);

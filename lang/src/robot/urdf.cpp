@@ -202,6 +202,24 @@ const UrdfJoint* Urdf::joint_above(const std::string& link) const {
   return find_in(joints, [&](const UrdfJoint& j) { return j.child == link; });
 }
 
+std::vector<std::string> Urdf::link_names() const {
+  std::vector<std::string> names;
+  for (const UrdfLink& link : links) names.push_back(link.name);
+  return names;
+}
+
+std::vector<std::string> Urdf::joint_names() const {
+  std::vector<std::string> names;
+  for (const UrdfJoint& joint : joints) names.push_back(joint.joint.name);
+  return names;
+}
+
+double Urdf::mass() const {
+  double sum = 0.0;
+  for (const UrdfLink& link : links) sum += link.inertia.mass;
+  return sum;
+}
+
 std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics,
                               const std::vector<std::string>& ignored) {
   const std::optional<int> source = read_file(path, urdf_size_limit, cause, diagnostics);

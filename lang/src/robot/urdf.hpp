@@ -49,6 +49,9 @@ struct Urdf {
   const UrdfLink* find_link(const std::string& link) const;
   const UrdfJoint* find_joint(const std::string& joint) const;
   const UrdfJoint* joint_above(const std::string& link) const;
+  std::vector<std::string> link_names() const;
+  std::vector<std::string> joint_names() const;
+  double mass() const;  ///< [kg] of all links
 };
 
 /// `ignored`: links that are left out, and not looked at.

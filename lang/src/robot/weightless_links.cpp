@@ -26,8 +26,7 @@ std::vector<std::string> without_inertia(const Urdf& urdf) {
     const solver::RigidInertia inertia = carried_inertia(urdf, joint.child);
     bool is_good = inertia.mass > 0.0;
     if (is_good) {
-      const solver::Matrix3 c = solver::skew(inertia.first_moment / inertia.mass);
-      const solver::Matrix3 at_com = inertia.rotational + inertia.mass * c * c;
+      const solver::Matrix3 at_com = inertia.rotational_at_com();
       is_good = (at_com.diagonal().array() > 0.0).all() && at_com.determinant() > 0.0;
     }
     if (!is_good) names.push_back(joint.child);

@@ -50,9 +50,7 @@ inline std::string quaternion_of(const solver::Matrix3& rotation) {
 /// About its principal axes, as MuJoCo finds those of a `fullinertia` to a part in a million only.
 inline std::string inertial(const solver::RigidInertia& inertia) {
   const solver::Vector3 com = inertia.first_moment / inertia.mass;
-  const solver::Matrix3 c = solver::skew(com);
-  const solver::Matrix3 at_com = inertia.rotational + inertia.mass * c * c;
-  const Eigen::SelfAdjointEigenSolver<solver::Matrix3> principal(at_com);
+  const Eigen::SelfAdjointEigenSolver<solver::Matrix3> principal(inertia.rotational_at_com());
   solver::Matrix3 axes = principal.eigenvectors();
   if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
   return "<inertial" + attribute("pos", list_of(com)) + attribute("mass", text_of(inertia.mass)) +

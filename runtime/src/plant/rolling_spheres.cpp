@@ -68,8 +68,7 @@ Vector3 planar_row(const Vector3& direction, const Vector3& point) {
 
 bool is_physical(const RigidInertia& inertia) {
   if (!(inertia.mass > 0.0)) return false;
-  const Matrix3 c = solver::skew(inertia.first_moment / inertia.mass);
-  const Matrix3 at_com = inertia.rotational + inertia.mass * c * c;
+  const Matrix3 at_com = inertia.rotational_at_com();
   // Second moments of the mass: all positive is the triangle rule.
   const Matrix3 moments = 0.5 * at_com.trace() * Matrix3::Identity() - at_com;
   const double tolerance = 1e-6 * at_com.trace();

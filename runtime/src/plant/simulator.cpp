@@ -17,6 +17,7 @@
 #include <stdexcept>
 
 #include "contact_spring.hpp"
+#include "zwang/runtime/mujoco_plant.hpp"
 
 namespace zwang::runtime {
 

@@ -24,9 +24,7 @@ void require_physical(const RigidInertia& inertia, const std::string& name) {
     refuse("the inertia of `" + name + "` is not finite");
   }
   if (inertia.mass <= 0.0) refuse("the mass of `" + name + "` is not positive");
-  const Matrix3 c = skew(inertia.first_moment / inertia.mass);
-  const Matrix3 at_com = inertia.rotational + inertia.mass * c * c;
-  const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(at_com).eigenvalues();
+  const Vector3 moments = Eigen::SelfAdjointEigenSolver<Matrix3>(inertia.rotational_at_com()).eigenvalues();
   const double tolerance = 1e-6 * moments.cwiseAbs().maxCoeff();
   if (moments.minCoeff() <= 0.0) refuse("the inertia of `" + name + "` is not positive definite");
   if (moments(0) + moments(1) < moments(2) - tolerance) {

@@ -193,6 +193,11 @@ struct BasicRigidInertia {
     const Matrix3Of<Real> c = skew(com);
     return {mass, mass * com, inertia_at_com - mass * c * c};
   }
+  /// About the centre of mass, in the body frame's axes; the mass is not 0. [kg m^2]
+  Matrix3Of<Real> rotational_at_com() const {
+    const Matrix3Of<Real> c = skew(first_moment / mass);
+    return rotational + mass * c * c;
+  }
   BasicForceVector<Real> operator*(const BasicMotionVector<Real>& v) const {
     return {rotational * v.angular + first_moment.cross(v.linear),
             mass * v.linear - first_moment.cross(v.angular)};
