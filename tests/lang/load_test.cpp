@@ -180,6 +180,34 @@ TEST(Overrides, are_checked_like_the_file) {
   }
 }
 
+/// A program that runs a task may set any parameter: those without a range are bound by their places.
+TEST(Parameters, without_a_range_are_bound_by_their_places) {
+  const test::Folder folder;
+  for (const char* name : {"mecanum_base.yaml", "mecanum_base.urdf"})
+    folder.write(name, test::slurp(source_dir / "specs/robots" / name));
+  folder.write("task.yaml", R"(zwang: 1
+robot: mecanum_base.yaml
+params: {k: 200 N/m, pace: 0.1 m/s, low: -1 N, high: 3 N, push: 5 N}
+start: a
+tasks:
+  a:
+    constraints:
+      c: {move: base_link, in: world, x: {position: 1 m, stiffness: $k, damping: 90 N s/m, force: [$low, $high], velocity: +-$pace}}
+      p: {move: base_link, in: base_link, y: {force: $push, velocity: +-0.1 m/s}}
+    timeout: {after: 1 s, goto: done}
+)");
+  Diagnostics diagnostics;
+  const auto program = load(folder.path() / "task.yaml", {}, diagnostics);
+  ASSERT_TRUE(program) << rendered(diagnostics);
+  const auto range = [&](std::size_t i) { return program->parameters[i].range; };
+  ASSERT_TRUE(range(0) && range(1) && range(2) && range(3));
+  EXPECT_GT(range(0)->low, 0.0);
+  EXPECT_EQ(range(1)->low, 0.0);
+  EXPECT_EQ(range(2)->high, 0.0) << "a force range holds 0";
+  EXPECT_EQ(range(3)->low, 1.0) << "halfway between -1 N and 3 N, which is above 0 N";
+  EXPECT_FALSE(range(4)) << "any force drives";
+}
+
 TEST(Roots, keep_reading_below_them) {
   const test::Folder folder;
   const std::string task = test::slurp(source_dir / "specs/wall_align.yaml");

@@ -183,6 +183,98 @@ TEST(PoseSignal, WhileInvalidASpringInItsFrameStandsStillToo) {
   EXPECT_EQ(bench.constraint(0).driver->force.high, 40.0);
 }
 
+/// From the task "wait" to the task "go", which drives in `goal`; `goal` is set from `socket` by the exit or
+/// on entry.
+lang::Program with_goal(bool on_entry, const lang::Target& target) {
+  lang::Program p = docking({to_socket()}, 0.010);
+  p.frames.push_back({.name = "goal"});
+  constexpr int goal = socket_frame + 1;
+  lang::Task go = task("go", {to_socket()}, base_link, goal);
+  p.tasks[0].exits = {exit(after(0.003), target)};
+  const std::vector<lang::SetAction> set = {{.index = goal, .source = socket_frame}};
+  (on_entry ? go.set_on_entry : p.tasks[0].exits[0].set) = set;
+  p.tasks.push_back(go);
+  return p;
+}
+
+TEST(PoseSignal, ASetFromItsFrameWhileItIsUnknownLeadsToFailed) {
+  for (const bool on_entry : {false, true}) {
+    for (const bool was_seen : {false, true}) {
+      Bench bench(with_goal(on_entry, to_task(1)));
+      if (was_seen) see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, -0.009);  // stale by then
+      bench.sensed.state.base_pose.position.x() = 3.0;
+      ASSERT_GT(bench.ticks_to_switch(1), 0) << "the start";
+      ASSERT_GT(bench.ticks_to_switch(10), 0);
+      EXPECT_EQ(bench.scheduler.outcome(), Outcome::failed);
+      const Transition& t = bench.transitions.back();
+      EXPECT_EQ(t.refusal, Refusal::set);
+      EXPECT_EQ(t.refused, 1);
+      EXPECT_EQ(t.unknown_frame, socket_frame);
+      EXPECT_NE(bench.scheduler.why(t).find("`go` needs the pose of `socket`, which is not known"),
+                std::string::npos)
+          << bench.scheduler.why(t);
+    }
+  }
+}
+
+TEST(PoseSignal, ASetFromItsFrameWhileItIsKnownTakesItsPose) {
+  for (const bool on_entry : {false, true}) {
+    Bench bench(with_goal(on_entry, to_task(1)));
+    see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, 0.0);
+    bench.ticks_more(6);
+    ASSERT_EQ(bench.scheduler.task(), 1);
+    EXPECT_NEAR(bench.constraint(0).in.pose.position.x(), 2.0 - 0.5, 1e-12);
+  }
+}
+
+TEST(PoseSignal, ASetOfAFrameThatHangsOnItWhileItIsUnknownLeadsToFailed) {
+  lang::Program p = with_goal(false, to_task(1));
+  p.tasks[0].exits[0].set = {{.index = socket_frame, .source = base_link}};
+  Bench bench(p);
+  bench.ticks_more(6);
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::failed);
+  EXPECT_EQ(bench.transitions.back().unknown_frame, socket_frame);
+}
+
+TEST(PoseSignal, ASetFromItsFrameDoesNotHinderAnEnd) {
+  Bench bench(with_goal(false, to_done));
+  bench.ticks_more(6);
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
+}
+
+TEST(PoseSignal, ThatNeverCameGivesAForceNoAxis) {
+  Bench bench(docking({drive("glide.x", Axis::x, Quantity::force, 20.0)}, 0.010));
+  bench.ticks_more(3);
+  EXPECT_EQ(bench.constraint(0).driver->target, 0.0);
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, bench.sensed.time);
+  bench.tick();
+  EXPECT_EQ(bench.constraint(0).driver->target, 20.0);
+  bench.ticks_more(20);
+  EXPECT_EQ(bench.constraint(0).driver->target, 20.0) << "along the axis that was known last";
+}
+
+TEST(PoseSignal, SeenFromAFrameThatIsNowhereIsNotSeen) {
+  lang::Program p = docking({to_socket()}, 0.050);
+  p.signals.push_back(signal("tag", SignalType::pose, 0.050));
+  p.signals[1].in = socket_frame;  // of the first signal
+  p.tasks[0].exits = {exit(when(name(Op::valid, 1)), to_done, 1e6)};
+  Bench bench(p);
+  const auto see_tag = [&] {
+    bench.sensed.signals[1].valid = true;
+    bench.sensed.signals[1].stamp = bench.sensed.time;
+  };
+  for (int i = 0; i < 5; ++i) {
+    see_tag();
+    bench.tick();
+  }
+  EXPECT_FALSE(bench.scheduler.signal_known(1));
+  see(bench, {solver::Matrix3::Identity(), {2.0, 0.0, 0.0}}, bench.sensed.time);
+  bench.tick();
+  see_tag();
+  bench.tick();
+  EXPECT_TRUE(bench.scheduler.signal_known(1));
+}
+
 TEST(PoseSignal, HereIsTakenWhenItsFrameIsFirstKnown) {
   AxisStatements hold = to_socket();
   hold.here = true;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "check/check_sets.hpp"
 #include "check/context.hpp"
+#include "check/parameter_values.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
@@ -211,9 +213,16 @@ double blend_of(const CheckContext& context, const TaskText& task) {
 
 void check_time(CheckContext& context, const ValueText& value, const std::string& what, bool zero_allowed) {
   if (!check_value(context, value, dimension::time, what)) return;
-  const double seconds = present_value(context, value);
-  if (seconds < 0.0 || (seconds == 0.0 && !zero_allowed)) {
+  check_positive(context, value, what, zero_allowed);
+}
+
+void check_positive(CheckContext& context, const ValueText& value, const std::string& what,
+                    bool zero_allowed) {
+  const double now = present_value(context, value);
+  if (now < 0.0 || (now == 0.0 && !zero_allowed)) {
     context.diagnostics.add(wording::not_positive(value.span, what, zero_allowed));
+  } else {
+    require_positive(context, value, what, zero_allowed);
   }
 }
 
@@ -248,36 +257,6 @@ std::optional<int> check_frame(CheckContext& context, const Word& name) {
   return index;
 }
 
-void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
-  for (const SetText& set : sets) {
-    if (set.kind == SetKind::parameter) {
-      ParameterSymbol* symbol = context.symbols.find_parameter(set.name.text);
-      if (symbol == nullptr) {
-        context.diagnostics.add(wording::unknown_name(set.name.span, "parameter", set.name.text,
-                                                      context.symbols.parameter_names()));
-        continue;
-      }
-      const std::string what = "params." + set.name.text;
-      if (symbol->is_bad || !check_value(context, set.value, symbol->dimension, what)) continue;
-      const double value = present_value(context, set.value);
-      const auto& range = symbol->parameter.range;
-      if (range && (value < range->low || value > range->high)) {
-        context.diagnostics.add(wording::outside_range(set.value.span, symbol->parameter, value));
-      }
-      continue;
-    }
-    const std::optional<int> index = context.symbols.find_frame(set.name.text);
-    const bool is_declared = index && context.symbols.frames[static_cast<std::size_t>(*index)].is_declared;
-    if (!is_declared && (index || context.symbols.has_robot)) {
-      std::vector<std::string> declared;
-      for (const FrameText& frame : context.file.frames) declared.push_back(frame.name.text);
-      context.diagnostics.add(index ? wording::not_settable(set.name.span, set.name.text)
-                                    : wording::unknown_name(set.name.span, "frame", set.name.text, declared));
-    }
-    check_frame(context, set.source);
-  }
-}
-
 std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
                                  const LoadOptions& options, bool with_notes, double& budget,
                                  Diagnostics& diagnostics) {
@@ -304,6 +283,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
     checked.requirements.push_back(std::move(require));
   }
   check_flow(context, checked.conditions, checked.always_conditions);
+  check_unguarded_sets(context, {checked.conditions, checked.always_conditions, checked.requirements});
   check_physics(context, scene, {checked.conditions, checked.always_conditions}, budget);
   if (scene && !diagnostics.has_errors()) {
     check_scene_names(context, *scene);

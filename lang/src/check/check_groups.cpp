@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "check/context.hpp"
-#include "check/room.hpp"
+#include "check/parameter_values.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 
@@ -22,14 +22,8 @@ std::string written(const ValueText& value) {
   return value.quantity.number + " " + value.quantity.unit;
 }
 
-/// The value at the start, where it can be read and measures what is expected.
-std::optional<double> known_value(const CheckContext& context, const ValueText& value,
-                                  const Dimension& expected) {
-  if (value.kind == ValueKind::quantity && value.quantity.dimension == expected) return value.quantity.value;
-  if (value.kind != ValueKind::parameter) return std::nullopt;
-  const ParameterSymbol* symbol = context.symbols.find_parameter(value.name);
-  if (symbol == nullptr || symbol->is_bad || symbol->dimension != expected) return std::nullopt;
-  return present_value(context, value);
+std::string axis_path(const GroupText& group, const AxisText& axis) {
+  return group.kind == GroupKind::feature ? group.name.text : group.name.text + "." + axis.name.text;
 }
 
 /// One axis of one group.
@@ -39,7 +33,7 @@ class AxisCheck {
             std::optional<int> in)
       : context_(context),
         text_(text),
-        path_(group.kind == GroupKind::feature ? group.name.text : group.name.text + "." + text.name.text),
+        path_(axis_path(group, text)),
         feature_(feature_of(context, group)),
         axis_(feature_ == nullptr ? axis_named(text.name.text).value_or(Axis::x)
                                   : (feature_->turns ? Axis::rz : Axis::x)),
@@ -70,17 +64,16 @@ class AxisCheck {
   void check_positive(const ValueText& value, const Dimension& expected, const char* word) {
     const std::string what = path_ + "." + word;
     if (!check_value(context_, value, expected, what)) return;
-    if (present_value(context_, value) <= 0.0) {
-      context_.diagnostics.add(wording::not_positive(value.span, what, false));
-    }
+    lang::check_positive(context_, value, what, false);
   }
 
   void check_speed() {
     const std::optional<StatementText>& velocity = text_[Quantity::velocity];
     if (!text_.is_speed() || feature_ != nullptr || !velocity || !velocity->is_range) return;
     const ValueText& low = velocity->low;
-    const bool is_known = low.kind == ValueKind::quantity && low.quantity.dimension == dimension::velocity;
-    if (is_known && low.quantity.value != 0.0)
+    if (!known_value(context_, low, dimension::velocity)) return;
+    const solver::Range values = values_of(context_, low);
+    if (values.low != 0.0 || values.high != 0.0)
       context_.diagnostics.add(wording::speed_from_zero(velocity->span, path_ + ".velocity"));
   }
 
@@ -115,9 +108,13 @@ class AxisCheck {
     if (statement->is_range) {
       const bool low = check_value(context_, statement->low, expected, what);
       const bool high = check_value(context_, statement->high, expected, what);
-      if (low && high && present_value(context_, statement->low) > present_value(context_, statement->high)) {
+      if (!low || !high) return;
+      if (present_value(context_, statement->low) > present_value(context_, statement->high)) {
         context_.diagnostics.add(
             wording::empty_range(statement->span, written(statement->low), written(statement->high)));
+      } else {
+        require_order(context_, statement->low, statement->high,
+                      "the lower end of `" + what + "` cannot lie above its upper end");
       }
       return;
     }
@@ -137,7 +134,14 @@ class AxisCheck {
     const auto value_of = [&](const ValueText& value) { return known_value(context_, value, expected); };
     const bool is_below = value_of(high).value_or(0.0) < 0.0;
     const bool is_above = !is_distance && value_of(low).value_or(0.0) > std::numbers::pi;
-    if (!is_below && !is_above) return;
+    if (!is_below && !is_above) {
+      const std::string kind = is_distance ? "a distance" : "an angle between two axes";
+      if (value_of(high)) require(context_, high, {.rule = kind + " cannot be below 0"});
+      if (value_of(low) && !is_distance)
+        require(context_, low,
+                {.rule = kind + " cannot be above 180 deg", .limit = std::numbers::pi, .is_least = false});
+      return;
+    }
     context_.diagnostics.add(is_distance ? wording::beyond_a_distance(position->span, path_)
                                          : wording::beyond_an_angle(position->span, path_));
   }
@@ -174,9 +178,19 @@ class AxisCheck {
     if (!is_known(force->low) || !is_known(force->high)) return;
     const double low = present_value(context_, force->low);
     const double high = present_value(context_, force->high);
-    if (low <= high && (low > 0.0 || high < 0.0)) {
+    if (low > high) return;
+    if (low > 0.0 || high < 0.0) {
       context_.diagnostics.add(wording::force_range_without_zero(force->span, path_));
+    } else if (!is_mirrored(force->low, force->high)) {
+      const std::string rule = "the force range of `" + path_ + "` must hold 0";
+      require(context_, force->low, {.rule = rule, .is_least = false});
+      require(context_, force->high, {.rule = rule});
     }
+  }
+
+  /// `+-$f`: its order says all.
+  static bool is_mirrored(const ValueText& low, const ValueText& high) {
+    return low.kind == ValueKind::parameter && high.kind == ValueKind::parameter && low.name == high.name;
   }
 
   CheckContext& context_;
@@ -187,62 +201,6 @@ class AxisCheck {
   std::optional<int> move_, in_;
   bool is_incomplete_;
 };
-
-/// E414: a point, or a circle within the footprint, that has no place inside. Corners may stand around a
-/// notch, so a footprint is only asked about where there is none.
-void check_room(CheckContext& context, const GroupText& group, const Region& region) {
-  const std::optional<double> margin =
-      group.margin ? known_value(context, *group.margin, dimension::length) : 0.0;
-  if (!margin || *margin < 0.0) return;
-  const auto has_place = [&](double needed) {
-    return region.radius > 0.0 ? region.radius > needed : has_room(region.polygon, needed);
-  };
-  const Span& span = group.margin ? group.margin->span : group.region.span;
-  if (*margin > 0.0 && !has_place(*margin)) {
-    context.diagnostics.add(wording::no_inside(span, region.name, *margin, 0.0, region.span));
-    return;
-  }
-  const bool moves_footprint = group.move.text == "footprint" && context.robot.has_value();
-  const double circle =
-      moves_footprint && is_convex(region.polygon) ? circle_within(context.robot->footprint) : 0.0;
-  if (circle > 0.0 && !has_place(*margin + circle))
-    context.diagnostics.add(wording::no_inside(span, region.name, *margin, circle, region.span));
-}
-
-void check_inside(CheckContext& context, const GroupText& group) {
-  const std::optional<int> region = context.symbols.find_region(group.region.text);
-  if (region) {
-    context.symbols.regions[static_cast<std::size_t>(*region)].is_used = true;
-  } else if (group.region.exists()) {
-    context.diagnostics.add(wording::unknown_name(group.region.span, "region", group.region.text,
-                                                  context.symbols.region_names()));
-  }
-  if (group.move.text != "footprint") {
-    const std::optional<int> move = check_frame(context, group.move);
-    if (move && context.symbols.frames[static_cast<std::size_t>(*move)].body < 0) {
-      context.diagnostics.add(wording::immovable(group.move.span, group.move.text));
-    }
-  }
-  const std::string what = group.name.text + ".margin";
-  if (group.margin && check_value(context, *group.margin, dimension::length, what) &&
-      present_value(context, *group.margin) < 0.0) {
-    context.diagnostics.add(wording::not_positive(group.margin->span, what, true));
-  }
-  if (region) check_room(context, group, context.symbols.regions[static_cast<std::size_t>(*region)].region);
-}
-
-void check_feature_group(CheckContext& context, const GroupText& group) {
-  const std::optional<int> feature = context.symbols.find_feature(group.feature.text);
-  if (!feature) {
-    if (group.feature.exists()) {
-      context.diagnostics.add(wording::unknown_name(group.feature.span, "feature", group.feature.text,
-                                                    context.symbols.feature_names()));
-    }
-    return;
-  }
-  context.symbols.features[static_cast<std::size_t>(*feature)].is_used = true;
-  for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, std::nullopt, std::nullopt).check();
-}
 
 /// A frame that rides along with the moved link is always at the same place in it. The frames are the
 /// group's: its first position tells for all.
@@ -258,11 +216,27 @@ void check_positions(CheckContext& context, const GroupText& group, const std::o
     const bool is_unknown = !position->is_range && position->value.kind == ValueKind::name &&
                             !context.symbols.find_signal(position->value.name);
     if (is_unknown) continue;
-    context.diagnostics.add(wording::position_in_own_axes(position->key_span,
-                                                          group.name.text + "." + axis.name.text,
+    context.diagnostics.add(wording::position_in_own_axes(position->key_span, axis_path(group, axis),
                                                           in.declaration.name, move.declaration.name));
     return;
   }
+}
+
+void check_feature_group(CheckContext& context, const GroupText& group) {
+  const std::optional<int> feature = context.symbols.find_feature(group.feature.text);
+  if (!feature) {
+    if (group.feature.exists()) {
+      context.diagnostics.add(wording::unknown_name(group.feature.span, "feature", group.feature.text,
+                                                    context.symbols.feature_names()));
+    }
+    return;
+  }
+  context.symbols.features[static_cast<std::size_t>(*feature)].is_used = true;
+  for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, std::nullopt, std::nullopt).check();
+  const FeatureSymbol& symbol = context.symbols.features[static_cast<std::size_t>(*feature)];
+  // Of a distance and an angle E412 says so.
+  if (!symbol.is_bad && symbol.feature.kind == FeatureKind::direction)
+    check_positions(context, group, symbol.feature.first, symbol.feature.second);
 }
 
 /// The group's weight is that of each axis that gives none: a mass, or on an axis that turns an inertia.
@@ -274,9 +248,7 @@ void check_group_weight(CheckContext& context, const GroupText& group) {
     const std::string what = group.name.text + ".weight, that of `" + axis.name.text + "`,";
     if (!check_value(context, *group.weight, turns ? dimension::inertia : dimension::mass, what)) return;
   }
-  if (present_value(context, *group.weight) <= 0.0) {
-    context.diagnostics.add(wording::not_positive(group.weight->span, group.name.text + ".weight", false));
-  }
+  check_positive(context, *group.weight, group.name.text + ".weight", false);
 }
 
 void check_group(CheckContext& context, const GroupText& group) {

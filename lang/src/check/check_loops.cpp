@@ -1,5 +1,6 @@
 // Tasks that follow each other without end, and rings of them that a run flutters around in.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "check/endings.hpp"
@@ -201,6 +202,68 @@ class Flutter {
   int steps_ = 20000;  ///< a file may be hostile
 };
 
+/// What `back` does not set back: a path and a time only grow.
+bool is_resumed(const Demanded& demanded) {
+  const Op op = demanded.node->op;
+  return (op == Op::moved || op == Op::elapsed) && std::isinf(demanded.bounds.high);
+}
+
+/// A `back` of the task, or of those that it leads to; may be nowhere. `task` takes the one that it stands
+/// in.
+Span find_back(const CheckContext& context, const TaskText& first, const TaskText*& task) {
+  Names seen;
+  std::vector<const TaskText*> open{&first};
+  while (!open.empty()) {
+    task = open.back();
+    open.pop_back();
+    if (!seen.insert(task->name.text).second || task->attempts) continue;
+    std::vector<const Word*> targets;
+    for (const ExitText& exit : task->exits) targets.push_back(&exit.target);
+    if (task->timeout && !task->timeout->is_never) targets.push_back(&task->timeout->target);
+    for (const Word* target : targets) {
+      if (target->text == "back") return target->span;
+      if (const auto index = context.symbols.find_task(target->text))
+        open.push_back(&context.file.tasks[static_cast<std::size_t>(*index)]);
+    }
+  }
+  return {};
+}
+
+/// Whether some task may go on until a case of `moved` and `elapsed` alone is true.
+bool is_outlasted(const CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
+                  const Case& one) {
+  double needed = 0.0;  // [s]
+  for (const auto& [key, demanded] : one) {
+    if (demanded.node->op == Op::elapsed) needed = std::max(needed, demanded.bounds.low);
+  }
+  for (std::size_t i = 0; i < context.file.tasks.size(); ++i) {
+    const TaskText& task = context.file.tasks[i];
+    if (ending_before(context, task, conditions[i], task.exits.size()).time > needed) return true;
+  }
+  return false;
+}
+
+double longest_blend(const CheckContext& context) {
+  double longest = 0.0;
+  for (const TaskText& task : context.file.tasks) longest = std::max(longest, blend_of(context, task));
+  return longest;
+}
+
+/// An exit of `always` that asks for nothing but `moved` and `elapsed`, which go on after `back`.
+bool check_resumed(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
+                   const ExitText& interrupts, const TaskText& target, const std::vector<Case>& cases) {
+  const bool stays_true = std::any_of(cases.begin(), cases.end(), [&](const Case& one) {
+    return !one.empty() && is_outlasted(context, conditions, one) &&
+           std::all_of(one.begin(), one.end(), [](const auto& entry) { return is_resumed(entry.second); });
+  });
+  if (!stays_true || dwell_of(context, interrupts) >= longest_blend(context)) return false;
+  const TaskText* task = nullptr;
+  const Span back = find_back(context, target, task);
+  if (!back.exists()) return false;
+  context.diagnostics.add(wording::interrupts_again(back, task->name.text, interrupts.when.span));
+  return true;
+}
+
 /// An exit of `always` interrupts a task, and `back` resumes it while the interruption is still true.
 void check_flutter_back(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,
                         const std::vector<Condition>& always_conditions) {
@@ -211,7 +274,7 @@ void check_flutter_back(CheckContext& context, const std::vector<std::vector<Con
     if (!target || always_conditions[a].nodes.empty()) continue;
     const TaskText& task = context.file.tasks[static_cast<std::size_t>(*target)];
     auto cases = cases_of(context, always_conditions[a], none);
-    if (!cases || task.attempts) continue;
+    if (!cases || task.attempts || check_resumed(context, conditions, interrupts, task, *cases)) continue;
     const Way there{&interrupts, std::move(*cases)};
     for (const Way& back : quick_ways(context, task, "back", conditions[static_cast<std::size_t>(*target)])) {
       if (!flutter(there, back)) continue;

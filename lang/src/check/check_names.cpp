@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "check/context.hpp"
+#include "check/parameter_values.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
@@ -254,6 +255,7 @@ void check_parameters(CheckContext& context) {
   for (const GivenParameter& given : context.options.given) apply_override(context, given);
   for (const auto& [name, text] : context.options.parameters)
     apply_override(context, from_command_line(context, name, text));
+  gather_set_values(context);
 }
 
 void check_frames(CheckContext& context) {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "check/context.hpp"
+#include "check/parameter_values.hpp"
 #include "diagnostic/wordings.hpp"
 
 namespace zwang::lang {
@@ -112,6 +113,24 @@ std::optional<double> fixed_value(const CheckContext& context, const Condition& 
   return -*value;
 }
 
+/// The same, with its parameter.
+ValueText fixed_text(const CheckContext& context, const Condition& condition, int index) {
+  const ExpressionNode& node = condition.nodes[static_cast<std::size_t>(index)];
+  if (node.op == Op::negate) {
+    ValueText text = fixed_text(context, condition, node.left);
+    text.sign = -text.sign;
+    text.quantity.value = -text.quantity.value;
+    return text;
+  }
+  ValueText text;
+  text.span = condition.span;
+  text.kind = node.op == Op::parameter ? ValueKind::parameter : ValueKind::quantity;
+  text.quantity.value = node.number;
+  if (node.op == Op::parameter)
+    text.name = context.symbols.parameters[static_cast<std::size_t>(node.index)].parameter.name;
+  return text;
+}
+
 }  // namespace
 
 namespace {
@@ -157,6 +176,14 @@ void check_release(CheckContext& context, const ExitText& exit, const Condition&
   const bool is_below = root.op == Op::less || root.op == Op::less_equal;
   if (is_below ? release < *threshold : release > *threshold) {
     context.diagnostics.add(wording::release_on_wrong_side(span, is_below));
+    return;
+  }
+  const ValueText compared_with = fixed_text(context, condition, root.right);
+  const std::string rule = "`release` must lie behind the threshold";
+  if (is_below) {
+    require_order(context, compared_with, *exit.release, rule);
+  } else {
+    require_order(context, *exit.release, compared_with, rule);
   }
 }
 

@@ -28,6 +28,9 @@ double dwell_of(const CheckContext& context, const ExitText& exit);
 double blend_of(const CheckContext& context, const TaskText& task);
 /// A time that must not be negative, or must be above zero.
 void check_time(CheckContext& context, const ValueText& value, const std::string& what, bool zero_allowed);
+/// A checked value that must not be negative, or must be above zero, whatever a parameter may be: E105, E206.
+void check_positive(CheckContext& context, const ValueText& value, const std::string& what,
+                    bool zero_allowed);
 /// The frame's index; E301 when there is none. nullopt for bad and unknown names.
 std::optional<int> check_frame(CheckContext& context, const Word& name);
 
@@ -55,6 +58,8 @@ void check_frames(CheckContext& context);
 /// Signals, regions and features: what they refer to.
 void check_world(CheckContext& context);
 void check_groups(CheckContext& context, const std::vector<GroupText>& groups);
+/// A group `inside` a region.
+void check_inside(CheckContext& context, const GroupText& group);
 /// W402: what a task's drivers ask for and `always` does not allow.
 void check_against_always(CheckContext& context, const TaskText& task);
 /// E506: `release` must lie on the far side of a single comparison's threshold.

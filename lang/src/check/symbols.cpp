@@ -39,6 +39,15 @@ bool Symbols::stands_in_world(int frame) const {
   return true;
 }
 
+int Symbols::signal_of(int frame) const {
+  while (frame > 0) {
+    const FrameDeclaration& declaration = frames[static_cast<std::size_t>(frame)].declaration;
+    if (declaration.parent == FrameParent::signal) return declaration.parent_index;
+    frame = declaration.parent == FrameParent::frame ? declaration.parent_index : 0;
+  }
+  return -1;
+}
+
 std::optional<int> Symbols::find_signal(const std::string& name) const {
   return index_of(signals, name, signal_name);
 }

@@ -13,7 +13,9 @@ namespace zwang::lang {
 struct ParameterSymbol {
   Parameter parameter;
   Dimension dimension;
-  bool is_bad = false;  ///< declared, but not readable
+  solver::Range values{0.0, 0.0};  ///< that it can take, by its range or by the file's `set` [SI]
+  solver::Range admitted;          ///< that its places can take: bounds one without a range [SI]
+  bool is_bad = false;             ///< declared, but not readable
   bool is_used = false;
 };
 
@@ -57,6 +59,8 @@ struct Symbols {
   std::optional<int> find_frame(const std::string& name) const;
   /// Whether nothing ever carries the frame along: neither the robot nor the samples of a signal.
   bool stands_in_world(int frame) const;
+  /// The pose signal that the frame hangs on, over any number of frames; -1: none.
+  int signal_of(int frame) const;
   std::optional<int> find_task(const std::string& name) const;
   std::optional<int> find_signal(const std::string& name) const;
   std::optional<int> find_feature(const std::string& name) const;

@@ -4,6 +4,7 @@
 #include "diagnostic/make.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/units.hpp"
 #include "tree/text.hpp"
@@ -12,11 +13,6 @@
 namespace zwang::lang::wording {
 
 namespace {
-
-/// `20 N`, in the unit that the parameter was declared with.
-std::string in_unit_of(const Parameter& parameter, double value) {
-  return format_number(value / parameter.unit_scale) + (parameter.unit.empty() ? "" : " " + parameter.unit);
-}
 
 /// The last ones where there are many: what an author declares stands behind what the robot brings.
 std::string known_here(const std::vector<std::string>& names) {

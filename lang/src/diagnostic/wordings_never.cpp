@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "diagnostic/make.hpp"
+#include "spec/units.hpp"
 
 namespace zwang::lang::wording {
 
@@ -74,6 +75,86 @@ Diagnostic to_and_fro(const Span& span, const std::string& from, const std::stri
                   " at once, goes around, and no task on the way comes into force",
               "leave a gap between the thresholds, or wait here: `for: 1 s`"),
       there, "the way there begins with this exit");
+}
+
+Diagnostic boundary_rides_along(const Span& span, const std::string& group, const std::string& region,
+                                const std::string& parent, const std::string& move, const Span& declared) {
+  return with_related(error("E405", span,
+                            "`" + group + "` never acts: region `" + region + "` hangs on `" + parent +
+                                "`, and moves along with `" + move + "`",
+                            "give the region a parent in the world: `parent: world`"),
+                      declared, "`" + region + "` is declared here");
+}
+
+Diagnostic loose_without_mass(const Span& span, const std::string& what) {
+  return error("E916", span, what + " is not fixed and has no mass: nothing would move it",
+               "add `mass: 20 kg`, or write `fixed: true`");
+}
+
+Diagnostic negative_width(const Span& span, const std::string& argument, const std::string& body,
+                          const Span& body_span) {
+  return with_related(
+      error("E303", span, "argument `" + argument + "` cannot be below 0: the template writes `" + body + "`",
+            "give the magnitude"),
+      body_span, "it is used here");
+}
+
+Diagnostic interrupts_again(const Span& span, const std::string& task, const Span& there) {
+  return with_related(warning("W512", span,
+                              "`back` leads from `" + task +
+                                  "` to a task whose `moved` and `elapsed` go on: what interrupted "
+                                  "it is still true, and interrupts it at once",
+                              "let the interruption ask for something that `" + task +
+                                  "` ends, or lead to a task by its name"),
+                      there, "it is interrupted here");
+}
+
+std::string in_unit_of(const Parameter& parameter, double value) {
+  return format_number(value / parameter.unit_scale) + (parameter.unit.empty() ? "" : " " + parameter.unit);
+}
+
+Diagnostic breaks_a_use(const Span& span, const std::string& rule, const Parameter& parameter,
+                        bool is_negated, double worst, const std::optional<solver::Range>& narrowed,
+                        const Span& from, bool from_range) {
+  const std::string use = (is_negated ? "`-$" : "`$") + parameter.name + "`";
+  Diagnostic diagnostic = error(
+      "E206", span, rule + ", and " + use + " may be " + in_unit_of(parameter, is_negated ? -worst : worst));
+  if (!from_range) {
+    if (from.exists()) diagnostic = with_related(std::move(diagnostic), from, "it is set here");
+    diagnostic.help = "set it to a value that fits, or take a parameter of its own for this place";
+    return diagnostic;
+  }
+  diagnostic.related.push_back({from, "the range of `" + parameter.name + "` allows it", std::nullopt});
+  diagnostic.help = "narrow the range of `" + parameter.name + "`, or take a parameter of its own";
+  if (!narrowed) return diagnostic;
+  const std::string range =
+      "[" + in_unit_of(parameter, narrowed->low) + ", " + in_unit_of(parameter, narrowed->high) + "]";
+  diagnostic.help = "write `range: " + range + "`";
+  diagnostic.related.back().replacement = range;
+  return diagnostic;
+}
+
+Diagnostic set_from_unknown(const Span& span, const std::string& frame, const std::string& source,
+                            const std::string& signal, SetIn in, const Span* when,
+                            const std::string& condition) {
+  const std::string valid = "valid(" + signal + ")";
+  Diagnostic diagnostic = warning("W513", span,
+                                  "`" + frame + "` is set from `" + source +
+                                      "`, and the run ends `failed` if `" + signal + "` is not known then");
+  if (in == SetIn::entry) {
+    diagnostic.help = "ask `" + valid + "` in each exit that leads here, or write `require: " + valid + "`";
+  } else if (in == SetIn::always) {
+    diagnostic.help =
+        "an exit of `always` fires without the signal, too: set the frame in an exit of a task "
+        "that asks `" +
+        valid + "`";
+  } else {
+    const bool is_choice = condition.find(" or ") != std::string::npos;
+    const std::string guarded = (is_choice ? "(" + condition + ")" : condition) + " and " + valid;
+    diagnostic.help = "write `when: " + guarded + "`";
+    diagnostic.related.push_back({*when, "the exit fires without the signal, too", guarded});
+  }
+  return diagnostic;
 }
 
 Diagnostic never_true(const Span& span, const std::string& what, double low, double high,

@@ -7,6 +7,7 @@
 
 #include "diagnostic/wordings_physics.hpp"
 #include "zwang/lang/diagnostic.hpp"
+#include "zwang/lang/program.hpp"
 
 namespace zwang::lang::wording {
 
@@ -23,6 +24,32 @@ Diagnostic beyond_a_range(const Span& span, const Bound& asked, const Bound& ran
 /// `task` comes first in the text; the names of all that follow each other. Not empty.
 Diagnostic no_way_out(const Span& span, const std::vector<std::string>& tasks);
 Diagnostic to_and_fro(const Span& span, const std::string& from, const std::string& to, const Span& there);
+
+/// `parent` carries the region that group `group` is to stay inside, and `move` as well.
+Diagnostic boundary_rides_along(const Span& span, const std::string& group, const std::string& region,
+                                const std::string& parent, const std::string& move, const Span& declared);
+/// `what` is an object that says `fixed: false` and has no mass.
+Diagnostic loose_without_mass(const Span& span, const std::string& what);
+/// `body`: what a template makes of its argument, `+-$pace`.
+Diagnostic negative_width(const Span& span, const std::string& argument, const std::string& body,
+                          const Span& body_span);
+/// Every task that `always` interrupts, at `there`, is interrupted again when `back` resumes it.
+Diagnostic interrupts_again(const Span& span, const std::string& task, const Span& there);
+/// `20 N`, in the unit that the parameter was declared with.
+std::string in_unit_of(const Parameter& parameter, double value);
+/// `rule`: what a use of the parameter asks of it, "`c.x.stiffness` must be above 0". `worst`: a value that
+/// it may take, SI. `narrowed`: a range that keeps to the rule; none is known. `from`: where the range
+/// stands, or where the value is set; may be nowhere.
+Diagnostic breaks_a_use(const Span& span, const std::string& rule, const Parameter& parameter,
+                        bool is_negated, double worst, const std::optional<solver::Range>& narrowed,
+                        const Span& from, bool from_range);
+
+enum class SetIn { exit, always, entry };
+/// `frame` is set from `source`, which needs `signal`. `when`: the exit's condition, as it is written in
+/// `condition`; none on entry.
+Diagnostic set_from_unknown(const Span& span, const std::string& frame, const std::string& source,
+                            const std::string& signal, SetIn in, const Span* when,
+                            const std::string& condition);
 
 /// `what` lies within [low, high] by the range `by`. SI.
 Diagnostic never_true(const Span& span, const std::string& what, double low, double high,

@@ -68,10 +68,11 @@ of the axle: turning carries it to the side.)~",
           .title = "a position in axes that move along",
           .why =
               R"~(Seen from its own axes a frame is always at the same place; however the robot drives, the number
-stays what it is. So a position there can be neither reached nor kept.)~",
+stays what it is. So a position there can be neither reached nor kept, and a region on a frame of
+the base never bounds the base.)~",
           .fix =
               R"~(Give the position in a frame of the world. `here` is allowed: it means the place in the world at
-which the task was entered. Or drive a velocity.)~",
+which the task was entered. Or drive a velocity. Give a region a parent in the world.)~",
           .part = ExcerptOf::group,
           .example = "move: bumper\nin: base_link\nx: {position: 1 m}",
           .instead = "move: bumper\nin: world\nx: {position: 1 m}"},

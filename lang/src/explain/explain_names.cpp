@@ -22,9 +22,9 @@ its group names it; `rz: free` does that and holds nothing.)~",
           .code = "W302",
           .title = "declared and never used",
           .why =
-              R"~(A parameter, frame, signal, region, feature or template that nothing refers to is left over, or the
-place that should refer to it does not. Setting an unused parameter changes nothing, which surprises
-whoever sets it.)~",
+              R"~(A parameter, frame, signal, region, feature, template or argument that nothing refers to is left
+over, or the place that should refer to it does not. Setting an unused parameter changes nothing,
+which surprises whoever sets it.)~",
           .fix = "Use it, or delete it.",
           .part = ExcerptOf::task_file,
           .example = "params:\n  push: 20 N",

@@ -76,6 +76,31 @@ is true or false cannot be compared or added.)~",
                      "goto: failed}",
           .instead = "exits:\n  - {when: moved(base_link) > 2 cm, for: 0.1 s, goto: done}\ntimeout: {after: "
                      "10 s, goto: failed}"},
+      Explanation{
+          .code = "E206",
+          .title = "a parameter that may break the place that uses it",
+          .why =
+              R"~(A parameter may be set to any value of its range: with `-p`, by `set`, or by the program that runs
+the task. Each place that uses it must be sound with all of them. A negative stiffness pushes the
+robot away, a time constant of 0 has no answer, and a range whose ends cross is empty. Without a
+range, the values that the file sets count.)~",
+          .fix = "Narrow the range to what every place can take. Where two places need different ranges, "
+                 "declare two parameters.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(params:
+  pace: {value: 0.1 m/s, range: [-0.2 m/s, 0.2 m/s]}
+tasks:
+  go:
+    constraints:
+      drive: {move: base_link, in: base_link, x: {force: 10 N, velocity: +-$pace}}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(params:
+  pace: {value: 0.1 m/s, range: [0 m/s, 0.2 m/s]}
+tasks:
+  go:
+    constraints:
+      drive: {move: base_link, in: base_link, x: {force: 10 N, velocity: +-$pace}}
+    timeout: {after: 10 s, goto: failed})~"},
   };
   return entries;
 }

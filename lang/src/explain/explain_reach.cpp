@@ -95,6 +95,45 @@ tasks:
       - {when: nearest > 1.2 m, for: 20 ms, goto: go}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{
+          .code = "W513",
+          .title = "a frame that is set from what may not be known",
+          .why =
+              R"~(A frame on a pose signal is nowhere before the first sample, and while the signal is older than its
+`stale_after`. A frame that is set from it then has no place. The run would drive to a false goal, so
+it ends `failed` instead. The same is true of a set frame that hangs on such a signal itself.)~",
+          .fix =
+              R"~(Ask `valid(signal)` in the exit that sets the frame, or in each exit that leads to the task that
+sets it on entry. The task before then waits for the signal; its timeout says for how long.)~",
+          .part = ExcerptOf::task_file,
+          .example = R"~(signals:
+  partner: {type: pose, in: base_link, stale_after: 300 ms}
+frames:
+  seen: {parent: partner}
+  place: {parent: world}
+tasks:
+  go:
+    exits:
+      - {when: elapsed > 1 s, goto: drive, set: {frames.place: seen}}
+    timeout: {after: 10 s, goto: failed}
+  drive:
+    constraints:
+      go: {move: base_link, in: place, x: {position: -1 m, velocity: +-0.2 m/s}}
+    timeout: {after: 10 s, goto: done})~",
+          .instead = R"~(signals:
+  partner: {type: pose, in: base_link, stale_after: 300 ms}
+frames:
+  seen: {parent: partner}
+  place: {parent: world}
+tasks:
+  go:
+    exits:
+      - {when: elapsed > 1 s and valid(partner), goto: drive, set: {frames.place: seen}}
+    timeout: {after: 10 s, goto: failed}
+  drive:
+    constraints:
+      go: {move: base_link, in: place, x: {position: -1 m, velocity: +-0.2 m/s}}
+    timeout: {after: 10 s, goto: done})~"},
+      Explanation{
           .code = "W619",
           .title = "a force range of which less than half is made",
           .why =

@@ -41,6 +41,16 @@ lines is a mistake.)~",
           .example = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], fixed: true, mass: 3 kg}",
           .instead = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], mass: 3 kg}"},
       Explanation{
+          .code = "E916",
+          .title = "an object that is not fixed, without a mass",
+          .why =
+              R"~(An object without `mass` stands fast, whatever pushes it. `fixed: false` says the opposite, and how
+hard the object is to push is not known.)~",
+          .fix = "Give the object its mass, or say `fixed: true`.",
+          .part = ExcerptOf::scene,
+          .example = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], fixed: false}",
+          .instead = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg}"},
+      Explanation{
           .code = "E903",
           .title = "an outcome that no run can have",
           .why =

@@ -16,6 +16,10 @@ class Lowering {
     program.about = checked_.file.about;
     for (const ParameterSymbol& symbol : checked_.symbols.parameters) {
       program.parameters.push_back(symbol.parameter);
+      // Without a range of its own, its places bound it.
+      const bool is_bounded =
+          symbol.admitted.low > -solver::infinity || symbol.admitted.high < solver::infinity;
+      if (!symbol.parameter.range && is_bounded) program.parameters.back().range = symbol.admitted;
     }
     for (const FrameSymbol& symbol : checked_.symbols.frames) program.frames.push_back(symbol.declaration);
     for (const SignalSymbol& symbol : checked_.symbols.signals) program.signals.push_back(symbol.signal);

@@ -4,6 +4,7 @@
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
+#include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "scene/check_scene.hpp"
 #include "scene/faults.hpp"
@@ -148,9 +149,13 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
     object.mass =
         parse_positive(*mass, dimension::mass, what + "'s `mass`", false, diagnostics).value_or(1.0);
   }
-  const bool is_fixed =
-      fixed != nullptr && parse_boolean(*fixed, what + "'s `fixed`", diagnostics).value_or(false);
-  if (is_fixed && mass != nullptr) diagnostics.add(wording::fixed_with_mass(fixed->span, what, mass->span));
+  const std::optional<bool> is_fixed =
+      fixed != nullptr ? parse_boolean(*fixed, what + "'s `fixed`", diagnostics) : std::nullopt;
+  if (is_fixed == true && mass != nullptr)
+    diagnostics.add(wording::fixed_with_mass(fixed->span, what, mass->span));
+  const bool has_motion = entry.value.find("motion") != nullptr;
+  if (is_fixed == false && mass == nullptr && !has_motion && !map.has_misspelt({"mass", "motion"}))
+    diagnostics.add(wording::loose_without_mass(fixed->span, what));
   parse_contact(map, object, diagnostics);
   if (const Node* node = map.optional("motion")) {
     object.motion = parse_motion(*node, what + "'s `motion`", diagnostics);

@@ -1,10 +1,13 @@
 #include "spec/templates.hpp"
 
+#include <algorithm>
 #include <array>
+#include <set>
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
+#include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/shape.hpp"
 #include "tree/read.hpp"
@@ -61,32 +64,77 @@ int count_nodes(const Node& node) {
   return count;
 }
 
-/// Puts the arguments' texts in the place of `$name` everywhere below the node.
-void substitute(Node& node, const std::map<std::string, Node>& values) {
-  for (Node& item : node.items) substitute(item, values);
-  for (Entry& entry : node.entries) substitute(entry.value, values);
-  if (!node.is_scalar()) return;
-  std::string result;
-  for (std::size_t at = 0; at < node.text.size();) {
-    std::size_t end = at + 1;
-    if (node.text[at] == '$') {
-      while (end < node.text.size() && is_name_part(node.text[end])) ++end;
-    }
-    const auto value = values.find(node.text.substr(at + 1, end - at - 1));
-    if (node.text[at] == '$' && value != values.end()) {
-      result += trimmed(value->second.text);
-      node.is_replaced = true;
-      // A name that is nothing but the argument was written at the call: what is wrong with it is told there.
-      const bool is_whole = at == 0 && end == node.text.size() && is_identifier(trimmed(value->second.text));
-      if (is_whole && !value->second.is_bad) node.span = value->second.span;
-      node.is_bad = node.is_bad || value->second.is_bad;
-    } else {
-      result += node.text.substr(at, end - at);
-    }
-    at = end;
-  }
-  node.text = std::move(result);
+/// The end of the name behind the `$` at `at`.
+std::size_t name_end(const std::string& text, std::size_t at) {
+  std::size_t end = at + 1;
+  while (end < text.size() && is_name_part(text[end])) ++end;
+  return end;
 }
+
+/// Every `$name` in the values below the node.
+void gather_names(const Node& node, std::set<std::string>& names) {
+  for (const Node& item : node.items) gather_names(item, names);
+  for (const Entry& entry : node.entries) gather_names(entry.value, names);
+  for (std::size_t at = node.text.find('$'); at != std::string::npos; at = node.text.find('$', at + 1))
+    names.insert(node.text.substr(at + 1, name_end(node.text, at) - at - 1));
+}
+
+/// Puts the arguments' texts in the place of `$name` everywhere below a node.
+class Substitution {
+ public:
+  Substitution(const std::map<std::string, Node>& values, Diagnostics& diagnostics)
+      : values_(values), diagnostics_(diagnostics) {}
+
+  void put_into(Node& node) const {
+    for (Node& item : node.items) put_into(item);
+    for (Entry& entry : node.entries) put_into(entry.value);
+    if (!node.is_scalar() || put_behind_sign(node)) return;
+    std::string result;
+    for (std::size_t at = 0; at < node.text.size();) {
+      const std::size_t end = node.text[at] == '$' ? name_end(node.text, at) : at + 1;
+      const Node* value =
+          node.text[at] == '$' ? value_named(node.text.substr(at + 1, end - at - 1)) : nullptr;
+      if (value != nullptr) {
+        result += trimmed(value->text);
+        node.is_replaced = true;
+        // What is nothing but the argument was written at the call: what is wrong with it is told there.
+        const bool is_whole = at == 0 && end == node.text.size();
+        if (is_whole && !value->is_bad) node.span = value->span;
+        node.is_bad = node.is_bad || value->is_bad;
+      } else {
+        result += node.text.substr(at, end - at);
+      }
+      at = end;
+    }
+    node.text = std::move(result);
+  }
+
+ private:
+  const Node* value_named(const std::string& name) const {
+    const auto value = values_.find(name);
+    return value == values_.end() ? nullptr : &value->second;
+  }
+
+  /// `-$name` and `+-$name`, and nothing else, with a value that has a minus itself. Whether it was so.
+  bool put_behind_sign(Node& node) const {
+    const std::size_t at = node.text.starts_with("+-$") ? 2 : node.text.starts_with("-$") ? 1 : 0;
+    if (at == 0 || name_end(node.text, at) != node.text.size()) return false;
+    const std::string name = node.text.substr(at + 1);
+    const Node* value = value_named(name);
+    if (value == nullptr || value->is_bad || !trimmed(value->text).starts_with("-")) return false;
+    node.is_replaced = true;
+    if (at == 1) {
+      node.text = trimmed(trimmed(value->text).substr(1));
+      return true;
+    }
+    diagnostics_.add(wording::negative_width(value->span, name, node.text, node.span));
+    node.is_bad = true;
+    return true;
+  }
+
+  const std::map<std::string, Node>& values_;
+  Diagnostics& diagnostics_;
+};
 
 }  // namespace
 
@@ -96,12 +144,16 @@ void Templates::declare(const Node& node) {
     if (entry.key.is_bad) continue;
     Template declared;
     declared.span = entry.key.span;
+    bool has_names = parse_name(entry.key, "a template's name", diagnostics_).exists();
     MapReader map(entry.value, "template `" + entry.key.text + "`", diagnostics_);
     declared.body = map.required("body");
+    std::set<std::string> named;
+    if (declared.body != nullptr) gather_names(*declared.body, named);
     const Node* arguments = map.optional("args");
     const bool has_list = arguments == nullptr || require_mapping(*arguments, "`args`", diagnostics_);
     if (arguments != nullptr && has_list) {
       for (const Entry& argument : arguments->entries) {
+        has_names = parse_name(argument.key, "an argument's name", diagnostics_).exists() && has_names;
         if (argument.value.kind == NodeKind::null) {
           diagnostics_.add(wording::argument_without_kind(argument.key.span, argument.key.text));
         } else if (find_kind(argument.value.text) == nullptr) {
@@ -111,9 +163,11 @@ void Templates::declare(const Node& node) {
               wording::unknown_name(argument.value.span, "kind of argument", argument.value.text, known));
         }
         declared.arguments[argument.key.text] = argument.value.text;
+        if (declared.body != nullptr && !named.contains(argument.key.text))
+          declared.unused.emplace_back(argument.key.text, argument.key.span);
       }
     }
-    declared.is_bad = declared.body == nullptr || !has_list || map.has_misspelt({"args"});
+    declared.is_bad = declared.body == nullptr || !has_list || !has_names || map.has_misspelt({"args"});
     if (declared.body != nullptr) declared.nodes = count_nodes(*declared.body);
     map.finish();
     templates_[entry.key.text] = declared;
@@ -158,7 +212,7 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
   std::map<std::string, Node> values;
   if (used.is_bad || !fill_arguments(used, task, name.text, values)) return std::nullopt;
   Node body = *used.body;
-  substitute(body, values);
+  Substitution(values, diagnostics_).put_into(body);
   std::optional<Node> expanded = expand_from(body, open);
   if (!expanded || !require_mapping(*expanded, "the body of template `" + name.text + "`", diagnostics_)) {
     return std::nullopt;
@@ -244,9 +298,24 @@ bool Templates::check_parameter(const std::string& name, const ValueText& value,
   return false;
 }
 
+bool Templates::has_unknown_name(const Node& body, const Template& declared) const {
+  std::set<std::string> named;
+  gather_names(body, named);
+  return std::any_of(named.begin(), named.end(), [&](const std::string& name) {
+    return !declared.arguments.contains(name) && !parameters_.contains(name);
+  });
+}
+
 void Templates::report_unused() const {
   for (const auto& [name, declared] : templates_) {
-    if (!declared.is_used) diagnostics_.add(wording::unused(declared.span, "template", name));
+    if (!declared.is_used) {
+      diagnostics_.add(wording::unused(declared.span, "template", name));
+      continue;
+    }
+    // One that the body names differently is meant by that name.
+    if (has_unknown_name(*declared.body, declared)) continue;
+    for (const auto& [argument, span] : declared.unused)
+      diagnostics_.add(wording::unused(span, "argument", argument));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "spec/value.hpp"
 #include "tree/node.hpp"
@@ -25,12 +27,13 @@ class Templates {
   /// What the task `task` says: itself, or the body of the template that it uses, with its own keys in the
   /// place of the body's. nullopt when it cannot be told, and was complained of.
   std::optional<Node> expand(const Node& task);
-  /// W302 for templates that no task uses.
+  /// W302 for templates that no task uses, and for arguments that their body does not.
   void report_unused() const;
 
  private:
   struct Template {
-    std::map<std::string, std::string> arguments;  ///< name -> kind
+    std::map<std::string, std::string> arguments;      ///< name -> kind
+    std::vector<std::pair<std::string, Span>> unused;  ///< arguments that the body does not name
     const Node* body = nullptr;
     int nodes = 0;  ///< of the body
     Span span;
@@ -38,6 +41,7 @@ class Templates {
     bool is_used = false;
   };
 
+  bool has_unknown_name(const Node& node, const Template& declared) const;
   std::optional<Node> expand_from(const Node& task, std::set<std::string>& open);
   bool fill_arguments(const Template& used, const Node& task, const std::string& name,
                       std::map<std::string, Node>& values);

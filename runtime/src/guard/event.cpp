@@ -127,7 +127,7 @@ const char* describe(EventCode code) noexcept {
     case EventCode::wrench_refused:
       return "a force from outside lies along an axis whose force is limited; the solver is not told";
     case EventCode::entry_refused:
-      return "what a task requires to be entered does not hold";
+      return "a task is not entered: what it requires does not hold, or a pose that is set is not known";
     case EventCode::signal_refused:
       return "samples of a signal come by another clock, or with numbers that are none";
   }

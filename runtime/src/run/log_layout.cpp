@@ -77,7 +77,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
   add("switch.exit", "");
   add("switch.also_true.always", "");  // bit i: exit i + 1
   add("switch.also_true", "");         // likewise; the timeout is the bit above the last exit
-  add("switch.refusal", "", words_up_to(Refusal::attempts));
+  add("switch.refusal", "", words_up_to(Refusal::set));
   std::vector<std::string> rows;
   for (const Statement& s : statements.all()) rows.push_back(s.name);
   add("missed", "", rows);

@@ -278,8 +278,9 @@ bool Runner::Parts::control() noexcept {
   is_solution_of_rows = false;
   scheduler.tick(sample);
   if (scheduler.transition()) {
-    if (scheduler.transition()->refusal == Refusal::require)
-      tell({EventCode::entry_refused, sample.time, -1, static_cast<double>(scheduler.transition()->refused)});
+    const Transition& t = *scheduler.transition();
+    if (t.refusal == Refusal::require || t.refusal == Refusal::set)
+      tell({EventCode::entry_refused, sample.time, -1, static_cast<double>(t.refused)});
     ++transition_count;
     if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
   }

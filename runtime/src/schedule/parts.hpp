@@ -58,6 +58,7 @@ struct Scheduler::Parts final : Facts {
   Fact coordinate(const lang::ExpressionNode& node, int owner) const noexcept;
   Fact of_frame(int frame, double value) const noexcept;
   bool is_known(int frame) const noexcept;
+  bool was_seen(int frame) const noexcept;
   Fact feature(const lang::Feature& feature) const noexcept;
   solver::AxisConstraint measured(const lang::Group& group, const lang::AxisStatements& axis,
                                   const ActiveAxis* active_axis) const noexcept;
@@ -86,6 +87,10 @@ struct Scheduler::Parts final : Facts {
   void take(Choice choice) noexcept;
   void lead(Transition& transition, const lang::Target& target) const noexcept;
   void turn_away(Transition& transition) noexcept;
+  int unknown_frame_of(const std::vector<lang::SetAction>& actions) const noexcept;
+  void refuse_set(Transition& transition, int unknown_frame) const noexcept;
+  lang::Span refused_set(const Transition& transition) const noexcept;
+  const std::vector<lang::SetAction>* exit_sets(const Transition& transition) const noexcept;
   void interrupt(const Transition& transition) noexcept;
   void enter() noexcept;
   void resume() noexcept;

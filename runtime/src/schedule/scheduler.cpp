@@ -44,6 +44,8 @@ const char* to_string(Refusal refusal) noexcept {
       return "require";
     case Refusal::attempts:
       return "attempts";
+    case Refusal::set:
+      return "set";
   }
   return "?";
 }
@@ -287,11 +289,17 @@ std::string Scheduler::why(const Transition& transition) const {
   const lang::Task& refused = tasks[transition.refused];
   words += ", but `" + refused.name + "` ";
   if (transition.refusal == Refusal::require) return words + "requires " + refused.require->text;
+  if (transition.refusal == Refusal::set) {
+    const lang::FrameDeclaration& frame =
+        parts_->declarations[static_cast<std::size_t>(transition.unknown_frame)];
+    return words + "needs the pose of `" + frame.name + "`, which is not known";
+  }
   return words + "was entered " + std::to_string(refused.attempts->most) + " times";
 }
 
 lang::Span Scheduler::where(const Transition& transition) const noexcept {
   const TaskList& tasks = parts_->tasks;
+  if (transition.refusal == Refusal::set) return parts_->refused_set(transition);
   if (transition.refusal == Refusal::require) return tasks[transition.refused].require->span;
   if (transition.refusal == Refusal::attempts) return tasks[transition.refused].attempts->span;
   if (transition.from < 0) return {};

@@ -113,12 +113,15 @@ void SignalTable::update(const Sensed& sensed, const std::vector<double>& parame
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     Entry& entry = entries_[i];
     const bool is_pose = entry.declared.type == lang::SignalType::pose;
-    if (is_pose) remember(entry, sensed.time, frames.pose(entry.declared.in));
+    const int seen_by = is_pose ? frames.signal_of(entry.declared.in) : -1;
+    // From a frame that is nowhere itself, nothing is seen.
+    const bool sees = seen_by < 0 || known(seen_by);
+    if (is_pose && sees) remember(entry, sensed.time, frames.pose(entry.declared.in));
     // Until the first sample the signal's frame is where it is seen from.
     if (is_pose && !started_) frames.feed(static_cast<int>(i), {-1, frames.pose(entry.declared.in), {}});
     if (i < sensed.signals.size()) {
       const SignalSample& sample = sensed.signals[i];
-      if (is_new(entry, sample, latest) && is_sound(sample, entry.declared.type)) {
+      if (sees && is_new(entry, sample, latest) && is_sound(sample, entry.declared.type)) {
         take(static_cast<int>(i), sample, frames);
       }
     }

@@ -22,6 +22,7 @@ class SignalTable {
   void update(const Sensed& sensed, const std::vector<double>& parameters, FrameTable& frames) noexcept;
 
   bool known(int signal) const noexcept { return at(signal).received && !at(signal).stale; }
+  bool received(int signal) const noexcept { return at(signal).received; }  ///< at least once
   /// Older than its `stale_after`; one that was never received ages from the start of the run.
   bool stale(int signal) const noexcept { return at(signal).stale; }
   double age(int signal) const noexcept { return at(signal).age; }  ///< [s]

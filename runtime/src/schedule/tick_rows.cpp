@@ -103,7 +103,8 @@ solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
   if (s.damping) driver.damping = s.damping->evaluate(parameters);
   if (s.force) driver.force = value(*s.force);
   const bool pushes = driver.quantity == Quantity::force;
-  if (a.lost && !(pushes && s.target.signal < 0)) {
+  const bool has_axis = was_seen(a.group->in) && was_seen(a.group->move);
+  if (a.lost && !(pushes && has_axis && s.target.signal < 0)) {
     if (!pushes) driver.quantity = Quantity::velocity;
     driver.stiffness = driver.damping = 0.0;
     driver.target = 0.0;

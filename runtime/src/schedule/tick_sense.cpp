@@ -20,6 +20,12 @@ bool Scheduler::Parts::is_known(int frame) const noexcept {
   return signal < 0 || signals.known(signal);
 }
 
+/// Before the first sample a frame on a pose signal is nowhere, and its axes point nowhere.
+bool Scheduler::Parts::was_seen(int frame) const noexcept {
+  const int signal = frames.signal_of(frame);
+  return signal < 0 || signals.received(signal);
+}
+
 Fact Scheduler::Parts::of_frame(int frame, double value) const noexcept {
   if (is_known(frame)) return {value, false};
   return {std::nan(""), signals.stale(frames.signal_of(frame))};

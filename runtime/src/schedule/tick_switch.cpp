@@ -7,12 +7,50 @@ namespace zwang::runtime {
 void Scheduler::Parts::apply(const std::vector<lang::SetAction>& actions) noexcept {
   for (const lang::SetAction& action : actions) {
     if (action.sets_frame) {
-      // An unknown pose is none to copy.
-      if (is_known(action.source)) frames.set(action.index, action.source);
+      frames.set(action.index, action.source);
     } else {
       parameters[static_cast<std::size_t>(action.index)] = action.value.evaluate(parameters);
     }
   }
+}
+
+/// The frame whose pose is not known now, of those that are copied and those that are set; -1: none. What
+/// is set from it, or hangs on it, would be at a false place.
+int Scheduler::Parts::unknown_frame_of(const std::vector<lang::SetAction>& actions) const noexcept {
+  for (const lang::SetAction& action : actions) {
+    if (!action.sets_frame) continue;
+    if (!is_known(action.source)) return action.source;
+    if (!is_known(action.index)) return action.index;
+  }
+  return -1;
+}
+
+/// No task begins with a frame at a false place.
+void Scheduler::Parts::refuse_set(Transition& t, int unknown_frame) const noexcept {
+  t.refusal = Refusal::set;
+  t.refused = t.to;
+  t.unknown_frame = unknown_frame;
+  t.to = tasks.failed();
+  t.resumes = false;
+}
+
+/// Those of the exit that is taken; nullptr where no exit is.
+const std::vector<lang::SetAction>* Scheduler::Parts::exit_sets(const Transition& t) const noexcept {
+  if (t.cause != Cause::always && t.cause != Cause::exit) return nullptr;
+  const int owner = t.cause == Cause::always ? tasks.always() : t.from;
+  return &tasks[owner].exits[static_cast<std::size_t>(t.exit)].set;
+}
+
+/// Where the `set` stands that refused the switch.
+lang::Span Scheduler::Parts::refused_set(const Transition& t) const noexcept {
+  for (const std::vector<lang::SetAction>* sets : {exit_sets(t), &tasks[t.refused].set_on_entry}) {
+    if (sets == nullptr) continue;
+    for (const lang::SetAction& action : *sets) {
+      if (action.sets_frame && (action.source == t.unknown_frame || action.index == t.unknown_frame))
+        return action.span;
+    }
+  }
+  return {};
 }
 
 /// `back` where nothing was interrupted has nowhere to go.
@@ -41,7 +79,8 @@ bool Scheduler::Parts::is_used_up(int of_task) const noexcept {
   return attempts && entries[static_cast<std::size_t>(of_task)] >= attempts->most;
 }
 
-/// Past the tasks whose attempts are used up; to `failed` where one requires what does not hold.
+/// Past the tasks whose attempts are used up; to `failed` where one requires what does not hold, or sets a
+/// frame from what is not known.
 void Scheduler::Parts::turn_away(Transition& t) noexcept {
   for (int hops = 0; hops <= tasks.program_tasks; ++hops) {
     if (t.resumes || tasks.ends(t.to)) return;
@@ -56,7 +95,9 @@ void Scheduler::Parts::turn_away(Transition& t) noexcept {
       t.refusal = Refusal::require;
       t.refused = t.to;
       t.to = tasks.failed();
+      return;
     }
+    if (const int frame = unknown_frame_of(next.set_on_entry); frame >= 0) refuse_set(t, frame);
     return;
   }
   t.to = tasks.failed();  // attempts that lead to one another in a circle
@@ -91,13 +132,16 @@ void Scheduler::Parts::resume() noexcept {
 
 void Scheduler::Parts::take(Choice choice) noexcept {
   Transition& t = choice.transition;
-  if (t.cause == Cause::always || t.cause == Cause::exit) {
-    const int owner = t.cause == Cause::always ? tasks.always() : task;
-    apply(tasks[owner].exits[static_cast<std::size_t>(t.exit)].set);
-  }
+  const std::vector<lang::SetAction>* sets = exit_sets(t);
+  const int unknown = sets != nullptr ? unknown_frame_of(*sets) : -1;
+  if (sets != nullptr && unknown < 0) apply(*sets);
   interrupt(t);
   lead(t, choice.target);
-  turn_away(t);
+  if (unknown < 0) {
+    turn_away(t);
+  } else if (!tasks.ends(t.to)) {
+    refuse_set(t, unknown);
+  }
   transition = t;
   task = t.to;
   if (t.resumes) {

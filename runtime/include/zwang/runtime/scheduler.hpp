@@ -38,6 +38,7 @@ enum class Refusal {
   none,
   require,   ///< the task's `require` was false or unknown: `failed`
   attempts,  ///< the task's `attempts` were used up: where they lead
+  set,       ///< a frame is set on the way, and a pose signal that it needs is not known: `failed`
 };
 
 const char* to_string(Refusal refusal) noexcept;
@@ -52,6 +53,7 @@ struct Transition {
   bool resumes = false;             ///< `back`: `to` goes on where it was interrupted
   Refusal refusal = Refusal::none;  ///< of the last task that turned the run away
   int refused = -1;                 ///< that task
+  int unknown_frame = -1;           ///< of a refused `set`: the frame whose pose is not known
   std::uint64_t also_always = 0;    ///< bit i: exit i of `always` would have been taken too
   bool also_timeout = false;        ///< the timeout was due too
   std::uint64_t also_true = 0;      ///< bit i: exit i of the task would have been taken too
