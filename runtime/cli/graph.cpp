@@ -4,6 +4,7 @@
 
 #include "output.hpp"
 #include "verbs.hpp"
+#include "zwang/lang/printable.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::cli {
@@ -58,19 +59,8 @@ std::string seconds(const Program& program, const lang::Value& value) {
   return text.str();
 }
 
-/// A condition may be written over several lines.
-std::string in_one_line(const std::string& text) {
-  std::string line;
-  for (const char c : text) {
-    const bool is_space = c == ' ' || c == '\n' || c == '\r' || c == '\t';
-    if (!is_space) line += c;
-    if (is_space && !line.empty() && line.back() != ' ') line += ' ';
-  }
-  return line;
-}
-
 std::string label_of(const Program& program, const lang::Exit& exit) {
-  std::string label = in_one_line(exit.when.text);
+  std::string label = lang::in_one_line(exit.when.text);
   if (exit.dwell.parameter >= 0 || exit.dwell.constant > 0.0) {
     label += " for " + seconds(program, exit.dwell);
   }
@@ -88,7 +78,7 @@ Graph graph_of(const Program& program) {
     const std::string name = "task " + task.name;
     graph.tasks.push_back(name);
     if (task.require) {
-      graph.edges.push_back({name, "failed", "not (" + in_one_line(task.require->text) + ") on entry", true});
+      graph.edges.push_back({name, "failed", "not (" + lang::in_one_line(task.require->text) + ") on entry", true});
     }
     if (task.attempts) {
       const std::string count = std::to_string(task.attempts->most);

@@ -33,6 +33,11 @@ std::string_view word_of(std::string_view record, std::string_view key) {
   return record.substr(0, record.find('"'));
 }
 
+ordered_json said_at_the_end(const runtime::LogContents& log, const std::string& what) {
+  const auto said = log.conclusion.find(what);
+  return said == log.conclusion.end() ? ordered_json(nullptr) : ordered_json(said->second);
+}
+
 ordered_json as_json(const std::string& file, const runtime::LogContents& log,
                      const std::vector<TaskBegin>& tasks, const std::vector<ToldEvent>& events) {
   ordered_json files = ordered_json::array();
@@ -50,6 +55,8 @@ ordered_json as_json(const std::string& file, const runtime::LogContents& log,
           {"begin", log.begin},
           {"end", log.end},
           {"facts", log.context.facts},
+          {"outcome", said_at_the_end(log, "outcome")},
+          {"verdict", said_at_the_end(log, "verdict")},
           {"files", files},
           {"tasks", begins},
           {"events", told}};
@@ -67,6 +74,10 @@ std::string as_text(const std::string& file, const runtime::LogContents& log,
     return out << "  " << padded(name, width);
   };
   for (const auto& [name, value] : log.context.facts) line(name) << value << "\n";
+  for (const char* name : {"verdict", "why"}) {
+    const auto said = log.conclusion.find(name);
+    if (said != log.conclusion.end()) line(name) << said->second << "\n";
+  }
   for (const lang::Source& s : log.context.sources) {
     if (s.path == from_command_line) {
       line("command line") << s.path << " " << s.text << "\n";

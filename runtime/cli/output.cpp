@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -59,23 +58,6 @@ void secure_standard_streams() {
   }
   if (descriptor > STDERR_FILENO) close(descriptor);
   if (!has_stdout) throw Impossible("cannot write to the standard output: it is closed");
-}
-
-std::string with_unit(double value, std::string_view si_unit, int digits) {
-  std::string unit(si_unit);
-  if (unit.rfind("rad", 0) == 0) {
-    value *= 180.0 / std::numbers::pi;
-    unit.replace(0, 3, "deg");
-  }
-  // As many decimals as a number around 1 needs for `digits`; small values are shown as small, not as 1e-17.
-  const double size = std::abs(value);
-  int decimals = digits - 1;
-  for (double bound = 10.0; size >= bound && decimals > 0; bound *= 10.0) --decimals;
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  std::string number = text;
-  if (number.find_first_not_of("-0.") == std::string::npos && number[0] == '-') number.erase(0, 1);
-  return number + " " + unit;
 }
 
 std::string padded(std::string_view text, std::size_t width) {

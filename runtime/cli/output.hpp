@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "zwang/lang/diagnostic.hpp"
+#include "zwang/runtime/with_unit.hpp"
 
 namespace zwang::cli {
 
@@ -30,8 +31,7 @@ bool stdout_is_terminal() noexcept;
 /// when stdout is closed.
 void secure_standard_streams();
 
-/// `0.0800 m/s`; angles in degrees. `digits` are significant ones.
-std::string with_unit(double value, std::string_view si_unit, int digits = 4);
+using runtime::with_unit;
 std::string padded(std::string_view text, std::size_t width);       ///< to the left
 std::string padded_left(std::string_view text, std::size_t width);  ///< to the right
 

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <tuple>
 
 #include "interruption.hpp"
 #include "output.hpp"
@@ -46,17 +45,37 @@ void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Form
   print_error(text.str());
 }
 
+bool moves(const lang::SceneObject& object) {
+  return object.mass.has_value() || !object.motion.empty();
+}
+
 std::vector<runtime::Column> truth_columns(const lang::Scene& scene) {
   std::vector<runtime::Column> columns = runtime::base_truth_columns();
   for (const lang::SceneObject& o : scene.objects) columns.push_back({"truth." + o.name + ".force", "N", {}});
   for (const lang::SceneRobot& r : scene.robots) columns.push_back({"truth." + r.name + ".force", "N", {}});
+  const auto add_place = [&columns](const std::string& name) {
+    columns.push_back({"truth." + name + ".x", "m", {}});
+    columns.push_back({"truth." + name + ".y", "m", {}});
+    columns.push_back({"truth." + name + ".yaw", "rad", {}});
+  };
+  for (const lang::SceneObject& o : scene.objects) {
+    if (moves(o)) add_place(o.name);
+  }
+  for (const lang::SceneRobot& r : scene.robots) add_place(r.name);
   return columns;
 }
 
-void put_truth(const runtime::Truth& truth, std::vector<double>& values) {
+/// In the order of `truth_columns`; the truth's objects are the scene's objects, then its robots.
+void put_truth(const runtime::Truth& truth, const lang::Scene& scene, std::vector<double>& values) {
   const runtime::BaseTruthValues base = runtime::base_truth_values(truth.x, truth.y, truth.yaw, truth.base);
   std::copy(base.begin(), base.end(), values.begin());
-  for (std::size_t i = 0; i < truth.objects.size(); ++i) values[base.size() + i] = truth.objects[i].force;
+  std::size_t at = base.size();
+  for (const runtime::ObjectTruth& o : truth.objects) values[at++] = o.force;
+  for (std::size_t i = 0; i < truth.objects.size(); ++i) {
+    if (i < scene.objects.size() && !moves(scene.objects[i])) continue;
+    const runtime::ObjectTruth& o = truth.objects[i];
+    for (const double place : {o.x, o.y, o.yaw}) values[at++] = place;
+  }
 }
 
 /// One line that is written over itself on a terminal, and now and then a line elsewhere.
@@ -95,8 +114,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
              const lang::Program& program, bool with_watchdog, Reloads* reloads,
              const std::atomic<bool>& interrupted, Live& live, RunReport& report) {
   runtime::Sensed sensed(program);
-  std::vector<double> truth(std::tuple_size_v<runtime::BaseTruthValues> + program.scene->objects.size() +
-                            program.scene->robots.size());
+  std::vector<double> truth(truth_columns(*program.scene).size());
   runtime::SimulationSteps steps(runner.period());
   TruthWatch watch(plant.truth(), steps.period());
   Eigen::VectorXd tau;
@@ -121,7 +139,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     if (status == PlantStatus::diverged) break;
     for (const auto& recorder : recorders) recorder->wait_for_room();
     if (steps.tick_is_due()) {
-      put_truth(plant.truth(), truth);
+      put_truth(plant.truth(), *program.scene, truth);
       // Who has asked for the end does not wait for the pace of real time.
       if (reloads != nullptr && !give_up) reloads->look(runner, sensed.time);
       tau = runner.step(sensed, truth);
@@ -132,17 +150,19 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     const bool in_task = runner.state() == runtime::RunState::running;
     status = plant.apply(tau);
     if (status != PlantStatus::ok) break;
-    watch.look(plant.truth(), in_task);
+    watch.look(plant.truth(), runner.scheduler(), in_task);
   }
   report.outcome = to_string(runner.state());
   if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
-  if (give_up && !runner.finished()) report.because += "; the run was ended before the robot stood";
+  report.ended_early = give_up && !runner.finished();
+  report.why = runner.why();
   if (status != PlantStatus::ok) {
     report.outcome = to_string(status);
     report.because = "the plant " + report.outcome;
+    report.why.reset();
   }
   report.elapsed = sensed.time;
-  report.objects = watch.objects(plant.truth());
+  report.objects = watch.objects(plant.truth(), runner.scheduler());
   for (const runtime::ScenePartner& partner : plant.partners())
     report.partners.push_back(partner_report(partner));
   report.x = plant.truth().x;
@@ -214,10 +234,15 @@ int run(const RunArguments& arguments) {
     report.logs.insert(report.logs.end(), reloads->logs().begin(), reloads->logs().end());
   }
   report.wall_time = std::chrono::duration<double>(Clock::now() - begin).count();
+  const std::size_t partner_logs = plant->partners().size();
+  const lang::Diagnostics& of_files = reloads ? reloads->diagnostics() : diagnostics;
+  for (std::size_t i = 0; i < partner_logs; ++i) recorders[i + 1]->conclude(conclusion(plant->partners()[i]));
+  // The log that goes on to the end: the last one of a task file that was loaded again.
+  const bool is_reloaded = recorders.size() > partner_logs + 1;
+  (is_reloaded ? recorders.back() : recorders.front())->conclude(conclusion(report, runner, of_files));
   for (const auto& recorder : recorders) recorder->close();
   live.end();
 
-  const std::size_t partner_logs = plant->partners().size();
   for (std::size_t i = 0; i < recorders.size(); ++i) {
     const runtime::RecorderStatus log = recorders[i]->status();
     // The first robot's stand before and behind the partners'.
@@ -226,7 +251,6 @@ int run(const RunArguments& arguments) {
     if (report.log_error.empty() && !log.complete())
       report.log_error = std::to_string(log.dropped) + " records were dropped";
   }
-  const lang::Diagnostics& of_files = reloads ? reloads->diagnostics() : diagnostics;
   if (arguments.format == Format::json) {
     print_data(json_report(report, runner, of_files));
   } else {

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "output.hpp"
+#include "table.hpp"
+#include "why_report.hpp"
 
 namespace zwang::cli {
 
@@ -15,8 +16,6 @@ using nlohmann::ordered_json;
 using runtime::LimitReport;
 using runtime::Transition;
 
-constexpr double steady_window = 0.5;  // [s]
-
 std::string seconds(double time) {
   return with_unit(time, "s", 4);
 }
@@ -24,34 +23,6 @@ std::string seconds(double time) {
 std::string task_name(const runtime::Scheduler& scheduler, int task) {
   return task < 0 ? "-" : scheduler.tasks()[static_cast<std::size_t>(task)].name;
 }
-
-/// Columns as wide as their widest cell; those of numbers stand to the right.
-class Table {
- public:
-  explicit Table(std::vector<bool> to_right) : to_right_(std::move(to_right)), widths_(to_right_.size(), 0) {}
-  void add(std::vector<std::string> row) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths_[i] = std::max(widths_[i], row[i].size());
-    rows_.push_back(std::move(row));
-  }
-  std::string text() const {
-    std::string out;
-    for (const auto& row : rows_) {
-      std::string line = " ";
-      for (std::size_t i = 0; i < row.size(); ++i) {
-        line += ' ';
-        line += to_right_[i] ? padded_left(row[i], widths_[i]) : padded(row[i], widths_[i]);
-        line += ' ';
-      }
-      out += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-    }
-    return out;
-  }
-
- private:
-  std::vector<bool> to_right_;
-  std::vector<std::size_t> widths_;
-  std::vector<std::vector<std::string>> rows_;
-};
 
 /// What would have switched too on that tick, in the words of the task file.
 std::vector<std::string> also_true(const runtime::Scheduler& scheduler, const Transition& t) {
@@ -96,12 +67,18 @@ std::string events_table(const runtime::Runner& runner) {
   return text + "\n";
 }
 
+/// Those that were broken before the others, each in the order of the files.
+std::vector<LimitReport> broken_first(std::vector<LimitReport> limits) {
+  std::ranges::stable_partition(limits, [](const LimitReport& l) { return l.is_broken(); });
+  return limits;
+}
+
 std::string limits_table(const runtime::Runner& runner, const lang::Diagnostics& diagnostics) {
-  Table table({false, true, true, true, false});
-  table.add({"", "worst", "limit", "margin", ""});
-  for (const LimitReport& l : runner.limits()) {
+  Table table({false, true, true, true, false, false});
+  table.add({"", "worst", "limit", "margin", "", ""});
+  for (const LimitReport& l : broken_first(runner.limits())) {
     table.add({l.row, with_unit(l.worst, l.unit), with_unit(l.limit, l.unit), with_unit(l.margin, l.unit),
-               place(diagnostics, l.span)});
+               l.is_broken() ? "BROKEN" : "", place(diagnostics, l.span)});
   }
   return "limits\n" + table.text();
 }
@@ -119,8 +96,11 @@ std::string truth_table(const RunReport& report) {
       continue;
     }
     table.add({o.latched ? "" : o.name, "touched at " + seconds(*o.touched) + ", pressed with " +
-                                            with_unit(o.steady_force, "N", 5) + " at the end, with " +
-                                            with_unit(o.peak_force, "N", 4) + " at most"});
+                                            with_unit(o.steady_force, "N", 5) + " at the end"});
+    table.add({"", "peak " + with_unit(o.peak_force, "N") + " at " + seconds(o.peak_at) + " in `" +
+                       o.peak_in + "`" +
+                       (o.allowed ? ", where " + with_unit(*o.allowed, "N") + " are allowed" : "") +
+                       (o.is_hit() ? "  HIT" : "")});
   }
   for (const AskedForce& a : report.asked) {
     table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
@@ -158,12 +138,13 @@ ordered_json json_transitions(const runtime::Runner& runner, const lang::Diagnos
 
 ordered_json json_limits(const runtime::Runner& runner, const lang::Diagnostics& diagnostics) {
   ordered_json limits = ordered_json::array();
-  for (const LimitReport& l : runner.limits()) {
+  for (const LimitReport& l : broken_first(runner.limits())) {
     limits.push_back({{"row", l.row},
                       {"line", l.span.exists() ? ordered_json(l.span.begin.line) : ordered_json(nullptr)},
                       {"limit", l.limit},
                       {"worst", l.worst},
                       {"margin", l.margin},
+                      {"broken", l.is_broken()},
                       {"unit", l.unit},
                       {"where", place(diagnostics, l.span)}});
   }
@@ -181,41 +162,25 @@ ordered_json json_events(const runtime::Runner& runner) {
   return all;
 }
 
+ordered_json json_truth(const RunReport& report) {
+  ordered_json truth = ordered_json::object();
+  for (const ObjectReport& o : report.objects) {
+    truth[o.name] = {{"touched", number_or_null(o.touched)},
+                     {"steady_force", o.steady_force},
+                     {"peak_force", o.peak_force},
+                     {"peak_at", o.peak_at},
+                     {"peak_in", o.peak_in},
+                     {"allowed", number_or_null(o.allowed)},
+                     {"hit", o.is_hit()},
+                     {"yaw_at_touch", number_or_null(o.yaw_at_touch)},
+                     {"latched", number_or_null(o.latched)},
+                     {"pull", o.pull}};
+  }
+  truth["base"] = {{"x", report.x}, {"y", report.y}, {"yaw", report.yaw}};
+  return truth;
+}
+
 }  // namespace
-
-TruthWatch::TruthWatch(const runtime::Truth& truth, double period)
-    : watched_(truth.objects.size()),
-      window_(static_cast<std::size_t>(std::max(1.0, std::round(steady_window / period)))) {
-  for (Watched& w : watched_) w.last_forces.reserve(window_);
-}
-
-void TruthWatch::look(const runtime::Truth& truth, bool in_task) {
-  for (std::size_t i = 0; i < watched_.size(); ++i) {
-    Watched& w = watched_[i];
-    if (truth.objects[i].touched && !w.yaw_at_touch) w.yaw_at_touch = truth.yaw;
-    if (!in_task) continue;
-    w.pull = truth.objects[i].pull;
-    if (w.last_forces.size() < window_) {
-      w.last_forces.push_back(truth.objects[i].force);
-    } else {
-      w.last_forces[looks_ % window_] = truth.objects[i].force;
-    }
-  }
-  if (in_task) ++looks_;
-}
-
-std::vector<ObjectReport> TruthWatch::objects(const runtime::Truth& truth) const {
-  std::vector<ObjectReport> reports;
-  for (std::size_t i = 0; i < watched_.size(); ++i) {
-    const runtime::ObjectTruth& o = truth.objects[i];
-    const std::vector<double>& forces = watched_[i].last_forces;
-    const double sum = std::accumulate(forces.begin(), forces.end(), 0.0);
-    reports.push_back({o.name, o.touched, watched_[i].yaw_at_touch,
-                       forces.empty() ? 0.0 : sum / static_cast<double>(forces.size()), o.peak_force,
-                       o.latched, watched_[i].pull});
-  }
-  return reports;
-}
 
 PartnerReport partner_report(const runtime::ScenePartner& partner) {
   const runtime::Runner& runner = partner.runner;
@@ -240,25 +205,23 @@ std::string live_line(const runtime::Runner& runner, double time) {
   return line;
 }
 
-std::vector<AskedForce> asked_forces(const runtime::Scheduler& scheduler) {
-  std::vector<AskedForce> asked;
-  if (scheduler.task() < 0) return asked;
-  const lang::Task& task = scheduler.tasks()[static_cast<std::size_t>(scheduler.task())];
-  for (const lang::Group& group : task.groups) {
-    for (const lang::AxisStatements& axis : group.axes) {
-      if (axis.driver != solver::Quantity::force) continue;
-      asked.push_back({task.name + "." + axis.name, axis.target.evaluate(scheduler.parameters()),
-                       axis.axis >= solver::Axis::rx ? "N m" : "N"});
-    }
+std::string verdict(const RunReport& report) {
+  std::string text = report.outcome + " after " + seconds(report.elapsed);
+  for (const ObjectReport& o : report.objects) {
+    if (!o.is_hit()) continue;
+    text += ", hit `" + o.name + "` with " + with_unit(o.peak_force, "N");
+    if (o.allowed) text += " where " + with_unit(*o.allowed, "N") + " are allowed";
   }
-  return asked;
+  if (report.why)
+    return text + ": " + report.why->sentence +
+           (report.ended_early ? "; the run was ended before the robot stood" : "");
+  return text + (report.because.empty() ? "" : ": " + report.because);
 }
 
 std::string human_report(const RunReport& report, const runtime::Runner& runner,
                          const lang::Diagnostics& diagnostics) {
-  std::string text = report.outcome + " after " + seconds(report.elapsed);
-  if (!report.because.empty()) text += ": " + report.because;
-  text += "\n\n";
+  std::string text = verdict(report) + "\n\n";
+  if (report.why) text += why_table(*report.why, diagnostics);
   for (const Chapter& chapter : report.before) {
     text += "until the task file was loaded again at " + seconds(chapter.until) + ": " +
             transitions_table(*chapter.runner, *chapter.diagnostics) + "\n" +
@@ -274,40 +237,62 @@ std::string human_report(const RunReport& report, const runtime::Runner& runner,
   return text;
 }
 
-std::string json_report(const RunReport& report, const runtime::Runner& runner,
-                        const lang::Diagnostics& diagnostics) {
-  ordered_json truth = ordered_json::object();
-  for (const ObjectReport& o : report.objects) {
-    truth[o.name] = {{"touched", number_or_null(o.touched)}, {"steady_force", o.steady_force},
-                     {"peak_force", o.peak_force},           {"yaw_at_touch", number_or_null(o.yaw_at_touch)},
-                     {"latched", number_or_null(o.latched)}, {"pull", o.pull}};
-  }
-  truth["base"] = {{"x", report.x}, {"y", report.y}, {"yaw", report.yaw}};
+namespace {
+
+/// All that does not hang on the machine or on where the log is.
+ordered_json story(const RunReport& report, const runtime::Runner& runner,
+                   const lang::Diagnostics& diagnostics) {
   ordered_json asked = ordered_json::array();
   for (const AskedForce& a : report.asked) {
     asked.push_back({{"row", a.row}, {"force", a.force}, {"unit", a.unit}});
   }
   ordered_json whole = {{"outcome", report.outcome},
+                        {"verdict", verdict(report)},
                         {"elapsed", report.elapsed},
                         {"transitions", json_transitions(runner, diagnostics)},
                         {"events", json_events(runner)},
                         {"limits", json_limits(runner, diagnostics)},
                         {"asked", asked},
-                        {"truth", truth},
-                        {"seed", report.seed},
-                        {"log", report.logs.front()},
-                        {"logs", report.logs},
-                        {"log_complete", report.log_error.empty()},
-                        {"wall_time", report.wall_time}};
+                        {"truth", json_truth(report)},
+                        {"seed", report.seed}};
+  if (!report.because.empty()) whole["because"] = report.because;
+  if (report.why) whole["why"] = ordered_json::parse(json_of(*report.why));
   for (const Chapter& chapter : report.before) {
     whole["before"].push_back({{"until", chapter.until},
                                {"transitions", json_transitions(*chapter.runner, *chapter.diagnostics)},
                                {"limits", json_limits(*chapter.runner, *chapter.diagnostics)}});
   }
-  if (!report.because.empty()) whole["because"] = report.because;
   for (const PartnerReport& p : report.partners)
     whole["robots"][p.name] = {{"outcome", p.outcome}, {"because", p.because}, {"task", p.task}};
-  return whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return whole;
+}
+
+std::string text_of(const ordered_json& json, int indent) {
+  return json.dump(indent, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> conclusion(const RunReport& report, const runtime::Runner& runner,
+                                              const lang::Diagnostics& diagnostics) {
+  return {{"outcome", report.outcome},
+          {"verdict", verdict(report)},
+          {"report", text_of(story(report, runner, diagnostics), -1)}};
+}
+
+std::map<std::string, std::string> conclusion(const runtime::ScenePartner& partner) {
+  const std::optional<runtime::Why> why = partner.runner.why();
+  return {{"outcome", partner_report(partner).outcome}, {"why", why ? why->sentence : ""}};
+}
+
+std::string json_report(const RunReport& report, const runtime::Runner& runner,
+                        const lang::Diagnostics& diagnostics) {
+  ordered_json whole = story(report, runner, diagnostics);
+  whole["log"] = report.logs.front();
+  whole["logs"] = report.logs;
+  whole["log_complete"] = report.log_error.empty();
+  whole["wall_time"] = report.wall_time;
+  return text_of(whole, 2) + "\n";
 }
 
 }  // namespace zwang::cli

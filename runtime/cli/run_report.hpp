@@ -1,54 +1,18 @@
 /// What a run says: while it goes, and when it is over.
 #pragma once
 
-#include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "truth_watch.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::cli {
-
-/// What the plant measured at one object.
-struct ObjectReport {
-  std::string name;
-  std::optional<double> touched;       ///< [s]
-  std::optional<double> yaw_at_touch;  ///< [rad]
-  double steady_force = 0.0;           ///< [N] mean of the last 0.5 s in which a task was active
-  double peak_force = 0.0;             ///< [N]
-  std::optional<double> latched;       ///< [s] when the hook caught in its dock
-  double pull = 0.0;                   ///< [N] of the hook, outwards, when the last task ended
-};
-
-/// A force driver that was in force when the last task ended.
-struct AskedForce {
-  std::string row;
-  double force = 0.0;  ///< [N] or [N m]
-  std::string unit;
-};
-
-/// Watches the plant's truth from tick to tick.
-class TruthWatch {
- public:
-  TruthWatch(const runtime::Truth& truth, double period);
-  /// `in_task`: a task is active, not the brake behind it.
-  void look(const runtime::Truth& truth, bool in_task);
-  std::vector<ObjectReport> objects(const runtime::Truth& truth) const;
-
- private:
-  struct Watched {
-    std::vector<double> last_forces;  ///< a ring
-    std::optional<double> yaw_at_touch;
-    double pull = 0.0;
-  };
-  std::vector<Watched> watched_;
-  std::size_t window_;
-  std::size_t looks_ = 0;
-};
 
 /// Another robot of the scene, when the run ended.
 struct PartnerReport {
@@ -67,10 +31,11 @@ struct Chapter {
 };
 
 struct RunReport {
-  std::string outcome;     ///< done, failed, stopped, diverged; the first robot's
-  std::string because;     ///< of a stop; empty otherwise
-  double elapsed = 0.0;    ///< [s]
-  double wall_time = 0.0;  ///< [s] that it took
+  std::string outcome;       ///< done, failed, stopped, diverged; the first robot's
+  std::string because;       ///< of a stop; empty otherwise
+  bool ended_early = false;  ///< from outside, before the robot stood
+  double elapsed = 0.0;      ///< [s]
+  double wall_time = 0.0;    ///< [s] that it took
   std::uint64_t seed = 0;
   std::vector<std::string> logs;  ///< of the first robot, one after the other
   std::vector<Chapter> before;
@@ -79,15 +44,22 @@ struct RunReport {
   std::vector<AskedForce> asked;
   std::vector<ObjectReport> objects;
   std::vector<PartnerReport> partners;
+  std::optional<runtime::Why> why;     ///< none: it is `done`, or the plant ended it
   double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the base, as the plant has it
 };
 
 /// The row that is at its limit, in a line without its end.
 std::string live_line(const runtime::Runner& runner, double time);
-std::vector<AskedForce> asked_forces(const runtime::Scheduler& scheduler);
+
+/// `done after 11.05 s`, with what was hit and why it is not `done`, in a line without its end.
+std::string verdict(const RunReport& report);
 
 std::string human_report(const RunReport& report, const runtime::Runner& runner,
                          const lang::Diagnostics& diagnostics);
+/// For the end of a log: the outcome, the verdict, and the report as JSON.
+std::map<std::string, std::string> conclusion(const RunReport& report, const runtime::Runner& runner,
+                                              const lang::Diagnostics& diagnostics);
+std::map<std::string, std::string> conclusion(const runtime::ScenePartner& partner);
 std::string json_report(const RunReport& report, const runtime::Runner& runner,
                         const lang::Diagnostics& diagnostics);
 

@@ -103,6 +103,7 @@ void describe(const ScenarioReport& report, std::ostream& out) {
       out << " after " << seconds_of(cell.simulated, 2) << " (" << seconds_of(cell.wall, 2)
           << " of computing, " << number(cell.simulated / cell.wall, 1) << " x real time)";
     out << "\n";
+    if (!cell.passed && !cell.why.empty()) out << "        why: " << cell.why << "\n";
     for (const ExpectationResult& result : cell.expectations) {
       if (result.held) continue;
       out << "        missed: " << result.text << "  [" << place(report.diagnostics, result.span) << "] "
@@ -138,7 +139,8 @@ std::string hardest_motor(const std::vector<ScenarioReport>& reports) {
 /// What a continuous integration shows of it: the first expectation that was missed.
 std::string failure_of(const CellResult& cell) {
   for (const ExpectationResult& result : cell.expectations) {
-    if (!result.held) return "missed: " + result.text + " (the run ended: " + outcome_text(cell) + ")";
+    const std::string why = cell.why.empty() ? "" : ": " + cell.why;
+    if (!result.held) return "missed: " + result.text + " (the run ended: " + outcome_text(cell) + why + ")";
   }
   return outcome_text(cell);
 }
@@ -195,6 +197,7 @@ nlohmann::ordered_json json_of(const CellResult& cell) {
                                  {"outcome", cell.outcome},     {"because", cell.because},
                                  {"simulated", cell.simulated}, {"wall", cell.wall},
                                  {"torque", cell.torque},       {"expectations", expectations}};
+  if (!cell.why.empty()) json["why"] = cell.why;
   if (!cell.partners.empty()) json["robots"] = robots;
   return json;
 }

@@ -105,6 +105,29 @@ TEST_F(Scenarios, JUnitNamesWhatWasMissed) {
       << junit;
 }
 
+TEST_F(Scenarios, AFailureSaysWhatTheTaskWaitedFor) {
+  write("waits.yaml", R"(zwang: 1
+robot: robots/mecanum_base.yaml
+scene: scene.yaml
+start: stand
+tasks:
+  stand:
+    constraints: {still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
+    exits: [{when: moved(base_link) > 1 m, goto: done}]
+    timeout: {after: 0.1 s, goto: failed}
+)");
+  write("good.yaml", "zwang_scenario: 1\ntask: waits.yaml\nexpect: [{outcome: done}]\n");
+  const std::string why =
+      "`stand` waited 0.100 s, its timeout (waits.yaml:9): `moved(base_link) > 1 m` is false (0.000 m)";
+  const Result r = zwang({"test", "good.yaml", "--junit", "junit.xml"});
+  EXPECT_NE(r.out.find("why: " + why + "\n"), std::string::npos) << r.out;
+  EXPECT_NE(read(folder_ / "junit.xml").find("`stand` waited 0.100 s, its timeout (waits.yaml:9): "),
+            std::string::npos);
+  EXPECT_EQ(
+      json::parse(zwang({"test", "good.yaml", "--format", "json"}).out)["scenarios"][0]["runs"][0]["why"],
+      why);
+}
+
 /// The crate stands 3 m ahead, and less of a base that starts nearer.
 TEST_F(Scenarios, TheTableHasTheLeastMarginOfAllRunsAndTheRunThatHasIt) {
   const std::string claim = "truth.crate.x - truth.base.x < 4 m";

@@ -83,12 +83,12 @@ TEST(Runner, ReportsEachLimitsWorstValueAndMargin) {
   EXPECT_NEAR(speed.margin, speed.limit - speed.worst, 1e-12);
   const LimitReport acceleration = loop.limit("go.go.x.acceleration");
   EXPECT_NEAR(acceleration.worst, 0.5, 1e-6) << "0.5 m/s with a time constant of 50 ms asks for 10 m/s^2";
-  const LimitReport push = loop.limit("push.go.x.force");
+  const LimitReport push = loop.limit("push.go.x.nu");
   EXPECT_EQ(push.unit, "N");
   EXPECT_NEAR(push.worst, 10.0, 1e-9);
   EXPECT_EQ(push.limit, 10.0);
   EXPECT_NEAR(loop.limit("limits.rz.velocity").margin, 1.0, 1e-6);
-  const LimitReport torque = loop.limit("front_left_wheel.torque");
+  const LimitReport torque = loop.limit("front_left_wheel.tau");
   EXPECT_EQ(torque.limit, effort);
   // The largest demand is the brake's, which has the stop's 1 m/s^2: m a = sum over the wheels of tau / r.
   const double expected = PlanarBase().inertia()(0, 0) * 1.0 * wheel_radius / 4;

@@ -91,6 +91,7 @@ class ConditionCheck {
     }
     const int left = text_.nodes.back().left;
     if (compared != nullptr && left >= 0) *compared = type(left).dimension;
+    list_terms(static_cast<int>(text_.nodes.size()) - 1, condition);
     if (of_nodes != nullptr) {
       for (const Type& type : types_) of_nodes->push_back(type.dimension);
     }
@@ -98,6 +99,20 @@ class ConditionCheck {
   }
 
  private:
+  void list_terms(int node, Condition& condition) const {
+    const auto i = static_cast<std::size_t>(node);
+    const ExpressionNode& lowered = condition.nodes[i];
+    const bool joins = lowered.op == Op::logical_and || lowered.op == Op::logical_or;
+    if (joins || lowered.op == Op::logical_not) {
+      list_terms(lowered.left, condition);
+      if (joins) list_terms(lowered.right, condition);
+      return;
+    }
+    const bool compares = lowered.op >= Op::less && lowered.op <= Op::greater_equal;
+    condition.terms.push_back(
+        {node, text_.nodes[i].text, compares ? usual_unit(type(lowered.left).dimension) : std::string()});
+  }
+
   const Type& type(int i) const { return types_[static_cast<std::size_t>(i)]; }
   const ExpressionText& node_at(int i) const { return text_.nodes[static_cast<std::size_t>(i)]; }
 

@@ -9,6 +9,7 @@
 #include "spec/value.hpp"
 #include "tree/read.hpp"
 #include "tree/text.hpp"
+#include "zwang/lang/printable.hpp"
 
 namespace zwang::lang {
 
@@ -130,10 +131,15 @@ class ConditionParser {
     return true;
   }
 
-  int add(ExpressionText node, std::size_t begin) {
+  int add(ExpressionText node, std::size_t begin) { return add(std::move(node), begin, begin); }
+
+  /// `text_begin`: the same, with the parentheses around the first operand.
+  int add(ExpressionText node, std::size_t begin, std::size_t text_begin) {
     node.span = span(begin, at_);
+    node.text = in_one_line(std::string_view(text_).substr(text_begin, at_ - text_begin));
     nodes_.push_back(std::move(node));
     begins_.push_back(begin);
+    text_begins_.push_back(text_begin);
     return static_cast<int>(nodes_.size()) - 1;
   }
 
@@ -143,7 +149,8 @@ class ConditionParser {
     node.word = std::move(op);
     node.left = left;
     node.right = right;
-    return add(std::move(node), begins_[static_cast<std::size_t>(left)]);
+    return add(std::move(node), begins_[static_cast<std::size_t>(left)],
+               text_begins_[static_cast<std::size_t>(left)]);
   }
 
   int add_unary(ExpressionKind kind, int operand, std::size_t begin) {
@@ -221,6 +228,7 @@ class ConditionParser {
     if (accept('(')) {
       const int inner = parse_or(depth + 1);
       if (!accept(')')) stop_at_missing_parenthesis(begin);
+      text_begins_[static_cast<std::size_t>(inner)] = begin;
       return inner;
     }
     if (accept('$')) return parse_parameter(begin);
@@ -341,7 +349,8 @@ class ConditionParser {
   Diagnostics& diagnostics_;
   std::vector<Position> positions_;
   std::vector<ExpressionText> nodes_;
-  std::vector<std::size_t> begins_;  ///< offset of each node's first letter
+  std::vector<std::size_t> begins_;       ///< offset of each node's first letter
+  std::vector<std::size_t> text_begins_;  ///< the same, with the parentheses around it
   std::size_t at_ = 0;
 };
 

@@ -30,6 +30,7 @@ struct ExpressionText {
   int left = -1;  ///< operand of negate, logical_not and abs()
   int right = -1;
   Span span;
+  std::string text;  ///< as written, in one line
 };
 
 struct ConditionText {

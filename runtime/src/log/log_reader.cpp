@@ -36,8 +36,9 @@ std::map<std::string, std::string> facts_of(std::string_view bytes) {
 class LogReader {
  public:
   LogReader(const std::filesystem::path& path,
-            const std::function<void(double time, std::string_view json)>& record)
-      : file_(path, std::ios::binary), record_(record) {
+            const std::function<void(double time, std::string_view json)>& record,
+            const std::function<void(const LogContents& head)>& before)
+      : file_(path, std::ios::binary), record_(record), before_(before) {
     if (!file_) throw std::runtime_error(path.string() + ": " + std::strerror(errno));
     std::string magic(mcap::magic.size(), '\0');
     if (!take(magic) || magic != mcap::magic) throw std::runtime_error(path.string() + ": is no MCAP log");
@@ -219,6 +220,7 @@ class LogReader {
       std::from_chars(text.data(), text.data() + text.size(), sequence);
       look_for_a_gap(sequence, "the end");
     }
+    if (name == mcap::conclusion_name) contents_.conclusion = facts;
     if (name == mcap::facts_name) contents_.context.facts = std::move(facts);
   }
 
@@ -237,6 +239,7 @@ class LogReader {
     if (!fields.good()) return;
     look_for_a_gap(sequence, std::to_string(time) + " s");
     next_sequence_ = sequence + 1;
+    if (contents_.records == 0 && before_) before_(contents_);
     if (contents_.records++ == 0) contents_.begin = time;
     contents_.end = time;
     record_(time, fields.rest());
@@ -244,6 +247,7 @@ class LogReader {
 
   std::ifstream file_;
   const std::function<void(double, std::string_view)>& record_;
+  const std::function<void(const LogContents&)>& before_;
   std::uint64_t at_ = 0;    // [bytes] read so far
   std::uint64_t size_ = 0;  // [bytes] of the file
   std::uint32_t next_sequence_ = 0;
@@ -254,8 +258,9 @@ class LogReader {
 }  // namespace
 
 LogContents read_log(const std::filesystem::path& path,
-                     const std::function<void(double time, std::string_view json)>& record) {
-  return LogReader(path, record).read();
+                     const std::function<void(double time, std::string_view json)>& record,
+                     const std::function<void(const LogContents& head)>& before) {
+  return LogReader(path, record, before).read();
 }
 
 }  // namespace zwang::runtime

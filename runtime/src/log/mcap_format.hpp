@@ -31,8 +31,10 @@ enum Opcode : unsigned char {
 
 inline constexpr std::size_t record_head = 9;  // opcode and length
 
-// Metadata of ours: the facts; and where the last records were dropped, the sequence number behind them.
+// Metadata of ours: the facts; those that only the end of a run knows; and where the last records were
+// dropped, the sequence number behind them.
 inline constexpr const char* facts_name = "zwang";
+inline constexpr const char* conclusion_name = "zwang.conclusion";
 inline constexpr const char* end_name = "zwang.end";
 inline constexpr const char* end_sequence = "sequence";
 

@@ -81,6 +81,11 @@ class McapSink : public LogSink {
     return "";
   }
 
+  std::string conclude(const std::map<std::string, std::string>& facts) override {
+    const std::string error = chunk_times_.empty() ? "" : append_chunk();
+    return error.empty() ? append_metadata(mcap::conclusion_name, facts) : error;
+  }
+
   std::string flush() override { return ""; }  // a chunk is on its way as soon as it is full
 
   std::string close() override {

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace zwang::runtime {
 
@@ -29,6 +30,10 @@ std::string complaint(const Call& call) {
 }  // namespace
 
 std::string LogSink::skip(std::uint64_t) {
+  return "";
+}
+
+std::string LogSink::conclude(const std::map<std::string, std::string>&) {
   return "";
 }
 
@@ -75,6 +80,7 @@ struct Recorder::Writer {
       std::this_thread::sleep_for(idle);
     }
     tell_dropped(dropped.load(std::memory_order_relaxed));
+    if (!conclusion.empty()) each([this](LogSink& sink) { return sink.conclude(conclusion); });
     // A sink that failed has a file to close all the same.
     for (Output& output : outputs) {
       const std::string said = complaint([&] { return output.sink->close(); });
@@ -106,9 +112,10 @@ struct Recorder::Writer {
   const std::vector<Column> columns;
   const std::size_t capacity;
   std::vector<double> ring;
-  std::vector<std::uint64_t> dropped_before;  // each record of the ring
-  std::uint64_t told_dropped = 0;             // the writer's thread's own
-  std::vector<Output> outputs;                // the writer's thread's own
+  std::vector<std::uint64_t> dropped_before;      // each record of the ring
+  std::uint64_t told_dropped = 0;                 // the writer's thread's own
+  std::map<std::string, std::string> conclusion;  // given before `closing`
+  std::vector<Output> outputs;                    // the writer's thread's own
   std::atomic<std::uint64_t> head{0};
   std::atomic<std::uint64_t> tail{0};
   std::atomic<std::uint64_t> written{0};
@@ -167,6 +174,10 @@ void Recorder::wait_for_room() const noexcept {
          !w.closing.load(std::memory_order_relaxed)) {
     std::this_thread::sleep_for(idle);
   }
+}
+
+void Recorder::conclude(std::map<std::string, std::string> facts) {
+  if (!writer_->closing.load(std::memory_order_relaxed)) writer_->conclusion = std::move(facts);
 }
 
 void Recorder::close() noexcept {

@@ -17,7 +17,20 @@ constexpr double one_sided_range = 1.0;  // [m], [m/s], ...: of a limit that has
 
 constexpr std::array quantities = {Quantity::position, Quantity::velocity, Quantity::acceleration,
                                    Quantity::force};
-constexpr std::array words = {"position", "velocity", "acceleration", "force"};
+/// The column of the log that has what is limited.
+const char* column_of(const Statement& s, Quantity quantity) {
+  switch (quantity) {
+    case Quantity::position:
+      return s.inside ? "left" : "position";
+    case Quantity::velocity:
+      return "velocity";
+    case Quantity::acceleration:
+      return "acceleration";
+    case Quantity::force:
+      break;
+  }
+  return s.says.driver ? "nu" : "sum";
+}
 
 bool limits(const lang::AxisStatements& says, Quantity quantity) {
   switch (quantity) {
@@ -33,8 +46,9 @@ bool limits(const lang::AxisStatements& says, Quantity quantity) {
   return says.force.has_value() || says.driver == Quantity::force;
 }
 
-/// The acceleration along a row's axis that the solution brings about.
-double acceleration_of(const solver::Row& row, const solver::Solution& solution, double bias) {
+}  // namespace
+
+double acceleration_of(const solver::Row& row, const solver::Solution& solution, double bias) noexcept {
   double a = dot(row.a, solution.acceleration[static_cast<std::size_t>(row.body)]) + bias;
   if (row.reference_body >= 0) {
     a -= dot(row.a_reference, solution.acceleration[static_cast<std::size_t>(row.reference_body)]);
@@ -42,7 +56,11 @@ double acceleration_of(const solver::Row& row, const solver::Solution& solution,
   return a;
 }
 
-}  // namespace
+bool LimitReport::is_broken() const {
+  constexpr double share = 1e-3;
+  constexpr double least = 1e-6;  // of a limit of 0; SI
+  return margin < -std::max(share * std::abs(limit), least);
+}
 
 LimitTable::LimitTable(const StatementTable& statements, const lang::Robot& robot) {
   for (const Statement& s : statements.all()) {
@@ -53,7 +71,7 @@ LimitTable::LimitTable(const StatementTable& statements, const lang::Robot& robo
       if (!limits(s.says, quantity)) continue;
       indices[q] = static_cast<int>(limits_.size());
       LimitReport& limit = limits_.emplace_back();
-      limit.row = s.name + "." + words[q];
+      limit.row = s.name + "." + column_of(s, quantity);
       limit.unit = unit_of(s.says.axis, quantity);
       limit.span = s.says.statement_spans[q].exists() ? s.says.statement_spans[q] : s.says.span;
     }
@@ -64,7 +82,7 @@ LimitTable::LimitTable(const StatementTable& statements, const lang::Robot& robo
     const solver::Joint& joint = robot.model.joint(j);
     torque_.push_back(joint.actuated ? joint.max_effort : 0.0);
     LimitReport& limit = limits_.emplace_back();
-    limit.row = joint.name + ".torque";
+    limit.row = joint.name + ".tau";
     limit.unit = joint.type == solver::JointType::prismatic ? "N" : "N m";
     if (static_cast<std::size_t>(j) < robot.joint_spans.size()) {
       limit.span = robot.joint_spans[static_cast<std::size_t>(j)];
@@ -169,9 +187,9 @@ std::vector<LimitReport> LimitTable::reports() const {
   return reports;
 }
 
-std::optional<LimitReport> LimitTable::now() const {
-  if (tightest_ < 0) return std::nullopt;
-  return report_of(static_cast<std::size_t>(tightest_), tightest_now_);
+std::optional<LimitReport> LimitTable::report_of(const Tightest& tightest) const {
+  if (tightest.limit < 0) return std::nullopt;
+  return report_of(static_cast<std::size_t>(tightest.limit), tightest.now);
 }
 
 }  // namespace zwang::runtime

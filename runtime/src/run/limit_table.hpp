@@ -12,6 +12,9 @@
 
 namespace zwang::runtime {
 
+/// The acceleration along a row's axis that the solution brings about. `bias`: of the row's coordinate.
+double acceleration_of(const solver::Row& row, const solver::Solution& solution, double bias) noexcept;
+
 class LimitTable {
  public:
   LimitTable(const StatementTable& statements, const lang::Robot& robot);
@@ -22,15 +25,23 @@ class LimitTable {
               const Eigen::VectorXd& tau) noexcept;
 
   std::vector<LimitReport> reports() const;
-  std::optional<LimitReport> now() const;
+  std::optional<LimitReport> now() const { return report_of(tightest()); }
 
- private:
   /// How near a value came, so far: apart from the names, as it is what each tick goes through.
   struct Nearest {
     double limit = 0.0;
     double worst = 0.0;
     double margin = std::numeric_limits<double>::infinity();  ///< until it is seen
   };
+  /// The limit that the last tick was at.
+  struct Tightest {
+    int limit = -1;  ///< none
+    Nearest now;
+  };
+  Tightest tightest() const noexcept { return {tightest_, tightest_now_}; }
+  std::optional<LimitReport> report_of(const Tightest& tightest) const;
+
+ private:
   /// The limits of a statement by quantity, -1 where it has none.
   using Indices = std::array<int, 4>;
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "run/limit_table.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -157,6 +159,7 @@ void LogLayout::add_statement(const Statement& s) {
   if (s.says.driver || s.says.force || ranges) {
     c.position = add(s.name + (s.inside ? ".left" : ".position"), unit(Quantity::position));
     c.velocity = add(s.name + ".velocity", unit(Quantity::velocity));
+    if (s.says.acceleration) c.acceleration = add(s.name + ".acceleration", unit(Quantity::acceleration));
     c.alpha = add(s.name + ".alpha", "");
   }
   if (s.says.driver) {
@@ -271,6 +274,8 @@ void LogLayout::put_statements(const StatementTable& statements, const Tick& tic
     if (i >= in_force.size()) continue;
     const StatementColumns& c = columns_of(i);
     const solver::RowSolution& row = tick.solution.rows[r];
+    if (c.acceleration >= 0 && i < coordinates.size())
+      put(c.acceleration, acceleration_of(rows[r], tick.solution, coordinates[i].acceleration_bias));
     const auto so_far = [&](int column) {
       const double value = column >= 0 ? values_[static_cast<std::size_t>(column)] : 0.0;
       return std::isnan(value) ? 0.0 : value;

@@ -45,7 +45,8 @@ class LogLayout {
 
  private:
   struct StatementColumns {
-    int position = -1, velocity = -1, b = -1, nu = -1, residual = -1, saturated = -1, alpha = -1;
+    int position = -1, velocity = -1, acceleration = -1, b = -1, nu = -1, residual = -1, saturated = -1,
+        alpha = -1;
     int limit_nu = -1, limit_residual = -1, sum = -1;
     bool inside = false;  ///< `position` is what is left to the nearest edge
   };

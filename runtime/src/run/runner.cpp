@@ -23,8 +23,10 @@
 #include "run/signal_watch.hpp"
 #include "run/snapshot_signals.hpp"
 #include "run/statement_table.hpp"
+#include "run/why.hpp"
 #include "schedule/at_rest.hpp"
 #include "zwang/runtime/odometry.hpp"
+#include "zwang/runtime/with_unit.hpp"
 #include "zwang/solver/joint_loads.hpp"
 
 namespace zwang::runtime {
@@ -202,6 +204,7 @@ struct Runner::Parts {
   GuardStatus guard_status = GuardStatus::passed;
   std::vector<Transition> transitions;
   std::uint64_t transition_count = 0;
+  TurningPoint turning_point;
   std::uint64_t stopped_ticks = 0;
   bool stands = false;  ///< after a protective stop
 };
@@ -282,6 +285,7 @@ bool Runner::Parts::control() noexcept {
     if (t.refusal == Refusal::require || t.refusal == Refusal::set)
       tell({EventCode::entry_refused, sample.time, -1, static_cast<double>(t.refused)});
     ++transition_count;
+    turning_point.look(*scheduler.transition(), scheduler, limits);
     if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
   }
   const bool is_filled = scheduler.fill_constraints();
@@ -612,6 +616,40 @@ std::vector<LimitReport> Runner::limits() const {
 }
 std::optional<LimitReport> Runner::limit_now() const {
   return parts_->limits.now();
+}
+
+std::optional<Why> Runner::why() const {
+  if (state() == RunState::done) return std::nullopt;
+  const Parts& p = *parts_;
+  const bool is_decided = !p.guard.stopped() && p.turning_point.found();
+  EndOfRun end{.scheduler = p.scheduler,
+               .turning_point = p.turning_point,
+               .file = p.facts.at("task"),
+               .time = p.guard.time(),
+               .limit = p.limits.report_of(is_decided ? p.turning_point.limit() : p.limits.tightest()),
+               .stop = {},
+               .refused = {}};
+  if (p.guard.stopped()) end.stop = describe_stop();
+  const double until = is_decided ? p.turning_point.found()->time : end.time;
+  const int first = event_signal::measured(p.model.joint_count(), 0);
+  std::vector<EventCode> kinds;  // the first of a kind is enough
+  for (const Event& told : p.events) {
+    if (told.code == EventCode::signal_refused && told.signal >= first) {
+      end.refused.push_back({p.signals[static_cast<std::size_t>(told.signal - first)].name, told.value});
+    } else if (!latches_the_stop(told.code) && std::ranges::find(kinds, told.code) == kinds.end() &&
+               told.time <= until) {
+      kinds.push_back(told.code);
+      end.told.push_back("the guard told at " + with_unit(told.time, "s") + ": " + describe(told.code));
+    }
+  }
+  return why_of(end);
+}
+
+/// With the signal that told it, and what that read.
+std::string Runner::describe_stop() const {
+  const Event& stop = parts_->guard.stop_event();
+  const std::string signal = event_signal(stop);
+  return std::string(describe(stop.code)) + (signal.empty() ? "" : " (`" + signal + "`)");
 }
 
 }  // namespace zwang::runtime

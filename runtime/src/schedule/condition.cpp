@@ -76,27 +76,27 @@ double not_yet_passed(Op op, double a, double q) {
 
 }  // namespace
 
-Judgement evaluate(const lang::Condition& condition, int owner, const Facts& facts,
-                   std::vector<double>& scratch, std::optional<double> release) noexcept {
+Judgement evaluate(const lang::Condition& condition, int owner, const Facts& facts, std::span<double> values,
+                   std::optional<double> release) noexcept {
   Judgement judgement;
   const std::size_t count = condition.nodes.size();
   if (count == 0) return judgement;
   for (std::size_t i = 0; i < count; ++i) {
     const lang::ExpressionNode& node = condition.nodes[i];
     if (node.op == Op::constant) {
-      scratch[i] = number(node.number);
+      values[i] = number(node.number);
     } else if (is_name(node.op)) {
       const Fact fact = facts.look_up(node, owner);
-      scratch[i] = number(fact.value);
+      values[i] = number(fact.value);
       judgement.stale = judgement.stale || fact.stale;
     } else {
-      const double a = node.left >= 0 ? scratch[static_cast<std::size_t>(node.left)] : unknown;
-      const double b = node.right >= 0 ? scratch[static_cast<std::size_t>(node.right)] : unknown;
+      const double a = node.left >= 0 ? values[static_cast<std::size_t>(node.left)] : unknown;
+      const double b = node.right >= 0 ? values[static_cast<std::size_t>(node.right)] : unknown;
       const bool is_root = i + 1 == count;
-      scratch[i] = release && is_root ? not_yet_passed(node.op, a, *release) : apply(node.op, a, b);
+      values[i] = release && is_root ? not_yet_passed(node.op, a, *release) : apply(node.op, a, b);
     }
   }
-  const double root = scratch[count - 1];
+  const double root = values[count - 1];
   if (!std::isnan(root)) judgement.verdict = root != 0.0 ? Verdict::yes : Verdict::no;
   if (std::isnan(root)) judgement.verdict = Verdict::unknown;
   return judgement;

@@ -3,13 +3,12 @@
 
 #include <limits>
 #include <optional>
-#include <vector>
+#include <span>
 
 #include "zwang/lang/program.hpp"
+#include "zwang/runtime/why.hpp"
 
 namespace zwang::runtime {
-
-enum class Verdict { no, yes, unknown };
 
 /// What a name in a condition stands for now.
 struct Fact {
@@ -32,9 +31,10 @@ struct Judgement {
   bool stale = false;  ///< a stale signal is among what the condition asks about
 };
 
-/// Does not allocate: `scratch` holds one number for each node and is at least as long. An operand that is
-/// not a number is unknown, and so is what it decides. `release` replaces the threshold of a comparison.
-Judgement evaluate(const lang::Condition& condition, int owner, const Facts& facts,
-                   std::vector<double>& scratch, std::optional<double> release = std::nullopt) noexcept;
+/// Does not allocate: `values` is at least as long as there are nodes, and holds afterwards what each of them
+/// is: a number, 0 and 1 of what is false and true, NaN of what is unknown. An operand that is not a number
+/// is unknown, and so is what it decides. `release` replaces the threshold of a comparison.
+Judgement evaluate(const lang::Condition& condition, int owner, const Facts& facts, std::span<double> values,
+                   std::optional<double> release = std::nullopt) noexcept;
 
 }  // namespace zwang::runtime

@@ -5,26 +5,32 @@
 
 namespace zwang::runtime {
 
-Guards::Guards(std::size_t most_exits, double period, Unknown unknown)
-    : states_(most_exits), period_(period), unknown_(unknown) {}
+Guards::Guards(std::size_t most_exits, std::size_t most_nodes, double period, Unknown unknown)
+    : states_(most_exits),
+      values_(most_exits * most_nodes),
+      most_nodes_(most_nodes),
+      period_(period),
+      unknown_(unknown) {}
 
 void Guards::restart() noexcept {
   std::fill(states_.begin(), states_.end(), GuardState{});
 }
 
 void Guards::advance(const std::vector<lang::Exit>& exits, int owner, const Facts& facts,
-                     const std::vector<double>& parameters, std::vector<double>& scratch) noexcept {
+                     const std::vector<double>& parameters) noexcept {
   for (std::size_t i = 0; i < exits.size(); ++i) {
     const lang::Exit& exit = exits[i];
     GuardState& state = states_[i];
     std::optional<double> release;
     if (state.held && exit.release) release = exit.release->evaluate(parameters);
-    const Judgement now = evaluate(exit.when, owner, facts, scratch, release);
+    const Judgement now =
+        evaluate(exit.when, owner, facts, std::span(values_).subspan(i * most_nodes_, most_nodes_), release);
     state.at_once = unknown_ == Unknown::fires_when_stale && now.verdict == Verdict::unknown && now.stale;
     const bool holds = now.verdict == Verdict::yes || state.at_once;
     // What is not known has not passed the release either.
     state.held = holds || (state.held && now.verdict == Verdict::unknown);
     state.true_ticks = holds ? std::min(state.true_ticks + 1, 1 << 30) : 0;
+    state.longest_ticks = std::max(state.longest_ticks, state.true_ticks);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "schedule/condition.hpp"
@@ -18,26 +19,36 @@ enum class Unknown {
 
 class Guards {
  public:
-  Guards(std::size_t most_exits, double period, Unknown unknown);
+  Guards(std::size_t most_exits, std::size_t most_nodes, double period, Unknown unknown);
 
   /// Forgets how long each condition has been true, and that it was.
   void restart() noexcept;
   /// Evaluates every condition, once a tick. `owner` as for Facts.
   void advance(const std::vector<lang::Exit>& exits, int owner, const Facts& facts,
-               const std::vector<double>& parameters, std::vector<double>& scratch) noexcept;
+               const std::vector<double>& parameters) noexcept;
   /// Whether the exit has been true for as long as its `for` says.
   bool is_due(const std::vector<lang::Exit>& exits, std::size_t exit,
               const std::vector<double>& parameters) const noexcept;
   /// How long the condition has been true without a break. [s]
   double dwell(std::size_t exit) const noexcept { return states_[exit].true_ticks * period_; }
 
+  /// The longest of these since `restart`. [s]
+  double longest(std::size_t exit) const noexcept { return states_[exit].longest_ticks * period_; }
+  /// What the nodes of the exit's condition were when it was evaluated last.
+  std::span<const double> values(std::size_t exit) const noexcept {
+    return std::span(values_).subspan(exit * most_nodes_, most_nodes_);
+  }
+
  private:
   struct GuardState {
     int true_ticks = 0;
+    int longest_ticks = 0;
     bool held = false;     ///< with `release`: was true, and has not passed it yet
     bool at_once = false;  ///< a stale signal counts as true
   };
   std::vector<GuardState> states_;
+  std::vector<double> values_;  ///< by exit, then node
+  std::size_t most_nodes_;
   double period_;
   Unknown unknown_;
 };

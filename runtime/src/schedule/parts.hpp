@@ -15,6 +15,7 @@
 #include "schedule/region_fence.hpp"
 #include "schedule/signal_table.hpp"
 #include "schedule/task_list.hpp"
+#include "schedule/task_snapshot.hpp"
 #include "zwang/runtime/scheduler.hpp"
 
 namespace zwang::runtime {
@@ -96,6 +97,7 @@ struct Scheduler::Parts final : Facts {
   void resume() noexcept;
   void apply(const std::vector<lang::SetAction>& actions) noexcept;
   void list_axes() noexcept;
+  void remember(TaskSnapshot& snapshot, int of_task) const noexcept;
   ActiveAxis active_axis(const Origin& origin) noexcept;
   int braking_direction(const lang::Group& group, const lang::AxisStatements& axis) const noexcept;
   void capture_here(ActiveAxis& a) noexcept;
@@ -121,6 +123,12 @@ struct Scheduler::Parts final : Facts {
   solver::Range value(const lang::ValueRange& range) const noexcept;
   const solver::AttachedFrame& axes_frame(const lang::Group& group, const ActiveAxis* a) const noexcept;
   void read(const solver::Solution& solution) noexcept;
+
+  // For people, after the run.
+  std::vector<int> signals_of(const lang::ExpressionNode& name, int owner) const;
+  WaitedExit waited(const lang::Condition& condition, int owner, std::span<const double> values,
+                    const std::vector<SignalState>& states) const;
+  std::string name_of(const lang::Target& target) const;
 
   const lang::Task& active() const noexcept { return tasks[task]; }
   double elapsed() const noexcept { return now - entered; }
@@ -170,7 +178,7 @@ struct Scheduler::Parts final : Facts {
   Guards always_guards;
   std::vector<ActiveAxis> axes;  ///< those of `always` first
   std::size_t always_axes = 0;
-  std::vector<double> scratch;
+  std::vector<TaskSnapshot> left;  ///< of each task, when it was left last
   std::vector<Wanted> wanted;
   std::vector<int> renewed;    ///< those of `wanted` with values that the last tick did not have
   bool values_are_due = true;  ///< of all that is wanted: another list, or other parameters

@@ -94,8 +94,8 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       braking(solver::Vector3::Zero()),
       start(given.start),
       entries(tasks.tasks.size(), 0),
-      guards(tasks.most_exits, control_period, Unknown::does_not_fire),
-      always_guards(tasks.most_exits, control_period, Unknown::fires_when_stale) {
+      guards(tasks.most_exits, tasks.most_nodes, control_period, Unknown::does_not_fire),
+      always_guards(tasks.most_exits, tasks.most_nodes, control_period, Unknown::fires_when_stale) {
   std::size_t most_pairs = 0;
   for (const lang::Task& t : tasks.tasks) {
     if (t.require) follow_paths(*t.require);
@@ -126,7 +126,8 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   axes.reserve(tasks.most_axes);
   wanted.reserve(most_wanted);
   renewed.reserve(most_wanted);
-  scratch.resize(tasks.most_nodes);
+  for (const lang::Task& t : tasks.tasks)
+    left.emplace_back(t.exits.size(), tasks.most_nodes, given.signals.size());
   const double force_scale = force_scale_of(model);
   blend.emplace(most_wanted, 3 * tasks.most_rows, force_scale, force_scale * radius);
   in_force.reserve(blend->capacity());
@@ -289,12 +290,13 @@ std::string Scheduler::why(const Transition& transition) const {
   const lang::Task& refused = tasks[transition.refused];
   words += ", but `" + refused.name + "` ";
   if (transition.refusal == Refusal::require) return words + "requires " + refused.require->text;
-  if (transition.refusal == Refusal::set) {
-    const lang::FrameDeclaration& frame =
-        parts_->declarations[static_cast<std::size_t>(transition.unknown_frame)];
-    return words + "needs the pose of `" + frame.name + "`, which is not known";
-  }
+  if (transition.refusal == Refusal::set)
+    return words + "needs the pose of `" + unknown_frame(transition) + "`, which is not known";
   return words + "was entered " + std::to_string(refused.attempts->most) + " times";
+}
+
+const std::string& Scheduler::unknown_frame(const Transition& transition) const noexcept {
+  return parts_->declarations[static_cast<std::size_t>(transition.unknown_frame)].name;
 }
 
 lang::Span Scheduler::where(const Transition& transition) const noexcept {

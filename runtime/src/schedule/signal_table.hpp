@@ -13,6 +13,13 @@ namespace zwang::runtime {
 /// It is of the signal's type, its numbers are finite, and what turns something is a rotation.
 bool is_sound(const SignalSample& sample, lang::SignalType type) noexcept;
 
+/// How a signal stands.
+struct SignalState {
+  bool received = false;
+  bool known = false;
+  double age = 0.0;  ///< [s]
+};
+
 class SignalTable {
  public:
   SignalTable(const lang::Program& program, double period);
@@ -25,7 +32,9 @@ class SignalTable {
   bool received(int signal) const noexcept { return at(signal).received; }  ///< at least once
   /// Older than its `stale_after`; one that was never received ages from the start of the run.
   bool stale(int signal) const noexcept { return at(signal).stale; }
+  const lang::Signal& declared(int signal) const noexcept { return at(signal).declared; }
   double age(int signal) const noexcept { return at(signal).age; }  ///< [s]
+  SignalState state(int signal) const noexcept { return {at(signal).received, known(signal), age(signal)}; }
   /// Of a number [SI] or a boolean (0, 1); not a number while the signal is not known.
   double value(int signal) const noexcept;
   /// The latest valid sample, whether it is stale or not.

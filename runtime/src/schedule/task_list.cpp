@@ -164,16 +164,22 @@ std::size_t longest_condition(const lang::Task& task) {
   return nodes;
 }
 
+/// Whether one of the ways out of the task, but for its `require`, is `wanted`.
+template <typename Wanted>
+bool has_way(const lang::Task& task, const Wanted& wanted) {
+  if (task.timeout && wanted(task.timeout->target)) return true;
+  if (task.attempts && wanted(task.attempts->target)) return true;
+  return std::any_of(task.exits.begin(), task.exits.end(),
+                     [&](const lang::Exit& exit) { return wanted(exit.target); });
+}
+
 bool leads_back(const lang::Target& target, const std::vector<bool>& known) {
   if (target.kind == lang::TargetKind::back) return true;
   return target.kind == lang::TargetKind::task && known[static_cast<std::size_t>(target.task)];
 }
 
-bool leads_back(const lang::Task& task, const std::vector<bool>& known) {
-  if (task.timeout && leads_back(task.timeout->target, known)) return true;
-  if (task.attempts && leads_back(task.attempts->target, known)) return true;
-  return std::any_of(task.exits.begin(), task.exits.end(),
-                     [&](const lang::Exit& exit) { return leads_back(exit.target, known); });
+bool reaches_done(const lang::Target& target, const std::vector<bool>& known) {
+  return target.kind == lang::TargetKind::done || leads_back(target, known);
 }
 
 }  // namespace
@@ -212,9 +218,14 @@ TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDe
   leads_back.assign(tasks.size(), std::any_of(always.exits.begin(), always.exits.end(), [](const auto& exit) {
                       return exit.target.kind == lang::TargetKind::back;
                     }));
+  reaches_done.assign(tasks.size(), false);
+  reaches_done[static_cast<std::size_t>(done())] = true;
   for (std::size_t pass = 0; pass < tasks.size(); ++pass) {
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      if (runtime::leads_back(tasks[i], leads_back)) leads_back[i] = true;
+      const auto back = [&](const lang::Target& to) { return runtime::leads_back(to, leads_back); };
+      const auto to_done = [&](const lang::Target& to) { return runtime::reaches_done(to, reaches_done); };
+      if (has_way(tasks[i], back)) leads_back[i] = true;
+      if (has_way(tasks[i], to_done)) reaches_done[i] = true;
     }
   }
 }

@@ -25,7 +25,8 @@ struct TaskList {
 
   std::vector<lang::Task> tasks;
   int program_tasks = 0;
-  std::vector<bool> leads_back;  ///< of each task: `back` can be reached from it
+  std::vector<bool> leads_back;    ///< of each task: `back` can be reached from it
+  std::vector<bool> reaches_done;  ///< of each task: `done` or `back` can be reached by its own exits
   // The most that can be in force at once, `always` included.
   std::size_t most_axes = 0;
   std::size_t most_exits = 0;

@@ -1,4 +1,6 @@
 // Step 6 of the tick: the switch, `set`, and every `here`.
+#include <algorithm>
+
 #include "schedule/braking.hpp"
 #include "schedule/parts.hpp"
 
@@ -91,7 +93,8 @@ void Scheduler::Parts::turn_away(Transition& t) noexcept {
       lead(t, next.attempts->target);
       continue;
     }
-    if (next.require && evaluate(*next.require, t.to, *this, scratch).verdict != Verdict::yes) {
+    std::vector<double>& values = left[static_cast<std::size_t>(t.to)].required;
+    if (next.require && evaluate(*next.require, t.to, *this, values).verdict != Verdict::yes) {
       t.refusal = Refusal::require;
       t.refused = t.to;
       t.to = tasks.failed();
@@ -130,8 +133,25 @@ void Scheduler::Parts::resume() noexcept {
   interruption = {};
 }
 
+/// What its exits are now.
+void Scheduler::Parts::remember(TaskSnapshot& snapshot, int of_task) const noexcept {
+  const Guards& of = of_task == tasks.always() ? always_guards : guards;
+  snapshot.elapsed = elapsed();
+  for (std::size_t i = 0; i < snapshot.exits.size(); ++i) {
+    TaskSnapshot::Exit& exit = snapshot.exits[i];
+    std::ranges::copy(of.values(i), exit.values.begin());
+    exit.true_for = of.dwell(i);
+    exit.longest = of.longest(i);
+  }
+  for (std::size_t i = 0; i < snapshot.signals.size(); ++i)
+    snapshot.signals[i] = signals.state(static_cast<int>(i));
+}
+
 void Scheduler::Parts::take(Choice choice) noexcept {
   Transition& t = choice.transition;
+  for (const int owner : {task, tasks.always()}) {
+    if (task >= 0) remember(left[static_cast<std::size_t>(owner)], owner);
+  }
   const std::vector<lang::SetAction>* sets = exit_sets(t);
   const int unknown = sets != nullptr ? unknown_frame_of(*sets) : -1;
   if (sets != nullptr && unknown < 0) apply(*sets);

@@ -45,9 +45,11 @@ for await (const attachment of reader.readAttachments()) {
   attachments += 1;
 }
 assert.equal(attachments, info.files.length);
-for await (const metadata of reader.readMetadata()) {
-  assert.deepEqual(Object.fromEntries(metadata.metadata), info.facts);
-}
+const metadata = {};
+for await (const record of reader.readMetadata()) metadata[record.name] = Object.fromEntries(record.metadata);
+assert.deepEqual(metadata.zwang, info.facts);
+assert.equal(metadata['zwang.conclusion'].outcome, run.outcome);
+assert.deepEqual(JSON.parse(metadata['zwang.conclusion'].report).limits, run.limits);
 
 const stream = new McapStreamReader({decompressHandlers, validateCrcs: true});
 stream.append(bytes);

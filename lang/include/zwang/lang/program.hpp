@@ -169,10 +169,18 @@ struct ExpressionNode {
   int right = -1;
 };
 
+/// What `and`, `or` and `not` join: a comparison, or a name that is true or false.
+struct ConditionTerm {
+  int node = -1;     ///< index into Condition::nodes
+  std::string text;  ///< as written, in one line
+  std::string unit;  ///< SI, of what it compares; empty of a pure number and of a name
+};
+
 /// A dimension-checked condition; the last node is its root.
 struct Condition {
   std::vector<ExpressionNode> nodes;
-  std::string text;  ///< as written
+  std::vector<ConditionTerm> terms;  ///< in the order of the text
+  std::string text;                  ///< as written
   Span span;
 };
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,20 +15,22 @@ namespace zwang::runtime {
 
 struct LogContents {
   LogContext context;
-  std::string schema;         ///< JSON schema of the records
-  std::uint64_t records = 0;  ///< that could be read
-  double begin = 0.0;         ///< [s] of the first record
-  double end = 0.0;           ///< [s] of the last one
-  bool closed = false;        ///< the log was ended properly
+  std::map<std::string, std::string> conclusion;  ///< given when the run was over: "outcome", "report"
+  std::string schema;                             ///< JSON schema of the records
+  std::uint64_t records = 0;                      ///< that could be read
+  double begin = 0.0;                             ///< [s] of the first record
+  double end = 0.0;                               ///< [s] of the last one
+  bool closed = false;                            ///< the log was ended properly
   /// What could not be read, and where; empty when all is well.
   std::vector<std::string> damage;
 };
 
 /// Calls `record` with the time [s] and the JSON text of every record that can be read, in the order of the
-/// file. A cut or changed file is read as far as it is whole, and `damage` tells the rest. Never throws on
-/// what is in the file, needs no more memory than a chunk; throws std::runtime_error when the file cannot be
-/// opened or is no MCAP file.
+/// file, and before the first one `before`, with the files, the facts and the schema. A cut or changed file
+/// is read as far as it is whole, and `damage` tells the rest. Never throws on what is in the file, needs no
+/// more memory than a chunk; throws std::runtime_error when the file cannot be opened or is no MCAP file.
 LogContents read_log(const std::filesystem::path& path,
-                     const std::function<void(double time, std::string_view json)>& record);
+                     const std::function<void(double time, std::string_view json)>& record,
+                     const std::function<void(const LogContents& head)>& before = {});
 
 }  // namespace zwang::runtime

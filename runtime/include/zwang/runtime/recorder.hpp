@@ -39,6 +39,8 @@ class LogSink {
   virtual std::string write(std::span<const double> values) = 0;     ///< one value a column; NaN: blank
   /// Before the next record, or the end, so many were dropped.
   virtual std::string skip(std::uint64_t records);
+  /// What is known only when the run is over, once, behind the last record.
+  virtual std::string conclude(const std::map<std::string, std::string>& facts);
   virtual std::string flush() = 0;  ///< now and then, when there is nothing to write
   virtual std::string close() = 0;
 };
@@ -78,6 +80,8 @@ class Recorder {
   bool record(std::span<const double> values) noexcept;
   /// Waits until a record finds room: for runs that are faster than the disk and must not lose a record.
   void wait_for_room() const noexcept;
+  /// For the end of the log: outcome, report. To be called before `close`, by the thread that calls it.
+  void conclude(std::map<std::string, std::string> facts);
   /// Writes what is left and closes the file.
   void close() noexcept;
 

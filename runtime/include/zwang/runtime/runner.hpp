@@ -16,6 +16,7 @@
 #include "zwang/runtime/recorder.hpp"
 #include "zwang/runtime/safety_guard.hpp"
 #include "zwang/runtime/scheduler.hpp"
+#include "zwang/runtime/why.hpp"
 #include "zwang/solver/solver.hpp"
 
 namespace zwang::runtime {
@@ -31,12 +32,15 @@ const char* to_string(RunState state) noexcept;
 /// A limit of the task, the robot or a motor that was in force, and how near the run came to it.
 /// Forces and accelerations are those commanded; positions and velocities those sensed; torques those sent.
 struct LimitReport {
-  std::string row;  ///< "press.contact.x.velocity", "limits.rz.acceleration", "front_left_wheel.torque"
+  std::string
+      row;  ///< its column of the log: "press.contact.x.velocity", "press.contact.x.nu", "left_wheel.tau"
   lang::Span span;  ///< where it is written
   double limit = 0.0;
   double worst = 0.0;   ///< the value nearest to, or farthest beyond, the limit
   double margin = 0.0;  ///< what was left; negative when it was broken
   std::string unit;     ///< SI
+  /// Beyond the limit by more than a thousandth of it: what four digits show.
+  bool is_broken() const;
 };
 
 /// A row that does not get what it asks, because others hold it back: "`go.x` misses 0.31 m/s^2; held back by
@@ -137,8 +141,11 @@ class Runner {
   std::optional<ShortfallReport> shortfall() const;
   /// The limit that the last step was at, if any. Allocates.
   std::optional<LimitReport> limit_now() const;
+  /// Why the run is not `done`: what its task waited for. None where it is. For after the run. Allocates.
+  std::optional<Why> why() const;
 
  private:
+  std::string describe_stop() const;
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

@@ -37,6 +37,7 @@ struct CellResult {
   /// interrupted when it was told to end
   std::string outcome;
   std::string because;  ///< of a stop or an error; the codes of a refusal
+  std::string why;      ///< it is not `done`: what its task waited for, as Why::sentence
   std::vector<PartnerResult> partners;
   double simulated = 0.0;  ///< [s]
   double wall = 0.0;       ///< [s]

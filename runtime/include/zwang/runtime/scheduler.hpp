@@ -9,6 +9,7 @@
 
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/plant.hpp"
+#include "zwang/runtime/why.hpp"
 #include "zwang/solver/constraint.hpp"
 #include "zwang/solver/solver.hpp"
 
@@ -145,6 +146,16 @@ class Scheduler {
   std::string why(const Transition& transition) const;
   /// Where those words stand. Allocates nothing; the span may not exist.
   lang::Span where(const Transition& transition) const noexcept;
+  /// Of a refused `set`: the frame whose pose is not known.
+  const std::string& unknown_frame(const Transition& transition) const noexcept;
+  /// What the exits of a task, or of `always`, waited for: as they stood when the task was left last, and of
+  /// the active one as they stand. Allocates.
+  WaitedTask waited(int task) const;
+  /// What the `require` of a task was when it was asked last. Allocates.
+  WaitedExit required(int task) const;
+  /// Whether exits, timeouts and attempts lead from the task to `done`; `back` counts as if it did, and the
+  /// exits of `always` do not count.
+  bool can_reach_done(int task) const noexcept;
 
  private:
   struct Parts;

@@ -1,0 +1,60 @@
+/// What the plant measured while a run went on: forces at objects, and which of them are hits.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/runtime/mujoco_plant.hpp"
+#include "zwang/runtime/scheduler.hpp"
+
+namespace zwang::cli {
+
+/// What the plant measured at one object.
+struct ObjectReport {
+  std::string name;
+  std::optional<double> touched;       ///< [s]
+  std::optional<double> yaw_at_touch;  ///< [rad]
+  double steady_force = 0.0;           ///< [N] mean of the last 0.5 s in which a task was active
+  double peak_force = 0.0;             ///< [N]
+  double peak_at = 0.0;                ///< [s]
+  std::string peak_in;                 ///< the task that was active then
+  std::optional<double> allowed;  ///< [N] the largest that a row was allowed then; none: no row bounds it
+  std::optional<double> latched;  ///< [s] when the hook caught in its dock
+  double pull = 0.0;              ///< [N] of the hook, outwards, when the last task ended
+
+  bool is_hit() const;
+};
+
+/// A force driver that was in force when the last task ended.
+struct AskedForce {
+  std::string row;
+  double force = 0.0;  ///< [N] or [N m]
+  std::string unit;
+};
+
+std::vector<AskedForce> asked_forces(const runtime::Scheduler& scheduler);
+
+/// Watches the plant's truth from tick to tick.
+class TruthWatch {
+ public:
+  TruthWatch(const runtime::Truth& truth, double period);
+  /// `in_task`: a task is active, not the brake behind it.
+  void look(const runtime::Truth& truth, const runtime::Scheduler& scheduler, bool in_task);
+  std::vector<ObjectReport> objects(const runtime::Truth& truth, const runtime::Scheduler& scheduler) const;
+
+ private:
+  struct Watched {
+    std::vector<double> last_forces;  ///< a ring
+    std::optional<double> yaw_at_touch;
+    double pull = 0.0;
+    double peak = 0.0, peak_at = 0.0;
+    int peak_in = -1;
+    std::optional<double> allowed;
+  };
+  std::vector<Watched> watched_;
+  std::size_t window_;
+  std::size_t looks_ = 0;
+};
+
+}  // namespace zwang::cli

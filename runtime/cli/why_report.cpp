@@ -1,0 +1,84 @@
+#include "why_report.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "output.hpp"
+#include "table.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+using nlohmann::ordered_json;
+using runtime::WaitedExit;
+using runtime::WaitedSignal;
+using runtime::WaitedTerm;
+
+std::string signal_in_words(const WaitedSignal& signal) {
+  if (!signal.received) return "`" + signal.name + "` was never received";
+  return "`" + signal.name + "` came last " + with_unit(signal.age, "s") + " ago";
+}
+
+std::string reading(const WaitedTerm& term) {
+  std::string text;
+  if (term.value) text = with_unit(*term.value, term.unit);
+  for (const WaitedSignal& signal : term.signals)
+    text += (text.empty() ? "" : ", ") + signal_in_words(signal);
+  return text + term.because;
+}
+
+ordered_json json_of(const WaitedTerm& term) {
+  ordered_json json = {{"text", term.text},
+                       {"is", to_string(term.verdict)},
+                       {"holds_back", term.holds_back},
+                       {"value", term.value ? ordered_json(*term.value) : ordered_json(nullptr)},
+                       {"unit", term.unit}};
+  if (term.bound) json["bound"] = *term.bound;
+  if (!term.because.empty()) json["because"] = term.because;
+  for (const WaitedSignal& s : term.signals) {
+    json["signals"].push_back(
+        {{"name", s.name}, {"received", s.received}, {"age", s.age}, {"stale_after", s.stale_after}});
+  }
+  return json;
+}
+
+ordered_json json_of(const WaitedExit& exit) {
+  ordered_json terms = ordered_json::array();
+  for (const WaitedTerm& term : exit.terms) terms.push_back(json_of(term));
+  return {{"column", exit.column},
+          {"when", exit.when},
+          {"line", exit.span.exists() ? ordered_json(exit.span.begin.line) : ordered_json(nullptr)},
+          {"to", exit.target},
+          {"is", to_string(exit.verdict)},
+          {"true_for", exit.true_for},
+          {"longest", exit.longest},
+          {"for", exit.needed},
+          {"terms", terms}};
+}
+
+}  // namespace
+
+std::string why_table(const runtime::Why& why, const lang::Diagnostics& diagnostics) {
+  if (why.waited.exits.empty()) return "";
+  Table table({false, false, false, false});
+  for (const WaitedExit& exit : why.waited.exits) {
+    table.add({exit.column, to_string(exit.verdict), "-> " + exit.target,
+               "true for " + with_unit(exit.longest, "s") + " at most, needed " +
+                   with_unit(exit.needed, "s") + "  (" + place(diagnostics, exit.span) + ")"});
+    for (const WaitedTerm& term : exit.terms)
+      table.add({"  " + term.text, to_string(term.verdict), "", reading(term)});
+  }
+  return "waited for, in `" + why.waited.task + "`\n" + table.text() + "\n";
+}
+
+std::string json_of(const runtime::Why& why) {
+  ordered_json exits = ordered_json::array();
+  for (const WaitedExit& exit : why.waited.exits) exits.push_back(json_of(exit));
+  ordered_json json = {{"sentence", why.sentence}, {"cause", to_string(why.cause)}, {"time", why.time},
+                       {"task", why.waited.task},  {"elapsed", why.waited.elapsed}, {"exits", exits}};
+  if (why.met) json["met"] = json_of(*why.met);
+  if (!why.limit.empty()) json["limit"] = why.limit;
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace zwang::cli

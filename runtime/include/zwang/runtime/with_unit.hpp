@@ -1,0 +1,12 @@
+/// Numbers with units, for people.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace zwang::runtime {
+
+/// `0.080 m/s`; angles in degrees. `digits` are significant ones.
+std::string with_unit(double value, std::string_view si_unit, int digits = 4);
+
+}  // namespace zwang::runtime

@@ -1,0 +1,201 @@
+#include "run/why.hpp"
+
+#include <utility>
+
+#include "zwang/runtime/with_unit.hpp"
+
+namespace zwang::runtime {
+
+const char* to_string(WhyCause cause) noexcept {
+  switch (cause) {
+    case WhyCause::waiting:
+      return "waiting";
+    case WhyCause::timeout:
+      return "timeout";
+    case WhyCause::exit:
+      return "exit";
+    case WhyCause::always:
+      return "always";
+    case WhyCause::require:
+      return "require";
+    case WhyCause::attempts:
+      return "attempts";
+    case WhyCause::set:
+      return "set";
+    case WhyCause::never_stood:
+      return "never_stood";
+    case WhyCause::stopped:
+      break;
+  }
+  return "stopped";
+}
+
+/// A program that nowhere leads to `done` decides nothing by its start: the last transition stands for it.
+void TurningPoint::look(const Transition& t, const Scheduler& scheduler, const LimitTable& limits) noexcept {
+  const bool was_open = t.from >= 0 && scheduler.can_reach_done(t.from);
+  const bool is_first = !found_ || found_->from < 0;
+  if (scheduler.can_reach_done(t.to)) {
+    found_.reset();
+  } else if (was_open || is_first) {
+    found_ = t;
+    entry_ = last_;
+    limit_ = limits.tightest();
+  }
+  last_ = t;
+}
+
+namespace {
+
+WhyCause cause_of(const Transition& t) {
+  if (t.refusal == Refusal::require) return WhyCause::require;
+  if (t.refusal == Refusal::attempts) return WhyCause::attempts;
+  if (t.refusal == Refusal::set) return WhyCause::set;
+  switch (t.cause) {
+    case Cause::timeout:
+      return WhyCause::timeout;
+    case Cause::exit:
+      return WhyCause::exit;
+    case Cause::always:
+      return WhyCause::always;
+    case Cause::never_stood:
+      return WhyCause::never_stood;
+    case Cause::start:
+      break;
+  }
+  return WhyCause::waiting;
+}
+
+/// One decision in words.
+class Sentence {
+ public:
+  Sentence(const EndOfRun& end, const Why& why) : end_(end), words_{end}, why_(why) {}
+
+  std::string text(const Transition* t) const {
+    const std::string of = t != nullptr ? of_transition(*t) : of_the_end();
+    const std::string with_told = of + told();
+    if (!end_.limit) return with_told;
+    return with_told + "; " + quoted(end_.limit->row) + " was at its limit, " +
+           with_unit(end_.limit->limit, end_.limit->unit);
+  }
+
+ private:
+  std::string told() const {
+    std::string text;
+    for (const std::string& one : end_.told) text += "; " + one;
+    return text;
+  }
+
+  static std::string quoted(const std::string& text) { return "`" + text + "`"; }
+  const lang::Task& task(int index) const { return end_.scheduler.tasks()[static_cast<std::size_t>(index)]; }
+
+  /// Where an exit of `always` led there, what it interrupted.
+  std::string task_with_entry() const {
+    std::string name = quoted(why_.waited.task);
+    const std::optional<Transition>& entry = end_.turning_point.entry();
+    if (!entry || entry->cause != Cause::always || entry->from < 0) return name;
+    return name + ", which interrupted " + quoted(task(entry->from).name) + " by " +
+           quoted(end_.scheduler.why(*entry)) + words_.place(end_.scheduler.where(*entry)) + ",";
+  }
+
+  std::string waiting() const { return words_.of_waiting(why_.waited); }
+
+  std::string of_the_end() const {
+    const bool is_in_task = !why_.waited.task.empty();
+    if (why_.cause == WhyCause::stopped) {
+      const std::string in = is_in_task ? " in " + quoted(why_.waited.task) : "";
+      const std::string waited = why_.waited.exits.empty() ? "" : ", which waited: " + waiting();
+      return "the protective stop latched" + in + ": " + end_.stop + waited;
+    }
+    if (!is_in_task) return "no task was entered";
+    return quoted(why_.waited.task) + " still waits after " + with_unit(why_.waited.elapsed, "s") + ": " +
+           waiting();
+  }
+
+  /// The exit that was taken, and what its terms were.
+  std::string taken(const Transition& t) const {
+    const bool is_always = t.cause == Cause::always;
+    std::string text = quoted(why_.waited.task) + " was ended by the exit " + quoted(why_.met->when) +
+                       words_.place(why_.met->span) + (is_always ? " of `always`" : "");
+    std::string values;
+    for (const WaitedTerm& term : why_.met->terms) {
+      if (term.value) values += (values.empty() ? "" : ", ") + with_unit(*term.value, term.unit);
+      for (const WaitedSignal& signal : term.signals)
+        values += (values.empty() ? "" : ", ") + words_.of_signal(signal);
+    }
+    return text + (values.empty() ? "" : ": " + values);
+  }
+
+  std::string way_to_the_refusal(const Transition& t) const {
+    const std::string from = t.from < 0 ? "the start" : quoted(task(t.from).name);
+    return from + " led to " + quoted(task(t.refused).name) +
+           (t.cause == Cause::start ? "" : " by " + quoted(cause_alone(t)));
+  }
+
+  std::string cause_alone(const Transition& t) const {
+    Transition alone = t;
+    alone.refusal = Refusal::none;
+    return end_.scheduler.why(alone);
+  }
+
+  std::string of_transition(const Transition& t) const {
+    switch (why_.cause) {
+      case WhyCause::timeout:
+        return task_with_entry() + " waited " + with_unit(why_.waited.elapsed, "s") + ", its timeout" +
+               words_.place(end_.scheduler.where(t)) + ": " + waiting();
+      case WhyCause::exit:
+      case WhyCause::always: {
+        const bool has_others = !why_.waited.exits.empty() && why_.cause == WhyCause::always;
+        return taken(t) + (has_others ? "; it waited: " + waiting() : "");
+      }
+      case WhyCause::require:
+        return way_to_the_refusal(t) + ", which requires " + quoted(why_.met->when) +
+               words_.place(why_.met->span) + ": " + words_.of_terms(*why_.met);
+      case WhyCause::attempts:
+        return way_to_the_refusal(t) + ", which had been entered " +
+               std::to_string(task(t.refused).attempts->most) + " times, all its attempts" +
+               words_.place(end_.scheduler.where(t)) + "; " + quoted(why_.waited.task) +
+               " waited: " + waiting();
+      case WhyCause::set:
+        return way_to_the_refusal(t) + ", on the way a frame is set" +
+               words_.place(end_.scheduler.where(t)) + ", which needs the pose of " +
+               quoted(end_.scheduler.unknown_frame(t)) + ": it is not known";
+      case WhyCause::never_stood:
+        return "the brake did not bring the base to rest";
+      case WhyCause::waiting:
+      case WhyCause::stopped:
+        break;
+    }
+    return of_the_end();
+  }
+
+  const EndOfRun& end_;
+  WhyWords words_;
+  const Why& why_;
+};
+
+}  // namespace
+
+Why why_of(const EndOfRun& end) {
+  const Scheduler& scheduler = end.scheduler;
+  const std::optional<Transition>& found = end.turning_point.found();
+  const bool decided = end.stop.empty() && found && cause_of(*found) != WhyCause::waiting;
+  Why why;
+  why.time = decided ? found->time : end.time;
+  if (!end.stop.empty()) why.cause = WhyCause::stopped;
+  const int task = decided ? found->from : scheduler.task();
+  if (decided) {
+    why.cause = cause_of(*found);
+    if (why.cause == WhyCause::require) {
+      why.met = scheduler.required(found->refused);
+    } else if (found->exit >= 0) {
+      const int owner = found->cause == Cause::always ? scheduler.always_task() : found->from;
+      why.met = scheduler.waited(owner).exits[static_cast<std::size_t>(found->exit)];
+    }
+  }
+  if (task >= 0) why.waited = scheduler.waited(task);
+  if (end.limit) why.limit = end.limit->row;
+  why.sentence = Sentence(end, why).text(decided ? &*found : nullptr);
+  return why;
+}
+
+}  // namespace zwang::runtime

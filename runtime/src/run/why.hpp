@@ -1,0 +1,60 @@
+/// From the transitions of a run to the one that decided its end, and from there to why.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "run/limit_table.hpp"
+#include "zwang/runtime/event.hpp"
+#include "zwang/runtime/scheduler.hpp"
+#include "zwang/runtime/why.hpp"
+
+namespace zwang::runtime {
+
+/// The transition after which `done` could no longer be reached. Does not allocate, lock, throw or print.
+class TurningPoint {
+ public:
+  /// Every transition of the run; `limits` as the tick before left them.
+  void look(const Transition& transition, const Scheduler& scheduler, const LimitTable& limits) noexcept;
+
+  const std::optional<Transition>& found() const noexcept { return found_; }
+  /// The one through which the task was entered that was left then.
+  const std::optional<Transition>& entry() const noexcept { return entry_; }
+  const LimitTable::Tightest& limit() const noexcept { return limit_; }
+
+ private:
+  std::optional<Transition> found_, entry_, last_;
+  LimitTable::Tightest limit_;
+};
+
+/// A signal whose samples came and could not be taken.
+struct RefusedSignal {
+  std::string name;
+  double ahead = 0.0;  ///< [s] of its stamp; 0 where the stamp is not the reason
+};
+
+/// What `why_of` asks of a runner.
+struct EndOfRun {
+  const Scheduler& scheduler;
+  const TurningPoint& turning_point;
+  std::string file;                  ///< of the task, as places name it
+  double time = 0.0;                 ///< [s] of the last sample
+  std::optional<LimitReport> limit;  ///< that was at its limit when it was decided
+  std::string stop;                  ///< what latched the protective stop; empty: it is not latched
+  std::vector<RefusedSignal> refused;
+  std::vector<std::string> told;  ///< what the guard told while the task was active, in words
+};
+Why why_of(const EndOfRun& end);
+
+/// The words of `Why::sentence`.
+struct WhyWords {
+  const EndOfRun& end;
+  std::string place(const lang::Span& span) const;
+  std::string of_signal(const WaitedSignal& signal) const;
+  std::string of_terms(const WaitedExit& exit) const;
+  std::string of_exit(const WaitedExit& exit) const;
+  std::string of_waiting(const WaitedTask& task) const;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,28 @@
+/// What a task was waiting for at the moment it was left.
+#pragma once
+
+#include <vector>
+
+#include "schedule/signal_table.hpp"
+
+namespace zwang::runtime {
+
+/// Sized by the constructor: a snapshot is taken within the tick.
+struct TaskSnapshot {
+  struct Exit {
+    std::vector<double> values;  ///< of each node of its condition, as `evaluate` leaves them
+    double true_for = 0.0;       ///< [s]
+    double longest = 0.0;        ///< [s]
+  };
+  TaskSnapshot(std::size_t exit_count, std::size_t most_nodes, std::size_t signal_count)
+      : exits(exit_count), signals(signal_count), required(most_nodes) {
+    for (Exit& exit : exits) exit.values.resize(most_nodes);
+  }
+
+  double elapsed = 0.0;  ///< [s] since the task was entered
+  std::vector<Exit> exits;
+  std::vector<SignalState> signals;
+  std::vector<double> required;  ///< of each node of its `require`, when it was asked last
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,336 @@
+// Runs that do not reach `done`, and the sentence that names the reason of each.
+#include "zwang/runtime/why.hpp"
+
+#include <gtest/gtest.h>
+
+#include "scene_program.hpp"
+#include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+const char* const open_floor = "start: {at: [0 m, 0 m]}\nfloor: {friction: 0.9}\n";
+
+/// A wall square before the base, its face `ahead` of the base's origin [m].
+std::string wall(const std::string& ahead, const std::string& more = "fixed: true") {
+  return std::string(open_floor) + "objects:\n  door: {box: [0.1 m, 3 m, 1 m], at: [" + ahead +
+         ", 0 m], stiffness: 100 kN/m, damping: 0.3, " + more + "}\n";
+}
+
+struct Ended {
+  RunState state = RunState::running;
+  std::optional<Why> why;
+  std::string sentence() const { return why ? why->sentence : ""; }
+};
+
+/// `body` without its first two lines. Runs until it is over, or for so long.
+Ended run(const std::string& body, const std::string& scene, double longest = 20.0) {
+  const std::string task = "zwang: 1\nrobot: robots/mecanum_base.yaml\n" + body;
+  const lang::Program program = test::program_in_scene(task.c_str(), scene);
+  ScenePlant plant(program, {});
+  Runner runner(program);
+  Sensed sensed(program);
+  while (!runner.finished() && plant.truth().time < longest) {
+    plant.sense(sensed);
+    if (plant.apply(runner.step(sensed)) != PlantStatus::ok) break;
+  }
+  return {runner.state(), runner.why()};
+}
+
+void expect_words(const Ended& ended, const std::vector<std::string>& words) {
+  for (const std::string& one : words)
+    EXPECT_NE(ended.sentence().find(one), std::string::npos) << one << "\nis not in: " << ended.sentence();
+}
+
+const char* const drive_ahead = R"(
+start: go
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: 0.3 m/s, force: +-40 N}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+)";
+
+TEST(Why, ARunThatIsDoneHasNone) {
+  const Ended ended = run(std::string(drive_ahead) + R"(
+    exits:
+      - {when: elapsed > 0.1 s, goto: done}
+)",
+                          open_floor);
+  EXPECT_EQ(ended.state, RunState::done);
+  EXPECT_FALSE(ended.why);
+}
+
+TEST(Why, ALostPartner) {
+  const Ended ended = run(R"(
+signals: {partner: {type: pose, in: base_link, stale_after: 300 ms}}
+frames: {socket: {parent: partner}}
+start: align
+tasks:
+  align:
+    constraints:
+      line: {move: base_link, in: socket, x: {position: 0 m}, y: {position: 0 m}, rz: {position: 0 rad}}
+    exits:
+      - {when: abs(line.x.position) < 2 cm and abs(line.y.position) < 8 mm, for: 0.5 s, goto: done}
+    timeout: {after: 0.4 s, goto: failed}
+)",
+                          wall("3 m") + "signals: {partner: {pose_of: door, dropouts: 99.99 %}}\n");
+  expect_words(ended, {"`align` waited 0.400 s, its timeout (task.yaml:",
+                       "`abs(line.x.position) < 2 cm` and "
+                       "`abs(line.y.position) < 8 mm` are unknown because `partner` was never received"});
+  ASSERT_TRUE(ended.why);
+  EXPECT_EQ(ended.why->cause, WhyCause::timeout);
+  ASSERT_EQ(ended.why->waited.exits.size(), 1u);
+  const WaitedExit& exit = ended.why->waited.exits[0];
+  EXPECT_EQ(exit.column, "align.exit1.true_for");
+  EXPECT_EQ(exit.verdict, Verdict::unknown);
+  ASSERT_EQ(exit.terms.size(), 2u);
+  ASSERT_EQ(exit.terms[0].signals.size(), 1u);
+  EXPECT_FALSE(exit.terms[0].signals[0].received);
+  EXPECT_NEAR(exit.terms[0].signals[0].age, 0.4, 1e-9);
+  EXPECT_EQ(exit.terms[0].signals[0].stale_after, 0.3);
+}
+
+TEST(Why, ABlockedDoor) {
+  const Ended ended = run(R"(
+start: go
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: 0.3 m/s, force: +-25 N}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: moved(base_link) > 1 m, goto: done}
+    timeout: {after: 2 s, goto: failed}
+)",
+                          wall("0.6 m"));
+  expect_words(ended, {"`go` waited 2.000 s, its timeout", "`moved(base_link) > 1 m` is false (0.1",
+                       "`go.go.x.nu` was at its limit, 25.00 N"});
+}
+
+TEST(Why, ADeadScanner) {
+  const Ended ended =
+      run(R"(
+signals: {nearest: {type: number, unit: m, stale_after: 200 ms}}
+always:
+  exits:
+    - {when: nearest < 1.2 m, goto: failed}
+start: go
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: 0.3 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: moved(base_link) > 1 m, goto: done}
+    timeout: never
+)",
+          std::string(open_floor) + "signals: {nearest: {script: [[0 s, 5 m], [0.3 s, lost]]}}\n");
+  expect_words(
+      ended, {"`go` was ended by the exit `nearest < 1.2 m` (task.yaml:", "of `always`",
+              "`nearest` came last 0.20", "ago and counts for 0.200 s", "`moved(base_link) > 1 m` is false"});
+  EXPECT_EQ(ended.why->cause, WhyCause::always);
+}
+
+TEST(Why, AWallThatGivesWay) {
+  const Ended ended = run(R"(
+start: press
+tasks:
+  press:
+    constraints:
+      contact: {move: base_link, in: base_link, x: {force: 30 N, velocity: +-0.2 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: moved(base_link) > 0.5 m, goto: failed}
+      - {when: abs(contact.x.velocity) < 1 mm/s and elapsed > 1 s, for: 1 s, goto: done}
+    timeout: {after: 20 s, goto: failed}
+)",
+                          wall("0.46 m", "mass: 3 kg, friction: 0"));
+  expect_words(ended, {"`press` was ended by the exit `moved(base_link) > 0.5 m` (task.yaml:", "): 0.50"});
+  EXPECT_EQ(ended.why->cause, WhyCause::exit);
+}
+
+TEST(Why, AStuckMotor) {
+  const Ended ended =
+      run(std::string(drive_ahead) + R"(
+    exits:
+      - {when: moved(base_link) > 1 m, goto: done}
+    timeout: never
+)",
+          std::string(open_floor) + "faults: [{at: 0.1 s, wheel: front_left_wheel, torque: flipped}]\n");
+  EXPECT_EQ(ended.state, RunState::stopped);
+  expect_words(ended, {"the protective stop latched in `go`: ", "front_left_wheel",
+                       "which waited: `moved(base_link) > 1 m` is false"});
+  EXPECT_EQ(ended.why->cause, WhyCause::stopped);
+}
+
+TEST(Why, Ice) {
+  const Ended ended =
+      run(std::string(drive_ahead) + R"(
+    exits:
+      - {when: moved(base_link) > 0.3 m, goto: done}
+    timeout: {after: 1 s, goto: failed}
+)",
+          std::string(open_floor) + "state: perfect\nfaults: [{at: 0 s, for: 10 s, floor_friction: 0.01}]\n");
+  expect_words(ended, {"`moved(base_link) > 0.3 m` is false (0.0", "; the guard told at 0.",
+                       ": a wheel slides that should roll"});
+}
+
+TEST(Why, ABounceInterruptsWhatMustHold) {
+  const Ended ended = run(R"(
+start: press
+tasks:
+  press:
+    constraints:
+      contact: {move: base_link, in: base_link, x: {force: 20 N, velocity: +-0.2 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: contact.x.velocity > 0.02 m/s and elapsed > 0.1 s, for: 5 s, goto: done}
+    timeout: {after: 3 s, goto: failed}
+)",
+                          wall("0.6 m"));
+  expect_words(ended, {"`contact.x.velocity > 0.02 m/s` is false (", " after it was true for ",
+                       " of the 5.000 s that it must hold"});
+}
+
+TEST(Why, AnExitThatIsNeverTrue) {
+  const Ended ended = run(R"(
+signals: {level: {type: number, unit: m, stale_after: 1 s}}
+start: wait
+tasks:
+  wait:
+    constraints:
+      still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: level > 10 m, goto: done}
+    timeout: {after: 0.2 s, goto: failed}
+)",
+                          std::string(open_floor) + "signals: {level: {script: [[0 s, 3 m]]}}\n");
+  expect_words(ended, {"`level > 10 m` is false (3.000 m)"});
+}
+
+TEST(Why, ATimeoutThatIsTooShort) {
+  const Ended ended = run(std::string(drive_ahead) + R"(
+    exits:
+      - {when: moved(base_link) > 2 m, goto: done}
+    timeout: {after: 1 s, goto: failed}
+)",
+                          open_floor);
+  expect_words(ended, {"`go` waited 1.000 s, its timeout", "`moved(base_link) > 2 m` is false (0."});
+}
+
+// The base drives along its own axes; the exit looks at it from a frame that stands elsewhere.
+TEST(Why, AWrongFrame) {
+  const Ended ended = run(R"(
+frames: {shelf: {parent: world, at: [0 m, 4 m]}}
+start: go
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: world, x: {position: 0.05 m}, y: {position: 0 m}, rz: {position: 0 rad}}
+      seen: {move: base_link, in: shelf, z: free, x: {velocity: +-1 m/s}, y: {velocity: +-1 m/s}}
+    exits:
+      - {when: abs(seen.y.position) < 5 cm and abs(go.x.position) < 0.2 m, for: 0.1 s, goto: done}
+    timeout: {after: 0.5 s, goto: failed}
+)",
+                          open_floor);
+  expect_words(ended, {"`abs(seen.y.position) < 5 cm` is false (4.000 m)"});
+  EXPECT_EQ(ended.sentence().find("go.x.position"), std::string::npos) << "a term that holds is no reason";
+}
+
+TEST(Why, ABoundaryThatTheGoalLiesBehind) {
+  const Ended ended = run(R"(
+regions: {room: {polygon: [[-1 m, -1 m], [0.6 m, -1 m], [0.6 m, 1 m], [-1 m, 1 m]]}}
+always:
+  constraints:
+    fence: {move: footprint, inside: room, margin: 5 cm}
+start: go
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: 0.3 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: moved(base_link) > 1 m, goto: done}
+    timeout: {after: 3 s, goto: failed}
+)",
+                          open_floor);
+  expect_words(ended,
+               {"`moved(base_link) > 1 m` is false (0.", "`always.fence.left` was at its limit, 0.050 m"});
+}
+
+TEST(Why, AttemptsThatAreUsedUp) {
+  const Ended ended = run(R"(
+start: look
+tasks:
+  look:
+    attempts: {max: 2, goto: failed}
+    constraints:
+      still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: moved(base_link) > 1 m, goto: done}]
+    timeout: {after: 0.1 s, goto: again}
+  again:
+    constraints:
+      still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: elapsed > 0.1 s, goto: look}]
+    timeout: never
+)",
+                          open_floor);
+  expect_words(
+      ended,
+      {"`again` led to `look` by `elapsed > 0.1 s`, which had been entered 2 times, all its attempts"});
+  EXPECT_EQ(ended.why->cause, WhyCause::attempts);
+}
+
+TEST(Why, ASetFromAPoseThatNeverCame) {
+  const Ended ended = run(R"(
+signals: {partner: {type: pose, in: base_link, stale_after: 300 ms}}
+frames: {socket: {parent: partner}, goal: {}}
+start: look
+tasks:
+  look:
+    constraints:
+      still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: elapsed > 0.1 s, set: {goal: socket}, goto: go}]
+    timeout: never
+  go:
+    constraints:
+      line: {move: base_link, in: goal, x: {position: 0 m}, y: {position: 0 m}, rz: {position: 0 rad}}
+    exits: [{when: line.x.position < 1 cm, goto: done}]
+    timeout: {after: 10 s, goto: failed}
+)",
+                          wall("3 m") + "signals: {partner: {pose_of: door, dropouts: 99.99 %}}\n");
+  expect_words(ended, {"`look` led to `go` by `elapsed > 0.1 s`, on the way a frame is set (task.yaml:",
+                       "which needs the pose of `socket`: it is not known"});
+  EXPECT_EQ(ended.why->cause, WhyCause::set);
+}
+
+// What decides is the way into a task that leads nowhere else, not the last step of that way.
+TEST(Why, TheTurnAndNotTheRetreat) {
+  const Ended ended = run(R"(
+start: look
+tasks:
+  look:
+    constraints:
+      still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: moved(base_link) > 1 m, goto: done}]
+    timeout: {after: 0.1 s, goto: retreat}
+  retreat:
+    constraints:
+      back: {move: base_link, in: base_link, x: {velocity: -0.1 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: elapsed > 0.2 s, goto: failed}]
+    timeout: never
+)",
+                          open_floor);
+  expect_words(ended, {"`look` waited 0.100 s, its timeout"});
+  EXPECT_NEAR(ended.why->time, 0.1, 1e-9);
+}
+
+TEST(Why, ARunThatIsEndedFromOutsideStillWaits) {
+  const Ended ended = run(std::string(drive_ahead) + R"(
+    exits:
+      - {when: not moved(base_link) < 1 m, goto: done}
+    timeout: never
+)",
+                          open_floor, 0.3);
+  EXPECT_EQ(ended.state, RunState::running);
+  expect_words(ended, {"`go` still waits after 0.2", "`moved(base_link) < 1 m` is true (0."});
+}
+
+}  // namespace
+}  // namespace zwang::runtime
