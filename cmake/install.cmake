@@ -16,6 +16,8 @@ endforeach()
 if(TARGET zwang)
   install(TARGETS zwang RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
+# The parts of a run's page, where `./dev web` has built them.
+install(FILES ${PROJECT_SOURCE_DIR}/web/dist/report.html DESTINATION ${CMAKE_INSTALL_DATADIR}/zwang/web OPTIONAL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/specs DESTINATION ${CMAKE_INSTALL_DATADIR}/zwang)
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/zwangConfig.cmake.in

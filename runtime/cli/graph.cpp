@@ -1,4 +1,6 @@
 // The tasks of a file as a graph, for Graphviz or Mermaid.
+#include "graph.hpp"
+
 #include <sstream>
 #include <vector>
 
@@ -12,31 +14,6 @@ namespace zwang::cli {
 namespace {
 
 using lang::Program;
-
-struct Edge {
-  std::string from, to;
-  std::string label;
-  bool is_interruption =
-      false;  ///< from any task, or an end that something else than the author's exit decides
-};
-
-struct Graph {
-  std::vector<std::string> tasks;
-  std::string start;
-  std::vector<Edge> edges;
-  bool has_always = false;
-
-  bool leads_to(const std::string& node) const {
-    for (const Edge& edge : edges) {
-      if (edge.to == node) return true;
-    }
-    return false;
-  }
-};
-
-/// Names that no task can have.
-constexpr const char* always_node = "always";
-constexpr const char* back_node = "back";
 
 std::string name_of(const Program& program, const lang::Target& target) {
   switch (target.kind) {
@@ -67,6 +44,8 @@ std::string label_of(const Program& program, const lang::Exit& exit) {
   return label;
 }
 
+}  // namespace
+
 Graph graph_of(const Program& program) {
   Graph graph;
   graph.start = "task " + program.tasks[static_cast<std::size_t>(program.start)].name;
@@ -78,7 +57,8 @@ Graph graph_of(const Program& program) {
     const std::string name = "task " + task.name;
     graph.tasks.push_back(name);
     if (task.require) {
-      graph.edges.push_back({name, "failed", "not (" + lang::in_one_line(task.require->text) + ") on entry", true});
+      graph.edges.push_back(
+          {name, "failed", "not (" + lang::in_one_line(task.require->text) + ") on entry", true});
     }
     if (task.attempts) {
       const std::string count = std::to_string(task.attempts->most);
@@ -95,6 +75,8 @@ Graph graph_of(const Program& program) {
   }
   return graph;
 }
+
+namespace {
 
 std::string shown_name(const std::string& node) {
   if (node == always_node) return "in any task";

@@ -237,6 +237,7 @@ int parse_and_do(int argc, char** argv) {
   run_verb->add_flag("--quiet", to_run.quiet, "no live line, only the report");
   run_verb->add_flag("--watchdog", to_run.watchdog,
                      "stop as a robot would when no tick happens for 200 ms of real time");
+  run_verb->add_flag("--report", to_run.report, "make a page of the run, report.html beside its log");
   run_verb->add_flag("--watch", to_run.watch,
                      "at the pace of real time; a task file that changes under way is loaded again");
   takes(run_verb->add_option("--format", to_run.format, "human (default) or json: one object on stdout"),
@@ -247,6 +248,12 @@ int parse_and_do(int argc, char** argv) {
   info_verb->add_option("log", to_tell.file, "the .mcap file")->required();
   takes(info_verb->add_option("--format", to_tell.format, "human (default) or json: one object on stdout"),
         formats);
+
+  ReportArguments to_report;
+  CLI::App* report_verb = app.add_subcommand("report", "Make a page of a run: one file, for any browser");
+  report_verb->add_option("run", to_report.run, "the folder of the run, or its .mcap file")->required();
+  report_verb->add_option("-o,--out", to_report.out,
+                          "the page to write (default report.html beside the log)");
 
   ReplayArguments to_replay;
   CLI::App* replay_verb =
@@ -276,6 +283,7 @@ int parse_and_do(int argc, char** argv) {
   if (test_verb->parsed()) return test(to_test);
   if (info_verb->parsed()) return info(to_tell);
   if (replay_verb->parsed()) return replay(to_replay);
+  if (report_verb->parsed()) return report(to_report);
   to_run.file = file_or_shipped(to_run.file);
   if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);

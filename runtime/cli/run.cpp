@@ -11,6 +11,7 @@
 #include "output.hpp"
 #include "plant_start.hpp"
 #include "reload.hpp"
+#include "report_page.hpp"
 #include "run_log.hpp"
 #include "run_report.hpp"
 #include "verbs.hpp"
@@ -198,6 +199,8 @@ int run(const RunArguments& arguments) {
   if (!program->scene)
     throw Impossible(arguments.file + ": names no scene to run in; give one with --scene FILE");
 
+  if (arguments.report) page_parts();  // missing ones are told before the run, not behind it
+
   runtime::RunnerSettings settings;
   settings.extra_columns = truth_columns(*program->scene);
   runtime::Runner runner(*program, settings);
@@ -251,6 +254,7 @@ int run(const RunArguments& arguments) {
     if (report.log_error.empty() && !log.complete())
       report.log_error = std::to_string(log.dropped) + " records were dropped";
   }
+  if (arguments.report) report.page = write_page(folder.string(), std::nullopt);
   if (arguments.format == Format::json) {
     print_data(json_report(report, runner, of_files));
   } else {

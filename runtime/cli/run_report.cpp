@@ -233,6 +233,7 @@ std::string human_report(const RunReport& report, const runtime::Runner& runner,
   for (const std::string& log : report.logs) text += log + ", ";
   text += std::to_string(report.records) + " records";
   if (!report.log_error.empty()) text += ", INCOMPLETE: " + report.log_error;
+  if (!report.page.empty()) text += "\npage   " + report.page;
   text += "\nspeed  " + with_unit(report.elapsed / std::max(report.wall_time, 1e-9), "x real time", 3) + "\n";
   return text;
 }
@@ -292,6 +293,7 @@ std::string json_report(const RunReport& report, const runtime::Runner& runner,
   whole["logs"] = report.logs;
   whole["log_complete"] = report.log_error.empty();
   whole["wall_time"] = report.wall_time;
+  if (!report.page.empty()) whole["page"] = report.page;
   return text_of(whole, 2) + "\n";
 }
 

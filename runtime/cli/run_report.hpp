@@ -41,6 +41,7 @@ struct RunReport {
   std::vector<Chapter> before;
   std::uint64_t records = 0;
   std::string log_error;  ///< empty when the log is complete
+  std::string page;       ///< path of the page of the run; empty: none was made
   std::vector<AskedForce> asked;
   std::vector<ObjectReport> objects;
   std::vector<PartnerReport> partners;

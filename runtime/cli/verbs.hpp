@@ -90,7 +90,8 @@ struct RunArguments {
   std::uint64_t seed = 0;
   bool quiet = false;
   bool watchdog = false;
-  bool watch = false;  ///< files that change are loaded again
+  bool watch = false;   ///< files that change are loaded again
+  bool report = false;  ///< a page of the run, beside its log
   Format format = Format::human;
   std::optional<double> start_yaw;                ///< [rad]
   std::optional<std::array<double, 2>> start_at;  ///< [m]
@@ -129,6 +130,12 @@ struct ReplayArguments {
   Format format = Format::human;
 };
 int replay(const ReplayArguments& arguments);
+
+struct ReportArguments {
+  std::string run;                 ///< the folder of a run, or its .mcap
+  std::optional<std::string> out;  ///< none: report.html beside the log
+};
+int report(const ReportArguments& arguments);
 
 struct InfoArguments {
   std::string file;

@@ -25,6 +25,16 @@ std::optional<std::string> decompress(std::string_view bytes, std::size_t size) 
   return whole;
 }
 
+std::optional<std::string> deflate(std::string_view bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string deflated(size, '\0');
+  const auto* from = reinterpret_cast<const Bytef*>(bytes.data());
+  auto* into = reinterpret_cast<Bytef*>(deflated.data());
+  if (compress2(into, &size, from, bytes.size(), Z_BEST_COMPRESSION) != Z_OK) return std::nullopt;
+  deflated.resize(size);
+  return deflated;
+}
+
 std::uint32_t crc32(std::string_view bytes, std::uint32_t crc) {
   const auto* data = reinterpret_cast<const Bytef*>(bytes.data());
   return static_cast<std::uint32_t>(::crc32_z(crc, data, bytes.size()));

@@ -1,0 +1,158 @@
+// The page of a run, from its log.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "output.hpp"
+#include "report_page.hpp"
+#include "report_world.hpp"
+#include "verbs.hpp"
+#include "zwang/runtime/replay.hpp"
+#include "zwang/runtime/series.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+using runtime::Series;
+
+/// A page of 5 MB has room for so many numbers.
+constexpr std::size_t most_points = 900'000;
+
+std::string text_of(const std::vector<float>& numbers) {
+  return base64(runtime::packed(numbers));
+}
+
+fs::path log_of(const std::string& run) {
+  const fs::path path = fs::is_directory(run) ? fs::path(run) / "log.mcap" : fs::path(run);
+  if (path.extension() == ".csv")
+    throw Impossible(run + ": a CSV has neither files nor lines; give the .mcap beside it");
+  require_file(path.string());
+  return path;
+}
+
+ordered_json files_of(const runtime::LogContext& context) {
+  ordered_json files = ordered_json::array();
+  for (const lang::Source& source : context.sources)
+    files.push_back({{"path", source.path}, {"text", source.text}});
+  return files;
+}
+
+int index_of(const runtime::LogContext& context, const std::string& file) {
+  for (std::size_t i = 0; i < context.sources.size(); ++i) {
+    if (context.sources[i].path == file) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+/// A curve that is blank throughout is left out.
+bool is_blank(const runtime::Curve& curve) {
+  return std::ranges::all_of(curve.points, [](float value) { return std::isnan(value); });
+}
+
+bool is_sampled(const std::string& name) {
+  const auto ends = [&](const char* end) { return name.ends_with(end); };
+  const bool is_place = ends(".x") || ends(".y") || ends(".yaw");
+  return ends(".q") || (is_place && (name.starts_with("base.") || name.starts_with("truth.") ||
+                                     name.starts_with("signal.")));
+}
+
+/// From the begin of the run: a clock may count from 1970.
+std::vector<float> since(double begin, const std::vector<double>& times) {
+  std::vector<float> since;
+  for (const double time : times) since.push_back(static_cast<float>(time - begin));
+  return since;
+}
+
+ordered_json curves_of(const Series& series) {
+  ordered_json curves = ordered_json::array();
+  std::vector<float> points;
+  for (const runtime::Curve& curve : series.curves) {
+    if (is_blank(curve)) continue;
+    curves.push_back({{"name", curve.name},
+                      {"unit", curve.unit},
+                      {"file", index_of(series.log.context, curve.file)},
+                      {"line", curve.line}});
+    points.insert(points.end(), curve.points.begin(), curve.points.end());
+  }
+  return {{"count", series.times.size()},
+          {"times", text_of(since(series.log.begin, series.times))},
+          {"columns", curves},
+          {"points", text_of(points)},
+          {"records_a_bucket", series.records_a_bucket}};
+}
+
+ordered_json samples_of(const Series& series) {
+  ordered_json names = ordered_json::array();
+  std::vector<float> values;
+  for (const runtime::Curve& curve : series.curves) {
+    if (!is_sampled(curve.name) || is_blank(curve)) continue;
+    names.push_back(curve.name);
+    values.insert(values.end(), curve.samples.begin(), curve.samples.end());
+  }
+  return {{"count", series.sample_times.size()},
+          {"times", text_of(since(series.log.begin, series.sample_times))},
+          {"columns", names},
+          {"values", text_of(values)}};
+}
+
+std::string data_of(const fs::path& log, const Series& series) {
+  ordered_json tasks = ordered_json::array(), events = ordered_json::array();
+  for (const runtime::Stretch& s : series.tasks)
+    tasks.push_back({{"task", s.word}, {"begin", s.begin}, {"end", s.end}});
+  for (const runtime::LoggedEvent& e : series.events)
+    events.push_back({{"time", e.time}, {"code", e.code}, {"signal", e.signal}, {"value", e.value}});
+  const auto report = series.log.conclusion.find("report");
+  ordered_json data = {{"format", 1},
+                       {"log", log.filename().string()},
+                       {"facts", series.log.context.facts},
+                       {"damage", series.log.damage},
+                       {"records", series.log.records},
+                       {"begin", series.log.begin},
+                       {"end", series.log.end},
+                       {"report", nullptr},
+                       {"files", files_of(series.log.context)},
+                       {"tasks", tasks},
+                       {"events", events},
+                       {"curves", curves_of(series)},
+                       {"samples", samples_of(series)},
+                       {"world", nullptr}};
+  if (report != series.log.conclusion.end())
+    data["report"] = ordered_json::parse(report->second, nullptr, false);
+  lang::Diagnostics diagnostics;
+  if (const auto program = runtime::logged_program(series.log.context, diagnostics)) {
+    data["world"] = ordered_json::parse(world_of(*program));
+    data["graph"] = ordered_json::parse(graph_json(*program));
+    data["bounds"] = ordered_json::parse(bounds_of(*program));
+  }
+  return data.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string write_page(const std::string& run, const std::optional<std::string>& out) {
+  std::string parts = page_parts();
+  const fs::path log = log_of(run);
+  const Series series = runtime::read_series(log, most_points);
+  if (series.log.records == 0) throw Impossible(log.string() + ": holds no record");
+  const std::string page = page_with(std::move(parts), data_of(log, series));
+  const fs::path path = out ? fs::path(*out) : log.parent_path() / "report.html";
+  std::ofstream file(path, std::ios::binary);
+  file << page;
+  if (!file.flush()) throw Impossible(path.string() + ": cannot be written");
+  return path.string();
+}
+
+int report(const ReportArguments& arguments) {
+  const std::string page = write_page(arguments.run, arguments.out);
+  print(page + "\n");
+  return exit_good;
+}
+
+}  // namespace zwang::cli

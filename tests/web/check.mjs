@@ -1,0 +1,202 @@
+// The page of a run, in a browser: what it shows is what the log says, it needs nothing else, and it can be used.
+// usage: node check.mjs ZWANG SPECS FOLDER CHROMIUM
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+
+const [zwang, specs, folder, chromium] = process.argv.slice(2);
+const require = createRequire(new URL('../../web/package.json', import.meta.url));
+const { chromium: browsers } = require('playwright-core');
+
+function makePage(name, task, ...more) {
+  const run = spawnSync(zwang, ['run', task, '--log', `${folder}/${name}`, '--format', 'json', ...more], { encoding: 'utf8' });
+  const report = JSON.parse(run.stdout);
+  execFileSync(zwang, ['report', `${folder}/${name}`, '-o', `${folder}/${name}.html`]);
+  return { name, report, path: `${folder}/${name}.html`, csv: readCsv(`${folder}/${name}/log.csv`) };
+}
+
+/** The columns of a CSV log by their names without the unit. */
+function readCsv(path) {
+  const [head, ...lines] = readFileSync(path, 'utf8').trimEnd().split('\n').map((line) => line.split(','));
+  const columns = new Map(head.map((name, i) => [name.replace(/ \[.*/, ''), i]));
+  const column = (name) => lines.map((line) => (line[columns.get(name)] === '' ? NaN : Number(line[columns.get(name)])));
+  return { column, has: (name) => columns.has(name), count: lines.length };
+}
+
+const browser = await browsers.launch({
+  executablePath: chromium,
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+});
+
+/** Opens a page without any network; a complaint of the browser fails the test. */
+async function open(path, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1600, height: 1000 }, offline: true, ...options });
+  const page = await context.newPage();
+  const complaints = [];
+  page.on('console', (message) => { if (['error', 'warning'].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text())) complaints.push(message.text()); });
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('request', (request) => { if (!/^(file|data|blob):/.test(request.url())) complaints.push(`asks for ${request.url()}`); });
+  page.on('dialog', (dialog) => { complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
+  await page.goto(`file://${path}`);
+  await page.waitForFunction('window.zwang', undefined, { timeout: 60000 });
+  return { page, complaints, close: async () => { assert.deepEqual(complaints, []); await context.close(); } };
+}
+
+async function checkNumbers(made) {
+  const { page, close } = await open(made.path);
+  assert.equal(await page.textContent('#verdict'), made.report.verdict);
+  const [time, x, y, yaw] = ['time', 'truth.base.x', 'truth.base.y', 'truth.base.yaw'].map(made.csv.column);
+  for (const share of [0, 0.31, 0.66, 1]) {
+    const i = Math.round(share * (time.length - 1));
+    await page.evaluate((at) => window.zwang.clock.show(at), time[i] - time[0]);
+    const pose = await page.getAttribute('figure canvas', 'data-pose');
+    pose.split(' ').map(Number).forEach((value, k) => {
+      const logged = [x, y, yaw][k][i];
+      // Between two samples the pose is interpolated: at 1 m/s and 1 rad/s, over a few records.
+      assert.ok(Math.abs(value - logged) < 2e-3, `${made.name} at ${time[i]} s: ${value} is ${logged} in the log`);
+    });
+  }
+  // Every extreme of every curve is there, as a 32-bit float has it.
+  const extremes = await page.evaluate(() => [...window.zwang.run.columns.keys()].map((name) => {
+    const values = [...window.zwang.run.curve(name)].filter((value) => !Number.isNaN(value));
+    return [name, Math.min(...values), Math.max(...values)];
+  }));
+  assert.ok(extremes.length > 30);
+  for (const [name, least, largest] of extremes) {
+    const logged = made.csv.column(name).filter((value) => !Number.isNaN(value));
+    let [low, high] = [Infinity, -Infinity];
+    for (const value of logged) [low, high] = [Math.min(low, value), Math.max(high, value)];
+    for (const [shown, is] of [[least, low], [largest, high]])
+      assert.ok(Math.abs(shown - is) <= 1e-6 * Math.max(1, Math.abs(is)), `${made.name}, ${name}: ${shown} is ${is} in the log`);
+  }
+  const limits = await page.locator('#margins tbody tr').count();
+  assert.equal(limits, made.report.limits.length);
+  const broken = made.report.limits.filter((limit) => limit.broken).length;
+  assert.equal(await page.locator('#margins tr.broken').count(), broken);
+  await close();
+}
+
+async function checkUse(made) {
+  const { page, close } = await open(made.path);
+  const now = () => page.evaluate(() => window.zwang.clock.time);
+  await page.locator('body').click({ position: { x: 3, y: 3 } });
+  await page.keyboard.press('End');
+  assert.ok(await now() > 0);
+  await page.keyboard.press('Home');
+  assert.equal(await now(), 0);
+  await page.keyboard.press('Shift+ArrowRight');
+  assert.ok(Math.abs(await now() - 0.1 * await page.evaluate(() => window.zwang.run.duration)) < 1e-6);
+  await page.keyboard.press('Space');
+  await page.waitForTimeout(300);
+  await page.keyboard.press('Space');
+  const paused = await now();
+  assert.ok(paused > 0.1, 'it played');
+  await page.waitForTimeout(200);
+  assert.equal(await now(), paused, 'it pauses');
+  // A line shows its curve, a curve its line.
+  const line = page.locator('#source button.line').first();
+  const title = await line.getAttribute('title');
+  await line.click();
+  const name = title.replace('Show ', '');
+  assert.equal(await page.locator(`output[data-curve="${name}"]`).count(), 1, name);
+  await page.locator('#margins td button.link').last().click();
+  assert.equal(await page.locator('.row.shown').count(), 1);
+  // The keyboard alone reaches play, time, speed.
+  await page.locator('.play').focus();
+  await page.keyboard.press('Tab');
+  assert.equal(await page.evaluate(() => document.activeElement.className), 'scrub');
+  await close();
+}
+
+async function checkLook(made, looks) {
+  for (const [width, colorScheme] of looks) {
+    const { page, close } = await open(made.path, { viewport: { width, height: 900 }, colorScheme, reducedMotion: 'reduce' });
+    await page.evaluate(() => window.zwang.clock.show(0.7 * window.zwang.run.duration));
+    await page.waitForTimeout(200);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    assert.ok(wide <= 0, `${width} px: the page is ${wide} px too wide`);
+    const overlaps = await page.evaluate(() => {
+      const boxes = [...document.querySelectorAll('section, .verdict, .chart, figure')].map((element) => [element, element.getBoundingClientRect()]);
+      const found = [];
+      boxes.forEach(([a, p], i) => boxes.slice(i + 1).forEach(([b, q]) => {
+        if (a.contains(b) || b.contains(a)) return;
+        if (p.left < q.right - 1 && q.left < p.right - 1 && p.top < q.bottom - 1 && q.top < p.bottom - 1) found.push(`${a.id || a.className} over ${b.id || b.className}`);
+      }));
+      return found;
+    });
+    assert.deepEqual(overlaps, [], `${width} px`);
+    assert.deepEqual(await tooFaint(page), [], `contrast at ${width} px, ${colorScheme}`);
+    await page.screenshot({ path: `${folder}/${made.name}_${width}_${colorScheme}.png`, fullPage: true });
+    await close();
+  }
+}
+
+/** Texts with less than 4.5:1 to what lies behind them (WCAG 2, AA). */
+const tooFaint = (page) => page.evaluate(() => {
+  const context = document.createElement('canvas').getContext('2d', { willReadFrequently: true });
+  const rgba = (colour) => {
+    context.clearRect(0, 0, 1, 1);
+    context.fillStyle = colour;
+    context.fillRect(0, 0, 1, 1);
+    return [...context.getImageData(0, 0, 1, 1).data];
+  };
+  const light = ([r, g, b]) => [r, g, b].map((c) => c / 255).map((c) => (c <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4))
+    .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+  const behind = (element) => {
+    const layers = [];
+    for (let at = element; at; at = at.parentElement) layers.push(rgba(getComputedStyle(at).backgroundColor));
+    return layers.reverse().reduce((below, [r, g, b, a]) => [r, g, b].map((c, i) => c * (a / 255) + below[i] * (1 - a / 255)), [255, 255, 255]);
+  };
+  const faint = [];
+  for (const element of document.querySelectorAll('h1, h2, h3, p, td, th, dt, dd, button, figcaption, span, output, li')) {
+    const hasText = [...element.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
+    const style = getComputedStyle(element);
+    if (!hasText || element.getClientRects().length === 0 || rgba(style.color)[3] < 10) continue;
+    const [a, b] = [light(rgba(style.color)), light(behind(element))].sort((p, q) => q - p);
+    if ((a + 0.05) / (b + 0.05) < 4.5) faint.push(`${element.tagName} ${element.className}: ${element.textContent.slice(0, 30)}`);
+  }
+  return [...new Set(faint)].slice(0, 10);
+});
+
+/** A task whose name and comments try to be HTML: the language takes such a comment, and a parameter's help. */
+async function checkHostile() {
+  const text = readFileSync(`${specs}/laws/fence.yaml`, 'utf8');
+  mkdirSync(`${folder}/hostile`, { recursive: true });
+  const task = `${folder}/hostile/a </script><img src=x onerror=alert(1)>.yaml`.replace('</script>', '<\u2215script>');
+  writeFileSync(task, `# </script><script>alert(1)</script><!-- <img src=x onerror=alert(2)>\n${text}`);
+  const made = makePage('hostile_run', task, '--robot', `${specs}/robots/mecanum_base.yaml`, '--scene', `${specs}/scenes/open.yaml`);
+  const { page, close } = await open(made.path);
+  assert.equal(await page.locator('img').count(), 0);
+  assert.equal(await page.locator('script').count(), 2);
+  assert.ok((await page.locator('#source .code').first().textContent()).startsWith('# </script><script>alert(1)'));
+  const policy = await page.getAttribute('meta[http-equiv]', 'content');
+  assert.ok(/default-src 'none'/.test(policy) && !/unsafe/.test(policy), policy);
+  await close();
+}
+
+const wall = makePage('wall', `${specs}/wall_align.yaml`);
+const unseen = makePage('unseen', `${specs}/docking.yaml`, '--scene', `${specs}/scenes/dock_unseen.yaml`);
+const steps = {
+  'numbers of the wall': () => checkNumbers(wall),
+  'numbers of a long run': () => checkNumbers(unseen),
+  'why': async () => {
+    const { page, close } = await open(unseen.path);
+    assert.match(await page.textContent('#verdict'), /`partner` was never received/);
+    assert.ok(await page.locator('#why tr.holds').count() >= 3);
+    await close();
+  },
+  'use': () => checkUse(wall),
+  'look of the wall': () => checkLook(wall, [[360, 'light'], [800, 'light'], [1600, 'light'], [1600, 'dark']]),
+  'look of a failure': () => checkLook(unseen, [[360, 'dark']]),
+  'hostile text': checkHostile,
+};
+try {
+  for (const [name, step] of Object.entries(steps)) {
+    const begin = Date.now();
+    await step();
+    console.log(`ok ${name} (${Date.now() - begin} ms)`);
+  }
+} finally {
+  await browser.close();
+}

@@ -1,0 +1,133 @@
+// Frames, objects and contacts of the scene at a time.
+import type { Frame, Pose, Region, Robot, Run, SceneObject, World } from './data';
+import { indexAt } from './data';
+import { baseAt, bodiesIn, heightOf, jointsAt, placeAt, planar, times, at, type Place } from './motion';
+
+export interface Instant {
+  time: number;
+  base: Place;
+  believed: Place | null;  // where zwang has the base, if the plant knows it, too
+  baseInWorld: Pose;
+  bodies: Pose[];          // in the world
+}
+
+export function instantAt(run: Run, robot: Robot, time: number): Instant {
+  const base = baseAt(run, time);
+  const baseInWorld = planar(base, heightOf(robot));
+  const bodies = bodiesIn(robot, jointsAt(run, robot, time)).map((pose) => times(baseInWorld, pose));
+  const believed = run.sample('truth.base.x') ? placeAt(run, 'base', time) : null;
+  return { time, base, believed, baseInWorld, bodies };
+}
+
+/** None of a frame that a signal carries or that a task sets: the log does not say where it is. */
+export function frameInWorld(world: World, index: number, now: Instant): Pose | null {
+  const frame: Frame | undefined = world.frames[index];
+  if (!frame) return null;
+  if (frame.set || frame.parent === 'signal') return null;
+  if (frame.parent === 'world') return frame.pose;
+  const parent = frame.parent === 'body' ? now.bodies[frame.index] : frameInWorld(world, frame.index, now);
+  return parent ? times(parent, frame.pose) : null;
+}
+
+/** The corners of a region in the world; a circle as many of them. */
+export function cornersOf(world: World, region: Region, now: Instant): number[][] | null {
+  const parent = frameInWorld(world, region.parent, now);
+  if (!parent) return null;
+  const corners = region.polygon.length ? region.polygon : Array.from({ length: 48 }, (_, i) => {
+    const angle = (i / 48) * 2 * Math.PI;
+    return [region.centre[0]! + region.radius * Math.cos(angle), region.centre[1]! + region.radius * Math.sin(angle)];
+  });
+  return corners.map(([x, y]) => at(parent, [x!, y!, 0]));
+}
+
+export function placeOf(run: Run, object: SceneObject, time: number): Place {
+  return placeAt(run, `truth.${object.name}`, time) ?? { x: object.at[0]!, y: object.at[1]!, yaw: object.yaw };
+}
+
+/** The outline of a box or a wall in its own axes: a wall's `at` is in the middle of its face, which looks along -x. */
+export function outlineOf(object: SceneObject): number[][] {
+  const [length, width] = object.size as [number, number];
+  if (object.shape === 'wall')
+    return [[0, -length / 2], [width, -length / 2], [width, length / 2], [0, length / 2]];
+  return [[-length / 2, -width / 2], [length / 2, -width / 2], [length / 2, width / 2], [-length / 2, width / 2]];
+}
+
+export function worldPoint(place: Place, point: number[]): [number, number] {
+  const [c, s] = [Math.cos(place.yaw), Math.sin(place.yaw)];
+  return [place.x + c * point[0]! - s * point[1]!, place.y + s * point[0]! + c * point[1]!];
+}
+
+export interface Contact { at: [number, number]; normal: [number, number]; force: number; name: string }
+
+function nearestOnSegment(p: number[], a: number[], b: number[]): [number, number] {
+  const [dx, dy] = [b[0]! - a[0]!, b[1]! - a[1]!];
+  const along = ((p[0]! - a[0]!) * dx + (p[1]! - a[1]!) * dy) / Math.max(dx * dx + dy * dy, 1e-12);
+  const t = Math.min(1, Math.max(0, along));
+  return [a[0]! + t * dx, a[1]! + t * dy];
+}
+
+const near = 4;  // [m]
+
+/** The box around the path of the base and around what stands near it: its least and its largest corner. */
+export function extentOf(run: Run, world: World): [[number, number], [number, number]] {
+  const reach = Math.max(0.3, ...world.robot.footprint.map((corner) => Math.hypot(corner[0]!, corner[1]!)));
+  const low: [number, number] = [Infinity, Infinity];
+  const high: [number, number] = [-Infinity, -Infinity];
+  const take = (x: number, y: number, around: number): void => {
+    [low[0], low[1]] = [Math.min(low[0], x - around), Math.min(low[1], y - around)];
+    [high[0], high[1]] = [Math.max(high[0], x + around), Math.max(high[1], y + around)];
+  };
+  for (const time of run.sampleTimes) {
+    const base = baseAt(run, time);
+    take(base.x, base.y, reach);
+  }
+  const path = [...low, ...high] as [number, number, number, number];
+  for (const object of world.scene?.objects ?? []) {
+    const [x, y] = object.at as [number, number];
+    const isNear = x > path[0] - near && x < path[2] + near && y > path[1] - near && y < path[3] + near;
+    if (isNear) take(x, y, Math.min(0.3, object.size[0]! / 2));
+  }
+  for (const other of world.scene?.robots ?? []) take(other.at[0]!, other.at[1]!, reach);
+  return [low, high];
+}
+
+/** Where two outlines are nearest, and the way from the second into the first. */
+function nearest(robot: number[][], object: number[][]): { at: [number, number]; normal: [number, number] } {
+  let best = Infinity;
+  let found = { at: [0, 0] as [number, number], normal: [0, 0] as [number, number] };
+  const look = (points: number[][], edges: number[][], edgesAreObject: boolean): void => {
+    for (const p of points) {
+      edges.forEach((a, i) => {
+        const b = edges[(i + 1) % edges.length]!;
+        const q = nearestOnSegment(p, a, b);
+        const distance = Math.hypot(p[0]! - q[0], p[1]! - q[1]);
+        if (distance >= best) return;
+        best = distance;
+        const length = Math.hypot(b[0]! - a[0]!, b[1]! - a[1]!);
+        // Counter-clockwise: the outside of an edge is on its right.
+        const out: [number, number] = [(b[1]! - a[1]!) / length, -(b[0]! - a[0]!) / length];
+        found = { at: q, normal: edgesAreObject ? out : [-out[0], -out[1]] };
+      });
+    }
+  };
+  look(robot, object, true);
+  look(object, robot, false);
+  return found;
+}
+
+/** The forces that the plant measured, at the place where the outlines are nearest. */
+export function contactsAt(run: Run, world: World, now: Instant): Contact[] {
+  const contacts: Contact[] = [];
+  const robot = world.robot.footprint.map((corner) => worldPoint(now.base, corner));
+  if (!world.scene || robot.length < 3) return contacts;
+  for (const object of world.scene.objects) {
+    const force = run.curve(`truth.${object.name}.force`)?.[indexAt(run.times, now.time)] ?? 0;
+    if (!(force > 0)) continue;
+    const place = placeOf(run, object, now.time);
+    const outline = object.shape === 'cylinder'
+      ? Array.from({ length: 24 }, (_, i) => [object.size[0]! * Math.cos((i * Math.PI) / 12), object.size[0]! * Math.sin((i * Math.PI) / 12)])
+      : outlineOf(object);
+    contacts.push({ ...nearest(robot, outline.map((corner) => worldPoint(place, corner))), force, name: object.name });
+  }
+  return contacts;
+}
