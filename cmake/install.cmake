@@ -4,11 +4,19 @@ include(CMakePackageConfigHelpers)
 
 set(zwang_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/zwang)
 
-foreach(room IN ITEMS solver lang runtime)
+# The program finds shared libraries where it was installed with them.
+if(BUILD_SHARED_LIBS AND TARGET zwang)
+  file(RELATIVE_PATH zwang_from_program_to_libraries ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
+  set_target_properties(zwang PROPERTIES INSTALL_RPATH "$ORIGIN/${zwang_from_program_to_libraries}")
+endif()
+foreach(room IN ITEMS solver lang runtime simulation)
   if(TARGET zwang_${room})
-    set_target_properties(zwang_${room} PROPERTIES EXPORT_NAME ${room})
-    install(TARGETS zwang_${room} EXPORT zwang_${room} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    set_target_properties(zwang_${room} PROPERTIES EXPORT_NAME ${room} INSTALL_RPATH "$ORIGIN")
+    install(TARGETS zwang_${room} EXPORT zwang_${room}
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
     install(EXPORT zwang_${room} NAMESPACE zwang:: DESTINATION ${zwang_package_folder})
+  endif()
+  if(TARGET zwang_${room} AND IS_DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include)
     install(DIRECTORY ${PROJECT_SOURCE_DIR}/${room}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   endif()
 endforeach()

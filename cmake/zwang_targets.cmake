@@ -28,22 +28,32 @@ set(zwang_headers_of_solver <zwang/solver/constraint.hpp> <zwang/solver/frame.hp
 set(zwang_headers_of_lang ${zwang_headers_of_solver} <zwang/lang/diagnostic.hpp> <zwang/lang/program.hpp>
   <zwang/lang/robot.hpp> <zwang/lang/scene.hpp>)
 set(zwang_headers_of_runtime ${zwang_headers_of_lang} <zwang/runtime/event.hpp> <zwang/runtime/plant.hpp>)
+set(zwang_headers_of_simulation ${zwang_headers_of_runtime})
 function(zwang_precompiled target)
   if(ZWANG_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${zwang_headers_of_most} ${ARGN})
   endif()
 endfunction()
 
-# zwang_room(<name> SOURCES ... [PUBLIC ...] [PRIVATE ...]): one room, a static library `zwang_<name>` with the alias
-# zwang::<name>. Only the room's own include/ is added to its include path: a later room's headers cannot be found.
+# zwang_room(<name> [FOLDER <folder>] SOURCES ... [PUBLIC ...] [PRIVATE ...]): one room, a library `zwang_<name>` with the
+# alias zwang::<name>, static unless BUILD_SHARED_LIBS says otherwise. Only the room's own include/ is added to its include
+# path: a later room's headers cannot be found. FOLDER: that has include/ and src/, where it is not the present one.
 function(zwang_room name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  add_library(zwang_${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "FOLDER" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  if(NOT ARG_FOLDER)
+    set(ARG_FOLDER ${CMAKE_CURRENT_SOURCE_DIR})
+  endif()
+  add_library(zwang_${name} ${ARG_SOURCES})
   add_library(zwang::${name} ALIAS zwang_${name})
   target_include_directories(zwang_${name}
-    PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
-    PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+    PUBLIC $<BUILD_INTERFACE:${ARG_FOLDER}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${ARG_FOLDER}/src)
   target_compile_features(zwang_${name} PUBLIC cxx_std_20)
+  # Nobody replaces a single function of a library that is loaded: calls within it stay direct, and can be inlined.
+  target_compile_options(zwang_${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition>)
   target_link_libraries(zwang_${name} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:zwang_flags> ${ARG_PRIVATE})
+  # Before 1.0 a minor version may break interfaces.
+  set_target_properties(zwang_${name} PROPERTIES
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   zwang_precompiled(zwang_${name} ${zwang_headers_of_${name}})
 endfunction()

@@ -39,6 +39,14 @@ keep_direction() {
 keep_direction solver 'lang runtime'
 keep_direction lang 'runtime'
 
+# Within runtime: control and log know nothing of the simulation, or a robot of one's own would need MuJoCo.
+while IFS=: read -r file line header; do
+  if [[ $file =~ ^runtime/src/(plant|scenario)/ && $file != runtime/src/plant/plant.cpp ]]; then continue; fi
+  if [[ $header =~ ^(plant|scenario)/ || $header =~ ^zwang/runtime/(mujoco_plant|scene_plant|scenario_run)\.hpp$ ]]; then
+    offend "$file:$line: control and log may not know the simulation (<$header>)"
+  fi
+done < <(includes runtime/src)
+
 # A room's insides (src/) are its own: others see include/zwang/ROOM only.
 for room in solver lang runtime; do
   while IFS=: read -r file line header; do
