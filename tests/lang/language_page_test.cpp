@@ -90,7 +90,7 @@ class LanguagePage : public testing::Test {
     fs::copy(test::source_dir / "specs", folder_.path(),
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
   }
-  const test::Folder folder_;
+  test::Folder folder_;
 };
 
 /// An excerpt may leave a name unused (W302), and is good otherwise.
