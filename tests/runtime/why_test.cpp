@@ -280,18 +280,18 @@ tasks:
 TEST(Why, ASetFromAPoseThatNeverCame) {
   const Ended ended = run(R"(
 signals: {partner: {type: pose, in: base_link, stale_after: 300 ms}}
-frames: {socket: {parent: partner}, goal: {}}
+frames: {socket: {parent: partner}, goal: {parent: world}}
 start: look
 tasks:
   look:
     constraints:
       still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
-    exits: [{when: elapsed > 0.1 s, set: {goal: socket}, goto: go}]
+    exits: [{when: elapsed > 0.1 s, set: {frames.goal: socket}, goto: go}]
     timeout: never
   go:
     constraints:
       line: {move: base_link, in: goal, x: {position: 0 m}, y: {position: 0 m}, rz: {position: 0 rad}}
-    exits: [{when: line.x.position < 1 cm, goto: done}]
+    exits: [{when: line.x.position < 1 cm, for: 0.1 s, goto: done}]
     timeout: {after: 10 s, goto: failed}
 )",
                           wall("3 m") + "signals: {partner: {pose_of: door, dropouts: 99.99 %}}\n");
