@@ -69,7 +69,7 @@ std::string events_table(const runtime::Runner& runner) {
 
 /// Those that were broken before the others, each in the order of the files.
 std::vector<LimitReport> broken_first(std::vector<LimitReport> limits) {
-  std::ranges::stable_partition(limits, [](const LimitReport& l) { return l.is_broken(); });
+  std::stable_partition(limits.begin(), limits.end(), [](const LimitReport& l) { return l.is_broken(); });
   return limits;
 }
 
