@@ -286,8 +286,9 @@ TEST_F(Cli, LimitsAreNamedAsTheirColumns) {
   const Result r = zwang({"run", specs + "laws/fence.yaml", "--log", "log", "--format", "json"});
   const std::string log = read(folder_ / "log/log.csv");
   const std::string header = "," + log.substr(0, log.find('\n')) + ",";
-  ASSERT_GT(json::parse(r.out)["limits"].size(), 5u);
-  for (const json& l : json::parse(r.out)["limits"]) {
+  const json limits = json::parse(r.out)["limits"];
+  ASSERT_GT(limits.size(), 5u);
+  for (const json& l : limits) {
     const std::string column = "," + l["row"].get<std::string>() + " [" + l["unit"].get<std::string>() + "],";
     EXPECT_NE(header.find(column), std::string::npos) << column;
   }
