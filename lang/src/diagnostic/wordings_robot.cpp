@@ -103,6 +103,55 @@ Diagnostic control_period_outside(const Span& span, double period) {
                "limits of speed brake within " + longest + ": torques must come as often");
 }
 
+Diagnostic estimate_without_torque(const Span& span, const std::string& name) {
+  return error("E634", span,
+               in_ticks(name) + " needs the motors' torques, and a drive that takes velocities does not tell them",
+               "ask whether a row is `saturated`, or measure the force with a signal");
+}
+
+Diagnostic unknown_drive_word(const Span& span, const std::string& key, const std::string& text,
+                              const std::vector<std::string>& known) {
+  std::string words;
+  for (const std::string& word : known) words += (words.empty() ? "" : " or ") + in_ticks(word);
+  return error("E815", span, "`" + key + "` of a drive cannot be " + in_ticks(text), "write " + words);
+}
+
+Diagnostic drive_takes_twists(const Span& span) {
+  return error("E814", span, "drives that take the base's twist are not built yet",
+               "command the wheels: `as: wheels`");
+}
+
+Diagnostic drive_has_fixed_limit(const Span& span) {
+  return error("E814", span,
+               "drives whose torque limit cannot be sent are not built yet: nothing would bound what they "
+               "press with",
+               "`torque_limit: each_cycle`, if the drive takes a torque or current limit with each command");
+}
+
+Diagnostic drive_without_wheel(const Span& span, const std::string& joint, const Span& drive) {
+  return with_related(
+      error("E814", span,
+            "joint " + in_ticks(joint) +
+                " has a motor and turns no wheel: velocities for such a motor are not built yet",
+            "hold the joint under `fixed`, or let the drive take torques"),
+      drive, "this drive takes velocities of wheels");
+}
+
+Diagnostic drive_key_beside_torque(const Span& span, const std::string& key) {
+  return error("E815", span, in_ticks(key) + " says nothing of a drive that takes torques",
+               "remove it, or write `command: velocity`");
+}
+
+Diagnostic drive_too_slow(const Span& span, double rate) {
+  return error("E815", span, "a drive that is told " + figure(rate, "Hz") + " is too slow",
+               "zwang has been tried from " + figure(slowest_drive_rate, "Hz") + " on");
+}
+
+Diagnostic drive_too_late(const Span& span, double delay) {
+  return error("E815", span, "a delay of " + figure(delay * 1e3, "ms") + " is too long",
+               "zwang has been tried up to " + figure(longest_drive_delay * 1e3, "ms"));
+}
+
 Diagnostic xml_too_deep(const Span& span, int limit) {
   return error("E851", span, "elements are nested deeper than " + std::to_string(limit) + " levels");
 }

@@ -208,6 +208,14 @@ the push has at a corner. The base rests as askew as it came, and the exit would
 sideways with mu m g l, more than the push has at a corner of the footprint.)~",
           .fix = "Drive `rz` to a measured angle, press harder, or take a base that a wall can turn."},
       Explanation{
+          .code = "E634",
+          .title = "an estimated force on a drive that takes velocities",
+          .why =
+              R"~(`estimated.force` is what the wheels' motion lacks of the torques that were sent. A drive that takes
+velocities makes its torques itself, and does not tell them: only their bounds are known.)~",
+          .fix = "Ask whether a row is `saturated`: the base is slower there than its force lets it be. Or measure "
+                 "the force, with a signal."},
+      Explanation{
           .code = "W643",
           .title = "motion that the steering does not allow",
           .why =

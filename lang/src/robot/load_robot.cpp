@@ -11,6 +11,7 @@
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/adapt_urdf.hpp"
 #include "robot/check_joints.hpp"
+#include "robot/drive_entry.hpp"
 #include "robot/exact_wheels.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
@@ -42,6 +43,7 @@ class RobotBuilder {
     check_supports();
     check_frames();
     check_footprint();
+    check_drive(file_, diagnostics_);
     if (diagnostics_.error_count() > errors_before_) return std::nullopt;
     try {
       stand_wheels_exactly(build_model(), file_, urdf_, diagnostics_);
@@ -265,6 +267,7 @@ class RobotBuilder {
     if (file_.bumper_height) robot.bumper_height = *file_.bumper_height;
     if (file_.bumper_stiffness) robot.bumper_stiffness = *file_.bumper_stiffness;
     if (file_.control_period) robot.control_period = *file_.control_period;
+    robot.drive = file_.drive;
     add_joint_facts(robot);
     return robot;
   }

@@ -58,6 +58,8 @@ struct RobotFile {
   std::optional<double> bumper_stiffness;
   std::optional<double> bumper_height;
   std::optional<double> control_period;
+  Drive drive;
+  Span drive_span;
   std::vector<FrameText> frames;
 };
 

@@ -44,6 +44,21 @@ inline constexpr double shortest_control_period = 0.1e-3;
 /// Where a robot file gives no `slew`, a motor takes as long for all of its torque. [s]
 inline constexpr double full_torque_within = 5e-3;
 
+/// What the motors' drive takes, and how late. The delay is the way of an encoder's value to the runtime and
+/// of the command back to the wheel, half of it each.
+struct Drive {
+  /// Velocities of the wheels, each with a torque limit that is sent with it. False: torques.
+  bool takes_velocity = false;
+  double rate = 0.0;                    ///< [1/s] of commands and of samples
+  double delay = 0.0;                   ///< [s]
+  double time_constant = 0.0;           ///< T_c [s] of the wheels' velocity loops
+  std::optional<double> integral_time;  ///< T_i [s] of the same; none: they have no integral
+};
+
+/// The slowest and the latest drive that zwang has been tried on.
+inline constexpr double slowest_drive_rate = 20.0;    ///< [1/s]
+inline constexpr double longest_drive_delay = 50e-3;  ///< [s]
+
 struct Robot {
   std::string name;
   solver::Model model;
@@ -60,6 +75,7 @@ struct Robot {
   double bumper_height = 0.15;        ///< [m] above the ground where the footprint touches the world
   double bumper_stiffness = 20e3;     ///< [N/m]
   double control_period = default_control_period;  ///< [s] from one torque to the next
+  Drive drive;
   std::vector<Span> joint_spans;                   ///< where each joint's limits come from
 };
 
