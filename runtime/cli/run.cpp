@@ -156,6 +156,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   report.outcome = to_string(runner.state());
   if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
   report.ended_early = give_up && !runner.finished();
+  report.may_still_move = runner.may_still_move();
   report.why = runner.why();
   if (status != PlantStatus::ok) {
     report.outcome = to_string(status);

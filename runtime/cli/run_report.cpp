@@ -212,10 +212,14 @@ std::string verdict(const RunReport& report) {
     text += ", hit `" + o.name + "` with " + with_unit(o.peak_force, "N");
     if (o.allowed) text += " where " + with_unit(*o.allowed, "N") + " are allowed";
   }
-  if (report.why)
-    return text + ": " + report.why->sentence +
-           (report.ended_early ? "; the run was ended before the robot stood" : "");
-  return text + (report.because.empty() ? "" : ": " + report.because);
+  if (report.why) {
+    text += ": " + report.why->sentence;
+  } else if (!report.because.empty()) {
+    text += ": " + report.because;
+  }
+  if (report.ended_early) text += "; the run was ended before the robot stood";
+  if (report.may_still_move) text += std::string("; ") + runtime::unseen_rest;
+  return text;
 }
 
 std::string human_report(const RunReport& report, const runtime::Runner& runner,
@@ -257,6 +261,7 @@ ordered_json story(const RunReport& report, const runtime::Runner& runner,
                         {"truth", json_truth(report)},
                         {"seed", report.seed}};
   if (!report.because.empty()) whole["because"] = report.because;
+  if (report.may_still_move) whole["may_still_move"] = true;
   if (report.why) whole["why"] = ordered_json::parse(json_of(*report.why));
   for (const Chapter& chapter : report.before) {
     whole["before"].push_back({{"until", chapter.until},

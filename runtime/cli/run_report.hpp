@@ -31,11 +31,12 @@ struct Chapter {
 };
 
 struct RunReport {
-  std::string outcome;       ///< done, failed, stopped, diverged; the first robot's
-  std::string because;       ///< of a stop; empty otherwise
-  bool ended_early = false;  ///< from outside, before the robot stood
-  double elapsed = 0.0;      ///< [s]
-  double wall_time = 0.0;    ///< [s] that it took
+  std::string outcome;          ///< done, failed, stopped, diverged; the first robot's
+  std::string because;          ///< of a stop; empty otherwise
+  bool ended_early = false;     ///< from outside, before the robot stood
+  bool may_still_move = false;  ///< no sample has shown the base at rest
+  double elapsed = 0.0;         ///< [s]
+  double wall_time = 0.0;       ///< [s] that it took
   std::uint64_t seed = 0;
   std::vector<std::string> logs;  ///< of the first robot, one after the other
   std::vector<Chapter> before;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdio>
 #include <ostream>
 #include <thread>
@@ -16,12 +17,13 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
-void print_row(const char* name, const std::vector<Result>& results, bool faulty, std::ostream& out) {
+void print_row(const char* name, const std::vector<Result>& results, bool faulty, double least_step,
+               double most_step, std::ostream& out) {
   int runs = 0, stops = 0, frozen = 0, probed = 0, beyond = 0, done = 0, untrue = 0;
   double speed = 0.0, force = 0.0, fastest = 0.0, hardest = 0.0;
   std::vector<double> delays;
   for (const Result& r : results) {
-    if (r.is_faulty() != faulty) continue;
+    if (r.is_faulty() != faulty || r.encoder_step < least_step || r.encoder_step > most_step) continue;
     ++runs;
     stops += r.stopped ? 1 : 0;
     frozen += r.reason == "frozen" ? 1 : 0;
@@ -36,6 +38,7 @@ void print_row(const char* name, const std::vector<Result>& results, bool faulty
     fastest = std::max(fastest, r.speed);
     hardest = std::max(hardest, r.force);
   }
+  if (runs == 0) return;
   char line[256];
   std::snprintf(line, sizeof line,
                 "%-16s %5d runs  %5d stopped, %5d as frozen, %4d probed  %4d beyond a bound  %4d done  %4d "
@@ -68,8 +71,10 @@ std::vector<Result> run_all(std::uint64_t seed, int first, int count, Which whic
 
 void print(std::uint64_t seed, int first, Which which, const std::vector<Result>& results,
            std::ostream& out) {
-  print_row("healthy", results, false, out);
-  print_row("encoders fail", results, true, out);
+  constexpr double fine = 5e-5, coarsest = 1.0;  // [rad]
+  print_row("healthy, fine", results, false, 0.0, fine, out);
+  print_row("healthy, coarse", results, false, std::nextafter(fine, coarsest), coarsest, out);
+  print_row("encoders fail", results, true, 0.0, coarsest, out);
   for (std::size_t i = 0; i < results.size(); ++i) {
     const Result& r = results[i];
     if (!r.is_false_stop() && !r.breaks_a_bound() && !r.is_untrue()) continue;

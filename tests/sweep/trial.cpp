@@ -85,6 +85,7 @@ Result run(const Drawn& drawn) {
   Sensed sensed(program.robot.model, program.signals.size());
   Eigen::VectorXd tau;
   Result result;
+  result.encoder_step = drawn.encoder_step;
   double x = 0.0, y = 0.0, end = drawn.time_limit;
   bool is_over = false;
   while (plant.truth().time < end) {

@@ -12,6 +12,7 @@ struct Result {
   std::string outcome;            ///< done, failed, stopped, unfinished
   std::string reason;             ///< of a stop
   std::string task;               ///< in force at the onset
+  double encoder_step = 0.0;      ///< [rad] 0: exact positions
   std::optional<double> onset;    ///< [s] of the fault; none: the run was over before
   std::optional<double> stopped;  ///< [s]
   // By the plant, from the onset on.

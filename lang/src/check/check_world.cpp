@@ -22,12 +22,27 @@ bool is_rigid(const CheckContext& context, const std::optional<int>& a, const st
   return first.body >= 0 && first.body == second.body;
 }
 
+/// A latch tells that something holds the base by a frame of its own.
+void check_latch(CheckContext& context, const SignalText& text, SignalSymbol& symbol) {
+  if (!text.type.exists()) return;
+  if (symbol.signal.type != SignalType::boolean) {
+    context.diagnostics.add(wording::latch_is_not_bool(text.holds.span, text.name.text, text.type.text));
+    return;
+  }
+  const std::optional<int> frame = check_frame(context, text.holds);
+  if (!frame) return;
+  symbol.signal.holds = *frame;
+  if (context.symbols.frames[static_cast<std::size_t>(*frame)].body != 0)
+    context.diagnostics.add(wording::latch_off_the_base(text.holds.span, text.holds.text, base_of(context)));
+}
+
 void check_signal(CheckContext& context, const SignalText& text, SignalSymbol& symbol) {
   if (text.in.exists()) {
     const std::optional<int> in = check_frame(context, text.in);
     symbol.is_bad = symbol.is_bad || !in;
     symbol.signal.in = in.value_or(0);
   }
+  if (text.holds.exists()) check_latch(context, text, symbol);
   if (text.stale_after) {
     check_time(context, *text.stale_after, "signal `" + text.name.text + "`'s `stale_after`", false);
   }

@@ -178,6 +178,8 @@ Diagnostic measured_without_for(const Span& span);
 Diagnostic unreachable_task(const Span& span, const std::string& task);
 Diagnostic endless_task(const Span& span, const std::string& task);
 Diagnostic signal_without_age(const Span& span, const std::string& name);
+Diagnostic latch_is_not_bool(const Span& span, const std::string& signal, const std::string& type);
+Diagnostic latch_off_the_base(const Span& span, const std::string& frame, const std::string& base);
 Diagnostic decided_condition(const Span& span, bool is_always);
 Diagnostic release_without_threshold(const Span& span);
 Diagnostic release_on_wrong_side(const Span& span, bool is_below);
@@ -205,6 +207,10 @@ Diagnostic flat_polygon(const Span& span, const std::string& what);
 Diagnostic posture_outside(const Span& span, const std::string& what, const Span& joint);
 Diagnostic impossible_model(const Span& span, const std::string& reason);
 Diagnostic control_period_outside(const Span& span, double period);
+/// `step` [rad] of the encoders.
+Diagnostic encoder_step_outside(const Span& span, double step);
+/// `radius` [m] of the largest wheel.
+Diagnostic coarse_encoders(const Span& span, double step, double radius);
 
 Diagnostic xml_too_deep(const Span& span, int limit);
 Diagnostic too_many_attributes(const Span& span, std::size_t limit);

@@ -344,6 +344,19 @@ Diagnostic signal_without_age(const Span& span, const std::string& name) {
                "for example `stale_after: 200 ms`");
 }
 
+Diagnostic latch_is_not_bool(const Span& span, const std::string& signal, const std::string& type) {
+  return error("E510", span,
+               "signal `" + signal + "` is a " + type + ": only a `bool` says whether a latch holds the base",
+               "declare it as `type: bool`, or remove `holds`");
+}
+
+Diagnostic latch_off_the_base(const Span& span, const std::string& frame, const std::string& base) {
+  return error("E510", span,
+               "`" + frame + "` is not fixed to the base" + (base.empty() ? "" : " `" + base + "`") +
+                   ": what a latch holds there does not hold the base",
+               "name a frame that the base carries, such as its hook");
+}
+
 Diagnostic decided_condition(const Span& span, bool is_always) {
   return error("E505", span, is_always ? "this condition is always true" : "this condition can never be true",
                "compare with a value that what is measured can pass");

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_physics.hpp"
@@ -101,6 +103,31 @@ Diagnostic control_period_outside(const Span& span, double period) {
                "a control period of " + ms(period) + " is not between " + ms(shortest_control_period) +
                    " and " + longest,
                "limits of speed brake within " + longest + ": torques must come as often");
+}
+
+Diagnostic encoder_step_outside(const Span& span, double step) {
+  return error("E813", span,
+               "an encoder that counts every " + figure(step, "rad") + " is coarser than " +
+                   figure(longest_encoder_step, "rad"),
+               "give the least change of the wheel's angle that the robot reports: 2 pi by the counts of one "
+               "turn of the wheel, gear included");
+}
+
+Diagnostic coarse_encoders(const Span& span, double step, double radius) {
+  constexpr double acceleration = 1.0;  // [m/s^2]
+  const double way = blind_steps * step * radius;
+  if (way <= least_blind_way)
+    return warning("W813", span,
+                   "encoders that count every " + figure(step * 1e3, "mrad") +
+                       " do not see a wheel turn that a wall holds: while the base slides along the wall, the "
+                       "guard may take that wheel's encoder for dead and stop the base",
+                   "read the encoders with all of their edges, or on the motor's side of the gear");
+  return warning("W813", span,
+                 "the wheels' encoders count every " + figure(step * radius * 1e3, "mm") +
+                     " of way: if they die as the base sets out, it goes on for " + figure(way * 1e3, "mm") +
+                     ", at 1 m/s^2 to " + figure(std::sqrt(2.0 * acceleration * way), "m/s"),
+                 "encoders of " + figure(least_blind_way / (blind_steps * radius) * 1e3, "mrad") +
+                     " or less keep it to " + figure(least_blind_way * 1e3, "mm"));
 }
 
 Diagnostic xml_too_deep(const Span& span, int limit) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "explain/catalogue.hpp"
@@ -21,8 +22,9 @@ std::vector<Explanation> gathered() {
         catalogue::scenes()}) {
     all.insert(all.end(), part.begin(), part.end());
   }
+  const auto key = [](const Explanation& e) { return std::pair(number_of(e), e.code); };
   std::sort(all.begin(), all.end(),
-            [](const Explanation& a, const Explanation& b) { return number_of(a) < number_of(b); });
+            [&key](const Explanation& a, const Explanation& b) { return key(a) < key(b); });
   return all;
 }
 

@@ -74,6 +74,29 @@ tasks:
       - {when: latch, goto: done}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{
+          .code = "E510",
+          .title = "a latch that cannot hold the base",
+          .why =
+              R"~(While a latch holds the base by a hook, motors push and nothing moves: as with encoders that are dead. `holds`
+tells the guard that the hook is why. That takes a signal that is true or false, and a frame that the base carries.)~",
+          .fix =
+              "Let a `bool` signal name a frame that is fixed to the base: one of the robot file's `frames`.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(signals:
+  latch: {type: bool, holds: world, stale_after: 500 ms}
+tasks:
+  go:
+    exits:
+      - {when: latch, goto: done}
+    timeout: {after: 10 s, goto: failed})~",
+          .instead = R"~(signals:
+  latch: {type: bool, holds: bumper, stale_after: 500 ms}
+tasks:
+  go:
+    exits:
+      - {when: latch, goto: done}
+    timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
           .code = "E505",
           .title = "a condition that is decided beforehand",
           .why =

@@ -184,6 +184,29 @@ of `base`, name a link that stands on the axle as `base`.)~",
   <axis xyz="0 1 0"/>
   <limit effort="5" velocity="10"/>
 </joint>)~"},
+      Explanation{
+          .code = "E813",
+          .title = "encoders that are too coarse",
+          .why =
+              R"~(The guard bounds motion that motors should make and no encoder confirms, by four steps of the encoder. With 63 steps
+a turn a wheel of 75 mm goes 3 cm blindly, and a base is as fast as 0.25 m/s by then. Beyond that nothing is bounded.)~",
+          .fix = "Give the least change of the wheel's angle that the robot reports, gear included.",
+          .part = ExcerptOf::robot,
+          .example = "encoder_step: 12 deg",
+          .instead = "encoder_step: 0.01 deg"},
+      Explanation{
+          .code = "W813",
+          .title = "encoders with coarse steps",
+          .why =
+              R"~(Encoders that are dead say what those of a standing base say. The guard therefore lets the motors move the base by
+0.5 mm at a wheel's rim until an encoder confirms it, or by four steps of the encoder if that is more. The base stops later,
+and faster, the coarser its encoders are. A wheel that a wall holds may turn by less than a step while the base slides along
+the wall. The guard then takes its encoder for dead, and stops a sound robot.)~",
+          .fix = "Read the encoders with all of their edges, or on the motor's side of the gear, if the "
+                 "robot can do that.",
+          .part = ExcerptOf::robot,
+          .example = "encoder_step: 4 deg",
+          .instead = "encoder_step: 0.01 deg"},
   };
   return entries;
 }

@@ -265,6 +265,7 @@ class RobotBuilder {
     if (file_.bumper_height) robot.bumper_height = *file_.bumper_height;
     if (file_.bumper_stiffness) robot.bumper_stiffness = *file_.bumper_stiffness;
     if (file_.control_period) robot.control_period = *file_.control_period;
+    if (file_.encoder_step) robot.encoder_step = *file_.encoder_step;
     add_joint_facts(robot);
     return robot;
   }

@@ -226,6 +226,25 @@ std::optional<double> parse_control_period(const Node& node, Diagnostics& diagno
   return std::nullopt;
 }
 
+/// A wheel that a wall holds turns by less than a coarser step while the base slides along it, and looks
+/// like one whose encoder is dead: docs/limits.md has the share of false stops. [rad]
+constexpr double coarse_encoder_step = 2e-4;
+
+/// Behind the wheels, whose radii say how far a step is.
+std::optional<double> parse_encoder_step(const Node& node, const RobotFile& file, Diagnostics& diagnostics) {
+  const auto step = parse_positive(node, dimension::angle, "encoder_step", false, diagnostics);
+  if (!step) return std::nullopt;
+  if (*step > longest_encoder_step) {
+    diagnostics.add(wording::encoder_step_outside(node.span, *step));
+    return std::nullopt;
+  }
+  double radius = 0.0;
+  for (const WheelText& wheel : file.wheels) radius = std::max(radius, wheel.radius.value_or(0.0));
+  if (*step > coarse_encoder_step || blind_steps * *step * radius > least_blind_way)
+    diagnostics.add(wording::coarse_encoders(node.span, *step, radius));
+  return step;
+}
+
 }  // namespace
 
 std::string posture_name(const std::string& joint) {
@@ -292,6 +311,8 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
   if (const Node* bumper = map.optional("bumper")) parse_bumper(*bumper, file, diagnostics);
   if (const Node* period = map.optional("control_period"))
     file.control_period = parse_control_period(*period, diagnostics);
+  if (const Node* step = map.optional("encoder_step"))
+    file.encoder_step = parse_encoder_step(*step, file, diagnostics);
   each(map.optional("frames"), "frames",
        [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
   map.finish();

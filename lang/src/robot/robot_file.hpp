@@ -58,6 +58,7 @@ struct RobotFile {
   std::optional<double> bumper_stiffness;
   std::optional<double> bumper_height;
   std::optional<double> control_period;
+  std::optional<double> encoder_step;
   std::vector<FrameText> frames;
 };
 

@@ -144,7 +144,8 @@ Json signals() {
       object("", {{"type", one_of_words("", {"bool", "number", "pose", "wrench"}), true},
                   {"unit", word("of a number")},
                   {"in", word("the frame that a pose or a wrench is seen from")},
-                  {"stale_after", reference("value", "a sample that is older counts as unknown"), true}}));
+                  {"stale_after", reference("value", "a sample that is older counts as unknown"), true},
+                  {"holds", word("of a bool: the frame of the base that a latch holds while it is true")}}));
 }
 
 Json features() {

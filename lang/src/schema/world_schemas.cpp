@@ -192,6 +192,8 @@ Json robot_file() {
         true},
        {"bumper", object("", {{"stiffness", reference("quantity")}, {"height", reference("quantity")}})},
        {"control_period", reference("quantity")},
+       {"encoder_step",
+        reference("quantity", "an angle: the least by which a driven wheel's position changes")},
        {"frames", named("places on the robot", robot_frame())}});
 }
 

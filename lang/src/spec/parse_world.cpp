@@ -58,6 +58,8 @@ SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   }
   if (map.has_misspelt({"unit"})) signal.is_bad = true;  // what it measures is not known
   if (const Node* in = map.optional("in")) signal.in = parse_word(*in, what + "'s `in`", diagnostics);
+  if (const Node* holds = map.optional("holds"))
+    signal.holds = parse_word(*holds, what + "'s `holds`", diagnostics);
   const Node* stale = map.optional("stale_after");
   if (stale != nullptr) {
     signal.stale_after = parse_value(*stale, what + "'s `stale_after`", diagnostics);

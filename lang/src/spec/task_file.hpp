@@ -38,6 +38,7 @@ struct SignalText {
   std::optional<Unit> unit;  ///< of a number
   Word in;
   std::optional<ValueText> stale_after;
+  Word holds;  ///< a frame of the base, of a bool
   bool is_bad = false;
 };
 

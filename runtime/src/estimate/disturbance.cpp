@@ -8,22 +8,10 @@
 
 namespace zwang::runtime {
 
-namespace {
-
-/// Of the trace: what keeps a matrix that lacks a direction invertible, and the answer along it small.
-constexpr double damping = 1e-9;
-
-/// Of a few numbers: nothing to be set up for.
-double dot(const double* a, const double* b, Eigen::Index count) noexcept {
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < count; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-}  // namespace
-
 DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot, double period)
     : motions_(robot.model),
+      T_factor_(robot.model.joint_count() + 6),
+      C_factor_(robot.model.joint_count() + 6),
       window_(ticks_of(mean_over, period)),
       longest_step_(std::max(longest_step, 1.5 * period)) {
   const solver::Model& model = robot.model;
@@ -38,7 +26,6 @@ DisturbanceObserver::DisturbanceObserver(const lang::Robot& robot, double period
   torques_ = Eigen::MatrixXd::Zero(joints, window_);
   const int most = joints + 6;
   p_ = right_ = w_ = yd_ = Eigen::VectorXd::Zero(most);
-  T_factor_ = C_factor_ = Eigen::MatrixXd::Zero(most, most);
   T_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(watched_.size()), most);
   C_turned_ = Eigen::MatrixXd::Zero(most, 3 + static_cast<Eigen::Index>(arm_.size()));
 }
@@ -71,8 +58,8 @@ void DisturbanceObserver::take_motions(const solver::Solver& solver) noexcept {
     for (std::size_t i = 0; i < arm_.size(); ++i)
       C_turned_(a, 3 + static_cast<Eigen::Index>(i)) = motions_.joint(arm_[i], a);
   }
-  factorise(T_, T_.rows(), motions_.count, T_factor_);
-  factorise(C_turned_, motions_.count, C_turned_.cols(), C_factor_);
+  T_factor_.factorise(T_, T_.rows(), motions_.count);
+  C_factor_.factorise(C_turned_, motions_.count, C_turned_.cols());
 }
 
 bool DisturbanceObserver::compare(const solver::State& state, double time) noexcept {
@@ -126,7 +113,7 @@ double DisturbanceObserver::power(const Eigen::VectorXd& qd) noexcept {
 void DisturbanceObserver::least_squares(const Eigen::VectorXd& watched, Eigen::VectorXd& y) noexcept {
   const int m = motions_.count;
   for (int a = 0; a < m; ++a) right_(a) = dot(T_.col(a).data(), watched.data(), T_.rows());
-  substitute(T_factor_, m, right_, y);
+  T_factor_.solve(right_, y);
 }
 
 /// w = (C C')^-1 C p.
@@ -134,37 +121,8 @@ solver::Vector3 DisturbanceObserver::on_base() noexcept {
   const int m = motions_.count;
   const auto n = static_cast<int>(C_turned_.cols());
   for (int a = 0; a < n; ++a) right_(a) = dot(C_turned_.col(a).data(), p_.data(), m);
-  substitute(C_factor_, n, right_, w_);
+  C_factor_.solve(right_, w_);
   return w_.head<3>();
-}
-
-/// L of A'A = L L', A the first `rows` and `columns` of the matrix; on its diagonal 1 / L_aa. By Cholesky:
-/// small, and nothing to pivot for.
-void DisturbanceObserver::factorise(const Eigen::MatrixXd& A, Eigen::Index rows, Eigen::Index columns,
-                                    RowMajor& factor) noexcept {
-  double trace = 0.0;
-  for (Eigen::Index a = 0; a < columns; ++a) {
-    for (Eigen::Index b = 0; b <= a; ++b) factor(a, b) = dot(A.col(a).data(), A.col(b).data(), rows);
-    trace += factor(a, a);
-  }
-  const auto row = [&factor](Eigen::Index a) { return factor.data() + a * factor.cols(); };
-  for (Eigen::Index a = 0; a < columns; ++a) {
-    double* L_a = row(a);
-    for (Eigen::Index b = 0; b < a; ++b) L_a[b] = (L_a[b] - dot(L_a, row(b), b)) * row(b)[b];
-    L_a[a] = 1.0 / std::sqrt(L_a[a] + damping * trace - dot(L_a, L_a, a));
-  }
-}
-
-/// L L' x = right.
-void DisturbanceObserver::substitute(const RowMajor& factor, int size, const Eigen::VectorXd& right,
-                                     Eigen::VectorXd& out) noexcept {
-  const auto row = [&factor](int a) { return factor.data() + a * factor.cols(); };
-  double* x = out.data();
-  for (int a = 0; a < size; ++a) x[a] = (right(a) - dot(row(a), x, a)) * row(a)[a];
-  for (int a = size - 1; a >= 0; --a) {
-    x[a] *= row(a)[a];
-    for (int b = 0; b < a; ++b) x[b] -= row(a)[b] * x[a];
-  }
 }
 
 }  // namespace zwang::runtime

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "estimate/normal_equations.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/solver/solver.hpp"
 #include "zwang/solver/state.hpp"
@@ -61,20 +62,15 @@ class DisturbanceObserver {
   void take_motions(const solver::Solver& solver) noexcept;
   solver::Vector3 on_base() noexcept;
   void remember(const solver::State& state, double dt) noexcept;
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  static void factorise(const Eigen::MatrixXd& A, Eigen::Index rows, Eigen::Index columns,
-                        RowMajor& factor) noexcept;
-  static void substitute(const RowMajor& factor, int size, const Eigen::VectorXd& right,
-                         Eigen::VectorXd& out) noexcept;
 
   std::vector<int> watched_;  ///< joints that turn a wheel or have a motor
   std::vector<int> arm_;      ///< joints with a motor that carry no wheel
   solver::FreeMotions motions_;
   Eigen::VectorXd qd_, expected_, sent_, torque_, excess_, watched_rates_, p_;
-  Eigen::MatrixXd T_;                   ///< of the joints that are watched
-  Eigen::MatrixXd C_turned_;            ///< C'
-  RowMajor T_factor_, C_factor_;        ///< of T'T and C C'
-  Eigen::MatrixXd excesses_, torques_;  ///< rings: a column a comparison
+  Eigen::MatrixXd T_;                    ///< of the joints that are watched
+  Eigen::MatrixXd C_turned_;             ///< C'
+  NormalEquations T_factor_, C_factor_;  ///< of T'T and C C'
+  Eigen::MatrixXd excesses_, torques_;   ///< rings: a column a comparison
   int window_;
   double longest_step_;
   int column_ = 0;  ///< of the last comparison

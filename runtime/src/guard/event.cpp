@@ -64,6 +64,8 @@ const char* to_string(EventCode code) noexcept {
       return "entry_refused";
     case EventCode::signal_refused:
       return "signal_refused";
+    case EventCode::probed:
+      return "probed";
   }
   return "?";
 }
@@ -77,7 +79,7 @@ const char* describe(EventCode code) noexcept {
     case EventCode::lost_ticks:
       return "too long without a good sample, or a clock that jumped ahead";
     case EventCode::frozen:
-      return "the robot moves, and a position of it does not change";
+      return "the motors should have moved the robot, and a position of it does not change";
     case EventCode::bad_torque:
       return "a commanded torque is not finite";
     case EventCode::solver:
@@ -130,6 +132,8 @@ const char* describe(EventCode code) noexcept {
       return "a task is not entered: what it requires does not hold, or a pose that is set is not known";
     case EventCode::signal_refused:
       return "samples of a signal come by another clock, or with numbers that are none";
+    case EventCode::probed:
+      return "no encoder counted where the motors should have moved the base; told to move back, it did";
   }
   return "?";
 }

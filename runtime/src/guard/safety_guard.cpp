@@ -246,7 +246,7 @@ void SafetyGuard::brake(const Sensed& sensed) noexcept {
 
 void SafetyGuard::brake_blind() noexcept {
   next_.setZero();
-  brake_->brake_blind(next_);
+  if (!brakes_by_model_) brake_->brake_blind(next_);
   arm_->hold_blind(next_);
 }
 
@@ -275,7 +275,10 @@ GuardStatus SafetyGuard::output(const Sensed& sensed, const Eigen::VectorXd& wan
   }
   if (!is_frozen()) brake_->remember(sensed.state);
   if (stopped()) {
-    if (is_frozen()) {
+    if (brakes_by_model_) {
+      next_ = wanted.size() == next_.size() && wanted.allFinite() ? wanted : 0.0 * next_;
+      arm_->hold(sensed.state, next_);
+    } else if (is_frozen()) {
       brake_blind();
     } else {
       brake(sensed);
@@ -351,6 +354,7 @@ void SafetyGuard::latch(const Event& event) noexcept {
 
 void SafetyGuard::reset() noexcept {
   stop_event_ = {};
+  brakes_by_model_ = false;
   has_time_ = false;
   lost_ticks_ = 0;
   frozen_ticks_ = 0;

@@ -7,9 +7,10 @@
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
 #include "estimate/ticks.hpp"
+#include "guard/blind_budget.hpp"
 #include "guard/clock_rate.hpp"
-#include "guard/frozen_at_rest.hpp"
 #include "guard/frozen_wheel.hpp"
+#include "guard/hook_latch.hpp"
 #include "guard/joint_rates.hpp"
 #include "guard/motor_watch.hpp"
 #include "guard/slip_watch.hpp"
@@ -104,7 +105,8 @@ struct Runner::Parts {
         clock_rate(period),
         rates(model),
         frozen_wheel(program.robot),
-        frozen_at_rest(program.robot),
+        blind_budget(program.robot),
+        hook_latch(program),
         motors(program.robot, period),
         slip(model),
         signs(model),
@@ -135,6 +137,10 @@ struct Runner::Parts {
   void take_signals(const Sensed& sensed) noexcept;
   void judge_clock(const Sensed& sensed) noexcept;
   void mend_rates() noexcept;
+  /// Whether encoders confirm what the motors were told.
+  void confirm() noexcept;
+  /// The torques to send, or the brake's; and what is expected of them.
+  void send(bool good, bool solved) noexcept;
   /// Everything between that and the guard. False when there are no torques to send.
   bool control() noexcept;
   /// What motors and wheels made of the last command.
@@ -174,7 +180,8 @@ struct Runner::Parts {
   ClockRate clock_rate;
   JointRates rates;
   FrozenWheel frozen_wheel;
-  FrozenAtRest frozen_at_rest;
+  BlindBudget blind_budget;
+  HookLatch hook_latch;
   MotorWatch motors;
   SlipWatch slip;
   WheelSigns signs;
@@ -206,7 +213,8 @@ struct Runner::Parts {
   std::uint64_t transition_count = 0;
   TurningPoint turning_point;
   std::uint64_t stopped_ticks = 0;
-  bool stands = false;  ///< after a protective stop
+  bool is_at_rest_by_samples = false;  ///< after a protective stop
+  bool is_a_wheel_dead = false;        ///< the stop is for its encoder
 };
 
 void Runner::Parts::estimate(const Sensed& sensed) noexcept {
@@ -214,9 +222,12 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   estimated.time = time;
   estimated.state = sensed.state;
   stop(rates.look(estimated.state, time));
-  stop(frozen_wheel.look(estimated.state, tau, time));
-  if (guard.stopped()) mend_rates();
+  const auto dead_wheel = frozen_wheel.look(estimated.state, tau, time);
+  is_a_wheel_dead = guard.stopped() ? is_a_wheel_dead : dead_wheel.has_value();
+  stop(dead_wheel);
   take_signals(sensed);
+  confirm();
+  if (guard.stopped()) mend_rates();
   solver::Pose& base = estimated.state.base_pose;
   const bool is_new = sensed.base_measured || !reckoning;
   if (is_new && model.base_type() == solver::BaseType::ground) base = level(base);
@@ -258,6 +269,30 @@ void Runner::Parts::judge_clock(const Sensed& sensed) noexcept {
   } else if (found) {
     tell(*found);
   }
+}
+
+void Runner::Parts::confirm() noexcept {
+  if (blind_budget.is_blind() && !guard.stopped()) blind_budget.begin();  // the stop was reset
+  hook_latch.look(sample, scheduler.parameters(), blind_budget);
+  const std::optional<Event> found = blind_budget.look(estimated.state.q, estimated.time);
+  if (found && found->code == EventCode::probed) tell(*found);
+  if (found) stop(found);
+  guard.brake_by_model(blind_budget.takes_over());
+}
+
+void Runner::Parts::send(bool good, bool solved) noexcept {
+  if (good && blind_budget.takes_over()) {
+    if (guard.stopped()) wanted.setZero();
+    blind_budget.give_back(wanted);
+  }
+  guard_status = good ? guard.output(estimated, wanted, tau) : guard.output_blind(tau);
+  if (solved && !guard.stopped()) {
+    disturbance.expect(solver, solution, sample.state, friction.torque(), tau, sample.time);
+    blind_budget.expect(disturbance, friction.torque(), tau);
+    return;
+  }
+  if (good) disturbance.pause();
+  if (guard.stopped()) blind_budget.expect_brake(tau);
 }
 
 /// A stop for rates that are wrong is over when the base stands by those that are not.
@@ -350,10 +385,10 @@ void Runner::Parts::compare() noexcept {
     motors.reset();
     return;
   }
-  stop(frozen_at_rest.look(estimated.state.q, tau, disturbance.expected(), sample.time));
   scheduler.estimate_force(disturbance.base_force());
-  // A wheel that slides gives the ground less than its motor gives the wheel.
-  if (slip.doubtful()) {
+  // A wheel that slides gives the ground less than its motor gives the wheel; what no encoder tells, tells
+  // nothing of a motor.
+  if (slip.doubtful() || blind_budget.takes_over()) {
     motors.reset();
     return;
   }
@@ -394,11 +429,8 @@ Shortfall Runner::Parts::find_shortfall() const noexcept {
 void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   ++stopped_ticks;
   // Where one wheel's encoder is dead, the others do not tell how the base moves.
-  const Event& reason = guard.stop_event();
-  const bool is_dead = reason.code == EventCode::frozen && event_signal::joint_of(reason.signal) >= 0;
-  const bool is_seen = good_sample && !is_dead;
-  stands = stands || (is_seen && is_at_rest(estimated.state.base_twist)) ||
-           static_cast<double>(stopped_ticks) * period > longest_stop;
+  const bool is_seen = good_sample && !is_a_wheel_dead && !blind_budget.takes_over();
+  is_at_rest_by_samples = is_at_rest_by_samples || (is_seen && is_at_rest(estimated.state.base_twist));
 }
 
 Runner::Runner(const lang::Program& program, const RunnerSettings& settings)
@@ -428,16 +460,11 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
     if (!computed) p.guard.stop(EventCode::solver, -1, static_cast<double>(p.solver_status));
     solved = computed && !p.guard.stopped();
   }
-  p.guard_status = good ? p.guard.output(p.estimated, p.wanted, p.tau) : p.guard.output_blind(p.tau);
-  if (solved && !p.guard.stopped()) {
-    p.disturbance.expect(p.solver, p.solution, p.sample.state, p.friction.torque(), p.tau, p.sample.time);
-  } else if (good) {
-    p.disturbance.pause();
-  }
+  p.send(good, solved);
   if (!p.guard.stopped()) {
     p.stop_is_told = false;
     p.stopped_ticks = 0;
-    p.stands = false;
+    p.is_at_rest_by_samples = false;
   }
   if (p.guard.stopped() && !p.stop_is_told) {
     p.stop_is_told = true;
@@ -495,7 +522,8 @@ SwapResult Runner::swap_program(Runner& next) noexcept {
   std::swap(now.clock_rate, before.clock_rate);
   std::swap(now.rates, before.rates);
   std::swap(now.frozen_wheel, before.frozen_wheel);
-  std::swap(now.frozen_at_rest, before.frozen_at_rest);
+  std::swap(now.blind_budget, before.blind_budget);
+  now.hook_latch.take_over(before.hook_latch);
   std::swap(now.slip, before.slip);
   std::swap(now.friction, before.friction);
   now.reckoning = before.reckoning;
@@ -538,8 +566,15 @@ RunState Runner::state() const noexcept {
 }
 
 bool Runner::finished() const noexcept {
-  if (parts_->guard.stopped()) return parts_->stands;
-  return parts_->scheduler.phase() == Phase::finished;
+  const Parts& p = *parts_;
+  if (!p.guard.stopped()) return p.scheduler.phase() == Phase::finished;
+  return p.is_at_rest_by_samples || static_cast<double>(p.stopped_ticks) * p.period > longest_stop;
+}
+bool Runner::may_still_move() const noexcept {
+  const Parts& p = *parts_;
+  if (!finished()) return false;
+  if (p.guard.stopped()) return !p.is_at_rest_by_samples;
+  return !p.model.has_fixed_base() && !is_at_rest(p.sample.state.base_twist);
 }
 
 std::vector<Column> Runner::columns() const {

@@ -121,6 +121,8 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     result.outcome = to_string(runner.state());
   }
   if (runner.state() == RunState::stopped) result.because = describe(runner.guard().reason());
+  if (runner.may_still_move())
+    result.because += std::string(result.because.empty() ? "" : "; ") + unseen_rest;
   const std::optional<Why> why = runner.why();
   if (why && status != PlantStatus::diverged) result.why = why->sentence;
 }

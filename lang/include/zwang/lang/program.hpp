@@ -65,6 +65,8 @@ struct Signal {
   bool measures_force = false;  ///< a number signal whose unit is that of a force
   int in = 0;                   ///< frame that a pose or a wrench is seen from
   Value stale_after;            ///< [s] the age at which it counts as invalid
+  /// Of a latch: while it is true, the frame of the base that does not move in the world. -1: none.
+  int holds = -1;
   Span span;
 };
 

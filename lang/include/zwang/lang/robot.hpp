@@ -41,6 +41,13 @@ inline constexpr double default_control_period = 1e-3;
 inline constexpr double longest_control_period = 10e-3;
 inline constexpr double shortest_control_period = 0.1e-3;
 
+/// What the guard allows motors to move that no encoder confirms, at a wheel's rim: so far [m], or so many
+/// steps of the encoder if that is more.
+inline constexpr double least_blind_way = 0.5e-3;
+inline constexpr double blind_steps = 4.0;
+/// Of an encoder: 63 steps a turn. [rad]
+inline constexpr double longest_encoder_step = 0.1;
+
 /// Where a robot file gives no `slew`, a motor takes as long for all of its torque. [s]
 inline constexpr double full_torque_within = 5e-3;
 
@@ -60,6 +67,7 @@ struct Robot {
   double bumper_height = 0.15;        ///< [m] above the ground where the footprint touches the world
   double bumper_stiffness = 20e3;     ///< [N/m]
   double control_period = default_control_period;  ///< [s] from one torque to the next
+  double encoder_step = 0.0;                       ///< [rad] of the driven wheels; 0: not known
   std::vector<Span> joint_spans;                   ///< where each joint's limits come from
 };
 

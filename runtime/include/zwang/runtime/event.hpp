@@ -43,6 +43,7 @@ enum class EventCode {
   entry_refused,   ///< what a task requires to be entered does not hold; `value` is the task's number
   signal_refused,  ///< samples of it come, and cannot be taken; `value`: a stamp that is ahead by so much, or
                    ///< 0
+  probed,  ///< no encoder counted where the motors should have moved the base; told to move back, it did
 };
 const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".

@@ -80,6 +80,9 @@ struct RunnerSettings {
   std::vector<Column> extra_columns;  ///< logged behind the runner's own; `step` is given their values
 };
 
+/// What reports say of `Runner::may_still_move`.
+inline constexpr const char* unseen_rest = "no sample has shown the base at rest: it may still move";
+
 /// One thread at a time calls it. A runner that was moved from can be destroyed or assigned to, no more.
 class Runner {
  public:
@@ -101,6 +104,8 @@ class Runner {
   RunState state() const noexcept;
   /// The outcome is known and the base stands (or has had the time to).
   bool finished() const noexcept;
+  /// The run is finished by the time it had, and no sample that can be believed has shown the base at rest.
+  bool may_still_move() const noexcept;
 
   /// Sets a parameter of the task file, in SI, between two steps. False, and nothing happens, for a name that
   /// is unknown and a value outside the parameter's range. Does not allocate.

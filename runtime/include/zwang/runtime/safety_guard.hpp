@@ -73,7 +73,8 @@ class SafetyGuard {
   /// The torques to send: `wanted`, checked to be finite, then cut to the joints' limits, then to the slew;
   /// the brake's when the stop is latched, from memory on a frozen sample; an arm is held where it was. A
   /// joint of an arm that is faster than it may be, or could hardly be kept in its travel, latches the stop.
-  /// `tau` keeps its size. Call it when `admit` said good or untimely.
+  /// `tau` keeps its size. Call it when `admit` said good or untimely. A stop that brakes by the model sends
+  /// `wanted` of the wheels, cut to the limits.
   GuardStatus output(const Sensed& sensed, const Eigen::VectorXd& wanted, Eigen::VectorXd& tau) noexcept;
   /// The torques to send when `admit` refused the sample: the last ones, or when the stop is latched those
   /// that brake what the last good sample said, and bear an arm.
@@ -82,6 +83,9 @@ class SafetyGuard {
   /// Latches the protective stop, for one of the codes that do. The first reason is kept. What told it, and
   /// what that read, is for the event.
   void stop(EventCode reason, int signal = -1, double value = 0.0) noexcept;
+  /// From now on a stop neither believes nor remembers the wheels' rates: whoever knows the base by other
+  /// means says what its wheels are to do. False: it does again.
+  void brake_by_model(bool yes) noexcept { brakes_by_model_ = yes; }
   bool stopped() const noexcept { return stop_event_.code != EventCode::none; }
   EventCode reason() const noexcept { return stop_event_.code; }  ///< `none` while nothing latched the stop
   /// Releases the stop; the clock starts anew.
@@ -125,6 +129,7 @@ class SafetyGuard {
   std::unique_ptr<JointLimits> joint_limits_;
   std::unique_ptr<WheelBrake> brake_;
   int frozen_ticks_ = 0;
+  bool brakes_by_model_ = false;
   double last_time_ = 0.0;    ///< [s] its stamp
   double clock_shift_ = 0.0;  ///< [s]
   bool has_time_ = false;

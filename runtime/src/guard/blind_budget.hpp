@@ -1,0 +1,110 @@
+/// Bounds the motion that motors make and no encoder confirms.
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+
+#include "estimate/disturbance.hpp"
+#include "guard/blind_motion.hpp"
+#include "guard/felt_contact.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/runtime/event.hpp"
+
+namespace zwang::runtime {
+
+/// A sign of life is a change of any driven wheel's position. In between the model moves the base by its
+/// torques, from the rates v of the last sign less `slowest` of each rim:
+///   s = integral of max_j r_j |v_j| dt,   v' = T yd' of BlindMotion and FeltContact.
+/// When s is beyond the budget S = max(`least_budget`, 4 d r), d the least step that was ever counted, or
+/// that of the robot file, the motors give back what v says, whatever the mass: a base that is free stands
+/// again, one at a wall comes off it. Two signs of life meanwhile end that; if there are none, nothing is
+/// known of the base. Above `look_below` nobody waits longer than for lost samples. No diagnosis: dead
+/// encoders, a driver that repeats itself, motors that are off and a brake that is on are one. Does not
+/// allocate, lock, throw or print after construction.
+class BlindBudget {
+ public:
+  explicit BlindBudget(const lang::Robot& robot);
+
+  /// Every good sample: the positions as they were measured. `frozen` when nothing answers, with the way [m]
+  /// that was not confirmed; `probed` when something does.
+  std::optional<Event> look(const Eigen::VectorXd& q, double time) noexcept;
+  /// What was sent since that sample, as BlindMotion says.
+  void expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction,
+              const Eigen::VectorXd& sent) noexcept {
+    motion_.expect(model, friction, sent);
+  }
+  void expect_brake(const Eigen::VectorXd& sent) noexcept { motion_.expect_brake(sent); }
+
+  /// A hook that is held from now on at this point of the base [m], where no budget is being given back.
+  void tie(double x, double y) noexcept;
+  void untie() noexcept { contact_.untie(); }
+  /// Forgets what was seen and told, as after a stop that is reset.
+  void begin() noexcept { has_last_ = false; }
+
+  /// The wheels are to get the torques of `give_back`.
+  bool takes_over() const noexcept { return phase_ != Phase::counts; }
+  /// Rates are not to be believed.
+  bool is_blind() const noexcept { return phase_ == Phase::blind; }
+  /// Sets the wheels' torques.
+  void give_back(Eigen::VectorXd& tau) noexcept;
+
+  static constexpr double least_budget = lang::least_blind_way;  ///< [m]
+  static constexpr double steps = lang::blind_steps;             ///< of the encoder, at the rim
+  static constexpr double least_change = 1e-5;    ///< [rad] of a position: less is noise of its arithmetic
+  static constexpr double slowest = 0.01;         ///< [m/s] at a rim: rolling on at that harms nobody
+  static constexpr double rate_low_pass = 0.005;  ///< [s]
+  static constexpr double look_below = 0.05;      ///< [m/s] at a rim: above it nobody waits for long
+  static constexpr double ridden_through = 0.02;  ///< [s] of a look at such a speed, as of lost samples
+  static constexpr double least_look = 0.1e-3;    ///< [m] of the way that is given back
+  static constexpr double quickest_look = 0.005;  ///< [s] in which it is given back, e-fold
+  static constexpr double longest_look = 0.15;    ///< [s]
+  static constexpr double answers_within = 0.02;  ///< [s] after that
+  static constexpr double held = 0.5;             ///< of what is given back: the world held it off
+  static constexpr int signs_of_life = 2;         ///< that are an answer
+  static constexpr double near = 2.0;             ///< budgets around where a look found a contact
+  static constexpr double longest = 0.1;          ///< [s] from one sample to the next, lost ones between
+
+ private:
+  enum class Phase { counts, looks, blind };
+  void begin(const Eigen::VectorXd& q) noexcept;
+  bool take_steps(const Eigen::VectorXd& q) noexcept;
+  void learn() noexcept;
+  void feel() noexcept;
+  double way_from_the_found() const noexcept;
+  void set_out_from(const Eigen::VectorXd& rates) noexcept;
+  double rim_speed() noexcept;
+  double budget() const noexcept;
+  Event event(EventCode code) const noexcept;
+  std::optional<Event> spend(double dt) noexcept;
+  std::optional<Event> wait_for_an_answer(bool is_alive, double dt) noexcept;
+
+  BlindMotion motion_;
+  FeltContact contact_;
+  Phase phase_ = Phase::counts;
+  // By driven joint [rad], [rad/s].
+  Eigen::VectorXd q_;       ///< of the last sign of life
+  Eigen::VectorXd rates_;   ///< up to it, of the whole time since the one before
+  Eigen::VectorXd mean_;    ///< their low pass
+  Eigen::VectorXd change_;  ///< of rates that the model expects since then
+  Eigen::VectorXd now_;     ///< rates up to this sign
+  Eigen::VectorXd v_;       ///< by the model
+  Eigen::VectorXd found_;   ///< where a look was answered last [rad]
+  Eigen::VectorXd y_, p_, told_;
+  double time_ = 0.0;
+  double gap_ = 0.0;  ///< [s] since the last sign of life
+  double s_ = 0.0;    ///< [m]
+  double rim_step_ =
+      std::numeric_limits<double>::infinity();  ///< [m] the least that was ever counted, or told
+  int fastest_ = 0;                             ///< the joint whose rim is
+  bool has_last_ = false, has_rates_ = false;
+  // While it is given back.
+  double time_constant_ = 0.0;                  ///< [s]
+  double looked_for_ = 0.0, waited_for_ = 0.0;  ///< [s]
+  double spent_ = 0.0;                          ///< |yd| that is to be given back
+  bool is_fast_ = false;
+  int answers_ = 0;
+  bool gives_ = false;  ///< something is left to give back
+};
+
+}  // namespace zwang::runtime

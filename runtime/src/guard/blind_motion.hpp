@@ -1,0 +1,70 @@
+/// How the base moves by the model, while no encoder tells.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "estimate/disturbance.hpp"
+#include "estimate/normal_equations.hpp"
+#include "zwang/lang/robot.hpp"
+
+namespace zwang::runtime {
+
+/// In the coordinates y of solver::FreeMotions the robot is a unit mass:
+///   yd' = T' (tau - friction) + what the model says of the rest,   qd = T yd.
+/// T has a row for each driven joint. Coordinates y are those of one tick: between ticks only rates of joints
+/// are kept. The world acts on the base and on the joints of an arm, C' w with C = [B; T_arm]. Does not
+/// allocate, lock, throw or print after construction.
+class BlindMotion {
+ public:
+  explicit BlindMotion(const lang::Robot& robot);
+
+  struct DrivenJoint {
+    int joint = 0;
+    double radius = 0.0;    ///< [m] of its wheel; 0: it turns none
+    double friction = 0.0;  ///< [N m] a torque of less moves nothing
+    double effort = 0.0;    ///< [N m] of a wheel's motor; 0: it turns none, or its torque has no limit
+    double limit = 0.0;     ///< [N m] with which it may brake: all wheels together press with `stop.force`
+    bool turns_on = false;  ///< and on: whole turns do not count
+  };
+  const std::vector<DrivenJoint>& joints() const noexcept { return joints_; }
+
+  /// What the model makes of the torques that were sent, `model` having been told of them. `friction` [N m]
+  /// is what `model` took off them.
+  void expect(const DisturbanceObserver& model, const Eigen::VectorXd& friction,
+              const Eigen::VectorXd& sent) noexcept;
+  /// The same of a brake's torques, when nothing has been solved: at the state of the last `expect`.
+  void expect_brake(const Eigen::VectorXd& sent) noexcept;
+
+  int freedoms() const noexcept { return m_; }
+  /// yd', `freedoms()` entries; 0 where no wheel's motor is told anything.
+  const Eigen::VectorXd& acceleration() const noexcept { return a_; }
+  /// B of this tick: of the base along its own x, y and about its own z, by `freedoms()` columns.
+  const Eigen::MatrixXd& base() const noexcept { return B_; }
+  double norm_of_row(std::size_t joint) const noexcept;
+
+  /// Rates by driven joint [rad/s] to yd, by least squares, and back.
+  void to_motions(const Eigen::VectorXd& rates, Eigen::VectorXd& y) noexcept;
+  void to_rates(const Eigen::VectorXd& y, Eigen::VectorXd& rates) const noexcept;
+  /// w of p = C' w: on the base x, y [N], rz [N m], then by joint of an arm; and back.
+  void to_wrench(const Eigen::VectorXd& p, Eigen::VectorXd& w) noexcept;
+  void to_force(const Eigen::VectorXd& w, Eigen::VectorXd& p) const noexcept;
+  Eigen::Index wrench_size() const noexcept { return C_turned_.cols(); }
+  Eigen::Index most_freedoms() const noexcept { return T_.cols(); }
+  /// The wheels' torques that take yd away within `time` [s], or as much of it as their limits let them.
+  /// False, and 0, where no motor would be told more than what moves nothing.
+  bool to_stop(const Eigen::VectorXd& y, double time, Eigen::VectorXd& tau) noexcept;
+
+  /// Of a motor's limit: what gears and bearings take that no file declares.
+  static constexpr double least_torque = 2e-3;
+
+ private:
+  std::vector<DrivenJoint> joints_;
+  std::vector<std::size_t> arm_;  ///< of `joints_`: those that carry no wheel
+  int m_ = 0;
+  Eigen::MatrixXd T_, B_, C_turned_, T_wheels_turned_;
+  NormalEquations T_factor_, C_factor_, wheel_factor_;
+  Eigen::VectorXd a_, lost_, right_, expected_, torques_;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,296 @@
+// Motion that motors make and no encoder confirms is bounded by what they were told, whatever encoders say.
+#include "guard/blind_budget.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "guard/hook_latch.hpp"
+#include "robots.hpp"
+#include "zwang/runtime/runner.hpp"
+
+namespace zwang::runtime::test {
+namespace {
+
+constexpr double acceleration = 1.0;  // [m/s^2] at the start: 0.5 m/s within 0.5 s
+
+lang::Program sets_out(double speed) {
+  return program({task("go", {drive("go.x", Axis::x, Quantity::velocity, speed),
+                              drive("go.y", Axis::y, Quantity::velocity, 0.0),
+                              drive("go.rz", Axis::rz, Quantity::velocity, 0.0)})});
+}
+
+/// Encoders that stay where they were, but for what is less than any step.
+class Failing {
+ public:
+  void spoil(Sensed& sensed) {
+    if (!has_failed_) q_ = sensed.state.q;
+    has_failed_ = true;
+    sensed.state.q = q_.array() + 1e-10 * (++count_ % 2);
+    sensed.state.qd.setZero();
+  }
+
+ private:
+  Eigen::VectorXd q_;
+  bool has_failed_ = false;
+  int count_ = 0;
+};
+
+struct Course {
+  double fastest = 0.0;  ///< [m/s]
+  double at_end = 0.0;   ///< [m/s]
+  EventCode reason = EventCode::none;
+  int probed = 0;
+  double stopped_at = 0.0;  ///< [s]
+};
+
+/// `before` a step of the runner, with what it is told; `after` a step of the base.
+Course go(
+    const lang::Program& program_, double seconds, PlanarBase base,
+    const std::function<void(PlanarBase&, Sensed&)>& before,
+    const std::function<void(PlanarBase&)>& after = [](PlanarBase&) {}) {
+  Runner runner(program_);
+  Sensed sensed(program_.robot.model, program_.signals.size());
+  Course course;
+  while (base.time < seconds) {
+    base.sense(sensed);
+    sensed.base_measured = false;
+    before(base, sensed);
+    base.step(runner.step(sensed));
+    after(base);
+    course.fastest = std::max(course.fastest, std::abs(base.V.x()));
+  }
+  course.at_end = std::abs(base.V.x());
+  course.reason = runner.guard().reason();
+  course.stopped_at = runner.guard().stop_event().time;
+  for (const Event& event : runner.events()) course.probed += event.code == EventCode::probed ? 1 : 0;
+  return course;
+}
+
+/// The world takes what the base has more than V in this step, of its wheels, too.
+void hold(PlanarBase& base, const Eigen::Vector3d& V) {
+  base.wheels -= period * base.jacobian() * (base.V - V);
+  base.V = V;
+}
+
+/// v^2 = 2 a S; then the base stands again, but for a tenth and the torque that counts as friction.
+TEST(BlindBudget, FromRestABaseIsAsFastAsItsWayOfTheBudget) {
+  Failing encoders;
+  const Course course =
+      go(sets_out(0.5), 1.0, {}, [&](PlanarBase&, Sensed& sensed) { encoders.spoil(sensed); });
+  const double fastest = std::sqrt(2.0 * acceleration * BlindBudget::least_budget);
+  EXPECT_EQ(course.reason, EventCode::frozen);
+  EXPECT_NEAR(course.fastest, fastest, 0.1 * fastest);
+  EXPECT_LT(course.at_end, 0.15 * fastest);
+}
+
+/// [kg] along x, of a body of this mass: the wheels roll and spin with it.
+double apparent_mass(double body) {
+  return body + 4.0 * (wheel_mass + (wheel_spin + rotor_inertia) / (wheel_radius * wheel_radius));
+}
+
+/// What is given back is what was given: a base of another mass stands again, too.
+TEST(BlindBudget, ABaseOfAnotherMassStandsAgain) {
+  for (const double share : {0.5, 1.5}) {
+    lang::Robot robot = mecanum_robot();
+    solver::ModelBuilder builder(
+        solver::BaseType::ground, "base_link",
+        solver::RigidInertia::from_com(share * body_mass, solver::Vector3(0, 0, 0.1),
+                                       (share * solver::Vector3(2.0, 2.0, body_yaw)).asDiagonal()));
+    for (int i = 0; i < 4; ++i) {
+      const solver::Body& body = robot.model.bodies()[static_cast<std::size_t>(i) + 1];
+      builder.add_link(body.name, "base_link", body.pose_in_parent, body.joint, body.inertia);
+      builder.add_wheel(body.joint.name, robot.model.wheels()[static_cast<std::size_t>(i)]);
+    }
+    robot.model = builder.build();
+    Failing encoders;
+    const Course course = go(sets_out(0.5), 1.0, PlanarBase(robot),
+                             [&](PlanarBase&, Sensed& sensed) { encoders.spoil(sensed); });
+    const double k = apparent_mass(body_mass) / apparent_mass(share * body_mass);
+    const double fastest = k * std::sqrt(2.0 * acceleration * BlindBudget::least_budget);
+    EXPECT_EQ(course.reason, EventCode::frozen) << share;
+    EXPECT_LT(course.fastest, 1.1 * fastest) << share;
+    EXPECT_LT(course.at_end, 0.15 * fastest) << share;
+  }
+}
+
+/// 90 steps a turn, which are 5 mm of way: it sets out, and when the encoders are dead it goes on for four
+/// steps.
+TEST(BlindBudget, ACoarseEncoderThatTheRobotFileTellsIsNotFrozen) {
+  lang::Program told = sets_out(0.05);
+  told.robot.encoder_step = 2.0 * std::numbers::pi / 90.0;
+  const auto count = [&](Sensed& sensed) {
+    const double step = told.robot.encoder_step;
+    for (double& q : sensed.state.q) q = std::floor(q / step) * step;
+  };
+  const auto counting = [&](PlanarBase&, Sensed& sensed) { count(sensed); };
+  const Course healthy = go(told, 3.0, {}, counting);
+  EXPECT_EQ(healthy.reason, EventCode::none);
+  EXPECT_EQ(healthy.probed, 0);
+  lang::Program silent = told;
+  silent.robot.encoder_step = 0.0;
+  EXPECT_EQ(go(silent, 3.0, {}, counting).reason, EventCode::frozen) << "nobody said that a step is so long";
+
+  lang::Program fast = sets_out(0.5);
+  fast.robot.encoder_step = told.robot.encoder_step;
+  Failing encoders;
+  const Course dead = go(fast, 2.0, {}, [&](PlanarBase&, Sensed& sensed) {
+    count(sensed);
+    encoders.spoil(sensed);
+  });
+  const double way = BlindBudget::steps * fast.robot.encoder_step * wheel_radius;
+  EXPECT_EQ(dead.reason, EventCode::frozen);
+  EXPECT_LT(dead.fastest, 1.1 * std::sqrt(2.0 * acceleration * way));
+  EXPECT_GT(dead.fastest, std::sqrt(2.0 * acceleration * BlindBudget::least_budget));
+}
+
+/// Under way the rates of the last sign count on: v - slowest covers S, whatever is told.
+TEST(BlindBudget, UnderWayTheBaseIsBrakedByWhatItsEncodersSaidLast) {
+  Failing encoders;
+  const Course course = go(sets_out(0.3), 4.0, {}, [&](PlanarBase& base, Sensed& sensed) {
+    if (base.time > 2.0) encoders.spoil(sensed);
+  });
+  const double delay = BlindBudget::least_budget / (0.29 - BlindBudget::slowest);
+  EXPECT_EQ(course.reason, EventCode::frozen);
+  EXPECT_NEAR(course.stopped_at, 2.0 + delay + BlindBudget::ridden_through, 0.003);
+  EXPECT_LT(course.fastest, 0.3 * 1.02);
+  EXPECT_LT(course.at_end, 2.0 * BlindBudget::slowest) << "less than the brake is told";
+}
+
+/// A base that stood at a wall without a gap was never held by it: told back, it comes off, and goes on. A
+/// wall that gives nothing stops it within a tick, so that no step is counted while it is hit: only the look
+/// finds it.
+TEST(BlindBudget, ABaseAtAWallAnswersTheLook) {
+  const auto wall = [](PlanarBase& base) {
+    if (base.pose.x() < 0.0 || base.V.x() < 0.0) return;
+    hold(base, {0.0, base.V.y(), base.V.z()});
+    base.pose.x() = 0.0;
+  };
+  const Course course = go(
+      sets_out(0.2), 3.0, {}, [](PlanarBase&, Sensed&) {}, wall);
+  EXPECT_EQ(course.reason, EventCode::none);
+  EXPECT_GE(course.probed, 1);
+  EXPECT_LE(course.probed, 3) << "once it has found the wall, it presses on";
+}
+
+/// A contact that a look has found is one of that place: a base that has left it is stopped as any other.
+TEST(BlindBudget, WhatALookHasFoundIsLeftBehind) {
+  Failing encoders;
+  const auto wall = [](PlanarBase& base) {
+    if (base.time > 0.5 || base.pose.x() < 0.0 || base.V.x() < 0.0) return;
+    hold(base, {0.0, base.V.y(), base.V.z()});
+    base.pose.x() = 0.0;
+  };
+  const Course course = go(
+      sets_out(0.2), 3.0, {},
+      [&](PlanarBase& base, Sensed& sensed) {
+        if (base.pose.x() > 0.1) encoders.spoil(sensed);
+      },
+      wall);
+  EXPECT_GE(course.probed, 1);
+  EXPECT_EQ(course.reason, EventCode::frozen);
+  EXPECT_LT(course.fastest, 1.1 * 0.2);
+}
+
+/// A base that a hook catches from 0.5 s on, within a fifth of a second, and then holds both ways. What tells
+/// it from dead encoders is the latch.
+Course pull_in_a_dock(int holds, double open_at, double stale_from) {
+  lang::Program program_ = sets_out(0.05);
+  lang::Signal latch;
+  latch.name = "latch";
+  latch.stale_after = {.constant = 0.2};
+  latch.holds = holds;
+  program_.signals = {latch};
+  return go(
+      program_, 3.0, {},
+      [&](PlanarBase& base, Sensed& sensed) {
+        if (base.time > stale_from) return;
+        const bool is_closed = base.time > 0.6 && base.time < open_at;
+        sensed.signals[0] = {.valid = true, .stamp = base.time, .boolean = is_closed};
+      },
+      [&](PlanarBase& base) {
+        if (base.time < 0.5) return;
+        hold(base, base.time < 0.7 ? Eigen::Vector3d(0.95 * base.V) : Eigen::Vector3d::Zero());
+      });
+}
+
+TEST(HookLatch, TellsADockFromDeadEncoders) {
+  constexpr double never = 1e9;
+  EXPECT_EQ(pull_in_a_dock(-1, never, never).reason, EventCode::frozen) << "nobody says that a hook holds";
+  EXPECT_EQ(pull_in_a_dock(2, never, never).reason, EventCode::none);
+  const Course opened = pull_in_a_dock(2, 1.5, never);
+  EXPECT_EQ(opened.reason, EventCode::frozen) << "it is open, and nothing moves";
+  EXPECT_GT(opened.stopped_at, 1.5);
+  const Course stale = pull_in_a_dock(2, never, 1.5);
+  EXPECT_EQ(stale.reason, EventCode::frozen) << "nobody says so any more";
+  EXPECT_GT(stale.stopped_at, 1.7);
+}
+
+/// Samples that stay the same for 10 ms under way cost a little speed, as lost ones do.
+TEST(BlindBudget, AShortFreezeUnderWayIsRiddenThrough) {
+  Failing encoders;
+  double slowest = 1.0;
+  const Course course = go(
+      sets_out(0.3), 4.0, {},
+      [&](PlanarBase& base, Sensed& sensed) {
+        if (base.time > 3.0 && base.time < 3.01) encoders.spoil(sensed);
+      },
+      [&](const PlanarBase& base) {
+        if (base.time > 3.0) slowest = std::min(slowest, base.V.x());
+      });
+  EXPECT_EQ(course.reason, EventCode::none);
+  EXPECT_EQ(course.probed, 1);
+  EXPECT_LT(course.fastest, 0.3 * 1.02);
+  EXPECT_GT(slowest, 0.25);
+}
+
+/// Ten seconds after the stop the run is finished, and says that nobody saw the base stand.
+TEST(BlindBudget, AStopWithoutEncodersSaysThatTheBaseMayStillMove) {
+  const lang::Program program_ = sets_out(0.5);
+  for (const bool is_dead : {true, false}) {
+    Runner runner(program_);
+    Sensed sensed(program_.robot.model, program_.signals.size());
+    Failing encoders;
+    PlanarBase base;
+    while (base.time < 12.0) {
+      base.sense(sensed);
+      sensed.base_measured = false;
+      if (is_dead) encoders.spoil(sensed);
+      if (!is_dead && base.time > 1.0) runner.guard().stop(EventCode::requested);
+      base.step(runner.step(sensed));
+      if (is_dead && base.time < 10.0) {
+        ASSERT_FALSE(runner.finished());
+      }
+    }
+    EXPECT_TRUE(runner.finished());
+    EXPECT_EQ(runner.may_still_move(), is_dead);
+  }
+}
+
+/// What was not confirmed before a swap of programs is not after it.
+TEST(BlindBudget, ASwapOfProgramsDoesNotFillIt) {
+  const lang::Program program_ = sets_out(0.5);
+  Runner runner(program_);
+  Sensed sensed(program_.robot.model, program_.signals.size());
+  Failing encoders;
+  PlanarBase base;
+  double fastest = 0.0;
+  for (int tick = 0; tick < 500; ++tick) {
+    base.sense(sensed);
+    sensed.base_measured = false;
+    encoders.spoil(sensed);
+    Runner next(program_);
+    if (tick == 15) {
+      ASSERT_TRUE(runner.swap_program(next));
+    }
+    base.step(runner.step(sensed));
+    fastest = std::max(fastest, std::abs(base.V.x()));
+  }
+  EXPECT_EQ(runner.guard().reason(), EventCode::frozen);
+  EXPECT_LT(fastest, 1.1 * std::sqrt(2.0 * acceleration * BlindBudget::least_budget));
+}
+
+}  // namespace
+}  // namespace zwang::runtime::test
