@@ -37,7 +37,7 @@ void Scheduler::Parts::list_plane(const ActiveAxis& a) noexcept {
   for (int i = 0; i < norm.count(); ++i) {
     Wanted& w = wanted.emplace_back(speed);
     w.origin.part = i;
-    w.far = !norm.rolls && i != 0 && i != PlaneNorm::across;
+    w.far = false;  // until one set is in force: each set keeps its own solution within the norm
     w.constraint = norm.constraint(i, speed.constraint.move, speed.constraint.in);
     w.constraint.level = a.says->level;
   }
@@ -129,7 +129,8 @@ bool Scheduler::Parts::choose_sides(const ActiveAxis& a, const PlaneReading& rea
     Wanted& w = side(i);
     const double share = shares[static_cast<std::size_t>(i)];
     const bool was_far = w.far;
-    w.far = is_broken ? w.far && share <= near : w.far || share < let_go;
+    const bool may_leave = !is_broken && blend->sets().size() == 1;
+    w.far = may_leave ? w.far || share < let_go : w.far && (!is_broken || share <= near);
     reach_changed = reach_changed || w.far != was_far;
   }
   return is_broken;
