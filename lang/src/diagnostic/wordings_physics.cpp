@@ -42,7 +42,8 @@ std::string control_period_of(double period) {
 }
 
 std::string ahead(const std::string& frame) {
-  return frame.empty() ? "" : "move a frame ahead of the axle, for example " + frame;
+  return frame.empty() ? "" : "move a frame ahead of the axle, for example " + frame +
+                                 ", which the robot file may call `lead`";
 }
 
 Diagnostic capped(Diagnostic diagnostic, const Cap& cap, const Span& limit) {

@@ -278,6 +278,11 @@ class Drafter {
            "\nfootprint: {polygon: " + filling.footprint + "}\n";
   }
 
+  std::string lead() const {
+    if (drive_ != Drive::differential || found_.outline.empty()) return "";
+    return "lead: nose  # the point that tasks drive: ahead of the axle, for this base cannot go sideways\n";
+  }
+
   /// Where the shipped tasks touch, hook and lead this robot; a name that a link has is the link's.
   std::string frames() const {
     if (found_.outline.empty())
@@ -305,7 +310,7 @@ class Drafter {
 
   std::string text(const Filling& filling) const {
     std::string text = weightless_links() + "zwang_robot: 1\nurdf: " + named_as_ + "\nbase: " + found_.base +
-                       "  # the link that floats\n";
+                       "  # the link that floats\n" + lead();
     if (!held_.empty())
       text +=
           "\n# They do not move here: they carry wheels and do not steer them, as rockers, springs and wheel "
