@@ -15,8 +15,12 @@ BlindBudget::BlindBudget(const lang::Robot& robot) : motion_(robot), contact_(mo
   if (robot.encoder_step > 0.0) rim_step_ = radius * robot.encoder_step;
 }
 
-void BlindBudget::begin(const Eigen::VectorXd& q) noexcept {
+void BlindBudget::remember(const Eigen::VectorXd& q) noexcept {
   for (Eigen::Index i = 0; i < q_.size(); ++i) q_(i) = q(motion_.joints()[static_cast<std::size_t>(i)].joint);
+}
+
+void BlindBudget::begin(const Eigen::VectorXd& q) noexcept {
+  remember(q);
   rates_.setZero();
   mean_.setZero();
   change_.setZero();
@@ -50,9 +54,8 @@ bool BlindBudget::take_steps(const Eigen::VectorXd& q) noexcept {
     is_alive = true;
     rim_step_ = std::min(rim_step_, driven.radius * std::abs(step));
   }
-  if (!is_alive) return false;
-  for (Eigen::Index i = 0; i < q_.size(); ++i) q_(i) = q(motion_.joints()[static_cast<std::size_t>(i)].joint);
-  return true;
+  if (is_alive) remember(q);
+  return is_alive;
 }
 
 /// p and `told_` of the rates up to two signs of life, and of what the motors were told between them.

@@ -67,6 +67,7 @@ class BlindBudget {
 
  private:
   enum class Phase { counts, looks, blind };
+  void remember(const Eigen::VectorXd& q) noexcept;
   void begin(const Eigen::VectorXd& q) noexcept;
   bool take_steps(const Eigen::VectorXd& q) noexcept;
   void learn() noexcept;
