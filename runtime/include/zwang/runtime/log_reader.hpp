@@ -27,8 +27,9 @@ struct LogContents {
 
 /// Calls `record` with the time [s] and the JSON text of every record that can be read, in the order of the
 /// file, and before the first one `before`, with the files, the facts and the schema. A cut or changed file
-/// is read as far as it is whole, and `damage` tells the rest. Never throws on what is in the file, needs no
-/// more memory than a chunk; throws std::runtime_error when the file cannot be opened or is no MCAP file.
+/// is read as far as it is whole, and `damage` tells the rest. What is in the file never makes it
+/// throw, and it needs no more memory than a chunk. It throws std::runtime_error when the file cannot be
+/// opened or is no MCAP file.
 LogContents read_log(const std::filesystem::path& path,
                      const std::function<void(double time, std::string_view json)>& record,
                      const std::function<void(const LogContents& head)>& before = {});
