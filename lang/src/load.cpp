@@ -4,6 +4,7 @@
 #include "lower/lower.hpp"
 #include "robot/load_robot.hpp"
 #include "scene/check_scene.hpp"
+#include "scene/check_start_inside.hpp"
 #include "scene/load_robots.hpp"
 #include "scene/load_scene.hpp"
 #include "spec/task_file.hpp"
@@ -68,6 +69,7 @@ std::optional<Program> load_phases(const fs::path& path, const LoadOptions& opti
   if (!checked) return std::nullopt;
   Program program = lower(std::move(*checked));
   program.path = path.string();
+  check_start_inside(program, diagnostics);
   return program;
 }
 

@@ -183,7 +183,7 @@ class Planner {
         const bool is_far = group.kind == lang::GroupKind::inside && !has_row(plan, group.name);
         if (is_far) plan.dormant.push_back({group.name, "no edge is near", place(diagnostics_, group.span)});
         for (const lang::AxisStatements& axis : group.axes) {
-          if (!axis.is_planar_speed || !axis.velocity || has_row(plan, axis.name)) continue;
+          if (!axis.is_planar || !axis.velocity || has_row(plan, axis.name)) continue;
           const std::string half = with_unit(0.5 * axis.velocity->high.evaluate(parameters), "m/s", 3);
           plan.dormant.push_back({axis.name, "no row below " + half,
                                   place(diagnostics_, span_of(axis, solver::Quantity::velocity))});

@@ -191,7 +191,7 @@ PartnerReport partner_report(const runtime::ScenePartner& partner) {
     report.outcome = "unfinished";
     report.task = task_name(runner.scheduler(), runner.scheduler().task());
   }
-  if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
+  report.because = runner.because();
   return report;
 }
 

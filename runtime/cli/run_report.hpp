@@ -18,7 +18,7 @@ namespace zwang::cli {
 struct PartnerReport {
   std::string name;
   std::string outcome;  ///< done, failed, stopped, or unfinished
-  std::string because;  ///< of a stop
+  std::string because;  ///< of a stop, and of a base that may still move
   std::string task;     ///< that was active; empty when none was
 };
 PartnerReport partner_report(const runtime::ScenePartner& partner);

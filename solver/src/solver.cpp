@@ -100,8 +100,28 @@ double key_of(const Row& row) {
 
 /// Whatever its axis is.
 bool has_valid_numbers(const Row& row) {
-  return row.b * 0.0 + row.force * 0.0 + row.fade * 0.0 == 0.0 && row.weight > 0.0 && row.lo <= 0.0 &&
+  return row.b * 0.0 + row.force * 0.0 == 0.0 && row.weight > 0.0 && row.lo <= 0.0 &&
          row.hi >= 0.0;  // false for NaN, too
+}
+
+int set_capacity(const Settings& settings) {
+  return settings.set_capacity > 0 ? settings.set_capacity : settings.row_capacity;
+}
+
+/// a . Xdd - b of a row that the motion leaves `beyond` b; of a one-sided row only where it violates b.
+double residual_of(RowKind kind, double beyond) {
+  switch (kind) {
+    case RowKind::driver:
+      return beyond;
+    case RowKind::upper:
+      return std::max(beyond, 0.0);
+    case RowKind::lower:
+      return std::min(beyond, 0.0);
+    case RowKind::force:
+    case RowKind::sum:
+      break;
+  }
+  return 0.0;
 }
 
 }  // namespace
@@ -117,17 +137,20 @@ struct Solver::Workspace {
         base(base_freedoms(robot, options.base_motion)),
         sweeps(robot, ground + base + robot.joint_count(), options.row_capacity),
         whitened(sweeps.robot_rows, sweeps.task_rows),
-        problem(options.row_capacity, robot.joint_count(),
+        problem(set_capacity(options), robot.joint_count(),
                 std::max(1, sweeps.task_rows.dimensions() - sweeps.task_rows.held_dimensions())),
         ground_bias(Eigen::VectorXd::Zero(ground)),
         free_acceleration(Eigen::VectorXd::Zero(options.row_capacity)),
         motion(Eigen::VectorXd::Zero(sweeps.task_rows.dimensions() + 1)),
+        p(Eigen::VectorXd::Zero(motion.size())),
+        tau(Eigen::VectorXd::Zero(robot.joint_count())),
         tau_ff(Eigen::VectorXd::Zero(robot.joint_count())),
         qdd(Eigen::VectorXd::Zero(robot.joint_count())) {
-    ids.resize(static_cast<std::size_t>(options.row_capacity));
-    twins.resize(static_cast<std::size_t>(options.row_capacity));
-    axes.resize(static_cast<std::size_t>(options.row_capacity));
-    keys.resize(static_cast<std::size_t>(options.row_capacity));
+    const auto capacity = static_cast<std::size_t>(options.row_capacity);
+    rows.reserve(capacity);
+    row_solutions.reserve(capacity);
+    for (std::vector<int>* by_row : {&ids, &twins, &axes, &first_here}) by_row->resize(capacity);
+    keys.resize(capacity);
     for (int j = 0; j < robot.joint_count(); ++j) {
       if (robot.joint(j).actuated) motors.push_back(j);
     }
@@ -149,17 +172,30 @@ struct Solver::Workspace {
     for (int j = 0; j < model.joint_count(); ++j) sweeps.robot_rows.add_joint_row(j);
   }
 
+  /// The rows of all sets, one after the other. False when they do not fit.
+  bool take_rows(std::span<const RowSet> sets) noexcept {
+    rows.clear();
+    for (const RowSet& set : sets) {
+      const std::size_t count = set.rows->size();
+      if (count > static_cast<std::size_t>(set_capacity(settings)) || rows.size() + count > rows.capacity())
+        return false;
+      for (const Row& row : *set.rows) rows.push_back(&row);
+    }
+    return true;
+  }
+
   /// Which rows share an axis; not ok where one is not what a row has to be.
-  Status find_axes(const std::vector<Row>& rows) noexcept {
+  Status find_axes() noexcept {
     axis_count = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      const Row& row = rows[i];
+      const Row& row = *rows[i];
       if (!has_valid_numbers(row)) return Status::invalid_input;
       if (!is_body(row.body, model) || (row.reference_body != -1 && !is_body(row.reference_body, model))) {
         return Status::wrong_size;
       }
       const double key = key_of(row);
-      twins[i] = twin_of(row, key, rows);
+      first_here[i] = -1;
+      twins[i] = twin_of(row, key);
       if (twins[i] >= 0) continue;
       if (!has_finite_axis(row)) return Status::invalid_input;
       keys[axis_count] = key;
@@ -168,19 +204,19 @@ struct Solver::Workspace {
     return Status::ok;
   }
 
-  void add_task_rows(const std::vector<Row>& rows) noexcept {
+  void add_task_rows() noexcept {
     sweeps.task_rows.clear();
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const int twin = twins[i];
-      ids[i] = twin < 0 ? add_row(rows[i], model, sweeps) : ids[static_cast<std::size_t>(twin)];
+      ids[i] = twin < 0 ? add_row(*rows[i], model, sweeps) : ids[static_cast<std::size_t>(twin)];
     }
   }
 
   /// The first row that acts along the same axis, as the two ends of a range do; -1 for none. Mostly it is
   /// along the last one.
-  int twin_of(const Row& row, double key, const std::vector<Row>& rows) const noexcept {
+  int twin_of(const Row& row, double key) const noexcept {
     for (std::size_t k = axis_count; k-- > 0;) {
-      if (keys[k] == key && has_same_axis(row, rows[static_cast<std::size_t>(axes[k])])) return axes[k];
+      if (keys[k] == key && has_same_axis(row, *rows[static_cast<std::size_t>(axes[k])])) return axes[k];
     }
     return -1;
   }
@@ -221,26 +257,69 @@ struct Solver::Workspace {
     whitened.hold_ground(sweeps.free_motion, ground_bias);
   }
 
-  void pose_problem(const std::vector<Row>& rows) noexcept {
-    const int count = static_cast<int>(rows.size());
+  /// The `count` rows from `begin` on, those of one set.
+  void pose_problem(int begin, int count) noexcept {
     problem.resize(count);
     for (int i = 0; i < count; ++i) {
-      const int id = ids[static_cast<std::size_t>(i)];
-      const int twin = twins[static_cast<std::size_t>(i)];
-      const Row& row = rows[static_cast<std::size_t>(i)];
-      if (twin < 0) {
-        problem.set_row(i, row, whitened.B(id), whitened.free_square(id));
-        free_acceleration(i) = whitened.acceleration(id);
+      const auto at = static_cast<std::size_t>(begin + i);
+      const int axis = twins[at] < 0 ? begin + i : twins[at];
+      int& first = first_here[static_cast<std::size_t>(axis)];
+      const bool is_of_another_set = first < begin || first >= begin + count;
+      if (is_of_another_set) {
+        first = begin + i;
+        const int id = ids[at];
+        problem.set_row(i, *rows[at], whitened.B(id), whitened.free_square(id));
+        free_acceleration(begin + i) = whitened.acceleration(id);
       } else {
-        problem.set_twin(i, row, twin);
-        free_acceleration(i) = free_acceleration(twin);
+        problem.set_twin(i, *rows[at], first - begin);
+        free_acceleration(begin + i) = free_acceleration(first);
       }
-      problem.d(i) = row.b - free_acceleration(i);
+      problem.d(i) = rows[at]->b - free_acceleration(begin + i);
     }
+  }
+
+  void limit_motors() noexcept {
     int motor = 0;
     for (const int j : motors) {
       const double limit = model.joint(j).max_effort;
       problem.limit_motor(motor++, -limit - tau_ff(j), limit - tau_ff(j));
+    }
+  }
+
+  /// Every set at full strength, the first one last: `opposing` speaks of it. False when one met the cap.
+  bool solve_sets(std::span<const RowSet> sets) noexcept {
+    limit_motors();
+    p.setZero();
+    tau.setZero();
+    row_solutions.resize(rows.size());
+    iterations = 0;
+    bool exact = true;
+    auto end = static_cast<int>(rows.size());
+    for (std::size_t k = sets.size(); k-- > 0;) {
+      const auto count = static_cast<int>(sets[k].rows->size());
+      end -= count;
+      pose_problem(end, count);
+      exact = problem.solve(settings.max_iterations) && exact;
+      take_share(sets[k].share);
+      std::ranges::copy(problem.rows(), row_solutions.begin() + end);
+      iterations += problem.iterations();
+    }
+    if (sets.size() > 1) find_residuals();
+    return exact;
+  }
+
+  void take_share(double share) noexcept {
+    add_multiple(whitened.mobility(), share, problem.p(), p.data());
+    int motor = 0;
+    for (const int j : motors) tau(j) += share * problem.tau(motor++);
+  }
+
+  /// Of the blended motion.
+  void find_residuals() noexcept {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double along = dot(whitened.mobility(), whitened.B(ids[i]), p.data());
+      const double beyond = along + free_acceleration(static_cast<Eigen::Index>(i)) - rows[i]->b;
+      row_solutions[i].residual = residual_of(rows[i]->kind, beyond);
     }
   }
 
@@ -252,13 +331,18 @@ struct Solver::Workspace {
   WhitenedRows whitened;
   BoundedProblem problem;
   std::vector<int> motors;
-  std::vector<int> ids, twins;  ///< by row of the task: its id in the sweeps, the first row along its axis
-  std::vector<int> axes;        ///< the first rows along each axis
-  std::vector<double> keys;     ///< of these
+  std::vector<const Row*> rows;  ///< of all sets
+  std::vector<int> ids, twins;   ///< by row of the task: its id in the sweeps, the first row along its axis
+  std::vector<int> first_here;   ///< by first row along an axis: the first one of the set that is posed
+  std::vector<int> axes;         ///< the first rows along each axis
+  std::vector<double> keys;      ///< of these
   std::size_t axis_count = 0;
   Eigen::VectorXd ground_bias;        ///< by row of the ground
   Eigen::VectorXd free_acceleration;  ///< by row of the task: with the ground's answer, nobody pushing
   Eigen::VectorXd motion;             ///< by dimension of the sweeps
+  Eigen::VectorXd p, tau;             ///< of all sets, by their shares
+  std::vector<RowSolution> row_solutions;
+  int iterations = 0;
   Eigen::VectorXd tau_ff, qdd;
   std::uint64_t factorisation = 0;  ///< of the robot: how often it was done
 };
@@ -274,30 +358,31 @@ Solver::Solver(Solver&&) noexcept = default;
 Solver& Solver::operator=(Solver&&) noexcept = default;
 
 Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution& solution) noexcept {
+  const RowSet all{&rows, 1.0};
+  return solve(state, std::span(&all, 1), solution);
+}
+
+Status Solver::solve(const State& state, std::span<const RowSet> sets, Solution& solution) noexcept {
   Workspace& w = *workspace_;
   if (!fits(state, w.model)) return Status::wrong_size;
   if (solution.tau.size() != w.model.joint_count() || solution.qdd.size() != w.model.joint_count() ||
       solution.acceleration.size() != static_cast<std::size_t>(w.model.body_count())) {
     return Status::wrong_size;
   }
-  if (rows.size() > static_cast<std::size_t>(w.settings.row_capacity) ||
-      rows.size() > solution.rows.capacity()) {
-    return Status::capacity_exceeded;
-  }
+  if (!w.take_rows(sets) || w.rows.size() > solution.rows.capacity()) return Status::capacity_exceeded;
   if (!is_finite(state)) return Status::invalid_input;
-  if (const Status status = w.find_axes(rows); status != Status::ok) return status;
+  if (const Status status = w.find_axes(); status != Status::ok) return status;
 
   w.clamp_feed_forward(state);
   outward_kinematics(w.model, state, Vector6::Zero(), w.sweeps);
   load_bodies(w.model, state, w.gravity(state), w.sweeps);
   w.add_robot_rows();
   find_ground_bias(w.ground_rows, w.sweeps, w.ground_bias);
-  w.add_task_rows(rows);
+  w.add_task_rows();
   if (!w.sweep_and_factorise()) return Status::degenerate_model;
   w.hold_ground();
-  w.pose_problem(rows);
-  const bool exact = w.problem.solve(w.settings.max_iterations);
-  w.whitened.motion(w.problem.p(), w.motion);
+  const bool exact = w.solve_sets(sets);
+  w.whitened.motion(w.p.data(), w.motion);
   outward_accelerations(w.model, w.motion, w.sweeps, w.qdd);
   if (finite_sum(w.qdd) + finite_sum(w.motion) != 0.0) return Status::degenerate_model;
 
@@ -308,15 +393,13 @@ Status Solver::solve(const State& state, const std::vector<Row>& rows, Solution&
     w.sweeps.bodies[i].from_base(w.sweeps.bodies[i].a, solution.acceleration[i]);
   }
   solution.tau.setZero();
-  int motor = 0;
   for (const int j : w.motors) {
     const double limit = w.model.joint(j).max_effort;  // not even by a rounding beyond
-    solution.tau(j) = std::clamp(w.tau_ff(j) + w.problem.tau(motor++), -limit, limit);
+    solution.tau(j) = std::clamp(w.tau_ff(j) + w.tau(j), -limit, limit);
   }
-  const std::span<const RowSolution> solved = w.problem.rows();
-  solution.rows.assign(solved.begin(), solved.end());
+  solution.rows = w.row_solutions;
   solution.mobility = w.whitened.mobility();
-  solution.iterations = w.problem.iterations();
+  solution.iterations = w.iterations;
   return exact ? Status::ok : Status::iteration_limit;
 }
 

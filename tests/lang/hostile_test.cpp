@@ -120,7 +120,7 @@ std::vector<Variant> variants() {
       {"task_split_condition", task, "E107", swap("elapsed > 2 s", "elapsed > 2 s, elapsed < 3 s"), true},
       {"task_position_in_own_axes", task, "E405", swap("y:  {velocity: 0 m/s}", "y:  {position: 0 m}"), true},
       {"task_held_axis", task, "E404", swap("rz: free", "rz: free\n        z: {velocity: 1 m/s}")},
-      {"task_version", task, "E108", swap("zwang: 1", "zwang: 2"), true},
+      {"task_version", task, "E108", swap("zwang: 1", "zwang: 3"), true},
       {"task_robot_is_gone", task, "E109", swap("mecanum_base.yaml", "nowhere.yaml"), true},
       {"task_robot_is_outside", task, "E109", swap("robots/mecanum_base.yaml", "/etc/passwd"), true},
       // --- robot files ---

@@ -130,7 +130,9 @@ void gather_keys(const nlohmann::json& node, std::set<std::string>& keys) {
     for (const auto& [key, value] : node["properties"].items()) keys.insert(key);
   }
   if (node.is_object() && node.contains("enum")) {
-    for (const auto& word : node["enum"]) keys.insert(word.get<std::string>());
+    for (const auto& word : node["enum"]) {
+      if (word.is_string()) keys.insert(word.get<std::string>());
+    }
   }
   for (const auto& child : node) {
     if (child.is_structured()) gather_keys(child, keys);

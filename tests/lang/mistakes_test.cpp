@@ -132,7 +132,7 @@ std::vector<Mistake> mistakes() {
       {"axes_of_nobody", "wall_align", "        in: base_link\n", "", "E103", "move: base_link"},
       {"level_ten", "hospital", "      margin: 10 cm", "      margin: 10 cm\n      level: 10", "E105",
        "level: 10"},
-      {"limit_as_a_value", "hospital", "velocity: [0 m/s, $speed]", "velocity: $speed", "E104", {}},
+      {"limit_as_a_value", "hospital", "velocity: [0 m/s, $speed]", "velocity: $speed", "E415", {}},
       {"number_in_words", "obstacle", "max: 3", "max: three", "E105", {}},
       {"equals", "obstacle", "elapsed > 3 s", "elapsed = 3 s", "E105", {}},
       {"ampersand", "obstacle", "go.x.saturated and moved", "go.x.saturated && moved", "E105", {}},

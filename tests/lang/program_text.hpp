@@ -79,7 +79,7 @@ class ProgramText {
       add(g.margin);
       for (const AxisStatements& a : g.axes) {
         out_ << "\n  " << a.name << ' ' << (a.driver ? static_cast<int>(*a.driver) : -1) << ' ' << a.here
-             << ' ' << a.level << ' ' << a.is_planar_speed << ' ';
+             << ' ' << a.level << ' ' << a.is_planar << ' ';
         add(a.target);
         add(a.position), add(a.velocity), add(a.acceleration), add(a.force);
         add(a.time_constant);

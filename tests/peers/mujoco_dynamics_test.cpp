@@ -244,7 +244,7 @@ TEST_P(MujocoDynamics, ForwardDynamicsOfTheSolver) {
 
     solver::Solver solver(model);
     solver::Solution got(model);
-    ASSERT_EQ(solver.solve(state, {}, got), solver::Status::ok);
+    ASSERT_EQ(solver.solve(state, std::vector<solver::Row>{}, got), solver::Status::ok);
     Eigen::VectorXd vdot(judge.freedoms());
     if (!model.has_fixed_base()) vdot.head(6) = got.acceleration[0].vector();
     vdot.tail(model.joint_count()) = got.qdd;

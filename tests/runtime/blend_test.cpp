@@ -1,4 +1,5 @@
-// What a switch of tasks does to the constraints in force, and to the force that the wheels are told to make.
+// What a switch of tasks does to the sets of constraints in force, and to the force that the wheels are told
+// to make.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,6 +28,17 @@ struct Standing {
     while (ticks * period < time + 0.5 * period) tick();
     return scheduler.constraints().constraints();
   }
+  const Constraints& set(int i) { return scheduler.constraints(i).constraints(); }
+  const InForce& in_force(int set, std::size_t i) { return scheduler.in_force(set).at(i); }
+  /// The shares of all sets that have a constraint of which `is_it` is true.
+  template <typename IsIt>
+  double share_of(IsIt is_it) {
+    double share = 0.0;
+    for (int i = 0; i < scheduler.set_count(); ++i) {
+      if (std::ranges::any_of(set(i), is_it)) share += scheduler.share(i);
+    }
+    return share;
+  }
   lang::Program program;
   Scheduler scheduler;
   Sensed sensed;
@@ -39,61 +51,76 @@ lang::Program switching(lang::Task a, lang::Task b, double blend, double time = 
   return program({std::move(a), std::move(b)});
 }
 
-TEST(Blend, WhatLeavesFadesOutWhileWhatEntersFadesInAndTheAlphasSumToOne) {
+TEST(Blend, TheSetBeforeAndTheNewOneAreBothWholeAndTheirSharesSumToOne) {
   Standing bench(
       switching(task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}),
                 task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.2)}, base_link, world_frame), 0.1));
   bench.run_to(0.999);
   for (int i = 1; i < 100; ++i) {
-    const Constraints& c = bench.tick();
-    ASSERT_EQ(c.size(), 2u);
-    const auto& entering = c[0].leaving ? c[1] : c[0];
-    const auto& leaving = c[0].leaving ? c[0] : c[1];
-    ASSERT_TRUE(leaving.leaving && !entering.leaving);
-    EXPECT_EQ(leaving.driver->target, 0.1);
-    EXPECT_NEAR(entering.alpha, i * period / 0.1, 1e-7);
-    EXPECT_NEAR(entering.alpha + leaving.alpha, 1.0, 1e-12);
-    EXPECT_EQ(entering.blend, 0.1);
+    const Constraints& now = bench.tick();
+    ASSERT_EQ(bench.scheduler.set_count(), 2);
+    ASSERT_EQ(now.size(), 1u);
+    ASSERT_EQ(bench.set(1).size(), 1u);
+    EXPECT_EQ(now[0].driver->target, 0.2);
+    EXPECT_EQ(bench.set(1)[0].driver->target, 0.1);
+    EXPECT_NEAR(bench.scheduler.share(0), i * period / 0.1, 1e-7);
+    EXPECT_NEAR(bench.scheduler.share(0) + bench.scheduler.share(1), 1.0, 1e-12);
+    EXPECT_TRUE(bench.in_force(0, 0).active);
+    EXPECT_FALSE(bench.in_force(1, 0).active) << "no axis of the new task is its";
+    EXPECT_EQ(bench.in_force(0, 0).alpha, bench.scheduler.share(0));
   }
   const Constraints& c = bench.tick();
+  ASSERT_EQ(bench.scheduler.set_count(), 1);
   ASSERT_EQ(c.size(), 1u);
-  EXPECT_EQ(c[0].alpha, 1.0);
+  EXPECT_EQ(bench.scheduler.share(0), 1.0);
   EXPECT_EQ(c[0].driver->target, 0.2);
 }
 
-TEST(Blend, AStartFadesInFromNothing) {
+// What `always` says is in force from the first tick on: in the set that the run starts from, and in the new
+// one.
+TEST(Blend, AStartBlendsFromAlwaysAlone) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   a.blend.constant = 0.05;
-  Standing bench(program({a}));
+  lang::Program p = program({a});
+  p.always.groups = task("", {drive("rail.y", Axis::y, Quantity::velocity, 0.0)}).groups;
+  Standing bench(p);
   for (int i = 1; i <= 60; ++i) {
     const Constraints& c = bench.tick();
-    ASSERT_EQ(c.size(), 1u);
-    EXPECT_NEAR(c[0].alpha, std::min(1.0, i * period / 0.05), 1e-7);
+    ASSERT_EQ(c.size(), 2u);
+    EXPECT_NEAR(bench.scheduler.share(0), std::min(1.0, i * period / 0.05), 1e-7);
+    EXPECT_NEAR(bench.share_of([](const auto& x) { return x.axis == Axis::y; }), 1.0, 1e-12);
+    EXPECT_NEAR(bench.in_force(0, 0).alpha, 1.0, 1e-12);
+    if (i >= 50) continue;
+    ASSERT_EQ(bench.set(1).size(), 1u);
+    EXPECT_EQ(bench.set(1)[0].axis, Axis::y);
   }
+  EXPECT_EQ(bench.scheduler.set_count(), 1);
 }
 
 TEST(Blend, ZeroSwitchesAtOnce) {
   Standing bench(switching(task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}),
                            task("b", {drive("go.y", Axis::y, Quantity::velocity, 0.2)}), 0.0));
   const Constraints& c = bench.run_to(1.0);
+  ASSERT_EQ(bench.scheduler.set_count(), 1);
   ASSERT_EQ(c.size(), 1u);
   EXPECT_EQ(c[0].axis, Axis::y);
-  EXPECT_EQ(c[0].alpha, 1.0);
 }
 
-TEST(Blend, APersistingRowGoesFromTheOldDriverToTheNewOne) {
+TEST(Blend, ARowOfTheSameAxisIsInBothSetsEachWithItsDriver) {
   Standing bench(switching(task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}),
                            task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.2)}), 0.1));
   const Constraints& c = bench.run_to(1.0 + 0.029);
   ASSERT_EQ(c.size(), 1u);
-  EXPECT_EQ(c[0].alpha, 1.0);
-  EXPECT_FALSE(c[0].leaving);
-  EXPECT_EQ(c[0].before->target, 0.1);
   EXPECT_EQ(c[0].driver->target, 0.2);
-  EXPECT_NEAR(c[0].progress, 0.3, 1e-7);
+  ASSERT_EQ(bench.set(1).size(), 1u);
+  EXPECT_EQ(bench.set(1)[0].driver->target, 0.1);
+  EXPECT_NEAR(bench.scheduler.share(0), 0.3, 1e-7);
+  EXPECT_NEAR(bench.in_force(0, 0).alpha, 1.0, 1e-12) << "the axis is driven throughout";
+  EXPECT_EQ(bench.in_force(1, 0).origin, bench.in_force(0, 0).origin);
+  EXPECT_TRUE(bench.in_force(1, 0).active);
 }
 
-TEST(Blend, RowsOfOtherKindsOrFramesDoNotPersist) {
+TEST(Blend, RowsOfOtherKindsOrFramesAreNotInForceThroughout) {
   const lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   lang::Task level = task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   level.groups[0].axes[0].level = 2;
@@ -103,13 +130,14 @@ TEST(Blend, RowsOfOtherKindsOrFramesDoNotPersist) {
         task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}, bumper),
         task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}, base_link, bumper), level}) {
     Standing bench(switching(a, b, 0.1));
-    EXPECT_EQ(bench.run_to(1.02).size(), 2u);
+    bench.run_to(1.02);
+    EXPECT_NEAR(bench.in_force(0, 0).alpha, 0.21, 1e-7);
   }
 }
 
 TEST(Blend, AFrameThatWasSetAtTheSwitchMakesAnotherAxisOfIt) {
-  // Both tasks move along x of the same frame, but the switch turns it: the old direction must fade, not
-  // jump.
+  // Both tasks move along x of the same frame, but the switch turns it: the set before keeps the old
+  // direction.
   lang::Program p =
       switching(task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}, base_link, 3),
                 task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}, base_link, 3), 0.1);
@@ -120,14 +148,14 @@ TEST(Blend, AFrameThatWasSetAtTheSwitchMakesAnotherAxisOfIt) {
   Standing bench(p);
   bench.sensed.state.base_pose.rotation = solver::rotation_from_rpy(0, 0, 1.0);
   const Constraints& c = bench.run_to(1.02);
-  ASSERT_EQ(c.size(), 2u);
-  const auto& leaving = c[0].leaving ? c[0] : c[1];
-  const auto& entering = c[0].leaving ? c[1] : c[0];
-  EXPECT_TRUE(leaving.in.pose.rotation.isIdentity());
-  EXPECT_NEAR(entering.in.pose.rotation(0, 0), std::cos(1.0), 1e-12);
+  ASSERT_EQ(bench.scheduler.set_count(), 2);
+  EXPECT_TRUE(bench.set(1)[0].in.pose.rotation.isIdentity());
+  EXPECT_NEAR(c[0].in.pose.rotation(0, 0), std::cos(1.0), 1e-12);
+  EXPECT_LT(bench.in_force(0, 0).alpha, 1.0);
 }
 
-TEST(Blend, APersistingBoundTightensAtOnceAndLoosensWithTheBlend) {
+// The shares of the two sets make of it what a bound is that tightens at once and loosens with the blend.
+TEST(Blend, ABoundThatTightensDoesSoInBothSetsAtOnce) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}), b = a;
   b.name = "b";
   a.groups[0].axes[0].velocity = between(-0.2, 0.3);
@@ -136,50 +164,76 @@ TEST(Blend, APersistingBoundTightensAtOnceAndLoosensWithTheBlend) {
   b.groups[0].axes[0].force = between(-10, 60);
   Standing bench(switching(a, b, 0.1));
   for (const double p : {0.01, 0.5, 0.99}) {
-    const Constraints& c = bench.run_to(1.0 + 0.1 * p - period);
-    ASSERT_EQ(c.size(), 1u);
-    EXPECT_NEAR(c[0].velocity->high, 0.2, 1e-12);
-    EXPECT_NEAR(c[0].velocity->low, -0.2 - 0.2 * p, 1e-7);
-    EXPECT_NEAR(c[0].driver->force.low, -10, 1e-12);
-    EXPECT_NEAR(c[0].driver->force.high, 20 + 40 * p, 1e-6);
-    EXPECT_FALSE(std::isfinite(c[0].before->force.high))
-        << "the old bound must not cut off the loosening one";
+    const Constraints& now = bench.run_to(1.0 + 0.1 * p - period);
+    const Constraints& before = bench.set(1);
+    ASSERT_EQ(now.size(), 1u);
+    ASSERT_EQ(before.size(), 1u);
+    EXPECT_EQ(now[0].velocity->low, -0.4);
+    EXPECT_EQ(now[0].velocity->high, 0.2);
+    EXPECT_EQ(before[0].velocity->low, -0.2);
+    EXPECT_EQ(before[0].velocity->high, 0.2);
+    EXPECT_EQ(now[0].driver->force.low, -10);
+    EXPECT_EQ(now[0].driver->force.high, 60);
+    EXPECT_EQ(before[0].driver->force.low, -10);
+    EXPECT_EQ(before[0].driver->force.high, 20);
+    EXPECT_EQ(before[0].velocity_horizon, 0.010) << "it is not new";
   }
-  const Constraints& c = bench.run_to(1.1);
-  EXPECT_EQ(c[0].velocity->low, -0.4);
-  EXPECT_EQ(c[0].driver->force.high, 60);
 }
 
-TEST(Blend, RangesOnOneSideOfTheSwitchFadeOnTheirOwn) {
+TEST(Blend, ARangeThatEntersJoinsTheSetBeforeAndOneThatLeavesStaysThere) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}), b = a;
   b.name = "b";
   a.groups[0].axes[0].acceleration = between(-1, 1);
   b.groups[0].axes[0].velocity = between(-2, 2);
+  // On another axis, and the sum of forces of one that the old task drives.
+  b.groups[0].axes.push_back(free_axis("go.y", Axis::y));
+  b.groups[0].axes.back().velocity = between(-3, 3);
+  lang::Group most = task("", {free_axis("most.x", Axis::x)}).groups[0];
+  most.axes[0].force = between(-30, 30);
+  most.axes[0].level = 0;
+  b.groups.push_back(most);
   Standing bench(switching(a, b, 0.1));
-  const Constraints& c = bench.run_to(1.0 + 0.024);
-  ASSERT_EQ(c.size(), 3u);
-  const auto find = [&c](auto&& wanted) { return std::find_if(c.begin(), c.end(), wanted); };
-  const auto driver = find([](const auto& x) { return x.driver.has_value(); });
-  const auto old_range = find([](const auto& x) { return x.acceleration.has_value(); });
-  const auto new_range = find([](const auto& x) { return x.velocity.has_value(); });
-  EXPECT_EQ(driver->alpha, 1.0);
-  EXPECT_FALSE(driver->velocity || driver->acceleration);
-  EXPECT_TRUE(old_range->leaving && !old_range->driver);
-  EXPECT_NEAR(old_range->alpha, 0.75, 1e-7);
-  EXPECT_TRUE(!new_range->leaving && !new_range->driver);
-  EXPECT_NEAR(new_range->alpha, 0.25, 1e-7);
-  EXPECT_EQ(new_range->blend, 0.1);
+  const Constraints& now = bench.run_to(1.0 + 0.024);
+  const Constraints& before = bench.set(1);
+  ASSERT_EQ(now.size(), 3u);
+  EXPECT_FALSE(now[0].acceleration);
+  ASSERT_EQ(before.size(), 3u);
+  EXPECT_TRUE(before[0].acceleration && before[0].velocity && before[0].driver);
+  EXPECT_NEAR(before[0].velocity_horizon, 0.075, 1e-9);
+  EXPECT_NEAR(now[0].velocity_horizon, 0.075, 1e-9);
+  for (int i = 1; i < 3; ++i) EXPECT_FALSE(before[static_cast<std::size_t>(i)].driver);
+  EXPECT_EQ(before[1].velocity->high, 3.0);
+  EXPECT_EQ(before[2].force->high, 30.0);
+  EXPECT_EQ(bench.in_force(0, 1).alpha, 1.0) << "it is in force in both";
 }
 
 TEST(Blend, TakesAFifthOfASecondWhereTheTaskDoesNotSay) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   a.blend = lang::Task{}.blend;
   Standing bench(program({a}));
-  for (int i = 1; i <= 220; ++i) EXPECT_NEAR(bench.tick()[0].alpha, std::min(1.0, i * period / 0.2), 1e-7);
+  for (int i = 1; i <= 220; ++i) {
+    bench.tick();
+    EXPECT_NEAR(bench.scheduler.share(0), std::min(1.0, i * period / 0.2), 1e-7);
+  }
 }
 
-// A range that enters is on at once: of what is beyond it, it asks to be back when the blend is over; what is
-// inside feels it as always.
+/// The limits of both sides of all sets, by set.
+std::vector<std::vector<solver::Row>> limits_of(Standing& bench) {
+  std::vector<std::vector<solver::Row>> limits;
+  for (int set = 0; set < bench.scheduler.set_count(); ++set) {
+    solver::ConstraintSet& constraints = bench.scheduler.constraints(set);
+    EXPECT_TRUE(constraints.fill(bench.program.robot.model, bench.sensed.state));
+    limits.emplace_back();
+    for (const solver::Row& row : constraints.rows()) {
+      if (row.kind == solver::RowKind::upper || row.kind == solver::RowKind::lower)
+        limits.back().push_back(row);
+    }
+  }
+  return limits;
+}
+
+// A range that enters is on at once in both sets: of what is beyond it, it asks to be back when the blend is
+// over; what is inside feels it as always.
 TEST(Blend, ARangeThatEntersActsAtOnceOverWhatIsLeftOfTheBlend) {
   const double blend = 0.2, speed = 0.5, limit = 0.3, horizon = 0.010;
   AxisStatements push = drive("go.x", Axis::x, Quantity::force, 10.0), limited = push;
@@ -188,24 +242,22 @@ TEST(Blend, ARangeThatEntersActsAtOnceOverWhatIsLeftOfTheBlend) {
   bench.sensed.state.base_twist.linear = {speed, 0.0, 0.0};
   for (const int ticks : {1, 50, 150, 189, 195, 199, 200, 250}) {
     bench.run_to(0.999 + ticks * period);
-    solver::ConstraintSet& set = bench.scheduler.constraints();
-    ASSERT_TRUE(set.fill(bench.program.robot.model, bench.sensed.state));
-    int found = 0;
-    for (const solver::Row& row : set.rows()) {
-      if (row.kind != solver::RowKind::upper && row.kind != solver::RowKind::lower) continue;
-      const bool is_beyond = row.kind == solver::RowKind::upper;
-      const double time = is_beyond ? std::max(horizon, blend - ticks * period) : horizon;
-      EXPECT_NEAR(row.b, ((is_beyond ? limit : -limit) - speed) / time, 1e-4) << ticks;
-      EXPECT_EQ(row.fade, 1.0) << ticks;
-      ++found;
+    const auto limits = limits_of(bench);
+    ASSERT_EQ(limits.size(), ticks < 200 ? 2u : 1u);
+    for (const std::vector<solver::Row>& rows : limits) {
+      ASSERT_EQ(rows.size(), 2u) << ticks;
+      for (const solver::Row& row : rows) {
+        const bool is_beyond = row.kind == solver::RowKind::upper;
+        const double time = is_beyond ? std::max(horizon, blend - ticks * period) : horizon;
+        EXPECT_NEAR(row.b, ((is_beyond ? limit : -limit) - speed) / time, 1e-4) << ticks;
+      }
     }
-    EXPECT_EQ(found, 2) << ticks;
   }
 }
 
-// Where it leaves it lets go in the measure that its alpha falls, and asks for what it has always asked for,
-// though it had only half entered.
-TEST(Blend, ARangeThatLeavesFadesWithItsRows) {
+// Where it leaves it stays whole in the sets that had it, and asks for what it has always asked for, though
+// it had only half entered.
+TEST(Blend, ARangeThatLeavesStaysInTheSetsThatHadIt) {
   const double speed = 0.5, limit = 0.3, horizon = 0.010;
   AxisStatements push = drive("go.x", Axis::x, Quantity::force, 10.0), limited = push;
   limited.velocity = between(-limit, limit);
@@ -218,22 +270,23 @@ TEST(Blend, ARangeThatLeavesFadesWithItsRows) {
   bench.run_to(1.099);
   for (int i = 1; i < 200; ++i) {
     bench.tick();
-    solver::ConstraintSet& set = bench.scheduler.constraints();
-    ASSERT_TRUE(set.fill(bench.program.robot.model, bench.sensed.state));
-    int found = 0;
-    for (const solver::Row& row : set.rows()) {
-      if (row.kind != solver::RowKind::upper && row.kind != solver::RowKind::lower) continue;
-      EXPECT_NEAR(row.fade, 0.5 * (1.0 - i * period / 0.2), 1e-7) << i;
-      EXPECT_NEAR(row.b, ((row.kind == solver::RowKind::upper ? limit : -limit) - speed) / horizon, 1e-9);
-      ++found;
+    const auto limits = limits_of(bench);
+    ASSERT_EQ(limits.size(), 3u);
+    EXPECT_TRUE(limits[0].empty());
+    for (const std::size_t set : {1u, 2u}) {
+      ASSERT_EQ(limits[set].size(), 2u);
+      EXPECT_NEAR(bench.scheduler.share(static_cast<int>(set)), 0.5 * (1.0 - i * period / 0.2), 1e-7) << i;
+      for (const solver::Row& row : limits[set]) {
+        const double bound = row.kind == solver::RowKind::upper ? limit : -limit;
+        EXPECT_NEAR(row.b, (bound - speed) / horizon, 1e-9);
+      }
     }
-    EXPECT_EQ(found, 2) << i;
   }
   bench.tick();
-  EXPECT_EQ(bench.scheduler.constraints().constraints().size(), 1u);
+  EXPECT_EQ(bench.scheduler.set_count(), 1);
 }
 
-TEST(Blend, APersistingBoundThatSharesNothingWithTheNewOneGivesWayAtOnce) {
+TEST(Blend, ABoundThatSharesNothingWithTheNewOneGivesWayAtOnce) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.0)}), b = a;
   b.name = "b";
   for (const double side : {-1.0, 1.0}) {
@@ -241,15 +294,17 @@ TEST(Blend, APersistingBoundThatSharesNothingWithTheNewOneGivesWayAtOnce) {
     b.groups[0].axes[0].velocity = between(-0.2 * side - 0.1, -0.2 * side + 0.1);
     Standing bench(switching(a, b, 0.1));
     for (const double p : {0.01, 0.5, 1.0}) {
-      const Constraints& c = bench.run_to(1.0 + 0.1 * p - period);
-      ASSERT_EQ(c.size(), 1u);
-      EXPECT_NEAR(c[0].velocity->low, -0.2 * side - 0.1, 1e-12) << p;
-      EXPECT_NEAR(c[0].velocity->high, -0.2 * side + 0.1, 1e-12) << p;
+      bench.run_to(1.0 + 0.1 * p - period);
+      for (int set = 0; set < bench.scheduler.set_count(); ++set) {
+        ASSERT_EQ(bench.set(set).size(), 1u);
+        EXPECT_NEAR(bench.set(set)[0].velocity->low, -0.2 * side - 0.1, 1e-12) << p;
+        EXPECT_NEAR(bench.set(set)[0].velocity->high, -0.2 * side + 0.1, 1e-12) << p;
+      }
     }
   }
 }
 
-TEST(Blend, ASwitchInTheMiddleOfABlendTakesOverWhatIsThere) {
+TEST(Blend, ASwitchInTheMiddleOfABlendMakesAThirdSet) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   lang::Task b = task("b", {drive("go.x", Axis::x, Quantity::force, 20)});
   lang::Task c = task("c", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}, bumper);
@@ -257,28 +312,35 @@ TEST(Blend, ASwitchInTheMiddleOfABlendTakesOverWhatIsThere) {
   b.exits = {exit(after(0.04), to_task(2))};
   b.blend.constant = c.blend.constant = 0.1;
   Standing bench(program({a, b, c}));
-  std::map<std::pair<int, int>, double> last;  // (body pose key, kind) -> alpha
+  std::map<std::pair<int, int>, double> last;  // (body pose key, kind) -> share
   double largest_step = 0.0;
+  int most_sets = 0;
   for (int i = 0; i < 1300; ++i) {
+    bench.tick();
     std::map<std::pair<int, int>, double> now;
     double sum = 0.0;
-    for (const auto& x : bench.tick()) {
-      now[{x.move.pose.position.x() > 0.1 ? 1 : 0, static_cast<int>(x.driver->quantity)}] += x.alpha;
-      sum += x.alpha;
+    most_sets = std::max(most_sets, bench.scheduler.set_count());
+    for (int set = 0; set < bench.scheduler.set_count(); ++set) {
+      const double share = bench.scheduler.share(set);
+      for (const auto& x : bench.set(set)) {
+        now[{x.move.pose.position.x() > 0.1 ? 1 : 0, static_cast<int>(x.driver->quantity)}] += share;
+      }
+      sum += share;
     }
     EXPECT_NEAR(sum, 1.0, 1e-7) << i;
     if (i > 0) {
-      for (const auto& [key, alpha] : now) largest_step = std::max(largest_step, std::abs(alpha - last[key]));
-      for (const auto& [key, alpha] : last) largest_step = std::max(largest_step, std::abs(alpha - now[key]));
+      for (const auto& [key, share] : now) largest_step = std::max(largest_step, std::abs(share - last[key]));
+      for (const auto& [key, share] : last) largest_step = std::max(largest_step, std::abs(share - now[key]));
     }
     last = now;
   }
+  EXPECT_EQ(most_sets, 3);
   EXPECT_NEAR(largest_step, period / 0.1, 1e-7);
 }
 
-// What a row asks for goes on from where it was when the switch came, half way from the first driver to the
-// second.
-TEST(Blend, APersistingRowThatIsOnItsWayGoesOnFromWhereItIs) {
+// What is asked for along an axis goes on from where it was when the switch came, half way from the first
+// driver to the second.
+TEST(Blend, WhatIsAskedForGoesOnFromWhereItIs) {
   const double blend = 0.1;
   const double targets[] = {0.1, 0.3, -0.2};
   std::vector<lang::Task> tasks;
@@ -293,42 +355,21 @@ TEST(Blend, APersistingRowThatIsOnItsWayGoesOnFromWhereItIs) {
   const double time_constant = tasks[0].groups[0].axes[0].time_constant.constant;
   for (int i = 1; i <= 160; ++i) {
     bench.tick();
-    solver::ConstraintSet& set = bench.scheduler.constraints();
-    ASSERT_TRUE(set.fill(bench.program.robot.model, bench.sensed.state));
-    ASSERT_EQ(set.rows().size(), 1u);
+    double b = 0.0;
+    for (int set = 0; set < bench.scheduler.set_count(); ++set) {
+      solver::ConstraintSet& constraints = bench.scheduler.constraints(set);
+      ASSERT_TRUE(constraints.fill(bench.program.robot.model, bench.sensed.state));
+      ASSERT_EQ(constraints.rows().size(), 1u);
+      b += bench.scheduler.share(set) * constraints.rows()[0].b;
+    }
     const double then = targets[0] + (targets[1] - targets[0]) * 0.5;
     const double asked = i <= 50 ? targets[0] + (targets[1] - targets[0]) * i * period / blend
                                  : then + (targets[2] - then) * std::min(1.0, (i - 50) * period / blend);
-    EXPECT_NEAR(set.rows()[0].b, asked / time_constant, 1e-6) << i;
+    EXPECT_NEAR(b, asked / time_constant, 1e-6) << i;
   }
 }
 
-// Half way between two quantities, or two time constants, no single driver asks for what is asked for: it
-// fades.
-TEST(Blend, ARowBetweenTwoKindsOfDriverFadesWhenItIsSwitchedAgain) {
-  const lang::Task first =
-      task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}, base_link, world_frame);
-  lang::Task slower = first, elsewhere = first;
-  slower.name = "slower";
-  slower.groups[0].axes[0].time_constant.constant *= 2.0;
-  elsewhere.name = "elsewhere";
-  elsewhere.groups[0].axes[0].driver = Quantity::position;
-  for (const lang::Task& second : {first, slower, elsewhere}) {
-    lang::Task a = first, b = second, c = first;
-    a.exits = {exit(after(1.0), to_task(1))};
-    b.exits = {exit(after(0.05), to_task(2))};
-    b.blend.constant = c.blend.constant = 0.1;
-    Standing bench(program({a, b, c}));
-    EXPECT_EQ(bench.run_to(1.049).size(), 1u);
-    const Constraints& both = bench.run_to(1.059);
-    ASSERT_EQ(both.size(), second.name == "a" ? 1u : 2u) << second.name;
-    double sum = 0.0;
-    for (const auto& constraint : both) sum += constraint.alpha;
-    EXPECT_NEAR(sum, 1.0, 1e-12);
-  }
-}
-
-TEST(Blend, RangesThatBothTasksHaveStayInForceWhileTheDriversChangeOver) {
+TEST(Blend, RangesThatBothTasksHaveAreInBothSets) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   lang::Task b = task("b", {drive("go.x", Axis::x, Quantity::force, 10.0)});
   a.groups[0].axes[0].velocity = b.groups[0].axes[0].velocity = between(-0.3, 0.3);
@@ -336,22 +377,18 @@ TEST(Blend, RangesThatBothTasksHaveStayInForceWhileTheDriversChangeOver) {
     Standing bench(switching(from, to, 0.1));
     bench.run_to(0.999);
     for (int i = 1; i < 100; ++i) {
-      int ranges = 0;
-      for (const auto& c : bench.tick()) {
-        if (!c.velocity) continue;
-        ++ranges;
-        EXPECT_EQ(c.alpha, 1.0) << i;
-        EXPECT_FALSE(c.leaving);
-        EXPECT_EQ(c.blend, 0.0) << "it is not new";
-        EXPECT_EQ(c.velocity->high, 0.3);
+      bench.tick();
+      for (int set = 0; set < 2; ++set) {
+        ASSERT_EQ(bench.set(set).size(), 1u);
+        EXPECT_EQ(bench.set(set)[0].velocity->high, 0.3);
+        EXPECT_EQ(bench.set(set)[0].velocity_horizon, 0.010) << "it is not new";
       }
-      EXPECT_EQ(ranges, 1) << i;
     }
   }
 }
 
 // An axis, a distance and two directions of one pair of frames.
-TEST(Blend, OtherMeasuresOfTheSameFramesDoNotPersist) {
+TEST(Blend, OtherMeasuresOfTheSameFramesAreOtherAxes) {
   lang::Program p = program({});
   std::vector<lang::Task> tasks;
   for (const char* name : {"along_x", "along_y", "distance", "axis"}) {
@@ -373,12 +410,14 @@ TEST(Blend, OtherMeasuresOfTheSameFramesDoNotPersist) {
       lang::Program both = switching(from, to, 0.1);
       both.features = p.features;
       Standing bench(both);
-      EXPECT_EQ(bench.run_to(1.02).size(), from.name == to.name ? 1u : 2u) << from.name << ", " << to.name;
+      bench.run_to(1.02);
+      EXPECT_NEAR(bench.in_force(0, 0).alpha, from.name == to.name ? 1.0 : 0.21, 1e-7)
+          << from.name << ", " << to.name;
     }
   }
 }
 
-TEST(Blend, GoingBackInTheMiddleOfABlendPicksUpWhatIsStillLeaving) {
+TEST(Blend, GoingBackInTheMiddleOfABlendTakesOverWhatIsThere) {
   lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)});
   lang::Task b = task("b", {drive("go.y", Axis::y, Quantity::velocity, 0.1)});
   a.blend.constant = b.blend.constant = 0.1;
@@ -388,22 +427,40 @@ TEST(Blend, GoingBackInTheMiddleOfABlendPicksUpWhatIsStillLeaving) {
   double last = 1.0;
   bench.run_to(0.999);
   for (int i = 0; i < 200; ++i) {
-    double alpha = 0.0;
-    int rows = 0;
-    for (const auto& x : bench.tick()) {
-      if (x.axis != Axis::x) continue;
-      alpha += x.alpha;
-      ++rows;
-    }
-    EXPECT_EQ(rows, 1) << "what was leaving comes back as the row that it was";
-    EXPECT_LE(std::abs(alpha - last), period / 0.1 + 1e-7);
-    last = alpha;
+    bench.tick();
+    const double share = bench.share_of([](const auto& x) { return x.axis == Axis::x; });
+    EXPECT_LE(std::abs(share - last), period / 0.1 + 1e-7);
+    last = share;
   }
   EXPECT_EQ(last, 1.0);
 }
 
-TEST(Blend, ASwitchOnEveryTickStaysWithinTheCapacity) {
-  // Six tasks that all differ in frames: nothing persists, everything leaves.
+// A value of `always` that the switch sets changes with the blend, as a task's does; one that stays is in all
+// sets as it is now.
+TEST(Blend, WhatASwitchSetsOfAlwaysIsBlended) {
+  lang::Program p = switching(task("a", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}),
+                              task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.1)}), 0.1);
+  p.parameters.resize(1);
+  p.parameters[0].name = "drift";
+  p.parameters[0].value = 0.0;
+  AxisStatements rail = drive("rail.y", Axis::y, Quantity::velocity, 0.0);
+  rail.target.parameter = 0;
+  p.always.groups = task("", {rail, drive("rail.rz", Axis::rz, Quantity::velocity, 0.0)}).groups;
+  lang::SetAction set;
+  set.sets_frame = false;
+  set.index = 0;
+  set.value.constant = 0.2;
+  p.tasks[0].exits[0].set = {set};
+  Standing bench(p);
+  const Constraints& now = bench.run_to(1.02);
+  ASSERT_EQ(bench.set(1).size(), 3u);
+  EXPECT_EQ(now[0].driver->target, 0.2);
+  EXPECT_EQ(bench.set(1)[0].driver->target, 0.0);
+  EXPECT_EQ(bench.set(1)[1].driver->target, 0.0);
+}
+
+TEST(Blend, ASwitchOnEveryTickStaysWithinThreeSetsAndTheCapacity) {
+  // Six tasks that all differ in frames: no axis goes on, everything enters and leaves.
   std::vector<lang::Task> tasks;
   for (int i = 0; i < 6; ++i) {
     lang::Task t =
@@ -419,8 +476,20 @@ TEST(Blend, ASwitchOnEveryTickStaysWithinTheCapacity) {
   Standing bench(program(tasks));
   for (int i = 0; i < 500; ++i) {
     bench.tick();
-    ASSERT_TRUE(bench.scheduler.constraints().fill(bench.program.robot.model, bench.sensed.state)) << i;
-    ASSERT_EQ(bench.scheduler.in_force().size(), bench.scheduler.constraints().constraints().size());
+    ASSERT_LE(bench.scheduler.set_count(), 3);
+    double sum = 0.0;
+    for (int set = 0; set < bench.scheduler.set_count(); ++set) {
+      ASSERT_TRUE(bench.scheduler.constraints(set).fill(bench.program.robot.model, bench.sensed.state)) << i;
+      ASSERT_EQ(bench.scheduler.in_force(set).size(), bench.set(set).size());
+      sum += bench.scheduler.share(set);
+      // The newest ranges are in all sets.
+      const auto is_newest = [&](const auto& c) {
+        return c.velocity && c.move.pose.position == bench.set(0)[0].move.pose.position &&
+               c.in.body == bench.set(0)[0].in.body;
+      };
+      EXPECT_TRUE(std::ranges::any_of(bench.set(set), is_newest)) << i << " " << set;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-9);
   }
 }
 
@@ -477,18 +546,12 @@ TEST(CommandedForce, StepsByNoMoreThanTheBlendsShareOfWhatFades) {
   EXPECT_GT(persisting.whole, 0.2 * hard_step) << "the switch must do something";
   EXPECT_LE(persisting.largest, share * (1 + 1e-5));
 
-  // In the world's axes the rows are others: two soft rows D1 and D2 [N] on one direction, with alphas 1 - p
-  // and p,
-  //   nu1/(1 - p) + nu2 = D1,  nu1 + nu2/p = D2   =>   nu1 + nu2 = ((1 - p)^2 D1 + p^2 D2)/(1 - p + p^2),
-  // where each resists the other. D1 - D2 stays as large as the hard step, and the largest slope of
-  // p^2/(1 - p + p^2) is 1.4664: both rows fade, so both count.
-  double slope = 0.0;
-  const auto weight = [](double p) { return p * p / (1 - p + p * p); };
-  for (double p = 0.0; p < 1.0; p += 1e-3) slope = std::max(slope, (weight(p + 1e-3) - weight(p)) / 1e-3);
+  // In the world's axes the rows are others, and the blend is the same: (1 - p) D1 + p D2 of what each asks
+  // for.
   const Steps fading =
       commanded_steps(task("a", rest(fast)), task("b", rest(slow), base_link, world_frame), blend);
   EXPECT_GT(fading.whole, 0.2 * hard_step);
-  EXPECT_LE(fading.largest, slope * share);
+  EXPECT_LE(fading.largest, share * (1 + 1e-5));
 }
 
 TEST(CommandedForce, OfAPushThatIsHandedOverStaysAndAPushThatEndsFades) {
@@ -504,6 +567,26 @@ TEST(CommandedForce, OfAPushThatIsHandedOverStaysAndAPushThatEndsFades) {
   EXPECT_LE(ended.largest, 20.0 * period / 0.2 * 1.01);
   const Steps cut = commanded_steps(task("a", push(20)), task("b", push(0)), 0.0);
   EXPECT_NEAR(cut.largest, 20.0, 0.2);
+}
+
+// 20 N of a velocity driver that something holds, before the switch and after it: the guards read 20 N
+// throughout.
+TEST(CommandedForce, IsReadOfAllSetsByTheirShares) {
+  AxisStatements push = drive("go.x", Axis::x, Quantity::velocity, 0.5), gently = push;
+  push.force = gently.force = between(-20, 20);
+  gently.target.constant = 0.4;
+  Runner runner(switching(task("a", {push}), task("b", {gently}), 0.1));
+  PlanarBase base;
+  Sensed sensed(mecanum_robot().model);
+  base.V.x() = 0.01;  // something yields at this speed, whatever pushes
+  while (base.time < 1.2) {
+    base.sense(sensed);
+    const Eigen::VectorXd& tau = runner.step(sensed);
+    base.step(tau, -base.commanded(tau));
+    if (base.time < 0.95) continue;
+    const Scheduler& scheduler = runner.scheduler();
+    EXPECT_NEAR(scheduler.reading({scheduler.task(), 0, 0}).force, 20.0, 1e-6) << base.time;
+  }
 }
 
 }  // namespace

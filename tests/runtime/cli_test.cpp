@@ -250,7 +250,7 @@ TEST_F(Cli, ATaskThatFailsSaysWhyInTheReportInJsonAndInTheLog) {
   EXPECT_EQ(exit["terms"][1]["holds_back"], false);
 
   const Result told = run_task(task, {"--quiet", "--log", "log"});
-  EXPECT_EQ(told.out.find("failed after 0.20"), 0u) << told.out;
+  EXPECT_EQ(told.out.find("failed after 0.30"), 0u) << told.out;
   EXPECT_NE(told.out.substr(0, told.out.find('\n')).find(sentence), std::string::npos) << told.out;
   EXPECT_NE(told.out.find("waited for, in `stand`\n"), std::string::npos) << told.out;
   const json info = json::parse(zwang({"info", "log/log.mcap", "--format", "json"}).out);

@@ -172,7 +172,8 @@ class PressTest : public testing::Test {
     EXPECT_TRUE(set.add(constraint));
     EXPECT_TRUE(set.fill(model, state));
     EXPECT_EQ(solver.solve(state, set.rows(), solution), solver::Status::ok);
-    return Press(model).look(solver, set.rows(), solution);
+    const solver::RowSet all{&set.rows(), 1.0};
+    return Press(model).look(solver, std::span(&all, 1), solution);
   }
   static solver::AxisConstraint drive(solver::Axis axis, const solver::Driver& driver) {
     solver::AxisConstraint constraint;

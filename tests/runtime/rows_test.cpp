@@ -4,69 +4,16 @@
 
 #include <functional>
 
+#include "planar_course.hpp"
 #include "scheduler_bench.hpp"
-#include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
 namespace {
 
 using namespace test;
 
-/// A program on the planar base, with forces from outside.
-struct Course {
-  explicit Course(const lang::Program& p) : program(p), runner(p), sensed(p.robot.model, p.signals.size()) {}
-  void tick(const Eigen::Vector3d& force = Eigen::Vector3d::Zero()) {
-    base.sense(sensed);
-    tau = runner.step(sensed);
-    base.step(tau, force);
-  }
-  void run(
-      double seconds, const std::function<void()>& look = [] {}) {
-    const double end = base.time + seconds - 1e-9;
-    while (base.time < end) {
-      tick();
-      look();
-    }
-  }
-  Eigen::Vector3d commanded() const { return base.commanded(tau); }
-  double speed() const { return base.V.head<2>().norm(); }
-
-  lang::Program program;
-  Runner runner;
-  Sensed sensed;
-  PlanarBase base;
-  Eigen::VectorXd tau;
-};
-
 double mass() {
   return PlanarBase().inertia()(0, 0);
-}
-
-/// Groups of `always` stand at level 0.
-lang::Group at_level_zero(lang::Group group) {
-  group.level = 0;
-  for (AxisStatements& a : group.axes) a.level = 0;
-  return group;
-}
-
-lang::Group inside(int region, double margin) {
-  lang::Group group;
-  group.name = "boundary";
-  group.kind = lang::GroupKind::inside;
-  group.region = region;
-  group.moves_footprint = true;
-  group.move = base_link;
-  group.margin.constant = margin;
-  return at_level_zero(group);
-}
-
-AxisStatements within(const std::string& name, Axis axis, Quantity quantity, double low, double high) {
-  AxisStatements a = free_axis(name, axis);
-  (quantity == Quantity::velocity       ? a.velocity
-   : quantity == Quantity::acceleration ? a.acceleration
-   : quantity == Quantity::force        ? a.force
-                                        : a.position) = between(low, high);
-  return a;
 }
 
 /// Wants to go at (vx, vy) in the world, turning at wz, whatever is in the way; keeps to 0.4 m/s^2.
@@ -203,7 +150,7 @@ TEST(Inside, OnlyNearPairsOfFeaturesAreInForce) {
 TEST(Speed, TheNormOfThePlanarVelocityIsLimitedAndNotEachAxis) {
   lang::Program p = push_on(0.6, 0.6, 0.3);
   AxisStatements speed = within("manners.speed", Axis::x, Quantity::velocity, 0.0, 0.5);
-  speed.is_planar_speed = true;
+  speed.is_planar = true;
   p.always.groups[0].axes.push_back(speed);
   p.always.groups[0] = at_level_zero(p.always.groups[0]);
   Course course(p);
@@ -221,7 +168,7 @@ TEST(Speed, TheNormOfThePlanarVelocityIsLimitedAndNotEachAxis) {
 
 TEST(Speed, HasNoRowBelowHalfOfTheLimit) {
   AxisStatements speed = within("go.speed", Axis::x, Quantity::velocity, 0.0, 0.5);
-  speed.is_planar_speed = true;
+  speed.is_planar = true;
   Bench bench(program({task("a", {speed})}));
   for (const double v : {0.0, 0.1, 0.249}) {
     bench.sensed.state.base_twist.linear = {v * 0.6, v * 0.8, 0.0};
@@ -393,7 +340,7 @@ lang::Program switching(lang::Task a, lang::Task b) {
   return program({a, b});
 }
 
-TEST(Fading, APersistingForceRowBlendsItsForceAndASpringIsOne) {
+TEST(Blending, OfTwoSpringsIsTheirForcesByTheSharesOfTheSets) {
   const auto spring = [](double target) {
     AxisStatements a = drive("go.x", Axis::x, Quantity::position, target);
     a.stiffness = lang::Value{.constant = 200.0};
@@ -404,15 +351,19 @@ TEST(Fading, APersistingForceRowBlendsItsForceAndASpringIsOne) {
   bench.ticks_more(2);
   for (int i = 1; i <= 12; ++i) {
     bench.tick();
-    const auto& rows = bench.scheduler.constraints().rows();
-    ASSERT_EQ(rows.size(), 1u);
-    EXPECT_EQ(rows[0].kind, solver::RowKind::force);
-    EXPECT_EQ(rows[0].fade, 1.0);
-    EXPECT_NEAR(rows[0].force, 20.0 + 40.0 * std::min(1.0, 0.1 * i), 1e-9);
+    double force = 0.0;
+    for (int set = 0; set < bench.scheduler.set_count(); ++set) {
+      solver::ConstraintSet& constraints = bench.scheduler.constraints(set);
+      ASSERT_TRUE(constraints.fill(bench.program.robot.model, bench.sensed.state));
+      ASSERT_EQ(constraints.rows().size(), 1u);
+      EXPECT_EQ(constraints.rows()[0].kind, solver::RowKind::force);
+      force += bench.scheduler.share(set) * constraints.rows()[0].force;
+    }
+    EXPECT_NEAR(force, 20.0 + 40.0 * std::min(1.0, 0.1 * i), 1e-9);
   }
 }
 
-TEST(Fading, ASpringAndAMotionDriverAreNotOfOneKind) {
+TEST(Blending, ASpringAndAMotionDriverAreNotOfOneKind) {
   AxisStatements spring = drive("go.x", Axis::x, Quantity::position, 0.1);
   spring.stiffness = lang::Value{.constant = 200.0};
   spring.damping = lang::Value{.constant = 50.0};
@@ -420,32 +371,33 @@ TEST(Fading, ASpringAndAMotionDriverAreNotOfOneKind) {
   Bench bench(
       switching(task("a", {spring}, base_link, world_frame), task("b", {stiff}, base_link, world_frame)));
   bench.ticks_more(5);
-  ASSERT_EQ(bench.count(), 2);
-  EXPECT_NEAR(bench.constraint(0).alpha + bench.constraint(1).alpha, 1.0, 1e-12);
+  ASSERT_EQ(bench.scheduler.set_count(), 2);
+  EXPECT_EQ(bench.scheduler.in_force()[0].alpha, bench.scheduler.share(0));
 }
 
-TEST(Fading, ASumIsOnAtOnceAndLeavesWithItsAlpha) {
+TEST(Blending, ASumIsOnAtOnceInBothSetsAndLeavesWithItsSet) {
   const lang::Task limited = task("a", {within("go.x", Axis::x, Quantity::force, -20, 20)});
   const lang::Task other = task("b", {drive("go.y", Axis::y, Quantity::velocity, 0.0)});
+  const auto has_sum = [](const Bench& bench, int set) {
+    return std::ranges::any_of(bench.scheduler.constraints(set).constraints(),
+                               [](const auto& c) { return c.force && !c.driver && c.force->high == 20.0; });
+  };
   Bench entering(switching(other, limited));
   entering.ticks_more(3);
-  ASSERT_EQ(entering.scheduler.task(), 1);
-  for (const solver::Row& row : entering.scheduler.constraints().rows()) {
-    EXPECT_EQ(row.kind == solver::RowKind::sum ? row.fade : 1.0, 1.0);
-  }
+  ASSERT_EQ(entering.scheduler.set_count(), 2);
+  EXPECT_TRUE(has_sum(entering, 0) && has_sum(entering, 1));
   Bench leaving(switching(limited, other));
   leaving.ticks_more(2);
   for (int i = 1; i < 10; ++i) {
     leaving.tick();
-    double fade = -1.0;
-    for (const solver::Row& row : leaving.scheduler.constraints().rows()) {
-      if (row.kind == solver::RowKind::sum) fade = row.fade;
-    }
-    EXPECT_NEAR(fade, 1.0 - 0.1 * i, 1e-9);
+    ASSERT_EQ(leaving.scheduler.set_count(), 2);
+    EXPECT_FALSE(has_sum(leaving, 0));
+    EXPECT_TRUE(has_sum(leaving, 1));
+    EXPECT_NEAR(leaving.scheduler.share(1), 1.0 - 0.1 * i, 1e-9);
   }
 }
 
-TEST(Fading, AFrameThatWasSetInBetweenIsNotTheSameAxes) {
+TEST(Blending, AFrameThatWasSetInBetweenIsNotTheSameAxes) {
   for (const bool is_set : {false, true}) {
     lang::Task a = task("a", {drive("go.x", Axis::x, Quantity::position, 0.5)}, base_link, 3);
     lang::Program p = switching(a, a);
@@ -456,11 +408,13 @@ TEST(Fading, AFrameThatWasSetInBetweenIsNotTheSameAxes) {
     Bench bench(p);
     bench.sensed.state.base_pose.position.x() = 0.2;
     bench.ticks_more(5);
-    EXPECT_EQ(bench.count(), is_set ? 2 : 1);
+    ASSERT_EQ(bench.scheduler.set_count(), 2);
+    const double alpha = bench.scheduler.in_force()[0].alpha;
+    EXPECT_NEAR(alpha, is_set ? bench.scheduler.share(0) : 1.0, 1e-12);
   }
 }
 
-TEST(Fading, WhatIsLimitedThroughoutIsLimitedInTheMiddleOfASwitchToo) {
+TEST(Blending, WhatIsLimitedThroughoutIsLimitedInTheMiddleOfASwitchToo) {
   // A boundary of `always` stays at full strength while the tasks beside it fade.
   lang::Program p = push_on(0.6, 0.0, 0.0);
   lang::Task other = p.tasks[0];

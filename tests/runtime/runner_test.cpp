@@ -410,8 +410,8 @@ TEST(Runner, TheLogHasOneRecordATickAndBlanksWhatIsNotInForce) {
   EXPECT_GT(records, 1000);
 }
 
-// What `go.x` asks for is cut to 0.5 m/s^2 until its speed is near the range's end; while it fades in,
-// R(alpha) of it leaves the share 1 - alpha of b to be missed.
+// What `go.x` asks for is cut to 0.5 m/s^2 until its speed is near the range's end; while its set has the
+// share alpha, the share 1 - alpha of b is missed.
 TEST(Runner, TheLogHasWhatARowAsksForAndWhatItMisses) {
   const zwang::test::TemporaryFolder folder;
   std::istringstream log(log_of_a_run(folder.path() / "run.csv"));

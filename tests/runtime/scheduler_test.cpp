@@ -277,11 +277,14 @@ TEST(Stop, DoneBrakesWithTheRobotsStopUntilTheBaseStands) {
   for (int i = 0; i < 200; ++i) bench.tick();
   EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
   EXPECT_EQ(bench.scheduler.phase(), Phase::stopping);
-  ASSERT_EQ(bench.count(), 3);
+  ASSERT_EQ(bench.count(), 6) << "each axis with its brake, and with the stop's deceleration";
   for (int i = 0; i < 3; ++i) {
     const solver::AxisConstraint& c = bench.constraint(i);
+    const solver::AxisConstraint& deceleration = bench.constraint(3 + i);
+    EXPECT_EQ(deceleration.level, 0);
+    EXPECT_EQ(deceleration.axis, c.axis);
+    EXPECT_EQ(deceleration.acceleration->high, c.acceleration->high);
     const bool turns = c.axis == Axis::rz;
-    EXPECT_EQ(c.alpha, 1.0);
     EXPECT_EQ(c.driver->quantity, Quantity::velocity);
     EXPECT_EQ(c.driver->target, 0.0);
     EXPECT_NEAR(c.driver->force.high, turns ? 80.0 * 0.5 : 80.0, 1e-12);
@@ -289,10 +292,12 @@ TEST(Stop, DoneBrakesWithTheRobotsStopUntilTheBaseStands) {
     EXPECT_NEAR(c.acceleration->high, turns ? 1.0 / 0.5 : 1.0, 1e-12);
   }
   bench.sensed.state.base_twist.linear = {0.0, 0.0099, 0.0};
+  bench.ticks_more(99);
+  EXPECT_EQ(bench.scheduler.phase(), Phase::stopping) << "0.1 s at rest are asked for";
   bench.tick();
   EXPECT_EQ(bench.scheduler.phase(), Phase::finished);
   EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
-  EXPECT_EQ(bench.count(), 3) << "it goes on holding";
+  EXPECT_EQ(bench.count(), 6) << "it goes on holding";
 }
 
 TEST(Stop, ABaseThatDoesNotComeToRestHasFailed) {

@@ -72,7 +72,8 @@ void expect_same(const AxisConstraint& a, const AxisConstraint& b) {
   EXPECT_EQ(a.axis, b.axis);
   EXPECT_EQ(a.level, b.level);
   EXPECT_EQ(a.braking, b.braking);
-  EXPECT_EQ(a.alpha, b.alpha);
+  EXPECT_EQ(a.position_horizon, b.position_horizon);
+  EXPECT_EQ(a.velocity_horizon, b.velocity_horizon);
   expect_same(a.position, b.position);
   expect_same(a.velocity, b.velocity);
   expect_same(a.acceleration, b.acceleration);

@@ -199,7 +199,8 @@ TEST(Wiring, TwoMotorsInEachOthersPlaceAreNotDrivenOn) {
                                     {"wall_align.yaml", "mecanum"}}) {
     const Mistake swapped{.sent = [](Eigen::VectorXd& tau) { std::swap(tau(0), tau(1)); }};
     const Trial run = drive(task, robot, swapped, 30.0);
-    EXPECT_EQ(run.reason, EventCode::runaway) << task;
+    // Sideways, one of the two can look reversed before the base is far too fast.
+    EXPECT_TRUE(run.reason == EventCode::runaway || run.reason == EventCode::torque_flipped) << task;
     const lang::Robot model = shipped_program(task, robot).robot;
     const double driven = model.stop.force / model.model.total_mass();  // [m/s^2]
     EXPECT_LE(run.fastest, 0.15 + 0.2 + 1.0 * 0.05 + driven * 6 * 0.04) << task;

@@ -44,8 +44,8 @@ TEST(Acceptance, WrenchMapResidualOnEveryExactBase) {
     double worst = 0.0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
       LawProblem p(robot, seed);
-      const std::vector<Row> rows = p.rows(
-          {.count = 4, .one_sided = 0, .force = 0, .fading = 0, .duplicate = 0, .weight = 0, .sum = 0});
+      const std::vector<Row> rows =
+          p.rows({.count = 4, .one_sided = 0, .force = 0, .duplicate = 0, .weight = 0, .sum = 0});
       // A passive joint (a caster's) has no motor; its feed-forward is a force of the world.
       worst = std::max(worst, wrench_map_residual(p, rows, solve_all(p, rows)));
     }

@@ -23,7 +23,7 @@ inline Model carriage(double max_effort = infinity) {
 }
 
 /// `value` is b, or f of a force row.
-inline Row along_rail(RowKind kind, double value, double bound, int level = 1, double fade = 1.0) {
+inline Row along_rail(RowKind kind, double value, double bound, int level = 1) {
   Row row;
   row.kind = kind;
   row.body = 1;
@@ -32,7 +32,6 @@ inline Row along_rail(RowKind kind, double value, double bound, int level = 1, d
   row.lo = kind == RowKind::lower ? 0.0 : -bound;
   row.hi = kind == RowKind::upper ? 0.0 : bound;
   row.level = level;
-  row.fade = fade;
   return row;
 }
 

@@ -48,7 +48,7 @@ TEST_P(GaussMinimum, NoAccelerationInsideTheEqualitiesHasASmallerZwang) {
     LawProblem p(GetParam(), seed);
     const DenseDynamics dense(p.model, p.state);
     const std::vector<solver::Row> rows =
-        p.rows({.count = 3, .one_sided = 0, .force = 0, .fading = 0, .weight = 0, .sum = 0});
+        p.rows({.count = 3, .one_sided = 0, .force = 0, .weight = 0, .sum = 0});
     solver::PopovVereshchagin sweeps(p.model);
     solver::ConstrainedMotion motion(p.model);
     ASSERT_EQ(sweeps.solve(p.state, acceleration_rows(rows), motion), solver::Status::ok);
@@ -78,7 +78,7 @@ TEST_P(GaussMinimum, NoAccelerationInsideTheLimitsHasASmallerZwang) {
     LawProblem p(GetParam(), seed);
     const DenseDynamics dense(p.model, p.state);
     std::vector<solver::Row> rows =
-        p.rows({.count = 3, .one_sided = 1, .force = 0, .fading = 0, .duplicate = 0, .weight = 0, .sum = 0});
+        p.rows({.count = 3, .one_sided = 1, .force = 0, .duplicate = 0, .weight = 0, .sum = 0});
     for (solver::Row& row : rows) {
       row.lo = row.kind == solver::RowKind::upper ? -1e6 : 0.0;
       row.hi = row.kind == solver::RowKind::lower ? 1e6 : 0.0;

@@ -44,12 +44,9 @@ bool is_finite(const Solution& s) {
 /// What is wrong with a row's force; nothing, mostly.
 std::string beyond_bounds(const Row& row, const RowSolution& got, int lowest_level) {
   const bool is_one_sided = row.kind == RowKind::upper || row.kind == RowKind::lower;
-  double low = row.fade * row.lo;
-  double high = row.fade * row.hi;
-  if (row.kind == RowKind::sum) {
-    low = row.lo / row.fade;
-    high = row.hi / row.fade;
-  } else if (is_one_sided && row.level < lowest_level) {  // below its own level it holds with what that takes
+  double low = row.lo;
+  double high = row.hi;
+  if (is_one_sided && row.level < lowest_level) {  // below its own level it holds with what that takes
     if (low < 0.0) low = -no_limit;
     if (high > 0.0) high = no_limit;
   }

@@ -100,7 +100,7 @@ void expect_derivatives(const Moving& robot, AxisConstraint c, const std::string
   }
   const double dds = derivative(&solver::Coordinate::velocity);
   c.driver = solver::Driver{.quantity = Quantity::acceleration, .target = 0.0};
-  if (c.measure == Measure::speed) {
+  if (c.measure == Measure::speed || c.measure == Measure::turn) {
     c.driver.reset();
     c.velocity = Range{-solver::infinity, 1e-3};
   }
@@ -138,6 +138,8 @@ TEST(Measures, HaveTheDerivativesThatTheirRowsSay) {
       c.measure = Measure::direction;
       c.coefficients = {0.6, -0.3, 0.2, 0.0, 0.0, 0.0};
       expect_derivatives(robot, c, where + "direction");
+      c.measure = Measure::turn;
+      if (own) expect_derivatives(robot, c, where + "turn");
       if (own) continue;
       c.measure = Measure::distance;
       expect_derivatives(robot, c, where + "distance");
@@ -247,6 +249,63 @@ TEST_F(PlanarRows, ACornerOfTheFootprintAtAnEdge) {
   EXPECT_NEAR(only().position, d, 1e-12);
   EXPECT_EQ(set.rows()[0].kind, RowKind::lower);
   EXPECT_NEAR(set.rows()[0].b, -solver::braking_speed(d - 0.1, 0.5, 0.010) / 0.010, 1e-9);
+}
+
+TEST_F(PlanarRows, OutsideOfAPositionRangeTheWayBackHasItsSpeed) {
+  // d < 0: b = min(-v/h, max((-min(v_brk(|d|), v_ret) - v)/h, -a_brk)), v the speed outwards.
+  state.base_twist.linear = {0.2, 0.0, 0.0};
+  base.position = Range{-solver::infinity, 0.0};
+  base.move.pose.position = {1000.0, 0.0, 0.0};
+  ASSERT_TRUE(set.add(base));
+  ASSERT_TRUE(set.fill(model, state));
+  const double h = 0.010, v = only().velocity;
+  for (const double braking : {0.5, 1e3}) {
+    for (const double v_ret : {0.0, 0.1, solver::infinity}) {
+      set[0].braking = braking;
+      set[0].return_speed = v_ret;
+      ASSERT_TRUE(set.fill(model, state));
+      const double d = only().position;
+      ASSERT_GT(d, 100.0);
+      const double back = std::min(std::sqrt(2.0 * 0.72 * braking * d), v_ret);
+      const double asked = set.rows()[0].b + only().acceleration_bias;
+      EXPECT_NEAR(asked, std::min(-v / h, std::max((-back - v) / h, -braking)),
+                  1e-3 * (1.0 + std::abs(asked)));
+    }
+  }
+}
+
+/// e . p'' of the point, by fourth-order differences of its velocity in the world.
+double acceleration_of_point(const Moving& robot, const AxisConstraint& c, const Vector3& e) {
+  constexpr double h = 2e-4;
+  const auto velocity = [&](double t) { return motion_of(c.move, robot.model, robot.at(t)).linear.dot(e); };
+  return (8.0 * (velocity(h) - velocity(-h)) - (velocity(2.0 * h) - velocity(-2.0 * h))) / (12.0 * h);
+}
+
+// Axes that turn with the body: the acceleration of an axis is the rate of its velocity, that of a side is
+// the point's own.
+TEST(Measures, ASideHasTheAccelerationOfThePoint) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Moving robot(seed);
+    for (const AttachedFrame& in :
+         {AttachedFrame{robot.hand.body, {robot.hand.pose.rotation, {}}}, robot.fixed}) {
+      AxisConstraint c;
+      c.move = robot.hand;
+      c.in = in;
+      c.measure = Measure::side;
+      c.coefficients = {0.6, -0.8, 0.0, 0.0, 0.0, 0.0};
+      c.acceleration = Range{-1.0, solver::infinity};
+      const solver::Pose axes = motion_of(in, robot.model, robot.start).pose;
+      const Vector3 e = axes.rotation * Vector3(0.6, -0.8, 0.0);
+      solver::ConstraintSet set(1, 2);
+      ASSERT_TRUE(set.add(c));
+      ASSERT_TRUE(set.fill(robot.model, robot.start));
+      ASSERT_EQ(set.rows().size(), 1u);
+      EXPECT_NEAR(acceleration_of_point(robot, c, e),
+                  spatial_acceleration_along(robot, set.rows()[0]) + set.coordinates()[0].acceleration_bias,
+                  1e-7)
+          << seed;
+    }
+  }
 }
 
 constexpr double horizon = 0.010;  // [s]

@@ -122,14 +122,6 @@ TEST_F(MecanumTest, HeightIsTheGrounds) {
   EXPECT_EQ(solution.rows[0].status, RowStatus::unreachable);
 }
 
-TEST_F(MecanumTest, FadingRowIsSoft) {
-  AxisConstraint half = drive(Axis::x, Quantity::acceleration, 1.0);
-  half.alpha = 0.5;
-  ASSERT_EQ(solve({half}), Status::ok);
-  // R = L (1 - alpha)/alpha = L: the row takes half of b.
-  EXPECT_NEAR(base().linear.x(), 0.5, 1e-10);
-}
-
 TEST_F(MecanumTest, ProjectionKeepsRollingMotionAndRemovesSlip) {
   state.base_twist.linear = {0.3, -0.2, 0.0};
   for (int j = 0; j < 4; ++j) {
@@ -154,7 +146,7 @@ TEST_F(MecanumTest, ProjectionKeepsRollingMotionAndRemovesSlip) {
 TEST_F(MecanumTest, RefusesNumbersThatAreNotFinite) {
   state.qd(1) = std::nan("");
   const Eigen::VectorXd before = solution.tau;
-  EXPECT_EQ(solver.solve(state, {}, solution), Status::invalid_input);
+  EXPECT_EQ(solver.solve(state, std::vector<Row>{}, solution), Status::invalid_input);
   EXPECT_EQ(before, solution.tau);
 }
 

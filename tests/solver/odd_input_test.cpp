@@ -83,7 +83,6 @@ INSTANTIATE_TEST_SUITE_P(
         Odd{"no_such_reference", Status::wrong_size, [](Input& i) { i.rows[0].reference_body = -2; }},
         Odd{"nan_direction", Status::invalid_input, [](Input& i) { i.rows[0].a.linear.x() = nan; }},
         Odd{"infinite_set_point", Status::invalid_input, [](Input& i) { i.rows[0].b = no_limit; }},
-        Odd{"nan_fade", Status::invalid_input, [](Input& i) { i.rows[0].fade = nan; }},
         Odd{"bounds_without_zero", Status::invalid_input, [](Input& i) { i.rows[0].lo = 1.0; }},
         Odd{"no_weight", Status::invalid_input, [](Input& i) { i.rows[0].weight = 0.0; }},
         Odd{"nan_weight", Status::invalid_input, [](Input& i) { i.rows[0].weight = nan; }},
@@ -145,17 +144,6 @@ TEST_F(OddRows, ARowAgainstItsOwnBodyIsUnreachable) {
   own.a_reference = own.a;
   solve({own});
   EXPECT_EQ(solution.rows[0].status, RowStatus::unreachable);
-}
-
-TEST_F(OddRows, AFadeBeyondItsRangeCountsAsItsEnd) {
-  Row gone = forward();
-  gone.fade = -0.5;
-  solve({gone});
-  EXPECT_EQ(solution.rows[0].nu, 0.0);
-  Row more = forward();
-  more.fade = 2.0;
-  solve({more});
-  EXPECT_NEAR(forward_acceleration(), 0.5, 1e-9);
 }
 
 TEST_F(OddRows, ASolutionOfAnotherModelIsRefused) {

@@ -133,24 +133,6 @@ TEST(OracleLevels, AOneSidedRowAboveBrakesADriverBelow) {
   EXPECT_NEAR(value(s.tau[0]), 10.0, 1e-14);
 }
 
-TEST(OracleLevels, FadingIsAPullOfTheSameMassTimesItsShare) {
-  // R = (1/m) (1 - alpha)/alpha, so nu = b / (1/m + R) = alpha m b.
-  solver::Row row = drive(2.0, 100.0, 1);
-  row.fade = 0.25;
-  const OracleSolution s = solve_carriage(none, {row});
-  EXPECT_NEAR(value(s.rows[0].nu), 0.25 * 20.0, 1e-14);
-}
-
-TEST(OracleLevels, AFadingRowAboveResistsInProportion) {
-  // Above: frozen at y + R nu = e. Below wants b: with L = 1/m, mu is the compensation. L (nu + mu) + R mu =
-  // e and L (nu + mu) = b give mu = (e - b)/R, nu = m b - mu.
-  solver::Row above = drive(0.0, 100.0, 0);
-  above.fade = 0.5;
-  const OracleSolution s = solve_carriage(none, {above, drive(1.0, 100.0, 1)});
-  EXPECT_NEAR(value(s.vdot[0]), 1.0, 1e-14);
-  EXPECT_NEAR(value(s.rows[1].nu), 20.0, 1e-13);
-}
-
 TEST(OracleLevels, DuplicateRowsShareTheirForce) {
   const OracleSolution s = solve_carriage(none, {drive(2.0, 50.0, 1), drive(2.0, 50.0, 1)});
   EXPECT_NEAR(value(s.rows[0].nu), 10.0, 1e-14);

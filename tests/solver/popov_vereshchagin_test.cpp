@@ -53,7 +53,7 @@ struct BaseProblem {
 };
 
 RowOptions equalities(int count) {
-  return {.count = count, .one_sided = 0, .force = 0, .fading = 0, .duplicate = 0};
+  return {.count = count, .one_sided = 0, .force = 0, .duplicate = 0};
 }
 
 class PopovVereshchaginTest : public testing::TestWithParam<Robot> {};

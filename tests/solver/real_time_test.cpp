@@ -16,7 +16,7 @@
 namespace zwang::solver {
 namespace {
 
-/// A busy problem: three levels, a force row with a velocity range, bounded drivers, a fading and a soft row,
+/// A busy problem: three levels, a force row with a velocity range, bounded drivers, a soft row,
 /// limits on the sum of forces and on the speed, torque limits in reach.
 void pose(const Model& model, std::mt19937& random, State& state, ConstraintSet& set) {
   std::uniform_real_distribution<double> number(-1.0, 1.0);
@@ -34,10 +34,8 @@ void pose(const Model& model, std::mt19937& random, State& state, ConstraintSet&
   constraint.velocity.reset();
   constraint.driver =
       Driver{.quantity = Quantity::velocity, .target = number(random), .force = {-40.0, 40.0}};
-  constraint.alpha = 0.7;
   ASSERT_TRUE(set.add(constraint));
   constraint.axis = Axis::rz;
-  constraint.alpha = 1.0;
   constraint.level = 2;
   ASSERT_TRUE(set.add(constraint));
   constraint.in.body = -1;

@@ -60,7 +60,7 @@ class StatusOracle {
   }
   Bound bound_of_sum(std::size_t i) const {
     if (want_.rows[i].unreachable) return Bound::free;
-    return bound(i, rows_[i].lo / rows_[i].fade, rows_[i].hi / rows_[i].fade);
+    return bound(i, rows_[i].lo, rows_[i].hi);
   }
   bool is_below_limits(int level) const {
     return std::any_of(rows_.begin(), rows_.end(), [&](const solver::Row& row) {
@@ -132,10 +132,10 @@ class StatusOracle {
     }
     // The oracle tells the force of the row's own level; a limit's may be another one below it.
     const bool is_known = !is_one_sided || row.level == lowest_;
-    const Bound at = is_known ? bound(i, row.fade * row.lo, row.fade * row.hi) : Bound::perhaps;
+    const Bound at = is_known ? bound(i, row.lo, row.hi) : Bound::perhaps;
     if (at != Bound::free) out.add(is_one_sided ? Status::conflict : Status::force_limited);
     if (at == Bound::reached) return out;
-    if (std::isfinite(row.weight) || row.fade < 1.0) {
+    if (std::isfinite(row.weight)) {
       out.add(Status::held);  // with its share of what it asks
     } else {
       if (may_motor_hold(row.level)) out.add(Status::torque_limited);

@@ -6,6 +6,7 @@
 #include "check/parameter_values.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "diagnostic/wordings_standing.hpp"
 
 namespace zwang::lang {
 
@@ -24,6 +25,28 @@ std::string written(const ValueText& value) {
 
 std::string axis_path(const GroupText& group, const AxisText& axis) {
   return group.kind == GroupKind::feature ? group.name.text : group.name.text + "." + axis.name.text;
+}
+
+/// Not below 0.
+void check_return_speed(CheckContext& context, const ValueText& value, const Dimension& expected,
+                        const std::string& what) {
+  if (check_value(context, value, expected, what)) check_positive(context, value, what, true);
+}
+
+bool has_position_range(const AxisText& text) {
+  const std::optional<StatementText>& position = text[Quantity::position];
+  return position && position->is_range;
+}
+
+/// `return` leads back into a range of positions: the axis must have one.
+void check_return(CheckContext& context, const AxisText& text, Axis axis, const std::string& path,
+                  const std::optional<ValueText>& return_speed) {
+  if (!return_speed) return;
+  check_return_speed(context, *return_speed, dimension_of(axis, Quantity::velocity), path + ".return");
+  const std::optional<StatementText>& position = text[Quantity::position];
+  const bool is_unread = position && !position->is_range && position->value.kind == ValueKind::bad;
+  if (!has_position_range(text) && !is_unread)
+    context.diagnostics.add(wording::return_without_range(return_speed->span, path));
 }
 
 /// One axis of one group.
@@ -48,8 +71,9 @@ class AxisCheck {
     check_force_range();
     if (text_.time_constant) check_time(context_, *text_.time_constant, path_ + ".time_constant", false);
     check_compliance();
-    check_speed();
+    check_norms();
     if (text_.weight) check_positive(*text_.weight, turns() ? dimension::inertia : dimension::mass, "weight");
+    check_return(context_, text_, axis_, path_, text_.return_speed);
   }
 
  private:
@@ -67,14 +91,19 @@ class AxisCheck {
     lang::check_positive(context_, value, what, false);
   }
 
-  void check_speed() {
-    const std::optional<StatementText>& velocity = text_[Quantity::velocity];
-    if (!text_.is_speed() || feature_ != nullptr || !velocity || !velocity->is_range) return;
-    const ValueText& low = velocity->low;
-    if (!known_value(context_, low, dimension::velocity)) return;
-    const solver::Range values = values_of(context_, low);
-    if (values.low != 0.0 || values.high != 0.0)
-      context_.diagnostics.add(wording::speed_from_zero(velocity->span, path_ + ".velocity"));
+  /// A norm begins at 0.
+  void check_norms() {
+    if (!text_.is_norm() || feature_ != nullptr) return;
+    for (const Quantity quantity : {Quantity::velocity, Quantity::acceleration, Quantity::force}) {
+      const std::optional<StatementText>& range = text_[quantity];
+      if (!range || !range->is_range || !known_value(context_, range->low, dimension_of(axis_, quantity)))
+        continue;
+      const solver::Range values = values_of(context_, range->low);
+      if (values.low == 0.0 && values.high == 0.0) continue;
+      const std::string what = path_ + "." + word_of(quantity);
+      context_.diagnostics.add(text_.is_speed() ? wording::speed_from_zero(range->span, what)
+                                                : wording::norm_from_zero(range->span, what));
+    }
   }
 
   /// `stiffness` and `damping` make a spring of a position driver, in the place of the time constant.
@@ -243,12 +272,27 @@ void check_feature_group(CheckContext& context, const GroupText& group) {
 void check_group_weight(CheckContext& context, const GroupText& group) {
   if (!group.weight) return;
   for (const AxisText& axis : group.axes) {
-    if (axis.weight || axis.is_free || axis.is_speed()) continue;
+    if (axis.weight || axis.is_free || axis.is_norm()) continue;
     const bool turns = is_rotation(axis_named(axis.name.text).value_or(Axis::x));
     const std::string what = group.name.text + ".weight, that of `" + axis.name.text + "`,";
     if (!check_value(context, *group.weight, turns ? dimension::inertia : dimension::mass, what)) return;
   }
   check_positive(context, *group.weight, group.name.text + ".weight", false);
+}
+
+/// The group's `return` is that of each position range that gives none.
+void check_group_return(CheckContext& context, const GroupText& group) {
+  if (!group.return_speed) return;
+  bool is_used = false;
+  for (const AxisText& axis : group.axes) {
+    if (!has_position_range(axis) || axis.return_speed) continue;
+    is_used = true;
+    check_return_speed(context, *group.return_speed,
+                       dimension_of(axis_named(axis.name.text).value_or(Axis::x), Quantity::velocity),
+                       group.name.text + ".return, that of `" + axis.name.text + "`,");
+  }
+  if (!is_used && !group.is_incomplete)
+    context.diagnostics.add(wording::return_without_range(group.return_speed->span, group.name.text));
 }
 
 void check_group(CheckContext& context, const GroupText& group) {
@@ -264,6 +308,7 @@ void check_group(CheckContext& context, const GroupText& group) {
     check_time(context, *group.time_constant, group.name.text + ".time_constant", false);
   }
   check_group_weight(context, group);
+  check_group_return(context, group);
   if (group.axes.empty() && !group.is_incomplete)
     context.diagnostics.add(wording::group_without_axes(group.name.span, group.name.text));
   for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, move, in).check();
@@ -314,7 +359,7 @@ void check_against_always(CheckContext& context, const TaskText& task) {
       for (const AxisText& axis : group.axes) {
         for (const AxisText& limit : limiting.axes) {
           const bool is_limited = axis.name.text == limit.name.text ||
-                                  (limit.is_speed() && (axis.name.text == "x" || axis.name.text == "y"));
+                                  (limit.is_norm() && (axis.name.text == "x" || axis.name.text == "y"));
           if (!is_limited) continue;
           for (const solver::Quantity quantity :
                {solver::Quantity::velocity, solver::Quantity::acceleration, solver::Quantity::force}) {

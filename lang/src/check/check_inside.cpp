@@ -84,6 +84,9 @@ void check_inside(CheckContext& context, const GroupText& group) {
   const std::string what = group.name.text + ".margin";
   if (group.margin && check_value(context, *group.margin, dimension::length, what))
     check_positive(context, *group.margin, what, true);
+  const std::string way_back = group.name.text + ".return";
+  if (group.return_speed && check_value(context, *group.return_speed, dimension::velocity, way_back))
+    check_positive(context, *group.return_speed, way_back, true);
   if (region) check_room(context, group, context.symbols.regions[static_cast<std::size_t>(*region)].region);
 }
 

@@ -107,6 +107,8 @@ constexpr Synonym synonyms[] = {
     {"k", "stiffness"},
     {"d", "damping"},
     {"priority", "level"},
+    {"return_speed", "return"},
+    {"recovery", "return"},
     {"distance", "position"},
     {"distance", "distance_to"},
     {"pose", "pose_of"},

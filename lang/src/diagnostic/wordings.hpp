@@ -42,7 +42,7 @@ Diagnostic key_too_long(const Span& span, std::size_t limit);
 Diagnostic scalar_too_long(const Span& span, std::size_t limit);
 Diagnostic too_many_tasks(const Span& span, std::size_t limit);
 Diagnostic too_many_groups(const Span& span, std::size_t limit);
-Diagnostic other_version(const Span& span, const std::string& key, const std::string& version);
+Diagnostic other_version(const Span& span, const std::string& key, const std::string& version, int newest);
 Diagnostic missing_version(const Span& span, const std::string& what, const std::string& key);
 /// `what` is wanted, and the file begins with the key of another kind of file.
 Diagnostic another_kind_of_file(const Span& span, const std::string& what, const std::string& key);

@@ -73,6 +73,16 @@ Diagnostic speed_from_zero(const Span& span, const std::string& what) {
                "write `[0 m/s, ..]`");
 }
 
+Diagnostic norm_from_zero(const Span& span, const std::string& what) {
+  return error("E415", span, "a norm only limits: " + in_ticks(what) + " begins at 0",
+               "write `[0, ..]` with its unit");
+}
+
+Diagnostic norm_that_drives(const Span& span, const std::string& what) {
+  return error("E415", span, "a norm only limits: " + in_ticks(what) + " has no direction to drive in",
+               "drive `x` and `y`, or give a range that begins at 0");
+}
+
 Diagnostic parameter_without_dollar(const Span& span, const std::string& name) {
   return with_replacement(
       error("E301", span, "`" + name + "` is a parameter, and lacks its `$`", "write `$" + name + "`"),

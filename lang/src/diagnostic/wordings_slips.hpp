@@ -46,6 +46,9 @@ Diagnostic word_in_capitals(const Span& span, const std::string& text, const std
 Diagnostic divides_by_zero(const Span& span);
 /// A range of speeds begins at 0.
 Diagnostic speed_from_zero(const Span& span, const std::string& what);
+/// Of `plane`.
+Diagnostic norm_from_zero(const Span& span, const std::string& what);
+Diagnostic norm_that_drives(const Span& span, const std::string& what);
 /// `push` for `$push`.
 Diagnostic parameter_without_dollar(const Span& span, const std::string& name);
 Diagnostic silent_axis(const Span& span, const std::string& axis);

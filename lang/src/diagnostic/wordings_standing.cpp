@@ -190,6 +190,21 @@ Diagnostic plant_refuses(const Span& span, const std::string& reason) {
                "change the part that it names: `run` and `test` start with the simulated plant");
 }
 
+Diagnostic return_without_range(const Span& span, const std::string& what) {
+  return error("E104", span, in_ticks(what) + " gives a `return` and no range of positions to come back into",
+               "give a range, `position: [low, high]`, or delete `return`");
+}
+
+Diagnostic starts_outside(const Span& span, const StartOutside& start) {
+  const std::string of = start.region.empty() ? "its range" : "region " + in_ticks(start.region);
+  const std::string by = start.turns ? figure(start.distance, "rad") : in_length(start.distance);
+  const std::string speed = figure(start.speed, start.turns ? "rad/s" : "m/s");
+  const std::string then =
+      start.speed > 0.0 ? ": it returns at " + speed : ": nothing brings it back, as `return` is 0";
+  return warning("W914", span, in_ticks(start.row) + " starts outside of " + of + " by " + by + then,
+                 "start inside, or say with `return` how fast it may come back");
+}
+
 Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& wheel) {
   const char* unit = fast.turns ? "rad/s" : "m/s";
   return with_related(

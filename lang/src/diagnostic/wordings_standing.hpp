@@ -71,6 +71,19 @@ Diagnostic starts_inside(const Span& span, const std::string& robot, const std::
 /// What the simulated plant refuses to start with.
 Diagnostic plant_refuses(const Span& span, const std::string& reason);
 
+/// Of an axis or a group.
+Diagnostic return_without_range(const Span& span, const std::string& what);
+
+/// A row whose frame starts outside of what holds it.
+struct StartOutside {
+  std::string row;        ///< "always.fence", "wait.back.x"
+  std::string region;     ///< empty: a range of positions
+  double distance = 0.0;  ///< [m] or [rad]
+  double speed = 0.0;     ///< of the way back [m/s] or [rad/s]
+  bool turns = false;
+};
+Diagnostic starts_outside(const Span& span, const StartOutside& start);
+
 /// A speed that the wheels cannot turn to.
 struct TooFast {
   std::string axis;

@@ -179,9 +179,10 @@ Diagnostic too_many_groups(const Span& span, std::size_t limit) {
   return error("E117", span, "more than " + std::to_string(limit) + " constraint groups in one place");
 }
 
-Diagnostic other_version(const Span& span, const std::string& key, const std::string& version) {
-  return error("E108", span, "this file is " + key + " " + escaped(version) + "; this program reads 1",
-               "write `" + key + ": 1`");
+Diagnostic other_version(const Span& span, const std::string& key, const std::string& version, int newest) {
+  const std::string read = newest == 1 ? "1" : "1 to " + std::to_string(newest);
+  return error("E108", span, "this file is " + key + " " + escaped(version) + "; this program reads " + read,
+               "write `" + key + ": " + std::to_string(newest) + "`");
 }
 
 Diagnostic missing_version(const Span& span, const std::string& what, const std::string& key) {

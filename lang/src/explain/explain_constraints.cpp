@@ -244,6 +244,16 @@ tasks:
     constraints:
       stay: {move: footprint, inside: hall, margin: 0.3 m}
     timeout: {after: 10 s, goto: failed})~"},
+      Explanation{
+          .code = "E415",
+          .title = "a norm that is to drive",
+          .why =
+              R"~(`plane` bounds how large a velocity, an acceleration or a force in the plane is, in whatever direction. It begins at 0:
+a norm has no direction to drive in, and nothing keeps it up.)~",
+          .fix = "Drive `x` and `y`, and give `plane` ranges that begin at 0.",
+          .part = ExcerptOf::group,
+          .example = "x: {velocity: 0.1 m/s}\nplane: {velocity: 0.5 m/s}",
+          .instead = "x: {velocity: 0.1 m/s}\nplane: {velocity: [0 m/s, 0.5 m/s]}"},
   };
   return entries;
 }

@@ -208,6 +208,25 @@ the push has at a corner. The base rests as askew as it came, and the exit would
 sideways with mu m g l, more than the push has at a corner of the footprint.)~",
           .fix = "Drive `rz` to a measured angle, press harder, or take a base that a wall can turn."},
       Explanation{
+          .code = "W615",
+          .title = "a circle that the norm of the acceleration does not allow",
+          .why =
+              R"~(A base that drives ahead at v and turns at w goes around a circle, and its point accelerates towards the centre with w v. The
+axes' own accelerations are 0 then; `plane` bounds the acceleration of the point, and slows the base down.)~",
+          .fix = "Turn or drive more slowly, or allow the acceleration: the message has the numbers.",
+          .part = ExcerptOf::group,
+          .example =
+              "x: {velocity: 0.8 m/s}\nrz: {velocity: 1 rad/s}\nplane: {acceleration: [0 m/s^2, 0.3 m/s^2]}",
+          .instead = "x: {velocity: 0.8 m/s}\nrz: {velocity: 0.3 rad/s}\nplane: {acceleration: [0 m/s^2, 0.3 "
+                     "m/s^2]}"},
+      Explanation{
+          .code = "W641",
+          .title = "two ranges that are meant as a norm",
+          .why =
+              R"~(Equal ranges on x and on y are a box: at 45 deg both together allow 1.41 times as much as either. An acceleration range of an
+axis bounds the rate of that axis's velocity, and nothing of what a turn adds.)~",
+          .fix = "Write `plane`: it bounds the norm in any direction. If a box is meant, silence the line."},
+      Explanation{
           .code = "W643",
           .title = "motion that the steering does not allow",
           .why =

@@ -142,6 +142,16 @@ lower than the robot's `bumper` pass below it.)~",
           .fix =
               R"~(Move the object, or the `start`. A wall's `at` lies on its face, which looks along its own -x.)~"},
       Explanation{
+          .code = "W914",
+          .title = "a start outside of a range or a region",
+          .why =
+              "Where the scene has the robot at the start, a range of positions or a region of `always` or "
+              "of the first task does not hold it. It sets out at once to come back, with the speed that "
+              "`return` gives (0.1 m/s or 0.1 rad/s where nothing is given), whatever else the task wants.",
+          .fix =
+              "Move the `start`, or the range or region. If the way back is meant, say its speed: "
+              "`return: 0.2 m/s`; with `return: 0 m/s` the robot stays outside until the task moves it in."},
+      Explanation{
           .code = "E915",
           .title = "what the simulated plant cannot start with",
           .why =

@@ -71,7 +71,7 @@ class Lowering {
     const bool is_feature = group.kind == GroupKind::feature;
     axis.name = is_feature ? group.name.text : group.name.text + "." + text.name.text;
     axis.axis = axis_named(text.name.text).value_or(solver::Axis::x);
-    axis.is_planar_speed = !is_feature && text.is_speed();
+    axis.is_planar = !is_feature && text.is_norm();
     axis.span = text.name.span;
     const std::array ranges{&axis.position, &axis.velocity, &axis.acceleration, &axis.force};
     for (const Quantity quantity :
@@ -95,6 +95,8 @@ class Lowering {
     if (text.damping) axis.damping = value(*text.damping);
     const std::optional<ValueText>& weight = text.weight ? text.weight : group.weight;
     if (weight) axis.weight = value(*weight);
+    const std::optional<ValueText>& return_speed = text.return_speed ? text.return_speed : group.return_speed;
+    if (return_speed) axis.return_speed = value(*return_speed);
     axis.level = text.level.value_or(group.level.value_or(level));
     return axis;
   }
@@ -117,6 +119,7 @@ class Lowering {
         group.move =
             *checked_.symbols.find_frame(group.moves_footprint ? checked_.robot.base_frame : text.move.text);
         if (text.margin) group.margin = value(*text.margin);
+        if (text.return_speed) group.return_speed = value(*text.return_speed);
         break;
       case GroupKind::feature:
         group.feature = *checked_.symbols.find_feature(text.feature.text);

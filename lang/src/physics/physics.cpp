@@ -76,6 +76,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_still(plan, probe, remarks);
   ask_distance(plan, probe, remarks);
   ask_top_speed(plan, *context.robot, remarks);
+  ask_plane(plan, probe, remarks);
   ask_arm_force(plan, *context.robot, remarks);
   ask_press(plan, probe, remarks);
   ask_springs(plan, probe, remarks);

@@ -161,7 +161,51 @@ void plan_speed(const CheckContext& context, const GroupText& group, const AxisT
   const std::optional<double> most = known(context, velocity->high, dimension::velocity);
   const int body = place_of(context, *move).frame.body;
   if (!most || !(*most > 0.0) || body < 0) return;
-  speeds.push_back({(in_always ? "always." : "") + group.name.text + ".speed", body, *most, velocity->span});
+  speeds.push_back(
+      {(in_always ? "always." : "") + group.name.text + "." + text.name.text, body, *most, velocity->span});
+}
+
+void plan_norm(const CheckContext& context, const GroupText& group, const AxisText& text, bool in_always,
+               std::vector<PlannedNorm>& norms) {
+  const std::optional<int> move = good_frame(context.symbols, group.move);
+  const std::optional<StatementText>& acceleration = text[Quantity::acceleration];
+  if (!move || !acceleration || !acceleration->is_range) return;
+  const std::optional<double> most = known(context, acceleration->high, dimension::acceleration);
+  const Place place = place_of(context, *move);
+  if (!most || place.frame.body < 0) return;
+  norms.push_back(
+      {(in_always ? "always." : "") + group.name.text + ".plane", place.frame, *most, acceleration->span});
+}
+
+/// A norm bounds each of its two axes.
+void plan_box(const CheckContext& context, const GroupText& group, const AxisText& text, bool in_always,
+              std::vector<PlannedAxis>& axes) {
+  for (const solver::Axis along : {solver::Axis::x, solver::Axis::y}) {
+    PlannedAxis axis;
+    const std::optional<int> move = good_frame(context.symbols, group.move);
+    const std::optional<int> in = good_frame(context.symbols, group.in);
+    if (!move || !in) return;
+    axis.path = (in_always ? "always." : "") + group.name.text + "." + text.name.text;
+    axis.text = &text;
+    if (!in_always) axis.group = group.name.text;
+    axis.move_name = group.move.text;
+    axis.in_name = group.in.text;
+    axis.axis = along;
+    axis.is_norm = true;
+    stand_between(axis, place_of(context, *move), place_of(context, *in));
+    if (axis.move.body < 0) return;
+    for (const Quantity quantity : {Quantity::acceleration, Quantity::force}) {
+      const std::optional<StatementText>& range = text[quantity];
+      const std::optional<double> most = range && range->is_range
+                                             ? known(context, range->high, dimension_of(along, quantity))
+                                             : std::nullopt;
+      if (!most || *most < 0.0) continue;
+      axis.spans[static_cast<std::size_t>(quantity)] = range->span;
+      axis.ranges[static_cast<std::size_t>(quantity)] = solver::Range{-*most, *most};
+    }
+    axis.level = text.level.value_or(group.level.value_or(in_always ? 0 : 1));
+    if (axis[Quantity::acceleration] || axis[Quantity::force]) axes.push_back(std::move(axis));
+  }
 }
 
 void plan_groups(const CheckContext& context, const std::vector<GroupText>& groups, bool in_always,
@@ -169,8 +213,10 @@ void plan_groups(const CheckContext& context, const std::vector<GroupText>& grou
   for (const GroupText& group : groups) {
     if (group.kind == GroupKind::inside) continue;
     for (const AxisText& text : group.axes) {
-      if (text.is_speed() && group.kind == GroupKind::axes) {
+      if (text.is_norm() && group.kind == GroupKind::axes) {
         plan_speed(context, group, text, in_always, plan.speeds);
+        plan_norm(context, group, text, in_always, plan.norms);
+        plan_box(context, group, text, in_always, plan.axes);
         continue;
       }
       std::optional<PlannedAxis> axis = plan_axis(context, group, text, in_always);

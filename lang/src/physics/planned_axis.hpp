@@ -40,6 +40,7 @@ struct PlannedAxis {
   std::array<double, 4> corners{};
   std::size_t corner_count = 0;
   int level = 1;
+  bool is_norm = false;                      ///< x or y of what `plane` bounds
   bool is_soft = false;                      ///< has a weight
   bool is_spring = false;                    ///< has stiffness and damping: pushes, and holds no motion
   std::optional<double> stiffness, damping;  ///< of a spring, at the start
@@ -63,11 +64,19 @@ struct PlannedAxis {
   bool is_open() const { return measure == solver::Measure::distance && in_world; }
 };
 
-/// `speed`: what bounds the planar velocity of a frame.
+/// `speed`, and `velocity` of `plane`: what bounds the planar velocity of a frame.
 struct PlannedSpeed {
   std::string path;   ///< "always.manners.speed"
   int body = 0;       ///< that carries the frame
   double most = 0.0;  ///< [m/s]
+  Span span;          ///< of the range
+};
+
+/// `acceleration` of `plane`.
+struct PlannedNorm {
+  std::string path;  ///< "always.calm.plane"
+  solver::AttachedFrame move;
+  double most = 0.0;  ///< [m/s^2]
   Span span;          ///< of the range
 };
 
@@ -76,6 +85,7 @@ struct PlannedTask {
   std::vector<PlannedAxis> axes;  ///< of `always`, of the task, then the robot file's limits
   std::vector<PlannedAxis> free;  ///< of them what is written as `free`
   std::vector<PlannedSpeed> speeds;
+  std::vector<PlannedNorm> norms;
 
   /// How fast the axis may go at most, by its own range and by what bounds the planar speed of what it moves.
   /// Infinite where nothing does. [m/s] or [rad/s]

@@ -253,7 +253,7 @@ std::string posture_name(const std::string& joint) {
 
 std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics& diagnostics) {
   MapReader map(document.root, "a robot file", diagnostics);
-  if (!map.is_mapping() || !check_version(map, "zwang_robot", diagnostics)) return std::nullopt;
+  if (!map.is_mapping() || !check_version(map, "zwang_robot", 1, diagnostics)) return std::nullopt;
   std::vector<Span> open;
   add_open_places(document.root, open);
   if (!open.empty()) {

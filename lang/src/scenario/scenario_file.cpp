@@ -204,7 +204,7 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
 
 std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagnostics& diagnostics) {
   MapReader map(document.root, "a scenario file", diagnostics);
-  if (!map.is_mapping() || !check_version(map, "zwang_scenario", diagnostics)) return std::nullopt;
+  if (!map.is_mapping() || !check_version(map, "zwang_scenario", 1, diagnostics)) return std::nullopt;
   ScenarioFile file;
   if (const Node* about = map.optional("about")) file.about = about->text;
   if (const Node* task = map.required("task")) file.task = parse_word(*task, "`task`", diagnostics);

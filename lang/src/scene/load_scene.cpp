@@ -254,7 +254,7 @@ void parse_robots(const Node& node, Scene& scene, std::vector<Seen>& seen, Diagn
 
 std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnostics) {
   MapReader map(document.root, "a scene file", diagnostics);
-  if (!map.is_mapping() || !check_version(map, "zwang_scene", diagnostics)) return std::nullopt;
+  if (!map.is_mapping() || !check_version(map, "zwang_scene", 1, diagnostics)) return std::nullopt;
   Scene scene;
   if (const Node* node = map.optional("start")) parse_start(*node, scene, diagnostics);
   if (const Node* node = map.optional("floor")) parse_floor(*node, scene, diagnostics);

@@ -82,9 +82,15 @@ Json reference(const char* name, const char* description) {
   return {{"description", description}, {"allOf", Json::array({bare})}};
 }
 
-Property version(const char* key) {
-  return {key, Json{{"const", 1}, {"description", "the version of the language that the file is written in"}},
-          true};
+Property version(const char* key, int newest) {
+  Json schema = Json::object();
+  if (newest == 1) {
+    schema["const"] = 1;
+  } else {
+    for (int known = 1; known <= newest; ++known) schema["enum"].push_back(known);
+  }
+  schema["description"] = "the version of the language that the file is written in";
+  return {key, std::move(schema), true};
 }
 
 Json definitions() {

@@ -33,7 +33,7 @@ Json reference(const char* name, const char* description = "");
 /// The definitions that `reference` can name: text, quantity, value, range, vector, pose.
 Json definitions();
 /// `key: 1`
-Property version(const char* key);
+Property version(const char* key, int newest = 1);
 
 Json task_file();
 Json robot_file();

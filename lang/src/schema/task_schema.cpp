@@ -1,4 +1,5 @@
 #include "schema/parts.hpp"
+#include "spec/shape.hpp"
 
 namespace zwang::lang::schema {
 
@@ -27,6 +28,12 @@ std::vector<Property> manner() {
        reference("value", "a mass w that makes rows soft: they meet the share w / (w + effective mass)")}};
 }
 
+Property way_back() {
+  return {"return", reference("value",
+                              "how fast it comes back from outside of a position range; 0: not at "
+                              "all; where none is given, 0.1 m/s or 0.1 rad/s")};
+}
+
 std::vector<Property> statements() {
   std::vector<Property> properties = {
       {"position",
@@ -36,7 +43,8 @@ std::vector<Property> statements() {
       {"force", statement("a single value drives with this force; a range beside a driver of motion limits "
                           "the force that it spends")},
       {"stiffness", reference("value", "with `damping`: a position driver becomes a spring")},
-      {"damping", reference("value", "with `stiffness`")}};
+      {"damping", reference("value", "with `stiffness`")},
+      way_back()};
   for (Property& property : manner()) properties.push_back(std::move(property));
   return properties;
 }
@@ -50,10 +58,16 @@ Json group() {
   std::vector<Property> axes = {{"move", word("the frame that moves"), true},
                                 {"in", word("the frame whose axes count"), true}};
   for (Property& property : manner()) axes.push_back(std::move(property));
+  axes.push_back(way_back());
   for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) axes.push_back({name, reference("axis")});
   std::vector<Property> speed = {{"velocity", reference("range"), true}};
   for (Property& property : manner()) speed.push_back(std::move(property));
   axes.push_back({"speed", object("the norm of the velocity in the plane", std::move(speed))});
+  std::vector<Property> plane = {{"velocity", reference("range", "of the norm: begins at 0 m/s")},
+                                 {"acceleration", reference("range", "of the point's, whatever turns it")},
+                                 {"force", reference("range", "on a wall across any direction")}};
+  for (Property& property : manner()) plane.push_back(std::move(property));
+  axes.push_back({"plane", filled(object("norms in the plane of x and y", std::move(plane)))});
   std::vector<Property> feature = {{"feature", word("the name of a feature"), true}};
   for (Property& property : statements()) feature.push_back(std::move(property));
   return any_of({object("statements about the axes of a frame", std::move(axes)),
@@ -61,6 +75,7 @@ Json group() {
                         {{"move", word("a frame, or `footprint`"), true},
                          {"inside", word("the name of a region"), true},
                          {"margin", reference("value", "the distance kept from the border")},
+                         way_back(),
                          {"level", Json{{"type", "integer"}, {"minimum", 0}, {"maximum", 9}}}}),
                  object("statements about a feature", std::move(feature))});
 }
@@ -174,7 +189,7 @@ Json templates() {
 Json task_file() {
   Json schema = object(
       "A task of zwang",
-      {version("zwang"),
+      {version("zwang", newest_task_version),
        {"robot", word("the path of the robot file, from this file"), true},
        {"scene", word("the path of the scene file, for the simulated robot")},
        {"about", word("a sentence for reports")},

@@ -171,7 +171,7 @@ solver::Pose pose_of(const FrameText& frame) {
 std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics) {
   MapReader map(document.root, "a task file", diagnostics);
   if (!map.is_mapping()) return std::nullopt;
-  if (!check_version(map, "zwang", diagnostics)) return std::nullopt;
+  if (!check_version(map, "zwang", newest_task_version, diagnostics)) return std::nullopt;
   TaskFile file;
   if (const Node* robot = map.required("robot")) file.robot = parse_word(*robot, "`robot`", diagnostics);
   if (const Node* scene = map.optional("scene")) file.scene = parse_word(*scene, "`scene`", diagnostics);

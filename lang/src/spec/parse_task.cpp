@@ -25,6 +25,13 @@ std::optional<int> parse_level(const Node& node, const std::string& path, int lo
   return parse_integer(node, path, lowest_level, 9, diagnostics);
 }
 
+/// `return`: the speed of the way back into a range or a region.
+void parse_return(MapReader& map, const std::string& path, std::optional<ValueText>& return_speed,
+                  Diagnostics& diagnostics) {
+  if (const Node* node = map.optional("return"))
+    return_speed = parse_value(*node, path + ".return", diagnostics);
+}
+
 /// What a group or an axis may say besides its statements.
 void parse_manner(MapReader& map, const std::string& path, std::optional<ValueText>& time_constant,
                   std::optional<ValueText>& weight, std::optional<int>& level, int lowest_level,
@@ -56,6 +63,7 @@ void parse_statements(MapReader& map, const std::string& path, AxisText& axis, i
   if (const Node* node = map.optional("damping")) {
     axis.damping = parse_value(*node, path + ".damping", diagnostics);
   }
+  parse_return(map, path, axis.return_speed, diagnostics);
 }
 
 /// What `0 deg` alone may have been meant as.
@@ -63,7 +71,10 @@ std::string statement_of(const std::string& text, const std::string& axis) {
   const QuantityResult result = parse_quantity(text);
   const Dimension& d = result.quantity.dimension;
   const bool is_known = result.error == QuantityError::none;
-  if (axis == "speed" && (is_known || text.starts_with("$")))
+  if (axis == "plane" && is_known && d == dimension::acceleration)
+    return "{acceleration: [0 m/s^2, " + text + "]}";
+  if (axis == "plane" && is_known && d == dimension::force) return "{force: [0 N, " + text + "]}";
+  if ((axis == "speed" || axis == "plane") && (is_known || text.starts_with("$")))
     return "{velocity: [0 m/s, " + wording::with_unit(text, dimension::velocity) + "]}";
   if (is_known && !result.quantity.has_unit)
     return "{velocity: " +
@@ -76,6 +87,29 @@ std::string statement_of(const std::string& text, const std::string& axis) {
     return "{acceleration: " + text + "}";
   if (is_known || text.starts_with("$")) return "{velocity: " + text + "}";
   return "{position: here}";
+}
+
+/// `plane`: ranges of norms, one at least. A single value would drive, and a norm has no direction (E415).
+void parse_plane(MapReader& map, const Entry& entry, const std::string& path, AxisText& axis,
+                 Diagnostics& diagnostics) {
+  bool is_empty = true;
+  for (const Quantity quantity :
+       {Quantity::position, Quantity::velocity, Quantity::acceleration, Quantity::force}) {
+    const std::string word = word_of(quantity);
+    const Node* node = map.optional(word);
+    if (node == nullptr) continue;
+    is_empty = false;
+    StatementText range = parse_statement(*node, path + "." + word, diagnostics);
+    const bool is_read = range.is_range || range.value.kind != ValueKind::bad;
+    if (is_read && (quantity == Quantity::position || !range.is_range)) {
+      diagnostics.add(wording::norm_that_drives(node->span, path + "." + word));
+      continue;
+    }
+    range.is_range = true;
+    range.key_span = entry.value.find(word)->key.span;
+    axis.statements[static_cast<std::size_t>(quantity)] = std::move(range);
+  }
+  if (is_empty && !map.has_unread_keys()) diagnostics.add(wording::silent_axis(entry.key.span, path));
 }
 
 /// `is_incomplete` is set where a key could not be read.
@@ -103,7 +137,10 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
     return axis;
   }
   MapReader map(entry.value, "axis `" + path + "`", diagnostics);
-  if (axis.is_speed()) {
+  if (axis.is_plane()) {
+    parse_manner(map, path, axis.time_constant, axis.weight, axis.level, lowest_level, diagnostics);
+    parse_plane(map, entry, path, axis, diagnostics);
+  } else if (axis.is_speed()) {
     parse_manner(map, path, axis.time_constant, axis.weight, axis.level, lowest_level, diagnostics);
     // Another quantity in its place is an unknown key, and told as such.
     const bool is_another = entry.value.find("velocity") == nullptr && map.has_unread_keys();
@@ -146,7 +183,8 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
   const std::string& path = entry.key.text;
   MapReader map(entry.value, "constraint group `" + path + "`", diagnostics);
   const auto is_meant = [&](const char* key) {
-    return entry.value.find(key) != nullptr || (entry.value.find("in") == nullptr && map.has_misspelt({key}));
+    const bool is_another = entry.value.find("in") != nullptr || entry.value.find("inside") != nullptr;
+    return entry.value.find(key) != nullptr || (!is_another && map.has_misspelt({key}));
   };
   if (is_meant("feature")) {
     group.kind = GroupKind::feature;
@@ -167,6 +205,7 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
     if (const Node* node = map.optional("margin")) {
       group.margin = parse_value(*node, path + ".margin", diagnostics);
     }
+    parse_return(map, path, group.return_speed, diagnostics);
     if (const Node* node = map.optional("level")) {
       group.level = parse_level(*node, path + ".level", lowest_level, diagnostics);
     }
@@ -174,7 +213,8 @@ GroupText parse_group(const Entry& entry, int lowest_level, Diagnostics& diagnos
     if (const Node* node = map.required("move")) group.move = parse_word(*node, "`move`", diagnostics);
     if (const Node* node = map.required("in")) group.in = parse_word(*node, "`in`", diagnostics);
     parse_manner(map, path, group.time_constant, group.weight, group.level, lowest_level, diagnostics);
-    for (const char* name : {"x", "y", "z", "rx", "ry", "rz", "speed"}) {
+    parse_return(map, path, group.return_speed, diagnostics);
+    for (const char* name : {"x", "y", "z", "rx", "ry", "rz", "speed", "plane"}) {
       if (map.optional(name) == nullptr) continue;
       group.axes.push_back(
           parse_axis(*entry.value.find(name), path, lowest_level, group.is_incomplete, diagnostics));
@@ -280,9 +320,9 @@ void parse_enter(const Node& node, TaskText& task, Diagnostics& diagnostics) {
 /// Whether the entry is a line of a group, rather than a group: `move: base_link`, `x: {velocity: ..}`.
 bool is_of_a_group(const Entry& entry) {
   static const std::vector<std::string> words{
-      "move",      "in",      "feature",  "inside",   "margin",       "level", "weight", "time_constant",
-      "stiffness", "damping", "position", "velocity", "acceleration", "force", "x",      "y",
-      "z",         "rx",      "ry",       "rz",       "speed"};
+      "move",   "in",        "feature", "inside",   "margin",   "level",        "weight", "time_constant",
+      "return", "stiffness", "damping", "position", "velocity", "acceleration", "force",  "x",
+      "y",      "z",         "rx",      "ry",       "rz",       "speed",        "plane"};
   const Node& value = entry.value;
   if (std::find(words.begin(), words.end(), entry.key.text) == words.end()) return false;
   if (!value.is_mapping()) return value.kind != NodeKind::null;

@@ -450,7 +450,7 @@ std::optional<std::vector<std::array<double, 2>>> parse_polygon(const Node& node
   return corners;
 }
 
-bool check_version(MapReader& map, const std::string& key, Diagnostics& diagnostics) {
+bool check_version(MapReader& map, const std::string& key, int newest, Diagnostics& diagnostics) {
   const Node* version = map.optional(key);
   if (version == nullptr) {
     for (const char* other : {"zwang", "zwang_robot", "zwang_scene", "zwang_scenario"}) {
@@ -463,8 +463,10 @@ bool check_version(MapReader& map, const std::string& key, Diagnostics& diagnost
     return false;
   }
   if (version->is_bad) return true;
-  if (version->is_scalar() && version->text == "1") return true;
-  diagnostics.add(wording::other_version(version->span, key, version->text));
+  for (int known = 1; known <= newest; ++known) {
+    if (version->is_scalar() && version->text == std::to_string(known)) return true;
+  }
+  diagnostics.add(wording::other_version(version->span, key, version->text, newest));
   return false;
 }
 

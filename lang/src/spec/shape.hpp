@@ -96,7 +96,9 @@ std::optional<double> parse_positive(const Node& node, const Dimension& expected
 /// The same of a value that was read before.
 bool require_positive(const ValueText& value, const Dimension& expected, const std::string& what,
                       bool zero_allowed, Diagnostics& diagnostics);
-/// Checks `zwang: 1` and its kin; false when the file is in a version that is not read here.
-bool check_version(MapReader& map, const std::string& key, Diagnostics& diagnostics);
+/// Checks `zwang: 1` and its kin; false when the file is in a version that is not read here, 1 to `newest`.
+bool check_version(MapReader& map, const std::string& key, int newest, Diagnostics& diagnostics);
+
+constexpr int newest_task_version = 2;
 
 }  // namespace zwang::lang

@@ -61,13 +61,16 @@ struct FeatureText {
 };
 
 struct AxisText {
-  Word name;  ///< x, y, z, rx, ry, rz, speed; of a feature the group's name
+  Word name;  ///< x, y, z, rx, ry, rz, speed, plane; of a feature the group's name
   bool is_free = false;
   std::array<std::optional<StatementText>, 4> statements;  ///< by solver::Quantity
-  std::optional<ValueText> time_constant, stiffness, damping, weight;
+  std::optional<ValueText> time_constant, stiffness, damping, weight, return_speed;
   std::optional<int> level;
 
   bool is_speed() const { return name.text == "speed"; }
+  bool is_plane() const { return name.text == "plane"; }
+  /// Stands for norms in the plane of x and y.
+  bool is_norm() const { return is_speed() || is_plane(); }
   const std::optional<StatementText>& operator[](solver::Quantity q) const {
     return statements[static_cast<std::size_t>(q)];
   }
@@ -81,7 +84,7 @@ struct GroupText {
   Word region;   ///< of `inside`
   Word feature;  ///< of a feature group
   std::vector<AxisText> axes;
-  std::optional<ValueText> time_constant, weight, margin;
+  std::optional<ValueText> time_constant, weight, margin, return_speed;
   std::optional<int> level;
   bool is_incomplete = false;  ///< a key could not be read: what the group lacks may have been there
 };

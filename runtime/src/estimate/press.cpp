@@ -18,16 +18,21 @@ Press::Press(const solver::Model& model)
       p_(B_),
       torque_(Eigen::VectorXd::Zero(model.joint_count())) {}
 
-const Eigen::VectorXd& Press::look(const solver::Solver& solver, const std::vector<solver::Row>& rows,
+const Eigen::VectorXd& Press::look(const solver::Solver& solver, std::span<const solver::RowSet> sets,
                                    const solver::Solution& solution) noexcept {
   bool any = false;
   p_.setZero();
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const solver::RowSolution& found = solution.rows[i];
-    if (!presses(rows[i], found)) continue;
-    any = true;
-    solver.force_on_motions(static_cast<int>(i), B_);
-    p_.head(solution.mobility) += found.nu * B_.head(solution.mobility);
+  std::size_t i = 0;
+  for (const solver::RowSet& set : sets) {
+    for (const solver::Row& row : *set.rows) {
+      const solver::RowSolution& found = solution.rows[i];
+      if (presses(row, found)) {
+        any = true;
+        solver.force_on_motions(static_cast<int>(i), B_);
+        p_.head(solution.mobility) += set.share * found.nu * B_.head(solution.mobility);
+      }
+      ++i;
+    }
   }
   torque_.setZero();
   if (!any) return torque_;

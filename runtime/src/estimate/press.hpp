@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "zwang/solver/constraint.hpp"
@@ -20,8 +21,8 @@ class Press {
  public:
   explicit Press(const solver::Model& model);
 
-  /// By joint [N m] or [N]: of what `solver` has just found for `rows`.
-  const Eigen::VectorXd& look(const solver::Solver& solver, const std::vector<solver::Row>& rows,
+  /// By joint [N m] or [N]: of what `solver` has just found for the rows of `sets`.
+  const Eigen::VectorXd& look(const solver::Solver& solver, std::span<const solver::RowSet> sets,
                               const solver::Solution& solution) noexcept;
 
  private:

@@ -66,6 +66,10 @@ const char* to_string(EventCode code) noexcept {
       return "signal_refused";
     case EventCode::probed:
       return "probed";
+    case EventCode::outside:
+      return "outside";
+    case EventCode::not_at_rest:
+      return "not_at_rest";
   }
   return "?";
 }
@@ -134,17 +138,23 @@ const char* describe(EventCode code) noexcept {
       return "samples of a signal come by another clock, or with numbers that are none";
     case EventCode::probed:
       return "no encoder counted where the motors should have moved the base; told to move back, it did";
+    case EventCode::outside:
+      return "a frame stands outside of its range or region";
+    case EventCode::not_at_rest:
+      return "the stop's time is over, and the base may still move";
   }
   return "?";
 }
 
-std::vector<std::string> event_signals(const solver::Model& model, const std::vector<std::string>& measured) {
+std::vector<std::string> event_signals(const solver::Model& model, const std::vector<std::string>& measured,
+                                       const std::vector<std::string>& rows) {
   std::vector<std::string> names = {"time", "base.pose", "base.twist"};
   for (int j = 0; j < model.joint_count(); ++j) {
     for (const char* what : {".q", ".qd", ".tau_ff", ".tau"}) names.push_back(model.joint(j).name + what);
   }
   for (const solver::Body& body : model.bodies()) names.push_back(body.name + ".f_ext");
   names.insert(names.end(), measured.begin(), measured.end());
+  names.insert(names.end(), rows.begin(), rows.end());
   return names;
 }
 

@@ -22,8 +22,8 @@ void MotorWatch::reset() noexcept {
 }
 
 std::optional<Event> MotorWatch::look(DisturbanceObserver& observer, const solver::State& state,
-                                      const Eigen::VectorXd& sent,
-                                      const solver::ConstraintSet& set) noexcept {
+                                      const Eigen::VectorXd& sent, const solver::ConstraintSet& set,
+                                      bool blends) noexcept {
   std::optional<Event> first = signs_.look(observer);
   const auto take = [&first](const std::optional<Event>& found) {
     if (!first) first = found;
@@ -40,7 +40,7 @@ std::optional<Event> MotorWatch::look(DisturbanceObserver& observer, const solve
   pusher_.look(observer, power, runaway_.rates());
   take_unless_pushed(reversed_.look(power, observer.torque(), runaway_.rates(), contact_));
   const double energy = observer.kinetic_energy(runaway_.rates());
-  take(runaway_.look(set, energy, p, contact_, pusher_.is_at_work()));
+  take(runaway_.look(set, energy, p, contact_, pusher_.is_at_work(), blends));
   return first;
 }
 

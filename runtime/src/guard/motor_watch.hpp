@@ -34,7 +34,8 @@ class MotorWatch {
   /// After each comparison of the observer: `sent` is what brought the motors to `state`, and `set` what the
   /// robot was to do. The first that is sure says what is wrong.
   std::optional<Event> look(DisturbanceObserver& observer, const solver::State& state,
-                            const Eigen::VectorXd& sent, const solver::ConstraintSet& set) noexcept;
+                            const Eigen::VectorXd& sent, const solver::ConstraintSet& set,
+                            bool blends) noexcept;
 
  private:
   MotorSigns signs_;

@@ -31,7 +31,7 @@ constexpr Margin far_margin{RunawayWatch::far, RunawayWatch::turn_far, RunawayWa
 /// How many margins the velocity is beyond what the constraint drives or allows.
 double excess(const AxisConstraint& c, double velocity, const Margin& margin) noexcept {
   double low = -solver::infinity, high = solver::infinity;
-  if (c.velocity) {
+  if (c.velocity && c.measure != solver::Measure::turn) {
     low = c.velocity->low;
     high = c.velocity->high;
   }
@@ -52,12 +52,17 @@ bool is_of_base(const AxisConstraint& c) noexcept {
   return c.move.body <= base && c.in.body <= base;
 }
 
-/// The largest of the base's constraints that are in force, wholly and still.
-double largest_excess(const solver::ConstraintSet& set, const Margin& margin) noexcept {
+/// While a switch blends, a range that is not new is in force in every set; a driver is in force in one.
+bool is_wholly_in_force(const AxisConstraint& c, bool blends) noexcept {
+  return !blends || (!c.driver && c.velocity_horizon <= solver::limit_horizon);
+}
+
+/// The largest of the base's constraints that are wholly in force.
+double largest_excess(const solver::ConstraintSet& set, const Margin& margin, bool blends) noexcept {
   const std::vector<AxisConstraint>& all = set.constraints();
   double largest = 0.0;
   for (std::size_t i = 0; i < all.size() && i < set.coordinates().size(); ++i) {
-    if (!is_of_base(all[i]) || all[i].alpha < 1.0 || all[i].progress < 1.0) continue;
+    if (!is_of_base(all[i]) || !is_wholly_in_force(all[i], blends)) continue;
     largest = std::max(largest, excess(all[i], set.coordinates()[i].velocity, margin));
   }
   return largest;
@@ -109,8 +114,8 @@ bool RunawayWatch::keeps(Force force) noexcept {
 }
 
 std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
-                                        const ContactDepth& contact, bool is_pushed) noexcept {
-  const double margins = largest_excess(set, near_margin);
+                                        const ContactDepth& contact, bool is_pushed, bool blends) noexcept {
+  const double margins = largest_excess(set, near_margin, blends);
   const bool exceeds = margins > 1.0;
   if (exceeds && !is_exceeded_) {
     largest_before_ = *std::max_element(energies_.begin(), energies_.end());
@@ -124,8 +129,8 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
   } else {
     steady_.forget(kinetic_energy, contact.now());
   }
-  const bool is_far =
-      kinetic_energy > std::max(last_energy_, largest_before_) && largest_excess(set, far_margin) > 1.0;
+  const bool is_far = kinetic_energy > std::max(last_energy_, largest_before_) &&
+                      largest_excess(set, far_margin, blends) > 1.0;
   if (!is_far) far_.forget(kinetic_energy, contact.now());
   far_.follow(is_far);
   is_exceeded_ = exceeds;

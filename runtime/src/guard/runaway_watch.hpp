@@ -52,7 +52,7 @@ class RunawayWatch {
   /// the motor that brakes hardest by what it is told: a wheel that drives itself has the largest share of
   /// the motion. Its value is that wheel's rate.
   std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
-                            const ContactDepth& contact, bool is_pushed) noexcept;
+                            const ContactDepth& contact, bool is_pushed, bool blends = false) noexcept;
 
   static constexpr double margin = 0.01;       ///< [m/s] beyond a speed that is driven or allowed
   static constexpr double turn_margin = 0.05;  ///< [rad/s] the same of rotations

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "estimate/ticks.hpp"
+#include "schedule/braking.hpp"
 
 namespace zwang::runtime {
 
@@ -13,6 +14,9 @@ WheelBrake::WheelBrake(const lang::Robot& robot, double period)
       period_(period),
       last_qd_(Eigen::VectorXd::Zero(robot.model.joint_count())),
       newest_qd_(last_qd_),
+      deceleration_(robot.stop.deceleration),
+      footprint_radius_(footprint_radius(robot)),
+      first_qd_(last_qd_),
       ticks_between_looks_(ticks_of(look_every, period)) {
   for (const solver::Wheel& wheel : robot.model.wheels()) {
     const int j = wheel.body - 1;
@@ -32,6 +36,8 @@ void WheelBrake::begin(int suspect, double believed) noexcept {
     if (wheels_[i].joint == suspect) left_out_ = static_cast<int>(i);
   }
   believed_ = left_out_ < 0 ? 0.0 : believed;
+  slope_is_due_ = left_out_ < 0;
+  slope_time_ = slope_for_ = 0.0;
   sense_ = 0.0;
   may_turn_ = true;
   even_looks_ = 0;
@@ -44,6 +50,23 @@ void WheelBrake::begin_turned_around() noexcept {
   begin(-1, 0.0);
   left_out_ = all();
   sense_ = -1.0;
+  slope_is_due_ = false;
+}
+
+/// From the last sample.
+void WheelBrake::begin_slope() noexcept {
+  slope_is_due_ = false;
+  first_qd_ = newest_qd_;
+  const double speed =
+      std::max(newest_twist_.linear.norm(), footprint_radius_ * std::abs(newest_twist_.angular.z()));
+  slope_time_ = speed / deceleration_;
+  slope_for_ = 0.0;
+}
+
+/// What the wheel may keep of its rate now; 0 where it has turned around. [rad/s]
+double WheelBrake::allowed_rate(const DrivenWheel& wheel, double rate) const noexcept {
+  const double first = first_qd_(wheel.joint);
+  return is_on_slope() && rate * first > 0.0 ? (1.0 - slope_for_ / slope_time_) * std::abs(first) : 0.0;
 }
 
 void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
@@ -64,7 +87,7 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
   }
   least_sum_ = std::min(sum, forgotten * least_sum_);
   if (sum < count * slow * slow) tried_ = 0;
-  const bool rolls_on = sum > evenly * last_sum_ && sum > count * rest * rest;
+  const bool rolls_on = !is_on_slope() && sum > evenly * last_sum_ && sum > count * rest * rest;
   even_looks_ = rolls_on ? even_looks_ + 1 : 0;
   last_sum_ = sum;
   if (even_looks_ < even_looks || left_out_ < 0) return;
@@ -81,18 +104,22 @@ void WheelBrake::leave_out_the_next() noexcept {
 }
 
 void WheelBrake::brake(const Eigen::VectorXd& qd, Eigen::VectorXd& tau) noexcept {
+  if (slope_is_due_) begin_slope();
   if (++ticks_ >= ticks_between_looks_) {
     ticks_ = 0;
     look(qd);
   }
   put(qd, 1.0, tau);
+  slope_for_ += period_;
 }
 
-/// The torques against `share` of the rates.
+/// The torques against `share` of what the rates are beyond the slope.
 void WheelBrake::put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& tau) const noexcept {
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     const DrivenWheel& wheel = wheels_[i];
-    const double damped = -wheel.limit / full_brake_speed * share * qd(wheel.joint);
+    const double rate = qd(wheel.joint);
+    const double beyond = std::max(0.0, std::abs(rate) - allowed_rate(wheel, rate));
+    const double damped = -wheel.limit / full_brake_speed * share * std::copysign(beyond, rate);
     const bool is_left_out = left_out_ == static_cast<int>(i) || left_out_ == all();
     const double sense = is_left_out ? sense_ : 1.0;
     tau(wheel.joint) = sense * std::clamp(damped, -wheel.limit, wheel.limit);
@@ -108,12 +135,22 @@ void WheelBrake::remember(const solver::State& state) noexcept {
 }
 
 void WheelBrake::brake_blind(Eigen::VectorXd& tau) noexcept {
+  slope_is_due_ = left_out_ < 0;
   if (blind_for_ <= 0.0) {
     double power = 0.0;
     for (const DrivenWheel& wheel : wheels_) power += wheel.limit * std::abs(last_qd_(wheel.joint));
-    blind_stop_ = power > 0.0 ? 2.0 * kinetic_energy() / power : 0.0;
+    const double energy = kinetic_energy();
+    blind_stop_ = power > 0.0 ? 2.0 * energy / power : 0.0;
+    // A body of the robot's mass and of this energy slows down with v / (2 T / P).
+    const double slowest_stop = std::sqrt(2.0 * energy / inertia_.mass) / deceleration_;
+    blind_share_ = std::min(1.0, blind_stop_ / std::max(slowest_stop, 1e-9));
+    blind_stop_ /= std::max(blind_share_, 1e-9);
+    slope_time_ = 0.0;
   }
-  if (blind_for_ < trusted * blind_stop_) put(last_qd_, 1.0 - blind_for_ / blind_stop_, tau);
+  if (blind_for_ < trusted * blind_stop_) {
+    put(last_qd_, 1.0 - blind_for_ / blind_stop_, tau);
+    for (const DrivenWheel& wheel : wheels_) tau(wheel.joint) *= blind_share_;
+  }
   blind_for_ += period_;
 }
 

@@ -15,6 +15,10 @@ namespace zwang::runtime {
 /// then all of them. Few wheels cannot brake every motion without it: where they roll on evenly what is left
 /// out is turned around, and left out for good should that make them faster. That also brakes a base whose
 /// motors, or encoders, are all wired the wrong way round. Where no choice brakes, all of them are left out.
+/// Where no motor is under suspicion the base slows down no harder than `robot.stop.deceleration`: with v and
+/// w its speed and yaw rate when the brake begins, every wheel may keep the share 1 - t / t_s of its rate,
+///   t_s = max(|v|, R |w|) / a,   R the footprint's radius,
+/// and is damped only beyond that. Against whoever drives the base there are still all of the torques.
 /// Where samples stay away the brake goes on from the last one: the kinetic energy T that the robot had then
 /// is gone after 2 T / P, P the power of the brakes at that moment, when nothing else acts. It stops short of
 /// that by what the model may be wrong by, for a brake that believes a speed of the past drives the robot
@@ -67,6 +71,9 @@ class WheelBrake {
   int all() const noexcept { return static_cast<int>(wheels_.size()); }  ///< as `left_out_`
   bool has_tried_all() const noexcept { return tried_ > all() + 1; }
   void put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& tau) const noexcept;
+  void begin_slope() noexcept;
+  double allowed_rate(const DrivenWheel& wheel, double rate) const noexcept;
+  bool is_on_slope() const noexcept { return slope_for_ < slope_time_; }
   double kinetic_energy() const noexcept;
 
   std::vector<DrivenWheel> wheels_;
@@ -76,8 +83,15 @@ class WheelBrake {
   solver::MotionVector last_twist_;
   Eigen::VectorXd newest_qd_;  ///< that sample itself
   solver::MotionVector newest_twist_;
-  double blind_for_ = 0.0;   ///< [s]
-  double blind_stop_ = 0.0;  ///< [s] 2 T / P
+  double deceleration_;        ///< [m/s^2]
+  double footprint_radius_;    ///< [m]
+  Eigen::VectorXd first_qd_;   ///< when the brake began
+  bool slope_is_due_ = false;  ///< it begins with the next sample
+  double slope_time_ = 0.0;    ///< [s] t_s
+  double slope_for_ = 0.0;     ///< [s] t
+  double blind_for_ = 0.0;     ///< [s]
+  double blind_stop_ = 0.0;    ///< [s] 2 T / P
+  double blind_share_ = 1.0;   ///< of the torques: P / T is no more than the deceleration of the stop
   int ticks_between_looks_;
   int ticks_ = 0;
   int left_out_ = -1;   ///< index into `wheels_`; -1: none, as many as there are: all

@@ -47,7 +47,7 @@ class Span {
 
 }  // namespace
 
-std::optional<Event> WrenchRefusal::look(const solver::ConstraintSet& set, solver::State& state,
+std::optional<Event> WrenchRefusal::look(std::span<const solver::RowSet> sets, solver::State& state,
                                          double time) noexcept {
   const auto is_zero = [](const solver::ForceVector& f) { return f.is_zero(); };
   if (std::all_of(state.f_ext.begin(), state.f_ext.end(), is_zero)) return std::nullopt;
@@ -55,10 +55,12 @@ std::optional<Event> WrenchRefusal::look(const solver::ConstraintSet& set, solve
     return solver::motion_of({body, {}, {}}, model_, state).pose.rotation;
   };
   Span forces, moments;
-  for (const Row& row : set.rows()) {
-    if (!limits_a_force(row)) continue;
-    const bool turns = row.a.linear.isZero();
-    (turns ? moments : forces).add(rotation(row.body) * (turns ? row.a.angular : row.a.linear));
+  for (const solver::RowSet& set : sets) {
+    for (const Row& row : *set.rows) {
+      if (!limits_a_force(row)) continue;
+      const bool turns = row.a.linear.isZero();
+      (turns ? moments : forces).add(rotation(row.body) * (turns ? row.a.angular : row.a.linear));
+    }
   }
   if (forces.empty() && moments.empty()) return std::nullopt;
   double largest = 0.0;

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "zwang/runtime/event.hpp"
-#include "zwang/solver/constraint.hpp"
 #include "zwang/solver/model.hpp"
+#include "zwang/solver/solver.hpp"
 #include "zwang/solver/state.hpp"
 
 namespace zwang::runtime {
@@ -17,10 +18,10 @@ class WrenchRefusal {
  public:
   explicit WrenchRefusal(const solver::Model& model) : model_(model) {}
 
-  /// Takes out of the wrenches on the bodies what lies along the rows of `set` that drive or limit a force:
+  /// Takes out of the wrenches on the bodies what lies along the rows of `sets` that drive or limit a force:
   /// of forces along their directions, of moments about their axes. An event when that begins to be more
   /// than `threshold`, and not again before a second without.
-  std::optional<Event> look(const solver::ConstraintSet& set, solver::State& state, double time) noexcept;
+  std::optional<Event> look(std::span<const solver::RowSet> sets, solver::State& state, double time) noexcept;
 
   static constexpr double threshold = 1.0;  ///< [N] or [N m]
   static constexpr double pause = 1.0;      ///< [s]

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "schedule/acceleration_of.hpp"
+#include "schedule/plane_norm.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -47,14 +50,6 @@ bool limits(const lang::AxisStatements& says, Quantity quantity) {
 }
 
 }  // namespace
-
-double acceleration_of(const solver::Row& row, const solver::Solution& solution, double bias) noexcept {
-  double a = dot(row.a, solution.acceleration[static_cast<std::size_t>(row.body)]) + bias;
-  if (row.reference_body >= 0) {
-    a -= dot(row.a_reference, solution.acceleration[static_cast<std::size_t>(row.reference_body)]);
-  }
-  return a;
-}
 
 bool LimitReport::is_broken() const {
   constexpr double share = 1e-3;
@@ -117,11 +112,17 @@ void LimitTable::take(int index, const Nearest& now, double range, double least_
 void LimitTable::compare_constraint(const Indices& of, const solver::AxisConstraint& c,
                                     const solver::Coordinate& now, const solver::Row& row,
                                     const solver::Solution& solution) noexcept {
+  if (c.measure == solver::Measure::turn) {
+    if (c.velocity) compare(of[2], now.velocity, c.velocity->low, c.velocity->high);
+    return;
+  }
   if (c.position) compare(of[0], now.position, c.position->low, c.position->high);
   if (c.velocity) compare(of[1], now.velocity, c.velocity->low, c.velocity->high);
   if (c.acceleration) {
-    compare(of[2], acceleration_of(row, solution, now.acceleration_bias), c.acceleration->low,
-            c.acceleration->high);
+    // The norm in a plane is no more than the most along its sides, by the apothem of their polygon.
+    const double share = c.measure == solver::Measure::side ? PlaneNorm::apothem : 1.0;
+    compare(of[2], acceleration_of(row, solution, now.acceleration_bias) / share, c.acceleration->low / share,
+            c.acceleration->high / share);
   }
 }
 
@@ -145,8 +146,19 @@ void LimitTable::compare_force(const Indices& of, const solver::AxisConstraint& 
 
 void LimitTable::update(const StatementTable& statements, const solver::ConstraintSet& set,
                         const std::vector<InForce>& in_force, const solver::Solution& solution,
-                        const Eigen::VectorXd& tau) noexcept {
+                        const Eigen::VectorXd& tau, bool blends) noexcept {
   tightest_ = -1;
+  compare_rows(statements, set, in_force, solution, blends);
+  for (std::size_t j = 0; j < torque_.size(); ++j) {
+    const double limit = torque_[j];
+    const int index = static_cast<int>(first_torque_ + j);
+    if (limit > 0.0) compare(index, std::abs(tau(static_cast<Eigen::Index>(j))), -limit, limit);
+  }
+}
+
+void LimitTable::compare_rows(const StatementTable& statements, const solver::ConstraintSet& set,
+                              const std::vector<InForce>& in_force, const solver::Solution& solution,
+                              bool blends) noexcept {
   const std::vector<solver::Row>& rows = set.rows();
   const std::size_t count = std::min(rows.size(), solution.rows.size());
   std::size_t r = 0;
@@ -155,19 +167,16 @@ void LimitTable::update(const StatementTable& statements, const solver::Constrai
     const int constraint = rows[first].constraint;
     while (r < count && rows[r].constraint == constraint) ++r;
     const auto i = static_cast<std::size_t>(constraint);
-    if (i >= in_force.size() || !in_force[i].active) continue;
+    if (i >= in_force.size()) continue;
     const solver::AxisConstraint& c = set.constraints()[i];
-    if (c.alpha < 1.0 || c.progress < 1.0) continue;
+    // While a switch blends, a range that is not new holds in every set; the rest is on its way.
+    const bool is_new = std::max(c.position_horizon, c.velocity_horizon) > solver::limit_horizon;
+    if (blends && (c.driver || is_new)) continue;
     const Indices& of = of_statement_[static_cast<std::size_t>(statements.id(in_force[i].origin))];
     compare_constraint(of, c, set.coordinates()[i], rows[first], solution);
-    for (std::size_t k = first; k < r && of[3] >= 0; ++k) {
+    for (std::size_t k = first; k < r && of[3] >= 0 && !blends; ++k) {
       compare_force(of, c, rows[k], solution.rows[k].nu);
     }
-  }
-  for (std::size_t j = 0; j < torque_.size(); ++j) {
-    const double limit = torque_[j];
-    const int index = static_cast<int>(first_torque_ + j);
-    if (limit > 0.0) compare(index, std::abs(tau(static_cast<Eigen::Index>(j))), -limit, limit);
   }
 }
 

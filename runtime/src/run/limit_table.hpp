@@ -12,17 +12,14 @@
 
 namespace zwang::runtime {
 
-/// The acceleration along a row's axis that the solution brings about. `bias`: of the row's coordinate.
-double acceleration_of(const solver::Row& row, const solver::Solution& solution, double bias) noexcept;
-
 class LimitTable {
  public:
   LimitTable(const StatementTable& statements, const lang::Robot& robot);
 
-  /// Takes in one tick. Rows that are fading are left out: they are not in force yet, or no more.
+  /// Takes in one tick. `set`: the newest one; `blends`: others are in force beside it.
   void update(const StatementTable& statements, const solver::ConstraintSet& set,
               const std::vector<InForce>& in_force, const solver::Solution& solution,
-              const Eigen::VectorXd& tau) noexcept;
+              const Eigen::VectorXd& tau, bool blends) noexcept;
 
   std::vector<LimitReport> reports() const;
   std::optional<LimitReport> now() const { return report_of(tightest()); }
@@ -50,6 +47,9 @@ class LimitTable {
                           const solver::Solution& solution) noexcept;
   void compare_force(const Indices& of, const solver::AxisConstraint& constraint, const solver::Row& row,
                      double nu) noexcept;
+  void compare_rows(const StatementTable& statements, const solver::ConstraintSet& set,
+                    const std::vector<InForce>& in_force, const solver::Solution& solution,
+                    bool blends) noexcept;
   LimitReport report_of(std::size_t index, const Nearest& nearest) const;
   void compare(int index, double value, double low, double high) noexcept;
   void take(int index, const Nearest& now, double range, double least_share) noexcept;

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "run/limit_table.hpp"
+#include "schedule/acceleration_of.hpp"
+#include "schedule/plane_norm.hpp"
 
 namespace zwang::runtime {
 
@@ -88,7 +89,7 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
                            "missed.held_back_by.4"}) {  // the strongest first
     add(name, "", rows);
   }
-  add("event", "", words_up_to(EventCode::signal_refused));
+  add("event", "", words_up_to(EventCode::not_at_rest));
   add("event.signal", "", event_signals);
   add("event.value", "");
   add("estimated.force.x", "N");
@@ -213,7 +214,7 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
     put(first_joint_ + 3 * j + 1, state.qd(j));
     put(first_joint_ + 3 * j + 2, tick.tau(j));
   }
-  if (tick.set != nullptr) {
+  if (tick.solved) {
     put(solver, static_cast<double>(tick.solver_status));
     put(iterations, tick.solution.iterations);
     put(estimated_x, tick.estimated_force.x());
@@ -244,17 +245,30 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
 }
 
 void LogLayout::put_statements(const StatementTable& statements, const Tick& tick) noexcept {
-  const std::vector<InForce>& in_force = tick.scheduler.in_force();
-  const std::vector<solver::AxisConstraint>& constraints = tick.set->constraints();
-  const std::vector<solver::Coordinate>& coordinates = tick.set->coordinates();
-  const auto columns_of = [&](std::size_t i) -> const StatementColumns& {
-    return of_statement_[static_cast<std::size_t>(statements.id(in_force[i].origin))];
-  };
-  // While a switch blends, one statement can stand in several constraints: the one that drives gives the
-  // alpha.
+  std::size_t first_row = 0;
+  for (int set = 0; set < tick.scheduler.set_count(); ++set) {
+    put_coordinates(statements, tick.scheduler, set);
+    put_rows(statements, tick, set, first_row);
+    first_row += tick.scheduler.constraints(set).rows().size();
+  }
+}
+
+const LogLayout::StatementColumns& LogLayout::columns_of(const StatementTable& statements,
+                                                         const InForce& source) const noexcept {
+  return of_statement_[static_cast<std::size_t>(statements.id(source.origin))];
+}
+
+/// Of the sets before, while a switch blends, those of statements that leave.
+void LogLayout::put_coordinates(const StatementTable& statements, const Scheduler& scheduler,
+                                int set) noexcept {
+  const std::vector<InForce>& in_force = scheduler.in_force(set);
+  const std::vector<solver::AxisConstraint>& constraints = scheduler.constraints(set).constraints();
+  const std::vector<solver::Coordinate>& coordinates = scheduler.constraints(set).coordinates();
   for (std::size_t i = 0; i < in_force.size() && i < coordinates.size(); ++i) {
-    const StatementColumns& c = columns_of(i);
+    if (set > 0 && in_force[i].active) continue;
+    const StatementColumns& c = columns_of(statements, in_force[i]);
     const bool first = c.alpha >= 0 && std::isnan(values_[static_cast<std::size_t>(c.alpha)]);
+    if (!c.inside && in_force[i].origin.part >= 0) continue;  // of a plane's norm: its speed says it all
     if (!c.inside) {
       put(c.position, coordinates[i].position);
       put(c.velocity, coordinates[i].velocity);
@@ -266,35 +280,65 @@ void LogLayout::put_statements(const StatementTable& statements, const Tick& tic
         put(c.velocity, std::isfinite(range.low) ? coordinates[i].velocity : -coordinates[i].velocity);
       }
     }
-    if (first || in_force[i].drives) put(c.alpha, constraints[i].alpha);
+    if (first || in_force[i].drives) put(c.alpha, in_force[i].alpha);
   }
-  const std::vector<solver::Row>& rows = tick.set->rows();
-  for (std::size_t r = 0; r < rows.size() && r < tick.solution.rows.size(); ++r) {
+}
+
+/// Of a norm in a plane the two directions at right angles, or ahead and the turn, make it up.
+void LogLayout::put_acceleration(const solver::ConstraintSet& set, const InForce& source,
+                                 const solver::Row& row, const solver::Solution& solution,
+                                 int column) noexcept {
+  const auto i = static_cast<std::size_t>(row.constraint);
+  const solver::AxisConstraint& c = set.constraints()[i];
+  const solver::Coordinate& now = set.coordinates()[i];
+  const bool is_turn = c.measure == solver::Measure::turn;
+  const double along = is_turn ? now.velocity : acceleration_of(row, solution, now.acceleration_bias);
+  const int part = source.origin.part;
+  if (c.measure == solver::Measure::side && part != 0 && part != PlaneNorm::across) return;
+  const double so_far = values_[static_cast<std::size_t>(column)];
+  put(column, part <= 0 || std::isnan(so_far) ? along : std::hypot(so_far, along));
+}
+
+/// Forces are those of all sets, each by its share; the rest is of the active task's set and of what leaves.
+void LogLayout::put_rows(const StatementTable& statements, const Tick& tick, int set,
+                         std::size_t first_row) noexcept {
+  const std::vector<InForce>& in_force = tick.scheduler.in_force(set);
+  const std::vector<solver::Row>& rows = tick.scheduler.constraints(set).rows();
+  const double share = tick.scheduler.share(set);
+  const auto so_far = [&](int column) {
+    const double value = column >= 0 ? values_[static_cast<std::size_t>(column)] : 0.0;
+    return std::isnan(value) ? 0.0 : value;
+  };
+  for (std::size_t r = 0; r < rows.size() && first_row + r < tick.solution.rows.size(); ++r) {
     const auto i = static_cast<std::size_t>(rows[r].constraint);
     if (i >= in_force.size()) continue;
-    const StatementColumns& c = columns_of(i);
-    const solver::RowSolution& row = tick.solution.rows[r];
-    if (c.acceleration >= 0 && i < coordinates.size())
-      put(c.acceleration, acceleration_of(rows[r], tick.solution, coordinates[i].acceleration_bias));
-    const auto so_far = [&](int column) {
-      const double value = column >= 0 ? values_[static_cast<std::size_t>(column)] : 0.0;
-      return std::isnan(value) ? 0.0 : value;
-    };
+    const StatementColumns& c = columns_of(statements, in_force[i]);
+    const solver::RowSolution& row = tick.solution.rows[first_row + r];
+    const bool is_own = set == 0 || !in_force[i].active;
+    const bool is_first = r == 0 || rows[r - 1].constraint != rows[r].constraint;
+    if (is_own && is_first && c.acceleration >= 0)
+      put_acceleration(tick.scheduler.constraints(set), in_force[i], rows[r], tick.solution, c.acceleration);
     switch (rows[r].kind) {
       case solver::RowKind::driver:
       case solver::RowKind::force:
+        put(c.nu, so_far(c.nu) + share * row.nu);
+        if (!is_own) break;
         put(c.b, rows[r].kind == solver::RowKind::force ? rows[r].force : rows[r].b);
-        put(c.nu, row.nu);
         put(c.residual, row.residual);
         put(c.saturated, row.saturated ? 1.0 : 0.0);
         break;
       case solver::RowKind::sum:
-        put(c.sum, row.nu);
+        if (in_force[i].origin.part < 0) {
+          put(c.sum, so_far(c.sum) + share * row.nu);
+        } else if (std::abs(row.nu) > std::abs(so_far(c.sum))) {
+          put(c.sum, row.nu);
+        }
         break;
       case solver::RowKind::upper:
       case solver::RowKind::lower:
-        put(c.limit_nu, so_far(c.limit_nu) + row.nu);
-        if (std::abs(row.residual) >= std::abs(so_far(c.limit_residual))) put(c.limit_residual, row.residual);
+        put(c.limit_nu, so_far(c.limit_nu) + share * row.nu);
+        if (is_own && std::abs(row.residual) >= std::abs(so_far(c.limit_residual)))
+          put(c.limit_residual, row.residual);
         break;
     }
   }

@@ -19,7 +19,7 @@ struct Tick {
   std::span<const double> parameters;  ///< as they stood then
   const Sensed& known;                 ///< with the base as the wheels tell it
   const Scheduler& scheduler;
-  const solver::ConstraintSet* set;  ///< null when the tick did not get to the solver
+  bool solved;  ///< the tick got to the solver
   const solver::Solution& solution;
   solver::Status solver_status;
   GuardStatus guard_status;
@@ -61,6 +61,11 @@ class LogLayout {
   void put_signals(const Scheduler& scheduler) noexcept;
   void put_transition(const Scheduler& scheduler) noexcept;
   void put_statements(const StatementTable& statements, const Tick& tick) noexcept;
+  void put_coordinates(const StatementTable& statements, const Scheduler& scheduler, int set) noexcept;
+  void put_rows(const StatementTable& statements, const Tick& tick, int set, std::size_t first_row) noexcept;
+  void put_acceleration(const solver::ConstraintSet& set, const InForce& source, const solver::Row& row,
+                        const solver::Solution& solution, int column) noexcept;
+  const StatementColumns& columns_of(const StatementTable& statements, const InForce& source) const noexcept;
 
   std::vector<Column> columns_;
   std::vector<double> values_;

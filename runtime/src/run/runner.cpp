@@ -63,6 +63,12 @@ std::vector<std::string> signal_names(const lang::Program& program) {
   return names;
 }
 
+std::vector<std::string> row_names(const StatementTable& statements) {
+  std::vector<std::string> names;
+  for (const Statement& statement : statements.all()) names.push_back(statement.name);
+  return names;
+}
+
 /// On the floor, whose normal is the world's z: roll and pitch of the body on its springs are no slope that
 /// it could roll down.
 solver::Pose level(const solver::Pose& pose) {
@@ -92,8 +98,10 @@ struct Runner::Parts {
         period(period_of(program.robot, settings)),
         facts(facts_of(settings, period)),
         scheduler(program, period),
-        solver(model,
-               {.row_capacity = scheduler.row_capacity(), .base_motion = true, .every_acceleration = false}),
+        solver(model, {.row_capacity = scheduler.row_capacity(),
+                       .set_capacity = scheduler.set_capacity(),
+                       .base_motion = true,
+                       .every_acceleration = false}),
         solution(model, scheduler.row_capacity()),
         estimated(model),
         sample(model, program.signals.size()),
@@ -115,10 +123,10 @@ struct Runner::Parts {
         signals(program.signals),
         snapshot(program),
         signal_watch(program),
-        signal_words(event_signals(model, signal_names(program))),
         guard(program.robot,
               {.period = period, .max_lost_ticks = lost_ticks(period), .max_slew = settings.max_slew}),
         statements(scheduler, program),
+        signal_words(event_signals(model, signal_names(program), row_names(statements))),
         limits(statements, program.robot),
         layout(statements, scheduler, model, program, signal_words, settings.extra_columns),
         given_parameters(scheduler.parameters()),
@@ -143,6 +151,7 @@ struct Runner::Parts {
   void send(bool good, bool solved) noexcept;
   /// Everything between that and the guard. False when there are no torques to send.
   bool control() noexcept;
+  bool solve() noexcept;
   /// What motors and wheels made of the last command.
   void compare() noexcept;
   /// After a swap of programs: what was sent last fades out of the torques.
@@ -151,7 +160,10 @@ struct Runner::Parts {
   void take_events_of(Parts& before) noexcept;
   void judge_sensors() noexcept;
   void judge_wrenches() noexcept;
+  bool blends() const noexcept { return scheduler.set_count() > 1; }
   void tell(const Event& event) noexcept;
+  void tell_excursion() noexcept;
+  void tell_doubt() noexcept;
   /// The protective stop, where a watch found something.
   void stop(const std::optional<Event>& found) noexcept;
   void tell_refusal(SampleStatus status) noexcept;
@@ -190,8 +202,7 @@ struct Runner::Parts {
   const std::vector<lang::Signal> signals;
   SnapshotSignals snapshot;  ///< where they are in it
   SignalWatch signal_watch;
-  const std::vector<std::string> signal_words;  ///< of events
-  std::vector<bool> is_judged;                  ///< of each signal: it was looked at when the run began
+  std::vector<bool> is_judged;  ///< of each signal: it was looked at when the run began
   std::vector<Event> events;
   std::uint64_t event_count = 0;
   bool stop_is_told = false;
@@ -199,6 +210,7 @@ struct Runner::Parts {
   Event event;                               ///< of this tick; code `none` when there is none
   SafetyGuard guard;
   StatementTable statements;
+  const std::vector<std::string> signal_words;  ///< of events
   LimitTable limits;
   LogLayout layout;
   std::vector<double> given_parameters;  ///< as they stood when the tick began
@@ -213,8 +225,10 @@ struct Runner::Parts {
   std::uint64_t transition_count = 0;
   TurningPoint turning_point;
   std::uint64_t stopped_ticks = 0;
-  bool is_at_rest_by_samples = false;  ///< after a protective stop
-  bool is_a_wheel_dead = false;        ///< the stop is for its encoder
+  bool is_a_wheel_dead = false;  ///< the stop is for its encoder
+  RestWatch rest;                ///< after a protective stop
+  bool is_past_stop = false;     ///< a protective stop is over, by its time if not by rest
+  bool is_rest_doubted = false;  ///< and nobody saw the base stand
 };
 
 void Runner::Parts::estimate(const Sensed& sensed) noexcept {
@@ -314,7 +328,9 @@ bool Runner::Parts::control() noexcept {
   if (guard.stopped()) return true;  // a motor is not to be trusted
   arm.bear(sample.state);            // it floats where nothing is said of it
   is_solution_of_rows = false;
+  const bool was_finished = scheduler.phase() == Phase::finished;
   scheduler.tick(sample);
+  if (!was_finished && scheduler.phase() == Phase::finished && !scheduler.has_stood()) tell_doubt();
   if (scheduler.transition()) {
     const Transition& t = *scheduler.transition();
     if (t.refusal == Refusal::require || t.refusal == Refusal::set)
@@ -323,19 +339,32 @@ bool Runner::Parts::control() noexcept {
     turning_point.look(*scheduler.transition(), scheduler, limits);
     if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
   }
-  const bool is_filled = scheduler.fill_constraints();
-  if (const auto refused = wrenches.look(scheduler.constraints(), sample.state, sample.time)) tell(*refused);
-  solver_status = is_filled ? solver.solve(sample.state, scheduler.constraints().rows(), solution)
-                            : solver::Status::capacity_exceeded;
-  if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
-  is_solution_of_rows = true;
-  scheduler.observe(solution);
+  tell_excursion();
+  if (!solve()) return false;
   wanted = solution.tau;
   if (!friction.empty()) {
-    friction.update(sample.state.qd, press.look(solver, scheduler.constraints().rows(), solution));
+    friction.update(sample.state.qd, press.look(solver, scheduler.row_sets(), solution));
     friction.compensate(wanted);
   }
   if (handed_over_for < handover) hand_over();
+  return true;
+}
+
+/// Until no norm in a plane is broken.
+bool Runner::Parts::solve() noexcept {
+  constexpr int most_rounds = 5;
+  for (int round = 1;; ++round) {
+    const bool is_filled = scheduler.fill_constraints();
+    if (round == 1) {
+      if (const auto refused = wrenches.look(scheduler.row_sets(), sample.state, sample.time)) tell(*refused);
+    }
+    solver_status = is_filled ? solver.solve(sample.state, scheduler.row_sets(), solution)
+                              : solver::Status::capacity_exceeded;
+    if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
+    scheduler.observe(solution);
+    if (round == most_rounds || !scheduler.pose_broken_sides(solver, solution)) break;
+  }
+  is_solution_of_rows = true;
   return true;
 }
 
@@ -358,6 +387,15 @@ void Runner::Parts::tell(const Event& told) noexcept {
   if (events.size() < events.capacity()) events.push_back(told);
   const bool is_stop = latches_the_stop(told.code);
   if (event.code == EventCode::none || is_stop) event = told;
+}
+
+void Runner::Parts::tell_excursion() noexcept {
+  const std::optional<Excursion>& excursion = scheduler.excursion();
+  if (!excursion) return;
+  const int row = statements.id(excursion->origin);
+  tell({EventCode::outside, sample.time,
+        event_signal::of_row(model.joint_count(), static_cast<int>(signals.size()), row),
+        excursion->distance});
 }
 
 /// Under a clock of another rate all that is computed with dt is wrong, and accuses motors and encoders.
@@ -392,7 +430,7 @@ void Runner::Parts::compare() noexcept {
     motors.reset();
     return;
   }
-  stop(motors.look(disturbance, sample.state, tau, scheduler.constraints()));
+  stop(motors.look(disturbance, sample.state, tau, scheduler.constraints(), blends()));
 }
 
 /// A force that is measured before anything moved is the sensor's own.
@@ -429,8 +467,21 @@ Shortfall Runner::Parts::find_shortfall() const noexcept {
 void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   ++stopped_ticks;
   // Where one wheel's encoder is dead, the others do not tell how the base moves.
-  const bool is_seen = good_sample && !is_a_wheel_dead && !blind_budget.takes_over();
-  is_at_rest_by_samples = is_at_rest_by_samples || (is_seen && is_at_rest(estimated.state.base_twist));
+  if (good_sample && !is_a_wheel_dead && !blind_budget.takes_over()) {
+    rest.look(estimated.state.base_twist, period);
+  } else {
+    rest.doubt();
+  }
+  if (rest.stood_for() >= rest_dwell) is_past_stop = true;
+  if (is_past_stop || static_cast<double>(stopped_ticks) * period <= longest_stop) return;
+  is_past_stop = is_rest_doubted = true;
+  tell_doubt();
+}
+
+/// The longest time of a stop is over.
+void Runner::Parts::tell_doubt() noexcept {
+  tell({EventCode::not_at_rest, estimated.time, event_signal::base_twist,
+        estimated.state.base_twist.linear.norm()});
 }
 
 Runner::Runner(const lang::Program& program, const RunnerSettings& settings)
@@ -464,7 +515,8 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   if (!p.guard.stopped()) {
     p.stop_is_told = false;
     p.stopped_ticks = 0;
-    p.is_at_rest_by_samples = false;
+    p.rest.begin();
+    p.is_past_stop = p.is_rest_doubted = false;
   }
   if (p.guard.stopped() && !p.stop_is_told) {
     p.stop_is_told = true;
@@ -472,7 +524,8 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
   }
   if (p.guard.stopped()) p.brake_protectively(good);
   if (solved) {
-    p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau);
+    p.limits.update(p.statements, p.scheduler.constraints(), p.scheduler.in_force(), p.solution, p.tau,
+                    p.blends());
   }
   if (p.recorder != nullptr) {
     const Shortfall shortfall = p.find_shortfall();
@@ -480,7 +533,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
                     p.given_parameters,
                     good ? p.estimated : sensed,
                     p.scheduler,
-                    solved ? &p.scheduler.constraints() : nullptr,
+                    solved,
                     p.solution,
                     p.solver_status,
                     p.guard_status,
@@ -499,11 +552,11 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
 void Runner::Parts::take_events_of(Parts& before) noexcept {
   events.swap(before.events);
   std::swap(event_count, before.event_count);
-  const int first = event_signal::measured(model.joint_count(), 0);
   for (Event& told : events) {
-    if (told.signal < first) continue;
-    const int now = snapshot.index_of(static_cast<std::size_t>(told.signal - first), before.snapshot);
-    told.signal = now < 0 ? -1 : first + now;
+    const auto was = static_cast<std::size_t>(told.signal);
+    if (told.signal < 0 || was >= before.signal_words.size()) continue;
+    const auto now = std::find(signal_words.begin(), signal_words.end(), before.signal_words[was]);
+    told.signal = now == signal_words.end() ? -1 : static_cast<int>(now - signal_words.begin());
   }
 }
 
@@ -566,15 +619,20 @@ RunState Runner::state() const noexcept {
 }
 
 bool Runner::finished() const noexcept {
-  const Parts& p = *parts_;
-  if (!p.guard.stopped()) return p.scheduler.phase() == Phase::finished;
-  return p.is_at_rest_by_samples || static_cast<double>(p.stopped_ticks) * p.period > longest_stop;
+  if (parts_->guard.stopped()) return parts_->is_past_stop;
+  return parts_->scheduler.phase() == Phase::finished;
 }
+
 bool Runner::may_still_move() const noexcept {
-  const Parts& p = *parts_;
-  if (!finished()) return false;
-  if (p.guard.stopped()) return !p.is_at_rest_by_samples;
-  return !p.model.has_fixed_base() && !is_at_rest(p.sample.state.base_twist);
+  if (parts_->guard.stopped()) return parts_->is_rest_doubted;
+  return finished() && !parts_->scheduler.has_stood();
+}
+
+std::string Runner::because() const {
+  std::string words;
+  if (parts_->guard.stopped()) words = describe(parts_->guard.reason());
+  if (may_still_move()) words += (words.empty() ? "" : "; ") + std::string(unseen_rest);
+  return words;
 }
 
 std::vector<Column> Runner::columns() const {

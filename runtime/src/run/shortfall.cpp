@@ -7,7 +7,8 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr double tolerance = 0.01;  // [m/s^2] or [rad/s^2]
+constexpr double tolerance = 0.01;     // [m/s^2] or [rad/s^2]
+constexpr double wholly = 1.0 - 1e-9;  // of shares that add up to 1
 
 }  // namespace
 
@@ -22,7 +23,7 @@ Shortfall find_shortfall(const StatementTable& statements, const solver::Constra
     const solver::Row& row = set.rows()[r];
     const auto c = static_cast<std::size_t>(row.constraint);
     const bool asks = row.kind != solver::RowKind::sum && row.kind != solver::RowKind::force;
-    if (!asks || c >= in_force.size() || !in_force[c].active || set.constraints()[c].alpha < 1.0) continue;
+    if (!asks || c >= in_force.size() || in_force[c].alpha < wholly) continue;
     const double residual = solution.rows[r].residual;
     if (std::abs(residual) <= least) continue;
     const int count = solver.opposing(static_cast<int>(r), opposing);

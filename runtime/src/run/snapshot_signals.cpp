@@ -38,9 +38,4 @@ void SnapshotSignals::go_on_from(SnapshotSignals& before) noexcept {
     places_[i] = static_cast<std::size_t>(find(measured_, own_[i].name) - measured_.data());
 }
 
-int SnapshotSignals::index_of(std::size_t signal, const SnapshotSignals& before) const noexcept {
-  const Signal* own = find(own_, before.own_[signal].name);
-  return own == nullptr ? -1 : static_cast<int>(own - own_.data());
-}
-
 }  // namespace zwang::runtime

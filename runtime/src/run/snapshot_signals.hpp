@@ -24,8 +24,6 @@ class SnapshotSignals {
   SwapResult match(const SnapshotSignals& before) const noexcept;
   /// From now on the snapshots are those of `before`, which `match` accepted.
   void go_on_from(SnapshotSignals& before) noexcept;
-  /// This program's index of the signal that `before` had as its number `signal`; -1: it has none.
-  int index_of(std::size_t signal, const SnapshotSignals& before) const noexcept;
 
  private:
   struct Signal {

@@ -51,9 +51,8 @@ std::vector<PartnerResult> results_of(ScenePlant& plant) {
   std::vector<PartnerResult> results;
   for (const ScenePartner& partner : plant.partners()) {
     const RunState state = partner.runner.state();
-    results.push_back(
-        {partner.name, state == RunState::running ? std::string("unfinished") : to_string(state), {}});
-    if (state == RunState::stopped) results.back().because = describe(partner.runner.guard().reason());
+    results.push_back({partner.name, state == RunState::running ? "unfinished" : to_string(state),
+                       partner.runner.because()});
   }
   return results;
 }
@@ -120,9 +119,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   } else {
     result.outcome = to_string(runner.state());
   }
-  if (runner.state() == RunState::stopped) result.because = describe(runner.guard().reason());
-  if (runner.may_still_move())
-    result.because += std::string(result.because.empty() ? "" : "; ") + unseen_rest;
+  result.because = runner.because();
   const std::optional<Why> why = runner.why();
   if (why && status != PlantStatus::diverged) result.why = why->sentence;
 }

@@ -9,13 +9,13 @@ namespace {
 
 using solver::AxisConstraint;
 using solver::Driver;
-using solver::Quantity;
 using solver::Range;
 
 constexpr unsigned position_bit = 1U;
 constexpr unsigned velocity_bit = 2U;
 constexpr unsigned acceleration_bit = 4U;
 constexpr unsigned force_bit = 8U;  // of a force range alone; beside a driver it is the driver's
+constexpr unsigned all_bits = position_bit | velocity_bit | acceleration_bit | force_bit;
 
 unsigned ranges_of(const AxisConstraint& c) {
   return (c.position ? position_bit : 0U) | (c.velocity ? velocity_bit : 0U) |
@@ -24,19 +24,16 @@ unsigned ranges_of(const AxisConstraint& c) {
 
 /// A boundary's ranges come and go with its distance: it carries whatever there is.
 unsigned ranges_of(const Wanted& wanted) {
-  constexpr unsigned all = position_bit | velocity_bit | acceleration_bit | force_bit;
-  return wanted.origin.part >= 0 ? all : ranges_of(wanted.constraint);
+  return wanted.fence ? all_bits : ranges_of(wanted.constraint);
 }
 
-void keep_only(AxisConstraint& c, bool driver, unsigned ranges) {
-  if (!driver) {
-    c.driver.reset();
-    c.before.reset();
-  }
+AxisConstraint ranges_alone(AxisConstraint c, unsigned ranges) {
+  c.driver.reset();
   if ((ranges & position_bit) == 0U) c.position.reset();
   if ((ranges & velocity_bit) == 0U) c.velocity.reset();
   if ((ranges & acceleration_bit) == 0U) c.acceleration.reset();
   if ((ranges & force_bit) == 0U) c.force.reset();
+  return c;
 }
 
 bool same(const solver::AttachedFrame& a, const solver::AttachedFrame& b) {
@@ -48,40 +45,44 @@ bool same(const FrameKey& a, const FrameKey& b) {
   return a.frame >= 0 && a.frame == b.frame && a.settings == b.settings;
 }
 
+bool same(const Range& a, const Range& b) {
+  return a.low == b.low && a.high == b.high;
+}
+
+bool same(const std::optional<Range>& a, const std::optional<Range>& b) {
+  return a.has_value() == b.has_value() && (!a || same(*a, *b));
+}
+
 /// The same coordinate of the two frames that a constraint speaks of.
 bool measures_alike(const AxisConstraint& a, const AxisConstraint& b) {
   return a.measure == b.measure && a.axis == b.axis && a.other_axis == b.other_axis &&
          a.coefficients == b.coefficients;
 }
 
-double lerp(double from, double to, double progress) {
-  return from + (to - from) * progress;
+/// The same demand; of one that is measured, whatever the measurement says.
+bool asks_alike(const Driver& a, const Driver& b, bool measured) {
+  const bool is_one_kind = a.quantity == b.quantity && a.time_constant == b.time_constant &&
+                           a.stiffness == b.stiffness && a.damping == b.damping && same(a.force, b.force);
+  return is_one_kind && (measured || (a.target == b.target && a.target_rate == b.target_rate &&
+                                      a.target_acceleration == b.target_acceleration));
 }
 
-/// Whether the driver of `c`, which may itself be on its way, is a driver that one can start from.
-bool is_one_driver(const AxisConstraint& c) {
-  if (!c.before || c.progress >= 1.0) return true;
-  if (c.before->quantity != c.driver->quantity) return false;
-  if (c.driver->makes_force()) {
-    return c.before->stiffness == c.driver->stiffness && c.before->damping == c.driver->damping;
-  }
-  const bool has_time_constant =
-      c.driver->quantity == Quantity::position || c.driver->quantity == Quantity::velocity;
-  return !has_time_constant || c.before->time_constant == c.driver->time_constant;
+bool says_alike(const AxisConstraint& a, const AxisConstraint& b, bool measured) {
+  return a.driver.has_value() == b.driver.has_value() &&
+         (!a.driver || asks_alike(*a.driver, *b.driver, measured)) && a.weight == b.weight &&
+         same(a.position, b.position) && same(a.velocity, b.velocity) &&
+         same(a.acceleration, b.acceleration) && same(a.force, b.force);
 }
 
-/// The driver that asks for what `c` asks for now.
-Driver driver_now(const AxisConstraint& c) {
-  Driver now = *c.driver;
-  if (!c.before || c.progress >= 1.0) return now;
-  now.target = lerp(c.before->target, now.target, c.progress);
-  now.target_rate = lerp(c.before->target_rate, now.target_rate, c.progress);
-  now.target_acceleration = lerp(c.before->target_acceleration, now.target_acceleration, c.progress);
-  return now;
+/// What both allow; where they share nothing, what the newer one does.
+Range tighter(const Range& before, const Range& now) {
+  if (before.low > now.high || now.low > before.high) return now;
+  return {std::max(before.low, now.low), std::min(before.high, now.high)};
 }
 
-double finite(double bound, double scale) {
-  return std::isfinite(bound) ? bound : std::copysign(scale, bound);
+/// A driver that goes on as one of the same kind.
+bool carries_on(const AxisConstraint& before, const AxisConstraint& now) {
+  return before.driver && now.driver && before.driver->makes_force() == now.driver->makes_force();
 }
 
 }  // namespace
@@ -92,241 +93,273 @@ int row_bound(const AxisConstraint& c) noexcept {
               static_cast<int>(c.acceleration.has_value()));
 }
 
-Blend::Blend(std::size_t most_wanted, int leaving_row_capacity, double force_scale, double torque_scale)
-    : leaving_row_capacity_(leaving_row_capacity), force_scale_(force_scale), torque_scale_(torque_scale) {
-  // A wanted constraint and its match split into at most three parts; the rest is for what still leaves.
-  const std::size_t capacity = 8 * std::max<std::size_t>(most_wanted, 4);
-  parts_.reserve(capacity);
-  before_.reserve(capacity);
-  taken_.reserve(capacity);
-}
-
-/// What the set alone knows of the parts.
-void Blend::recall(const solver::ConstraintSet& set) noexcept {
-  for (Part& part : parts_) {
-    if (part.place >= 0) part.present = set.constraints()[static_cast<std::size_t>(part.place)];
+Blend::Blend(std::size_t most_wanted, int most_rows) : most_kept_rows_(3 * most_rows) {
+  // What a set keeps has a row at least, or is of `always` and out of reach; what is wanted may join it.
+  const std::size_t capacity = static_cast<std::size_t>(most_kept_rows_) + 2 * most_wanted + 1;
+  for (BlendedSet& set : sets_) {
+    set.constraints =
+        solver::ConstraintSet(static_cast<int>(capacity), std::max(1, rows_of_a_set(most_rows)));
+    set.in_force.reserve(capacity);
   }
+  for (KeptList& kept : kept_) kept.reserve(capacity);
+  taken_.reserve(most_wanted);
+  carried_.reserve(most_wanted);
+  entering_.reserve(most_wanted);
 }
 
-void Blend::start(const std::vector<Wanted>& wanted, double duration,
-                  const solver::ConstraintSet& set) noexcept {
-  recall(set);
+void Blend::start(const std::vector<Wanted>& wanted, double duration) noexcept {
   is_put_ = false;
   duration_ = duration;
   if (!(duration > 0.0)) {
-    settle(wanted);
-    return;
+    count_ = 0;
+  } else if (count_ == 0) {
+    start_from_always(wanted);
+  } else {
+    for (std::size_t set = 0; set < count_; ++set) recall(set);
+    make_room();
   }
-  settled_ = false;
-  before_.swap(parts_);
-  parts_.clear();
-  taken_.assign(before_.size(), 0);
-  for (int i = 0; i < static_cast<int>(wanted.size()); ++i) {
-    const Wanted& w = wanted[static_cast<std::size_t>(i)];
-    const int old = match(w);
-    if (old < 0) {
-      add_entering(wanted, i, w.constraint.driver.has_value(), ranges_of(w));
-    } else {
-      taken_[static_cast<std::size_t>(old)] = 1;
-      join(wanted, i, before_[static_cast<std::size_t>(old)]);
-    }
+  push_front(wanted);
+  for (std::size_t set = 1; set < count_; ++set) relate(set, wanted);
+  find_entering(wanted);
+}
+
+/// What was in force before a run: `always`, so that its rows hold from the first tick on.
+void Blend::start_from_always(const std::vector<Wanted>& wanted) noexcept {
+  kept_[0].clear();
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (wanted[i].always) kept_[0].push_back(kept_of(wanted, i));
   }
-  for (std::size_t i = 0; i < before_.size(); ++i) {
-    const AxisConstraint& c = before_[i].present;
-    if (taken_[i] == 0 && !before_[i].far) add_leaving(before_[i], c.driver.has_value(), ranges_of(c));
+  sets_[0].share = 1.0;
+  count_ = 1;
+}
+
+Blend::Kept Blend::kept_of(const std::vector<Wanted>& wanted, std::size_t index) noexcept {
+  const Wanted& w = wanted[index];
+  Kept kept;
+  kept.constraint = w.constraint;
+  kept.origin = w.origin;
+  kept.move = w.move;
+  kept.in = w.in;
+  kept.always = w.always;
+  kept.fence = w.fence;
+  kept.lost = w.lost;
+  kept.index = static_cast<int>(index);
+  return kept;
+}
+
+/// Its constraints as they were put last; those of `always`, too, that are out of reach.
+void Blend::recall(std::size_t set) noexcept {
+  const std::vector<AxisConstraint>& put = sets_[set].constraints.constraints();
+  KeptList& all = kept_[set];
+  for (Kept& kept : all) {
+    if (kept.place >= 0) kept.constraint = put[static_cast<std::size_t>(kept.place)];
+    kept.constraint.position_horizon = kept.constraint.velocity_horizon = solver::limit_horizon;
+    if (kept.joins != 0U) kept.always = false;
   }
-  make_room();
+  std::erase_if(all, [](const Kept& kept) { return kept.place < 0 && !kept.always; });
 }
 
-void Blend::settle(const std::vector<Wanted>& wanted) noexcept {
-  settled_ = true;
-  parts_.clear();
-  for (int i = 0; i < static_cast<int>(wanted.size()); ++i) {
-    const Wanted& w = wanted[static_cast<std::size_t>(i)];
-    add_entering(wanted, i, w.constraint.driver.has_value(), ranges_of(w));
-    parts_.back().alpha_from = 1.0;
-    parts_.back().entering = false;
-  }
+int Blend::row_bound(const KeptList& all) noexcept {
+  int rows = 0;
+  for (const Kept& kept : all) rows += kept.place >= 0 ? runtime::row_bound(kept.constraint) : 0;
+  return rows;
 }
 
-bool Blend::is_match(const Part& part, const Wanted& wanted) noexcept {
-  if (part.always || wanted.always) return part.always && wanted.always && part.origin == wanted.origin;
-  const AxisConstraint& a = part.present;
-  const AxisConstraint& b = wanted.constraint;
-  return measures_alike(a, b) && a.level == b.level &&
-         (same(part.move, wanted.move) || same(a.move, b.move)) &&
-         (same(part.in, wanted.in) || same(a.in, b.in));
-}
-
-int Blend::match(const Wanted& wanted) const noexcept {
-  int best = -1;
-  for (std::size_t i = 0; i < before_.size(); ++i) {
-    if (taken_[i] != 0 || !is_match(before_[i], wanted)) continue;
-    const double alpha = before_[i].present.alpha;
-    if (best < 0 || alpha > before_[static_cast<std::size_t>(best)].present.alpha) best = static_cast<int>(i);
-  }
-  return best;
-}
-
-/// A boundary that goes out of reach is remembered as it was put last.
-void Blend::recall_what_goes_far(const std::vector<Wanted>& wanted,
-                                 const solver::ConstraintSet& set) noexcept {
-  for (Part& part : parts_) {
-    if (part.place < 0 || part.wanted < 0 || !wanted[static_cast<std::size_t>(part.wanted)].far) continue;
-    part.present = set.constraints()[static_cast<std::size_t>(part.place)];
-  }
-}
-
-/// The wanted constraint `index` speaks of the axis of `from`.
-void Blend::join(const std::vector<Wanted>& wanted, int index, const Part& from) noexcept {
-  const AxisConstraint& to = wanted[static_cast<std::size_t>(index)].constraint;
-  const Ranges in_new = ranges_of(wanted[static_cast<std::size_t>(index)]);
-  const Ranges in_old = from.origin.part >= 0 ? in_new : ranges_of(from.present);
-  const Ranges in_both = in_old & in_new;
-  const bool drove = from.present.driver.has_value();
-  const bool drives = to.driver.has_value();
-  const bool driver_persists = drove && drives &&
-                               from.present.driver->makes_force() == to.driver->makes_force() &&
-                               is_one_driver(from.present);
-  if (driver_persists || (!drove && !drives)) {
-    if (drives || in_both != 0U) add_persisting(wanted, index, from, drives, in_both);
-    if ((in_new & ~in_both) != 0U) add_entering(wanted, index, false, in_new & ~in_both);
-    if ((in_old & ~in_both) != 0U) add_leaving(from, false, in_old & ~in_both);
-    return;
-  }
-  // Another kind of driver, or none: the drivers change over, the ranges that both have stay in force
-  // throughout.
-  if (drives || (in_new & ~in_both) != 0U) add_entering(wanted, index, drives, in_new & ~in_both);
-  if (in_both != 0U) add_persisting(wanted, index, from, false, in_both);
-  if (drove || (in_old & ~in_both) != 0U) add_leaving(from, drove, in_old & ~in_both);
-}
-
-Blend::Part Blend::part_of(const std::vector<Wanted>& wanted, int index) noexcept {
-  const Wanted& w = wanted[static_cast<std::size_t>(index)];
-  Part part;
-  part.origin = w.origin;
-  part.move = w.move;
-  part.in = w.in;
-  part.always = w.always;
-  part.wanted = index;
-  return part;
-}
-
-void Blend::add(const Part& part) noexcept {
-  if (parts_.size() < parts_.capacity()) parts_.push_back(part);
-}
-
-void Blend::add_entering(const std::vector<Wanted>& wanted, int index, bool drives, Ranges ranges) noexcept {
-  Part part = part_of(wanted, index);
-  part.drives = drives;
-  part.ranges = ranges;
-  part.entering = true;
-  add(part);
-}
-
-void Blend::add_persisting(const std::vector<Wanted>& wanted, int index, const Part& from, bool drives,
-                           Ranges ranges) noexcept {
-  Part part = part_of(wanted, index);
-  part.old = from.present;
-  if (drives) part.old.driver = driver_now(from.present);
-  part.drives = drives;
-  part.persists = true;
-  part.ranges = ranges;
-  part.alpha_from = from.present.alpha;
-  add(part);
-}
-
-void Blend::add_leaving(const Part& from, bool drives, Ranges ranges) noexcept {
-  Part part;
-  part.old = from.present;
-  keep_only(part.old, drives, ranges);
-  part.origin = from.origin;
-  part.move = from.move;
-  part.in = from.in;
-  part.drives = drives;
-  part.alpha_from = from.present.alpha;
-  part.present = part.old;
-  add(part);
-}
-
-/// Drops the faintest of what leaves until the rest fits.
+/// The faintest set gives way to one more, and any set that switches without end have filled with ranges.
 void Blend::make_room() noexcept {
-  for (;;) {
-    int rows = 0;
-    std::size_t faintest = parts_.size();
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      if (parts_[i].wanted < 0) {
-        rows += row_bound(parts_[i].old);
-        if (faintest == parts_.size() || parts_[i].alpha_from < parts_[faintest].alpha_from) faintest = i;
-      }
-    }
-    if (rows <= leaving_row_capacity_ || faintest == parts_.size()) return;
-    parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(faintest));
+  for (std::size_t set = count_; set-- > 0;) {
+    if (count_ > 1 && row_bound(kept_[set]) > most_kept_rows_) drop(set);
   }
+  if (count_ < most_sets) return;
+  std::size_t faintest = 0;
+  for (std::size_t set = 1; set < count_; ++set) {
+    if (sets_[set].share < sets_[faintest].share) faintest = set;
+  }
+  drop(faintest);
 }
 
-Range Blend::loosened(const Range& from, const Range& to, double progress, double scale) const noexcept {
-  if (from.low > to.high || to.low > from.high) return to;
-  Range now = to;
-  if (to.high > from.high && progress < 1.0) now.high = lerp(from.high, finite(to.high, scale), progress);
-  if (to.low < from.low && progress < 1.0) now.low = lerp(from.low, finite(to.low, scale), progress);
-  return now;
-}
-
-/// Makes of `c`, what the part becomes or what leaves, what is in force at `progress`.
-void Blend::fade(const Part& part, double progress, AxisConstraint& c) const noexcept {
-  if (part.wanted < 0) {
-    c.leaving = true;
-    c.alpha = lerp(part.alpha_from, 0.0, progress);
-    return;
-  }
-  keep_only(c, part.drives, part.ranges);
-  c.alpha = lerp(part.alpha_from, 1.0, progress);
-  c.blend = part.entering ? duration_ : 0.0;
-  if (!part.persists) return;
-  const auto loosen = [&](std::optional<Range>& to, const std::optional<Range>& from) {
-    if (to && from) to = loosened(*from, *to, progress, force_scale_);
+/// The others take its share, each its part of it.
+void Blend::drop(std::size_t set) noexcept {
+  const auto to_the_end = [&](auto& list) {
+    std::rotate(list.begin() + static_cast<std::ptrdiff_t>(set),
+                list.begin() + static_cast<std::ptrdiff_t>(set) + 1,
+                list.begin() + static_cast<std::ptrdiff_t>(count_));
   };
-  loosen(c.position, part.old.position);
-  loosen(c.velocity, part.old.velocity);
-  loosen(c.acceleration, part.old.acceleration);
-  loosen(c.force, part.old.force);
-  if (c.driver && part.old.driver) {
-    const double scale = c.axis >= solver::Axis::rx ? torque_scale_ : force_scale_;
-    c.driver->force = loosened(part.old.driver->force, c.driver->force, progress, scale);
-    c.before = part.old.driver;
-    c.before->force = {};  // the driver's bounds already are on their way from the old ones
-  }
-  c.progress = progress;
+  to_the_end(sets_);
+  to_the_end(kept_);
+  --count_;
+  double sum = 0.0;
+  for (const BlendedSet& left : sets()) sum += left.share;
+  for (BlendedSet& left : sets()) left.share /= sum;
 }
 
-void Blend::put(const std::vector<Wanted>& wanted, double progress, solver::ConstraintSet& set,
-                std::vector<InForce>& in_force) noexcept {
-  if (progress >= 1.0 && !settled_) settle(wanted);
-  recall_what_goes_far(wanted, set);
+void Blend::push_front(const std::vector<Wanted>& wanted) noexcept {
+  std::rotate(sets_.begin(), sets_.end() - 1, sets_.end());
+  std::rotate(kept_.begin(), kept_.end() - 1, kept_.end());
+  ++count_;
+  sets_[0].share = count_ == 1 ? 1.0 : 0.0;
+  for (std::size_t set = 0; set < count_; ++set) share_from_[set] = sets_[set].share;
+  kept_[0].clear();
+  for (std::size_t i = 0; i < wanted.size(); ++i) kept_[0].push_back(kept_of(wanted, i));
+}
+
+/// Which of what is wanted each constraint of a set goes on as, and which ranges join the set.
+void Blend::relate(std::size_t set, const std::vector<Wanted>& wanted) noexcept {
+  taken_.assign(wanted.size(), 0);
+  carried_.assign(wanted.size(), 0);
+  for (Kept& kept : kept_[set]) {
+    kept.joins = 0;
+    kept.lives = false;
+    kept.becomes = match(kept, wanted);
+    if (kept.becomes < 0) continue;
+    const auto i = static_cast<std::size_t>(kept.becomes);
+    const Wanted& w = wanted[i];
+    taken_[i] = 1;
+    const bool is_unchanged = kept.lost == w.lost && says_alike(kept.constraint, w.constraint, w.measured);
+    kept.lives = is_unchanged || w.fence;
+    // A sum beside a driver of the set holds for others than this driver: it joins on its own.
+    carried_[i] |= kept.lives || !kept.constraint.driver ? all_bits : all_bits & ~force_bit;
+    kept.index = kept.becomes;
+  }
+  join_ranges(set, wanted);
+}
+
+void Blend::join_ranges(std::size_t set, const std::vector<Wanted>& wanted) noexcept {
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Ranges joins = ranges_of(wanted[i]) & ~carried_[i];
+    if (joins == 0U || kept_[set].size() == kept_[set].capacity()) continue;
+    Kept& kept = kept_[set].emplace_back(kept_of(wanted, i));
+    kept.becomes = static_cast<int>(i);
+    kept.joins = joins;
+  }
+}
+
+int Blend::match(const Kept& kept, const std::vector<Wanted>& wanted) const noexcept {
+  const auto is_match = [&](std::size_t i) {
+    const Wanted& w = wanted[i];
+    if (taken_[i] != 0 || (w.far && !w.always)) return false;
+    if (kept.always || w.always) return kept.always && w.always && kept.origin == w.origin;
+    const AxisConstraint& a = kept.constraint;
+    const AxisConstraint& b = w.constraint;
+    return measures_alike(a, b) && a.level == b.level && (same(kept.move, w.move) || same(a.move, b.move)) &&
+           (same(kept.in, w.in) || same(a.in, b.in));
+  };
+  // `always` is listed first, and stays where it is.
+  const auto own = static_cast<std::size_t>(kept.index);
+  if (kept.always) return own < wanted.size() && is_match(own) ? kept.index : -1;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (is_match(i)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void Blend::find_entering(const std::vector<Wanted>& wanted) noexcept {
+  entering_.assign(wanted.size(), 0);
+  if (count_ < 2) return;
+  for (std::size_t i = 0; i < wanted.size(); ++i) entering_[i] = ranges_of(wanted[i]);
+  for (const Kept& kept : kept_[1]) {
+    if (kept.becomes < 0 || kept.joins != 0U) continue;
+    Ranges& entering = entering_[static_cast<std::size_t>(kept.becomes)];
+    entering &= kept.lives || kept.fence ? 0U : ~ranges_of(kept.constraint);
+  }
+}
+
+void Blend::put(const std::vector<Wanted>& wanted, double progress) noexcept {
+  if (progress >= 1.0) count_ = 1;
   is_put_ = true;
-  set.clear();
-  in_force.clear();
-  for (Part& part : parts_) {
-    const bool leaves = part.wanted < 0;
-    const Wanted* to = leaves ? nullptr : &wanted[static_cast<std::size_t>(part.wanted)];
-    part.place = -1;
-    part.far = !leaves && to->far;
-    if (part.far || in_force.size() == in_force.capacity()) continue;
-    if (!set.add(leaves ? part.old : to->constraint)) continue;
-    part.place = static_cast<int>(in_force.size());
-    fade(part, progress, set[part.place]);
-    in_force.push_back({part.origin, !leaves, part.drives});
+  horizon_ = std::max(solver::limit_horizon, (1.0 - progress) * duration_);
+  sets_[0].share = count_ == 1 ? 1.0 : progress;
+  for (std::size_t set = 1; set < count_; ++set) sets_[set].share = share_from_[set] * (1.0 - progress);
+  put_newest(wanted);
+  for (std::size_t set = 1; set < count_; ++set) put_before(set, wanted);
+}
+
+void Blend::put_newest(const std::vector<Wanted>& wanted) noexcept {
+  BlendedSet& set = sets_[0];
+  set.constraints.clear();
+  set.in_force.clear();
+  for (Kept& kept : kept_[0]) {
+    const auto i = static_cast<std::size_t>(kept.index);
+    const Wanted& w = wanted[i];
+    kept.place = -1;
+    if (w.far) continue;
+    // The ranges of a statement without a driver are in all sets.
+    const bool drives = w.constraint.driver.has_value();
+    kept.place = add(set, w.constraint, {w.origin, true, drives, drives ? set.share : 1.0});
+    if (kept.place >= 0 && count_ > 1) stretch(entering_[i], set.constraints[kept.place]);
   }
 }
 
-void Blend::renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed,
-                  solver::ConstraintSet& set) const noexcept {
+void Blend::put_before(std::size_t index, const std::vector<Wanted>& wanted) noexcept {
+  BlendedSet& set = sets_[index];
+  set.constraints.clear();
+  set.in_force.clear();
+  for (Kept& kept : kept_[index]) {
+    const Wanted* to = kept.becomes < 0 ? nullptr : &wanted[static_cast<std::size_t>(kept.becomes)];
+    kept.place = -1;
+    if (to != nullptr && to->far && (kept.lives || kept.joins != 0U)) continue;
+    const AxisConstraint c = present(kept, wanted);
+    const InForce source{to == nullptr ? kept.origin : to->origin, to != nullptr, c.driver.has_value(),
+                         set.share};
+    kept.place = add(set, c, source);
+    if (to == nullptr || !carries_on(c, to->constraint)) continue;
+    const int newest = kept_[0][static_cast<std::size_t>(kept.becomes)].place;
+    if (newest >= 0) sets_[0].in_force[static_cast<std::size_t>(newest)].alpha += set.share;
+  }
+}
+
+/// What a set before has of it now.
+AxisConstraint Blend::present(const Kept& kept, const std::vector<Wanted>& wanted) const noexcept {
+  if (kept.becomes < 0) return kept.constraint;
+  const auto i = static_cast<std::size_t>(kept.becomes);
+  const AxisConstraint& to = wanted[i].constraint;
+  if (kept.lives) return to;
+  if (kept.joins != 0U) {
+    AxisConstraint c = ranges_alone(to, kept.joins);
+    stretch(entering_[i], c);
+    return c;
+  }
+  AxisConstraint c = kept.constraint;
+  if (!wanted[i].far) tighten(to, entering_[i], c);
+  return c;
+}
+
+int Blend::add(BlendedSet& set, const AxisConstraint& constraint, const InForce& source) noexcept {
+  if (set.in_force.size() == set.in_force.capacity() || !set.constraints.add(constraint)) return -1;
+  set.in_force.push_back(source);
+  return static_cast<int>(set.in_force.size()) - 1;
+}
+
+void Blend::stretch(Ranges entering, AxisConstraint& c) const noexcept {
+  if ((entering & position_bit) != 0U) c.position_horizon = horizon_;
+  if ((entering & velocity_bit) != 0U) c.velocity_horizon = horizon_;
+}
+
+/// A constraint of a set before, along the axis of one that is wanted now: no looser than that one.
+void Blend::tighten(const AxisConstraint& to, Ranges entering, AxisConstraint& c) const noexcept {
+  c.move = to.move;
+  c.in = to.in;
+  if (to.position && !c.position) {
+    c.braking = to.braking;
+    c.return_speed = to.return_speed;
+  } else if (to.position) {
+    c.return_speed = std::min(c.return_speed, to.return_speed);
+  }
+  const auto meet = [](std::optional<Range>& before, const std::optional<Range>& now) {
+    if (now) before = before ? tighter(*before, *now) : *now;
+  };
+  stretch(entering, c);
+  meet(c.position, to.position);
+  meet(c.velocity, to.velocity);
+  meet(c.acceleration, to.acceleration);
+  if (!c.driver) meet(c.force, to.force);
+  if (carries_on(c, to)) c.driver->force = tighter(c.driver->force, to.driver->force);
+}
+
+void Blend::renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept {
   for (const int i : renewed) {
-    const Part& part = parts_[static_cast<std::size_t>(i)];
-    if (part.place < 0) continue;
-    set[part.place] = wanted[static_cast<std::size_t>(i)].constraint;
-    fade(part, 1.0, set[part.place]);
+    const int place = kept_[0][static_cast<std::size_t>(i)].place;
+    if (place >= 0) sets_[0].constraints[place] = wanted[static_cast<std::size_t>(i)].constraint;
   }
 }
 

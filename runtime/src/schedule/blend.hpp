@@ -1,13 +1,26 @@
-/// The constraints in force, and their way from one task's to the next one's.
+/// The sets of constraints in force, and the shares that their solutions have.
 ///
-/// At a switch every constraint in force is looked up among those of the new task by (moved frame, axes
-/// frame, axis, level, kind of driver). Where it is found again it persists: its driver goes from the old to
-/// the new one, and a bound that tightens does so at once while one that loosens goes there with the blend.
-/// What is not found fades out from the alpha it has, what is new fades in. With p going from 0 to 1, what
-/// leaves has alpha (1 - p) of what it had and what enters has p, so that nothing steps and the alphas sum to
-/// at most 1, also when a switch comes in the middle of a blend.
+/// A switch blends solutions, not rows. The set of the new task and the sets that were in force before are
+/// each solved whole, at full strength, and with progress going from 0 to 1
+///
+///   tau = progress tau_new + (1 - progress) tau_before
+///
+/// An equality that all sets meet is met exactly at every instant, whatever enters, leaves or changes below
+/// it; a range or a sum that all sets keep is kept. So
+///
+///   what `always` says    is in every set, with its present values;
+///   a range that enters   joins the sets before at once, where it is one of the same axis as the tighter of
+///   both,
+///                         with a horizon that shrinks as the blend proceeds: what is beyond it has time to
+///                         stop;
+///   a range that leaves   stays in the sets before.
+///
+/// A set before keeps the constraints as they were put last. A switch in the middle of a blend makes a third
+/// set.
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "zwang/runtime/scheduler.hpp"
@@ -26,79 +39,98 @@ struct Wanted {
   solver::AxisConstraint constraint;
   Origin origin;
   FrameKey move, in;
-  bool always = false;  ///< persists as itself, whatever the tasks say of its axis
-  bool far = false;     ///< not in force now, though nothing was switched: a boundary out of reach
+  bool always = false;    ///< persists as itself, whatever the tasks say of its axis
+  bool fence = false;     ///< one of a boundary's: its ranges come and go with its distance
+  bool measured = false;  ///< its value or its axes are a signal's: new ones are no switch
+  bool lost = false;      ///< that signal is not known
+  bool far = false;       ///< not in force now, though nothing was switched: a boundary out of reach
 };
 
 /// Most rows that a constraint can become.
 int row_bound(const solver::AxisConstraint& constraint) noexcept;
 
+/// One set of constraints, and what of it is in force.
+struct BlendedSet {
+  solver::ConstraintSet constraints;
+  std::vector<InForce> in_force;  ///< parallel to the constraints
+  double share = 1.0;
+};
+
 class Blend {
  public:
-  /// `force_scale` and `torque_scale` stand for an infinite bound while one fades: about what the motors can
-  /// do. Of what leaves, the faintest is dropped when its rows exceed `leaving_row_capacity`.
-  Blend(std::size_t most_wanted, int leaving_row_capacity, double force_scale, double torque_scale);
+  static constexpr std::size_t most_sets = 3;
 
-  /// Fades from what is in force to `wanted`, over `duration` [s]; 0 switches at once. `wanted` keeps its
-  /// length until the next switch. `set`: as the last `put` left it.
-  void start(const std::vector<Wanted>& wanted, double duration, const solver::ConstraintSet& set) noexcept;
-  /// Whether nothing fades, and the last `put` says so: until what is wanted comes into reach or goes out of
-  /// it, `renew` does what `put` would do.
-  bool rests() const noexcept { return settled_ && is_put_; }
+  /// Of a task, `most_wanted` constraints at most, and `most_rows` rows in force at a time.
+  Blend(std::size_t most_wanted, int most_rows);
+
+  /// Blends what is in force with `wanted`, over `duration` [s]; 0 switches at once. `wanted` keeps its
+  /// length until the next switch.
+  void start(const std::vector<Wanted>& wanted, double duration) noexcept;
+  /// Whether one set is in force, and the last `put` says so: until what is wanted comes into reach or goes
+  /// out of it, `renew` does what `put` would do.
+  bool rests() const noexcept { return count_ == 1 && is_put_; }
   /// Writes those of `wanted` that have new values, by their indices.
-  void renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed,
-             solver::ConstraintSet& set) const noexcept;
-  /// Puts the constraints in force at `progress` (0 to 1, > 0) into `set`.
-  void put(const std::vector<Wanted>& wanted, double progress, solver::ConstraintSet& set,
-           std::vector<InForce>& in_force) noexcept;
+  void renew(const std::vector<Wanted>& wanted, const std::vector<int>& renewed) noexcept;
+  /// Puts the sets in force at `progress` (0 to 1, > 0).
+  void put(const std::vector<Wanted>& wanted, double progress) noexcept;
 
-  std::size_t capacity() const noexcept { return parts_.capacity(); }
+  /// The newest first.
+  std::span<BlendedSet> sets() noexcept { return {sets_.data(), count_}; }
+  std::span<const BlendedSet> sets() const noexcept { return {sets_.data(), count_}; }
+  BlendedSet& set(int i) noexcept { return sets_[static_cast<std::size_t>(i)]; }
+  /// Most constraints of a set.
+  std::size_t capacity() const noexcept { return sets_[0].in_force.capacity(); }
+  static constexpr int rows_of_a_set(int most_rows) noexcept { return 4 * most_rows; }
 
  private:
   /// One bit a quantity.
   using Ranges = unsigned;
-  struct Part {
-    solver::AxisConstraint old;      ///< as it was when the blend began
-    solver::AxisConstraint present;  ///< as it was put last; until a switch asks, only the set may know
-    int place = -1;                  ///< in the set, as of the last tick; -1: not in force
+  /// A constraint of a set, as it was put last.
+  struct Kept {
+    solver::AxisConstraint constraint;
+    int place = -1;  ///< in the set; -1: not in force
     Origin origin;
     FrameKey move, in;
     bool always = false;
-    bool far = false;
-    int wanted = -1;  ///< index of what it becomes; -1: it leaves
-    bool drives = false;
-    bool persists = false;  ///< its driver and its ranges start from `old`
-    Ranges ranges = 0;      ///< those of the wanted constraint that this part carries
-    double alpha_from = 0.0;
-    bool entering = false;
+    bool fence = false;
+    bool lost = false;
+    int index = -1;      ///< of what is wanted in its own set
+    int becomes = -1;    ///< index of what is wanted now along the same axis; -1: nothing is
+    bool lives = false;  ///< it is what is wanted now, with its present values
+    Ranges joins = 0;    ///< it is these ranges of what is wanted now, and nothing else
   };
+  using KeptList = std::vector<Kept>;
 
-  static Part part_of(const std::vector<Wanted>& wanted, int index) noexcept;
-  void settle(const std::vector<Wanted>& wanted) noexcept;
-  void recall(const solver::ConstraintSet& set) noexcept;
-  void recall_what_goes_far(const std::vector<Wanted>& wanted, const solver::ConstraintSet& set) noexcept;
-  void add_entering(const std::vector<Wanted>& wanted, int index, bool drives, Ranges ranges) noexcept;
-  void add_persisting(const std::vector<Wanted>& wanted, int index, const Part& from, bool drives,
-                      Ranges ranges) noexcept;
-  void add_leaving(const Part& from, bool drives, Ranges ranges) noexcept;
-  void add(const Part& part) noexcept;
-  void join(const std::vector<Wanted>& wanted, int index, const Part& from) noexcept;
-  static bool is_match(const Part& part, const Wanted& wanted) noexcept;
-  int match(const Wanted& wanted) const noexcept;
+  static Kept kept_of(const std::vector<Wanted>& wanted, std::size_t index) noexcept;
+  static int row_bound(const KeptList& kept) noexcept;
   void make_room() noexcept;
-  void fade(const Part& part, double progress, solver::AxisConstraint& c) const noexcept;
-  solver::Range loosened(const solver::Range& from, const solver::Range& to, double progress,
-                         double scale) const noexcept;
+  void drop(std::size_t set) noexcept;
+  void recall(std::size_t set) noexcept;
+  void start_from_always(const std::vector<Wanted>& wanted) noexcept;
+  void push_front(const std::vector<Wanted>& wanted) noexcept;
+  void relate(std::size_t set, const std::vector<Wanted>& wanted) noexcept;
+  void join_ranges(std::size_t set, const std::vector<Wanted>& wanted) noexcept;
+  int match(const Kept& kept, const std::vector<Wanted>& wanted) const noexcept;
+  void find_entering(const std::vector<Wanted>& wanted) noexcept;
+  void put_newest(const std::vector<Wanted>& wanted) noexcept;
+  void put_before(std::size_t set, const std::vector<Wanted>& wanted) noexcept;
+  solver::AxisConstraint present(const Kept& kept, const std::vector<Wanted>& wanted) const noexcept;
+  static int add(BlendedSet& set, const solver::AxisConstraint& constraint, const InForce& source) noexcept;
+  void stretch(Ranges entering, solver::AxisConstraint& c) const noexcept;
+  void tighten(const solver::AxisConstraint& wanted, Ranges entering,
+               solver::AxisConstraint& c) const noexcept;
 
-  std::vector<Part> parts_;
-  std::vector<Part> before_;
-  std::vector<char> taken_;
-  int leaving_row_capacity_;
-  double force_scale_;
-  double torque_scale_;
+  std::array<BlendedSet, most_sets> sets_;
+  std::array<KeptList, most_sets> kept_;        ///< of each set; of the newest one by what is wanted
+  std::array<double, most_sets> share_from_{};  ///< of each set when the blend began
+  std::size_t count_ = 0;
+  int most_kept_rows_;
+  std::vector<char> taken_;       ///< by what is wanted
+  std::vector<Ranges> carried_;   ///< by what is wanted: its ranges that a set has
+  std::vector<Ranges> entering_;  ///< by what is wanted: its ranges that the set before did not have
   double duration_ = 0.0;
-  bool settled_ = true;  ///< nothing fades: one part for each that is wanted, in their order
-  bool is_put_ = false;  ///< the parts, as they are
+  double horizon_ = solver::limit_horizon;  ///< [s] of ranges that enter
+  bool is_put_ = false;
 };
 
 }  // namespace zwang::runtime

@@ -50,7 +50,7 @@ bool gives(const std::vector<lang::Group>& groups, const lang::BaseLimit& limit,
     if (group.kind != lang::GroupKind::axes) continue;
     if (!is_base(frames, group.move) || !is_base(frames, group.in)) continue;
     for (AxisStatements axis : group.axes) {
-      if (!axis.is_planar_speed && axis.axis == limit.axis && range_of(axis, limit.quantity)) return true;
+      if (!axis.is_planar && axis.axis == limit.axis && range_of(axis, limit.quantity)) return true;
     }
   }
   return false;
@@ -67,6 +67,13 @@ AxisStatements& axis_of(lang::Group& group, Axis axis, const lang::Span& span) {
   added.span = span;
   group.axes.push_back(added);
   return group.axes.back();
+}
+
+void limit_axis(lang::Group& group, const lang::BaseLimit& limit) {
+  AxisStatements& axis = axis_of(group, limit.axis, limit.span);
+  range_of(axis, limit.quantity) =
+      lang::ValueRange{{.constant = limit.range.low}, {.constant = limit.range.high}};
+  axis.statement_spans[static_cast<std::size_t>(limit.quantity)] = limit.span;
 }
 
 }  // namespace
@@ -106,14 +113,36 @@ int base_frame(std::vector<lang::FrameDeclaration>& frames, const lang::Robot& r
   return static_cast<int>(frames.size()) - 1;
 }
 
-lang::Task brake_task(const char* name, const lang::Robot& robot, int base) {
-  lang::Task task;
-  task.name = name;
-  task.blend.constant = brake_blend;
-  if (robot.model.has_fixed_base()) return task;
+namespace {
+
+lang::Group group_on_base(const char* name, int base) {
   lang::Group group;
-  group.name = "stop";
+  group.name = name;
   group.move = group.in = base;
+  return group;
+}
+
+/// The stop's deceleration as ranges that win against every other range of level 0.
+lang::Group deceleration_of(const lang::Group& brake) {
+  lang::Group group = group_on_base("stop", brake.move);
+  for (const AxisStatements& braked : brake.axes) {
+    AxisStatements& a = axis_of(group, braked.axis, {});
+    a.acceleration = braked.acceleration;
+  }
+  return group;
+}
+
+/// The robot file's limits but for its accelerations: those of an end are the stop's.
+lang::Group limits_at_end(const lang::Robot& robot, int base) {
+  lang::Group group = group_on_base("limits", base);
+  for (const lang::BaseLimit& limit : robot.limits) {
+    if (limit.quantity != Quantity::acceleration) limit_axis(group, limit);
+  }
+  return group;
+}
+
+lang::Group brake_of(const lang::Robot& robot, int base) {
+  lang::Group group = group_on_base("stop", base);
   const double radius = footprint_radius(robot);
   for (const Axis axis : {Axis::x, Axis::y, Axis::rz}) {
     const bool turns = is_rotation(axis);
@@ -126,22 +155,29 @@ lang::Task brake_task(const char* name, const lang::Robot& robot, int base) {
     a.acceleration = plus_minus(turns ? robot.stop.deceleration / radius : robot.stop.deceleration);
     group.axes.push_back(a);
   }
-  task.groups.push_back(group);
+  return group;
+}
+
+}  // namespace
+
+lang::Task brake_task(const char* name, const lang::Robot& robot, int base) {
+  lang::Task task;
+  task.name = name;
+  task.blend.constant = brake_blend;
+  if (robot.model.has_fixed_base()) return task;
+  task.groups = {brake_of(robot, base)};
+  task.groups.push_back(deceleration_of(task.groups.front()));
+  const lang::Group limits = limits_at_end(robot, base);
+  if (!limits.axes.empty()) task.groups.push_back(limits);
   return task;
 }
 
 void add_limits(lang::Task& task, const lang::Always& always, const lang::Robot& robot, int base,
                 const std::vector<lang::FrameDeclaration>& frames) {
   if (robot.model.has_fixed_base()) return;
-  lang::Group group;
-  group.name = "limits";
-  group.move = group.in = base;
+  lang::Group group = group_on_base("limits", base);
   for (const lang::BaseLimit& limit : robot.limits) {
-    if (gives(task.groups, limit, frames) || gives(always.groups, limit, frames)) continue;
-    AxisStatements& axis = axis_of(group, limit.axis, limit.span);
-    range_of(axis, limit.quantity) =
-        lang::ValueRange{{.constant = limit.range.low}, {.constant = limit.range.high}};
-    axis.statement_spans[static_cast<std::size_t>(limit.quantity)] = limit.span;
+    if (!gives(task.groups, limit, frames) && !gives(always.groups, limit, frames)) limit_axis(group, limit);
   }
   if (!group.axes.empty()) task.groups.push_back(group);
 }

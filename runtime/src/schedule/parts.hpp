@@ -1,5 +1,5 @@
 /// What a scheduler is made of. One file for each step of the tick: tick_sense, tick_choose, tick_switch,
-/// tick_rows.
+/// tick_rows, tick_return, tick_sides.
 #pragma once
 
 #include <array>
@@ -8,10 +8,12 @@
 #include <span>
 #include <vector>
 
+#include "schedule/at_rest.hpp"
 #include "schedule/blend.hpp"
 #include "schedule/condition.hpp"
 #include "schedule/frame_table.hpp"
 #include "schedule/guards.hpp"
+#include "schedule/plane_norm.hpp"
 #include "schedule/region_fence.hpp"
 #include "schedule/signal_table.hpp"
 #include "schedule/task_list.hpp"
@@ -20,13 +22,18 @@
 
 namespace zwang::runtime {
 
+/// A norm in the base's plane limits the braking along x and y.
+inline constexpr int both_axes = 3;
+
 /// An axis of `always` or of the active task.
 struct ActiveAxis {
   Origin origin;
   const lang::Group* group = nullptr;
   const lang::AxisStatements* says = nullptr;
   int fence = -1;   ///< of a group `inside`: index into `fences`
-  int brakes = -1;  ///< of the base's x, y and rz the one whose braking its ranges limit; -1: none
+  int plane = -1;   ///< of a norm of accelerations or forces: index into `planes`
+  int brakes = -1;  ///< of the base's x, y and rz the one whose braking its ranges limit; -1: none; or
+                    ///< `both_axes`
   bool hangs_on_signal = false;                     ///< its frames or its value do: it can be lost
   bool varies = false;                              ///< what it wants is not up to the parameters alone
   std::optional<solver::AttachedFrame> entry_axes;  ///< `here` in axes of the moved body: the axes on entry
@@ -35,12 +42,28 @@ struct ActiveAxis {
   std::size_t wanted = 0;  ///< index in `wanted` of its constraint, or of its first one
   bool lost = false;  ///< its axes hang on a pose signal that is not known now, or its value on such a signal
   AxisReading reading;
+  bool is_outside = false;  ///< of its position range or its region, by more than what a brake leaves
 };
 
 /// The pairs of features of a fence that are in force, by their indices.
 struct InReach {
   std::array<std::size_t, RegionFence::most_near> pairs{};
   std::size_t count = 0;
+};
+
+/// What a solution makes along sides 0 and `across` of a plane's norm.
+struct PlaneReading {
+  std::array<int, 2> row{-1, -1};        ///< of Solution::rows, along them; -1: not in force
+  std::array<double, 2> acceleration{};  ///< [m/s^2]
+  std::array<double, 2> press{};         ///< [N] of all sets, by their shares
+  double W_xx = 0.0, W_xy = 0.0,
+         W_yy = 0.0;  ///< acceleration along one by a unit force along the other [1/kg]
+};
+
+/// Of a row whose frame is outside.
+struct WayBack {
+  solver::Vector3 inwards;      ///< unit normal in the world; zero: an angle, which has none
+  std::optional<double> speed;  ///< of the row's own point along it [m/s]; none: the point is the origin
 };
 
 /// Where `back` leads.
@@ -106,23 +129,42 @@ struct Scheduler::Parts final : Facts {
   void track_losses() noexcept;
   void start_blend() noexcept;
   void put_constraints() noexcept;
+  void put() noexcept;
   void list_wanted() noexcept;
   void list_axis(const ActiveAxis& a) noexcept;
   void list_fence(const ActiveAxis& a) noexcept;
   void want() noexcept;
   void want_axis(const ActiveAxis& a) noexcept;
+  void want_motion_ranges(const ActiveAxis& a, solver::AxisConstraint& c) const noexcept;
+  bool is_left_to_the_end(const ActiveAxis& a) const noexcept;
   solver::Driver driver_of(const ActiveAxis& a) const noexcept;
   bool is_lost(const ActiveAxis& a) const noexcept;
   void want_fence(const ActiveAxis& a, RegionFence& fence) noexcept;
   void want_standstill(const ActiveAxis& a) noexcept;
   InReach find_nearest(const ActiveAxis& a, RegionFence& fence) noexcept;
   void keep_in_reach(const ActiveAxis& a, InReach nearest) noexcept;
+  void lead_back() noexcept;
+  void find_way_back(ActiveAxis& a) noexcept;
+  void lead_back(const ActiveAxis& a, std::size_t index, const WayBack& way) noexcept;
+  void note_excursion(ActiveAxis& a, double outside) noexcept;
+  void only_hold_back(solver::AxisConstraint& c) const noexcept;
+  void keep_energy_from_rising() noexcept;
   double braking_of(const solver::AxisConstraint& c, const lang::AxisStatements& s) const noexcept;
   double braking_along(const solver::Vector3& direction) const noexcept;
   void find_braking() noexcept;
   solver::Range value(const lang::ValueRange& range) const noexcept;
   const solver::AttachedFrame& axes_frame(const lang::Group& group, const ActiveAxis* a) const noexcept;
   void read(const solver::Solution& solution) noexcept;
+  void read_row(std::size_t set, const solver::Row& row, const solver::RowSolution& answer,
+                ActiveAxis& axis) noexcept;
+
+  // Steps 7 and 8: the sides of norms, and which of them are in force.
+  void list_plane(const ActiveAxis& a) noexcept;
+  void want_plane(const ActiveAxis& a) noexcept;
+  bool pose_broken_sides(const solver::Solver& solver, const solver::Solution& solution) noexcept;
+  void read_planes(const solver::Solution& solution) noexcept;
+  double share_of_side(const solver::AxisConstraint& side, const PlaneReading& reading) const noexcept;
+  bool choose_sides(const ActiveAxis& a, const PlaneReading& reading) noexcept;
 
   // For people, after the run.
   std::vector<int> signals_of(const lang::ExpressionNode& name, int owner) const;
@@ -131,6 +173,7 @@ struct Scheduler::Parts final : Facts {
   std::string name_of(const lang::Target& target) const;
 
   const lang::Task& active() const noexcept { return tasks[task]; }
+  bool is_at_end() const noexcept { return tasks.ends(task); }
   double elapsed() const noexcept { return now - entered; }
   const lang::Group& group(const Origin& origin) const noexcept {
     return tasks[origin.task].groups[static_cast<std::size_t>(origin.group)];
@@ -156,8 +199,12 @@ struct Scheduler::Parts final : Facts {
   solver::Vector3 braking;         ///< what the ranges in force leave along them [m/s^2, m/s^2, rad/s^2]
   std::vector<RegionFence> fences;
   std::vector<InReach> in_reach;  ///< of each fence
+  std::vector<PlaneNorm> planes;
+  std::vector<PlaneReading> plane_readings;  ///< of each
+  Eigen::VectorXd press_x, press_y;          ///< a unit force along its sides, as FreeMotions has it
   // By task and group.
   std::vector<std::vector<int>> fence_of;               ///< -1: not `inside`
+  std::vector<std::vector<int>> plane_of;               ///< -1: no norm of accelerations or forces
   std::vector<std::vector<std::size_t>> first_axis_of;  ///< among those of its task
   const int start;
 
@@ -168,6 +215,10 @@ struct Scheduler::Parts final : Facts {
   double entered = 0.0;   ///< [s] when the task was entered; later by what interruptions took
   double switched = 0.0;  ///< [s] when the present blend began
   double blend_time = 0.0;
+  double energy_at_end = 0.0;  ///< [J] kinetic, when an end was reached
+  RestWatch rest;              ///< in an end
+  bool has_stood = false;
+  std::optional<Excursion> excursion;
   std::vector<int> entries;  ///< of each task, since the start
   Interruption interruption;
   const solver::State* state = nullptr;  ///< of the present tick
@@ -180,13 +231,12 @@ struct Scheduler::Parts final : Facts {
   std::size_t always_axes = 0;
   std::vector<TaskSnapshot> left;  ///< of each task, when it was left last
   std::vector<Wanted> wanted;
-  std::vector<int> renewed;    ///< those of `wanted` with values that the last tick did not have
-  bool values_are_due = true;  ///< of all that is wanted: another list, or other parameters
-  bool reach_changed = true;   ///< another pair of features is in force, or one no more
-  std::vector<InForce> in_force;
-  std::vector<ActiveAxis*> sources;  ///< of each in force its axis; null while it fades out
+  std::vector<int> renewed;          ///< those of `wanted` with values that the last tick did not have
+  bool values_are_due = true;        ///< of all that is wanted: another list, or other parameters
+  bool reach_changed = true;         ///< another pair of features is in force, or one no more
+  std::vector<ActiveAxis*> sources;  ///< of each constraint of all sets its axis; null while it leaves
   std::optional<Blend> blend;
-  std::optional<solver::ConstraintSet> set;
+  std::array<solver::RowSet, Blend::most_sets> row_sets;
 };
 
 }  // namespace zwang::runtime

@@ -64,15 +64,6 @@ std::vector<std::optional<solver::Range>> ranges_of(const std::vector<lang::Para
   return ranges;
 }
 
-/// About what the motors can do, for a bound that is infinite while it fades. [N]
-double force_scale_of(const solver::Model& model) {
-  double scale = 0.0;
-  for (const solver::Wheel& wheel : model.wheels()) {
-    scale += model.joint(wheel.body - 1).max_effort / wheel.radius;
-  }
-  return scale > 0.0 && std::isfinite(scale) ? scale : 10.0 * model.total_mass();
-}
-
 }  // namespace
 
 Scheduler::Parts::Parts(const lang::Program& given, double control_period)
@@ -101,6 +92,7 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
     if (t.require) follow_paths(*t.require);
     for (const lang::Exit& exit : t.exits) follow_paths(exit.when);
     fence_of.emplace_back();
+    plane_of.emplace_back();
     first_axis_of.emplace_back();
     std::size_t axes_before = 0;
     for (const lang::Group& g : t.groups) {
@@ -113,6 +105,11 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
         throw std::invalid_argument("scheduler: `" + g.name +
                                     "` moves a footprint that the robot does not have");
       }
+      plane_of.back().push_back(-1);
+      if (std::ranges::any_of(g.axes, limits_a_plane)) {
+        plane_of.back().back() = static_cast<int>(planes.size());
+        planes.push_back(plane_norm_of(model, frames.attached(g.move), frames.attached(g.in)));
+      }
       if (g.kind != lang::GroupKind::inside) continue;
       fence_of.back().back() = static_cast<int>(fences.size());
       fences.emplace_back(
@@ -122,17 +119,16 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
     }
   }
   in_reach.resize(fences.size());
-  const std::size_t most_wanted = tasks.most_axes + most_pairs;
+  plane_readings.resize(planes.size());
+  press_x = press_y = Eigen::VectorXd::Zero(6 + model.joint_count());
+  const std::size_t most_wanted = tasks.most_axes + most_pairs + PlaneNorm::most_sides * planes.size();
   axes.reserve(tasks.most_axes);
   wanted.reserve(most_wanted);
-  renewed.reserve(most_wanted);
+  renewed.reserve(2 * most_wanted);
   for (const lang::Task& t : tasks.tasks)
     left.emplace_back(t.exits.size(), tasks.most_nodes, given.signals.size());
-  const double force_scale = force_scale_of(model);
-  blend.emplace(most_wanted, 3 * tasks.most_rows, force_scale, force_scale * radius);
-  in_force.reserve(blend->capacity());
-  sources.reserve(blend->capacity());
-  set.emplace(static_cast<int>(blend->capacity()), 4 * tasks.most_rows);
+  blend.emplace(most_wanted, tasks.most_rows);
+  sources.reserve(Blend::most_sets * blend->capacity());
 }
 
 void Scheduler::Parts::follow_paths(const lang::Condition& condition) noexcept {
@@ -171,18 +167,34 @@ void Scheduler::observe(const solver::Solution& solution) noexcept {
   parts_->read(solution);
 }
 
-bool Scheduler::fill_constraints() noexcept {
-  return parts_->set->fill(parts_->frames.motions());
+bool Scheduler::pose_broken_sides(const solver::Solver& solver, const solver::Solution& solution) noexcept {
+  return parts_->pose_broken_sides(solver, solution);
 }
 
-solver::ConstraintSet& Scheduler::constraints() noexcept {
-  return *parts_->set;
+bool Scheduler::fill_constraints() noexcept {
+  for (BlendedSet& set : parts_->blend->sets()) {
+    if (!set.constraints.fill(parts_->frames.motions())) return false;
+  }
+  return true;
 }
-const solver::ConstraintSet& Scheduler::constraints() const noexcept {
-  return *parts_->set;
+
+int Scheduler::set_count() const noexcept {
+  return static_cast<int>(parts_->blend->sets().size());
 }
-const std::vector<InForce>& Scheduler::in_force() const noexcept {
-  return parts_->in_force;
+solver::ConstraintSet& Scheduler::constraints(int set) noexcept {
+  return parts_->blend->set(set).constraints;
+}
+const solver::ConstraintSet& Scheduler::constraints(int set) const noexcept {
+  return parts_->blend->set(set).constraints;
+}
+double Scheduler::share(int set) const noexcept {
+  return parts_->blend->set(set).share;
+}
+std::span<const solver::RowSet> Scheduler::row_sets() const noexcept {
+  return {parts_->row_sets.data(), parts_->blend->sets().size()};
+}
+const std::vector<InForce>& Scheduler::in_force(int set) const noexcept {
+  return parts_->blend->set(set).in_force;
 }
 const std::optional<Transition>& Scheduler::transition() const noexcept {
   return parts_->transition;
@@ -192,6 +204,12 @@ Phase Scheduler::phase() const noexcept {
 }
 Outcome Scheduler::outcome() const noexcept {
   return parts_->outcome;
+}
+bool Scheduler::has_stood() const noexcept {
+  return parts_->has_stood;
+}
+const std::optional<Excursion>& Scheduler::excursion() const noexcept {
+  return parts_->excursion;
 }
 int Scheduler::task() const noexcept {
   return parts_->task;
@@ -233,8 +251,10 @@ const SignalSample& Scheduler::signal_sample(int signal) const noexcept {
 }
 std::string Scheduler::part_name(const Origin& origin) const {
   if (origin.part < 0) return {};
-  const int fence =
-      parts_->fence_of[static_cast<std::size_t>(origin.task)][static_cast<std::size_t>(origin.group)];
+  const auto task = static_cast<std::size_t>(origin.task), group = static_cast<std::size_t>(origin.group);
+  const int fence = parts_->fence_of[task][group];
+  if (fence < 0)
+    return parts_->planes[static_cast<std::size_t>(parts_->plane_of[task][group])].name(origin.part);
   return parts_->fences[static_cast<std::size_t>(fence)].name(static_cast<std::size_t>(origin.part));
 }
 const std::vector<lang::Task>& Scheduler::tasks() const noexcept {
@@ -247,7 +267,10 @@ int Scheduler::always_task() const noexcept {
   return parts_->tasks.always();
 }
 int Scheduler::row_capacity() const noexcept {
-  return 4 * parts_->tasks.most_rows;
+  return static_cast<int>(Blend::most_sets) * set_capacity();
+}
+int Scheduler::set_capacity() const noexcept {
+  return Blend::rows_of_a_set(parts_->tasks.most_rows);
 }
 double Scheduler::period() const noexcept {
   return parts_->period;

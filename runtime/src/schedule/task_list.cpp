@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "schedule/braking.hpp"
+#include "schedule/plane_norm.hpp"
 #include "schedule/region_fence.hpp"
 
 namespace zwang::runtime {
@@ -116,6 +117,7 @@ int row_count(const lang::Task& task) {
       continue;
     }
     for (const lang::AxisStatements& a : group.axes) {
+      if (limits_a_plane(a)) rows += PlaneNorm::most_sides * ((a.acceleration ? 2 : 0) + (a.force ? 1 : 0));
       rows += (a.driver || a.force ? 1 : 0) +
               2 * ((a.position ? 1 : 0) + (a.velocity ? 1 : 0) + (a.acceleration ? 1 : 0));
     }
@@ -140,6 +142,7 @@ void shape(lang::Group& group, const lang::Program& program,
     rows.level = group.level;
     rows.span = group.span;
     rows.position = lang::ValueRange{group.margin, {.constant = solver::infinity}};
+    rows.return_speed = group.return_speed;
     group.axes = {rows};
   }
   if (group.kind == lang::GroupKind::feature) {
@@ -194,8 +197,10 @@ TaskList::TaskList(const lang::Program& program, const std::vector<lang::FrameDe
   }
   tasks.push_back(brake_task("done", program.robot, base));
   tasks.push_back(brake_task("failed", program.robot, base));
-  for (lang::Task& task : tasks) {
-    add_holds(task, program.always, joints, frames, program.robot.model);
+  // Nothing of `always` drives in an end: every joint is held there.
+  for (int t = 0; t <= failed(); ++t) {
+    add_holds(tasks[static_cast<std::size_t>(t)], ends(t) ? lang::Always{} : program.always, joints, frames,
+              program.robot.model);
   }
   lang::Task always;
   always.name = "always";

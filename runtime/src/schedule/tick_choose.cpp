@@ -113,7 +113,9 @@ std::optional<Scheduler::Parts::Choice> Scheduler::Parts::choose_while_stopping(
 
 void Scheduler::Parts::check_rest() noexcept {
   if (phase != Phase::stopping) return;
-  if (model.has_fixed_base() || is_at_rest(state->base_twist)) {
+  rest.look(state->base_twist, period);
+  if (model.has_fixed_base() || rest.stood_for() >= rest_dwell - clock_rounding * period) {
+    has_stood = true;
     phase = Phase::finished;
   } else if (elapsed() > longest_stop) {
     if (task == tasks.done()) {

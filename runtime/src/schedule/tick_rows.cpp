@@ -1,7 +1,9 @@
-// Step 7 of the tick: the constraints of the active task, of `always`, and of what fades.
+// Step 7 of the tick: the constraints of the active task, of `always`, and of the tasks before while a switch
+// blends.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "schedule/braking.hpp"
@@ -45,17 +47,24 @@ Range Scheduler::Parts::value(const lang::ValueRange& range) const noexcept {
 void Scheduler::Parts::find_braking() noexcept {
   braking.setConstant(solver::infinity);
   const auto tighten = [&](int i, double most) { braking(i) = std::min(braking(i), most); };
-  for (const ActiveAxis& a : axes) {
-    const int i = a.brakes;
-    if (i < 0) continue;
-    const AxisStatements& s = *a.says;
-    if (s.acceleration) {
-      const Range range = value(*s.acceleration);
-      tighten(i, std::min(-range.low, range.high));
+  const auto tighten_by = [&](const AxisStatements& says, int i, double share) {
+    if (says.acceleration) {
+      const Range range = value(*says.acceleration);
+      tighten(i, share * (says.is_planar ? range.high : std::min(-range.low, range.high)));
     }
-    if (s.force && !s.driver) {
-      const Range range = value(*s.force);
-      tighten(i, std::min(-range.low, range.high) / effective_mass(i));
+    if (says.force && !says.driver) {
+      const Range range = value(*says.force);
+      tighten(i,
+              share * (says.is_planar ? range.high : std::min(-range.low, range.high)) / effective_mass(i));
+    }
+  };
+  // The box inside a norm: what brakes along both axes at once stays below it.
+  constexpr double share_of_norm = PlaneNorm::apothem / std::numbers::sqrt2;
+  for (const ActiveAxis& a : axes) {
+    if (a.brakes == both_axes) {
+      for (const int i : {0, 1}) tighten_by(*a.says, i, share_of_norm);
+    } else if (a.brakes >= 0) {
+      tighten_by(*a.says, a.brakes, 1.0);
     }
   }
   for (int i = 0; i < 3; ++i) {
@@ -122,6 +131,8 @@ void Scheduler::Parts::list_axis(const ActiveAxis& a) noexcept {
   Wanted& w = wanted.emplace_back();
   w.origin = a.origin;
   w.always = a.origin.task == tasks.always();
+  w.measured = a.says->target.signal >= 0;
+  w.lost = a.lost;
   w.move = {g.move, frames.settings_of(g.move)};
   w.in = a.entry_axes ? FrameKey{} : FrameKey{g.in, frames.settings_of(g.in)};
   w.constraint = measured(g, *a.says, &a);
@@ -138,19 +149,33 @@ void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
     c.in = axes_frame(g, &a);
   }
   if (s.weight) c.weight = s.weight->evaluate(parameters);
+  if (a.plane >= 0) want_plane(a);
+  if (s.is_planar) {
+    if (s.velocity) want_motion_ranges(a, c);
+    return;
+  }
   if (s.acceleration) c.acceleration = value(*s.acceleration);
-  if (s.driver) c.driver = driver_of(a);
+  c.driver.reset();
+  if (s.driver && !is_left_to_the_end(a)) c.driver = driver_of(a);
   if (s.force && !s.driver) c.force = value(*s.force);
-  if (!s.position && !s.velocity) return;
+  if (s.position || s.velocity) want_motion_ranges(a, c);
+  if (is_at_end()) only_hold_back(c);
+}
+
+void Scheduler::Parts::want_motion_ranges(const ActiveAxis& a, solver::AxisConstraint& c) const noexcept {
+  const AxisStatements& s = *a.says;
+  const lang::Group& g = *a.group;
   // In axes that nobody knows, a range of places or of speeds allows no motion.
   const bool blind = !is_known(g.in) || !is_known(g.move);
-  const bool stands_by_driver = s.driver && *s.driver != Quantity::force;
+  const bool stands_by_driver = c.driver && !c.driver->makes_force();
   c.position.reset();
   c.velocity.reset();
   if (s.position && !blind) c.position = value(*s.position);
   if (s.velocity && !blind) c.velocity = value(*s.velocity);
   if (blind && !stands_by_driver) c.velocity = Range{0.0, 0.0};
-  if (c.position) c.braking = braking_of(c, s);
+  if (!c.position) return;
+  c.braking = braking_of(c, s);
+  c.return_speed = s.return_speed.evaluate(parameters);
 }
 
 /// A place for every pair of features that may come near.
@@ -161,6 +186,8 @@ void Scheduler::Parts::list_fence(const ActiveAxis& a) noexcept {
     w.origin = a.origin;
     w.origin.part = static_cast<int>(i);
     w.always = a.origin.task == tasks.always();
+    w.fence = true;
+    w.lost = a.lost;
     w.far = true;
   }
   in_reach[fence] = {};
@@ -219,6 +246,7 @@ InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) 
     const bool is_new =
         values_are_due || a.hangs_on_signal || w.far || c.measure == solver::Measure::distance;
     if (is_new) c = fence.constraint(i, move, in);
+    if (is_new) c.return_speed = g.return_speed.evaluate(parameters);
     if (is_new || c.braking != a_brk) renewed.push_back(static_cast<int>(a.wanted + i));
     c.level = g.level;
     c.braking = a_brk;
@@ -255,6 +283,7 @@ void Scheduler::Parts::list_wanted() noexcept {
       list_fence(a);
     } else if (says_something(*a.says)) {
       list_axis(a);
+      if (a.plane >= 0) list_plane(a);
     }
   }
 }
@@ -269,10 +298,12 @@ void Scheduler::Parts::want() noexcept {
       want_fence(a, fences[static_cast<std::size_t>(a.fence)]);
     } else if ((values_are_due || a.varies) && says_something(*a.says)) {
       want_axis(a);
-      renewed.push_back(static_cast<int>(a.wanted));
+      const int count = 1 + (a.plane < 0 ? 0 : planes[static_cast<std::size_t>(a.plane)].count());
+      for (int i = 0; i < count; ++i) renewed.push_back(static_cast<int>(a.wanted) + i);
     }
   }
   values_are_due = false;
+  lead_back();
 }
 
 bool Scheduler::Parts::is_lost(const ActiveAxis& a) const noexcept {
@@ -287,7 +318,7 @@ void Scheduler::Parts::start_blend() noexcept {
   want();
   switched = now;
   blend_time = active().blend.evaluate(parameters);
-  blend->start(wanted, blend_time, *set);
+  blend->start(wanted, blend_time);
 }
 
 /// A signal that is lost or found changes what drives an axis. That is a switch like any other.
@@ -304,38 +335,58 @@ void Scheduler::Parts::track_losses() noexcept {
 
 void Scheduler::Parts::put_constraints() noexcept {
   want();
+  put();
+}
+
+void Scheduler::Parts::put() noexcept {
   const bool is_same_list = !std::exchange(reach_changed, false);
   if (is_same_list && blend->rests()) {
-    blend->renew(wanted, renewed, *set);
+    blend->renew(wanted, renewed);
     return;
   }
-  // The tick of the switch already goes one tick's way, so that no alpha is ever 0.
+  if (is_at_end()) keep_energy_from_rising();
+  // The tick of the switch already goes one tick's way, so that no share is ever 0.
   double progress = blend_time > 0.0 ? (now - switched + period) / blend_time : 1.0;
   if ((1.0 - progress) * blend_time < clock_rounding * period) progress = 1.0;
-  blend->put(wanted, progress, *set, in_force);
+  blend->put(wanted, progress);
   sources.clear();
-  for (const InForce& f : in_force) sources.push_back(f.active ? find(f.origin) : nullptr);
+  for (std::size_t i = 0; i < blend->sets().size(); ++i) {
+    const BlendedSet& set = blend->sets()[i];
+    for (const InForce& f : set.in_force) sources.push_back(f.active ? find(f.origin) : nullptr);
+    row_sets[i] = {&set.constraints.rows(), set.share};
+  }
 }
 
 /// What the solver made of the rows, for the guards of the next tick.
 void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
-  const std::vector<solver::Row>& rows = set->rows();
   for (ActiveAxis& a : axes) {
     if (!a.says->driver) a.reading = {};
   }
-  const std::size_t count = std::min(rows.size(), solution.rows.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const solver::Row& row = rows[i];
-    const solver::RowSolution& answer = solution.rows[i];
-    if (row.constraint < 0 || static_cast<std::size_t>(row.constraint) >= sources.size()) continue;
-    ActiveAxis* axis = sources[static_cast<std::size_t>(row.constraint)];
-    if (axis == nullptr) continue;
-    AxisReading& reading = axis->reading;
-    if (row.kind == solver::RowKind::driver || row.kind == solver::RowKind::force) {
-      reading = {answer.nu, answer.residual, answer.saturated};
-    } else if (!axis->says->driver && std::abs(answer.residual) > std::abs(reading.residual)) {
-      reading.residual = answer.residual;
+  std::size_t row = 0, first_source = 0;
+  for (std::size_t set = 0; set < blend->sets().size(); ++set) {
+    for (const solver::Row& asked : blend->sets()[set].constraints.rows()) {
+      if (row == solution.rows.size()) return;
+      const solver::RowSolution& answer = solution.rows[row++];
+      ActiveAxis* axis = sources[first_source + static_cast<std::size_t>(asked.constraint)];
+      if (axis != nullptr) read_row(set, asked, answer, *axis);
     }
+    first_source += blend->sets()[set].in_force.size();
+  }
+}
+
+/// Of the task that is active what its own set says; the force, which the sets before go on to make, of all.
+void Scheduler::Parts::read_row(std::size_t set, const solver::Row& row, const solver::RowSolution& answer,
+                                ActiveAxis& axis) noexcept {
+  AxisReading& reading = axis.reading;
+  if (row.kind == solver::RowKind::driver || row.kind == solver::RowKind::force) {
+    const double force = blend->sets()[set].share * answer.nu;
+    if (set > 0) {
+      reading.force += force;
+    } else {
+      reading = {force, answer.residual, answer.saturated};
+    }
+  } else if (set == 0 && !axis.says->driver && std::abs(answer.residual) > std::abs(reading.residual)) {
+    reading.residual = answer.residual;
   }
 }
 

@@ -10,6 +10,7 @@ void Scheduler::Parts::sense(const Sensed& sensed) noexcept {
   state = &sensed.state;
   now = sensed.time;
   transition.reset();
+  excursion.reset();
   frames.update(model, sensed.state);
   signals.update(sensed, parameters, frames);
 }
@@ -118,7 +119,7 @@ solver::AxisConstraint Scheduler::Parts::measured(const lang::Group& group, cons
   c.move = frames.attached(group.move);
   c.in = axes_frame(group, active_axis);
   c.axis = axis.axis;
-  if (axis.is_planar_speed) c.measure = solver::Measure::speed;
+  if (axis.is_planar) c.measure = solver::Measure::speed;
   if (group.kind == lang::GroupKind::feature) {
     const lang::Feature& feature = features[static_cast<std::size_t>(group.feature)];
     set_measure(c, feature);
@@ -137,7 +138,7 @@ solver::Coordinate Scheduler::Parts::coordinate_of(const lang::Group& group, con
 
 double Scheduler::Parts::position_of(const lang::Group& group, const lang::AxisStatements& axis,
                                      const ActiveAxis* active_axis) const noexcept {
-  const bool is_one_axis = group.kind != lang::GroupKind::feature && !axis.is_planar_speed;
+  const bool is_one_axis = group.kind != lang::GroupKind::feature && !axis.is_planar;
   if (!is_one_axis) return coordinate_of(group, axis, active_axis).position;
   return solver::position_of(frames.attached(group.move), axes_frame(group, active_axis), axis.axis,
                              frames.motions());

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "schedule/braking.hpp"
+#include "schedule/kinetic_energy.hpp"
 #include "schedule/parts.hpp"
 
 namespace zwang::runtime {
@@ -120,8 +121,10 @@ void Scheduler::Parts::enter() noexcept {
   frames.start_paths();
   // It is over where no `back` can follow.
   if (!tasks.leads_back[static_cast<std::size_t>(task)]) interruption = {};
-  if (tasks.ends(task)) {
+  if (is_at_end()) {
     phase = Phase::stopping;
+    energy_at_end = kinetic_energy(model, *state, frames.motions());
+    rest.begin();
     outcome = task == tasks.done() ? Outcome::done : Outcome::failed;
   }
 }
@@ -199,20 +202,25 @@ ActiveAxis Scheduler::Parts::active_axis(const Origin& origin) noexcept {
   a.group = &group(origin);
   a.says = &a.group->axes[static_cast<std::size_t>(origin.axis)];
   a.fence = fence_of[static_cast<std::size_t>(origin.task)][static_cast<std::size_t>(origin.group)];
+  if (limits_a_plane(*a.says))
+    a.plane = plane_of[static_cast<std::size_t>(origin.task)][static_cast<std::size_t>(origin.group)];
   a.brakes = braking_direction(*a.group, *a.says);
   a.hangs_on_signal = frames.signal_of(a.group->in) >= 0 || frames.signal_of(a.group->move) >= 0 ||
                       a.says->target.signal >= 0;
-  // How hard a range of places may brake hangs on where the base points.
-  a.varies = a.hangs_on_signal || a.says->position;
+  // How hard a range of places may brake hangs on where the base points, and how hard a base that rolls may
+  // accelerate on how it turns.
+  const bool rolls = a.plane >= 0 && planes[static_cast<std::size_t>(a.plane)].rolls;
+  a.varies = a.hangs_on_signal || a.says->position || rolls;
   return a;
 }
 
 /// Acceleration and force ranges on the base itself leave less for braking along their axis.
 int Scheduler::Parts::braking_direction(const lang::Group& g, const lang::AxisStatements& s) const noexcept {
   if (!(s.acceleration || (s.force && !s.driver))) return -1;
-  const bool on_base = g.kind == lang::GroupKind::axes && !s.is_planar_speed &&
-                       is_base(declarations, g.move) && is_base(declarations, g.in);
+  const bool on_base =
+      g.kind == lang::GroupKind::axes && is_base(declarations, g.move) && is_base(declarations, g.in);
   if (!on_base) return -1;
+  if (s.is_planar) return both_axes;
   switch (s.axis) {
     case solver::Axis::x:
       return 0;

@@ -106,7 +106,8 @@ void BoundedProblem::set_twin(int i, const Row& row, int twin) noexcept {
   take_source(e, row);
 }
 
-/// All that set_row and set_twin have not set.
+/// All that set_row and set_twin have not set. A weight decides how much of b is worth reaching, R = 1/w;
+/// what was reached is kept firmly against the levels below.
 void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
   e.reset();
   e.kind = row.kind;
@@ -117,25 +118,11 @@ void BoundedProblem::take_source(Entry& e, const Row& row) noexcept {
   e.hi = row.hi;
   e.bounded_below = std::isfinite(row.lo);
   e.bounded_above = std::isfinite(row.hi);
-  e.fade = std::clamp(row.fade, 0.0, 1.0);
-  take_softness(e, row.weight);
-  e.force = e.fade * row.force;
-  if (e.kind == RowKind::sum && e.fade > 0.0) {
-    e.lo /= e.fade;
-    e.hi /= e.fade;
-  }
-  e.out = !e.reachable || e.fade == 0.0;
-  e.status = e.out ? RowStatus::unreachable : RowStatus::held;
-}
-
-/// R = 1/w + L_jj (1 - alpha)/alpha. A weight decides how much of b is worth reaching; what was reached is
-/// kept firmly against the levels below. A fading row lets go in the measure that it fades, so that it never
-/// does in one step.
-void BoundedProblem::take_softness(Entry& e, double weight) noexcept {
-  e.held_softness = e.fade < 1.0 ? e.length * e.length * (1.0 - e.fade) / e.fade : 0.0;
-  e.softness = e.held_softness;
   const bool is_motion = e.is_limit || e.kind == RowKind::driver;
-  if (is_motion && std::isfinite(weight)) e.softness += 1.0 / weight;
+  e.softness = is_motion && std::isfinite(row.weight) ? 1.0 / row.weight : 0.0;
+  e.force = row.force;
+  e.out = !e.reachable;
+  e.status = e.out ? RowStatus::unreachable : RowStatus::held;
 }
 
 void BoundedProblem::limit_motor(int motor, double lowest, double highest) noexcept {
@@ -270,11 +257,7 @@ void BoundedProblem::bound_row(int i) noexcept {
   e.has_bounds = true;
   if (e.out || e.kind == RowKind::sum) return;
   const bool is_bounded = e.kind == RowKind::force || (std::isfinite(e.lo) && std::isfinite(e.hi));
-  if (is_bounded && motors_drive_all_) {
-    e.lo *= e.fade;
-    e.hi *= e.fade;
-    return;
-  }
+  if (is_bounded && motors_drive_all_) return;
   const bool is_known = e.twin >= 0 && entry(e.twin).largest_force >= 0.0;
   double force = e.largest_force = is_known ? entry(e.twin).largest_force : largest_force(i);
   if (force == 0.0) {
@@ -284,8 +267,8 @@ void BoundedProblem::bound_row(int i) noexcept {
   if (e.out || e.kind == RowKind::force) return;
   if (!std::isfinite(force)) force = 1e7 * largest_demand() / e.length;
   if (is_one_sided(i)) force *= authority(e.quantity);
-  e.lo = e.fade * (std::isfinite(e.lo) ? e.lo : -force);
-  e.hi = e.fade * (std::isfinite(e.hi) ? e.hi : force);
+  if (!std::isfinite(e.lo)) e.lo = -force;
+  if (!std::isfinite(e.hi)) e.hi = force;
 }
 
 /// Of all rows, as an acceleration of the whitened axes.
@@ -369,11 +352,10 @@ void BoundedProblem::project_row(int i, int level) noexcept {
 }
 
 /// What the level's equality and force rows achieved, saturated or not, stays for the levels below:
-/// B_i.dp + R dmu = 0 with mu free. From then on a force w moves the robot by K w, and one more row takes
+/// B_i.dp = 0 with mu free. From then on a force w moves the robot by K w, and one more row closes its
+/// direction:
 ///
-///   K := K - K B B'K / (R + B'K B) = F (1 - v v' / (R + v.v)) F',   v = F'B
-///
-/// A hard row (R = 0) closes its direction, a soft one makes the robot heavier along it.
+///   K := K - K B B'K / B'K B = F (1 - v v' / v.v) F',   v = F'B
 void BoundedProblem::freeze(int level) noexcept {
   double* const v = solved_.data();
   double* const Fv = work_.data();
@@ -390,13 +372,10 @@ void BoundedProblem::freeze(int level) noexcept {
     }
     const double left = dot(dimension_, v, v);
     if (left <= dependent_share * e.length * e.length) continue;
-    const double R = e.held_softness;
-    if (R == 0.0) {
-      double* const frozen = &frozen_(frozen_count_++, 0);
-      std::fill_n(frozen, dimension_, 0.0);
-      add_multiple(dimension_, 1.0 / std::sqrt(left), v, frozen);
-    }
-    const double share = (1.0 - std::sqrt(R / (R + left))) / left;
+    double* const frozen = &frozen_(frozen_count_++, 0);
+    std::fill_n(frozen, dimension_, 0.0);
+    add_multiple(dimension_, 1.0 / std::sqrt(left), v, frozen);
+    const double share = 1.0 / left;
     for (int k = 0; k < dimension_; ++k) Fv[k] = share * dot(dimension_, &F_(k, 0), v);
     for (int k = 0; k < dimension_; ++k) add_multiple(dimension_, -Fv[k], v, &F_(k, 0));
   }

@@ -7,10 +7,10 @@
 ///   min 1/2 |p|^2 - d' nu + 1/2 nu' R nu,   p = sum B_i nu_i = sum T_j tau_j,   lo <= nu <= hi,  |tau| <=
 ///   limit
 ///
-/// with d = b - g. Levels are lexicographic: before level k what the hard equality and force rows above
-/// achieved is frozen (B_i.p + R mu_i stays, mu_i free: hard rows close their direction, soft ones yield with
-/// the same R), and higher one-sided rows are posed again and stay as well kept as they were. Within a level
-/// the force rows come first: phi is as near to 1 as the motors allow, then fixed.
+/// with d = b - g. Levels are lexicographic: before level k what the equality and force rows above achieved
+/// is frozen (B_i.p stays: each row closes its direction), and higher one-sided rows are posed again and stay
+/// as well kept as they were. Within a level the force rows come first: phi is as near to 1 as the motors
+/// allow, then fixed.
 ///
 /// A sum S bounds what is pressed along its axis: if the world blocked that axis and nothing else, it would
 /// have to answer with B_S.p / |B_S|^2, to which a row along the same axis adds its nu and any other row its
@@ -93,13 +93,11 @@ class BoundedProblem {
     RowKind kind = RowKind::driver;
     Quantity quantity = Quantity::velocity;
     int level = 1;
-    double lo = 0.0, hi = 0.0;   ///< of nu, in its own unit; with has_bounds fading included
+    double lo = 0.0, hi = 0.0;   ///< of nu, in its own unit; with has_bounds finite
     bool bounded_below = false;  ///< by the row's own lo, not by what the motors can do
     bool bounded_above = false;
-    double force = 0.0;  ///< f, fading included
-    double fade = 1.0;
-    double softness = 0.0;       ///< R at the row's own level
-    double held_softness = 0.0;  ///< and below it
+    double force = 0.0;     ///< f
+    double softness = 0.0;  ///< R at the row's own level; what was reached is kept firmly below it
     const double* B = nullptr;
     int extent = 0;         ///< of B_i: the rest is 0
     int twin = -1;          ///< an earlier row with the same B
@@ -145,11 +143,10 @@ class BoundedProblem {
   }
   double softness_at(int i, int level) const noexcept {
     const Entry& e = entries_[static_cast<std::size_t>(i)];
-    return e.level == level ? e.softness : e.held_softness;
+    return e.level == level ? e.softness : 0.0;
   }
   int extent_of(const double* x) const noexcept;
   void take_source(Entry& e, const Row& row) noexcept;
-  void take_softness(Entry& e, double weight) noexcept;
   double largest_demand() noexcept;
   double largest_force(int row) noexcept;
   int first_level() const noexcept;
@@ -193,7 +190,7 @@ class BoundedProblem {
   /// How far a limit is from what it must keep, with its present multiplier; negative where it does not.
   double room_of(int i, const Vector& p) const noexcept {
     const Entry& e = entries_[static_cast<std::size_t>(i)];
-    const double s = along(i, p) + e.held_softness * e.nu - d_(i) - e.offset;
+    const double s = along(i, p) - d_(i) - e.offset;
     return e.kind == RowKind::upper ? -s : s;
   }
   bool brake(int forces, int level, int max_iterations) noexcept;

@@ -13,7 +13,7 @@
 //   a driver that mostly wants what such a limit forbids    pushes with all its force, and in vain, too
 //
 // What was said of the rows left out is looked at when the stage is solved, and where it does not hold, as
-// when a limit's force did not suffice, all take part. Limits that yield (fading, with a weight) and equal
+// when a limit's force did not suffice, all take part. Limits that yield (with a weight) and equal
 // ones, which share their force, are never left out for another one.
 #include <algorithm>
 #include <cmath>
@@ -285,8 +285,7 @@ bool BoundedProblem::one_limit_settles(int level) noexcept {
   return true;
 }
 
-/// How far beyond b a level leaves its limits: a fading one rests where a . Xdd + R nu = b; what is beyond
-/// that it could not hold, or it was not worth it.
+/// How far beyond b a level leaves its limits: what it could not hold, or was not worth it.
 void BoundedProblem::take_offsets(int level) noexcept {
   for (const int i : posed_) {
     if (!is_one_sided(i) || entry(i).level != level) continue;

@@ -168,7 +168,7 @@ inline void BoundedProblem::pose_multiplier(int k, int level) noexcept {
 }
 
 /// The equations of the `n` row variables: torques make the motion, and the limits above stay kept,
-/// B_i.p + R nu + room = b. Without them a level whose torque runs out would trade a limit above for itself.
+/// B_i.p + room = b. Without them a level whose torque runs out would trade a limit above for itself.
 void BoundedProblem::pose_motors(int n, int level) noexcept {
   for (int k = 0; k < n; ++k) {
     add_multiple(dimension_, -units_[static_cast<std::size_t>(k)], P(posed_[static_cast<std::size_t>(k)]),
@@ -192,7 +192,6 @@ void BoundedProblem::pose_motors(int n, int level) noexcept {
       const double share = dot(dimension_, V(i), V(posed_[static_cast<std::size_t>(other)]));
       program_.E(other)[equation] = sign * share * units_[static_cast<std::size_t>(other)] / length;
     }
-    program_.E(k)[equation] += sign * entry(i).held_softness / (length * length);
     const int room = n + motors_ + limit++;
     program_.E(room)[equation] = 1.0;
     program_.lo(room) = 0.0;
@@ -294,7 +293,7 @@ void BoundedProblem::pose_motion(int n, int level, bool with_motors) noexcept {
     const double unit = e.inverse_reach;
     program_.set_V(k, e.reach_extent, unit, e.V);
     program_.g(k) = (d_(i) + e.offset - along(i, fixed_)) * unit;
-    program_.R(k) = (e.level == level ? e.softness : e.held_softness) * unit * unit;
+    program_.R(k) = softness_at(i, level) * unit * unit;
     pose_multiplier(k, level);
   }
   if (with_motors) pose_motors(n, level);

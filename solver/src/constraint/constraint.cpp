@@ -73,6 +73,14 @@ bool contains(const Range& range, double value) {
   return range.low <= value && value <= range.high;
 }
 
+/// The most acceleration towards a position bound, d before it at the speed v:
+///   d >= 0   (v_brk(d) - v) / h
+///   d < 0    what moves on outwards stops within h, -v / h; the way back begins with a_brk at most
+double acceleration_towards(double d, double v, const AxisConstraint& constraint, double h) {
+  const double on_curve = (approach_speed(d, constraint, h) - v) / h;
+  return d >= 0.0 ? on_curve : std::min(-v / h, std::max(on_curve, -constraint.braking));
+}
+
 /// The accelerations with which a range that the constraint has is kept, or met again within h.
 Range acceleration_range_within(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
                                 double h) {
@@ -82,16 +90,16 @@ Range acceleration_range_within(const AxisConstraint& constraint, Quantity quant
   }
   const double to_high = constraint.position->high - now.position;
   const double to_low = now.position - constraint.position->low;
-  return {(-braking_speed(to_low, constraint.braking, h) - now.velocity) / h,
-          (braking_speed(to_high, constraint.braking, h) - now.velocity) / h};
+  return {-acceleration_towards(to_low, -now.velocity, constraint, h),
+          acceleration_towards(to_high, now.velocity, constraint, h)};
 }
 
 /// The accelerations that a range allows now. One that is new, h longer than the horizon, has time to stop
 /// what is beyond it; what is inside it holds back no more than later: max(e/h, e/h0) of what is left, e >= 0
 /// or not.
-Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
-                         double h) {
+Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now) {
   constexpr double h0 = ConstraintSet::horizon;
+  const double h = quantity == Quantity::position ? constraint.position_horizon : constraint.velocity_horizon;
   const Range in_time = acceleration_range_within(constraint, quantity, now, h);
   if (h <= h0) return in_time;
   const Range at_once = acceleration_range_within(constraint, quantity, now, h0);
@@ -101,20 +109,17 @@ Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, co
 /// Later ones win where ranges contradict.
 constexpr std::array ranges_in_rising_rank{Quantity::position, Quantity::velocity, Quantity::acceleration};
 
-double mix(double before, double now, double progress) {
-  return before + progress * (now - before);
-}
-
-/// What `ask` makes of the driver, on the way from the one before.
-template <typename Ask>
-double asked_now(const AxisConstraint& constraint, const Coordinate& now, Ask ask) {
-  const double asked = ask(*constraint.driver, now, constraint);
-  return constraint.before ? mix(ask(*constraint.before, now, constraint), asked, constraint.progress)
-                           : asked;
-}
-
 Coordinate carried_coordinate(const AxisConstraint& constraint, const MotionVector& V) {
-  return {.velocity = dot(carried_force(constraint, V), V)};
+  // s = w v is linear in each of w and v, so that a . V counts it twice.
+  const double counted = constraint.measure == Measure::turn ? 0.5 : 1.0;
+  return {.velocity = counted * dot(carried_force(constraint, V), V),
+          .acceleration_bias = carried_bias(constraint, V)};
+}
+
+/// Of a speed and of a turn: below half of the highest value no row is in force.
+bool is_slow(const AxisConstraint& constraint, const Coordinate& now) {
+  if (constraint.measure != Measure::speed && constraint.measure != Measure::turn) return false;
+  return !(constraint.velocity && std::abs(now.velocity) >= 0.5 * constraint.velocity->high);
 }
 
 /// Puts into `row` the bodies that a constraint's unit force acts on, and the force.
@@ -146,6 +151,10 @@ double braking_speed(double distance, double braking, double h) noexcept {
   const double d = std::abs(distance);
   const double speed = d < d0 ? d / T : std::sqrt(2.0 * a * (d - 0.5 * d0));
   return std::copysign(speed, distance);
+}
+
+double approach_speed(double distance, const AxisConstraint& constraint, double h) noexcept {
+  return std::max(braking_speed(distance, constraint.braking, h), -constraint.return_speed);
 }
 
 /// For v >= d0/T: v^2 = 2 a (d - d0/2).
@@ -251,7 +260,7 @@ bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
     along.body = constraint.move.body;
     const MotionVector V = motions.twist_of(along.body);
     along.a = carried_force(constraint, V);
-    now.velocity = dot(along.a, V);
+    now = carried_coordinate(constraint, V);
   } else {
     FrameMotion move, in;
     const FrameMotion& f = motions.of(constraint.move, move);
@@ -259,19 +268,13 @@ bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
     now = measured.now;
     acts = put_force(constraint, measured, f.pose.position, motions, along);
   }
-  const bool gone = constraint.leaving && constraint.alpha <= 0.0;
-  const bool at_rest = constraint.measure == Measure::speed &&
-                       !(constraint.velocity && now.velocity >= 0.5 * constraint.velocity->high);
-  if (gone || at_rest || !acts) return true;
+  if (is_slow(constraint, now)) return true;
+  if (!acts) return true;
   along.constraint = index;
   along.level = constraint.level;
   along.weight = constraint.weight;
-  along.fade = constraint.leaving ? constraint.alpha : 1.0;
 
-  // One-sided rows enter at once, with a longer horizon while they are new, and leave softly.
-  const double h =
-      constraint.leaving ? horizon : std::max(horizon, (1.0 - constraint.alpha) * constraint.blend);
-  if (constraint.driver && constraint.alpha > 0.0 && !push_driver(constraint, now, h, along)) return false;
+  if (constraint.driver && !push_driver(constraint, now, along)) return false;
   if (constraint.driver && !constraint.driver->makes_force() && folds_) {
     has_folded_ = has_folded_ || constraint.position || constraint.velocity || constraint.acceleration;
     return true;
@@ -284,36 +287,31 @@ bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
     sum->lo = constraint.force->low;
     sum->hi = constraint.force->high;
   }
-  return push_ranges(constraint, now, h, along);
+  return push_ranges(constraint, now, along);
 }
 
 /// The row of the driver, the ranges of its axis folded into a motion driver.
-bool ConstraintSet::push_driver(const AxisConstraint& constraint, const Coordinate& now, double h,
+bool ConstraintSet::push_driver(const AxisConstraint& constraint, const Coordinate& now,
                                 const Row& along) noexcept {
   Row* row = push(along);
   if (row == nullptr) return false;
   const Driver& driver = *constraint.driver;
   row->quantity = driver.quantity;
-  row->fade = constraint.alpha;
   row->lo = driver.force.low;
   row->hi = driver.force.high;
-  if (constraint.before) {
-    row->lo = std::max(row->lo, constraint.before->force.low);
-    row->hi = std::min(row->hi, constraint.before->force.high);
-  }
   if (constraint.force) {
     row->lo = std::max(row->lo, constraint.force->low);
     row->hi = std::min(row->hi, constraint.force->high);
   }
   if (driver.makes_force()) {
     row->kind = RowKind::force;
-    row->force = asked_now(constraint, now, driver_force);
+    row->force = driver_force(driver, now, constraint);
     return true;
   }
-  double b = asked_now(constraint, now, driver_acceleration);
+  double b = driver_acceleration(driver, now, constraint);
   for (const Quantity quantity : ranges_in_rising_rank) {
     if (!has_range(constraint, quantity)) continue;
-    const Range range = acceleration_range(constraint, quantity, now, h);
+    const Range range = acceleration_range(constraint, quantity, now);
     b = std::max(range.low, std::min(b, range.high));
   }
   row->kind = RowKind::driver;
@@ -322,7 +320,7 @@ bool ConstraintSet::push_driver(const AxisConstraint& constraint, const Coordina
 }
 
 /// Two one-sided rows a range.
-bool ConstraintSet::push_ranges(const AxisConstraint& constraint, const Coordinate& now, double h,
+bool ConstraintSet::push_ranges(const AxisConstraint& constraint, const Coordinate& now,
                                 const Row& along) noexcept {
   const auto push_end = [&](Quantity quantity, RowKind kind, double b, double lo, double hi) {
     Row* row = push(along);
@@ -337,7 +335,7 @@ bool ConstraintSet::push_ranges(const AxisConstraint& constraint, const Coordina
   is_driven_back_ = is_driven_back_ || (constraint.position && !contains(*constraint.position, now.position));
   for (const Quantity quantity : ranges_in_rising_rank) {
     if (!has_range(constraint, quantity)) continue;
-    const Range range = acceleration_range(constraint, quantity, now, h);
+    const Range range = acceleration_range(constraint, quantity, now);
     if (std::isfinite(range.high) && !push_end(quantity, RowKind::upper, range.high, -infinity, 0.0))
       return false;
     const bool has_low = std::isfinite(range.low) && constraint.measure != Measure::speed;

@@ -141,12 +141,25 @@ ForceVector carried_motion(const AxisConstraint& c, const MotionVector& V) {
   return x * (vx / speed) + y * (vy / speed);
 }
 
+/// s = w v:  ds = w dv + v dw.
+ForceVector carried_turn(const AxisConstraint& c, const MotionVector& V) {
+  const ForceVector along = carried_direction(c);
+  const ForceVector about = carried_axis(c.move, c.in, Axis::rz);
+  return along * dot(about, V) + about * dot(along, V);
+}
+
 }  // namespace
 
 ForceVector carried_force(const AxisConstraint& c, const MotionVector& V) noexcept {
-  if (c.measure == Measure::direction) return carried_direction(c);
+  if (c.measure == Measure::direction || c.measure == Measure::side) return carried_direction(c);
+  if (c.measure == Measure::turn) return carried_turn(c, V);
   if (c.measure == Measure::speed) return carried_motion(c, V);
   return carried_axis(c.move, c.in, c.axis);
+}
+
+double carried_bias(const AxisConstraint& c, const MotionVector& V) noexcept {
+  if (c.measure != Measure::side) return 0.0;
+  return carried_direction(c).linear.dot(V.angular.cross(V.linear + V.angular.cross(c.move.pose.position)));
 }
 
 double measure_position(Axis axis, const Pose& f, const Pose& t) noexcept {
@@ -160,6 +173,7 @@ Measurement measure(const AxisConstraint& constraint, const FrameMotion& f, cons
     case Measure::axis:
       return along_axis(f, t, constraint.axis);
     case Measure::direction:
+    case Measure::side:
       return along_direction(f, t, constraint.coefficients);
     case Measure::distance:
       return along_distance(f, t);
@@ -167,6 +181,8 @@ Measurement measure(const AxisConstraint& constraint, const FrameMotion& f, cons
       return along_angle(f, t, constraint.axis, constraint.other_axis);
     case Measure::speed:
       return along_motion(f, t);
+    case Measure::turn:  // of carried axes alone
+      break;
   }
   return {};
 }

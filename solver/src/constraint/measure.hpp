@@ -28,7 +28,8 @@ inline bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noe
 }
 
 /// What the constraint measures, it measures along axes that the moved body carries. Motion counts relative
-/// to the world, and the unit force a stays as it is in the body: ds = a . V and dds = a . A.
+/// to the world, and the unit force a stays as it is in the body: ds = a . V and dds = a . A + gamma, gamma 0
+/// but for a `side`.
 inline bool is_carried(const AxisConstraint& constraint) noexcept {
   const bool has_axes = constraint.measure != Measure::distance && constraint.measure != Measure::angle;
   return has_axes && only_orients(constraint.move, constraint.in);
@@ -37,6 +38,10 @@ inline bool is_carried(const AxisConstraint& constraint) noexcept {
 /// That force, in the body's coordinates and about its origin. V is the body's twist there; a speed of 0 has
 /// no direction and no force.
 ForceVector carried_force(const AxisConstraint& constraint, const MotionVector& V) noexcept;
+
+/// gamma of a `side` along the axis e that the body carries, with the velocity v_p of the point: e . (w x
+/// v_p).
+double carried_bias(const AxisConstraint& constraint, const MotionVector& V) noexcept;
 
 /// Where the moved body does not carry them. `f` and `t` are the motions of the frames `move` and `in`.
 Measurement measure(const AxisConstraint& constraint, const FrameMotion& f, const FrameMotion& t) noexcept;

@@ -24,7 +24,6 @@ bool one_sided(RowKind kind) {
 struct Held {
   RowKind kind;  ///< driver stands for an equality
   Vector y;
-  Real softness;
   Real e;
 };
 
@@ -114,7 +113,7 @@ class Levels {
     if (unreachable(i)) return true;
     Matrix frozen(c_.size(), 0);
     for (const Held& held : held_) {
-      if (one_sided(held.kind) || held.softness > 0) continue;
+      if (one_sided(held.kind)) continue;
       frozen.conservativeResize(Eigen::NoChange, frozen.cols() + 1);
       frozen.col(frozen.cols() - 1) = held.y;
     }
@@ -125,10 +124,8 @@ class Levels {
     const Vector left = y(i) - frozen * cod.solve(y(i));
     return left.squaredNorm() < 1e-8L * y(i).squaredNorm();
   }
-  Real alpha(Index i) const { return row(i).fade; }
-  Real fading_softness(Index i) const { return Y_.row(i).squaredNorm() * (1 - alpha(i)) / alpha(i); }
-  Real softness(Index i) const { return 1 / static_cast<Real>(row(i).weight) + fading_softness(i); }
-  Real wrench(Index i) const { return alpha(i) * static_cast<Real>(row(i).force); }
+  Real softness(Index i) const { return 1 / static_cast<Real>(row(i).weight); }
+  Real wrench(Index i) const { return static_cast<Real>(row(i).force); }
 
   /// The force that a contact which blocks the axis of row i, and nothing else, has to answer c with.
   Real pressed(Index i, const Vector& c) const { return y(i).dot(c) / y(i).squaredNorm(); }
@@ -169,7 +166,6 @@ class Levels {
     for (Index k = 0; k < at.held; ++k) {
       const Held& held = held_[static_cast<std::size_t>(k)];
       qp.E.row(m + k) = held.y.transpose() * toC;
-      qp.E(m + k, at.mu() + k) += held.softness;
       qp.e[m + k] = held.e - held.y.dot(push_);
       if (!one_sided(held.kind)) continue;
       const bool upper = held.kind == RowKind::upper;
@@ -186,8 +182,8 @@ class Levels {
       qp.E.row(equation) = along.transpose() * toC;
       qp.E(equation, at.sum() + k) = -1;
       qp.e[equation] = sum.above - along.dot(push_);
-      qp.lo[at.sum() + k] = static_cast<Real>(row(sum.row).lo) / alpha(sum.row);
-      qp.hi[at.sum() + k] = static_cast<Real>(row(sum.row).hi) / alpha(sum.row);
+      qp.lo[at.sum() + k] = static_cast<Real>(row(sum.row).lo);
+      qp.hi[at.sum() + k] = static_cast<Real>(row(sum.row).hi);
     }
     return qp;
   }
@@ -238,8 +234,8 @@ class Levels {
       const Index i = motions[static_cast<std::size_t>(k)];
       qp.H(k, k) = softness(i);
       qp.g[k] = d_[i] - y(i).dot(push_);
-      qp.lo[k] = alpha(i) * static_cast<Real>(row(i).lo);
-      qp.hi[k] = alpha(i) * static_cast<Real>(row(i).hi);
+      qp.lo[k] = static_cast<Real>(row(i).lo);
+      qp.hi[k] = static_cast<Real>(row(i).hi);
       if (idle(i)) qp.lo[k] = qp.hi[k] = 0;
       if (row(i).kind == RowKind::upper) qp.hi[k] = std::min(qp.hi[k], Real(0));
       if (row(i).kind == RowKind::lower) qp.lo[k] = std::max(qp.lo[k], Real(0));
@@ -247,7 +243,6 @@ class Levels {
     for (Index k = 0; k < at.held; ++k) {
       const Held& held = held_[static_cast<std::size_t>(k)];
       toC.col(at.mu() + k) = held.y;
-      qp.H(at.mu() + k, at.mu() + k) = held.softness;
       qp.g[at.mu() + k] = held.e - held.y.dot(push_);
     }
     qp.H.topLeftCorner(at.tau(), at.tau()) += toC.transpose() * toC;
@@ -303,16 +298,14 @@ class Levels {
     return qr.rank() == moving.cols();
   }
 
-  /// Keeps the level's accelerations for those below. A fading row keeps its softness.
+  /// Keeps the level's accelerations for those below.
   void hold(int level) {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const auto i = static_cast<Index>(r);
       if (row(i).level != level || row(i).kind == RowKind::sum || unreachable(i)) continue;
       const RowKind kind = row(i).kind;
-      const Real R = fading_softness(i);
-      const Real nu = kind == RowKind::force ? Real(0) : result(i).nu;
-      const Real achieved = y(i).dot(c_) + R * nu;
-      Held held{one_sided(kind) ? kind : RowKind::driver, y(i), R, achieved};
+      const Real achieved = y(i).dot(c_);
+      Held held{one_sided(kind) ? kind : RowKind::driver, y(i), achieved};
       if (kind == RowKind::upper) held.e = std::max(achieved, d_[i]);
       if (kind == RowKind::lower) held.e = std::min(achieved, d_[i]);
       held_.push_back(held);

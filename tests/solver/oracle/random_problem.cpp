@@ -342,7 +342,6 @@ std::vector<Row> random_rows(const Model& model, const RowOptions& options, Rand
     Row row;
     if (!rows.empty() && random.chance(options.duplicate)) {
       row = rows[static_cast<std::size_t>(random.pick(0, static_cast<int>(rows.size()) - 1))];
-      row.fade = 1.0;
       row.weight = solver::infinity;
       if (random.chance(options.apart)) row.b += random.uniform(-1.0, 1.0);
     } else {
@@ -382,7 +381,6 @@ std::vector<Row> random_rows(const Model& model, const RowOptions& options, Rand
       row.lo = -F * random.uniform(0.0, 1.0);
       row.hi = F * random.uniform(0.0, 1.0);
     }
-    if (random.chance(options.fading)) row.fade = random.uniform(0.05, 1.0);
     row.level = random.pick(options.levels == 1 ? 1 : 0, std::max(1, options.levels - 1));
     rows.push_back(row);
   }

@@ -65,7 +65,6 @@ struct RowOptions {
   int levels = 1;
   double one_sided = 0.2;
   double force = 0.15;
-  double fading = 0.15;
   double duplicate = 0.15;  ///< a copy of an earlier row, or a mixture of two; b is consistent or not
   double apart = 0.3;       ///< of the copies those with another b
   double relative = 0.15;   ///< between two bodies

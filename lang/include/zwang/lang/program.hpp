@@ -93,6 +93,9 @@ struct Feature {
   Span span;
 };
 
+/// Where a position range or a region gives no `return`. [m/s] or [rad/s]
+inline constexpr double default_return_speed = 0.1;
+
 /// The statements about one axis of a group.
 struct AxisStatements {
   std::string name;  ///< "contact.x"
@@ -105,8 +108,10 @@ struct AxisStatements {
   std::optional<Value> stiffness;  ///< of a position driver with `damping` [N/m] or [N m/rad]
   std::optional<Value> damping;    ///< [N s/m] or [N m s/rad]
   std::optional<Value> weight;     ///< of a soft row [kg] or [kg m^2]; none: as strict as the others
+  /// Of a position range: how fast the axis comes back from outside of it [m/s] or [rad/s].
+  Value return_speed{.constant = default_return_speed};
   int level = 1;
-  bool is_planar_speed = false;           ///< `speed`: the range `velocity` is for the planar velocity's norm
+  bool is_planar = false;                 ///< `speed`: the range `velocity` is for the planar velocity's norm
   Span span;                              ///< the axis's key
   std::array<Span, 4> statement_spans{};  ///< by solver::Quantity
 };
@@ -126,7 +131,8 @@ struct Group {
   int region = -1;
   bool moves_footprint = false;  ///< of `inside`: the robot's whole footprint rather than the point `move`
   Value margin;                  ///< [m] of `inside`
-  int level = 1;                 ///< of `inside`
+  Value return_speed{.constant = default_return_speed};  ///< [m/s] of `inside`: of the way back into it
+  int level = 1;                                         ///< of `inside`
   int feature = -1;
   Span span;
 };

@@ -43,7 +43,10 @@ enum class EventCode {
   entry_refused,   ///< what a task requires to be entered does not hold; `value` is the task's number
   signal_refused,  ///< samples of it come, and cannot be taken; `value`: a stamp that is ahead by so much, or
                    ///< 0
-  probed,  ///< no encoder counted where the motors should have moved the base; told to move back, it did
+  probed,       ///< no encoder counted where the motors should have moved the base; told to move back, it did
+  outside,      ///< a frame stands outside of a position range or a region that holds it; `value`: how far
+  not_at_rest,  ///< the longest time of a stop is over, and nobody has seen the base stand; `value`: its
+                ///< speed, as far as it is known
 };
 const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".
@@ -62,8 +65,9 @@ struct Event {
 };
 
 /// What an event's `signal` can be: `time`, `base.pose`, `base.twist`, then q, qd, tau_ff and tau of each
-/// joint, the external wrench of each body, and what the task file measures.
-std::vector<std::string> event_signals(const solver::Model& model, const std::vector<std::string>& measured);
+/// joint, the external wrench of each body, what the task file measures, and its rows.
+std::vector<std::string> event_signals(const solver::Model& model, const std::vector<std::string>& measured,
+                                       const std::vector<std::string>& rows);
 
 /// Indices into `event_signals`.
 namespace event_signal {
@@ -82,6 +86,9 @@ inline constexpr int f_ext(int joints, int body) {
 }
 inline constexpr int measured(int joints, int signal) {
   return f_ext(joints, joints + 1) + signal;
+}
+inline constexpr int of_row(int joints, int measured_count, int row) {
+  return measured(joints, measured_count) + row;
 }
 }  // namespace event_signal
 

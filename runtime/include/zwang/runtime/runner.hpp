@@ -106,6 +106,8 @@ class Runner {
   bool finished() const noexcept;
   /// The run is finished by the time it had, and no sample that can be believed has shown the base at rest.
   bool may_still_move() const noexcept;
+  /// For people: the reason of a stop, and `unseen_rest`; mostly empty. Allocates.
+  std::string because() const;
 
   /// Sets a parameter of the task file, in SI, between two steps. False, and nothing happens, for a name that
   /// is unknown and a value outside the parameter's range. Does not allocate.

@@ -27,7 +27,7 @@ struct ExpectationResult {
 struct PartnerResult {
   std::string name;
   std::string outcome;  ///< done, failed, stopped; unfinished while its task was under way
-  std::string because;  ///< of a stop
+  std::string because;  ///< of a stop, and of a base that may still move
 };
 
 struct CellResult {
@@ -36,7 +36,7 @@ struct CellResult {
   /// Of the first robot, which ends the run: done, failed, stopped, diverged, refused, unfinished, error;
   /// interrupted when it was told to end
   std::string outcome;
-  std::string because;  ///< of a stop or an error; the codes of a refusal
+  std::string because;  ///< of a stop or an error, and of a base that may still move; the codes of a refusal
   std::string why;      ///< it is not `done`: what its task waited for, as Why::sentence
   std::vector<PartnerResult> partners;
   double simulated = 0.0;  ///< [s]

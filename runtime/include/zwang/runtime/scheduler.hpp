@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,16 +70,27 @@ struct Origin {
   bool operator==(const Origin&) const = default;
 };
 
-/// One constraint of the present set.
+/// One constraint of a set.
 struct InForce {
+  /// Of a set that was in force before a switch: the statement of the same axis in the task that is active
+  /// now, where there is one.
   Origin origin;
-  bool active = false;  ///< belongs to the active task; false while it fades out
-  bool drives = false;  ///< carries its statement's driver
+  bool active = false;  ///< that statement is the active task's, or of `always`; false while it leaves
+  bool drives = false;  ///< carries a driver
+  double alpha = 1.0;   ///< the share of the sets that it is in force in, by its driver where it has one
+};
+
+/// A frame that has come to stand outside of a position range or a region that holds it.
+struct Excursion {
+  Origin origin;
+  double distance = 0.0;  ///< how far outside [m] or [rad]
 };
 
 /// What the last solution said of an axis's driver.
 struct AxisReading {
-  double force = 0.0;     ///< nu, or phi f of a force driver [N] or [N m]
+  /// nu, or phi f of a force driver [N] or [N m]; while a switch blends, of all drivers of the axis by the
+  /// shares of their sets.
+  double force = 0.0;
   double residual = 0.0;  ///< s [m/s^2] or [rad/s^2]
   bool saturated = false;
 };
@@ -100,20 +112,34 @@ class Scheduler {
   /// What the world presses on the base with, as the conditions of the next tick know it: x, y [N] and rz [N
   /// m] at its origin and in its axes. NaN: unknown.
   void estimate_force(const solver::Vector3& force) noexcept;
-  /// What the solver made of the rows of `constraints()`: the guards of the next tick read it.
+  /// What the solver made of the rows of `row_sets()`: the guards of the next tick read it.
   void observe(const solver::Solution& solution) noexcept;
 
-  solver::ConstraintSet& constraints() noexcept;
-  const solver::ConstraintSet& constraints() const noexcept;
-  /// Computes their coordinates and rows at the state of the last tick, which must still be there. False when
-  /// the rows exceed the capacity.
+  /// How many sets of constraints are in force: one, or up to three while a switch blends. Set 0 is that of
+  /// the active task.
+  int set_count() const noexcept;
+  solver::ConstraintSet& constraints(int set = 0) noexcept;
+  const solver::ConstraintSet& constraints(int set = 0) const noexcept;
+  /// The part that a set's solution has in the torques; 1 in all.
+  double share(int set) const noexcept;
+  /// Computes the coordinates and rows of all sets at the state of the last tick, which must still be there.
+  /// False when the rows exceed the capacity.
   bool fill_constraints() noexcept;
-  /// Parallel to constraints().constraints().
-  const std::vector<InForce>& in_force() const noexcept;
+  /// The rows of all sets, for the solver, as filled last.
+  std::span<const solver::RowSet> row_sets() const noexcept;
+  /// Of a norm in a plane, as many sides are in force as have been met. Behind `observe`. True: the solution
+  /// breaks other ones, which are in force now: to be filled, solved and observed again.
+  bool pose_broken_sides(const solver::Solver& solver, const solver::Solution& solution) noexcept;
+  /// Parallel to constraints(set).constraints().
+  const std::vector<InForce>& in_force(int set = 0) const noexcept;
   const std::optional<Transition>& transition() const noexcept;  ///< of this tick
+
+  /// The first that began with this tick. It is over, and can begin anew, once the frame is inside.
+  const std::optional<Excursion>& excursion() const noexcept;
 
   Phase phase() const noexcept;
   Outcome outcome() const noexcept;  ///< none until `done` or `failed` is reached
+  bool has_stood() const noexcept;   ///< in phase `finished`: the base was seen to stand
   int task() const noexcept;
   /// [s] since the task was entered, interruptions left out.
   double elapsed() const noexcept;
@@ -137,7 +163,8 @@ class Scheduler {
   const std::vector<lang::Task>& tasks() const noexcept;
   int program_task_count() const noexcept;
   int always_task() const noexcept;
-  int row_capacity() const noexcept;  ///< no tick has more rows
+  int row_capacity() const noexcept;  ///< no tick has more rows, those of all sets together
+  int set_capacity() const noexcept;  ///< no set has more rows
   double period() const noexcept;     ///< [s]
 
   /// The words for one row of a group `inside` a region, "edge2"; empty for other origins. Allocates.

@@ -14,6 +14,7 @@
 namespace zwang::solver {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double limit_horizon = 0.010;  ///< h [s], within which limits act
 
 enum class Axis { x, y, z, rx, ry, rz };
 
@@ -32,6 +33,10 @@ enum class Measure {
   distance,   ///< from the origin of T to that of F
   angle,      ///< between one axis of F and one of T, 0 to pi
   speed,      ///< of F in the x-y plane of T; velocity ranges only, and no row below half of the highest
+  side,  ///< a direction in the x-y plane of T whose acceleration is that of the point F, also where T turns
+  turn,  ///< s = w v of axes that F's body carries: v along `coefficients`, w about z. With it a base that
+         ///< cannot move sideways accelerates sideways. Ranges of s [m/s^2] are `velocity`, and make no row
+         ///< while |s| is below half of the highest
 };
 
 /// The value that drives an axis. [SI: m, rad, m/s, ..., N, N m]
@@ -60,7 +65,7 @@ struct AxisConstraint {
   Measure measure = Measure::axis;
   Axis axis = Axis::x;                   ///< of an angle: the one of F
   Axis other_axis = Axis::x;             ///< of an angle: the one of T
-  std::array<double, 6> coefficients{};  ///< of a direction, by x y z rx ry rz
+  std::array<double, 6> coefficients{};  ///< of a direction, a side or a turn, by x y z rx ry rz
   std::optional<Driver> driver;
   std::optional<Range> position;      ///< [m] or [rad]
   std::optional<Range> velocity;      ///< [m/s] or [rad/s]
@@ -72,17 +77,14 @@ struct AxisConstraint {
   /// mass along the axis.
   double weight = infinity;
   double braking = 1.0;  ///< a_brk of a position range [m/s^2] or [rad/s^2]
+  /// v_ret of a position range [m/s] or [rad/s]: the speed of the way back into it. 0: it only holds back.
+  double return_speed = infinity;
   int level = 1;
 
-  /// Fading: 1 in force, 0 gone. Drivers get R = L_jj (1 - alpha)/alpha and bounds times alpha.
-  double alpha = 1.0;
-  bool leaving =
-      false;  ///< one-sided rows and sums enter at once; they leave with R(alpha), or with bounds / alpha
-  double blend = 0.0;  ///< [s] what an entering range excludes is met within max(h, (1 - alpha) blend)
-  /// A driver that persists over a switch: b (or f) goes from `before`'s to `driver`'s as `progress` goes
-  /// from 0 to 1.
-  std::optional<Driver> before;
-  double progress = 1.0;
+  /// Time within which a range acts on what is beyond it. [s] One that is new has a longer one than
+  /// `limit_horizon`: what is beyond it then has time to stop.
+  double position_horizon = limit_horizon;
+  double velocity_horizon = limit_horizon;
 };
 
 /// The present motion along a measure. [m, m/s] or [rad, rad/s]
@@ -114,8 +116,6 @@ struct Row {
   double lo = -infinity;  ///< bounds of nu [N] or [N m]; an infinite bound stands for what the motors can do
   double hi = infinity;
   double weight = infinity;  ///< w [kg] or [kg m^2] of a motion row, above 0; softness R = 1/w
-  double fade = 1.0;  ///< alpha: bounds and force times alpha, softness R = 1/w + L_jj (1 - alpha)/alpha; of
-                      ///< a sum, bounds divided by alpha
   int level = 1;
 };
 
@@ -137,15 +137,13 @@ class ConstraintSet {
   const std::vector<Coordinate>& coordinates() const noexcept { return coordinates_; }
   const std::vector<Row>& rows() const noexcept { return rows_; }
 
-  static constexpr double horizon = 0.010;  ///< h [s], within which limits act
+  static constexpr double horizon = limit_horizon;
 
  private:
   bool fill_all(BodyMotions& motions) noexcept;
   bool fill_one(int index, BodyMotions& motions) noexcept;
-  bool push_driver(const AxisConstraint& constraint, const Coordinate& now, double horizon,
-                   const Row& along) noexcept;
-  bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, double horizon,
-                   const Row& along) noexcept;
+  bool push_driver(const AxisConstraint& constraint, const Coordinate& now, const Row& along) noexcept;
+  bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, const Row& along) noexcept;
   Row* push(const Row& row) noexcept;  ///< null when full
 
   std::vector<AxisConstraint> constraints_;
@@ -178,6 +176,8 @@ inline constexpr double braking_share = 0.72;
 /// at 0 without decelerating harder than `braking`: v = d/T for d < d0, else sqrt(2 a (d - d0/2)); odd in d.
 /// a = braking_share braking, T = 4 h, d0 = a T^2. [m, m/s^2 -> m/s]
 double braking_speed(double distance, double braking, double horizon) noexcept;
+/// The same of a constraint's position range, inside as outside of it: outside, v = -min(|v|, v_ret).
+double approach_speed(double distance, const AxisConstraint& constraint, double horizon) noexcept;
 /// The distance at which that speed is the one that the curve allows. [m/s, m/s^2 -> m]
 double braking_distance(double speed, double braking, double horizon) noexcept;
 

@@ -43,15 +43,21 @@ struct RowSolution {
   RowStatus status = RowStatus::held;
 };
 
+/// One set of rows, and the share that its solution has in the torques. The shares of all sets add up to 1.
+struct RowSet {
+  const std::vector<Row>* rows = nullptr;
+  double share = 1.0;
+};
+
 struct Solution {
   explicit Solution(const Model& model, int row_capacity = 64);
 
   Eigen::VectorXd tau;  ///< torque to command [N m] or [N], feed-forward included; 0 where there is no motor
   Eigen::VectorXd qdd;  ///< [rad/s^2] or [m/s^2]
   std::vector<MotionVector> acceleration;  ///< spatial acceleration of each body, in body coordinates
-  std::vector<RowSolution> rows;           ///< parallel to the rows of the problem
-  int mobility = 0;                        ///< freedoms that the ground leaves
-  int iterations = 0;                      ///< of the active set, all stages
+  std::vector<RowSolution> rows;  ///< parallel to the rows of the first set, then to those of the next ones
+  int mobility = 0;               ///< freedoms that the ground leaves
+  int iterations = 0;             ///< of the active set, all stages
 };
 
 /// The motions that the ground leaves, in coordinates y in which the robot is a unit mass: a generalised
@@ -68,7 +74,8 @@ struct FreeMotions {
 };
 
 struct Settings {
-  int row_capacity = 64;
+  int row_capacity = 64;     ///< of all sets together
+  int set_capacity = 0;      ///< of the rows of one set; 0: the same
   int max_iterations = 400;  ///< hard cap of the active set, of each stage
   bool base_motion = false;  ///< FreeMotions::base is wanted
   /// Solution::acceleration is wanted of all bodies: else of the base, of those that rows act on and of what
@@ -88,7 +95,16 @@ class Solver {
   /// untouched.
   [[nodiscard]] Status solve(const State& state, const std::vector<Row>& rows, Solution& solution) noexcept;
 
-  /// The rows that keep row `row` of the last solved problem from what it asks, the strongest first, into
+  /// Blends solutions: each set of rows is solved whole, at full strength, and
+  ///
+  ///   tau = sum share_k tau_k
+  ///
+  /// Accelerations are affine in tau. So an equality that all sets meet is met exactly, and a range, a sum or
+  /// a motor's limit that all sets keep is kept, as the bounded quantities form convex sets. nu, phi,
+  /// `saturated` and `status` of a row are those of its own set; its residual is that of the blended motion.
+  [[nodiscard]] Status solve(const State& state, std::span<const RowSet> sets, Solution& solution) noexcept;
+
+  /// The rows of the first set that keep its row `row` from what it asks, the strongest first, into
   /// `out`: rows of its level or above whose forces push it the other way or hold its axis, sums at their
   /// bound. Returns how many; 0 for a row that got what it asked. Each has at least 1 % of the strongest
   /// one's say. Does not allocate, lock, throw or print.
@@ -99,7 +115,7 @@ class Solver {
   /// lock, throw or print.
   bool free_motions(FreeMotions& out) const noexcept;
 
-  /// What a unit force along row `row` of the last solved problem is as the p of FreeMotions, into `p`'s
+  /// What a unit force along row `row` of Solution::rows is as the p of FreeMotions, into `p`'s
   /// first numbers; before the next `project_velocity`. Does not allocate, lock, throw or print.
   void force_on_motions(int row, Eigen::VectorXd& p) const noexcept;
 
