@@ -17,6 +17,7 @@ WheelBrake::WheelBrake(const lang::Robot& robot, double period)
       deceleration_(robot.stop.deceleration),
       footprint_radius_(footprint_radius(robot)),
       first_qd_(last_qd_),
+      last_look_(last_qd_),
       ticks_between_looks_(ticks_of(look_every, period)) {
   for (const solver::Wheel& wheel : robot.model.wheels()) {
     const int j = wheel.body - 1;
@@ -36,19 +37,21 @@ void WheelBrake::begin(int suspect, double believed) noexcept {
     if (wheels_[i].joint == suspect) left_out_ = static_cast<int>(i);
   }
   believed_ = left_out_ < 0 ? 0.0 : believed;
+  is_suspected_only_ = left_out_ >= 0 && believed == 0.0;
   slope_is_due_ = left_out_ < 0;
   slope_time_ = slope_for_ = 0.0;
   sense_ = 0.0;
   may_turn_ = true;
   even_looks_ = 0;
   tried_ = 0;
-  ticks_ = 0;
+  ticks_ = ticks_between_looks_;  // the first look is what the others compare with
   last_sum_ = least_sum_ = std::numeric_limits<double>::infinity();
 }
 
 void WheelBrake::begin_turned_around() noexcept {
   begin(-1, 0.0);
   left_out_ = all();
+  is_suspected_only_ = false;
   sense_ = -1.0;
   slope_is_due_ = false;
 }
@@ -78,13 +81,16 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
   const auto count = static_cast<int>(wheels_.size());
   if (sum > growth * least_sum_ && sum > count * slow * slow) {
     least_sum_ = sum;
-    if (sense_ != 0.0) {
+    if (sense_ != 0.0 && is_suspected_only_) {
+      brake_with_the_suspect();
+    } else if (sense_ != 0.0) {
       sense_ = 0.0;
       may_turn_ = false;
     } else if (sum > count * believed_ * believed_) {
-      leave_out_the_next();
+      tried_ == 0 ? leave_out_the_fastest(qd) : leave_out_the_next();
     }
   }
+  last_look_ = qd;
   least_sum_ = std::min(sum, forgotten * least_sum_);
   if (sum < count * slow * slow) tried_ = 0;
   const bool rolls_on = !is_on_slope() && sum > evenly * last_sum_ && sum > count * rest * rest;
@@ -93,6 +99,34 @@ void WheelBrake::look(const Eigen::VectorXd& qd) noexcept {
   if (even_looks_ < even_looks || left_out_ < 0) return;
   if (may_turn_) sense_ = -1.0;
   if (sense_ == 0.0 && left_out_ == all() && !has_tried_all()) leave_out_the_next();
+}
+
+/// Turned around it drove the base: it does what it is told.
+void WheelBrake::brake_with_the_suspect() noexcept {
+  is_suspected_only_ = false;
+  left_out_ = -1;
+  sense_ = 0.0;
+  even_looks_ = 0;
+}
+
+/// Of the wheels that were told to brake, the one whose rate grew most since the last look.
+void WheelBrake::leave_out_the_fastest(const Eigen::VectorXd& qd) noexcept {
+  int fastest = -1;
+  double most = 0.0;
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    const DrivenWheel& wheel = wheels_[i];
+    if (static_cast<int>(i) == left_out_) continue;
+    const double grown = wheel.radius * (std::abs(qd(wheel.joint)) - std::abs(last_look_(wheel.joint)));
+    if (grown > most) {
+      most = grown;
+      fastest = static_cast<int>(i);
+    }
+  }
+  if (fastest < 0 || left_out_ == all()) return leave_out_the_next();
+  ++tried_;
+  left_out_ = fastest;
+  may_turn_ = true;
+  even_looks_ = 0;
 }
 
 void WheelBrake::leave_out_the_next() noexcept {
@@ -119,7 +153,8 @@ void WheelBrake::put(const Eigen::VectorXd& qd, double share, Eigen::VectorXd& t
     const DrivenWheel& wheel = wheels_[i];
     const double rate = qd(wheel.joint);
     const double beyond = std::max(0.0, std::abs(rate) - allowed_rate(wheel, rate));
-    const double damped = -wheel.limit / full_brake_speed * share * std::copysign(beyond, rate);
+    const double full = is_suspected_only_ ? soft_brake_speed : full_brake_speed;
+    const double damped = -wheel.limit / full * share * std::copysign(beyond, rate);
     const bool is_left_out = left_out_ == static_cast<int>(i) || left_out_ == all();
     const double sense = is_left_out ? sense_ : 1.0;
     tau(wheel.joint) = sense * std::clamp(damped, -wheel.limit, wheel.limit);

@@ -11,10 +11,14 @@ namespace zwang::runtime {
 /// Each driven wheel damps its own motion, tau = -d qd within its limit, which can only take energy, as long
 /// as the motor does what it is told. One that does the opposite drives the base instead, faster than the
 /// others brake it: of four mecanum wheels' rates three quarters can be its own. So a motor under suspicion
-/// is left out, and where the wheels get faster under the brake, one after the other is, until they do not;
-/// then all of them. Few wheels cannot brake every motion without it: where they roll on evenly what is left
-/// out is turned around, and left out for good should that make them faster. That also brakes a base whose
-/// motors, or encoders, are all wired the wrong way round. Where no choice brakes, all of them are left out.
+/// is left out. Where the wheels get faster under the brake, the one that got faster most is left out, then
+/// one after the other, until they do not; then all of them. Few wheels cannot brake every motion without
+/// it: where they roll on evenly, what is left out is turned around. Should that make them faster, the motor
+/// obeys: one that was under no more than suspicion brakes again, another one is left out for good.
+/// That also brakes a base whose motors, or encoders, are all wired the wrong way round. Where no choice
+/// brakes, all of them are left out.
+/// While a motor is under no more than suspicion, the brake is a tenth as stiff: another one that drives the
+/// base then doubles a rate in some 40 ms at the least, which the brake sees before that motor presses.
 /// Where no motor is under suspicion the base slows down no harder than `robot.stop.deceleration`: with v and
 /// w its speed and yaw rate when the brake begins, every wheel may keep the share 1 - t / t_s of its rate,
 ///   t_s = max(|v|, R |w|) / a,   R the footprint's radius,
@@ -29,7 +33,7 @@ class WheelBrake {
   WheelBrake(const lang::Robot& robot, double period);
 
   /// `suspect`: a joint whose motor the stop is about; -1: none. It is believed to be that one while the
-  /// wheels are no faster than `believed` [m/s], root mean square at the rims.
+  /// wheels are no faster than `believed` [m/s], root mean square at the rims; 0: it is suspected only.
   void begin(int suspect, double believed) noexcept;
   /// All motors, or all encoders, are the wrong way round.
   void begin_turned_around() noexcept;
@@ -41,6 +45,7 @@ class WheelBrake {
   void brake_blind(Eigen::VectorXd& tau) noexcept;
 
   static constexpr double full_brake_speed = 0.5;  ///< [rad/s] the torque shrinks with the rate below it
+  static constexpr double soft_brake_speed = 5.0;  ///< the same, of a brake with a motor under suspicion
   static constexpr double trusted = 0.75;          ///< of 2 T / P: masses may be a quarter less
   static constexpr double look_every = 0.02;       ///< [s]
   static constexpr double growth = 1.1;            ///< of the sum of squared speeds at the rims,
@@ -67,6 +72,8 @@ class WheelBrake {
   };
   static PlanarInertia planar_inertia(const solver::Model& model);
   void look(const Eigen::VectorXd& qd) noexcept;
+  void brake_with_the_suspect() noexcept;
+  void leave_out_the_fastest(const Eigen::VectorXd& qd) noexcept;
   void leave_out_the_next() noexcept;
   int all() const noexcept { return static_cast<int>(wheels_.size()); }  ///< as `left_out_`
   bool has_tried_all() const noexcept { return tried_ > all() + 1; }
@@ -86,6 +93,7 @@ class WheelBrake {
   double deceleration_;        ///< [m/s^2]
   double footprint_radius_;    ///< [m]
   Eigen::VectorXd first_qd_;   ///< when the brake began
+  Eigen::VectorXd last_look_;  ///< [rad/s] rates at the last look
   bool slope_is_due_ = false;  ///< it begins with the next sample
   double slope_time_ = 0.0;    ///< [s] t_s
   double slope_for_ = 0.0;     ///< [s] t
@@ -98,8 +106,9 @@ class WheelBrake {
   double sense_ = 0.0;  ///< what its torque is multiplied with: 0, or -1 when it was turned around
   bool may_turn_ = true;
   int even_looks_ = 0;
-  int tried_ = 0;           ///< choices of a motor that is left out
-  double believed_ = 0.0;   ///< [m/s] beyond it another motor is sought
+  int tried_ = 0;          ///< choices of a motor that is left out
+  double believed_ = 0.0;  ///< [m/s] beyond it another motor is sought
+  bool is_suspected_only_ = false;
   double last_sum_ = 0.0;   ///< [m^2/s^2]
   double least_sum_ = 0.0;  ///< [m^2/s^2] since the motors are chosen that brake
 };
