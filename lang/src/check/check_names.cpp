@@ -97,12 +97,23 @@ void apply_override(CheckContext& context, const GivenParameter& given) {
     symbol->parameter.value = *number;
 }
 
+/// Whether the file has a frame or signal of this name: it means its own then, as it did before robots had
+/// `base` and `lead`.
+bool has_own(const TaskFile& file, const std::string& name) {
+  const auto is_it = [&](const auto& item) { return item.name.text == name; };
+  return std::any_of(file.frames.begin(), file.frames.end(), is_it) ||
+         std::any_of(file.signals.begin(), file.signals.end(), is_it);
+}
+
 void add_robot_frames(CheckContext& context) {
   FrameSymbol world;
   world.declaration.name = "world";
   context.symbols.frames.push_back(world);
   if (!context.robot) return;
+  const std::vector<std::string>& implied = context.robot->implied_frames;
   for (const solver::Frame& frame : context.robot->model.frames()) {
+    const bool is_implied = std::find(implied.begin(), implied.end(), frame.name) != implied.end();
+    if (is_implied && has_own(context.file, frame.name)) continue;
     FrameSymbol symbol;
     symbol.declaration.name = frame.name;
     symbol.declaration.parent = FrameParent::body;

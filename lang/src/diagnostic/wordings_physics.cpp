@@ -42,7 +42,9 @@ std::string control_period_of(double period) {
 }
 
 std::string ahead(const std::string& frame) {
-  return frame.empty() ? "" : "move a frame ahead of the axle, for example " + frame;
+  return frame.empty() ? ""
+                       : "move a frame ahead of the axle, for example " + frame +
+                             ", or `lead`, if the robot file names one";
 }
 
 Diagnostic capped(Diagnostic diagnostic, const Cap& cap, const Span& limit) {

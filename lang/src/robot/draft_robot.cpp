@@ -76,12 +76,12 @@ class Drafter {
 
   /// The kinds that the wheels may be, each with all places filled.
   std::vector<std::pair<std::string, std::string>> assumed_texts() const {
-    if (drive_ == Drive::none) return {};
+    if (drive_ == DriveKind::none) return {};
     Filling filling;
     filling.radius = wording::figure(assumed_radius(), "m");
     filling.effort = "1 N m";
     filling.footprint = corners();
-    if (drive_ != Drive::rollers_or_skid) return {{in_words(drive_, found_.wheels), text(filling)}};
+    if (drive_ != DriveKind::rollers_or_skid) return {{in_words(drive_, found_.wheels), text(filling)}};
     std::vector<std::pair<std::string, std::string>> texts;
     filling.holds = "holds: [rolling]";
     texts.emplace_back("with plain wheels that skid", text(filling));
@@ -134,7 +134,7 @@ class Drafter {
 
   std::vector<std::string> missing() const {
     std::vector<std::string> lines;
-    if (drive_ == Drive::none) {
+    if (drive_ == DriveKind::none) {
       lines.push_back(
           "wheels: no joint turns without end about a level axle and is called a wheel or is round");
       for (const std::string& joint : found_.wheels_that_stand)
@@ -144,7 +144,7 @@ class Drafter {
     all.insert(all.end(), found_.casters.begin(), found_.casters.end());
     add_missing(lines, "the radius, where the shape is a mesh: ", all, lacks_radius);
     add_missing(lines, "the largest torque: ", found_.wheels, [](const DraftWheel& w) { return !w.effort; });
-    if (drive_ == Drive::rollers_or_skid) {
+    if (drive_ == DriveKind::rollers_or_skid) {
       lines.push_back("whether the wheels have rollers (mecanum) or skid: a URDF does not tell");
     }
     std::string links;
@@ -182,7 +182,7 @@ class Drafter {
   }
 
   bool may_have_rollers(const DraftWheel& wheel) const {
-    return drive_ == Drive::rollers_or_skid && wheel.swivel.empty();
+    return drive_ == DriveKind::rollers_or_skid && wheel.swivel.empty();
   }
 
   /// On a mecanum base: front left and rear right one way, the others the other way.
@@ -194,7 +194,7 @@ class Drafter {
     std::string entry = "  - {joint: " + wheel.joint +
                         ", radius: " + (wheel.radius ? in_millimetres(*wheel.radius) : filling.radius);
     if (may_have_rollers(wheel)) entry += ", " + (filling.mecanum ? mecanum_roller(wheel) : filling.holds);
-    if (drive_ == Drive::omni) entry += ", roller: 90 deg";
+    if (drive_ == DriveKind::omni) entry += ", roller: 90 deg";
     return entry + "}";
   }
 
@@ -278,6 +278,12 @@ class Drafter {
            "\nfootprint: {polygon: " + filling.footprint + "}\n";
   }
 
+  std::string lead() const {
+    if (drive_ != DriveKind::differential || found_.outline.empty()) return "";
+    return "# The point that tasks drive. Proposed: ahead of the axle, for this base cannot go "
+           "sideways.\nlead: nose\n";
+  }
+
   /// Where the shipped tasks touch, hook and lead this robot; a name that a link has is the link's.
   std::string frames() const {
     if (found_.outline.empty())
@@ -305,7 +311,7 @@ class Drafter {
 
   std::string text(const Filling& filling) const {
     std::string text = weightless_links() + "zwang_robot: 1\nurdf: " + named_as_ + "\nbase: " + found_.base +
-                       "  # the link that floats\n";
+                       "  # the link that floats\n" + lead();
     if (!held_.empty())
       text +=
           "\n# They do not move here: they carry wheels and do not steer them, as rockers, springs and wheel "
@@ -316,7 +322,7 @@ class Drafter {
     if (any_lacks_radius()) {
       text += "# radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.\n";
     }
-    if (drive_ == Drive::rollers_or_skid) {
+    if (drive_ == DriveKind::rollers_or_skid) {
       text +=
           "# Wheels that skid: `holds: [rolling]`. Mecanum wheels: the `roller` that stands behind, in the "
           "place of "
@@ -354,7 +360,7 @@ class Drafter {
   const Urdf& urdf_;
   FoundWheels found_;
   std::string named_as_;
-  Drive drive_;
+  DriveKind drive_;
   std::vector<std::string> held_;        ///< joints of `fixed`
   std::vector<std::string> weightless_;  ///< links
 };

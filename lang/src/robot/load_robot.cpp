@@ -195,6 +195,9 @@ class RobotBuilder {
       }
       known.push_back(frame.name.text);
     }
+    if (file_.lead.exists() && std::find(known.begin(), known.end(), file_.lead.text) == known.end())
+      diagnostics_.add(wording::unknown_frame(file_.lead.span, "link or frame", file_.lead.text, known,
+                                              file_.base.text));
   }
 
   void check_footprint() {
@@ -237,11 +240,26 @@ class RobotBuilder {
     return builder;
   }
 
+  bool has_link_or_frame(const std::string& name) const {
+    return urdf_.find_link(name) != nullptr ||
+           std::any_of(file_.frames.begin(), file_.frames.end(),
+                       [&](const FrameText& frame) { return frame.name.text == name; });
+  }
+
+  /// Names under which a task finds the base, and the point to drive, of any robot.
+  std::vector<std::pair<std::string, std::string>> implied_frames() const {
+    const std::string lead = file_.lead.exists() ? file_.lead.text : file_.base.text;
+    std::vector<std::pair<std::string, std::string>> frames = {{"base", file_.base.text}, {"lead", lead}};
+    std::erase_if(frames, [&](const auto& frame) { return has_link_or_frame(frame.first); });
+    return frames;
+  }
+
   solver::Model build_model() const {
     solver::ModelBuilder builder = add_links();
     for (const FrameText& frame : file_.frames) {
       builder.add_frame(frame.name.text, frame.parent.text, pose_of(frame));
     }
+    for (const auto& [name, same_as] : implied_frames()) builder.add_frame(name, same_as, {});
     for (const WheelText& wheel : file_.wheels) {
       builder.add_wheel(wheel.joint.text, {.body = 0,
                                            .radius = *wheel.radius,
@@ -257,6 +275,7 @@ class RobotBuilder {
     robot.name = urdf_.name;
     robot.model = build_model();
     robot.base_frame = file_.base.text;
+    for (const auto& [name, same_as] : implied_frames()) robot.implied_frames.push_back(name);
     robot.limits = file_.limits;
     robot.stop = file_.stop;
     robot.footprint = file_.footprint;

@@ -269,6 +269,7 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
   };
   if (const Node* urdf = map.required("urdf")) file.urdf = parse_word(*urdf, "`urdf`", diagnostics);
   if (const Node* base = map.required("base")) file.base = parse_word(*base, "`base`", diagnostics);
+  if (const Node* lead = map.optional("lead")) file.lead = parse_word(*lead, "`lead`", diagnostics);
   const Node* wheels = map.required("wheels");
   if (wheels != nullptr && require_sequence(*wheels, "`wheels`", diagnostics)) {
     for (const Node& item : wheels->items) {

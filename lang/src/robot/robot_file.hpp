@@ -44,6 +44,7 @@ struct FrictionText {
 struct RobotFile {
   Word urdf;
   Word base;
+  Word lead;  ///< the link or frame that tasks drive; not given: the base
   std::vector<WheelText> wheels;
   std::vector<Word> fixed;    ///< joints that do not move, whatever the URDF says
   std::vector<Word> ignored;  ///< links that are left out, with all that hangs on them

@@ -177,6 +177,7 @@ Json robot_file() {
        {"wheels", list("the wheels; the drive follows from them", wheel()), true},
        {"fixed", list("joints of the URDF that do not move here", word("a joint"))},
        {"ignore", list("links of the URDF that are left out, with all that hangs on them", word("a link"))},
+       {"lead", word("the link or frame that tasks drive, if not the base")},
        {"supports", list("links that stand on the ground and hold nothing", word("a link"))},
        {"actuated", named("motors by their joints", actuator()), true},
        {"limits", object("ranges of the base, if a task gives none",

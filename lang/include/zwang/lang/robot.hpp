@@ -55,6 +55,8 @@ struct Robot {
   std::string name;
   solver::Model model;
   std::string base_frame;  ///< the link that floats
+  /// `base` and `lead`, as far as neither the URDF nor the robot file has a link or frame of that name.
+  std::vector<std::string> implied_frames;
   std::vector<BaseLimit> limits;
   Stop stop;
   std::vector<solver::Vector3>
