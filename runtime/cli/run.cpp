@@ -118,7 +118,6 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   std::vector<double> truth(truth_columns(*program.scene).size());
   runtime::SimulationSteps steps(runner.period());
   TruthWatch watch(plant.truth(), steps.period());
-  Eigen::VectorXd tau;
   PlantStatus status = PlantStatus::ok;
   std::optional<Clock::time_point> give_up;
   // The simulated robot waits while nobody steps it: it is enough to see the stop with the next step. Only on
@@ -143,13 +142,13 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
       put_truth(plant.truth(), *program.scene, truth);
       // Who has asked for the end does not wait for the pace of real time.
       if (reloads != nullptr && !give_up) reloads->look(runner, sensed.time);
-      tau = runner.step(sensed, truth);
+      runner.step(sensed, truth);
       if (runner.state() == runtime::RunState::running && runner.scheduler().transition())
         report.asked = asked_forces(runner.scheduler());
       live.show(runner, sensed.time);
     }
     const bool in_task = runner.state() == runtime::RunState::running;
-    status = plant.apply(tau);
+    status = plant.follow(runner.command());
     if (status != PlantStatus::ok) break;
     watch.look(plant.truth(), runner.scheduler(), in_task);
   }

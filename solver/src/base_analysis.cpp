@@ -15,7 +15,6 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double unreachable_share = 1e-8;
 constexpr double rank_tolerance = 1e-6;  // of singular values, relative to the largest
 /// Of an axis, where motors do not make every motion: the part that a motor must have of it. Motors that
 /// reach it only by turning the base about a centre of mass beside the axis have that offset over the radius

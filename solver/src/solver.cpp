@@ -427,7 +427,10 @@ bool Solver::free_motions(FreeMotions& out) const noexcept {
 
 void Solver::force_on_motions(int row, Eigen::VectorXd& p) const noexcept {
   const Workspace& w = *workspace_;
-  p.head(w.whitened.mobility()) = w.whitened.motion(w.ids[static_cast<std::size_t>(row)]);
+  const int id = w.ids[static_cast<std::size_t>(row)];
+  auto B = p.head(w.whitened.mobility());
+  B = w.whitened.motion(id);
+  if (B.squaredNorm() < unreachable_share * w.whitened.free_square(id)) B.setZero();
 }
 
 Status Solver::project_velocity(State& state) noexcept {

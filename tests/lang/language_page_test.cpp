@@ -68,7 +68,9 @@ Diagnostics said_about(const PageBlock& block, const test::Folder& folder) {
   const std::string part = block.kind.substr(block.kind.rfind(' ') + 1);
   Diagnostics diagnostics;
   if (part == "robot") {
-    load_robot(folder.write("robots/mine.yaml", block.text), diagnostics);
+    const bool is_whole = has_key(block.text, "zwang_robot");
+    const std::string rest = is_whole ? "" : test::slurp(folder.path() / "robots/mecanum_base.yaml");
+    load_robot(folder.write("robots/mine.yaml", rest + block.text), diagnostics);
   } else if (part == "scene") {
     const std::string version = has_key(block.text, "zwang_scene") ? "" : "zwang_scene: 1\n";
     load_scene(folder.write("mine.yaml", version + block.text), diagnostics);

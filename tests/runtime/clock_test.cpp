@@ -41,6 +41,12 @@ const Clock clocks[] = {
     {"not a number", [](double) { return std::nan(""); }, EventCode::bad_sample, std::nan("")},
 };
 
+#ifdef ZWANG_SANITIZED  // on the others it is the same code with other numbers
+const char* const robots[] = {"mecanum"};
+#else
+const char* const robots[] = {"mecanum", "omni", "diff", "kelo"};
+#endif
+
 struct Loop {
   explicit Loop(const lang::Program& loaded)
       : program(loaded),
@@ -67,7 +73,7 @@ double as_it_is(double time) {
 /// The brake takes v / (F / m), 0.3 to 0.7 s from 0.5 m/s; 1000 periods are for both, finding and braking.
 /// (Two active casters still roll at 2.5 cm/s then, of whatever the stop is: docs/limits.md.)
 TEST(Clock, ThatIsWrongStopsTheBaseWhichStandsWithinAThousandCalls) {
-  for (const char* robot : {"mecanum", "omni", "diff", "kelo"}) {
+  for (const char* robot : robots) {
     for (const Clock& clock : clocks) {
       Loop loop(shipped_program("laws/straight_on.yaml", robot));
       while (loop.plant.truth().time < begin - 0.5 * period) loop.step(as_it_is);

@@ -59,8 +59,8 @@ Trial drive(const char* task, const char* robot, const Mistake& mistake, double 
   return run;
 }
 
-#ifdef ZWANG_SANITIZED  // the same code with other numbers: one without casters and one with them
-const char* const robots[] = {"mecanum", "kelo_two"};
+#ifdef ZWANG_SANITIZED  // on the others it is the same code with other numbers
+const char* const robots[] = {"mecanum"};
 #else
 const char* const robots[] = {"mecanum", "omni", "diff", "kelo_two", "kelo"};
 #endif

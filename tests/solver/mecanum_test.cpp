@@ -79,7 +79,7 @@ TEST_F(MecanumTest, VelocityRangeHoldsBackAPush) {
   AxisConstraint push = drive(Axis::x, Quantity::force, 20.0);
   push.velocity = Range{-0.05, 0.08};
   ASSERT_EQ(solve({push}), Status::ok);
-  EXPECT_NEAR(base().linear.x(), (0.08 - 0.0799) / ConstraintSet::horizon, 1e-9);
+  EXPECT_NEAR(base().linear.x(), (0.08 - 0.0799) / limit_horizon, 1e-9);
   EXPECT_NEAR(solution.rows[0].nu, 20.0, 1e-12);
 }
 

@@ -175,6 +175,8 @@ class ConditionCheck {
     }
     for (int axis = 0; axis < 3 && !context_.of_truth; ++axis) {
       if (node.word != estimated_forces[static_cast<std::size_t>(axis)]) continue;
+      if (context_.robot && context_.robot->drive.takes_velocity)
+        return complain(wording::estimate_without_torque(node.span, node.word));
       lowered.op = Op::estimated_force;
       lowered.axis = axis;
       return quantity_type(axis < 2 ? dimension::force : dimension::torque);

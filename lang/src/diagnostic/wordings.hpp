@@ -211,6 +211,15 @@ Diagnostic control_period_outside(const Span& span, double period);
 Diagnostic encoder_step_outside(const Span& span, double step);
 /// `radius` [m] of the largest wheel.
 Diagnostic coarse_encoders(const Span& span, double step, double radius);
+Diagnostic estimate_without_torque(const Span& span, const std::string& name);
+Diagnostic unknown_drive_word(const Span& span, const std::string& key, const std::string& text,
+                              const std::vector<std::string>& known);
+Diagnostic drive_takes_twists(const Span& span);
+Diagnostic drive_has_fixed_limit(const Span& span);
+Diagnostic drive_without_wheel(const Span& span, const std::string& joint, const Span& drive);
+Diagnostic drive_key_beside_torque(const Span& span, const std::string& key);
+Diagnostic drive_too_slow(const Span& span, double rate);   ///< [1/s]
+Diagnostic drive_too_late(const Span& span, double delay);  ///< [s]
 
 Diagnostic xml_too_deep(const Span& span, int limit);
 Diagnostic too_many_attributes(const Span& span, std::size_t limit);

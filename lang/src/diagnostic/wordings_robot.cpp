@@ -117,17 +117,68 @@ Diagnostic coarse_encoders(const Span& span, double step, double radius) {
   constexpr double acceleration = 1.0;  // [m/s^2]
   const double way = blind_steps * step * radius;
   if (way <= least_blind_way)
-    return warning("W813", span,
-                   "encoders that count every " + figure(step * 1e3, "mrad") +
-                       " do not see a wheel turn that a wall holds: while the base slides along the wall, the "
-                       "guard may take that wheel's encoder for dead and stop the base",
-                   "read the encoders with all of their edges, or on the motor's side of the gear");
+    return warning(
+        "W813", span,
+        "encoders that count every " + figure(step * 1e3, "mrad") +
+            " do not see a wheel turn that a wall holds: while the base slides along the wall, the "
+            "guard may take that wheel's encoder for dead and stop the base",
+        "read the encoders with all of their edges, or on the motor's side of the gear");
   return warning("W813", span,
                  "the wheels' encoders count every " + figure(step * radius * 1e3, "mm") +
                      " of way: if they die as the base sets out, it goes on for " + figure(way * 1e3, "mm") +
                      ", at 1 m/s^2 to " + figure(std::sqrt(2.0 * acceleration * way), "m/s"),
                  "encoders of " + figure(least_blind_way / (blind_steps * radius) * 1e3, "mrad") +
                      " or less keep it to " + figure(least_blind_way * 1e3, "mm"));
+}
+
+Diagnostic estimate_without_torque(const Span& span, const std::string& name) {
+  return error(
+      "E634", span,
+      in_ticks(name) + " needs the motors' torques, and a drive that takes velocities does not tell them",
+      "ask whether a row is `saturated`, or measure the force with a signal");
+}
+
+Diagnostic unknown_drive_word(const Span& span, const std::string& key, const std::string& text,
+                              const std::vector<std::string>& known) {
+  std::string words;
+  for (const std::string& word : known) words += (words.empty() ? "" : " or ") + in_ticks(word);
+  return error("E815", span, "`" + key + "` of a drive cannot be " + in_ticks(text), "write " + words);
+}
+
+Diagnostic drive_takes_twists(const Span& span) {
+  return error("E814", span, "drives that take the base's twist are not built yet",
+               "command the wheels: `as: wheels`");
+}
+
+Diagnostic drive_has_fixed_limit(const Span& span) {
+  return error("E814", span,
+               "drives whose torque limit cannot be sent are not built yet: nothing would bound what they "
+               "press with",
+               "`torque_limit: each_cycle`, if the drive takes a torque or current limit with each command");
+}
+
+Diagnostic drive_without_wheel(const Span& span, const std::string& joint, const Span& drive) {
+  return with_related(
+      error("E814", span,
+            "joint " + in_ticks(joint) +
+                " has a motor and turns no wheel: velocities for such a motor are not built yet",
+            "hold the joint under `fixed`, or let the drive take torques"),
+      drive, "this drive takes velocities of wheels");
+}
+
+Diagnostic drive_key_beside_torque(const Span& span, const std::string& key) {
+  return error("E815", span, in_ticks(key) + " says nothing of a drive that takes torques",
+               "remove it, or write `command: velocity`");
+}
+
+Diagnostic drive_too_slow(const Span& span, double rate) {
+  return error("E815", span, "a drive that is told " + figure(rate, "Hz") + " is too slow",
+               "zwang has been tried from " + figure(slowest_drive_rate, "Hz") + " on");
+}
+
+Diagnostic drive_too_late(const Span& span, double delay) {
+  return error("E815", span, "a delay of " + figure(delay * 1e3, "ms") + " is too long",
+               "zwang has been tried up to " + figure(longest_drive_delay * 1e3, "ms"));
 }
 
 Diagnostic xml_too_deep(const Span& span, int limit) {

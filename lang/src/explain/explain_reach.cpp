@@ -227,6 +227,15 @@ axes' own accelerations are 0 then; `plane` bounds the acceleration of the point
 axis bounds the rate of that axis's velocity, and nothing of what a turn adds.)~",
           .fix = "Write `plane`: it bounds the norm in any direction. If a box is meant, silence the line."},
       Explanation{
+          .code = "E634",
+          .title = "an estimated force on a drive that takes velocities",
+          .why =
+              R"~(`estimated.force` is what the wheels' motion lacks of the torques that were sent. A drive that takes
+velocities makes its torques itself, and does not tell them: only their bounds are known.)~",
+          .fix = "Ask whether a row is `saturated`: the base is slower there than its force lets it be. Or "
+                 "measure "
+                 "the force, with a signal."},
+      Explanation{
           .code = "W643",
           .title = "motion that the steering does not allow",
           .why =

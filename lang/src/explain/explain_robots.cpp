@@ -158,6 +158,30 @@ slower loop the robot would press, and pass limits, before a tick notices.)~",
           .example = "control_period: 50 ms",
           .instead = "control_period: 10 ms"},
       Explanation{
+          .code = "E814",
+          .title = "a drive that zwang does not run yet",
+          .why =
+              R"~(A drive that takes velocities presses as hard as its torque limit lets it. zwang sends that limit with each
+command, so a task's force ranges hold. Other drives need a model of what they press with, which is not built:
+drives with a fixed torque limit, drives that take the base's twist, and velocities for joints that turn no wheel.)~",
+          .fix = "Command wheels, and send the limit with each command. Many motor controllers take a current "
+                 "limit in each cycle.",
+          .part = ExcerptOf::robot,
+          .example = "drive: {command: velocity, rate: 100 Hz, delay: 10 ms, time_constant: 20 ms, "
+                     "integral_time: 100 ms, torque_limit: fixed}",
+          .instead = "drive: {command: velocity, rate: 100 Hz, delay: 10 ms, time_constant: 20 ms, "
+                     "integral_time: 100 ms, torque_limit: each_cycle}"},
+      Explanation{
+          .code = "E815",
+          .title = "a drive that cannot be",
+          .why =
+              R"~(`rate`, `delay` and the loop's times belong to drives that take velocities. Samples that are older than
+those of a drive of 20 Hz with a delay of 50 ms have not been tried: nobody knows what the base does then.)~",
+          .fix = "Give what the drive's manual says, and leave out what it does not have.",
+          .part = ExcerptOf::robot,
+          .example = "drive: {command: torque, rate: 100 Hz}",
+          .instead = "drive: {command: torque}"},
+      Explanation{
           .code = "W812",
           .title = "a wheel that is drawn beside its axle",
           .why =

@@ -42,7 +42,7 @@ std::optional<Demand> demand_of(const PlannedAxis& axis) {
   if (axis.driver == solver::Quantity::acceleration && axis.target) return Demand{*axis.target, false};
   if (axis.driver != solver::Quantity::position) return std::nullopt;
   if (!velocity) return Demand{solver::infinity, true};
-  return Demand{std::max(velocity->high, -velocity->low) / solver::ConstraintSet::horizon, true};
+  return Demand{std::max(velocity->high, -velocity->low) / solver::limit_horizon, true};
 }
 
 /// Where a guard of the task asks for `group.axis.saturated`.

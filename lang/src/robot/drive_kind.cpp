@@ -24,35 +24,35 @@ std::map<std::string, int> swivels_of(const std::vector<DraftWheel>& wheels) {
   return count;
 }
 
-Drive drive_of(const std::vector<DraftWheel>& wheels) {
+DriveKind drive_of(const std::vector<DraftWheel>& wheels) {
   const auto steered =
       std::count_if(wheels.begin(), wheels.end(), [](const DraftWheel& w) { return !w.swivel.empty(); });
   const auto count = static_cast<std::ptrdiff_t>(wheels.size());
-  if (count == 0) return Drive::none;
-  if (steered == count) return Drive::swivels;
-  if (steered == 0 && count == 2) return Drive::differential;
-  if (steered == 0 && count >= 3 && !are_parallel(wheels)) return Drive::omni;
-  if (steered == 0 && count == 4) return Drive::rollers_or_skid;
-  return Drive::other;
+  if (count == 0) return DriveKind::none;
+  if (steered == count) return DriveKind::swivels;
+  if (steered == 0 && count == 2) return DriveKind::differential;
+  if (steered == 0 && count >= 3 && !are_parallel(wheels)) return DriveKind::omni;
+  if (steered == 0 && count == 4) return DriveKind::rollers_or_skid;
+  return DriveKind::other;
 }
 
-std::string in_words(Drive drive, const std::vector<DraftWheel>& wheels) {
+std::string in_words(DriveKind drive, const std::vector<DraftWheel>& wheels) {
   const std::string count = std::to_string(wheels.size()) + " wheels";
   switch (drive) {
-    case Drive::none:
+    case DriveKind::none:
       return "no wheels";
-    case Drive::differential:
+    case DriveKind::differential:
       return "differential: two plain wheels";
-    case Drive::rollers_or_skid:
+    case DriveKind::rollers_or_skid:
       return "four wheels that do not steer: mecanum or skid steering";
-    case Drive::omni:
+    case DriveKind::omni:
       return "omni: " + count + " whose axles point different ways";
-    case Drive::swivels: {
+    case DriveKind::swivels: {
       const auto units = std::to_string(swivels_of(wheels).size());
       const bool pairs = swivels_of(wheels).size() * 2 == wheels.size();
       return pairs ? units + " swivels with two driven wheels each" : units + " steered wheels";
     }
-    case Drive::other:
+    case DriveKind::other:
       break;
   }
   return count;

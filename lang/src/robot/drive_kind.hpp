@@ -9,10 +9,10 @@
 
 namespace zwang::lang {
 
-enum class Drive { none, differential, rollers_or_skid, omni, swivels, other };
+enum class DriveKind { none, differential, rollers_or_skid, omni, swivels, other };
 
-Drive drive_of(const std::vector<DraftWheel>& wheels);
-std::string in_words(Drive drive, const std::vector<DraftWheel>& wheels);
+DriveKind drive_of(const std::vector<DraftWheel>& wheels);
+std::string in_words(DriveKind drive, const std::vector<DraftWheel>& wheels);
 
 /// How many wheels each steering joint carries.
 std::map<std::string, int> swivels_of(const std::vector<DraftWheel>& wheels);

@@ -11,6 +11,7 @@
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/adapt_urdf.hpp"
 #include "robot/check_joints.hpp"
+#include "robot/drive_entry.hpp"
 #include "robot/exact_wheels.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
@@ -42,6 +43,7 @@ class RobotBuilder {
     check_supports();
     check_frames();
     check_footprint();
+    check_drive(file_, diagnostics_);
     if (diagnostics_.error_count() > errors_before_) return std::nullopt;
     try {
       stand_wheels_exactly(build_model(), file_, urdf_, diagnostics_);
@@ -196,8 +198,8 @@ class RobotBuilder {
       known.push_back(frame.name.text);
     }
     if (file_.lead.exists() && std::find(known.begin(), known.end(), file_.lead.text) == known.end())
-      diagnostics_.add(wording::unknown_frame(file_.lead.span, "link or frame", file_.lead.text, known,
-                                              file_.base.text));
+      diagnostics_.add(
+          wording::unknown_frame(file_.lead.span, "link or frame", file_.lead.text, known, file_.base.text));
   }
 
   void check_footprint() {
@@ -285,6 +287,7 @@ class RobotBuilder {
     if (file_.bumper_stiffness) robot.bumper_stiffness = *file_.bumper_stiffness;
     if (file_.control_period) robot.control_period = *file_.control_period;
     if (file_.encoder_step) robot.encoder_step = *file_.encoder_step;
+    robot.drive = file_.drive;
     add_joint_facts(robot);
     return robot;
   }

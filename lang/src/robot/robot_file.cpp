@@ -8,6 +8,7 @@
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_standing.hpp"
+#include "robot/drive_entry.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
 #include "tree/text.hpp"
@@ -314,6 +315,10 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
     file.control_period = parse_control_period(*period, diagnostics);
   if (const Node* step = map.optional("encoder_step"))
     file.encoder_step = parse_encoder_step(*step, file, diagnostics);
+  if (const Node* drive = map.optional("drive")) {
+    file.drive = parse_drive(*drive, diagnostics);
+    file.drive_span = drive->span;
+  }
   each(map.optional("frames"), "frames",
        [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
   map.finish();

@@ -60,6 +60,8 @@ struct RobotFile {
   std::optional<double> bumper_height;
   std::optional<double> control_period;
   std::optional<double> encoder_step;
+  Drive drive;
+  Span drive_span;
   std::vector<FrameText> frames;
 };
 

@@ -35,6 +35,19 @@ Json actuator() {
            {"rotor_inertia", reference("quantity", "the inertia of the rotor alone, before the gear")}});
 }
 
+Json drive() {
+  return object(
+      "what the motors' drive takes; default torques",
+      {{"command", one_of_words("", {"torque", "velocity"}), true},
+       {"as", one_of_words("what takes the velocities", {"wheels"})},
+       {"rate", reference("quantity", "of commands and samples, 20 Hz at least")},
+       {"delay", reference("quantity", "encoder to runtime to wheel, 50 ms at most")},
+       {"time_constant", reference("quantity", "of the wheels' velocity loops")},
+       {"integral_time",
+        any_of({one_of_words("the loops have no integral", {"none"}), reference("quantity", "of the loops")})},
+       {"torque_limit", one_of_words("sent with each command", {"each_cycle"})}});
+}
+
 Json joint_friction() {
   return object(
       "", {{"coulomb", reference("quantity", "dry friction")},
@@ -195,6 +208,7 @@ Json robot_file() {
        {"control_period", reference("quantity")},
        {"encoder_step",
         reference("quantity", "an angle: the least by which a driven wheel's position changes")},
+       {"drive", drive()},
        {"frames", named("places on the robot", robot_frame())}});
 }
 

@@ -48,6 +48,8 @@ const char* to_string(EventCode code) noexcept {
       return "clock_rate";
     case EventCode::wrench_impossible:
       return "wrench_impossible";
+    case EventCode::not_followed:
+      return "not_followed";
     case EventCode::clock_drift:
       return "clock_drift";
     case EventCode::sensor_bias:
@@ -120,6 +122,8 @@ const char* describe(EventCode code) noexcept {
       return "the samples' clock runs at another rate than the control period";
     case EventCode::wrench_impossible:
       return "a wrench from outside is larger than anything can press with; it counts as 0";
+    case EventCode::not_followed:
+      return "a wheel is faster than its drive is told, or turns against it";
     case EventCode::clock_drift:
       return "the samples' clock and the control period differ by more than a tenth";
     case EventCode::clock_refused:

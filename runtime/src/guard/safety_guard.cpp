@@ -80,6 +80,7 @@ SafetyGuard::SafetyGuard(const lang::Robot& robot, const GuardSettings& settings
       next_(limit_),
       last_q_(limit_),
       last_qd_(limit_),
+      takes_velocity_(robot.drive.takes_velocity),
       arm_(std::make_unique<ArmHold>(robot.model)),
       frozen_(std::make_unique<FrozenState>(limit_.size())),
       brake_(std::make_unique<WheelBrake>(robot, settings.period)) {
@@ -161,7 +162,7 @@ SampleStatus SafetyGuard::admit(const Sensed& sensed) noexcept {
   if (!is_timely(sensed.time)) return was_stopped ? take_untimely(sensed) : refuse_stamp(sensed);
   stamp_says_nothing_ = false;
   take_stamp(sensed.time);
-  take_values(sensed.state, step);
+  take_new_values(sensed, step);
   has_time_ = true;
   return SampleStatus::good;
 }
@@ -213,6 +214,15 @@ void SafetyGuard::take_stamp(double stamp) noexcept {
   last_time_ = stamp;
   has_begun_ = true;
   lost_ticks_ = 0;
+}
+
+/// A drive that takes velocities shows a sample until the next one comes.
+void SafetyGuard::take_new_values(const Sensed& sensed, double step) noexcept {
+  if (!takes_velocity_ || !sensed.measured_at) return take_values(sensed.state, step);
+  const double stamp = *sensed.measured_at;
+  if (has_time_ && stamp == last_measured_at_) return;
+  take_values(sensed.state, has_time_ ? std::max(0.0, stamp - last_measured_at_) : 0.0);
+  last_measured_at_ = stamp;
 }
 
 /// `step` [s] since the last ones; 0: there are none to compare with.

@@ -29,11 +29,19 @@ RobotSenses::RobotSenses(const lang::Program& program, const lang::Scene& scene,
     : state_(number == 0 ? scene.state : partner(scene, number).state),
       signals_(program, scene, number == 0 ? scene.signals : partner(scene, number).signals,
                footprints_of(scene, first), seed_of(seed, number)),
-      noise_(seed_of(seed, number) ^ 0xD1B54A32D192ED03U) {
+      noise_(seed_of(seed, number) ^ 0xD1B54A32D192ED03U),
+      drive_(program.robot.drive),
+      last_sample_(program.robot.model) {
+  last_sample_.time = -1.0;
   // A step of the simulation is no shorter than a quarter of a millisecond.
   const auto most_on_way = static_cast<std::size_t>(std::ceil(state_.delay / 0.25e-3)) + 2;
   if (state_.delay > 0.0) on_way_.assign(most_on_way, Sensed(program.robot.model));
   if (state_.fix) signals_.measure_base(*state_.fix, seed_of(seed, number) ^ 0xAEF17502108EF2D9U);
+}
+
+void RobotSenses::start_at(const Sensed& actual) {
+  start_ = actual.state.base_pose;
+  if (drive_.takes_velocity) drive_line_.emplace(1.0 / drive_.rate, 0.5 * drive_.delay, actual);
 }
 
 const Sensed& RobotSenses::arrived(const Sensed& actual) noexcept {
@@ -56,16 +64,29 @@ const Sensed& RobotSenses::arrived(const Sensed& actual) noexcept {
 void RobotSenses::tell(const Sensed& now, Sensed& sensed) noexcept {
   const Sensed& actual = arrived(now);
   sensed.time = actual.time;
-  sensed.state = actual.state;
   sensed.base_measured = !state_.wheels_only;
-  if (sensed.base_measured) {
-    add_noise(sensed.state);
+  if (drive_line_) {
+    tell_last_sample(actual, sensed);
   } else {
+    sensed.state = actual.state;
+    if (sensed.base_measured) add_noise(sensed.state);
+  }
+  if (!sensed.base_measured) {
     sensed.state.base_pose = start_;
     sensed.state.base_twist = {};
     if (const auto fix = signals_.base_fix(sensed.time)) sensed.base_fix = fix;
   }
   signals_.report(sensed.time, sensed.signals);
+}
+
+void RobotSenses::tell_last_sample(const Sensed& actual, Sensed& sensed) noexcept {
+  const Sensed& sample = drive_line_->pass(actual, actual.time);
+  if (sample.time != last_sample_.time) {
+    last_sample_ = sample;
+    if (sensed.base_measured) add_noise(last_sample_.state);
+  }
+  sensed.state = last_sample_.state;
+  sensed.measured_at = last_sample_.time;
 }
 
 void RobotSenses::add_noise(solver::State& state) noexcept {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "scene_signals.hpp"
+#include "velocity_loop.hpp"
 
 namespace zwang::runtime {
 
@@ -15,13 +17,16 @@ class RobotSenses {
   RobotSenses(const lang::Program& program, const lang::Scene& scene, int number, const lang::Robot& first,
               std::uint64_t seed);
 
-  void start_at(const solver::Pose& start) noexcept { start_ = start; }
+  /// Before the first sample: where the robot starts.
+  void start_at(const Sensed& actual);
   void measure(const Truth& truth, const solver::State& actual) noexcept { signals_.measure(truth, actual); }
   /// `actual` as it arrives: with noise, or without the base and with what corrects its reckoning.
   void tell(const Sensed& actual, Sensed& sensed) noexcept;
 
  private:
   void add_noise(solver::State& state) noexcept;
+  /// The state of a drive that is sampled now and then.
+  void tell_last_sample(const Sensed& actual, Sensed& sensed) noexcept;
   /// The sample that has arrived by now; of the first one until another has.
   const Sensed& arrived(const Sensed& actual) noexcept;
 
@@ -31,6 +36,9 @@ class RobotSenses {
   solver::Pose start_;          ///< of the base
   std::vector<Sensed> on_way_;  ///< a ring, of samples that come late; empty where none does
   std::size_t oldest_ = 0, waiting_ = 0;
+  lang::Drive drive_;
+  std::optional<SampledLine<Sensed>> drive_line_;  ///< of a drive that takes velocities
+  Sensed last_sample_;                             ///< that has come over it, with its noise
 };
 
 }  // namespace zwang::runtime

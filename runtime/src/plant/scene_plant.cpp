@@ -8,6 +8,7 @@
 #include "estimate/ticks.hpp"
 #include "injected_faults.hpp"
 #include "robot_senses.hpp"
+#include "velocity_loop.hpp"
 
 namespace zwang::runtime {
 
@@ -67,6 +68,30 @@ class Changes {
   double inertia_more_ = 0.0;         ///< of the base's own
 };
 
+/// From a robot's command to its motors' torques.
+class MotorDrive {
+ public:
+  explicit MotorDrive(const lang::Robot& robot) {
+    const Command nothing(robot.model.joint_count());
+    if (!robot.drive.takes_velocity) return;
+    line_.emplace(1.0 / robot.drive.rate, 0.5 * robot.drive.delay, nothing);
+    loop_.emplace(robot);
+  }
+  bool takes_velocity() const noexcept { return loop_.has_value(); }
+  /// `now` is the robot's true state, `period` [s] the step of the simulation.
+  void drive(const Command& command, const Sensed& now, double period, Eigen::VectorXd& torque) noexcept {
+    if (loop_) {
+      torque = loop_->step(line_->pass(command, now.time), now.state.qd, period);
+    } else {
+      torque = command.torque;
+    }
+  }
+
+ private:
+  std::optional<SampledLine<Command>> line_;
+  std::optional<VelocityLoop> loop_;
+};
+
 const lang::Scene& scene_of(const lang::Program& program) {
   if (!program.scene) throw std::invalid_argument("plant: the program has no scene");
   return *program.scene;
@@ -116,6 +141,7 @@ struct ScenePlant::Parts {
     Eigen::VectorXd torque;  ///< what its motors make of the command
     Changes changes;
     SimulationSteps steps;
+    MotorDrive motors;
   };
 
   Parts(const lang::Program& program, const ScenePlantOptions& options)
@@ -124,10 +150,12 @@ struct ScenePlant::Parts {
         senses(program, scene, 0, program.robot, options.seed),
         faults(faults_of({}, scene, options.faults), program.robot.model),
         changes(0, program.robot.model, scene.floor_friction),
+        motors(program.robot),
+        period(options.simulation.period),
         actual(program.robot.model),
         torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())) {
     static_cast<void>(simulation.sense(actual));
-    senses.start_at(actual.state.base_pose);
+    senses.start_at(actual);
     RunnerSettings settings;
     settings.extra_columns = base_truth_columns();
     for (std::size_t i = 0; i < scene.robots.size(); ++i) {
@@ -138,9 +166,10 @@ struct ScenePlant::Parts {
       told.push_back({RobotSenses(own, scene, static_cast<int>(i) + 1, program.robot, options.seed),
                       InjectedFaults(faults_of(partners.back().name, scene, options.faults), own.robot.model),
                       Sensed(own.robot.model), Sensed(own.robot.model, own.signals.size()),
-                      partners.back().torque, Changes(i + 1, own.robot.model, scene.floor_friction), steps});
+                      partners.back().torque, Changes(i + 1, own.robot.model, scene.floor_friction), steps,
+                      MotorDrive(own.robot)});
       static_cast<void>(simulation.sense_partner(i, told.back().actual));
-      told.back().senses.start_at(told.back().actual.state.base_pose);
+      told.back().senses.start_at(told.back().actual);
     }
   }
 
@@ -170,10 +199,13 @@ struct ScenePlant::Parts {
       of.faults.spoil(of.sensed);
     }
     if (of.steps.tick_is_due()) tick_partner(i);
-    of.torque = partner.torque;
+    of.motors.drive(partner.runner.command(), of.actual, period, of.torque);
     of.faults.spoil(of.torque, time);
     static_cast<void>(simulation.give_partner(i, of.torque));
   }
+
+  /// With the first robot's torques as they stand.
+  PlantStatus step() noexcept;
 
   void tick_partner(std::size_t i) noexcept {
     ScenePartner& partner = partners[i];
@@ -188,6 +220,8 @@ struct ScenePlant::Parts {
   RobotSenses senses;
   InjectedFaults faults;
   Changes changes;
+  MotorDrive motors;
+  double period;  ///< [s] of a step
   Sensed actual;
   Eigen::VectorXd torque;  ///< what the motors make of the command
   std::vector<ScenePartner> partners;
@@ -213,13 +247,28 @@ PlantStatus ScenePlant::sense(Sensed& sensed) noexcept {
 
 PlantStatus ScenePlant::apply(const Eigen::VectorXd& tau) noexcept {
   Parts& p = *parts_;
-  const double time = p.simulation.truth().time;
-  if (tau.size() != p.torque.size()) return PlantStatus::unreachable;
+  if (tau.size() != p.torque.size() || p.motors.takes_velocity()) return PlantStatus::unreachable;
   p.torque = tau;
-  p.faults.spoil(p.torque, time);
-  p.change_world(time);
-  for (std::size_t i = 0; i < p.partners.size(); ++i) p.step_partner(i);
-  return p.simulation.apply(p.torque);
+  return p.step();
+}
+
+PlantStatus ScenePlant::follow(const Command& command) noexcept {
+  Parts& p = *parts_;
+  if (command.torque.size() != p.torque.size()) return PlantStatus::unreachable;
+  if (p.motors.takes_velocity()) {
+    const PlantStatus status = p.simulation.sense(p.actual);
+    if (status != PlantStatus::ok) return status;
+  }
+  p.motors.drive(command, p.actual, p.period, p.torque);
+  return p.step();
+}
+
+PlantStatus ScenePlant::Parts::step() noexcept {
+  const double time = simulation.truth().time;
+  faults.spoil(torque, time);
+  change_world(time);
+  for (std::size_t i = 0; i < partners.size(); ++i) step_partner(i);
+  return simulation.apply(torque);
 }
 
 const Truth& ScenePlant::truth() const noexcept {

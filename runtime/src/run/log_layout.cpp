@@ -63,7 +63,7 @@ std::vector<std::string> task_names(const Scheduler& scheduler) {
 LogLayout::LogLayout(const StatementTable& statements, const Scheduler& scheduler, const solver::Model& model,
                      const lang::Program& program, const std::vector<std::string>& event_signals,
                      const std::vector<Column>& extra)
-    : inputs_(model, program.signals, program.parameters) {
+    : inputs_(model, program.signals, program.parameters, program.robot.drive.takes_velocity) {
   // In the order of `Fixed`.
   add("time", "s");
   add("task", "", task_names(scheduler));
@@ -103,6 +103,12 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
     add(joint.name + ".q", slides ? "m" : "rad");
     add(joint.name + ".qd", slides ? "m/s" : "rad/s");
     add(joint.name + ".tau", slides ? "N" : "N m");
+  }
+  if (program.robot.drive.takes_velocity) {
+    first_command_ = static_cast<int>(columns_.size());
+    for (int j = 0; j < model.joint_count(); ++j) {
+      for (const CommandColumn& column : command_columns(model.joint(j))) add(column.name, column.unit);
+    }
   }
   for (const lang::Signal& signal : program.signals) add_signal(signal);
   for (const Statement& s : statements.all()) add_statement(s);
@@ -214,6 +220,7 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
     put(first_joint_ + 3 * j + 1, state.qd(j));
     put(first_joint_ + 3 * j + 2, tick.tau(j));
   }
+  if (first_command_ >= 0) put_command(tick.command);
   if (tick.solved) {
     put(solver, static_cast<double>(tick.solver_status));
     put(iterations, tick.solution.iterations);
@@ -341,6 +348,13 @@ void LogLayout::put_rows(const StatementTable& statements, const Tick& tick, int
           put(c.limit_residual, row.residual);
         break;
     }
+  }
+}
+
+void LogLayout::put_command(const Command& command) noexcept {
+  for (int j = 0; j < static_cast<int>(command.velocity.size()); ++j) {
+    const std::array<double, 3> values = command_values(command, j);
+    for (int k = 0; k < 3; ++k) put(first_command_ + 3 * j + k, values[static_cast<std::size_t>(k)]);
   }
 }
 

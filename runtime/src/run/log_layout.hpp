@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "run/command_columns.hpp"
 #include "run/sensed_columns.hpp"
 #include "run/shortfall.hpp"
 #include "run/statement_table.hpp"
@@ -24,6 +25,7 @@ struct Tick {
   solver::Status solver_status;
   GuardStatus guard_status;
   const Eigen::VectorXd& tau;
+  const Command& command;
   std::span<const double> extra;
   const Shortfall& shortfall;
   const Event& event;
@@ -58,6 +60,7 @@ class LogLayout {
   void put(int column, double value) noexcept;
   void add_statement(const Statement& statement);
   void add_signal(const lang::Signal& signal);
+  void put_command(const Command& command) noexcept;
   void put_signals(const Scheduler& scheduler) noexcept;
   void put_transition(const Scheduler& scheduler) noexcept;
   void put_statements(const StatementTable& statements, const Tick& tick) noexcept;
@@ -75,6 +78,7 @@ class LogLayout {
   SensedColumns inputs_;
   int first_input_ = 0;
   int first_joint_ = 0;
+  int first_command_ = -1;  ///< of a drive that takes velocities
   int first_extra_ = 0;
 };
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "run/command_columns.hpp"
 #include "run/run_facts.hpp"
 #include "run/sensed_columns.hpp"
 #include "run/snapshot_signals.hpp"
@@ -140,13 +141,18 @@ std::vector<std::size_t> places_in(const lang::Program& first, const lang::Progr
 void replay_part(const lang::Program& first, const ReplayPart& part, Runner& runner, ReplayResult& result) {
   const lang::Program& program = part.program;
   const solver::Model& model = program.robot.model;
-  SensedColumns inputs(model, program.signals, program.parameters);
+  const bool takes_velocity = program.robot.drive.takes_velocity;
+  SensedColumns inputs(model, program.signals, program.parameters, takes_velocity);
   inputs.signals_at(places_in(first, program));
   Sensed sensed(first);
   std::vector<double> parameters(program.parameters.size());
   std::vector<double> values(inputs.columns().size());
   std::vector<std::string> torques;
-  for (int j = 0; j < model.joint_count(); ++j) torques.push_back(model.joint(j).name + ".tau");
+  std::vector<std::array<CommandColumn, 3>> commands;
+  for (int j = 0; j < model.joint_count(); ++j) {
+    torques.push_back(model.joint(j).name + ".tau");
+    commands.push_back(command_columns(model.joint(j)));
+  }
   const auto compare = [&](double time, std::string_view text) {
     const json record = json::parse(text, nullptr, false);
     if (!record.is_object()) throw std::runtime_error("replay: a record is no JSON object");
@@ -160,12 +166,18 @@ void replay_part(const lang::Program& first, const ReplayPart& part, Runner& run
     if (const EventCode reason = outside_stop(record); reason != EventCode::none) runner.guard().stop(reason);
     const Eigen::VectorXd& tau = runner.step(sensed);
     bool equal = true;
-    for (std::size_t j = 0; j < torques.size(); ++j) {
-      const double logged = value_of(record, torques[j]);
-      const double computed = tau(static_cast<Eigen::Index>(j));
-      if (same_bits(logged, computed)) continue;
+    const auto compare_one = [&](const std::string& column, double computed) {
+      const double logged = value_of(record, column);
+      if (same_bits(logged, computed)) return;
       equal = false;
-      if (!result.first) result.first = ReplayDifference{time, torques[j], logged, computed};
+      if (!result.first) result.first = ReplayDifference{time, column, logged, computed};
+    };
+    for (int j = 0; j < model.joint_count(); ++j) {
+      compare_one(torques[static_cast<std::size_t>(j)], tau(j));
+      if (!takes_velocity) continue;
+      const auto told = command_values(runner.command(), j);
+      for (std::size_t k = 0; k < told.size(); ++k)
+        compare_one(commands[static_cast<std::size_t>(j)][k].name, told[k]);
     }
     ++result.records;
     if (equal) ++result.equal;

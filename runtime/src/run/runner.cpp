@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "drive/velocity_drive.hpp"
 #include "estimate/disturbance.hpp"
 #include "estimate/friction.hpp"
 #include "estimate/press.hpp"
@@ -132,7 +133,11 @@ struct Runner::Parts {
         given_parameters(scheduler.parameters()),
         handed_over(Eigen::VectorXd::Zero(model.joint_count())),
         wanted(Eigen::VectorXd::Zero(model.joint_count())),
-        tau(Eigen::VectorXd::Zero(model.joint_count())) {
+        tau(Eigen::VectorXd::Zero(model.joint_count())),
+        unknown_torque(tau),
+        compensation(tau),
+        command(model.joint_count()) {
+    if (program.robot.drive.takes_velocity) drive.emplace(program.robot, period, scheduler.row_capacity());
     transitions.reserve(kept_transitions);
     events.reserve(kept_events);
     is_judged.resize(program.signals.size(), false);
@@ -142,6 +147,13 @@ struct Runner::Parts {
 
   /// What is known of a good sample: itself, or with the base as the wheels tell it.
   void estimate(const Sensed& sensed) noexcept;
+  /// The same of a drive whose samples come now and then.
+  void estimate_between_samples(const Sensed& sensed) noexcept;
+  /// [s] by the guard's clock.
+  double measured_at(const Sensed& sensed) const noexcept;
+  void estimate_base(const Sensed& sensed, double time) noexcept;
+  /// `tau` and, of a drive that takes velocities, what it is told beside.
+  void put_command(bool good, bool solved) noexcept;
   void take_signals(const Sensed& sensed) noexcept;
   void judge_clock(const Sensed& sensed) noexcept;
   void mend_rates() noexcept;
@@ -219,6 +231,11 @@ struct Runner::Parts {
   double handed_over_for = handover;  ///< [s] since then
   Eigen::VectorXd wanted;             ///< the solution's torques and the friction's
   Eigen::VectorXd tau;                ///< sent
+  Eigen::VectorXd unknown_torque;     ///< of the motors behind velocity loops: 0
+  Eigen::VectorXd compensation;       ///< of it, against friction
+  std::optional<VelocityDrive> drive;
+  bool is_new_sample = true;
+  Command command;
   solver::Status solver_status = solver::Status::ok;
   GuardStatus guard_status = GuardStatus::passed;
   std::vector<Transition> transitions;
@@ -235,6 +252,7 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   const double time = guard.time();
   estimated.time = time;
   estimated.state = sensed.state;
+  if (drive) return estimate_between_samples(sensed);
   stop(rates.look(estimated.state, time));
   const auto dead_wheel = frozen_wheel.look(estimated.state, tau, time);
   is_a_wheel_dead = guard.stopped() ? is_a_wheel_dead : dead_wheel.has_value();
@@ -242,6 +260,36 @@ void Runner::Parts::estimate(const Sensed& sensed) noexcept {
   take_signals(sensed);
   confirm();
   if (guard.stopped()) mend_rates();
+  estimate_base(sensed, time);
+}
+
+double Runner::Parts::measured_at(const Sensed& sensed) const noexcept {
+  const double now = guard.time();
+  if (!sensed.measured_at) return now;
+  const double stamp = *sensed.measured_at + guard.clock_shift();
+  return stamp <= now + 0.5 * period ? stamp : -std::numeric_limits<double>::infinity();
+}
+
+void Runner::Parts::estimate_between_samples(const Sensed& sensed) noexcept {
+  const double stamp = measured_at(sensed);
+  is_new_sample = drive->is_new(stamp);
+  if (is_new_sample) {
+    stop(rates.look(estimated.state, stamp));
+    const auto dead_wheel = frozen_wheel.look(estimated.state, unknown_torque, stamp);
+    is_a_wheel_dead = guard.stopped() ? is_a_wheel_dead : dead_wheel.has_value();
+    stop(dead_wheel);
+    stop(drive->look(estimated.state, stamp));
+    if (guard.stopped()) mend_rates();
+    estimate_base(sensed, stamp);
+    drive->take(estimated.state, stamp);
+  } else {
+    stop(drive->look_for_samples(estimated.time));
+  }
+  take_signals(sensed);
+  drive->carry_on(estimated.time, estimated.state);
+}
+
+void Runner::Parts::estimate_base(const Sensed& sensed, double time) noexcept {
   solver::Pose& base = estimated.state.base_pose;
   const bool is_new = sensed.base_measured || !reckoning;
   if (is_new && model.base_type() == solver::BaseType::ground) base = level(base);
@@ -300,13 +348,14 @@ void Runner::Parts::send(bool good, bool solved) noexcept {
     blind_budget.give_back(wanted);
   }
   guard_status = good ? guard.output(estimated, wanted, tau) : guard.output_blind(tau);
-  if (solved && !guard.stopped()) {
+  put_command(good, solved);
+  if (solved && !guard.stopped() && !drive) {
     disturbance.expect(solver, solution, sample.state, friction.torque(), tau, sample.time);
     blind_budget.expect(disturbance, friction.torque(), tau);
     return;
   }
   if (good) disturbance.pause();
-  if (guard.stopped()) blind_budget.expect_brake(tau);
+  if (guard.stopped() && !drive) blind_budget.expect_brake(tau);
 }
 
 /// A stop for rates that are wrong is over when the base stands by those that are not.
@@ -376,6 +425,7 @@ void Runner::Parts::hand_over() noexcept {
 
 bool Runner::Parts::has_the_joints_of(const Parts& other) const noexcept {
   if (model.joint_count() != other.model.joint_count()) return false;
+  if (drive.has_value() != other.drive.has_value()) return false;
   for (int j = 0; j < model.joint_count(); ++j) {
     if (model.joint(j).name != other.model.joint(j).name) return false;
   }
@@ -413,6 +463,7 @@ void Runner::Parts::tell_refusal(SampleStatus status) noexcept {
 }
 
 void Runner::Parts::compare() noexcept {
+  if (!is_new_sample) return;
   if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
   if (!slip.doubtful()) {
     signs.roll(solver, estimated.state, sample.state, reckoning, sample.time);
@@ -484,6 +535,24 @@ void Runner::Parts::tell_doubt() noexcept {
         estimated.state.base_twist.linear.norm()});
 }
 
+/// A sample that was refused leaves a drive's velocities and bounds as they are.
+void Runner::Parts::put_command(bool good, bool solved) noexcept {
+  if (!drive) {
+    command.torque = command.lower = command.upper = tau;
+    return;
+  }
+  if (guard.stopped()) {
+    const bool is_contrary = guard.reason() == EventCode::not_followed;
+    const int suspect = is_contrary ? event_signal::joint_of(guard.stop_event().signal) : -1;
+    drive->brake(good && !is_a_wheel_dead ? &estimated.state.qd : nullptr, suspect, command);
+    tau.setZero();
+  } else if (solved) {
+    command.torque = tau;
+    compensation = wanted - solution.tau;
+    drive->drive(solver, scheduler, solution, sample.state.qd, compensation, command);
+  }
+}
+
 Runner::Runner(const lang::Program& program, const RunnerSettings& settings)
     : parts_(std::make_unique<Parts>(program, settings)) {}
 Runner::~Runner() = default;
@@ -538,6 +607,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
                     p.solver_status,
                     p.guard_status,
                     p.tau,
+                    p.command,
                     extra,
                     shortfall,
                     p.event,
@@ -589,9 +659,15 @@ SwapResult Runner::swap_program(Runner& next) noexcept {
   now.disturbance.pause();
   now.motors.reset();
   now.tau = before.tau;
+  now.command = before.command;
+  if (now.drive) now.drive->go_on_from(*before.drive);
   now.handed_over_for = 0.0;
   now.recorder = nullptr;
   return {};
+}
+
+const Command& Runner::command() const noexcept {
+  return parts_->command;
 }
 
 double Runner::period() const noexcept {

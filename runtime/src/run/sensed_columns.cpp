@@ -97,7 +97,7 @@ void visit_sample(Visitor& v, Sample& sample, lang::SignalType type) noexcept {
 /// The same order for both ways; `SensedColumns` names it.
 template <typename Visitor, typename Snapshot>
 void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>& types,
-                    const std::vector<std::size_t>& places) noexcept {
+                    const std::vector<std::size_t>& places, bool has_stamped_samples) noexcept {
   v.number(s.time);
   visit_all(v, s.state.q);
   visit_all(v, s.state.qd);
@@ -110,6 +110,7 @@ void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>
     v.number(fix.stamp);
     visit_pose(v, fix.pose);
   });
+  if (has_stamped_samples) v.maybe(s.measured_at, 1, [&v](auto& stamp) { v.number(stamp); });
   for (std::size_t i = 0; i < types.size(); ++i) {
     SignalSample missing;
     if (places[i] < s.signals.size()) {
@@ -123,7 +124,8 @@ void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>
 }  // namespace
 
 SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang::Signal>& signals,
-                             const std::vector<lang::Parameter>& parameters) {
+                             const std::vector<lang::Parameter>& parameters, bool has_stamped_samples)
+    : has_stamped_samples_(has_stamped_samples) {
   name("sensed.time", {""});
   for (const char* what : {".q", ".qd", ".tau_ff"}) {
     for (int j = 0; j < model.joint_count(); ++j) name("sensed." + model.joint(j).name, {what});
@@ -134,6 +136,7 @@ SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang:
   name("sensed.base.measured", {""});
   name("sensed.fix", {"", ".stamp"});
   name("sensed.fix", pose_parts);
+  if (has_stamped_samples) name("sensed.measured", {"", ".stamp"});
   for (const lang::Signal& signal : signals) {
     const std::string of = "sensed.signal." + signal.name;
     places_.push_back(types_.size());
@@ -179,13 +182,13 @@ void SensedColumns::write(const Sensed& sensed, std::span<const double> paramete
             values.begin() + static_cast<std::ptrdiff_t>(first_parameter_));
   if (!sized) return;
   Writer writer{values};
-  visit_snapshot(writer, sensed, types_, places_);
+  visit_snapshot(writer, sensed, types_, places_, has_stamped_samples_);
 }
 
 void SensedColumns::read(std::span<const double> values, Sensed& sensed,
                          std::span<double> parameters) const noexcept {
   Reader reader{values};
-  visit_snapshot(reader, sensed, types_, places_);
+  visit_snapshot(reader, sensed, types_, places_, has_stamped_samples_);
   std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first_parameter_), parameters.size(),
               parameters.begin());
 }

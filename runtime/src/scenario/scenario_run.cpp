@@ -100,7 +100,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     result.torque = std::max({result.torque, share, look_at_partners(plant, facts)});
     const bool in_task = runner.state() == RunState::running;
     for (ExpectationWatch& watch : watches) watch.look(facts, plant.truth().time, in_task);
-    status = plant.apply(tau);
+    status = plant.follow(runner.command());
     if (status != PlantStatus::ok) break;
     for (std::size_t i = 0; i < partners.size(); ++i) {
       if (!partners[i].runner.guard().stopped() || had_stopped[i]) continue;

@@ -93,12 +93,12 @@ int row_bound(const AxisConstraint& c) noexcept {
               static_cast<int>(c.acceleration.has_value()));
 }
 
-Blend::Blend(std::size_t most_wanted, int most_rows) : most_kept_rows_(3 * most_rows) {
+Blend::Blend(std::size_t most_wanted, int most_rows, double horizon) : most_kept_rows_(3 * most_rows) {
   // What a set keeps has a row at least, or is of `always` and out of reach; what is wanted may join it.
   const std::size_t capacity = static_cast<std::size_t>(most_kept_rows_) + 2 * most_wanted + 1;
   for (BlendedSet& set : sets_) {
     set.constraints =
-        solver::ConstraintSet(static_cast<int>(capacity), std::max(1, rows_of_a_set(most_rows)));
+        solver::ConstraintSet(static_cast<int>(capacity), std::max(1, rows_of_a_set(most_rows)), horizon);
     set.in_force.reserve(capacity);
   }
   for (KeptList& kept : kept_) kept.reserve(capacity);

@@ -60,8 +60,9 @@ class Blend {
  public:
   static constexpr std::size_t most_sets = 3;
 
-  /// Of a task, `most_wanted` constraints at most, and `most_rows` rows in force at a time.
-  Blend(std::size_t most_wanted, int most_rows);
+  /// Of a task, `most_wanted` constraints at most, and `most_rows` rows in force at a time; limits act within
+  /// `horizon` [s].
+  Blend(std::size_t most_wanted, int most_rows, double horizon = solver::limit_horizon);
 
   /// Blends what is in force with `wanted`, over `duration` [s]; 0 switches at once. `wanted` keeps its
   /// length until the next switch.

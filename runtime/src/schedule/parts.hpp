@@ -194,6 +194,8 @@ struct Scheduler::Parts final : Facts {
   FrameTable frames;
   SignalTable signals;
   const double period;
+  const double horizon;            ///< [s] within which limits act
+  const bool keeps_all_sides;      ///< of planes in force
   const double radius;             ///< [m] of the footprint
   solver::Vector3 effective_mass;  ///< of the base along x, y and rz [kg, kg, kg m^2]
   solver::Vector3 braking;         ///< what the ranges in force leave along them [m/s^2, m/s^2, rad/s^2]

@@ -80,6 +80,8 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       frames(declarations, given.robot.model, given.signals.size()),
       signals(given, positive(control_period)),
       period(control_period),
+      horizon(given.robot.drive.horizon()),
+      keeps_all_sides(given.robot.drive.takes_velocity),
       radius(footprint_radius(given.robot)),
       effective_mass(effective_mass_of(given.robot)),
       braking(solver::Vector3::Zero()),
@@ -127,7 +129,7 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   renewed.reserve(2 * most_wanted);
   for (const lang::Task& t : tasks.tasks)
     left.emplace_back(t.exits.size(), tasks.most_nodes, given.signals.size());
-  blend.emplace(most_wanted, tasks.most_rows);
+  blend.emplace(most_wanted, tasks.most_rows, horizon);
   sources.reserve(Blend::most_sets * blend->capacity());
 }
 

@@ -224,8 +224,8 @@ InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) 
   solver::FrameMotion move_place, in_place;
   fence.update(frames.motions().of(move, move_place), frames.motions().of(in, in_place),
                g.margin.evaluate(parameters));
-  const auto is_far = [](const RegionFence::Approach& approach, double a_brk) {
-    const double allowed = solver::braking_speed(approach.left, a_brk, solver::ConstraintSet::horizon);
+  const auto is_far = [this](const RegionFence::Approach& approach, double a_brk) {
+    const double allowed = solver::braking_speed(approach.left, a_brk, horizon);
     return !(allowed < approach.speed + near_speed);
   };
   // From there even the fastest could brake in time, with the weakest brake: most pairs are done by that.
@@ -234,7 +234,7 @@ InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) 
   const solver::Matrix3 to_base = state->base_pose.rotation.transpose();
   const double turning = state->base_twist.angular.z();
   const double out_of_reach =
-      solver::braking_distance(fence.fastest() + near_speed, weakest_brake, solver::ConstraintSet::horizon);
+      solver::braking_distance(fence.fastest() + near_speed, weakest_brake, horizon);
   InReach nearest;
   for (std::size_t i = 0; i < fence.pair_count(); ++i) {
     const RegionFence::Approach& approach = fence.approach(i);

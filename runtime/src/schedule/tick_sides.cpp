@@ -6,7 +6,8 @@
 //   a_n = c a_x + s a_y        S_n = (c S_x W_xx + s S_y W_yy) / (c^2 W_xx + 2 c s W_xy + s^2 W_yy)
 //
 // A side that this breaks comes into force, and the rows are solved again. A limit that is not met does not
-// change a solution: so it is the one with all sides.
+// change a solution: so it is the one with all sides. But a drive that takes velocities chooses among torques:
+// for it all sides are in force.
 #include <algorithm>
 #include <cmath>
 
@@ -129,7 +130,7 @@ bool Scheduler::Parts::choose_sides(const ActiveAxis& a, const PlaneReading& rea
     Wanted& w = side(i);
     const double share = shares[static_cast<std::size_t>(i)];
     const bool was_far = w.far;
-    const bool may_leave = !is_broken && blend->sets().size() == 1;
+    const bool may_leave = !is_broken && blend->sets().size() == 1 && !keeps_all_sides;
     w.far = may_leave ? w.far || share < let_go : w.far && (!is_broken || share <= near);
     reach_changed = reach_changed || w.far != was_far;
   }

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "base/whitened_rows.hpp"
+
 namespace zwang::solver {
 
 namespace {
 
-constexpr double unreachable_share = 1e-8;  // A Mc A' over A M^-1 A'
 constexpr int no_level = std::numeric_limits<int>::max();
 constexpr double blocked_share = 1e-8;          // B K B' over B B': what the levels above left free of a row
 constexpr double dependent_share = 1e-18;       // the same, of a row against those frozen before it

@@ -21,6 +21,9 @@
 
 namespace zwang::solver {
 
+/// Of A M^-1 A', what the ground leaves of a row at least, A Mc A': with less, nothing moves along it.
+inline constexpr double unreachable_share = 1e-8;
+
 class WhitenedRows {
  public:
   WhitenedRows(const Columns& robot, const Columns& task);

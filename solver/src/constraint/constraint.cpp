@@ -97,12 +97,12 @@ Range acceleration_range_within(const AxisConstraint& constraint, Quantity quant
 /// The accelerations that a range allows now. One that is new, h longer than the horizon, has time to stop
 /// what is beyond it; what is inside it holds back no more than later: max(e/h, e/h0) of what is left, e >= 0
 /// or not.
-Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now) {
-  constexpr double h0 = ConstraintSet::horizon;
+Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, const Coordinate& now,
+                         double h0) {
   const double h = quantity == Quantity::position ? constraint.position_horizon : constraint.velocity_horizon;
-  const Range in_time = acceleration_range_within(constraint, quantity, now, h);
-  if (h <= h0) return in_time;
   const Range at_once = acceleration_range_within(constraint, quantity, now, h0);
+  if (h <= h0) return at_once;
+  const Range in_time = acceleration_range_within(constraint, quantity, now, h);
   return {std::min(in_time.low, at_once.low), std::max(in_time.high, at_once.high)};
 }
 
@@ -198,8 +198,8 @@ double position_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis
   return measure_position(axis, motions.pose_of(move, f), motions.pose_of(in, t));
 }
 
-ConstraintSet::ConstraintSet(int constraint_capacity, int row_capacity)
-    : motions_(2 * static_cast<std::size_t>(std::max(constraint_capacity, 0))) {
+ConstraintSet::ConstraintSet(int constraint_capacity, int row_capacity, double horizon)
+    : horizon_(horizon), motions_(2 * static_cast<std::size_t>(std::max(constraint_capacity, 0))) {
   if (constraint_capacity < 1 || row_capacity < 1) {
     throw std::invalid_argument("constraint set: capacities must be at least 1");
   }
@@ -311,7 +311,7 @@ bool ConstraintSet::push_driver(const AxisConstraint& constraint, const Coordina
   double b = driver_acceleration(driver, now, constraint);
   for (const Quantity quantity : ranges_in_rising_rank) {
     if (!has_range(constraint, quantity)) continue;
-    const Range range = acceleration_range(constraint, quantity, now);
+    const Range range = acceleration_range(constraint, quantity, now, horizon_);
     b = std::max(range.low, std::min(b, range.high));
   }
   row->kind = RowKind::driver;
@@ -335,7 +335,7 @@ bool ConstraintSet::push_ranges(const AxisConstraint& constraint, const Coordina
   is_driven_back_ = is_driven_back_ || (constraint.position && !contains(*constraint.position, now.position));
   for (const Quantity quantity : ranges_in_rising_rank) {
     if (!has_range(constraint, quantity)) continue;
-    const Range range = acceleration_range(constraint, quantity, now);
+    const Range range = acceleration_range(constraint, quantity, now, horizon_);
     if (std::isfinite(range.high) && !push_end(quantity, RowKind::upper, range.high, -infinity, 0.0))
       return false;
     const bool has_low = std::isfinite(range.low) && constraint.measure != Measure::speed;

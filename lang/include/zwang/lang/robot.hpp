@@ -1,6 +1,7 @@
 /// A robot: its URDF, and the robot file that says what a URDF cannot.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -51,6 +52,28 @@ inline constexpr double longest_encoder_step = 0.1;
 /// Where a robot file gives no `slew`, a motor takes as long for all of its torque. [s]
 inline constexpr double full_torque_within = 5e-3;
 
+/// What the motors' drive takes, and how late. The delay is the way of an encoder's value to the runtime and
+/// of the command back to the wheel, half of it each.
+struct Drive {
+  /// Velocities of the wheels, each with a torque limit that is sent with it. False: torques.
+  bool takes_velocity = false;
+  double rate = 0.0;                    ///< [1/s] of commands and of samples
+  double delay = 0.0;                   ///< [s]
+  double time_constant = 0.0;           ///< T_c [s] of the wheels' velocity loops
+  std::optional<double> integral_time;  ///< T_i [s] of the same; none: they have no integral
+
+  /// Within which limits act [s]: of a drive that takes velocities from a sample to what the wheels make of
+  /// it.
+  double horizon() const {
+    if (!takes_velocity) return solver::limit_horizon;
+    return std::max(solver::limit_horizon, time_constant + delay + 1.0 / rate);
+  }
+};
+
+/// The slowest and the latest drive that zwang has been tried on.
+inline constexpr double slowest_drive_rate = 20.0;    ///< [1/s]
+inline constexpr double longest_drive_delay = 50e-3;  ///< [s]
+
 struct Robot {
   std::string name;
   solver::Model model;
@@ -70,7 +93,8 @@ struct Robot {
   double bumper_stiffness = 20e3;     ///< [N/m]
   double control_period = default_control_period;  ///< [s] from one torque to the next
   double encoder_step = 0.0;                       ///< [rad] of the driven wheels; 0: not known
-  std::vector<Span> joint_spans;                   ///< where each joint's limits come from
+  Drive drive;
+  std::vector<Span> joint_spans;  ///< where each joint's limits come from
 };
 
 /// How the robot stands before it moves: at the world's origin, its joints in their posture.

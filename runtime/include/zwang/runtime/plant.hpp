@@ -1,4 +1,4 @@
-/// The robot at the other end of the loop: it is sensed, and it takes torques.
+/// The robot at the other end of the loop: it is sensed, and it takes torques or velocities.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zwang/lang/program.hpp"
+#include "zwang/runtime/command.hpp"
 #include "zwang/solver/state.hpp"
 
 namespace zwang::runtime {
@@ -49,6 +50,9 @@ struct Sensed {
   }
   double time = 0.0;  ///< [s] by any clock that goes on evenly; it may count from 1970
   solver::State state;
+  /// [s] when the state was measured, by the same clock; none: now. Of a drive that takes velocities: the same
+  /// stamp again is the same sample, which the runner carries on to `time`. A torque drive's state is of now.
+  std::optional<double> measured_at;
   /// Whether the state's base pose and twist are measured: say so on every snapshot, or the runtime reckons
   /// them from the wheels, and the pose in the first snapshot is where it starts. On wheels its roll and
   /// pitch do not count: the floor is level.
@@ -68,14 +72,16 @@ enum class PlantStatus {
 };
 const char* to_string(PlantStatus status) noexcept;
 
-/// Implement this for your own robot. Both calls are made once per control period, on one thread, and must
-/// not throw.
+/// Implement this for your own robot. A call of `sense` and one of `apply`, or `follow`, are made once per
+/// control period, on one thread, and must not throw.
 class Plant {
  public:
   virtual ~Plant() = default;
   virtual PlantStatus sense(Sensed& sensed) noexcept = 0;
   /// Applies the joint torques [N m] or [N] for one control period.
   virtual PlantStatus apply(const Eigen::VectorXd& tau) noexcept = 0;
+  /// Runner::command. A robot whose drive takes velocities overrides it; any other takes the torques.
+  virtual PlantStatus follow(const Command& command) noexcept { return apply(command.torque); }
 };
 
 }  // namespace zwang::runtime

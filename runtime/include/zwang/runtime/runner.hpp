@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "zwang/lang/program.hpp"
+#include "zwang/runtime/command.hpp"
 #include "zwang/runtime/event.hpp"
 #include "zwang/runtime/plant.hpp"
 #include "zwang/runtime/recorder.hpp"
@@ -57,7 +58,7 @@ enum class SwapRefusal {
   none,            ///< it is
   stopped,         ///< the protective stop is latched
   has_run,         ///< it has run before
-  joints,          ///< its joints are others
+  joints,          ///< its joints are others, or what its drive takes is
   period,          ///< its control period is another
   signal_missing,  ///< a signal of it is not measured in this run
   signal_type,     ///< a signal of it is measured as another type
@@ -95,6 +96,8 @@ class Runner {
   /// The torques to send for this sample [N m] or [N]; always finite and within the joints' limits. Goes on
   /// braking and holding after the run is over. Does not allocate, lock, throw or print.
   const Eigen::VectorXd& step(const Sensed& sensed, std::span<const double> extra = {}) noexcept;
+  /// What that step is to a drive of any kind, for Plant::follow. A drive that takes velocities needs it.
+  const Command& command() const noexcept;
 
   double period() const noexcept;  ///< [s] of its steps
   /// For LogContext::facts: the task, its parameters as they stand, the settings, and by what it is computed.

@@ -114,6 +114,7 @@ class SafetyGuard {
   void brake_blind() noexcept;
   void clamp_next() noexcept;
   void take_values(const solver::State& state, double step) noexcept;
+  void take_new_values(const Sensed& sensed, double step) noexcept;
   bool is_frozen() const noexcept;
   GuardStatus send(Eigen::VectorXd& tau, GuardStatus status) noexcept;
 
@@ -124,6 +125,8 @@ class SafetyGuard {
   Eigen::VectorXd next_;
   Eigen::VectorXd last_q_, last_qd_;  ///< of the last sample that was taken, as is the position
   solver::Vector3 last_position_ = solver::Vector3::Zero();
+  bool takes_velocity_ = false;
+  double last_measured_at_ = 0.0;  ///< [s] of such a drive's last sample
   std::unique_ptr<ArmHold> arm_;
   std::unique_ptr<FrozenState> frozen_;
   std::unique_ptr<JointLimits> joint_limits_;

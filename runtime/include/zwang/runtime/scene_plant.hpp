@@ -66,7 +66,11 @@ class ScenePlant : public Plant {
 
   /// `unreachable`, and `sensed` untouched, when a sample is lost.
   PlantStatus sense(Sensed& sensed) noexcept override;
+  /// `unreachable` where the robot's drive takes velocities: that needs `follow`.
   PlantStatus apply(const Eigen::VectorXd& tau) noexcept override;
+  /// A drive that takes velocities hands the command on at its rate, half of its delay late, to a PI loop at
+  /// each wheel. Its samples are as seldom and as late: Sensed::measured_at.
+  PlantStatus follow(const Command& command) noexcept override;
   const Truth& truth() const noexcept;
   /// Without noise or faults.
   const solver::State& true_state() const noexcept;

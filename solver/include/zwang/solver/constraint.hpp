@@ -14,7 +14,8 @@
 namespace zwang::solver {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
-inline constexpr double limit_horizon = 0.010;  ///< h [s], within which limits act
+inline constexpr double limit_horizon =
+    0.010;  ///< h [s], within which limits act, of torques that come as often
 
 enum class Axis { x, y, z, rx, ry, rz };
 
@@ -81,8 +82,8 @@ struct AxisConstraint {
   double return_speed = infinity;
   int level = 1;
 
-  /// Time within which a range acts on what is beyond it. [s] One that is new has a longer one than
-  /// `limit_horizon`: what is beyond it then has time to stop.
+  /// Time within which a range acts on what is beyond it, if that is longer than the set's horizon. [s] One
+  /// that is new has a longer one: what is beyond it then has time to stop.
   double position_horizon = limit_horizon;
   double velocity_horizon = limit_horizon;
 };
@@ -123,7 +124,8 @@ struct Row {
 /// Sized once, std::invalid_argument for a size below 1: `fill` does not allocate, lock, throw or print.
 class ConstraintSet {
  public:
-  explicit ConstraintSet(int constraint_capacity = 64, int row_capacity = 64);
+  /// `horizon`: h [s], within which limits act.
+  explicit ConstraintSet(int constraint_capacity = 64, int row_capacity = 64, double horizon = limit_horizon);
 
   void clear() noexcept;
   bool add(const AxisConstraint& constraint) noexcept;  ///< false when full
@@ -137,8 +139,6 @@ class ConstraintSet {
   const std::vector<Coordinate>& coordinates() const noexcept { return coordinates_; }
   const std::vector<Row>& rows() const noexcept { return rows_; }
 
-  static constexpr double horizon = limit_horizon;
-
  private:
   bool fill_all(BodyMotions& motions) noexcept;
   bool fill_one(int index, BodyMotions& motions) noexcept;
@@ -146,6 +146,7 @@ class ConstraintSet {
   bool push_ranges(const AxisConstraint& constraint, const Coordinate& now, const Row& along) noexcept;
   Row* push(const Row& row) noexcept;  ///< null when full
 
+  double horizon_;
   std::vector<AxisConstraint> constraints_;
   std::vector<Coordinate> coordinates_;
   std::vector<Row> rows_;

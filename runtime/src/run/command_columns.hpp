@@ -1,0 +1,28 @@
+/// What a drive that takes velocities was told, as columns of the log.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "zwang/runtime/command.hpp"
+#include "zwang/solver/model.hpp"
+
+namespace zwang::runtime {
+
+struct CommandColumn {
+  std::string name, unit;
+};
+
+inline std::array<CommandColumn, 3> command_columns(const solver::Joint& joint) {
+  const bool slides = joint.type == solver::JointType::prismatic;
+  const char* torque = slides ? "N" : "N m";
+  return {CommandColumn{joint.name + ".qd_told", slides ? "m/s" : "rad/s"},
+          CommandColumn{joint.name + ".tau_low", torque}, CommandColumn{joint.name + ".tau_high", torque}};
+}
+
+/// In the same order.
+inline std::array<double, 3> command_values(const Command& command, Eigen::Index joint) noexcept {
+  return {command.velocity(joint), command.lower(joint), command.upper(joint)};
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,205 @@
+// A drive that takes velocities and torque limits, driven by the shipped tasks: as gentle as torques,
+// whatever its rate and its delay, and bounded where it does not do what it is told. Judged by the plant.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "../solver/malloc_counter.hpp"
+#include "../temporary_folder.hpp"
+#include "plant/velocity_loop.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/recorder.hpp"
+#include "zwang/runtime/replay.hpp"
+#include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+lang::Program shipped(const std::string& task, const std::string& robot, const std::string& scene) {
+  lang::Diagnostics diagnostics;
+  lang::LoadOptions options;
+  options.root = "/";
+  options.robot = ZWANG_SOURCE_DIR "/specs/robots/" + robot + ".yaml";
+  options.scene = ZWANG_SOURCE_DIR "/specs/scenes/" + scene + ".yaml";
+  auto program = lang::load(ZWANG_SOURCE_DIR "/specs/" + task + ".yaml", options, diagnostics);
+  if (!program) throw std::runtime_error(task + " does not load");
+  return *program;
+}
+
+struct Alignment {
+  RunState state = RunState::running;
+  double took = 0.0;  ///< [s] from the first contact to 0.1 deg for good
+  double peak = 0.0;  ///< [N] within half a second of that contact
+  double force = 0.0;
+};
+
+Alignment align(const std::string& robot) {
+  const lang::Program program = shipped("wall_align", robot, "wall_far");
+  ScenePlant plant(program);
+  Runner runner(program);
+  Sensed sensed(program);
+  Alignment result;
+  while (!runner.finished() && plant.truth().time < 30.0) {
+    EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
+    runner.step(sensed);
+    EXPECT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+    const ObjectTruth& wall = plant.truth().objects[0];
+    if (!wall.touched) continue;
+    if (plant.truth().time < *wall.touched + 0.5) result.peak = wall.peak_force;
+    if (std::abs(plant.truth().yaw) > 0.1 * degree) result.took = plant.truth().time - *wall.touched;
+    if (runner.state() == RunState::running) result.force = wall.force;
+  }
+  result.state = runner.state();
+  return result;
+}
+
+TEST(LimitedDrive, AlignsAsGentlyAndNearlyAsSoonAsTorques) {
+  const Alignment torques = align("mecanum_base");
+  for (const char* robot : {"mecanum_1_khz", "mecanum_100_hz", "mecanum_50_hz", "mecanum_20_hz"}) {
+    const Alignment limited = align(std::string("limited/") + robot);
+    std::printf("%s: %.2f s (%.2f s), peak %.1f N (%.1f N), %.3f N\n", robot, limited.took, torques.took,
+                limited.peak, torques.peak, limited.force);
+    EXPECT_EQ(limited.state, RunState::done) << robot;
+    EXPECT_LE(limited.peak, 1.03 * torques.peak) << robot;
+    EXPECT_NEAR(limited.force, 20.0, 0.02) << robot;
+    // Each time the base bounces, the velocity range slows it down within the drive's horizon, up to 0.12 s.
+    EXPECT_LE(limited.took, 2.0 * torques.took) << robot;
+  }
+}
+
+/// Behind the drive's loop nobody sees a motor's torque. A motor that is lost or stuck leaves the others in
+/// their bounds. One that is flipped drives its wheel away from its command: in the 0.3 s until that is told,
+/// the base gains what the task's forces, 40 N along x and along y, give it.
+TEST(LimitedDrive, AMotorThatIsBrokenIsStoppedOrStaysInItsBounds) {
+  constexpr double cruise = 0.15, push = 40.0;  // [m/s], [N] of obstacle.yaml
+  for (const lang::FaultKind kind :
+       {lang::FaultKind::torque_flipped, lang::FaultKind::torque_stuck, lang::FaultKind::torque_lost}) {
+    const lang::Program program = shipped("obstacle", "limited/mecanum_50_hz", "obstacle");
+    ScenePlantOptions options;
+    options.faults.push_back({.kind = kind, .at = 1.0, .joint = "front_left_wheel"});
+    ScenePlant plant(program, options);
+    Runner runner(program);
+    Sensed sensed(program);
+    double fastest = 0.0;
+    while (!runner.finished() && plant.truth().time < 20.0) {
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      runner.step(sensed);
+      ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+      fastest = std::max(fastest, plant.truth().velocity.head<2>().norm());
+    }
+    std::printf("fault %d: %s (%s) at %.2f s, fastest %.2f m/s, crate %.0f N\n", static_cast<int>(kind),
+                to_string(runner.state()), to_string(runner.guard().reason()), plant.truth().time, fastest,
+                plant.truth().objects[0].peak_force);
+    if (kind == lang::FaultKind::torque_flipped) {
+      const double gained = 0.3 * 2.0 * push / VelocityLoop::driven_mass(program.robot);
+      EXPECT_EQ(runner.guard().reason(), EventCode::not_followed);
+      EXPECT_TRUE(runner.finished());
+      EXPECT_LT(fastest, 1.3 * cruise + 0.02 + gained);
+      EXPECT_LT(plant.truth().velocity.norm(), 0.02);
+    } else {
+      EXPECT_LT(fastest, 1.1 * cruise);
+      EXPECT_LT(plant.truth().objects[0].peak_force, 548.0) << "as limited_obstacle.yaml allows";
+    }
+  }
+}
+
+/// v^2/2a and what it rolls on until the drive's loop is told and follows: v (delay + 2/rate + T_c).
+TEST(LimitedDrive, TheProtectiveStopRampsTheVelocityDown) {
+  for (const char* robot : {"limited/mecanum_1_khz", "limited/mecanum_20_hz"}) {
+    const lang::Program program = shipped("obstacle", robot, "obstacle");
+    ScenePlant plant(program);
+    Runner runner(program);
+    Sensed sensed(program);
+    double from = 0.0, v = 0.0;
+    while (!runner.finished() && plant.truth().time < 10.0) {
+      if (plant.truth().time >= 3.0 && !runner.guard().stopped()) {
+        runner.guard().stop(EventCode::requested);
+        from = plant.truth().x;
+        v = plant.truth().velocity.x();
+      }
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      runner.step(sensed);
+      ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+    }
+    const lang::Drive& drive = program.robot.drive;
+    const double rolls_on = v * (drive.delay + 2.0 / drive.rate + drive.time_constant);
+    EXPECT_TRUE(runner.finished());
+    EXPECT_GT(v, 0.14);
+    EXPECT_LT(plant.truth().velocity.norm(), 0.01);
+    EXPECT_LE(plant.truth().x - from, v * v / (2.0 * program.robot.stop.deceleration) + rolls_on) << robot;
+  }
+}
+
+/// In the stop torques may only take energy: a base that stands at a wall is let go of.
+TEST(LimitedDrive, AProtectiveStopAtAWallPressesNoMore) {
+  const lang::Program program = shipped("wall_align", "limited/mecanum_50_hz", "wall_far");
+  ScenePlant plant(program);
+  Runner runner(program);
+  Sensed sensed(program);
+  const ObjectTruth& wall = plant.truth().objects[0];
+  double stopped = 0.0;
+  while (plant.truth().time < 30.0 && !(stopped > 0.0 && plant.truth().time > stopped + 2.0)) {
+    const bool has_settled = wall.touched && plant.truth().time > *wall.touched + 2.5 && wall.force > 15.0;
+    if (has_settled && stopped == 0.0) {
+      runner.guard().stop(EventCode::requested);
+      stopped = plant.truth().time;
+    }
+    ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+    runner.step(sensed);
+    ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+  }
+  EXPECT_GT(stopped, 0.0);
+  EXPECT_LT(wall.force, 0.5);
+}
+
+TEST(LimitedDrive, StopsWhenItsSamplesStayAway) {
+  const lang::Program program = shipped("wall_align", "limited/mecanum_50_hz", "wall_far");
+  Runner runner(program);
+  Sensed sensed(program);
+  sensed.measured_at = 0.0;
+  const lang::Drive& drive = program.robot.drive;
+  const double longest = 0.5 * drive.delay + 3.0 / drive.rate + 0.05;
+  for (int i = 0; i < 1000 && !runner.guard().stopped(); ++i) {
+    sensed.time = 1e-3 * i;
+    runner.step(sensed);
+  }
+  EXPECT_EQ(runner.guard().reason(), EventCode::lost_ticks);
+  EXPECT_NEAR(sensed.time, longest, 1.5e-3);
+}
+
+TEST(LimitedDrive, ReplaysBitByBitAndAllocatesNothing) {
+  const test::TemporaryFolder folder;
+  const lang::Program program = shipped("wall_align", "limited/mecanum_50_hz", "wall_far");
+  const std::filesystem::path log = folder.path() / "log.mcap";
+  long calls = 0;
+  {
+    ScenePlant plant(program);
+    Runner runner(program);
+    std::vector<std::unique_ptr<LogSink>> sinks;
+    sinks.push_back(mcap_sink(log, {}));
+    Recorder recorder(std::move(sinks), runner.columns());
+    runner.record_to(&recorder);
+    Sensed sensed(program);
+    for (int i = 0; i < 2000; ++i) {
+      recorder.wait_for_room();
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      test::start_counting_heap_calls();
+      runner.step(sensed);
+      calls += test::stop_counting_heap_calls();
+      ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+    }
+    recorder.close();
+  }
+  EXPECT_EQ(calls, 0);
+  const ReplayResult result = replay(log, program, {});
+  EXPECT_EQ(result.records, 2000);
+  EXPECT_EQ(result.equal, result.records);
+}
+
+}  // namespace
+}  // namespace zwang::runtime
