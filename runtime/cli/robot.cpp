@@ -11,6 +11,7 @@
 #include "output.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/configurations.hpp"
+#include "zwang/lang/footing.hpp"
 #include "zwang/lang/robot_draft.hpp"
 #include "zwang/solver/base_analysis.hpp"
 
@@ -192,9 +193,36 @@ std::string drive_of(const solver::Model& model) {
   return text;
 }
 
+/// What tips the base over along its own x and y: ahead, back, left, right.
+std::array<double, 4> tipping_accelerations(const lang::Footing& footing) {
+  using solver::Vector3;
+  return {footing.tipping_acceleration(Vector3::UnitX()), footing.tipping_acceleration(-Vector3::UnitX()),
+          footing.tipping_acceleration(Vector3::UnitY()), footing.tipping_acceleration(-Vector3::UnitY())};
+}
+
+std::string statics_text(const lang::Robot& robot) {
+  const std::optional<lang::Footing> footing = lang::footing_of(robot);
+  if (!footing) return "";
+  const std::array<double, 4> tips = tipping_accelerations(*footing);
+  return "  its mass is " + with_unit(footing->inside * 1e3, "mm", 3) + " inside its wheels and supports, " +
+         with_unit(footing->height * 1e3, "mm", 3) + " high: it tips over beyond " + number(tips[0]) +
+         " m/s^2 ahead,\n  " + number(tips[1]) + " back, " + number(tips[2]) + " to the left, " +
+         number(tips[3]) + " to the right\n";
+}
+
+ordered_json statics_json(const lang::Robot& robot) {
+  const std::optional<lang::Footing> footing = lang::footing_of(robot);
+  if (!footing) return nullptr;
+  return {{"inside", footing->inside},
+          {"height", footing->height},
+          {"tips_beyond", tipping_accelerations(*footing)}};
+}
+
 std::vector<std::string> gaps(const lang::Robot& robot) {
   std::vector<std::string> lines;
   if (robot.limits.empty()) lines.push_back("limits: nothing bounds the base where a task says nothing");
+  if (!robot.bumper_height_said)
+    lines.push_back("bumper: {height: ..}: taken as " + with_unit(robot.bumper_height * 1e3, "mm"));
   for (const solver::Wheel& wheel : robot.model.wheels()) {
     const solver::Joint& joint = robot.model.joint(wheel.body - 1);
     if (joint.actuated && joint.rotor_inertia == 0.0) {
@@ -227,8 +255,9 @@ void show(const lang::Robot& robot, Format format) {
     ordered_json wheels = ordered_json::array();
     for (const solver::Wheel& wheel : robot.model.wheels()) wheels.push_back(wheel_json(robot, wheel));
     const ordered_json whole = {
-        {"robot", robot.name}, {"drive", drive_of(robot.model)}, {"mass", robot.model.total_mass()},
-        {"wheels", wheels},    {"analysis", json(analysis)},     {"missing", gaps(robot)}};
+        {"robot", robot.name},   {"drive", drive_of(robot.model)}, {"mass", robot.model.total_mass()},
+        {"wheels", wheels},      {"analysis", json(analysis)},     {"statics", statics_json(robot)},
+        {"missing", gaps(robot)}};
     print_data(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
     return;
   }
@@ -243,8 +272,8 @@ void show(const lang::Robot& robot, Format format) {
                             : std::string("no motor")) +
             "\n";
   }
-  text += "\nthe base, in its own axes\n" + axes_text(analysis) + verdicts(analysis) + "\n" +
-          listed("missing", gaps(robot));
+  text += "\nthe base, in its own axes\n" + axes_text(analysis) + verdicts(analysis) + statics_text(robot) +
+          "\n" + listed("missing", gaps(robot));
   print(text);
 }
 

@@ -149,9 +149,10 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     }
     const bool in_task = runner.state() == runtime::RunState::running;
     status = plant.follow(runner.command());
-    if (status != PlantStatus::ok) break;
+    if (status != PlantStatus::ok || plant.truth().base.fallen) break;
     watch.look(plant.truth(), runner.scheduler(), in_task);
   }
+  if (runner.finished() && status == PlantStatus::ok) plant.end_lean();
   report.outcome = to_string(runner.state());
   if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
   report.ended_early = give_up && !runner.finished();
@@ -162,13 +163,19 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     report.because = "the plant " + report.outcome;
     report.why.reset();
   }
+  if (status == PlantStatus::ok && plant.truth().base.fallen) {
+    report.outcome = "fallen";
+    report.because = describe_fall(plant.truth().base);
+    report.why.reset();
+  }
   report.elapsed = sensed.time;
   report.objects = watch.objects(plant.truth(), runner.scheduler());
-  for (const runtime::ScenePartner& partner : plant.partners())
-    report.partners.push_back(partner_report(partner));
+  for (std::size_t i = 0; i < plant.partners().size(); ++i)
+    report.partners.push_back(partner_report(plant.partners()[i], plant.truth().robots[i].base));
   report.x = plant.truth().x;
   report.y = plant.truth().y;
   report.yaw = plant.truth().yaw;
+  report.base = plant.truth().base;
 }
 
 std::string headline(const RunArguments& arguments, const lang::Program& program) {
@@ -239,7 +246,8 @@ int run(const RunArguments& arguments) {
   report.wall_time = std::chrono::duration<double>(Clock::now() - begin).count();
   const std::size_t partner_logs = plant->partners().size();
   const lang::Diagnostics& of_files = reloads ? reloads->diagnostics() : diagnostics;
-  for (std::size_t i = 0; i < partner_logs; ++i) recorders[i + 1]->conclude(conclusion(plant->partners()[i]));
+  for (std::size_t i = 0; i < partner_logs; ++i)
+    recorders[i + 1]->conclude(conclusion(plant->partners()[i], plant->truth().robots[i].base));
   // The log that goes on to the end: the last one of a task file that was loaded again.
   const bool is_reloaded = recorders.size() > partner_logs + 1;
   (is_reloaded ? recorders.back() : recorders.front())->conclude(conclusion(report, runner, of_files));

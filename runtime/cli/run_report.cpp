@@ -102,6 +102,10 @@ std::string truth_table(const RunReport& report) {
                        (o.allowed ? ", where " + with_unit(*o.allowed, "N") + " are allowed" : "") +
                        (o.is_hit() ? "  HIT" : "")});
   }
+  if (report.base.slipped) {
+    table.add({"wheels", "slide over the floor from " + seconds(*report.base.slipped) + " on, with " +
+                             with_unit(report.base.most_slip, "m/s") + " at most"});
+  }
   for (const AskedForce& a : report.asked) {
     table.add({"asked", a.row + " for " + with_unit(a.force, a.unit, 5)});
   }
@@ -176,13 +180,20 @@ ordered_json json_truth(const RunReport& report) {
                      {"latched", number_or_null(o.latched)},
                      {"pull", o.pull}};
   }
-  truth["base"] = {{"x", report.x}, {"y", report.y}, {"yaw", report.yaw}};
+  truth["base"] = {{"x", report.x},
+                   {"y", report.y},
+                   {"yaw", report.yaw},
+                   {"roll", report.base.roll},
+                   {"pitch", report.base.pitch},
+                   {"fallen", number_or_null(report.base.fallen)},
+                   {"slipped", number_or_null(report.base.slipped)},
+                   {"most_slip", report.base.most_slip}};
   return truth;
 }
 
 }  // namespace
 
-PartnerReport partner_report(const runtime::ScenePartner& partner) {
+PartnerReport partner_report(const runtime::ScenePartner& partner, const runtime::BaseTruth& base) {
   const runtime::Runner& runner = partner.runner;
   PartnerReport report;
   report.name = partner.name;
@@ -192,6 +203,10 @@ PartnerReport partner_report(const runtime::ScenePartner& partner) {
     report.task = task_name(runner.scheduler(), runner.scheduler().task());
   }
   report.because = runner.because();
+  if (base.fallen) {
+    report.outcome = "fallen";
+    report.because = describe_fall(base);
+  }
   return report;
 }
 
@@ -286,9 +301,10 @@ std::map<std::string, std::string> conclusion(const RunReport& report, const run
           {"report", text_of(story(report, runner, diagnostics), -1)}};
 }
 
-std::map<std::string, std::string> conclusion(const runtime::ScenePartner& partner) {
+std::map<std::string, std::string> conclusion(const runtime::ScenePartner& partner,
+                                              const runtime::BaseTruth& base) {
   const std::optional<runtime::Why> why = partner.runner.why();
-  return {{"outcome", partner_report(partner).outcome}, {"why", why ? why->sentence : ""}};
+  return {{"outcome", partner_report(partner, base).outcome}, {"why", why ? why->sentence : ""}};
 }
 
 std::string json_report(const RunReport& report, const runtime::Runner& runner,

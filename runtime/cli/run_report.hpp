@@ -17,11 +17,12 @@ namespace zwang::cli {
 /// Another robot of the scene, when the run ended.
 struct PartnerReport {
   std::string name;
-  std::string outcome;  ///< done, failed, stopped, or unfinished
+  std::string outcome;  ///< done, failed, stopped, fallen, or unfinished
   std::string because;  ///< of a stop, and of a base that may still move
   std::string task;     ///< that was active; empty when none was
 };
-PartnerReport partner_report(const runtime::ScenePartner& partner);
+/// `base`: as the plant has it.
+PartnerReport partner_report(const runtime::ScenePartner& partner, const runtime::BaseTruth& base);
 
 /// A program that ran before the file was loaded again.
 struct Chapter {
@@ -31,7 +32,7 @@ struct Chapter {
 };
 
 struct RunReport {
-  std::string outcome;          ///< done, failed, stopped, diverged; the first robot's
+  std::string outcome;          ///< done, failed, stopped, fallen, diverged; the first robot's
   std::string because;          ///< of a stop; empty otherwise
   bool ended_early = false;     ///< from outside, before the robot stood
   bool may_still_move = false;  ///< no sample has shown the base at rest
@@ -48,6 +49,7 @@ struct RunReport {
   std::vector<PartnerReport> partners;
   std::optional<runtime::Why> why;     ///< none: it is `done`, or the plant ended it
   double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the base, as the plant has it
+  runtime::BaseTruth base;
 };
 
 /// The row that is at its limit, in a line without its end.
@@ -61,7 +63,8 @@ std::string human_report(const RunReport& report, const runtime::Runner& runner,
 /// For the end of a log: the outcome, the verdict, and the report as JSON.
 std::map<std::string, std::string> conclusion(const RunReport& report, const runtime::Runner& runner,
                                               const lang::Diagnostics& diagnostics);
-std::map<std::string, std::string> conclusion(const runtime::ScenePartner& partner);
+std::map<std::string, std::string> conclusion(const runtime::ScenePartner& partner,
+                                              const runtime::BaseTruth& base);
 std::string json_report(const RunReport& report, const runtime::Runner& runner,
                         const lang::Diagnostics& diagnostics);
 

@@ -111,7 +111,7 @@ class ManyAxes : public testing::Test {
               "iyz=\"0\" izz=\"1e-3\"/></inertial></link><joint name=\"j" +
               n + "\" type=\"revolute\"><parent link=\"" +
               (i == 0 ? "base_link" : "l" + std::to_string(i - 1)) + "\"/><child link=\"l" + n +
-              "\"/><origin xyz=\"0 0 0.1\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1\" upper=\"1\" "
+              "\"/><origin xyz=\"0 0 0.01\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1\" upper=\"1\" "
               "effort=\"5\" velocity=\"1\"/></joint>\n";
     }
     return text;

@@ -221,6 +221,18 @@ TEST_F(CliPlan, inspect_tells_what_the_base_can_do) {
   EXPECT_NEAR(analysis.at("axes").at("x").at("largest_force")[1].get<double>(), 4.0 * effort / 0.0759, 1e-6);
 }
 
+TEST_F(CliPlan, inspect_says_what_tips_the_base_over) {
+  const json statics = zwang_json("robot inspect robots/mecanum_base.yaml").at("statics");
+  const double inside = statics.at("inside"), height = statics.at("height");
+  const json& tips = statics.at("tips_beyond");
+  // a = g d / h, over the nearest edge.
+  const double least =
+      std::min({tips[0].get<double>(), tips[1].get<double>(), tips[2].get<double>(), tips[3].get<double>()});
+  EXPECT_NEAR(least, 9.81 * inside / height, 1e-3 * least);
+  EXPECT_NE(zwang("robot inspect robots/mecanum_base.yaml").out.find(" inside its wheels and supports, "),
+            std::string::npos);
+}
+
 TEST_F(CliPlan, inspect_finds_rollers_that_were_read_from_above) {
   std::string file = read(folder_ / "robots/mecanum_base.yaml");
   for (std::size_t at = 0; (at = file.find("roller: ", at)) != std::string::npos; ++at) {

@@ -294,6 +294,22 @@ TEST_F(Cli, LimitsAreNamedAsTheirColumns) {
   }
 }
 
+// Its mass goes 15 cm ahead, beyond its front wheels: it tips over on its nose before the task says `done`.
+TEST_F(Cli, ABaseThatFallsEndsWithOneAndIsNeverDone) {
+  const fs::path task = write("task.yaml", "zwang: 1\nrobot: none.yaml\n" + std::string(stand) +
+                                               "    timeout: {after: 2 s, goto: done}\n");
+  const fs::path scene = write("scene.yaml",
+                               "zwang_scene: 1\nstart: {at: [0 m, 0 m]}\nfaults:\n"
+                               "  - {at: 0.1 s, centre_of_mass: 15 cm}\n");
+  const Result r = zwang({"run", task.string(), "--robot", specs + "robots/omni_base.yaml", "--scene",
+                          scene.string(), "--format", "json"});
+  EXPECT_EQ(r.code, 1) << r.err;
+  const json j = json::parse(r.out);
+  EXPECT_EQ(j["outcome"], "fallen");
+  EXPECT_GT(j["truth"]["base"]["pitch"].get<double>(), 5.0 * std::numbers::pi / 180.0);
+  EXPECT_GT(j["truth"]["base"]["fallen"].get<double>(), 0.1);
+}
+
 TEST_F(Cli, WhatWouldHaveSwitchedTooIsSaid) {
   const Result r = run_task(std::string(stand) +
                             "    exits:\n      - {when: elapsed > 0.1 s, goto: done}\n"

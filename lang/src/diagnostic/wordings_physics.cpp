@@ -161,15 +161,6 @@ Diagnostic dead_guard(const Span& span, const std::string& axis, bool turns, dou
       guard, "this is never true");
 }
 
-Diagnostic impact(const Span& span, const std::string& axis, const Hit& hit, double allowed,
-                  double gentle_speed) {
-  return make("N603", Severity::note, span,
-              "`" + axis + "`: " + figure(hit.mass, "kg") + " at " + figure(hit.speed, "m/s") + " against " +
-                  figure(hit.stiffness / 1000.0, "kN/m") + " peaks near " + figure(hit.peak, "N") +
-                  "; below " + figure(allowed, "N") + " from " + figure(gentle_speed, "m/s"),
-              "");
-}
-
 Diagnostic brakes_too_hard(const Span& span, const std::string& axis, bool turns, const Braking& b,
                            double enough) {
   const Units u = units(turns);

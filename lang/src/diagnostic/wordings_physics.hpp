@@ -42,15 +42,6 @@ Diagnostic cannot_press_at_range_end(const Span& span, const Cap& cap, const Spa
 Diagnostic dead_guard(const Span& span, const std::string& axis, bool turns, double mass, double acceleration,
                       double pressed, double time_constant, const Span& guard);
 
-struct Hit {
-  double mass = 0.0;       ///< [kg]
-  double speed = 0.0;      ///< [m/s]
-  double stiffness = 0.0;  ///< [N/m]
-  double peak = 0.0;       ///< [N]
-};
-Diagnostic impact(const Span& span, const std::string& axis, const Hit& hit, double allowed,
-                  double gentle_speed);
-
 struct Braking {
   double speed = 0.0;          ///< [m/s] or [rad/s]
   double time_constant = 0.0;  ///< [s]

@@ -66,9 +66,11 @@ timeout: {after: 10 s, goto: failed})~"},
           .title = "how hard the first hit is",
           .why =
               R"~(A force range bounds the force that the robot presses with. It cannot bound the momentum with which
-the robot arrives. Against a bumper of stiffness K the first peak is F + sqrt(F^2 + K m v^2). F is
-the range, m the effective mass, v the speed. The note appears above 2.5 F, and gives the speed
-below which it is gone.)~",
+the robot arrives: a mass m at the speed v runs into the springs and dampers of what it hits. All
+corners that strike together count. Without a push the peak is v sqrt(K m) times 1 undamped, 0.81 at
+a damping ratio of 0.27, 1 at 0.5, and 2 at 1. The note names the object of the scene that is hit
+hardest, or else the robot file's bumper. With a force range F the note appears above 2.5 F, and
+gives the speed below which it is gone.)~",
           .fix = "Arrive more slowly, or put a softer bumper on and say so in the robot file.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.15 m/s, force: +-40 N, time_constant: 50 ms}",
@@ -245,6 +247,44 @@ tasks:
       contact: {move: base_link, in: wall, x: {force: 5 N}}
       sideways: {move: base_link, in: base_link, y: {velocity: 0 m/s}}
     timeout: {after: 10 s, goto: done})~"},
+      Explanation{
+          .code = "E640",
+          .title = "a base that falls over as it stands",
+          .why =
+              R"~(A base stands as long as its centre of mass lies above the area between its wheels and supports.
+The centre is that of the whole robot, with its arm in `posture`. The message gives the distance from
+the edge of that area.)~",
+          .fix = "Name every link that carries the base in `supports`; or mend the masses and places in the "
+                 "URDF."},
+      Explanation{
+          .code = "W640",
+          .title = "a motion or a push that could tip the base over",
+          .why =
+              R"~(The centre of mass lies d inside an edge of the supports, and h above the floor. If the base speeds
+up away from that edge with more than g d / h, it tips over it. A push away from it at the height z
+tips it from m g d / z on. zwang compares both with what the drivers ask for, and the first one with
+the deceleration of the protective stop.)~",
+          .fix =
+              "Limit the acceleration or the force to less than the message says. If the robot file does not "
+              "say `bumper: {height: ..}` and the height matters, say it."},
+      Explanation{
+          .code = "W642",
+          .title = "more force than the floor holds",
+          .why =
+              R"~(A wheel passes on at most mu N, by friction. If a driver asks for more, the wheels slip: the base
+presses with less, and the wheels count a way that the base does not go. On three points the loads N
+are known. On more points zwang takes the largest sum that statics allow. The protective stop brakes
+with m a, and is asked, too.)~",
+          .fix = "Ask for less force or acceleration, or correct `floor: {friction: ..}` of the scene."},
+      Explanation{
+          .code = "W644",
+          .title = "an object that a bumper of unknown height may pass",
+          .why =
+              R"~(A base touches objects at the height of its bumper, and passes above lower ones. The robot file does
+not say that height, and the object is low: nobody knows whether the two touch. zwang takes the base
+to be twice as high as its centre of mass.)~",
+          .fix = "Say `bumper: {height: ..}` in the robot file: measure from the floor to where the base "
+                 "touches first."},
   };
   return entries;
 }

@@ -54,8 +54,8 @@ hard the object is to push is not known.)~",
           .code = "E903",
           .title = "an outcome that no run can have",
           .why =
-              R"~(A run ends as `done`, `failed`, `stopped`, `diverged`, `refused` or, at its time limit,
-`unfinished`. A misspelt outcome would never come true.)~",
+              R"~(A run ends as `done`, `failed`, `stopped`, `fallen`, `diverged`, `refused` or, at its
+time limit, `unfinished`. A misspelt outcome would never come true.)~",
           .fix = "Write one of them, as in `- outcome: done`."},
       Explanation{
           .code = "E904",

@@ -1,20 +1,27 @@
-// N603: the first hit. A bound holds what the robot presses with; the base's momentum it cannot hold. Against
-// a spring of stiffness K, with the bound F pushing on, the energy 1/2 m v^2 + F x = 1/2 K x^2 gives the peak
+// N603: the first hit. A bound holds what the robot presses with; the base's momentum it cannot hold. The
+// peak is that of hit.hpp, with
 //
-//   P = K x = F + sqrt(F^2 + K m v^2)
+//   m   the effective mass along the axis, less where the object gives way: 1/m = 1/m_axis + 1/m_object
+//   v   the speed that the axis may have
+//   K   n times the object's stiffness, c likewise: all n points of a flat side strike together
+//   F   what the driver presses with once it stands: m v / tau of a velocity, within its force range
 //
-// which is 2 F however slow. Said where P is above 2.5 F, with the speed at which it comes down to that:
-//
-//   v = sqrt(P (P - 2 F) / (K m))
+// of the object of the scene that makes it largest. Without one the robot file's bumper is the spring,
+// undamped. Where a force range bounds F the peak is told above 2.5 times that bound, with the speed at which
+// it comes down to it; without a range it is told as it is.
 #include <algorithm>
 #include <cmath>
 
-#include "diagnostic/wordings_physics.hpp"
-#include "physics/questions.hpp"
+#include "diagnostic/wordings_statics.hpp"
+#include "physics/statics.hpp"
+#include "zwang/lang/hit.hpp"
+#include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
 
 namespace {
+
+using solver::Vector3;
 
 constexpr double gentle = 2.5;  // of the force range
 
@@ -28,28 +35,101 @@ double speed_of(const PlannedTask& plan, const PlannedAxis& axis) {
   return std::isfinite(most) ? most : 0.0;
 }
 
+/// 0 where nothing bounds it. [N]
 double bound_of(const PlannedAxis& axis) {
   if (axis.driver == solver::Quantity::force) return std::abs(axis.target.value_or(0.0));
   const std::optional<solver::Range>& range = axis[solver::Quantity::force];
   return range ? std::max(range->high, -range->low) : 0.0;
 }
 
+/// What the driver presses with against something that stops it. [N]
+double pressing(const PlannedAxis& axis, const AxisFigures& figures, double speed, double bound) {
+  double most = bound > 0.0 ? std::min(bound, figures.force) : figures.force;
+  if (axis.driver == solver::Quantity::velocity)
+    most = std::min(most, figures.mass * speed / axis.time_constant);
+  return most;
+}
+
+/// How many corners of the footprint lie foremost, together.
+int foremost_corners(const std::vector<Vector3>& footprint, const Vector3& direction) {
+  constexpr double together = 1e-3;  // [m]
+  double most = -solver::infinity;
+  for (const Vector3& corner : footprint) most = std::max(most, corner.dot(direction));
+  return static_cast<int>(std::count_if(footprint.begin(), footprint.end(), [&](const Vector3& corner) {
+    return corner.dot(direction) > most - together;
+  }));
+}
+
+struct Struck {
+  Hit hit;
+  std::string name;  ///< of the object; empty: the robot's own bumper
+  int points = 1;
+};
+
+Struck struck_bumper(const Robot& robot, const AxisFigures& figures, double speed, double push) {
+  return {{figures.mass, speed, robot.bumper_stiffness, 0.0, push}, "", 1};
+}
+
+Struck struck_object(const SceneObject& object, const Robot& robot, const Hit& of_robot, int corners) {
+  Struck struck{of_robot, object.name, 1};
+  const double other = object.mass ? 1.0 / *object.mass : 0.0;
+  struck.hit.mass = 1.0 / (1.0 / of_robot.mass + other);
+  // A flat side meets corners, or the corners of what is narrower; a round thing one point.
+  if (object.shape != ShapeKind::cylinder) struck.points = corners;
+  const double reduced = 1.0 / (1.0 / robot.model.total_mass() + other);
+  struck.hit.stiffness = struck.points * object.stiffness;
+  struck.hit.damping = struck.points * 2.0 * object.damping * std::sqrt(object.stiffness * reduced);
+  return struck;
+}
+
+/// The object that is hit hardest; none when there is none.
+std::optional<Struck> hardest(const Scene& scene, const Robot& robot, const Hit& of_robot, int corners) {
+  std::optional<Struck> worst;
+  for (const SceneObject& object : scene.objects) {
+    if (object.size[2] < robot.bumper_height) continue;  // it passes below
+    const Struck struck = struck_object(object, robot, of_robot, corners);
+    if (!worst || struck.hit.peak_force() > worst->hit.peak_force()) worst = struck;
+  }
+  return worst;
+}
+
+/// The speed at which the peak comes down to `allowed`; what presses is as before.
+double gentle_speed(Hit hit, double allowed) {
+  double slow = 0.0, fast = hit.speed;
+  for (int i = 0; i < 50; ++i) {
+    hit.speed = 0.5 * (slow + fast);
+    (hit.peak_force() > allowed ? fast : slow) = hit.speed;
+  }
+  return slow;
+}
+
 }  // namespace
 
-void ask_impact(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
+void ask_hit(const PlannedTask& plan, const std::optional<Scene>& scene, Probe& probe, Remarks& remarks) {
+  const Robot& robot = probe.robot();
   for (const PlannedAxis& axis : plan.axes) {
     if (!axis.driver || axis.turns() || axis.move.body != 0 || axis.is_spring) continue;
     const AxisFigures* figures = probe.figures(axis);
     if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
-    const double F = bound_of(axis);
-    const double v = speed_of(plan, axis);
-    const double K = probe.robot().bumper_stiffness;
-    const double peak = F + std::sqrt(F * F + K * figures->mass * v * v);
-    if (!(F > 0.0) || peak <= gentle * F) continue;
-    const double allowed = gentle * F;
-    const double gentle_speed = std::sqrt(allowed * (allowed - 2.0 * F) / (K * figures->mass));
-    remarks.add(wording::impact(axis.span(solver::Quantity::force), axis.path, {figures->mass, v, K, peak},
-                                allowed, gentle_speed));
+    const double speed = speed_of(plan, axis);
+    const double bound = bound_of(axis);
+    if (!(speed > 0.0)) continue;
+    const double push = pressing(axis, *figures, speed, bound);
+    const double sign = axis.target && *axis.target < 0.0 ? -1.0 : 1.0;
+    const int corners =
+        std::max(1, foremost_corners(robot.footprint, sign * direction_in_base(axis, probe, scene)));
+    const Hit of_robot{figures->mass, speed, 0.0, 0.0, push};
+    std::optional<Struck> struck;
+    if (scene && !robot.footprint.empty()) struck = hardest(*scene, robot, of_robot, corners);
+    if (!struck && bound > 0.0) struck = struck_bumper(robot, *figures, speed, push);
+    if (!struck) continue;
+    const double peak = struck->hit.peak_force();
+    const double allowed = gentle * bound;
+    if (bound > 0.0 && peak <= allowed) continue;
+    const Span& span = bound > 0.0 ? axis.span(solver::Quantity::force) : axis.driver_span();
+    remarks.add(wording::first_hit(
+        span, axis.path, {struck->hit.mass, speed, struck->hit.stiffness, peak, struck->name, struck->points},
+        allowed, bound > 0.0 ? gentle_speed(struck->hit, allowed) : 0.0));
   }
 }
 

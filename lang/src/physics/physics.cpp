@@ -5,7 +5,7 @@
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_physics.hpp"
-#include "physics/questions.hpp"
+#include "physics/statics.hpp"
 
 namespace zwang::lang {
 
@@ -48,6 +48,7 @@ namespace {
 
 /// What is the same in all tasks.
 struct Asked {
+  const std::optional<Scene>& scene;
   const ExitConditions& conditions;
   std::vector<int> held_steerings;
   double floor_friction;
@@ -84,8 +85,10 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_time_constant(plan, probe, remarks);
   ask_wheel_torque(plan, probe, remarks);
   ask_boundary(context, plan, probe, remarks);
+  ask_tipping(plan, asked.scene, probe, remarks);
+  ask_traction(plan, asked.scene, probe, remarks);
   if (!context.with_notes) return;
-  ask_impact(plan, probe, remarks);
+  ask_hit(plan, asked.scene, probe, remarks);
   ask_force_budget(plan, probe, remarks);
 }
 
@@ -97,11 +100,13 @@ void check_physics(CheckContext& context, const std::optional<Scene>& scene, con
   try {
     Probe probe(*context.robot, scene, budget);
     Remarks remarks(context.diagnostics);
-    const Asked asked{conditions, held_steerings(context, context.robot->model),
+    const Asked asked{scene, conditions, held_steerings(context, context.robot->model),
                       scene.value_or(Scene{}).floor_friction};
     if (!context.diagnostics.has_errors())
       ask_exits(context, plan_always(context), context.file.always_exits, conditions.of_always, probe,
                 remarks);
+    ask_stop(context.file.robot.span, probe, remarks);
+    ask_grip_of_stop(context.file.robot.span, scene, probe, remarks);
     for (std::size_t i = 0; i < context.file.tasks.size(); ++i) {
       const TaskText& task = context.file.tasks[i];
       if (!probe.is_exhausted()) ask_task(context, i, asked, probe, remarks);

@@ -52,8 +52,6 @@ void ask_arm_force(const PlannedTask& plan, const Robot& robot, Remarks& remarks
 void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W602: a guard on `saturated` that never fires. W619: a force range of which less than half is made.
 void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
-/// N603: the first hit.
-void ask_impact(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W615: circles that the norm of an acceleration does not allow. W641: two ranges that are meant as a norm.
 void ask_plane(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W601: springs that an acceleration limit clips.

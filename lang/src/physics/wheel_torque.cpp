@@ -10,14 +10,11 @@
 #include <cmath>
 
 #include "diagnostic/wordings_physics.hpp"
-#include "physics/questions.hpp"
+#include "physics/statics.hpp"
 
 namespace zwang::lang {
 
-namespace {
-
-/// What the driver asks for in a configuration with this effective mass. [N] or [N m]
-double asked(const PlannedTask& plan, const PlannedAxis& axis, double mass) {
+double asked_force(const PlannedTask& plan, const PlannedAxis& axis, double mass) {
   const double target = *axis.target;
   const double most = acceleration_limit(plan, axis, target, true).most;
   double force = std::abs(target);
@@ -32,8 +29,6 @@ double asked(const PlannedTask& plan, const PlannedAxis& axis, double mass) {
   return force;
 }
 
-}  // namespace
-
 void ask_wheel_torque(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
     const bool asks = axis.driver && axis.driver != solver::Quantity::position && !axis.is_soft &&
@@ -45,7 +40,7 @@ void ask_wheel_torque(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     double worst = 0.0, worst_force = 0.0, worst_mass = 0.0;
     for (std::size_t i = 0; i < figures->masses.size(); ++i) {
       if (!std::isfinite(figures->masses[i]) || !(figures->forces[i] > 0.0)) continue;
-      const double force = asked(plan, axis, figures->masses[i]);
+      const double force = asked_force(plan, axis, figures->masses[i]);
       const bool is_beyond = force > figures->forces[i] * (1.0 + 1e-6);
       ever = ever || is_beyond;
       always = always && is_beyond;

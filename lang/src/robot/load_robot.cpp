@@ -9,6 +9,7 @@
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_standing.hpp"
+#include "diagnostic/wordings_statics.hpp"
 #include "robot/adapt_urdf.hpp"
 #include "robot/check_joints.hpp"
 #include "robot/drive_entry.hpp"
@@ -18,6 +19,7 @@
 #include "robot/wheel_speed.hpp"
 #include "spec/parse_task.hpp"
 #include "tree/file.hpp"
+#include "zwang/lang/footing.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
@@ -47,7 +49,9 @@ class RobotBuilder {
     if (diagnostics_.error_count() > errors_before_) return std::nullopt;
     try {
       stand_wheels_exactly(build_model(), file_, urdf_, diagnostics_);
-      return assemble();
+      Robot robot = assemble();
+      if (!stands(robot)) return std::nullopt;
+      return robot;
     } catch (const std::invalid_argument& error) {
       complain(error.what());
       return std::nullopt;
@@ -256,6 +260,15 @@ class RobotBuilder {
     return frames;
   }
 
+  /// E640 where the mass lies outside of what carries it.
+  bool stands(const Robot& robot) {
+    const std::optional<Footing> footing = footing_of(robot);
+    if (!footing || plane::convex_hull(footing->points).empty() || footing->inside >= -rounding) return true;
+    const Span& span = file_.supports.empty() ? file_.base.span : file_.supports.front().span;
+    diagnostics_.add(wording::falls_over(span, robot.name, -footing->inside));
+    return false;
+  }
+
   solver::Model build_model() const {
     solver::ModelBuilder builder = add_links();
     for (const FrameText& frame : file_.frames) {
@@ -283,6 +296,7 @@ class RobotBuilder {
     robot.footprint = file_.footprint;
     if (is_clockwise_) std::reverse(robot.footprint.begin(), robot.footprint.end());
     for (const Word& support : file_.supports) robot.supports.push_back(support.text);
+    robot.bumper_height_said = file_.bumper_height.has_value();
     if (file_.bumper_height) robot.bumper_height = *file_.bumper_height;
     if (file_.bumper_stiffness) robot.bumper_stiffness = *file_.bumper_stiffness;
     if (file_.control_period) robot.control_period = *file_.control_period;
@@ -343,6 +357,8 @@ class RobotBuilder {
     }
     return file_.base.span;
   }
+
+  static constexpr double rounding = 1e-6;  ///< [m] of places in a file
 
   const RobotFile& file_;
   Urdf urdf_;

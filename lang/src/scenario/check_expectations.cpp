@@ -26,6 +26,7 @@ constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"truth.base.pitch", dimension::angle},
                                      {"truth.base.acceleration", dimension::acceleration},
                                      {"truth.base.push", dimension::force},
+                                     {"truth.base.slip", dimension::velocity},
                                      {"run.stopped", dimension::time},
                                      {"run.slipped", dimension::time}};
 constexpr TruthQuantity of_object[] = {

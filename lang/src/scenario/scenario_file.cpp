@@ -14,7 +14,8 @@ namespace zwang::lang {
 
 namespace {
 
-const std::vector<std::string> outcomes{"done", "failed", "stopped", "diverged", "refused", "unfinished"};
+const std::vector<std::string> outcomes{"done",     "failed",  "stopped",   "fallen",
+                                        "diverged", "refused", "unfinished"};
 
 bool is_parameter(const std::string& key) {
   return key.rfind("params.", 0) == 0 && key.size() > 7;

@@ -10,6 +10,8 @@
 #include <cmath>
 
 #include "diagnostic/wordings_standing.hpp"
+#include "diagnostic/wordings_statics.hpp"
+#include "zwang/lang/footing.hpp"
 #include "zwang/lang/plane.hpp"
 #include "zwang/lang/program.hpp"
 
@@ -79,6 +81,14 @@ double depth(const Outline& robot, const SceneObject& object) {
   return depth(robot, placed(outline_of(object), pose));
 }
 
+/// [m] How high a bumper may be that the robot file says nothing of: an even body is twice as high as its
+/// centre of mass. 0 where its height is known, or no matter.
+double highest_bumper(const Robot& robot) {
+  if (robot.bumper_height_said) return 0.0;
+  const std::optional<Footing> footing = footing_of(robot);
+  return footing ? 2.0 * footing->height : 0.0;
+}
+
 struct Standing {
   std::string words;  ///< "the robot", "`partner`"
   std::string name;
@@ -105,7 +115,11 @@ void check_start(const Scene& scene, const Robot& first, Diagnostics& diagnostic
   }
   for (std::size_t r = 0; r < robots.size(); ++r) {
     const Standing& robot = robots[r];
+    const double highest = highest_bumper(*robot.robot);
     for (const SceneObject& object : scene.objects) {
+      if (object.size[2] < highest)
+        diagnostics.add(wording::meets_or_passes(object.span, robot.robot->name, object.name, object.size[2],
+                                                 robot.robot->bumper_height));
       if (object.size[2] < robot.robot->bumper_height) continue;  // it passes below
       const double overlap = depth(robot.outline, object);
       if (overlap > touching)

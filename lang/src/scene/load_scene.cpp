@@ -126,7 +126,7 @@ void parse_contact(MapReader& map, Touched& touched, Diagnostics& diagnostics) {
   }
   if (const Node* node = map.optional("friction")) {
     touched.friction =
-        parse_positive(*node, dimension::none, map.what() + "'s `friction`", true, diagnostics).value_or(0.0);
+        parse_positive(*node, dimension::none, map.what() + "'s `friction`", true, diagnostics);
   }
 }
 

@@ -167,10 +167,11 @@ Json start_pose() {
 Json expectation() {
   const Json condition = word("a condition; truth.* is what the plant measured");
   return any_of(
-      {object("",
-              {{"outcome",
-                one_of_words("", {"done", "failed", "stopped", "diverged", "refused", "unfinished"}), true},
-               {"of", word("a robot of the scene; default the first robot")}}),
+      {object("", {{"outcome",
+                    one_of_words(
+                        "", {"done", "failed", "stopped", "fallen", "diverged", "refused", "unfinished"}),
+                    true},
+                   {"of", word("a robot of the scene; default the first robot")}}),
        object("", {{"diagnostic", word("the code with which the task is refused, or warned of"), true}}),
        object("", {{"at", one_of_words("", {"end"}), true}, {"that", condition, true}}),
        object("", {{"within", reference("quantity"), true},

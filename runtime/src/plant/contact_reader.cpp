@@ -47,10 +47,16 @@ const ContactSpring* ContactReader::spring_of(const mjModel& model, int geom1, i
 void ContactReader::read(const mjModel& model, const mjData& data, double before, Truth& truth) noexcept {
   for (ObjectTruth& object : truth.objects) object.force = 0.0;
   std::fill(truth.corner_forces.begin(), truth.corner_forces.end(), 0.0);
-  for (RobotContacts& robot : robots_) robot.push.setZero();
+  for (RobotContacts& robot : robots_) {
+    robot.push.setZero();
+    robot.lies_on_floor = false;
+  }
   for (int c = 0; c < data.ncon; ++c) {
     const mjContact& contact = data.contact[c];
     const GeomOwner &one = owner_of(contact.geom1), &other = owner_of(contact.geom2);
+    for (const GeomOwner* owner : {&one, &other}) {
+      if (owner->body) robots_[static_cast<std::size_t>(owner->robot)].lies_on_floor = true;
+    }
     if (!one.touches && !other.touches) continue;
     if (one.is_floor() || other.is_floor() || contact.efc_address < 0) continue;
     std::array<mjtNum, 6> wrench{};

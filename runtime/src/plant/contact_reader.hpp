@@ -14,6 +14,7 @@ namespace zwang::runtime {
 struct RobotContacts {
   Eigen::Vector2d push = Eigen::Vector2d::Zero();  ///< [N] of all that presses on it, in world axes
   double hit_until = -1.0;                         ///< [s] when its last hit is over
+  bool lies_on_floor = false;                      ///< its body does
 };
 
 class ContactReader {

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "cut.hpp"
+#include "pair_friction.hpp"
 
 namespace zwang::runtime {
 
@@ -30,7 +31,8 @@ Eigen::Vector3d FloorFriction::step(const Eigen::Vector3d& velocity, double peri
   return force;
 }
 
-FloorFriction floor_friction_of(const lang::SceneObject& object, double coefficient, double gravity) {
+FloorFriction floor_friction_of(const lang::SceneObject& object, double floor, double gravity) {
+  const double coefficient = pair_friction(object.friction, floor);
   const double mass = object.mass.value_or(0.0);
   const double a = object.size[0];
   const double b = object.size[1];

@@ -31,7 +31,7 @@ class FloorFriction {
   Eigen::Vector3d stretch_ = Eigen::Vector3d::Zero();  ///< [m, m, rad]
 };
 
-/// Of an object with a mass, on a floor of the friction `coefficient`. `gravity` [m/s^2]
-FloorFriction floor_friction_of(const lang::SceneObject& object, double coefficient, double gravity);
+/// Of an object with a mass, on a floor of the friction `floor`. `gravity` [m/s^2]
+FloorFriction floor_friction_of(const lang::SceneObject& object, double floor, double gravity);
 
 }  // namespace zwang::runtime

@@ -6,6 +6,7 @@
 #include "mjcf_text.hpp"
 #include "object_geometry.hpp"
 #include "outline.hpp"
+#include "pair_friction.hpp"
 
 namespace zwang::runtime {
 
@@ -173,19 +174,20 @@ class MjcfWriter {
     const std::string face = numbered("object", k) + "_face";
     const std::string prism = robot.prefix + "bumper_prism";
     if (object.shape == ShapeKind::cylinder) {
-      write_spring(face, prism, object.friction);
+      write_spring(face, prism, pair_friction(object.friction));
       return;
     }
     for (std::size_t c = 0; c < robot.outline.size(); ++c) {
-      write_spring(face, robot.named("bumper", c), object.friction);
+      write_spring(face, robot.named("bumper", c), pair_friction(object.friction));
     }
-    for (std::size_t c = 0; c < 4; ++c) write_spring(edge_of(k, c), prism, object.friction);
+    for (std::size_t c = 0; c < 4; ++c) write_spring(edge_of(k, c), prism, pair_friction(object.friction));
   }
 
   /// A round object is met in the bumper's plane only, where no arm reaches.
   void write_meeting_of_tip(std::size_t k, const SimulatedRobot& robot, std::size_t tip) {
     if (scene_.objects[k].shape == ShapeKind::cylinder) return;
-    write_spring(numbered("object", k) + "_face", robot.named("tip", tip), scene_.objects[k].friction);
+    write_spring(numbered("object", k) + "_face", robot.named("tip", tip),
+                 pair_friction(scene_.objects[k].friction));
   }
 
   /// Corners of each against the sides of the other, at the height of the corner's bumper. `r` > 0.
@@ -193,8 +195,8 @@ class MjcfWriter {
     const SimulatedRobot& one = robots_[other];
     const SimulatedRobot& two = robots_[r];
     if (one.outline.empty() || two.outline.empty()) return;
-    const double rough = other > 0 ? scene_.robots[other - 1].friction : 0.0;
-    const double friction = std::max(rough, scene_.robots[r - 1].friction);
+    const std::optional<double> of_one = other > 0 ? scene_.robots[other - 1].friction : std::nullopt;
+    const double friction = pair_friction(of_one, scene_.robots[r - 1].friction);
     for (std::size_t c = 0; c < one.outline.size(); ++c)
       write_spring(one.named("bumper", c), two.prefix + "bumper_prism", friction);
     for (std::size_t c = 0; c < two.outline.size(); ++c)
@@ -202,7 +204,7 @@ class MjcfWriter {
   }
 
   void write_meeting(std::size_t k, std::size_t other) {
-    const double friction = std::max(scene_.objects[k].friction, scene_.objects[other].friction);
+    const double friction = pair_friction(scene_.objects[k].friction, scene_.objects[other].friction);
     const bool k_round = scene_.objects[k].shape == ShapeKind::cylinder;
     const bool other_round = scene_.objects[other].shape == ShapeKind::cylinder;
     const std::string face = numbered("object", k) + "_face";

@@ -2,10 +2,10 @@
 ///
 /// Names: `body_<i>`, `joint_<j>`, `motor_<j>` after the model's numbers, `wheel_<w>` (with rollers
 /// `wheel_<w>_<i>`, on bodies and joints `roller_<w>_<i>`), `floor`; of the
-/// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`; of its arms `tip_<t>`; of the scene
-/// `object_<k>` (body) with geoms `object_<k>_face` and `object_<k>_edge_<c>`, `dock_<k>` (equality; those of
-/// robots are counted on after the objects'). All names of the scene's robots begin with `partner_<r>_`, r
-/// from 1.
+/// robot's outline `bumper_<c>` (corners), `bumper_prism`, `skid_<c>`, `hull` (that lies on the floor once
+/// the base has fallen); of its arms `tip_<t>`; of the scene `object_<k>` (body) with geoms `object_<k>_face`
+/// and `object_<k>_edge_<c>`, `dock_<k>` (equality; those of robots are counted on after the objects'). All
+/// names of the scene's robots begin with `partner_<r>_`, r from 1.
 ///
 /// Robot and objects meet in one plane, at the height of the bumper: corners of the one against faces of the
 /// other, each pair one contact point. An arm meets faces with its tip, at any height. A corner is a sphere
@@ -36,6 +36,7 @@ struct SimulatedRobot {
   std::vector<solver::Vector3> outline;  ///< convex hull of the footprint, counter-clockwise
   std::vector<solver::Frame> tips;       ///< of arms: where they touch objects
   std::vector<solver::Vector3> skids;    ///< points under the base; empty when the wheels carry it
+  double top = 0.0;                      ///< [m] height of the body above the ground
 
   std::string named(const char* part, std::size_t number) const {
     return prefix + part + '_' + std::to_string(number);

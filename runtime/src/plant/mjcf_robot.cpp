@@ -21,6 +21,8 @@ using solver::Vector3;
 namespace {
 
 constexpr double no_friction = 1e-5;  ///< the least that MuJoCo takes
+constexpr double least_clearance =
+    0.01;  ///< [m] of the body above the floor; wheels give way by less than 1 mm
 
 /// The parts of the text that are one robot's.
 class RobotWriter {
@@ -30,15 +32,24 @@ class RobotWriter {
 
   void write_assets() {
     if (simulated_.outline.empty() || is_rectangle(simulated_.outline)) return;
+    write_prism_mesh("outline", contact_half_height);
+    if (has_hull()) write_prism_mesh("hull", hull_half_height());
+  }
+
+  void write_prism_mesh(const char* name, double half_height) {
     std::string vertices;
     for (const Vector3& p : simulated_.outline) {
-      for (const double z : {-contact_half_height, contact_half_height}) {
-        vertices += list_of(p.x(), p.y(), z) + ' ';
-      }
+      for (const double z : {-half_height, half_height}) vertices += list_of(p.x(), p.y(), z) + ' ';
     }
-    text_ +=
-        "<mesh" + attribute("name", simulated_.prefix + "outline") + attribute("vertex", vertices) + "/>\n";
+    text_ += "<mesh" + attribute("name", simulated_.prefix + name) + attribute("vertex", vertices) + "/>\n";
   }
+
+  bool has_hull() const {
+    return !simulated_.outline.empty() && model_.base_type() == solver::BaseType::ground;
+  }
+  double hull_half_height() const { return 0.5 * (simulated_.top - hull_bottom()); }
+  /// A base that stands never touches the floor with its body.
+  double hull_bottom() const { return std::max(robot_.bumper_height, least_clearance); }
 
   void write_body(int index) {
     const Body& body = model_.bodies()[static_cast<std::size_t>(index)];
@@ -134,17 +145,24 @@ class RobotWriter {
       const Vector3 up(0.0, 0.0, corner_radius);
       text_ += sphere_geom(named("skid", c), simulated_.skids[c] + up, corner_radius);
     }
-    text_ += "<geom" + attribute("name", simulated_.prefix + "bumper_prism");
+    write_prism("bumper_prism", "outline", plane, contact_half_height);
+    if (has_hull())
+      write_prism("hull", "hull", simulated_.ground + hull_bottom() + hull_half_height(), hull_half_height());
+  }
+
+  /// Upright, of the outline's form, about the height `middle`.
+  void write_prism(const char* name, const char* mesh, double middle, double half_height) {
+    text_ += "<geom" + attribute("name", simulated_.prefix + name);
     if (is_rectangle(simulated_.outline)) {
       const auto& p = simulated_.outline;
       const Vector3 side = p[1] - p[0];
-      const Vector3 centre = 0.5 * (p[0] + p[2]) + Vector3(0.0, 0.0, plane);
+      const Vector3 centre = 0.5 * (p[0] + p[2]) + Vector3(0.0, 0.0, middle);
       text_ += attribute("type", "box") + attribute("pos", list_of(centre)) +
                attribute("euler", list_of(0.0, 0.0, std::atan2(side.y(), side.x()))) +
-               attribute("size", list_of(0.5 * side.norm(), 0.5 * (p[2] - p[1]).norm(), contact_half_height));
+               attribute("size", list_of(0.5 * side.norm(), 0.5 * (p[2] - p[1]).norm(), half_height));
     } else {
-      text_ += attribute("type", "mesh") + attribute("mesh", simulated_.prefix + "outline") +
-               attribute("pos", list_of(0.0, 0.0, plane));
+      text_ += attribute("type", "mesh") + attribute("mesh", simulated_.prefix + mesh) +
+               attribute("pos", list_of(0.0, 0.0, middle));
     }
     text_ += "/>\n";
   }
@@ -156,6 +174,11 @@ class RobotWriter {
       for (std::size_t i = 0; has_rollers(static_cast<int>(w)) && i < roller_count; ++i) {
         write_rolling(w, numbered(wheel, i), floor_friction);
       }
+    }
+    if (has_hull()) {
+      text_ += "<pair" + attribute("geom1", "floor") + attribute("geom2", simulated_.prefix + "hull") +
+               " condim=\"3\" " + stiff() +
+               attribute("friction", list_of(floor_friction, floor_friction, 0.0, 0.0, 0.0)) + "/>\n";
     }
     for (std::size_t c = 0; c < simulated_.skids.size(); ++c) {
       text_ += "<pair" + attribute("geom1", "floor") + attribute("geom2", named("skid", c)) +

@@ -12,10 +12,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base_watch.hpp"
 #include "contact_friction.hpp"
 #include "contact_reader.hpp"
 #include "moving_robot.hpp"
-#include "quiet_means.hpp"
 #include "simulated_object.hpp"
 #include "simulator.hpp"
 #include "zwang/lang/program.hpp"
@@ -65,7 +65,7 @@ struct MujocoPlant::Simulation {
     contacts = ContactReader(owners, set_springs(*model, owners, scene, described), robots.size(),
                              scene.objects.size());
     contact_friction = ContactFriction(*model, owners);
-    means.assign(robots.size(), QuietMeans(options.period));
+    for (const MovingRobot& one : robots) watches.emplace_back(one, options.period);
     truth.corner_forces.assign(robot.footprint.size(), 0.0);
     for (const lang::SceneObject& object : scene.objects)
       truth.objects.push_back({object.name, 0.0, {}, 0.0});
@@ -249,6 +249,7 @@ struct MujocoPlant::Simulation {
     if (std::any_of(robots.begin(), robots.end(), on_ground)) settle(starts);
     read_base();
     read_objects();
+    look_for_falls();
     truth.velocity.setZero();
     truth.acceleration.setZero();
   }
@@ -340,12 +341,8 @@ struct MujocoPlant::Simulation {
     truth.x = at.x();
     truth.y = at.y();
     truth.yaw = yaw_of(first().base_rotation(*model, *data));
-    for (std::size_t r = 0; r < robots.size(); ++r) {
-      const Matrix3 rotation = robots[r].base_rotation(*model, *data);
-      BaseTruth& base = base_truth(r);
-      base.roll = std::atan2(rotation(2, 1), rotation(2, 2));
-      base.pitch = std::atan2(-rotation(2, 0), std::hypot(rotation(2, 1), rotation(2, 2)));
-    }
+    for (std::size_t r = 0; r < robots.size(); ++r)
+      BaseWatch::read_lean(robots[r], *model, *data, base_truth(r));
   }
 
   BaseTruth& base_truth(std::size_t robot) noexcept {
@@ -353,19 +350,18 @@ struct MujocoPlant::Simulation {
   }
 
   /// After `contacts` and the docks were read; `before` [s] is the beginning of the step.
-  void read_means(double before) noexcept {
+  void read_motion(double before) noexcept {
     contact_friction.for_each([this](int geom1, int geom2, const Vector3& force) {
       if (owner_of(geom1).touches) add_push(owner_of(geom1), -force);
       if (owner_of(geom2).touches) add_push(owner_of(geom2), force);
     });
-    for (std::size_t r = 0; r < robots.size(); ++r) {
-      const RobotContacts& of_robot = contacts.of_robot(r);
-      const Vector3 speed =
-          robots[r].base_rotation(*model, *data) * robots[r].base_twist(*model, *data).linear;
-      means[r].look(speed.head<2>(), of_robot.push, before < of_robot.hit_until);
-      base_truth(r).acceleration = means[r].acceleration();
-      base_truth(r).push = means[r].push();
-    }
+    for (std::size_t r = 0; r < robots.size(); ++r)
+      watches[r].read_motion(robots[r], *model, *data, contacts.of_robot(r), before, time(), base_truth(r));
+  }
+
+  void look_for_falls() noexcept {
+    for (std::size_t r = 0; r < robots.size(); ++r)
+      BaseWatch::look_for_fall(robots[r], *model, *data, contacts.of_robot(r), time(), base_truth(r));
   }
 
   void add_push(const GeomOwner& owner, const Vector3& force) noexcept {
@@ -396,7 +392,8 @@ struct MujocoPlant::Simulation {
     contacts.read(*model, *data, before, truth);
     read_objects();
     read_pulls();
-    read_means(before);
+    read_motion(before);
+    look_for_falls();
     latch_hooks();
     return PlantStatus::ok;
   }
@@ -416,7 +413,7 @@ struct MujocoPlant::Simulation {
   DataPointer data;
   ContactReader contacts;
   ContactFriction contact_friction;
-  std::vector<QuietMeans> means;  ///< by robot
+  std::vector<BaseWatch> watches;  ///< by robot
   std::vector<SimulatedObject> objects;
   std::vector<SimulatedDock> docks;
   Vector3 velocity = Vector3::Zero();
@@ -430,6 +427,14 @@ MujocoPlant::MujocoPlant(const lang::Robot& robot, const lang::Scene& scene,
     : simulation_(std::make_unique<Simulation>(robot, scene, options)) {}
 
 MujocoPlant::~MujocoPlant() = default;
+
+std::string describe_fall(const BaseTruth& base) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "fell over: roll %.0f deg, pitch %.0f deg", base.roll / degree,
+                base.pitch / degree);
+  return text.data();
+}
 
 PlantStatus MujocoPlant::sense(Sensed& sensed) noexcept {
   return simulation_->sense(0, sensed);

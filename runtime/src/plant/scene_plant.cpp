@@ -119,11 +119,11 @@ std::vector<Column> base_truth_columns() {
   return {{"truth.base.x", "m", {}},       {"truth.base.y", "m", {}},
           {"truth.base.yaw", "rad", {}},   {"truth.base.roll", "rad", {}},
           {"truth.base.pitch", "rad", {}}, {"truth.base.acceleration", "m/s^2", {}},
-          {"truth.base.push", "N", {}}};
+          {"truth.base.push", "N", {}},    {"truth.base.slip", "m/s", {}}};
 }
 
 BaseTruthValues base_truth_values(double x, double y, double yaw, const BaseTruth& base) noexcept {
-  return {x, y, yaw, base.roll, base.pitch, base.acceleration, base.push};
+  return {x, y, yaw, base.roll, base.pitch, base.acceleration, base.push, base.slip};
 }
 
 ScenePartner::ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& settings)
@@ -269,6 +269,23 @@ PlantStatus ScenePlant::Parts::step() noexcept {
   change_world(time);
   for (std::size_t i = 0; i < partners.size(); ++i) step_partner(i);
   return simulation.apply(torque);
+}
+
+void ScenePlant::end_lean() noexcept {
+  constexpr double longest = 1.0;  // [s]
+  Parts& p = *parts_;
+  const BaseTruth& base = truth().base;
+  const auto stands = [&] {
+    const solver::Vector3& turning = p.actual.state.base_twist.angular;
+    return std::hypot(base.roll, base.pitch) < standing_lean &&
+           std::hypot(turning.x(), turning.y()) < standing_turn;
+  };
+  const double end = truth().time + longest;
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(p.torque.size());
+  while (!base.fallen && truth().time < end) {
+    if (p.simulation.sense(p.actual) != PlantStatus::ok || stands()) return;
+    if (apply(rest) != PlantStatus::ok) return;
+  }
 }
 
 const Truth& ScenePlant::truth() const noexcept {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "mjcf.hpp"
+#include "zwang/lang/footing.hpp"
 #include "zwang/lang/plane.hpp"
 #include "zwang/lang/wheel_level.hpp"
 
@@ -99,6 +100,10 @@ SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers, int nu
     return simulated;
   }
   level_wheels(robot.model, simulated);
+  // As high as an even body with this centre of mass.
+  constexpr double least_body = 0.05;  // [m]
+  const std::optional<lang::Footing> footing = lang::footing_of(robot);
+  simulated.top = std::max(2.0 * (footing ? footing->height : 0.0), robot.bumper_height + least_body);
   for (const std::string& support : robot.supports) simulated.skids.push_back(point_below(robot, support));
   if (robot.supports.empty() && robot.model.wheels().size() < 3) {
     if (simulated.outline.empty()) refuse("a base on two wheels needs a footprint for its supports");

@@ -244,6 +244,7 @@ std::vector<GeomOwner> find_owners(const mjModel& model, const std::vector<Simul
     owner.robot = is_partner ? std::atoi(name + 8) : 0;
     const SimulatedRobot& robot = robots[static_cast<std::size_t>(owner.robot)];
     name += robot.prefix.size();
+    owner.body = std::strcmp(name, "hull") == 0;
     if (std::strncmp(name, "wheel_", 6) == 0) owner.wheel = std::atoi(name + 6);
     const bool of_outline = std::strncmp(name, "bumper_", 7) == 0;
     owner.touches = of_outline || std::strncmp(name, "tip_", 4) == 0;
@@ -256,9 +257,10 @@ std::vector<GeomOwner> find_owners(const mjModel& model, const std::vector<Simul
 }
 
 /// MuJoCo's contact force f and relative acceleration a obey a + r f = -k x - b v with penetration x < 0
-/// and r = A (1 - d)/d; A is its estimate of the inverse mass at the contact and d the impedance. So f = K
-/// x + c v for k = K A (1 - d)/d, b = c A (1 - d)/d, apart from a/r, a mass of d/((1 - d) A) beside the
-/// robot's. solref holds (-k d, -b d): MuJoCo divides it by d and d^2, and multiplies k by d.
+/// and r = A (1 - d)/d; A is its estimate of the inverse mass at the contact and d the impedance. So the
+/// stepped spring f = K x + B v + M a takes 1/r = M, that is d = A M/(1 + A M), k = K r and b = B r. The
+/// least impedance adds a mass of a thousandth of 1/A where M is less. solref holds (-k d, -b d): MuJoCo
+/// divides it by d and d^2, and multiplies k by d.
 std::vector<ContactSpring> set_springs(mjModel& model, const std::vector<GeomOwner>& owners,
                                        const lang::Scene& scene, const std::vector<SimulatedRobot>& robots) {
   const auto touchable = [&](const GeomOwner& owner) {
@@ -277,8 +279,12 @@ std::vector<ContactSpring> set_springs(mjModel& model, const std::vector<GeomOwn
     springs[static_cast<std::size_t>(p)] = spring;
     const double inverse_mass = model.body_invweight0[2 * model.geom_bodyid[one]] +
                                 model.body_invweight0[2 * model.geom_bodyid[other]];
-    model.pair_solref[2 * p] = -spring.stiffness * (1.0 - spring_impedance) * inverse_mass;
-    model.pair_solref[2 * p + 1] = -spring.damping * (1.0 - spring_impedance) * inverse_mass;
+    const SteppedSpring step = stepped(spring, inverse_mass, model.opt.timestep);
+    const double share = inverse_mass * step.mass;
+    const double impedance = std::max(spring_impedance, share / (1.0 + share));
+    model.pair_solimp[mjNIMP * p] = model.pair_solimp[mjNIMP * p + 1] = impedance;
+    model.pair_solref[2 * p] = -step.stiffness * (1.0 - impedance) * inverse_mass;
+    model.pair_solref[2 * p + 1] = -step.damping * (1.0 - impedance) * inverse_mass;
   }
   return springs;
 }

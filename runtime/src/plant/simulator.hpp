@@ -46,6 +46,7 @@ struct GeomOwner {
   int object = -1;
   int robot = -1;        ///< 0 the first one, then the scene's
   bool touches = false;  ///< of a robot: its outline or a tip
+  bool body = false;     ///< of a robot: the body that never touches the floor while the base stands
   int corner = -1;       ///< of the robot's footprint
   int wheel = -1;
 

@@ -53,6 +53,10 @@ std::vector<PartnerResult> results_of(ScenePlant& plant) {
     const RunState state = partner.runner.state();
     results.push_back({partner.name, state == RunState::running ? "unfinished" : to_string(state),
                        partner.runner.because()});
+    const BaseTruth& base = plant.truth().robots[results.size() - 1].base;
+    if (!base.fallen) continue;
+    results.back().outcome = "fallen";
+    results.back().because = describe_fall(base);
   }
   return results;
 }
@@ -101,19 +105,22 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     const bool in_task = runner.state() == RunState::running;
     for (ExpectationWatch& watch : watches) watch.look(facts, plant.truth().time, in_task);
     status = plant.follow(runner.command());
-    if (status != PlantStatus::ok) break;
+    if (status != PlantStatus::ok || plant.truth().base.fallen) break;
     for (std::size_t i = 0; i < partners.size(); ++i) {
       if (!partners[i].runner.guard().stopped() || had_stopped[i]) continue;
       had_stopped[i] = true;
       facts.note_partner_stop(i, sensed.time);
     }
   }
+  if (runner.finished() && status == PlantStatus::ok) plant.end_lean();
   result.partners = results_of(plant);
   result.simulated = plant.truth().time;
   if (is_interrupted()) {
     result.outcome = "interrupted";
   } else if (status == PlantStatus::diverged) {
     result.outcome = "diverged";
+  } else if (plant.truth().base.fallen) {
+    result.outcome = "fallen";
   } else if (!runner.finished()) {
     result.outcome = "unfinished";
   } else {
@@ -122,6 +129,10 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   result.because = runner.because();
   const std::optional<Why> why = runner.why();
   if (why && status != PlantStatus::diverged) result.why = why->sentence;
+  if (plant.truth().base.fallen) {
+    result.because = describe_fall(plant.truth().base);
+    result.why.clear();
+  }
 }
 
 }  // namespace

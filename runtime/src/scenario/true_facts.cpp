@@ -38,6 +38,7 @@ void TrueFacts::update(const Truth& truth, const solver::State& state, double to
   values_[lang::truth_pitch] = truth.base.pitch;
   values_[lang::truth_acceleration] = truth.base.acceleration;
   values_[lang::truth_push] = truth.base.push;
+  values_[lang::truth_slip] = truth.base.slip;
   const std::size_t objects = truth.objects.size() - truth.robots.size();
   for (std::size_t k = 0; k < objects; ++k)
     put_object(k, truth, values_.data() + lang::truth_base_count + k * lang::truth_object_count);

@@ -90,6 +90,7 @@ struct Robot {
   Eigen::VectorXd posture;            ///< q at the start [rad] or [m]; empty: all 0
   std::vector<std::string> supports;  ///< passive links that hold nothing in the plane
   double bumper_height = 0.15;        ///< [m] above the ground where the footprint touches the world
+  bool bumper_height_said = true;     ///< by the robot file; else the height above is a guess
   double bumper_stiffness = 20e3;     ///< [N/m]
   double control_period = default_control_period;  ///< [s] from one torque to the next
   double encoder_step = 0.0;                       ///< [rad] of the driven wheels; 0: not known

@@ -74,6 +74,7 @@ enum TruthOfBase {
   truth_pitch,   ///< [rad] about its y
   truth_acceleration,  ///< [m/s^2] of its origin, mean of 20 ms without hits
   truth_push,          ///< [N] of the whole robot in the plane, mean of 20 ms without hits
+  truth_slip,          ///< [m/s] of the wheel that slides fastest
   run_stopped,         ///< [s] when the protective stop latched
   run_slipped,         ///< [s] when slip was told first
   truth_base_count

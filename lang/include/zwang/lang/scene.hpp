@@ -40,11 +40,11 @@ struct SceneObject {
   std::array<double, 2> at{};    ///< [m] world; a wall's `at` is a point of its face, midway along it
   double yaw = 0.0;  ///< [rad] a wall's face looks along its own -x: a robot that drives along +x meets it
                      ///< square at yaw 0
-  std::optional<double> mass;    ///< [kg]; none: fixed to the world
-  double stiffness = 1e5;        ///< [N/m] of one contact point
-  double damping = 0.3;          ///< damping ratio of the contact
-  double friction = 0.0;         ///< Coulomb coefficient
-  std::vector<Waypoint> motion;  ///< scripted: moves whatever stands in its way; empty: none
+  std::optional<double> mass;      ///< [kg]; none: fixed to the world
+  double stiffness = 1e5;          ///< [N/m] of one contact point
+  double damping = 0.3;            ///< damping ratio of the contact
+  std::optional<double> friction;  ///< Coulomb coefficient; none: that of what it touches
+  std::vector<Waypoint> motion;    ///< scripted: moves whatever stands in its way; empty: none
   std::optional<Dock> dock;
   Span span;
 };
@@ -151,7 +151,7 @@ struct SceneRobot {
   double yaw = 0.0;                        ///< [rad]
   double stiffness = 1e5;                  ///< [N/m] of one contact point
   double damping = 0.3;                    ///< damping ratio of the contact
-  double friction = 0.0;                   ///< Coulomb coefficient
+  std::optional<double> friction;          ///< as SceneObject::friction
   std::optional<Dock> dock;                ///< `at` in the axes of its base
   std::vector<SceneSignal> signals;        ///< those of its own task file
   StateNoise state;

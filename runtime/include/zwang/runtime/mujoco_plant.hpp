@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,26 @@ struct BaseTruth {
   /// Means over 20 ms. While a hit falls into them they keep their value.
   double acceleration = 0.0;  ///< [m/s^2] of its origin, in the plane
   double push = 0.0;          ///< [N] planar sum of all contacts and docks of the whole robot
+  /// [m/s] with which its worst wheel slides over the floor, beyond a tenth of its rim's speed, low-passed
+  /// with 50 ms; and when it was above `told_slip` first. [s]
+  double slip = 0.0;
+  std::optional<double> slipped;
+  double most_slip = 0.0;  ///< [m/s] up to now
+  /// [s] since when it does not stand on its wheels and supports any more: it leans by more than
+  /// `largest_lean`, or its body lies on the floor.
+  std::optional<double> fallen;
 };
+
+/// As the guard's slip event has it. [m/s]
+inline constexpr double told_slip = 0.02;
+/// A wheel of a base half a metre long is 9 cm off the floor then, and a sixth of the weight pulls along it:
+/// no base that its wheels carry comes near. [rad]
+inline constexpr double largest_lean = 10.0 * std::numbers::pi / 180.0;
+/// A base that stands on its wheels leans by less, and leans on by less. [rad], [rad/s]
+inline constexpr double standing_lean = 2.0 * std::numbers::pi / 180.0;
+inline constexpr double standing_turn = 1.0 * std::numbers::pi / 180.0;
+/// `fell over: roll 1 deg, pitch -14 deg`
+std::string describe_fall(const BaseTruth& base);
 
 /// Of another robot, beside what is an object's.
 struct RobotTruth {

@@ -26,15 +26,15 @@ struct ExpectationResult {
 /// Another robot of the scene, when the run ended.
 struct PartnerResult {
   std::string name;
-  std::string outcome;  ///< done, failed, stopped; unfinished while its task was under way
+  std::string outcome;  ///< done, failed, stopped, fallen; unfinished while its task was under way
   std::string because;  ///< of a stop, and of a base that may still move
 };
 
 struct CellResult {
   std::string name;
   bool passed = false;
-  /// Of the first robot, which ends the run: done, failed, stopped, diverged, refused, unfinished, error;
-  /// interrupted when it was told to end
+  /// Of the first robot, which ends the run: done, failed, stopped, fallen, diverged, refused, unfinished,
+  /// error; interrupted when it was told to end
   std::string outcome;
   std::string because;  ///< of a stop or an error, and of a base that may still move; the codes of a refusal
   std::string why;      ///< it is not `done`: what its task waited for, as Why::sentence

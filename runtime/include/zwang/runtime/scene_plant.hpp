@@ -49,7 +49,7 @@ struct ScenePartner {
 /// Of a log's columns behind the runner's own: where the plant has the base, how it leans, speeds up and
 /// pushes.
 std::vector<Column> base_truth_columns();
-using BaseTruthValues = std::array<double, 7>;
+using BaseTruthValues = std::array<double, 8>;
 /// In the order of the columns. `x`, `y` [m] and `yaw` [rad] are those of the base in the world.
 BaseTruthValues base_truth_values(double x, double y, double yaw, const BaseTruth& base) noexcept;
 
@@ -71,6 +71,8 @@ class ScenePlant : public Plant {
   /// A drive that takes velocities hands the command on at its rate, half of its delay late, to a PI loop at
   /// each wheel. Its samples are as seldom and as late: Sensed::measured_at.
   PlantStatus follow(const Command& command) noexcept override;
+  /// At the end of a run: a base that still leans stands up or falls, without torque, within 1 s.
+  void end_lean() noexcept;
   const Truth& truth() const noexcept;
   /// Without noise or faults.
   const solver::State& true_state() const noexcept;
