@@ -46,39 +46,6 @@ void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Form
   print_error(text.str());
 }
 
-bool moves(const lang::SceneObject& object) {
-  return object.mass.has_value() || !object.motion.empty();
-}
-
-std::vector<runtime::Column> truth_columns(const lang::Scene& scene) {
-  std::vector<runtime::Column> columns = runtime::base_truth_columns();
-  for (const lang::SceneObject& o : scene.objects) columns.push_back({"truth." + o.name + ".force", "N", {}});
-  for (const lang::SceneRobot& r : scene.robots) columns.push_back({"truth." + r.name + ".force", "N", {}});
-  const auto add_place = [&columns](const std::string& name) {
-    columns.push_back({"truth." + name + ".x", "m", {}});
-    columns.push_back({"truth." + name + ".y", "m", {}});
-    columns.push_back({"truth." + name + ".yaw", "rad", {}});
-  };
-  for (const lang::SceneObject& o : scene.objects) {
-    if (moves(o)) add_place(o.name);
-  }
-  for (const lang::SceneRobot& r : scene.robots) add_place(r.name);
-  return columns;
-}
-
-/// In the order of `truth_columns`; the truth's objects are the scene's objects, then its robots.
-void put_truth(const runtime::Truth& truth, const lang::Scene& scene, std::vector<double>& values) {
-  const runtime::BaseTruthValues base = runtime::base_truth_values(truth.x, truth.y, truth.yaw, truth.base);
-  std::copy(base.begin(), base.end(), values.begin());
-  std::size_t at = base.size();
-  for (const runtime::ObjectTruth& o : truth.objects) values[at++] = o.force;
-  for (std::size_t i = 0; i < truth.objects.size(); ++i) {
-    if (i < scene.objects.size() && !moves(scene.objects[i])) continue;
-    const runtime::ObjectTruth& o = truth.objects[i];
-    for (const double place : {o.x, o.y, o.yaw}) values[at++] = place;
-  }
-}
-
 /// One line that is written over itself on a terminal, and now and then a line elsewhere.
 class Live {
  public:
@@ -115,7 +82,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
              const lang::Program& program, bool with_watchdog, Reloads* reloads,
              const std::atomic<bool>& interrupted, Live& live, RunReport& report) {
   runtime::Sensed sensed(program);
-  std::vector<double> truth(truth_columns(*program.scene).size());
+  std::vector<double> truth(runtime::truth_columns(*program.scene).size());
   runtime::SimulationSteps steps(runner.period());
   TruthWatch watch(plant.truth(), steps.period());
   PlantStatus status = PlantStatus::ok;
@@ -139,7 +106,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
     if (status == PlantStatus::diverged) break;
     for (const auto& recorder : recorders) recorder->wait_for_room();
     if (steps.tick_is_due()) {
-      put_truth(plant.truth(), *program.scene, truth);
+      runtime::put_truth(plant.truth(), *program.scene, truth);
       // Who has asked for the end does not wait for the pace of real time.
       if (reloads != nullptr && !give_up) reloads->look(runner, sensed.time);
       runner.step(sensed, truth);
@@ -209,7 +176,7 @@ int run(const RunArguments& arguments) {
   if (arguments.report) page_parts();  // missing ones are told before the run, not behind it
 
   runtime::RunnerSettings settings;
-  settings.extra_columns = truth_columns(*program->scene);
+  settings.extra_columns = runtime::truth_columns(*program->scene);
   runtime::Runner runner(*program, settings);
 
   const fs::path folder = make_log_folder(arguments);

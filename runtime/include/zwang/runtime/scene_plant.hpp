@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "zwang/lang/program.hpp"
@@ -52,6 +53,10 @@ std::vector<Column> base_truth_columns();
 using BaseTruthValues = std::array<double, 8>;
 /// In the order of the columns. `x`, `y` [m] and `yaw` [rad] are those of the base in the world.
 BaseTruthValues base_truth_values(double x, double y, double yaw, const BaseTruth& base) noexcept;
+/// Those, then the force on each object and other robot of the scene, and the places of those that move.
+std::vector<Column> truth_columns(const lang::Scene& scene);
+/// In the order of those columns, as many values.
+void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> values);
 
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
 /// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its

@@ -1,0 +1,184 @@
+// Whole runs on the simulated plant.
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <map>
+
+#include "bind.hpp"
+#include "log_table.hpp"
+#include "named_sensed.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using runtime::PlantStatus;
+
+/// What the plant measured, by the names of scenarios.
+using Truths = std::map<std::string, std::optional<double>>;
+
+Truths truths_of(const runtime::Truth& truth) {
+  Truths all = {{"base.x", truth.x},
+                {"base.y", truth.y},
+                {"base.yaw", truth.yaw},
+                {"base.vx", truth.velocity.x()},
+                {"base.vy", truth.velocity.y()},
+                {"base.wz", truth.velocity.z()},
+                {"base.roll", truth.base.roll},
+                {"base.pitch", truth.base.pitch},
+                {"base.acceleration", truth.base.acceleration},
+                {"base.push", truth.base.push},
+                {"base.fallen", truth.base.fallen}};
+  for (const runtime::ObjectTruth& o : truth.objects) {
+    all[o.name + ".force"] = o.force;
+    all[o.name + ".peak_force"] = o.peak_force;
+    all[o.name + ".touched"] = o.touched;
+    all[o.name + ".latched"] = o.latched;
+    all[o.name + ".pull"] = o.pull;
+    all[o.name + ".x"] = o.x;
+    all[o.name + ".y"] = o.y;
+    all[o.name + ".yaw"] = o.yaw;
+  }
+  return all;
+}
+
+struct Result {
+  std::string outcome, because, why;
+  double time = 0.0;  ///< [s]
+  Truths truth;
+  std::vector<runtime::LimitReport> limits;
+  std::shared_ptr<LogTable> log;
+};
+
+runtime::ScenePlantOptions options_of(std::uint64_t seed,
+                                      const std::optional<std::array<double, 2>>& start_at,
+                                      std::optional<double> start_yaw, double period) {
+  runtime::ScenePlantOptions options;
+  options.seed = seed;
+  options.simulation.start_at = start_at;
+  options.simulation.start_yaw = start_yaw;
+  options.simulation.period = runtime::SimulationSteps(period).period();
+  return options;
+}
+
+/// As `zwang run` does it. `most`: [s] of simulated time.
+Result simulate(const lang::Program& program, double most, bool with_log, std::uint64_t seed,
+                std::optional<std::array<double, 2>> start_at, std::optional<double> start_yaw) {
+  if (!program.scene) throw std::invalid_argument("the task names no scene to run in: load(.., scene=..)");
+  runtime::RunnerSettings settings;
+  settings.extra_columns = runtime::truth_columns(*program.scene);
+  runtime::Runner runner(program, settings);
+  runtime::ScenePlant plant(program, options_of(seed, start_at, start_yaw, runner.period()));
+  Result result;
+  std::optional<runtime::Recorder> recorder;
+  if (with_log) {
+    result.log = std::make_shared<LogTable>(runner.columns());
+    std::vector<std::unique_ptr<runtime::LogSink>> sinks;
+    sinks.push_back(table_sink(result.log));
+    recorder.emplace(std::move(sinks), runner.columns());
+    runner.record_to(&*recorder);
+  }
+  runtime::SimulationSteps steps(runner.period());
+  runtime::Sensed sensed(program);
+  std::vector<double> truth(settings.extra_columns.size());
+  PlantStatus status = PlantStatus::ok;
+  while (!runner.finished() && plant.truth().time < most && !plant.truth().base.fallen) {
+    status = plant.sense(sensed);
+    if (status == PlantStatus::diverged) break;
+    if (recorder) recorder->wait_for_room();
+    if (steps.tick_is_due()) {
+      runtime::put_truth(plant.truth(), *program.scene, truth);
+      runner.step(sensed, truth);
+    }
+    status = plant.follow(runner.command());
+    if (status != PlantStatus::ok) break;
+  }
+  if (recorder) recorder->close();
+  result.time = plant.truth().time;
+  result.truth = truths_of(plant.truth());
+  result.limits = runner.limits();
+  result.because = runner.because();
+  if (const auto why = runner.why()) result.why = why->sentence;
+  result.outcome = runner.finished() ? to_string(runner.state()) : "unfinished";
+  if (plant.truth().base.fallen) {
+    result.outcome = "fallen";
+    result.because = runtime::describe_fall(plant.truth().base);
+  }
+  if (status == PlantStatus::diverged) result.outcome = "diverged";
+  return result;
+}
+
+void check(PlantStatus status, const char* what) {
+  if (status == PlantStatus::diverged) throw std::runtime_error("the simulation diverged");
+  if (status == PlantStatus::unreachable)
+    throw std::runtime_error(std::string("the plant was not reached: ") + what);
+}
+
+/// A plant whose `apply` lasts a control period, however many steps of the simulation that is.
+class TickedPlant {
+ public:
+  TickedPlant(const lang::Program& program, std::uint64_t seed,
+              const std::optional<std::array<double, 2>>& start_at, std::optional<double> start_yaw)
+      : steps_(program.robot.control_period),
+        plant_(program, options_of(seed, start_at, start_yaw, program.robot.control_period)) {}
+
+  void sense(NamedSensed& sensed) { check(plant_.sense(sensed.sensed), "no sample"); }
+  void apply(const runtime::Command& command) {
+    for (int i = 0; i < steps_.per_tick(); ++i) check(plant_.follow(command), "the command did not arrive");
+  }
+  Truths truth() const { return truths_of(plant_.truth()); }
+
+ private:
+  runtime::SimulationSteps steps_;
+  runtime::ScenePlant plant_;
+};
+
+void bind_result(py::module_& module) {
+  py::class_<runtime::LimitReport>(module, "Limit",
+                                   "A limit that was in force, and how near the run came to it.")
+      .def_readonly("row", &runtime::LimitReport::row, "its column of the log")
+      .def_readonly("limit", &runtime::LimitReport::limit, "SI")
+      .def_readonly("worst", &runtime::LimitReport::worst, "the value nearest to it, or farthest beyond; SI")
+      .def_readonly("margin", &runtime::LimitReport::margin, "what was left; negative where it was broken")
+      .def_readonly("unit", &runtime::LimitReport::unit)
+      .def("__repr__", [](const runtime::LimitReport& l) { return "<zwang.Limit " + l.row + ">"; });
+  py::class_<Result>(module, "Result", "How a run ended.")
+      .def_readonly("outcome", &Result::outcome,
+                    "done, failed, stopped, fallen, diverged, or unfinished within `most`")
+      .def_readonly("because", &Result::because, "of a stop or a fall; may be empty")
+      .def_readonly("why", &Result::why, "a sentence: what its task waited for; empty of a run that is done")
+      .def_readonly("time", &Result::time, "[s] of simulated time")
+      .def_readonly(
+          "truth", &Result::truth,
+          "what the plant measured at the end, in SI: `truth['wall.peak_force']`; None: it never was")
+      .def_readonly("limits", &Result::limits)
+      .def_readonly("log", &Result::log, "None without `log=True`")
+      .def("__repr__", [](const Result& r) { return "<zwang.Result " + r.outcome + ">"; });
+}
+
+}  // namespace
+
+void bind_run(py::module_& module) {
+  using py::arg;
+  bind_result(module);
+  py::class_<TickedPlant>(module, "ScenePlant", "The simulated robot in the scene of its task.")
+      .def(py::init<const lang::Program&, std::uint64_t, const std::optional<std::array<double, 2>>&,
+                    std::optional<double>>(),
+           arg("program"), py::kw_only(), arg("seed") = 0, arg("start_at") = py::none(),
+           arg("start_yaw") = py::none())
+      .def("sense", &TickedPlant::sense, arg("sensed"), "Raises RuntimeError where a sample is lost.")
+      .def("apply", &TickedPlant::apply, arg("command"), "For one control period.")
+      .def_property_readonly("truth", &TickedPlant::truth, "what the plant measured, as Result.truth");
+  module.def(
+      "simulate", &simulate, arg("program"), py::kw_only(), arg("most") = 600.0, arg("log") = false,
+      arg("seed") = 0, arg("start_at") = py::none(), arg("start_yaw") = py::none(),
+      py::call_guard<py::gil_scoped_release>(),
+      "Runs the task on the simulated robot. `most` [s]; `log`: keep every tick; `start_at` (x, y) [m] and "
+      "`start_yaw` [rad] in the place of the scene's.");
+}
+
+}  // namespace zwang::python

@@ -1,0 +1,45 @@
+// What the plant measured, as columns of a log.
+#include <algorithm>
+
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+bool moves(const lang::SceneObject& object) {
+  return object.mass.has_value() || !object.motion.empty();
+}
+
+}  // namespace
+
+std::vector<Column> truth_columns(const lang::Scene& scene) {
+  std::vector<Column> columns = base_truth_columns();
+  for (const lang::SceneObject& o : scene.objects) columns.push_back({"truth." + o.name + ".force", "N", {}});
+  for (const lang::SceneRobot& r : scene.robots) columns.push_back({"truth." + r.name + ".force", "N", {}});
+  const auto add_place = [&columns](const std::string& name) {
+    columns.push_back({"truth." + name + ".x", "m", {}});
+    columns.push_back({"truth." + name + ".y", "m", {}});
+    columns.push_back({"truth." + name + ".yaw", "rad", {}});
+  };
+  for (const lang::SceneObject& o : scene.objects) {
+    if (moves(o)) add_place(o.name);
+  }
+  for (const lang::SceneRobot& r : scene.robots) add_place(r.name);
+  return columns;
+}
+
+/// The truth's objects are the scene's objects, then its robots.
+void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> values) {
+  const BaseTruthValues base = base_truth_values(truth.x, truth.y, truth.yaw, truth.base);
+  std::copy(base.begin(), base.end(), values.begin());
+  std::size_t at = base.size();
+  for (const ObjectTruth& o : truth.objects) values[at++] = o.force;
+  for (std::size_t i = 0; i < truth.objects.size(); ++i) {
+    if (i < scene.objects.size() && !moves(scene.objects[i])) continue;
+    const ObjectTruth& o = truth.objects[i];
+    for (const double place : {o.x, o.y, o.yaw}) values[at++] = place;
+  }
+}
+
+}  // namespace zwang::runtime

@@ -1,0 +1,189 @@
+"""The Python module: the same runs as the program's, the same texts, numpy columns, an own plant."""
+
+import json
+import math
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import zwang
+
+SPECS = pathlib.Path(os.environ["ZWANG_SPECS"])
+PROGRAM = os.environ["ZWANG_PROGRAM"]
+WALL_ALIGN = SPECS / "wall_align.yaml"
+
+
+def test_a_run_is_the_programs_run(tmp_path):
+    run = zwang.run(zwang.load(WALL_ALIGN, params={"push": "30 N"}), start_yaw=math.radians(10))
+    told = subprocess.run([PROGRAM, "run", WALL_ALIGN, "-p", "push=30N", "--start-yaw", "10 deg", "--format", "json",
+                           "--log", tmp_path / "log"], capture_output=True, text=True, check=False)
+    report = json.loads(told.stdout)
+    assert run.outcome == report["outcome"] == "done"
+    assert run.truth["wall.peak_force"] == report["truth"]["wall"]["peak_force"]
+    assert run.truth["base.yaw"] == report["truth"]["base"]["yaw"]
+    assert {limit.row: limit.worst for limit in run.limits} == {
+        limit["row"]: limit["worst"] for limit in report["limits"]}
+
+
+def test_a_log_in_memory_is_the_log_of_the_program(tmp_path):
+    run = zwang.run(zwang.load(WALL_ALIGN), most=2.0, log=True)
+    subprocess.run([PROGRAM, "run", WALL_ALIGN, "--quiet", "--log", tmp_path / "log"], check=False,
+                   capture_output=True)
+    read = zwang.read_log(tmp_path / "log" / "log.mcap")
+    assert run.outcome == "unfinished"
+    assert len(run.log) == 2000
+    assert run.log.columns == read.columns
+    for name in ["time", "base.x", "front_left_wheel.tau", "truth.wall.force", "task"]:
+        np.testing.assert_array_equal(run.log[name], read[name][:2000])
+    assert run.log.words("task")[int(run.log["task"][0])] == "press"
+    assert run.log.unit("front_left_wheel.tau") == "N m"
+
+
+def test_columns_are_read_only_views_that_outlive_the_run():
+    column = zwang.run(zwang.load(WALL_ALIGN), most=0.1, log=True).log["time"]
+    assert column[-1] == pytest.approx(0.099)
+    with pytest.raises(ValueError):
+        column[0] = 1.0
+    log = zwang.run(zwang.load(WALL_ALIGN), most=0.1, log=True).log
+    with pytest.raises(KeyError, match="no column `no_such`"):
+        log["no_such"]
+
+
+def test_a_mistake_is_an_error_with_its_diagnostics(tmp_path):
+    task = tmp_path / "task.yaml"
+    task.write_text(WALL_ALIGN.read_text().replace("0.08 m/s]", "0.08 m]")
+                    .replace("robots/", f"{SPECS}/robots/").replace("scenes/", f"{SPECS}/scenes/"))
+    with pytest.raises(zwang.Error) as caught:
+        zwang.load(task)
+    codes = [d.code for d in caught.value.diagnostics]
+    assert codes and all(code.startswith("E") for code in codes)
+    assert isinstance(caught.value, ValueError)
+    told = subprocess.run([PROGRAM, "validate", "--format", "json", task], capture_output=True, text=True, check=False)
+    spoken = [d for d in json.loads(told.stdout)["diagnostics"] if d["severity"] == "error"]
+    assert [(d.code, d.line, d.column) for d in caught.value.diagnostics if d.severity == "error"] == [
+        (d["code"], d["range"]["start"]["line"], d["range"]["start"]["column"]) for d in spoken]
+    assert [d.code for d in zwang.validate(task)] == codes
+
+
+class Integrator(zwang.Plant):
+    """A base whose wheels turn as the torques say, and nothing else: I qdd = tau."""
+
+    def __init__(self, program):
+        count = len(program.joints)
+        self.time, self.q, self.qd = 0.0, np.zeros(count), np.zeros(count)
+
+    def sense(self, sensed):
+        sensed.time = self.time
+        sensed.q[:] = self.q
+        sensed.qd[:] = self.qd
+
+    def apply(self, command):
+        self.qd = self.qd + 1e-3 * command.torque / 0.2
+        self.q = self.q + 1e-3 * self.qd
+        self.time += 1e-3
+
+
+def test_an_own_plant_is_driven_to_what_the_task_asks():
+    program = zwang.load(SPECS / "laws" / "straight_on.yaml")
+    plant = Integrator(program)
+    speeds = []
+    runner = zwang.run(program, plant, most=3.0, on_tick=lambda runner, sensed: speeds.append(runner.state))
+    assert runner.state == "running" or runner.finished
+    assert len(speeds) > 1000
+    assert np.all(plant.qd > 1.0)
+
+
+def test_what_an_own_plant_raises_comes_out():
+    class Broken(zwang.Plant):
+        def sense(self, sensed):
+            raise OSError("no bus")
+
+    with pytest.raises(OSError, match="no bus"):
+        zwang.run(zwang.load(WALL_ALIGN), Broken())
+
+
+def test_a_loop_of_ones_own_on_the_simulated_robot():
+    program = zwang.load(WALL_ALIGN)
+    plant, runner, sensed = zwang.ScenePlant(program), zwang.Runner(program), zwang.Sensed(program)
+    commands = []
+    for _ in range(500):
+        plant.sense(sensed)
+        commands.append(runner.step(sensed))
+        plant.apply(commands[-1])
+    assert runner.task == "press"
+    assert not np.array_equal(commands[0].torque, commands[100].torque)  # each one is a copy
+    runner.stop()
+    runner.step(sensed)
+    assert runner.state == "stopped"
+    assert runner.events[-1]["code"] == "requested"
+
+
+def test_a_command_lasts_a_control_period(tmp_path):
+    for folder in ("robots", "scenes"):
+        shutil.copytree(SPECS / folder, tmp_path / folder)
+    robot = tmp_path / "robots" / "mecanum_base.yaml"
+    robot.write_text(robot.read_text() + "control_period: 10 ms\n")
+    program = zwang.load(shutil.copy(WALL_ALIGN, tmp_path), robot=robot)
+    plant, sensed = zwang.ScenePlant(program), zwang.Sensed(program)
+    command = zwang.Runner(program).step(sensed)
+    plant.apply(command)
+    plant.sense(sensed)
+    assert sensed.time == pytest.approx(0.010)
+
+
+def test_parameters_and_signals_are_told_by_name():
+    runner = zwang.Runner(zwang.load(WALL_ALIGN))
+    runner.set("push", 25.0)
+    with pytest.raises(ValueError, match="no parameter `push`"):
+        runner.set("push", 4000.0)
+    sensed = zwang.Sensed(zwang.load(SPECS / "hospital.yaml"))
+    sensed.measure("loaded", True)
+    sensed.measure("nearest", 1.5)
+    with pytest.raises(KeyError, match="no signal `nearst`"):
+        sensed.measure("nearst", 1.5)
+
+
+def test_a_sweep_is_its_runs_in_their_order():
+    grid = {"push": ["10 N", "20 N"], "start_yaw": [-0.1, 0.1]}
+    runs = zwang.sweep(WALL_ALIGN, grid, jobs=2)
+    alone = [zwang.run(zwang.load(WALL_ALIGN, params={"push": push}), start_yaw=yaw)
+             for push in grid["push"] for yaw in grid["start_yaw"]]
+    assert [r.outcome for r in runs] == ["done"] * 4
+    assert [r.truth for r in runs] == [r.truth for r in alone]
+
+
+def test_a_run_leaves_other_threads_their_turn():
+    turns = []
+    done = threading.Event()
+
+    def count():
+        while not done.is_set():
+            turns.append(0)
+            time.sleep(1e-3)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    zwang.run(zwang.load(WALL_ALIGN))
+    done.set()
+    thread.join()
+    assert len(turns) > 10
+
+
+def test_the_blocks_of_the_page_run(monkeypatch, capsys):
+    page = (SPECS.parent / "docs" / "python.md").read_text()
+    blocks = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    assert len(blocks) == 6
+    monkeypatch.chdir(SPECS)
+    names: dict = {}
+    for block in blocks:
+        exec(compile(block, "docs/python.md", "exec"), names)  # as a reader pastes them, one after the other
+    assert names["run"].outcome == "done"
+    assert names["runner"].task == "press"
+    assert "E202" in capsys.readouterr().out
