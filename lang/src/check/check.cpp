@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "check/check_feeling.hpp"
 #include "check/check_sets.hpp"
 #include "check/context.hpp"
 #include "check/parameter_values.hpp"
@@ -284,6 +285,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   }
   check_flow(context, checked.conditions, checked.always_conditions);
   check_unguarded_sets(context, {checked.conditions, checked.always_conditions, checked.requirements});
+  check_feeling(context);
   check_physics(context, scene, {checked.conditions, checked.always_conditions}, budget);
   if (scene && !diagnostics.has_errors()) {
     check_scene_names(context, *scene);

@@ -214,8 +214,8 @@ Diagnostic coarse_encoders(const Span& span, double step, double radius);
 Diagnostic estimate_without_torque(const Span& span, const std::string& name);
 Diagnostic unknown_drive_word(const Span& span, const std::string& key, const std::string& text,
                               const std::vector<std::string>& known);
-Diagnostic drive_takes_twists(const Span& span);
-Diagnostic drive_has_fixed_limit(const Span& span);
+Diagnostic limit_beside_twist(const Span& span);
+Diagnostic twist_of_swivels(const Span& span, const std::string& joint, const Span& drive);
 Diagnostic drive_without_wheel(const Span& span, const std::string& joint, const Span& drive);
 Diagnostic drive_key_beside_torque(const Span& span, const std::string& key);
 Diagnostic drive_too_slow(const Span& span, double rate);   ///< [1/s]

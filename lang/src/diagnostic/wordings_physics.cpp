@@ -119,6 +119,26 @@ Diagnostic redundant_row(const Span& span, const std::string& axis, const std::s
                             : diagnostic;
 }
 
+Diagnostic cannot_feel(const Span& span, const std::string& axis, const std::string& says, double push,
+                       const Span& motor) {
+  return with_related(
+      error("E630", span,
+            "`" + axis + "` " + says + ", and this robot cannot feel: its drive pushes with up to " +
+                figure(push, "N") + " until the wheels turn as they are told",
+            "say how fast the base may go instead, or use a drive that takes torques or a "
+            "torque limit in each cycle"),
+      motor, "one of the motors; `torque_limit: fixed` says that its limit is not sent");
+}
+
+Diagnostic pushes_fully(const Span& span, double push, const Span& motor) {
+  return with_related(
+      warning("W635", span,
+              "this robot cannot feel: at an obstacle it pushes with up to " + figure(push, "N") +
+                  " until the guard finds that its wheels do not follow, after 0.3 s and more",
+              "keep people away, or lower the drive's own torque limit"),
+      motor, "one of the motors; `torque_limit: fixed` says that its limit is not sent");
+}
+
 Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit) {
   const Units u = units(cap.turns);
   return capped(error("E601", span,

@@ -26,6 +26,11 @@ Diagnostic too_many_rows(const Span& span, int rows, int level, int freedoms, bo
 Diagnostic redundant_row(const Span& span, const std::string& axis, const std::string& twin,
                          const Span& twin_span);
 
+/// `axis` is a path; `says` what of it is a force: "presses", "has a force range".
+Diagnostic cannot_feel(const Span& span, const std::string& axis, const std::string& says, double push,
+                       const Span& motor);
+Diagnostic pushes_fully(const Span& span, double push, const Span& motor);  ///< [N]
+
 /// A force driver and what an acceleration range leaves of it.
 struct Cap {
   std::string axis;

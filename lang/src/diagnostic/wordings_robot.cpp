@@ -145,16 +145,17 @@ Diagnostic unknown_drive_word(const Span& span, const std::string& key, const st
   return error("E815", span, "`" + key + "` of a drive cannot be " + in_ticks(text), "write " + words);
 }
 
-Diagnostic drive_takes_twists(const Span& span) {
-  return error("E814", span, "drives that take the base's twist are not built yet",
-               "command the wheels: `as: wheels`");
+Diagnostic limit_beside_twist(const Span& span) {
+  return error("E814", span, "a torque limit of each wheel cannot be sent with the base's twist",
+               "command the wheels, `as: wheels`; or write `torque_limit: fixed`, and the base is blind");
 }
 
-Diagnostic drive_has_fixed_limit(const Span& span) {
-  return error("E814", span,
-               "drives whose torque limit cannot be sent are not built yet: nothing would bound what they "
-               "press with",
-               "`torque_limit: each_cycle`, if the drive takes a torque or current limit with each command");
+Diagnostic twist_of_swivels(const Span& span, const std::string& joint, const Span& drive) {
+  return with_related(error("E814", span,
+                            "wheel " + in_ticks(joint) +
+                                " swivels: twists for wheels that do not hang on the base are not built yet",
+                            "command the wheels: `as: wheels`"),
+                      drive, "this drive takes the base's twist");
 }
 
 Diagnostic drive_without_wheel(const Span& span, const std::string& joint, const Span& drive) {

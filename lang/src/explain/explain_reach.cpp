@@ -227,6 +227,25 @@ axes' own accelerations are 0 then; `plane` bounds the acceleration of the point
 axis bounds the rate of that axis's velocity, and nothing of what a turn adds.)~",
           .fix = "Write `plane`: it bounds the norm in any direction. If a box is meant, silence the line."},
       Explanation{
+          .code = "E630",
+          .title = "a force on a robot that cannot feel",
+          .why =
+              R"~(A drive with a torque limit of its own (`torque_limit: fixed`) pushes until its wheels turn as they
+are told. zwang sends velocities and learns of no force, so nothing would keep what the task says.)~",
+          .fix =
+              "Say how fast the base may go, and let a signal tell of contact: a bumper or a force sensor. "
+              "Forces need a drive that takes torques, or a torque limit in each cycle."},
+      Explanation{
+          .code = "W635",
+          .title = "a robot that pushes with all that its motors have",
+          .why =
+              R"~(The drive has a torque limit of its own and measures no force. At an obstacle the base pushes with
+that limit. The guard latches the protective stop once a wheel stays behind what it is told by 2 cm/s and 30 %
+for 0.3 s, or by 5 mm/s and 30 % for 1.2 s. Until then nothing bounds the push but the motors.)~",
+          .fix =
+              "Keep people out of the way, or lower the torque limit in the drive. If this is known, silence "
+              "the line."},
+      Explanation{
           .code = "E634",
           .title = "an estimated force on a drive that takes velocities",
           .why =

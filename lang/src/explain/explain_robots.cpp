@@ -161,16 +161,16 @@ slower loop the robot would press, and pass limits, before a tick notices.)~",
           .code = "E814",
           .title = "a drive that zwang does not run yet",
           .why =
-              R"~(A drive that takes velocities presses as hard as its torque limit lets it. zwang sends that limit with each
-command, so a task's force ranges hold. Other drives need a model of what they press with, which is not built:
-drives with a fixed torque limit, drives that take the base's twist, and velocities for joints that turn no wheel.)~",
-          .fix = "Command wheels, and send the limit with each command. Many motor controllers take a current "
-                 "limit in each cycle.",
+              R"~(A torque limit of each wheel goes with the velocity of each wheel, not with the base's twist. Twists for
+wheels that swivel, and velocities for joints that turn no wheel, are not built.)~",
+          .fix = "Command wheels. A drive that takes only the base's twist has a torque limit of its own.",
           .part = ExcerptOf::robot,
-          .example = "drive: {command: velocity, rate: 100 Hz, delay: 10 ms, time_constant: 20 ms, "
-                     "integral_time: 100 ms, torque_limit: fixed}",
-          .instead = "drive: {command: velocity, rate: 100 Hz, delay: 10 ms, time_constant: 20 ms, "
-                     "integral_time: 100 ms, torque_limit: each_cycle}"},
+          .example =
+              "drive: {command: velocity, as: twist, rate: 100 Hz, delay: 10 ms, time_constant: 20 ms, "
+              "integral_time: 100 ms, torque_limit: each_cycle}",
+          .instead =
+              "drive: {command: velocity, as: twist, rate: 100 Hz, delay: 10 ms, time_constant: 20 ms, "
+              "integral_time: 100 ms, torque_limit: fixed}"},
       Explanation{
           .code = "E815",
           .title = "a drive that cannot be",

@@ -65,12 +65,11 @@ Drive parse_drive(const Node& node, Diagnostics& diagnostics) {
     return drive;
   }
   const Node* as = map.optional("as");
-  if (parse_choice(as, "as", {"wheels", "twist"}, diagnostics) == "twist")
-    diagnostics.add(wording::drive_takes_twists(as->span));
+  drive.takes_twist = parse_choice(as, "as", {"wheels", "twist"}, diagnostics) == "twist";
   const Node* limit = map.required("torque_limit");
-  if (limit != nullptr &&
-      parse_choice(limit, "torque_limit", {"each_cycle", "fixed"}, diagnostics) == "fixed")
-    diagnostics.add(wording::drive_has_fixed_limit(limit->span));
+  drive.limit_is_fixed = parse_choice(limit, "torque_limit", {"each_cycle", "fixed"}, diagnostics) == "fixed";
+  if (limit != nullptr && drive.takes_twist && !drive.limit_is_fixed)
+    diagnostics.add(wording::limit_beside_twist(limit->span));
   parse_rate_and_delay(map, drive, diagnostics);
   parse_loop(map, drive, diagnostics);
   map.finish();
@@ -86,6 +85,18 @@ void check_drive(const RobotFile& file, Diagnostics& diagnostics) {
     if (!turns_wheel)
       diagnostics.add(
           wording::drive_without_wheel(actuator.joint.span, actuator.joint.text, file.drive_span));
+  }
+}
+
+void check_twist(const RobotFile& file, const solver::Model& model, Diagnostics& diagnostics) {
+  if (!file.drive.takes_twist) return;
+  for (const solver::Wheel& wheel : model.wheels()) {
+    const solver::Body& body = model.bodies()[static_cast<std::size_t>(wheel.body)];
+    if (!body.joint.actuated || body.parent == 0) continue;
+    const auto text = std::find_if(file.wheels.begin(), file.wheels.end(),
+                                   [&](const WheelText& w) { return w.joint.text == body.joint.name; });
+    if (text != file.wheels.end())
+      diagnostics.add(wording::twist_of_swivels(text->joint.span, body.joint.name, file.drive_span));
   }
 }
 

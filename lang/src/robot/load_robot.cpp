@@ -51,6 +51,8 @@ class RobotBuilder {
       stand_wheels_exactly(build_model(), file_, urdf_, diagnostics_);
       Robot robot = assemble();
       if (!stands(robot)) return std::nullopt;
+      check_twist(file_, robot.model, diagnostics_);
+      if (diagnostics_.error_count() > errors_before_) return std::nullopt;
       return robot;
     } catch (const std::invalid_argument& error) {
       complain(error.what());

@@ -36,16 +36,16 @@ Json actuator() {
 }
 
 Json drive() {
-  return object(
-      "what the motors' drive takes; default torques",
-      {{"command", one_of_words("", {"torque", "velocity"}), true},
-       {"as", one_of_words("what takes the velocities", {"wheels"})},
-       {"rate", reference("quantity", "of commands and samples, 20 Hz at least")},
-       {"delay", reference("quantity", "encoder to runtime to wheel, 50 ms at most")},
-       {"time_constant", reference("quantity", "of the wheels' velocity loops")},
-       {"integral_time",
-        any_of({one_of_words("the loops have no integral", {"none"}), reference("quantity", "of the loops")})},
-       {"torque_limit", one_of_words("sent with each command", {"each_cycle"})}});
+  return object("what the motors' drive takes; default torques",
+                {{"command", one_of_words("", {"torque", "velocity"}), true},
+                 {"as", one_of_words("what is told: wheels or the base", {"wheels", "twist"})},
+                 {"rate", reference("quantity", "of commands and samples, 20 Hz at least")},
+                 {"delay", reference("quantity", "encoder to runtime to wheel, 50 ms at most")},
+                 {"time_constant", reference("quantity", "of the wheels' velocity loops")},
+                 {"integral_time", any_of({one_of_words("the loops have no integral", {"none"}),
+                                           reference("quantity", "of the loops")})},
+                 {"torque_limit",
+                  one_of_words("sent with each command, or the drive's own", {"each_cycle", "fixed"})}});
 }
 
 Json joint_friction() {

@@ -8,6 +8,16 @@
 
 namespace zwang::runtime {
 
+namespace {
+
+double radius_of(const std::vector<solver::Vector3>& footprint) {
+  double radius = 0.0;
+  for (const solver::Vector3& corner : footprint) radius = std::max(radius, corner.head<2>().norm());
+  return radius;
+}
+
+}  // namespace
+
 VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_capacity)
     : drive_(robot.drive),
       period_(period),
@@ -15,6 +25,7 @@ VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_ca
       limit_(Eigen::VectorXd::Zero(robot.model.joint_count())),
       row_bounds_(robot.model, row_capacity),
       set_point_(robot.drive, robot.model),
+      radius_(radius_of(robot.footprint)),
       pressing_(limit_),
       measured_(robot.model) {
   for (const WheelMotor& motor : wheel_motors(robot, 0.0)) {
@@ -24,11 +35,19 @@ VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_ca
   }
   const double force = robot.stop.force / std::max<double>(1.0, static_cast<double>(wheels_.size()));
   for (Wheel& wheel : wheels_) wheel.brake = std::min(wheel.brake, force * wheel.radius);
+  if (drive_.is_blind()) virtual_.emplace(robot, period);
 }
 
 void VelocityDrive::take(const solver::State& state, double stamp) noexcept {
   measured_ = state;
   measured_at_ = stamp;
+  if (virtual_ && virtual_->has_begun()) virtual_->correct(state, stamp);
+}
+
+void VelocityDrive::put_virtual(double time, bool is_stopped, solver::State& state) noexcept {
+  if (is_stopped) return virtual_->end();
+  if (!virtual_->has_begun()) virtual_->begin(state, time);
+  virtual_->put(state);
 }
 
 /// The base goes on along a circle: its heading is the mean one on the way.
@@ -49,17 +68,26 @@ std::optional<Event> VelocityDrive::look_for_samples(double time) const noexcept
   return Event{EventCode::lost_ticks, time, event_signal::time, age};
 }
 
-/// A wheel that is slower than its command is blocked, or rests on its torque limit. One that is faster, or
-/// turns the other way, does what nobody tells it.
+/// Of a drive that is sent torque limits, a wheel that is slower than its command is blocked, or rests on its
+/// limit. One that is faster, or turns the other way, does what nobody tells it.
+bool VelocityDrive::differs(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept {
+  const double high = virtual_ ? wheel.most : std::max(0.0, wheel.most);
+  const double low = virtual_ ? wheel.least : std::min(0.0, wheel.least);
+  const double room = allowance.slack / wheel.radius;
+  return rate > high + share * std::abs(high) + room || rate < low - share * std::abs(low) - room;
+}
+
 std::optional<Event> VelocityDrive::look(const solver::State& measured, double time) noexcept {
   std::optional<Event> found;
+  const auto since = [time](bool is_so, double began) {
+    return is_so ? std::min(began, time) : solver::infinity;
+  };
   for (Wheel& wheel : wheels_) {
     const double rate = measured.qd(wheel.joint);
-    const double room = slack / wheel.radius;
-    const bool is_beyond = rate > (1.0 + share) * std::max(0.0, wheel.most) + room ||
-                           rate < (1.0 + share) * std::min(0.0, wheel.least) - room;
-    wheel.beyond_since = is_beyond ? std::min(wheel.beyond_since, time) : solver::infinity;
-    if (!found && time - wheel.beyond_since > followed_in)
+    wheel.beyond_since = since(differs(wheel, rate, fast), wheel.beyond_since);
+    wheel.behind_since = since(virtual_ && differs(wheel, rate, slow), wheel.behind_since);
+    const bool is_found = time - wheel.beyond_since > fast.time || time - wheel.behind_since > slow.time;
+    if (!found && is_found)
       found =
           Event{EventCode::not_followed, time, event_signal::of_joint(wheel.joint, event_signal::qd), rate};
   }
@@ -77,17 +105,25 @@ void VelocityDrive::remember(const Command& command) noexcept {
 }
 
 void VelocityDrive::drive(const solver::Solver& solver, const Scheduler& scheduler,
-                          const solver::Solution& solution, const Eigen::VectorXd& qd,
+                          const solver::Solution& solution, const solver::State& state, double time,
                           const Eigen::VectorXd& compensation, Command& command) noexcept {
   blind_for_ = 0.0;
   slowest_ = solver::infinity;
   for (Wheel& wheel : wheels_) wheel.is_let_go = false;
+  if (virtual_) {
+    virtual_->move(state, solution, time + period_);
+    virtual_->tell(command);
+    command.lower = -limit_;
+    command.upper = limit_;
+    return remember(command);
+  }
   pressing_ = command.torque - compensation;
   const TorqueBounds& bounds = row_bounds_.look(solver, scheduler, solution);
   put_box(bounds, pressing_, limit_, command.lower, command.upper);
   command.lower = (command.lower + compensation).cwiseMax(-limit_);
   command.upper = (command.upper + compensation).cwiseMin(limit_);
-  set_point_.put(solver, scheduler.constraints(), solution, row_bounds_.motions(), qd, command.velocity);
+  set_point_.put(solver, scheduler.constraints(), solution, row_bounds_.motions(), state.qd,
+                 command.velocity);
   remember(command);
 }
 
@@ -115,10 +151,23 @@ void VelocityDrive::let_go_of_what_drives(const Eigen::VectorXd& qd, int suspect
   for (Wheel& wheel : wheels_) wheel.rate_then = qd(wheel.joint);
 }
 
+/// The base goes on along its circle, and no corner of it brakes harder than `stop.deceleration`.
+void VelocityDrive::ramp_to_rest(Command& command) const noexcept {
+  const double speed = command.twist.head<2>().norm() + radius_ * std::abs(command.twist.z());
+  const double step = deceleration_ * period_;
+  const double left = speed > step ? 1.0 - step / speed : 0.0;
+  command.twist *= left;
+  command.velocity *= left;
+}
+
 void VelocityDrive::brake(const Eigen::VectorXd* qd, int suspect, Command& command) noexcept {
+  command.torque.setZero();
+  if (virtual_) {
+    ramp_to_rest(command);
+    return remember(command);
+  }
   if (qd != nullptr) let_go_of_what_drives(*qd, suspect);
   bool turns = false;
-  command.torque.setZero();
   command.lower.setZero();
   command.upper.setZero();
   for (const Wheel& wheel : wheels_) {
@@ -140,7 +189,14 @@ void VelocityDrive::brake(const Eigen::VectorXd* qd, int suspect, Command& comma
   remember(command);
 }
 
-void VelocityDrive::go_on_from(const VelocityDrive& before) noexcept {
+void VelocityDrive::rest(Command& command) const noexcept {
+  if (!virtual_) return;
+  command.velocity.setZero();
+  command.twist.setZero();
+}
+
+void VelocityDrive::go_on_from(VelocityDrive& before) noexcept {
+  std::swap(virtual_, before.virtual_);
   measured_ = before.measured_;
   measured_at_ = before.measured_at_;
   wheels_ = before.wheels_;

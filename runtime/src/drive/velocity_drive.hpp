@@ -7,6 +7,7 @@
 
 #include "drive/set_point.hpp"
 #include "drive/torque_box.hpp"
+#include "drive/virtual_robot.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/command.hpp"
 #include "zwang/runtime/event.hpp"
@@ -15,8 +16,9 @@
 namespace zwang::runtime {
 
 /// Samples come at the drive's rate, and late: between them the newest one is carried on. What is sent are
-/// the wheels' velocities and the box of torques around what the solver asks for. Does not allocate, lock,
-/// throw or print after construction.
+/// the wheels' velocities and the box of torques around what the solver asks for. Where the drive has torque
+/// limits of its own, a virtual robot is what the rows see, and its velocities are sent. Does not allocate,
+/// lock, throw or print after construction.
 class VelocityDrive {
  public:
   VelocityDrive(const lang::Robot& robot, double period, int row_capacity);
@@ -27,25 +29,46 @@ class VelocityDrive {
   void take(const solver::State& state, double stamp) noexcept;
   void carry_on(double time, solver::State& state) const noexcept;
   double measured_at() const noexcept { return measured_at_; }
+  const solver::State& measured() const noexcept { return measured_; }
+
+  bool has_virtual_robot() const noexcept { return virtual_.has_value(); }
+  /// Joints and base of `state`, which is measured and carried on, become those of the virtual robot; from
+  /// now on or, in a stop, not any more.
+  void put_virtual(double time, bool is_stopped, solver::State& state) noexcept;
   /// None came for too long: by the age of the newest one [s].
   std::optional<Event> look_for_samples(double time) const noexcept;
-  /// With a new sample: whether a wheel goes the way that it was told. The event has its rate.
+  /// With a new sample: whether a wheel goes the way that it was told, and of a drive with torque limits of
+  /// its own as fast. The event has its rate.
   std::optional<Event> look(const solver::State& measured, double time) noexcept;
 
   /// What is sent while the task runs. `solver` has solved the rows of `scheduler`; `compensation` is
-  /// what is added to the torques against friction.
+  /// what is added to the torques against friction; `state` is what was solved, at `time` [s].
   void drive(const solver::Solver& solver, const Scheduler& scheduler, const solver::Solution& solution,
-             const Eigen::VectorXd& qd, const Eigen::VectorXd& compensation, Command& command) noexcept;
+             const solver::State& state, double time, const Eigen::VectorXd& compensation,
+             Command& command) noexcept;
   /// What is sent in the protective stop: velocities go to 0 with `stop.deceleration`. `qd`: of a good
   /// sample, then torques may only take energy; none: the drive brakes by its own encoders for as long as it
   /// needs. The wheel at joint `suspect`, or none (-1), is let go of, and each that gets faster while it is
   /// braked: its motor does the contrary of what it is told, and the others take the energy.
   void brake(const Eigen::VectorXd* qd, int suspect, Command& command) noexcept;
-  void go_on_from(const VelocityDrive& before) noexcept;
+  /// The run is over, and perhaps nothing more is sent: a drive that pushes as hard as it can is told 0.
+  void rest(Command& command) const noexcept;
+  /// Whether such a drive is told to move.
+  bool moves(const Command& command) const noexcept {
+    return virtual_.has_value() && !(command.velocity.isZero(0.0) && command.twist.isZero(0.0));
+  }
+  void go_on_from(VelocityDrive& before) noexcept;
 
-  static constexpr double slack = 0.02;       ///< [m/s] at the rim, and
-  static constexpr double share = 0.3;        ///< of the command: what a wheel may be faster by,
-  static constexpr double followed_in = 0.3;  ///< [s] for less than this
+  /// What a wheel may differ by from what it is told, and for how long. Both are a way of 6 mm.
+  struct Allowance {
+    double slack;  ///< [m/s] at the rim, and `share` of the command
+    double time;   ///< [s]
+  };
+  static constexpr Allowance fast{0.02, 0.3};
+  /// Of a drive with torque limits of its own: a base that creeps against an obstacle is told too little to
+  /// differ by more. A loop without an integral leaves tau R/k_p of dry friction: 2 mm/s of 0.1 N m a wheel.
+  static constexpr Allowance slow{0.005, 1.2};
+  static constexpr double share = 0.3;
   static constexpr double lost_cycles = 3.0;  ///< without a sample, beside
   static constexpr double lost_time = 0.05;   ///< [s]
   static constexpr double full_brake = 0.5;   ///< [rad/s]: below it the brake's torque shrinks with the rate
@@ -58,12 +81,15 @@ class VelocityDrive {
     double radius = 0.0;                     ///< [m]
     double brake = 0.0;                      ///< [N m] its part of `stop.force`
     double most = 0.0, least = 0.0;          ///< [rad/s] of the latest commands
-    double beyond_since = solver::infinity;  ///< [s]
+    double beyond_since = solver::infinity;  ///< [s] the fast allowance,
+    double behind_since = solver::infinity;  ///< [s] the slow one
     double rate_then = 0.0;                  ///< [rad/s] when all were slowest
     bool is_let_go = false;
   };
   void remember(const Command& command) noexcept;
   void let_go_of_what_drives(const Eigen::VectorXd& qd, int suspect) noexcept;
+  bool differs(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept;
+  void ramp_to_rest(Command& command) const noexcept;
 
   lang::Drive drive_;
   double period_;
@@ -72,6 +98,8 @@ class VelocityDrive {
   Eigen::VectorXd limit_;  ///< [N m] of each joint
   RowBounds row_bounds_;
   SetPoint set_point_;
+  std::optional<VirtualRobot> virtual_;
+  double radius_;  ///< [m] of the footprint about the base's origin
   Eigen::VectorXd pressing_;
   solver::State measured_;
   double measured_at_ = -solver::infinity;  ///< [s]

@@ -59,6 +59,11 @@ class SampledLine {
 /// inside the command's bounds and the motor's limit. m is the mass that n wheels of the radius R drive,
 /// rotors included: alone on the floor the base follows a step as 1 - e^(-t/T_c), but for the integral. That
 /// stands still while the torque is at a bound and the error would push it farther.
+///
+/// A drive with torque limits of its own takes the motors' limits, whatever the command says. One that takes
+/// the base's twist turns it into V as drivers do, by where the wheels stand: with u the direction that the
+/// wheel holds at its contact point P, and d the way of P for 1 rad of the wheel,
+///     u . (v + w z x P + V d) = 0.
 class VelocityLoop {
  public:
   explicit VelocityLoop(const lang::Robot& robot);
@@ -75,7 +80,15 @@ class VelocityLoop {
     double proportional = 0.0;  ///< k_p [N m s/rad]
     double integral = 0.0;      ///< k_i [N m/rad]
     double sum = 0.0;           ///< [N m] of the integral
+    /// V for 1 m/s of the base's x, of its y, and 1 rad/s. [rad/s]
+    Eigen::Vector3d per_twist = Eigen::Vector3d::Zero();
   };
+  double wanted_velocity(const Wheel& wheel, const Command& command) const noexcept {
+    return takes_twist_ ? wheel.per_twist.dot(command.twist) : command.velocity(wheel.joint);
+  }
+
+  bool takes_twist_;
+  bool limit_is_fixed_;
   std::vector<Wheel> wheels_;
   Eigen::VectorXd torque_;
 };

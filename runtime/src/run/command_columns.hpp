@@ -20,6 +20,10 @@ inline std::array<CommandColumn, 3> command_columns(const solver::Joint& joint) 
           CommandColumn{joint.name + ".tau_low", torque}, CommandColumn{joint.name + ".tau_high", torque}};
 }
 
+/// Of a drive that takes the base's twist, in the order of Command::twist.
+inline constexpr std::array<std::array<const char*, 2>, 3> twist_columns{
+    {{"base.vx_told", "m/s"}, {"base.vy_told", "m/s"}, {"base.wz_told", "rad/s"}}};
+
 /// In the same order.
 inline std::array<double, 3> command_values(const Command& command, Eigen::Index joint) noexcept {
   return {command.velocity(joint), command.lower(joint), command.upper(joint)};

@@ -110,6 +110,10 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
       for (const CommandColumn& column : command_columns(model.joint(j))) add(column.name, column.unit);
     }
   }
+  if (program.robot.drive.takes_twist) {
+    first_twist_ = static_cast<int>(columns_.size());
+    for (const auto& [name, unit] : twist_columns) add(name, unit);
+  }
   for (const lang::Signal& signal : program.signals) add_signal(signal);
   for (const Statement& s : statements.all()) add_statement(s);
   for (const lang::Task& t : scheduler.tasks()) {
@@ -356,6 +360,8 @@ void LogLayout::put_command(const Command& command) noexcept {
     const std::array<double, 3> values = command_values(command, j);
     for (int k = 0; k < 3; ++k) put(first_command_ + 3 * j + k, values[static_cast<std::size_t>(k)]);
   }
+  if (first_twist_ < 0) return;
+  for (int k = 0; k < 3; ++k) put(first_twist_ + k, command.twist(k));
 }
 
 void LogLayout::put_transition(const Scheduler& scheduler) noexcept {

@@ -79,6 +79,7 @@ class LogLayout {
   int first_input_ = 0;
   int first_joint_ = 0;
   int first_command_ = -1;  ///< of a drive that takes velocities
+  int first_twist_ = -1;    ///< of a drive that takes the twist of the base
   int first_extra_ = 0;
 };
 

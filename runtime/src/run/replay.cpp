@@ -179,6 +179,8 @@ void replay_part(const lang::Program& first, const ReplayPart& part, Runner& run
       for (std::size_t k = 0; k < told.size(); ++k)
         compare_one(commands[static_cast<std::size_t>(j)][k].name, told[k]);
     }
+    for (int k = 0; program.robot.drive.takes_twist && k < 3; ++k)
+      compare_one(twist_columns[static_cast<std::size_t>(k)][0], runner.command().twist(k));
     ++result.records;
     if (equal) ++result.equal;
   };

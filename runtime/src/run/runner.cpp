@@ -164,8 +164,10 @@ struct Runner::Parts {
   /// Everything between that and the guard. False when there are no torques to send.
   bool control() noexcept;
   bool solve() noexcept;
-  /// What motors and wheels made of the last command.
-  void compare() noexcept;
+  /// `state` as the ground allows it, in the sample. False when the solver cannot.
+  bool project(const solver::State& state) noexcept;
+  /// What motors and wheels made of the last command; `measured`: the sample before it was projected.
+  void compare(const solver::State& measured) noexcept;
   /// After a swap of programs: what was sent last fades out of the torques.
   void hand_over() noexcept;
   bool has_the_joints_of(const Parts& other) const noexcept;
@@ -287,6 +289,7 @@ void Runner::Parts::estimate_between_samples(const Sensed& sensed) noexcept {
   }
   take_signals(sensed);
   drive->carry_on(estimated.time, estimated.state);
+  if (drive->has_virtual_robot()) drive->put_virtual(estimated.time, guard.stopped(), estimated.state);
 }
 
 void Runner::Parts::estimate_base(const Sensed& sensed, double time) noexcept {
@@ -367,13 +370,22 @@ void Runner::Parts::mend_rates() noexcept {
   qd(joint) = -qd(joint);
 }
 
+bool Runner::Parts::project(const solver::State& state) noexcept {
+  sample.state = state;
+  solver_status = solver.project_velocity(sample.state);
+  return solver_status == solver::Status::ok;
+}
+
 bool Runner::Parts::control() noexcept {
   sample.time = estimated.time;
-  sample.state = estimated.state;
-  solver_status = solver.project_velocity(sample.state);
-  if (solver_status != solver::Status::ok) return false;
+  const bool is_virtual = drive && drive->has_virtual_robot();
+  if (is_virtual && is_new_sample) {
+    if (!project(drive->measured())) return false;
+    compare(drive->measured());
+  }
+  if (!project(estimated.state)) return false;
   friction.follow(sample.state.q);
-  compare();
+  if (!is_virtual && is_new_sample) compare(estimated.state);
   if (guard.stopped()) return true;  // a motor is not to be trusted
   arm.bear(sample.state);            // it floats where nothing is said of it
   is_solution_of_rows = false;
@@ -426,6 +438,7 @@ void Runner::Parts::hand_over() noexcept {
 bool Runner::Parts::has_the_joints_of(const Parts& other) const noexcept {
   if (model.joint_count() != other.model.joint_count()) return false;
   if (drive.has_value() != other.drive.has_value()) return false;
+  if (drive && drive->has_virtual_robot() != other.drive->has_virtual_robot()) return false;
   for (int j = 0; j < model.joint_count(); ++j) {
     if (model.joint(j).name != other.model.joint(j).name) return false;
   }
@@ -462,13 +475,12 @@ void Runner::Parts::tell_refusal(SampleStatus status) noexcept {
   told_refusal = refusal;
 }
 
-void Runner::Parts::compare() noexcept {
-  if (!is_new_sample) return;
-  if (const auto begins = slip.look(estimated.state, sample.state, sample.time)) tell(*begins);
+void Runner::Parts::compare(const solver::State& measured) noexcept {
+  if (const auto begins = slip.look(measured, sample.state, sample.time)) tell(*begins);
   if (!slip.doubtful()) {
-    signs.roll(solver, estimated.state, sample.state, reckoning, sample.time);
+    signs.roll(solver, measured, sample.state, reckoning, sample.time);
   } else {
-    stop(signs.look(solver, estimated.state, sample.state, reckoning, sample.time));
+    stop(signs.look(solver, measured, sample.state, reckoning, sample.time));
   }
   if (!disturbance.compare(sample.state, sample.time)) {
     motors.reset();
@@ -523,6 +535,7 @@ void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   } else {
     rest.doubt();
   }
+  if (drive && drive->moves(command)) return;  // it is told less from tick to tick
   if (rest.stood_for() >= rest_dwell) is_past_stop = true;
   if (is_past_stop || static_cast<double>(stopped_ticks) * period <= longest_stop) return;
   is_past_stop = is_rest_doubted = true;
@@ -549,7 +562,8 @@ void Runner::Parts::put_command(bool good, bool solved) noexcept {
   } else if (solved) {
     command.torque = tau;
     compensation = wanted - solution.tau;
-    drive->drive(solver, scheduler, solution, sample.state.qd, compensation, command);
+    drive->drive(solver, scheduler, solution, sample.state, sample.time, compensation, command);
+    if (scheduler.phase() == Phase::finished) drive->rest(command);
   }
 }
 

@@ -55,17 +55,23 @@ inline constexpr double full_torque_within = 5e-3;
 /// What the motors' drive takes, and how late. The delay is the way of an encoder's value to the runtime and
 /// of the command back to the wheel, half of it each.
 struct Drive {
-  /// Velocities of the wheels, each with a torque limit that is sent with it. False: torques.
-  bool takes_velocity = false;
+  bool takes_velocity = false;  ///< false: torques
+  bool takes_twist = false;     ///< of the base; false: velocities of the wheels
+  /// The drive has torque limits of its own. False: one is sent with each velocity.
+  bool limit_is_fixed = false;
   double rate = 0.0;                    ///< [1/s] of commands and of samples
   double delay = 0.0;                   ///< [s]
   double time_constant = 0.0;           ///< T_c [s] of the wheels' velocity loops
   std::optional<double> integral_time;  ///< T_i [s] of the same; none: they have no integral
 
+  /// It takes velocities, pushes as hard as it can, and tells of no force: the base is led by a virtual
+  /// robot.
+  bool is_blind() const { return takes_velocity && limit_is_fixed; }
+
   /// Within which limits act [s]: of a drive that takes velocities from a sample to what the wheels make of
-  /// it.
+  /// it. A virtual robot does at once what the solver says.
   double horizon() const {
-    if (!takes_velocity) return solver::limit_horizon;
+    if (!takes_velocity || is_blind()) return solver::limit_horizon;
     return std::max(solver::limit_horizon, time_constant + delay + 1.0 / rate);
   }
 };

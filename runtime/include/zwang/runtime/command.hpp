@@ -7,7 +7,7 @@ namespace zwang::runtime {
 
 /// One entry a joint. A drive that takes torques reads `torque`; its bounds are that torque, its velocity
 /// is 0. A drive that takes velocities turns each wheel at `velocity` as far as a torque in [lower, upper]
-/// lets it.
+/// lets it; one that takes twists reads `twist` alone.
 struct Command {
   Command() = default;
   explicit Command(Eigen::Index joints)
@@ -15,7 +15,10 @@ struct Command {
 
   Eigen::VectorXd torque;        ///< [N m] or [N]
   Eigen::VectorXd velocity;      ///< [rad/s] or [m/s]
-  Eigen::VectorXd lower, upper;  ///< [N m] or [N]
+  Eigen::VectorXd lower, upper;  ///< [N m] or [N]; of a drive with limits of its own these
+  /// The base's velocity that `velocity` stands for: x, y [m/s] and rz [rad/s], in its axes. 0 of a drive
+  /// that takes no twist.
+  Eigen::Vector3d twist = Eigen::Vector3d::Zero();
 };
 
 }  // namespace zwang::runtime

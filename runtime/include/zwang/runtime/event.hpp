@@ -33,8 +33,8 @@ enum class EventCode {
   clock_rate,  ///< the samples' clock runs faster or slower than the control period; `value`: how many times
   wrench_impossible,  ///< a wrench from outside that nothing can press with counts as 0; told, a stop if it
                       ///< goes on
-  not_followed,  ///< a wheel is faster than a drive that takes velocities was told, or turns against it;
-                 ///< `value`: its rate
+  not_followed,  ///< a wheel is faster than a drive that takes velocities was told, or turns against it, or
+                 ///< stays behind where the drive has torque limits of its own; `value`: its rate
   // Those that are only told.
   clock_refused,  ///< time went backwards, or jumped
   clock_drift,    ///< the samples' clock is off by more than a tenth; `value`: its rate

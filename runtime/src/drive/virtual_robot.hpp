@@ -1,0 +1,98 @@
+/// The robot that rows and conditions see where a drive takes velocities and is not sent a torque limit.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+#include "zwang/runtime/command.hpp"
+#include "zwang/runtime/odometry.hpp"
+#include "zwang/solver/solver.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::runtime {
+
+/// What velocity loops are told so that their wheels turn with V. The loop of VelocityLoop answers a command
+/// c with
+///     v = (s + 1/T_i) / (T_c s^2 + s + 1/T_i) c,
+/// so it is told
+///     c = V + T_c (V' - L),   T_i L' = V' - L:
+/// the lead T_c V' of a first-order loop, and none of it once the integral has made up for it. Without an
+/// integral L stays 0.
+///
+/// The drive takes c once a cycle and holds it. So V and V' are means over the last cycle: where V' jumps
+/// between two takes, the wheel would else make up for what it missed, and accelerate by up to 1.4 V'.
+class LoopInput {
+ public:
+  /// `period` [s] of the updates, `count` velocities.
+  LoopInput(const lang::Drive& drive, double period, Eigen::Index count);
+  void begin(const Eigen::Ref<const Eigen::VectorXd>& velocity) noexcept;
+  void update(const Eigen::Ref<const Eigen::VectorXd>& velocity) noexcept;
+  const Eigen::VectorXd& value() const noexcept { return value_; }  ///< c
+  /// How old the mean of V is, with the newest V of age 0. [s]
+  double age() const noexcept { return 0.5 * period_ * static_cast<double>(past_.cols() - 1); }
+
+ private:
+  double period_;
+  double time_constant_;                 ///< [s]
+  std::optional<double> integral_time_;  ///< [s]
+  Eigen::MatrixXd past_;                 ///< V of the last cycle, a ring of columns
+  Eigen::Index oldest_ = 0;
+  Eigen::VectorXd acceleration_;  ///< V'
+  Eigen::VectorXd made_up_;       ///< L
+  Eigen::VectorXd value_;
+};
+
+/// It moves as the solver says, at once. The measured velocity lags behind by the drive's loop: rows that see
+/// it would ask for more, and the loop's integral would add to that. The real base follows the virtual one by
+/// the lag
+///     delay/2 + 1/(2 rate) + 1/(2 rate):
+/// half of the delay is the command's way to the wheel, a command is a mean over a cycle, and is held for
+/// one.
+///
+/// Its pose is dead reckoning by its own wheels. Each sample corrects it by what the measured pose differs
+/// from the virtual one that the base followed then, within 1 s; joint angles likewise. Its velocities are
+/// not corrected. Does not allocate, lock, throw or print after construction.
+class VirtualRobot {
+ public:
+  VirtualRobot(const lang::Robot& robot, double period);
+
+  bool has_begun() const noexcept { return has_begun_; }
+  /// As `state` is at `time` [s], which is known by then.
+  void begin(const solver::State& state, double time) noexcept;
+  void end() noexcept { has_begun_ = false; }
+  /// By a sample that was measured at `stamp` [s].
+  void correct(const solver::State& measured, double stamp) noexcept;
+  /// Joints and base of `state` become those of the virtual robot.
+  void put(solver::State& state) const noexcept;
+
+  /// By the solution at `state` to `time` [s], a tick later.
+  void move(const solver::State& state, const solver::Solution& solution, double time) noexcept;
+  /// What its wheels and its base are told to follow it.
+  void tell(Command& command) const noexcept;
+
+  double lag() const noexcept { return lag_; }     ///< [s]
+  static constexpr double corrected_within = 1.0;  ///< [s]
+  static constexpr double memory = 0.5;            ///< [s]
+
+ private:
+  struct Past {
+    double time = -1.0;  ///< [s]
+    Eigen::VectorXd q;
+  };
+  void correct_joints(const Eigen::VectorXd& measured, double then, double part) noexcept;
+
+  double period_;
+  double lag_;
+  std::vector<bool> turns_;  ///< each joint
+  solver::State state_;
+  Odometry pose_;
+  LoopInput wheels_, base_;
+  std::vector<Past> past_;  ///< a ring
+  std::size_t updates_ = 0;
+  double corrected_at_ = 0.0;  ///< [s]
+  bool has_begun_ = false;
+};
+
+}  // namespace zwang::runtime

@@ -1,0 +1,293 @@
+// A drive that takes velocities and has torque limits of its own: its lead by the loop's equation, what the
+// virtual robot makes of samples by theirs, the stop and the twist by the plant.
+#include "drive/virtual_robot.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../solver/malloc_counter.hpp"
+#include "../temporary_folder.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/recorder.hpp"
+#include "zwang/runtime/replay.hpp"
+#include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace zwang::runtime {
+namespace {
+
+constexpr double ms = 1e-3;
+
+lang::Program shipped(const std::string& task, const std::string& robot) {
+  lang::Diagnostics diagnostics;
+  lang::LoadOptions options;
+  options.root = "/";
+  options.robot = ZWANG_SOURCE_DIR "/specs/robots/blind/" + robot + ".yaml";
+  auto program = lang::load(ZWANG_SOURCE_DIR "/specs/laws/" + task + ".yaml", options, diagnostics);
+  if (!program) throw std::runtime_error(task + " does not load on " + robot);
+  return *program;
+}
+
+/// v' = (c - v)/T_c + S, S' = (c - v)/(T_c T_i): what VelocityLoop makes of a base alone on the floor.
+class Loop {
+ public:
+  explicit Loop(const lang::Drive& drive) : drive_(drive) {}
+  void step(double c, double step) {
+    const double off = c - v;
+    v += step * (off / drive_.time_constant + sum_);
+    if (drive_.integral_time) sum_ += step * off / (drive_.time_constant * *drive_.integral_time);
+  }
+  double v = 0.0;
+
+ private:
+  lang::Drive drive_;
+  double sum_ = 0.0;
+};
+
+lang::Drive loop_drive(double rate, std::optional<double> integral_time) {
+  lang::Drive drive;
+  drive.rate = rate;
+  drive.time_constant = 20 * ms;
+  drive.integral_time = integral_time;
+  return drive;
+}
+
+const std::optional<double> integral_times[] = {std::nullopt, 0.1, 0.03};
+
+TEST(LoopInput, AVelocityLoopFollowsARampWithoutALag) {
+  constexpr double step = 0.1 * ms, a = 1.0;
+  for (const std::optional<double>& integral_time : integral_times) {
+    const lang::Drive drive = loop_drive(1.0 / step, integral_time);
+    LoopInput input(drive, step, 1);
+    Loop loop(drive);
+    double V = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+      V += step * (i < 5000 ? a : i < 10000 ? 0.0 : -a);
+      input.update(Eigen::VectorXd::Constant(1, V));
+      loop.step(input.value()(0), step);
+      // A step of Euler's method is off by a h where the acceleration changes. The plain lead T_c V' would be
+      // off by T_c a, which is 20 mm/s.
+      ASSERT_NEAR(loop.v, V, 3.0 * a * step) << i << ", T_i " << integral_time.value_or(0.0);
+    }
+  }
+}
+
+/// A command is held for a cycle, and V' jumps at any time in it. Without means over a cycle the wheel gains
+/// up to 1.44 a h in one.
+TEST(LoopInput, AHeldCommandAcceleratesAWheelAsItIsMeantTo) {
+  constexpr double a = 1.0;
+  for (const double rate : {100.0, 50.0, 20.0}) {
+    for (const std::optional<double>& integral_time : integral_times) {
+      const lang::Drive drive = loop_drive(rate, integral_time);
+      const int cycle = static_cast<int>(std::lround(1000.0 / rate));
+      double most = 0.0;
+      for (int phase = 0; phase < cycle; phase += 3) {
+        LoopInput input(drive, ms, 1);
+        Loop loop(drive);
+        double V = 0.0, told = 0.0;
+        std::vector<double> past(static_cast<std::size_t>(cycle), 0.0);
+        for (int i = 0; i < 2000; ++i) {
+          V += ms * (i < 500 ? a : i < 1000 ? 0.0 : i < 1400 ? -a : a);
+          input.update(Eigen::VectorXd::Constant(1, V));
+          if (i % cycle == phase) told = input.value()(0);
+          for (int k = 0; k < 10; ++k) loop.step(told, 0.1 * ms);
+          double& then = past[static_cast<std::size_t>(i % cycle)];
+          most = std::max(most, std::abs(loop.v - then) * rate);
+          then = loop.v;
+        }
+      }
+      std::printf("%g Hz, T_i %g: %.3f\n", rate, integral_time.value_or(0.0), most / a);
+      EXPECT_LT(most, 1.1 * a) << rate << ", T_i " << integral_time.value_or(0.0);
+    }
+  }
+}
+
+/// Samples that differ by d from where the base was led then leave d e^(-t/T) of it.
+TEST(VirtualRobot, SamplesCorrectItsPoseWithinASecond) {
+  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  VirtualRobot robot(program.robot, 1 * ms);
+  solver::State state(program.robot.model);
+  const solver::Solution rests(program.robot.model);
+  robot.begin(state, 0.0);
+  solver::State measured = state;
+  measured.base_pose.position.x() = 0.01;
+  for (int i = 1; i <= 2000; ++i) {
+    robot.move(state, rests, i * ms);
+    if (i % 20 == 0) robot.correct(measured, i * ms);
+    robot.put(state);
+  }
+  const double corrected_for = 2.0 - robot.lag();
+  EXPECT_NEAR(state.base_pose.position.x(), 0.01 * (1.0 - std::exp(-corrected_for)), 1e-5);
+  EXPECT_EQ(state.base_twist.linear.norm(), 0.0);
+}
+
+/// A sample of a base that follows by exactly the lag corrects nothing.
+TEST(VirtualRobot, ABaseThatFollowsByTheLagIsNotCorrected) {
+  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  VirtualRobot robot(program.robot, 1 * ms);
+  solver::State state(program.robot.model);
+  const double v = 0.5;
+  state.base_twist.linear.x() = v;
+  for (const solver::Wheel& wheel : program.robot.model.wheels()) state.qd(wheel.body - 1) = v / wheel.radius;
+  const solver::Solution goes_on(program.robot.model);
+  robot.begin(state, 0.0);
+  solver::State measured = state;
+  for (int i = 1; i <= 2000; ++i) {
+    robot.move(state, goes_on, i * ms);
+    measured.base_pose.position.x() = v * (i * ms - robot.lag());
+    if (i % 20 == 0) robot.correct(measured, i * ms);
+    robot.put(state);
+    // The nearest pose that is remembered may be half a tick beside.
+    ASSERT_NEAR(state.base_pose.position.x(), v * i * ms, 0.5 * v * ms) << i;
+  }
+}
+
+struct Meeting {
+  double touched = 0.0, stopped = 0.0;  ///< [s]
+  double push = 0.0;                    ///< [N] while it is not stopped
+  double told = 0.0;                    ///< [rad/s] at the end
+  double push_after = 0.0;              ///< [N] 3 s later
+};
+
+/// `from` [m]: the crate's face is at 2.4 m.
+Meeting meet(const std::string& robot, double pace, double from) {
+  lang::Program program = shipped("meet_unfelt", robot);
+  program.scene->start_at[0] = from;
+  ScenePlant plant(program);
+  Runner runner(program);
+  EXPECT_TRUE(runner.set_parameter("pace", pace));
+  Sensed sensed(program);
+  Meeting result;
+  double finished = solver::infinity;  // [s]
+  while (plant.truth().time < std::min(60.0, finished + 3.0)) {
+    EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
+    runner.step(sensed);
+    EXPECT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+    if (runner.finished() && std::isinf(finished)) {
+      finished = plant.truth().time;
+      result.told = runner.command().velocity.lpNorm<Eigen::Infinity>();
+    }
+    result.push_after = plant.truth().objects[0].force;
+    const ObjectTruth& crate = plant.truth().objects[0];
+    if (crate.touched) result.touched = *crate.touched;
+    if (!runner.guard().stopped()) result.push = std::max(result.push, crate.force);
+    if (runner.guard().stopped() && result.stopped == 0.0) result.stopped = plant.truth().time;
+  }
+  EXPECT_EQ(runner.guard().reason(), EventCode::not_followed) << robot;
+  EXPECT_TRUE(runner.finished());
+  return result;
+}
+
+/// The wheels stand. A command is c = 0.15 m/s: found in 0.3 s, once the sample has come and the envelope of
+/// commands, which fades with T_c + delay + 1/rate, tells nothing else.
+TEST(BlindDrive, StopsAtWhatItsWheelsDoNotPass) {
+  for (const char* robot : {"mecanum_50_hz", "mecanum_20_hz", "diff_50_hz", "mecanum_twist"}) {
+    const lang::Drive drive = shipped("fence", robot).robot.drive;
+    const double samples = drive.delay + 2.0 / drive.rate;
+    const Meeting meeting = meet(robot, 0.15, 1.0);
+    std::printf("%s: stopped %.3f s after contact, %.0f N until then, %.0f N 3 s after the stop\n", robot,
+                meeting.stopped - meeting.touched, meeting.push, meeting.push_after);
+    EXPECT_GT(meeting.touched, 1.0);
+    EXPECT_LT(meeting.stopped - meeting.touched, 0.3 + samples + 0.1) << robot;
+    EXPECT_EQ(meeting.told, 0.0) << robot;
+  }
+}
+
+/// 2 cm/s cannot differ by 2 cm/s and 30 %: the slow allowance finds it.
+TEST(BlindDrive, StopsWhenItCreepsAgainstAnObstacle) {
+  const Meeting meeting = meet("mecanum_50_hz", 0.02, 1.9);
+  std::printf("stopped %.3f s after contact, %.0f N until then, %.0f N 3 s after the stop\n",
+              meeting.stopped - meeting.touched, meeting.push, meeting.push_after);
+  EXPECT_GT(meeting.touched, 1.0);
+  EXPECT_LT(meeting.stopped - meeting.touched, 1.2 + 0.2);
+}
+
+/// A driver turns the twist into wheels' velocities: the base goes so, as the plant has it.
+TEST(BlindDrive, ABaseThatIsToldATwistGoesSo) {
+  for (const char* robot : {"mecanum_twist", "diff_twist"}) {
+    const lang::Program program = shipped("fence", robot);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (axis == 1 && std::string(robot) == "diff_twist") continue;
+      ScenePlant plant(program);
+      Command command(program.robot.model.joint_count());
+      command.twist(axis) = 0.2;
+      while (plant.truth().time < 1.5) ASSERT_EQ(plant.follow(command), PlantStatus::ok);
+      for (int i = 0; i < 3; ++i)
+        EXPECT_NEAR(plant.truth().velocity(i), command.twist(i), 0.002) << robot << axis << i;
+    }
+  }
+}
+
+/// Its torque limits are its own: those that are sent bound nothing.
+TEST(BlindDrive, TorqueLimitsThatAreSentBoundNothing) {
+  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  ScenePlant plant(program);
+  Command command(program.robot.model.joint_count());
+  for (const solver::Wheel& wheel : program.robot.model.wheels())
+    command.velocity(wheel.body - 1) = 0.2 / wheel.radius;
+  while (plant.truth().time < 1.5) ASSERT_EQ(plant.follow(command), PlantStatus::ok);
+  EXPECT_NEAR(plant.truth().velocity.x(), 0.2, 0.002);
+}
+
+/// After a stop was reset the virtual robot begins where the base is: nothing is told to jump.
+TEST(BlindDrive, BeginsAnewAfterAStop) {
+  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  ScenePlant plant(program);
+  Runner runner(program);
+  Sensed sensed(program);
+  bool was_reset = false;
+  while (plant.truth().time < 3.0) {
+    const double time = plant.truth().time;
+    if (time >= 1.0 && time < 2.0 && !runner.guard().stopped()) runner.guard().stop(EventCode::requested);
+    if (time >= 2.0 && !was_reset) {
+      EXPECT_LT(plant.truth().velocity.norm(), 5 * ms);
+      runner.guard().reset();
+      was_reset = true;
+    }
+    ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+    runner.step(sensed);
+    // 1 m/s^2, and a lead of 20 ms of it.
+    if (was_reset && time < 2.1) {
+      const double fastest = (time - 2.0 + 0.025) * 1.0;
+      EXPECT_LE(runner.command().velocity.lpNorm<Eigen::Infinity>() * 0.0759, fastest + 5 * ms);
+    }
+    ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+  }
+  EXPECT_GT(plant.truth().velocity.x(), 0.3);
+}
+
+TEST(BlindDrive, ReplaysBitByBitAndAllocatesNothing) {
+  const test::TemporaryFolder folder;
+  const lang::Program program = shipped("fence", "mecanum_twist");
+  const std::filesystem::path log = folder.path() / "log.mcap";
+  long calls = 0;
+  {
+    ScenePlant plant(program);
+    Runner runner(program);
+    std::vector<std::unique_ptr<LogSink>> sinks;
+    sinks.push_back(mcap_sink(log, {}));
+    Recorder recorder(std::move(sinks), runner.columns());
+    runner.record_to(&recorder);
+    Sensed sensed(program);
+    for (int i = 0; i < 2000; ++i) {
+      recorder.wait_for_room();
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      test::start_counting_heap_calls();
+      runner.step(sensed);
+      calls += test::stop_counting_heap_calls();
+      ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+    }
+    recorder.close();
+  }
+  if (test::can_count_heap_calls()) {
+    EXPECT_EQ(calls, 0);
+  }
+  const ReplayResult result = replay(log, program, {});
+  EXPECT_EQ(result.records, 2000);
+  EXPECT_EQ(result.equal, result.records);
+}
+
+}  // namespace
+}  // namespace zwang::runtime
