@@ -204,6 +204,57 @@ TEST(BlindDrive, StopsWhenItCreepsAgainstAnObstacle) {
   EXPECT_LT(meeting.stopped - meeting.touched, 1.2 + 0.2);
 }
 
+struct Stopping {
+  double past = -solver::infinity;  ///< [m] that the front was beyond the edge, at most
+  double fastest = 0.0;             ///< [m/s]
+  bool is_stopped = false;
+};
+
+/// Before the edge of a region, on a drive whose loop is another than the robot file says.
+Stopping stop_before_the_edge(const lang::Drive& true_loop, double payload) {
+  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  lang::Program as_it_is = program;
+  as_it_is.robot.drive = true_loop;
+  ScenePlantOptions options;
+  if (payload != 0.0)
+    options.faults.push_back({.kind = lang::FaultKind::payload, .at = 0.0, .value = payload});
+  ScenePlant plant(as_it_is, options);
+  Runner runner(program);
+  Sensed sensed(program);
+  Stopping result;
+  while (plant.truth().time < 6.0) {
+    EXPECT_EQ(plant.sense(sensed), PlantStatus::ok);
+    runner.step(sensed);
+    EXPECT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+    result.past = std::max(result.past, plant.truth().x + 0.4 - 1.5);
+    result.fastest = std::max(result.fastest, plant.truth().velocity.norm());
+  }
+  result.is_stopped = runner.guard().stopped();
+  return result;
+}
+
+/// A loop whose T_c is off by dT leaves dT of the lead: the base is behind, or ahead of, where it was led by
+/// v dT at most until the integral, or the pose's correction, has made up for it.
+TEST(BlindDrive, ALoopThatIsKnownBadlyPassesAnEdgeByItsOwnErrorOnly) {
+  const lang::Drive known = shipped("fence", "mecanum_50_hz").robot.drive;
+  for (const double factor : {0.5, 1.0, 2.0}) {
+    for (const std::optional<double>& integral_time : {std::optional(0.05), std::optional(0.2)}) {
+      lang::Drive drive = known;
+      drive.time_constant *= factor;
+      drive.integral_time = integral_time;
+      const Stopping stopping = stop_before_the_edge(drive, 0.0);
+      std::printf("T_c %g ms, T_i %g ms: %.2f mm, %.4f m/s\n", drive.time_constant * 1e3,
+                  *integral_time * 1e3, stopping.past * 1e3, stopping.fastest);
+      EXPECT_FALSE(stopping.is_stopped);
+      EXPECT_LT(stopping.past, 0.5 * known.time_constant);
+    }
+  }
+  const Stopping loaded = stop_before_the_edge(known, 25.0);
+  std::printf("25 kg more: %.2f mm, %.4f m/s\n", loaded.past * 1e3, loaded.fastest);
+  EXPECT_LT(loaded.past, 5e-3);
+  EXPECT_FALSE(loaded.is_stopped);
+}
+
 /// A driver turns the twist into wheels' velocities: the base goes so, as the plant has it.
 TEST(BlindDrive, ABaseThatIsToldATwistGoesSo) {
   for (const char* robot : {"mecanum_twist", "diff_twist"}) {
