@@ -91,7 +91,21 @@ std::optional<Event> VelocityDrive::look(const solver::State& measured, double t
       found =
           Event{EventCode::not_followed, time, event_signal::of_joint(wheel.joint, event_signal::qd), rate};
   }
+  const solver::Vector3& velocity = measured.base_twist.linear;
+  led_away_since_ = since(virtual_ && differs(velocity), led_away_since_);
+  if (!found && time - led_away_since_ > fast.time)
+    found = Event{EventCode::not_followed, time, event_signal::base_twist, velocity.head<2>().norm()};
   return found;
+}
+
+/// From the nearest of what it was told on the way from `before_` to `told_`.
+bool VelocityDrive::differs(const solver::Vector3& velocity) const noexcept {
+  const Eigen::Vector2d v = velocity.head<2>();
+  const Eigen::Vector2d way = told_ - before_;
+  const double square = way.squaredNorm();
+  const double part = square > 0.0 ? std::clamp((v - before_).dot(way) / square, 0.0, 1.0) : 0.0;
+  const double most = std::max(told_.norm(), before_.norm());
+  return (v - before_ - part * way).norm() > fast.slack + share * most;
 }
 
 /// The largest and the least of the commands that may still be on their way.
@@ -102,6 +116,8 @@ void VelocityDrive::remember(const Command& command) noexcept {
     wheel.most = std::max(told, wheel.most + fade * (told - wheel.most));
     wheel.least = std::min(told, wheel.least + fade * (told - wheel.least));
   }
+  told_ = command.twist.head<2>();
+  before_ += fade * (told_ - before_);
 }
 
 void VelocityDrive::drive(const solver::Solver& solver, const Scheduler& scheduler,

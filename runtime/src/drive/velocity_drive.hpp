@@ -37,8 +37,9 @@ class VelocityDrive {
   void put_virtual(double time, bool is_stopped, solver::State& state) noexcept;
   /// None came for too long: by the age of the newest one [s].
   std::optional<Event> look_for_samples(double time) const noexcept;
-  /// With a new sample: whether a wheel goes the way that it was told, and of a drive with torque limits of
-  /// its own as fast. The event has its rate.
+  /// With a new sample: whether a wheel goes the way that it was told. Of a drive with torque limits of its
+  /// own also whether it goes as fast, and whether the base goes with its wheels: at a wall they may spin, or
+  /// the base slides along. The event has the wheel's rate, or the base's speed.
   std::optional<Event> look(const solver::State& measured, double time) noexcept;
 
   /// What is sent while the task runs. `solver` has solved the rows of `scheduler`; `compensation` is
@@ -88,6 +89,8 @@ class VelocityDrive {
   };
   void remember(const Command& command) noexcept;
   void let_go_of_what_drives(const Eigen::VectorXd& qd, int suspect) noexcept;
+  /// The same of the base's velocity in the plane, in its axes. [m/s]
+  bool differs(const solver::Vector3& velocity) const noexcept;
   bool differs(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept;
   void ramp_to_rest(Command& command) const noexcept;
 
@@ -102,9 +105,12 @@ class VelocityDrive {
   double radius_;  ///< [m] of the footprint about the base's origin
   Eigen::VectorXd pressing_;
   solver::State measured_;
-  double measured_at_ = -solver::infinity;  ///< [s]
-  double slowest_ = solver::infinity;       ///< [m/s] rms of the rims while they are braked
-  double blind_for_ = 0.0;                  ///< [s] with the command at 0
+  double slowest_ = solver::infinity;                 ///< [m/s] rms of the rims while they are braked
+  Eigen::Vector2d told_ = Eigen::Vector2d::Zero();    ///< [m/s] the base's velocity, last
+  Eigen::Vector2d before_ = Eigen::Vector2d::Zero();  ///< [m/s] the same, as far as it may be on its way
+  double led_away_since_ = solver::infinity;          ///< [s] the base differs
+  double measured_at_ = -solver::infinity;            ///< [s]
+  double blind_for_ = 0.0;                            ///< [s] with the command at 0
 };
 
 }  // namespace zwang::runtime

@@ -123,7 +123,7 @@ const char* describe(EventCode code) noexcept {
     case EventCode::wrench_impossible:
       return "a wrench from outside is larger than anything can press with; it counts as 0";
     case EventCode::not_followed:
-      return "a wheel does not turn as its drive is told";
+      return "the base, or a wheel, does not move as the drive is told";
     case EventCode::clock_drift:
       return "the samples' clock and the control period differ by more than a tenth";
     case EventCode::clock_refused:

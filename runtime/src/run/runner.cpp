@@ -280,9 +280,9 @@ void Runner::Parts::estimate_between_samples(const Sensed& sensed) noexcept {
     const auto dead_wheel = frozen_wheel.look(estimated.state, unknown_torque, stamp);
     is_a_wheel_dead = guard.stopped() ? is_a_wheel_dead : dead_wheel.has_value();
     stop(dead_wheel);
-    stop(drive->look(estimated.state, stamp));
     if (guard.stopped()) mend_rates();
     estimate_base(sensed, stamp);
+    stop(drive->look(estimated.state, stamp));
     drive->take(estimated.state, stamp);
   } else {
     stop(drive->look_for_samples(estimated.time));
