@@ -282,6 +282,34 @@ TEST(BlindDrive, TorqueLimitsThatAreSentBoundNothing) {
   EXPECT_NEAR(plant.truth().velocity.x(), 0.2, 0.002);
 }
 
+/// v^2/2a, and what it rolls on until the drive's loop is told and follows: v (delay + 2/rate + T_c).
+TEST(BlindDrive, TheProtectiveStopRampsTheVelocityDown) {
+  for (const char* robot : {"mecanum_50_hz", "mecanum_20_hz", "diff_twist"}) {
+    const lang::Program program = shipped("fence", robot);
+    ScenePlant plant(program);
+    Runner runner(program);
+    Sensed sensed(program);
+    double from = 0.0, v = 0.0;
+    while (!runner.finished() && plant.truth().time < 6.0) {
+      if (plant.truth().time >= 1.5 && !runner.guard().stopped()) {
+        runner.guard().stop(EventCode::requested);
+        from = plant.truth().x;
+        v = plant.truth().velocity.x();
+      }
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      runner.step(sensed);
+      ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
+    }
+    const lang::Drive& drive = program.robot.drive;
+    const double rolls_on = v * (drive.delay + 2.0 / drive.rate + drive.time_constant);
+    std::printf("%s: from %.3f m/s in %.3f m\n", robot, v, plant.truth().x - from);
+    EXPECT_TRUE(runner.finished());
+    EXPECT_GT(v, 0.4);
+    EXPECT_LT(plant.truth().velocity.norm(), 0.01);
+    EXPECT_LE(plant.truth().x - from, v * v / (2.0 * program.robot.stop.deceleration) + rolls_on) << robot;
+  }
+}
+
 /// After a stop was reset the virtual robot begins where the base is: nothing is told to jump.
 TEST(BlindDrive, BeginsAnewAfterAStop) {
   const lang::Program program = shipped("fence", "mecanum_50_hz");
