@@ -168,7 +168,13 @@ void add_robot(CLI::App& app, std::function<int()>& chosen) {
   const auto begun = std::make_shared<RobotInitArguments>();
   CLI::App* init = verb->add_subcommand("init", "Write a robot file from a URDF, to be filled in");
   init->add_option("urdf", begun->urdf, "the URDF")->required();
-  init->add_option("-o,--out", begun->out, "the robot file to write (default stdout)");
+  CLI::Option* out = init->add_option("-o,--out", begun->out, "the robot file to write (default stdout)");
+  init->add_option("--update", begun->update, "a robot file to keep, with what is new in the URDF")
+      ->excludes(out);
+  init->add_option(
+      "--task", begun->task,
+      "also write a task and its scene for this robot: wall_align, feel_wall, obstacle, docking or "
+      "hospital");
   init->callback([=, &chosen] { chosen = [=] { return robot_init(*begun); }; });
 }
 

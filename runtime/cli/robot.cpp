@@ -1,4 +1,4 @@
-// What a robot is and can do, from its robot file or its bare URDF; and a first robot file from a URDF.
+// What a robot is and can do, from its robot file or its bare URDF.
 #include "zwang/lang/robot.hpp"
 
 #include <algorithm>
@@ -347,33 +347,6 @@ int robot_inspect(const RobotInspectArguments& arguments) {
   const auto robot = lang::load_robot(arguments.file, diagnostics);
   if (!robot) return refused(diagnostics, arguments.format);
   show(*robot, arguments.format);
-  return exit_good;
-}
-
-int robot_init(const RobotInitArguments& arguments) {
-  namespace fs = std::filesystem;
-  require_file(arguments.urdf);
-  lang::Diagnostics diagnostics;
-  fs::path named = fs::path(arguments.urdf).filename();
-  if (arguments.out) {
-    const fs::path folder = fs::absolute(*arguments.out).parent_path();
-    named = fs::absolute(arguments.urdf).lexically_relative(folder);
-    if (fs::exists(*arguments.out)) throw Impossible(*arguments.out + ": is there already; remove it first");
-  }
-  const auto draft = lang::draft_robot(arguments.urdf, named.generic_string(), diagnostics);
-  if (!draft) return refused(diagnostics, Format::human);
-  if (draft->wheels.empty()) {
-    std::string reason = ": no wheels found: a robot file needs some";
-    if (!draft->wheels_that_stand.empty())
-      reason += "; `" + draft->wheels_that_stand.front() + "` is `fixed`, a wheel's joint is `continuous`";
-    throw Impossible(arguments.urdf + reason);
-  }
-  if (!arguments.out) {
-    print_data(draft->text);
-    return exit_good;
-  }
-  write_file(*arguments.out, draft->text);
-  print(*arguments.out + ": written; fill in\n" + listed("missing", draft->missing));
   return exit_good;
 }
 

@@ -121,7 +121,9 @@ int robot_inspect(const RobotInspectArguments& arguments);
 
 struct RobotInitArguments {
   std::string urdf;
-  std::optional<std::string> out;  ///< none: stdout
+  std::optional<std::string> out;     ///< a new robot file; none: stdout
+  std::optional<std::string> update;  ///< a robot file that is there, in the place of `out`
+  std::optional<std::string> task;    ///< a use case to write beside it
 };
 int robot_init(const RobotInitArguments& arguments);
 

@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "robot/draft_frames.hpp"
 #include "robot/drive_kind.hpp"
 #include "robot/load_robot.hpp"
 #include "robot/robot_file.hpp"
@@ -26,7 +26,7 @@ std::string in_millimetres(double metres) {
 
 /// What stands in the open places.
 struct Filling {
-  std::string radius = fill_in, effort = fill_in, footprint = fill_in;
+  std::string radius = fill_in, effort = fill_in, footprint = fill_in, back = fill_in;
   std::string holds = std::string("holds: ") + fill_in;  ///< of four wheels that may have rollers
   bool mecanum = false;
 };
@@ -43,11 +43,12 @@ double rounded_up(double value) {
 
 class Drafter {
  public:
-  Drafter(const Urdf& urdf, FoundWheels found, std::string named_as)
+  Drafter(const Urdf& urdf, FoundWheels found, std::string named_as, bool with_hook)
       : urdf_(urdf),
         found_(std::move(found)),
         named_as_(std::move(named_as)),
-        drive_(drive_of(found_.wheels)) {
+        drive_(drive_of(found_.wheels)),
+        frames_(urdf_, found_, drive_, with_hook) {
     const std::vector<std::string> open = without_inertia(urdf_);
     held_ = found_.in_between;
     for (const std::string& name : found_.others) {
@@ -69,6 +70,10 @@ class Drafter {
     draft.casters = found_.casters;
     draft.supports = found_.supports;
     draft.wheels_that_stand = found_.wheels_that_stand;
+    draft.outline = frames_.outline();
+    draft.outline_is_known = frames_.outline_is_known();
+    draft.arm_reach = found_.arm_reach;
+    draft.has_own_base = found_.base != "base" && urdf_.find_link("base") != nullptr;
     draft.missing = missing();
     draft.text = text(Filling{});
     return draft;
@@ -80,7 +85,8 @@ class Drafter {
     Filling filling;
     filling.radius = wording::figure(assumed_radius(), "m");
     filling.effort = "1 N m";
-    filling.footprint = corners();
+    filling.footprint = frames_.around_wheels();
+    filling.back = "-0.5 m";
     if (drive_ != DriveKind::rollers_or_skid) return {{in_words(drive_, found_.wheels), text(filling)}};
     std::vector<std::pair<std::string, std::string>> texts;
     filling.holds = "holds: [rolling]";
@@ -154,31 +160,6 @@ class Drafter {
     lines.push_back(found_.outline.empty() ? "`footprint`: the base has no simple collision shape"
                                            : "whether `stop` and `footprint`, which are proposed, are right");
     return lines;
-  }
-
-  /// Around the wheels.
-  std::array<double, 2> reach() const {
-    std::array<double, 2> most{0.1, 0.1};
-    for (const auto* wheels : {&found_.wheels, &found_.casters}) {
-      for (const DraftWheel& wheel : *wheels) {
-        most[0] = std::max(most[0], std::abs(wheel.at[0]) + wheel.radius.value_or(0.1));
-        most[1] = std::max(most[1], std::abs(wheel.at[1]));
-      }
-    }
-    return most;
-  }
-
-  std::string corners() const {
-    const auto [x, y] = reach();
-    return "[" + corner_text(x, y) + ", " + corner_text(-x, y) + ", " + corner_text(-x, -y) + ", " +
-           corner_text(x, -y) + "]";
-  }
-
-  static std::string corner_text(double x, double y) {
-    const auto metres = [](double value) {
-      return wording::figure(std::abs(value) < 1e-9 ? 0.0 : value, "m");
-    };
-    return "[" + metres(x) + ", " + metres(y) + "]";
   }
 
   bool may_have_rollers(const DraftWheel& wheel) const {
@@ -261,57 +242,9 @@ class Drafter {
            wording::figure(mass, "kg") + " x 1 m/s^2.\nstop: {deceleration: 1 m/s^2, force: " + force + "}\n";
   }
 
-  std::string footprint(const Filling& filling) const {
-    const auto [x, y] = reach();
-    const std::string wheels =
-        "The wheels alone reach " + wording::figure(2.0 * x, "m") + " x " + wording::figure(2.0 * y, "m");
-    if (!found_.outline.empty()) {
-      std::string text;
-      for (const Eigen::Vector2d& corner : found_.outline)
-        text += (text.empty() ? "" : ", ") + corner_text(corner.x(), corner.y());
-      return "\n# The outline from above, counter-clockwise. Proposed: around the wheels and the URDF's "
-             "collision "
-             "shapes that are\n# fixed to the base.\nfootprint: {polygon: [" +
-             text + "]}\n";
-    }
-    return "\n# The outline from above, counter-clockwise. " + wheels + ":\n# polygon: " + corners() +
-           "\nfootprint: {polygon: " + filling.footprint + "}\n";
-  }
-
-  std::string lead() const {
-    if (drive_ != DriveKind::differential || found_.outline.empty()) return "";
-    return "# The point that tasks drive. Proposed: ahead of the axle, for this base cannot go "
-           "sideways.\nlead: nose\n";
-  }
-
-  /// Where the shipped tasks touch, hook and lead this robot; a name that a link has is the link's.
-  std::string frames() const {
-    if (found_.outline.empty())
-      return "\n# Tasks name places on the robot, as frames: {bumper: {parent: " + found_.base +
-             ", at: [0.3 m, 0 m]}}.\n";
-    double ahead = 0.0, behind = 0.0;
-    for (const Eigen::Vector2d& corner : found_.outline) {
-      ahead = std::max(ahead, corner.x());
-      behind = std::min(behind, corner.x());
-    }
-    std::string lines;
-    const auto add = [&](const char* name, double x, const char* yaw) {
-      if (urdf_.find_link(name) == nullptr)
-        lines += std::string("  ") + name + ": {parent: " + found_.base + ", at: " + corner_text(x, 0.0) +
-                 yaw + "}\n";
-    };
-    add("bumper", ahead, "");
-    add("hook", behind, ", yaw: 180 deg");
-    add("nose", ahead, "");
-    return "\n# Places that tasks name. Proposed: the middle of the outline's front and back. Of a base that "
-           "cannot drive "
-           "sideways,\n# `nose` is the point that x and y of a task lead.\nframes:\n" +
-           lines;
-  }
-
   std::string text(const Filling& filling) const {
-    std::string text = weightless_links() + "zwang_robot: 1\nurdf: " + named_as_ + "\nbase: " + found_.base +
-                       "  # the link that floats\n" + lead();
+    std::string text =
+        weightless_links() + "zwang_robot: 1\nurdf: " + named_as_ + "\n" + frames_.base_and_lead();
     if (!held_.empty())
       text +=
           "\n# They do not move here: they carry wheels and do not steer them, as rockers, springs and wheel "
@@ -342,7 +275,7 @@ class Drafter {
         "# rotor_inertia, as {gear: 20, rotor_inertia: 2 kg mm^2}: they are often larger than the wheel's "
         "own inertia.\n";
     text += actuated(filling);
-    text += stop() + footprint(filling) + frames();
+    text += stop() + frames_.footprint(filling.footprint) + frames_.frames(filling.back);
     text +=
         "\n# In force where a task gives none, as limits: {acceleration: {x: +-1 m/s^2}, velocity: {x: +-1 "
         "m/s}}.\n"
@@ -361,6 +294,7 @@ class Drafter {
   FoundWheels found_;
   std::string named_as_;
   DriveKind drive_;
+  DraftFrames frames_;
   std::vector<std::string> held_;        ///< joints of `fixed`
   std::vector<std::string> weightless_;  ///< links
 };
@@ -377,11 +311,11 @@ std::optional<Robot> build_from(const std::string& robot_file, const Urdf& urdf,
 }  // namespace
 
 std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const std::string& named_as,
-                                      Diagnostics& diagnostics) {
+                                      Diagnostics& diagnostics, bool with_hook) {
   const std::optional<Urdf> urdf = read_urdf(path, {}, diagnostics);
   if (!urdf) return std::nullopt;
   const FoundWheels found = find_wheels(*urdf);
-  Drafter drafter(*urdf, found, named_as);
+  Drafter drafter(*urdf, found, named_as, with_hook);
   RobotDraft draft = drafter.draft();
   draft.assumption_notes = drafter.assumptions();
   const Urdf whole = completed(*urdf, drafter.weightless());

@@ -66,6 +66,7 @@ class WheelSearch {
     drop_casters();
     find_balls();
     find_others();
+    find_arm_reach();
     if (found_.wheels.empty()) find_wheels_that_stand();
     find_outline();
     return found_;
@@ -181,6 +182,16 @@ class WheelSearch {
           std::any_of(found_.wheels.begin(), found_.wheels.end(),
                       [&](const DraftWheel& wheel) { return wheel.joint == name || wheel.swivel == name; });
       if (!is_known) found_.others.push_back(name);
+    }
+  }
+
+  void find_arm_reach() {
+    for (const UrdfLink& link : urdf_.links) {
+      const UrdfJoint* above = carrier(link.name);
+      if (above == nullptr || above == carrier(found_.base)) continue;
+      const auto& others = found_.others;
+      if (std::find(others.begin(), others.end(), above->joint.name) == others.end()) continue;
+      found_.arm_reach = std::max(found_.arm_reach, in_base_.at(link.name).position.head<2>().norm());
     }
   }
 

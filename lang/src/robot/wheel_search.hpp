@@ -21,6 +21,7 @@ struct FoundWheels {
   /// [m] Corners in the base, counter-clockwise, of the convex hull of its collision shapes and the wheels.
   /// Empty: its body is a mesh.
   std::vector<Eigen::Vector2d> outline;
+  double arm_reach = 0.0;  ///< [m] from the base's origin, from above, to the farthest link behind `others`
 };
 
 FoundWheels find_wheels(const Urdf& urdf);

@@ -41,13 +41,19 @@ struct RobotDraft {
   std::vector<AssumedRobot> assumed;  ///< one for each kind of wheel that it may have; empty where no
                                       ///< assumption makes a model of it
   std::vector<std::string> assumption_notes;  ///< what was assumed, a line each
-  std::string text;  ///< the robot file; `FILL_IN` stands where it is refused until filled
+  /// [m] Corners in the base, counter-clockwise; of the wheels alone where the URDF does not tell it.
+  std::vector<Eigen::Vector2d> outline;
+  bool outline_is_known = false;
+  double arm_reach = 0.0;     ///< [m] from the base's origin to the farthest link of an arm; 0: there is none
+  bool has_own_base = false;  ///< the URDF calls a link `base` that is not the base
+  std::string text;           ///< the robot file; `FILL_IN` stands where it is refused until filled
 };
 
 inline constexpr const char* fill_in = "FILL_IN";
 
-/// `named_as` is how the robot file names the URDF, relative to itself. nullopt on a URDF that is refused.
+/// `named_as` is how the robot file names the URDF, relative to itself. `with_hook`: the frame `hook` is in
+/// the draft, to be filled in where the outline is not known. nullopt on a URDF that is refused.
 std::optional<RobotDraft> draft_robot(const std::filesystem::path& urdf, const std::string& named_as,
-                                      Diagnostics& diagnostics);
+                                      Diagnostics& diagnostics, bool with_hook = false);
 
 }  // namespace zwang::lang

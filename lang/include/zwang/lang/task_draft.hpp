@@ -1,0 +1,59 @@
+/// A first task and scene for a robot: a shipped use case, fitted to its outline, its freedoms and its mass.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/robot_draft.hpp"
+
+namespace zwang::lang {
+
+/// The use cases that can be fitted.
+const std::vector<std::string>& fitted_tasks();
+
+enum class Freedoms {
+  all,      ///< ahead, sideways and about the vertical; or not known yet
+  two,      ///< plain wheels on one axle hold it sideways
+  skid,     ///< wheels that slide sideways, and no motor pushes it there
+  steered,  ///< wheels that motors steer
+};
+
+/// What a use case has to fit.
+struct BaseFit {
+  std::string robot;  ///< its name, for comments
+  std::vector<Eigen::Vector2d>
+      outline;  ///< [m] corners in the base; of the wheels alone where it is not known
+  bool outline_is_known = false;
+  double arm_reach = 0.0;       ///< [m] from the base's origin to the farthest joint of an arm
+  double mass = 0.0;            ///< [kg]; 0: not known
+  double effective_mass = 0.0;  ///< [kg] that a force along x moves, wheels and rotors included; 0: not known
+  double effective_inertia = 0.0;  ///< [kg m^2] of a turn, likewise
+  Freedoms freedoms = Freedoms::all;
+  std::string base = "base", lead = "lead";  ///< what a task calls them
+};
+
+BaseFit base_fit(const RobotDraft& draft);
+BaseFit base_fit(const Robot& robot);
+
+/// The yaw [rad] at which the outline rests against a wall across x that it is pushed to from `yaw`, without
+/// friction; no value where it turns by more than 90 deg first.
+std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw);
+
+/// Why this base cannot do `task`; empty: it can, as far as is known.
+std::string why_unfit(const std::string& task, const BaseFit& fit);
+
+/// The shipped task that is `task` for this base: `obstacle_nose` is `obstacle` for two freedoms.
+std::string shipped_variant(const std::string& task, const BaseFit& fit);
+
+struct TaskTexts {
+  std::string task, scene;
+};
+
+/// `shipped`: the files of `shipped_variant`. The task names its files as given.
+TaskTexts draft_task(const std::string& task, const TaskTexts& shipped, const BaseFit& fit,
+                     const std::string& robot_file, const std::string& scene_file);
+
+}  // namespace zwang::lang

@@ -1,0 +1,41 @@
+/// What a drafted robot file says of places: the outline, and the frames that tasks name.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "robot/drive_kind.hpp"
+#include "robot/urdf.hpp"
+#include "robot/wheel_search.hpp"
+
+namespace zwang::lang {
+
+class DraftFrames {
+ public:
+  /// `with_hook`: `hook` is there although nobody knows where the back is.
+  DraftFrames(const Urdf& urdf, const FoundWheels& found, DriveKind drive, bool with_hook);
+
+  bool outline_is_known() const { return !found_.outline.empty(); }
+  /// [m] In the base, counter-clockwise; around the wheels alone where nobody knows.
+  std::vector<Eigen::Vector2d> outline() const;
+
+  /// The lines `base` and, where tasks drive another point, `lead`.
+  std::string base_and_lead() const;
+  /// With `open` in the place of an outline that nobody knows.
+  std::string footprint(const std::string& open) const;
+  /// With `open` in the place of the back, where nobody knows the outline.
+  std::string frames(const std::string& open) const;
+  /// The outline of the wheels, as a file has it.
+  std::string around_wheels() const;
+
+ private:
+  bool has_nose() const;
+  std::string frame(const std::string& name, const std::string& at, const char* yaw) const;
+
+  const Urdf& urdf_;
+  const FoundWheels& found_;
+  DriveKind drive_;
+  bool with_hook_;
+};
+
+}  // namespace zwang::lang

@@ -1,0 +1,162 @@
+// What of a base a use case has to fit, from its robot file or from the draft of one.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "diagnostic/wordings_physics.hpp"
+#include "zwang/lang/configurations.hpp"
+#include "zwang/lang/task_draft.hpp"
+#include "zwang/lang/wheel_level.hpp"
+#include "zwang/solver/base_analysis.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// The radius within which the shipped corridor leaves a base room to turn: the ward is 0.6 m off its middle,
+/// the wall 1.2 m, and the region keeps 0.1 m off the wall. [m]
+constexpr double room_of_corridor = 1.2 - 0.1 - 0.6;
+
+constexpr std::size_t x_axis = 0, y_axis = 1, yaw_axis = 2;
+
+/// By as much a body may reach beyond its wheels while the outline is not known. [m]
+constexpr double overhang = 0.3;
+
+/// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
+/// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]
+constexpr double round_ahead = 2.0 * std::numbers::pi / 180.0;
+
+std::vector<Eigen::Vector2d> circle(double radius) {
+  std::vector<Eigen::Vector2d> corners;
+  for (int k = 0; k < 16; ++k)
+    corners.push_back(radius * Eigen::Rotation2Dd(k * std::numbers::pi / 8.0).toRotationMatrix().col(0));
+  return corners;
+}
+
+Freedoms freedoms_of(const Robot& robot) {
+  const solver::Model& model = robot.model;
+  const solver::BaseAnalysis analysis = solver::analyse_base(model, start_state(robot));
+  if (usable(analysis.axes[y_axis]).reachable) return Freedoms::all;
+  bool is_steered = false, is_skid = false;
+  for (const solver::Wheel& wheel : model.wheels()) {
+    const int carrier = model.bodies()[static_cast<std::size_t>(wheel.body)].parent;
+    is_steered = is_steered || (carrier > 0 && model.joint(carrier - 1).actuated);
+    is_skid = is_skid || (!wheel.roller_angle && !wheel.holds_sideways);
+  }
+  return is_steered ? Freedoms::steered : is_skid ? Freedoms::skid : Freedoms::two;
+}
+
+double radius_of(const std::vector<Eigen::Vector2d>& outline) {
+  double most = 0.0;
+  for (const Eigen::Vector2d& corner : outline) most = std::max(most, corner.norm());
+  return most;
+}
+
+/// Of the bodies that neither are wheels nor carry them. [m]
+double arm_reach_of(const solver::Model& model) {
+  std::set<int> of_wheels;
+  for (const solver::Wheel& wheel : model.wheels()) {
+    for (int b = wheel.body; b > 0; b = model.bodies()[static_cast<std::size_t>(b)].parent)
+      of_wheels.insert(b);
+  }
+  double most = 0.0;
+  for (int body = 1; body < static_cast<int>(model.bodies().size()); ++body) {
+    if (!of_wheels.contains(body)) most = std::max(most, pose_in_base(model, body).position.head<2>().norm());
+  }
+  return most;
+}
+
+void add_masses(const Robot& robot, BaseFit& fit) {
+  const solver::BaseAnalysis analysis = solver::analyse_base(robot.model, start_state(robot));
+  const auto known = [](double value) { return std::isfinite(value) ? value : 0.0; };
+  fit.effective_mass = known(analysis.axes[x_axis].effective_mass);
+  fit.effective_inertia = known(analysis.axes[yaw_axis].effective_mass);
+}
+
+}  // namespace
+
+BaseFit base_fit(const RobotDraft& draft) {
+  BaseFit fit;
+  fit.robot = draft.name;
+  fit.outline_is_known = draft.outline_is_known;
+  fit.outline = fit.outline_is_known ? draft.outline : circle(radius_of(draft.outline) + overhang);
+  fit.arm_reach = draft.arm_reach;
+  fit.mass = draft.mass;
+  if (draft.has_own_base) fit.base = draft.base;
+  // What the wheels hold is not known before their rollers are.
+  if (draft.assumed.size() == 1) fit.freedoms = freedoms_of(draft.assumed.front().robot);
+  if (!draft.assumed.empty()) add_masses(draft.assumed.front().robot, fit);
+  return fit;
+}
+
+BaseFit base_fit(const Robot& robot) {
+  BaseFit fit;
+  fit.robot = robot.name;
+  for (const solver::Vector3& corner : robot.footprint) fit.outline.emplace_back(corner.head<2>());
+  fit.outline_is_known = true;
+  fit.arm_reach = arm_reach_of(robot.model);
+  fit.mass = robot.model.total_mass();
+  fit.freedoms = freedoms_of(robot);
+  add_masses(robot, fit);
+  const auto& implied = robot.implied_frames;
+  if (std::find(implied.begin(), implied.end(), "base") == implied.end()) fit.base = robot.base_frame;
+  return fit;
+}
+
+// The wall touches the foremost corner and presses along -x. Its force turns the base about the origin,
+// through which the wheels push, with a moment of the sign of the corner's y in the world. The base turns so
+// until an edge lies on the wall whose ends lie on both sides of the origin: there it rests.
+std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw) {
+  const std::size_t count = outline.size();
+  const auto turned = [&](std::size_t i, double by) -> Eigen::Vector2d {
+    return Eigen::Rotation2Dd(by) * outline[i % count];
+  };
+  double angle = yaw;
+  for (std::size_t step = 0; step < count && std::abs(angle - yaw) < std::numbers::pi / 2.0; ++step) {
+    std::size_t foremost = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+      if (turned(i, angle).x() > turned(foremost, angle).x()) foremost = i;
+    }
+    const double side = turned(foremost, angle).y();
+    // To the left of the origin the base turns left, and its edge to the right comes to the wall; and vice
+    // versa.
+    const std::size_t next = side > 0.0 ? foremost + count - 1 : foremost + 1;
+    const Eigen::Vector2d edge = turned(next, angle) - turned(foremost, angle);
+    // By which the edge must turn to lie along the wall.
+    angle += side > 0.0 ? std::atan2(-edge.x(), -edge.y()) : -std::atan2(-edge.x(), edge.y());
+    if (turned(foremost, angle).y() * turned(next, angle).y() <= 0.0) return angle;
+    angle += side > 0.0 ? 1e-9 : -1e-9;  // off the edge, on to its other corner
+  }
+  return std::nullopt;
+}
+
+std::string why_unfit(const std::string& task, const BaseFit& fit) {
+  if (task == "feel_wall") return "";
+  if (fit.freedoms == Freedoms::skid)
+    return task == "wall_align"
+               ? "no wall turns a base whose wheels slide sideways: the floor holds it harder (E621)"
+               : "no motor pushes a base sideways whose wheels slide sideways (E404)";
+  if (fit.freedoms == Freedoms::steered)
+    return task == "wall_align" ? "no wall turns a base on steered wheels: they hold its heading (E621)"
+                                : "a base on steered wheels cannot drive along x, y and rz at once (E406)";
+  if (task == "wall_align" && fit.outline_is_known) {
+    constexpr double askew = 20.0 * std::numbers::pi / 180.0;
+    const std::optional<double> rests = resting_yaw(fit.outline, askew);
+    if (!rests || std::abs(*rests) > round_ahead)
+      return "its outline is round ahead: pressed to a wall it rests " +
+             wording::figure(rests.value_or(askew) * 180.0 / std::numbers::pi, "deg") + " askew";
+  }
+  if (task == "hospital" && fit.outline_is_known && radius_of(fit.outline) > room_of_corridor + 1e-3)
+    return "its corridor leaves room to turn within " + wording::figure(room_of_corridor, "m") +
+           ", and the outline reaches " + wording::figure(radius_of(fit.outline), "m") +
+           " from the base's origin";
+  return "";
+}
+
+std::string shipped_variant(const std::string& task, const BaseFit& fit) {
+  const bool has_variant = task == "obstacle" || task == "docking" || task == "hospital";
+  return fit.freedoms == Freedoms::two && has_variant ? task + "_nose" : task;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,135 @@
+// Shipped use cases fitted to a base: names, forces, distances.
+#include "zwang/lang/task_draft.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang {
+namespace {
+
+const std::filesystem::path specs = test::source_dir / "specs";
+
+Robot shipped(const char* name) {
+  Diagnostics diagnostics;
+  auto robot = load_robot(specs / "robots" / (std::string(name) + ".yaml"), diagnostics);
+  EXPECT_TRUE(robot) << test::rendered(diagnostics);
+  return *robot;
+}
+
+TaskTexts drafted(const std::string& task, const BaseFit& fit) {
+  const TaskTexts texts{test::slurp(specs / (shipped_variant(task, fit) + ".yaml")),
+                        test::slurp(specs / "scenes/corridor.yaml")};
+  return draft_task(task, texts, fit, "robot.yaml", "scene.yaml");
+}
+
+/// What is said of a task and scene that were drafted for a shipped robot.
+std::string said_of(const std::string& task, const char* robot) {
+  const test::Folder folder;
+  const std::string urdf = std::string(robot) + ".urdf", file = std::string(robot) + ".yaml";
+  folder.write(urdf, test::slurp(specs / "robots" / urdf));
+  folder.write("robot.yaml", test::slurp(specs / "robots" / file));
+  const TaskTexts texts = drafted(task, base_fit(shipped(robot)));
+  folder.write("scene.yaml", texts.scene);
+  Diagnostics diagnostics;
+  EXPECT_TRUE(load(folder.write("task.yaml", texts.task), {}, diagnostics)) << texts.task;
+  return test::rendered(diagnostics);
+}
+
+TEST(TaskDraft, of_every_use_case_is_good_for_the_bases_that_it_is_drafted_for) {
+  int drafted_tasks = 0;
+  for (const char* robot : {"mecanum_base", "diff_base", "omni_base", "kelo_base", "skid_base", "car_base"}) {
+    for (const std::string& task : fitted_tasks()) {
+      if (!why_unfit(task, base_fit(shipped(robot))).empty()) continue;
+      EXPECT_EQ(said_of(task, robot).find("error"), std::string::npos)
+          << robot << task << said_of(task, robot);
+      ++drafted_tasks;
+    }
+  }
+  EXPECT_GE(drafted_tasks, 18);
+}
+
+// What is refused by name is refused by the task's own check.
+TEST(TaskDraft, is_refused_for_a_base_that_the_task_would_refuse) {
+  for (const auto& [robot, task, code] :
+       {std::tuple{"skid_base", "wall_align", "E621"}, std::tuple{"skid_base", "obstacle", "E404"},
+        std::tuple{"tricycle_base", "wall_align", "E621"}, std::tuple{"tricycle_base", "docking", "E406"}}) {
+    EXPECT_NE(why_unfit(task, base_fit(shipped(robot))).find(code), std::string::npos) << robot << task;
+    Diagnostics diagnostics;
+    const LoadOptions options{.robot = specs / "robots" / (std::string(robot) + ".yaml")};
+    EXPECT_FALSE(load(specs / (std::string(task) + ".yaml"), options, diagnostics));
+    EXPECT_NE(test::rendered(diagnostics).find(code), std::string::npos) << test::rendered(diagnostics);
+  }
+}
+
+TEST(TaskDraft, of_two_freedoms_leads_the_lead) {
+  const BaseFit fit = base_fit(shipped("diff_base"));
+  EXPECT_EQ(fit.freedoms, Freedoms::two);
+  const TaskTexts texts = drafted("obstacle", fit);
+  EXPECT_NE(texts.task.find("move: lead"), std::string::npos) << texts.task;
+  EXPECT_EQ(texts.task.find("nose"), std::string::npos);
+  EXPECT_EQ(texts.task.find("base_link"), std::string::npos);
+}
+
+// 0.4 m x cos 20 deg + 0.28 m x sin 20 deg + 0.5 m = 0.972 m, as in the shipped scene of the same base.
+TEST(TaskDraft, puts_the_wall_ahead_of_the_corner_that_touches_first) {
+  const TaskTexts texts = drafted("wall_align", base_fit(shipped("mecanum_base")));
+  EXPECT_NE(texts.scene.find("at: [0.972 m, 0 m]"), std::string::npos) << texts.scene;
+}
+
+// A tenth of the mass has a tenth of the weight, which the floor holds.
+TEST(TaskDraft, presses_with_the_same_share_of_the_weight) {
+  BaseFit fit = base_fit(shipped("mecanum_base"));
+  fit.mass = 4.6;
+  EXPECT_NE(drafted("wall_align", fit).task.find("value: 2 N, range: [0.5 N, 4 N]"), std::string::npos);
+  fit.mass = 460.0;
+  EXPECT_NE(drafted("wall_align", fit).task.find("value: 20 N, range: [5 N, 40 N]"), std::string::npos);
+}
+
+// 20 N stop 1000 kg from 5 mm/s and bring them back within 2 x 1000 kg x 5 mm/s / 20 N = 0.5 s.
+TEST(TaskDraft, waits_longer_than_a_heavy_base_takes_to_bounce) {
+  BaseFit fit = base_fit(shipped("mecanum_base"));
+  fit.effective_mass = 1000.0;
+  fit.effective_inertia = 1.0;
+  EXPECT_NE(drafted("wall_align", fit).task.find("for: 0.8 s"), std::string::npos);
+}
+
+std::vector<Eigen::Vector2d> regular(int corners, double turned) {
+  std::vector<Eigen::Vector2d> outline;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = turned + 2.0 * std::numbers::pi * k / corners;
+    outline.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return outline;
+}
+
+// A regular polygon of n sides rests on the side that is nearest: every 360 deg / n.
+TEST(RestingYaw, of_a_polygon_is_that_of_its_nearest_side) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  const std::vector<Eigen::Vector2d> square = regular(4, std::numbers::pi / 4.0);
+  for (const double yaw : {-40.0, -20.0, 20.0, 40.0})
+    EXPECT_NEAR(*resting_yaw(square, yaw * degree), 0.0, 1e-6);
+  const std::vector<Eigen::Vector2d> round = regular(16, 0.0);  // sides at 11.25 deg, 33.75 deg, ...
+  EXPECT_NEAR(*resting_yaw(round, 20.0 * degree), 11.25 * degree, 1e-6);
+  EXPECT_NEAR(*resting_yaw(round, -30.0 * degree), -33.75 * degree, 1e-6);
+  // Chamfered in front: the sides' ends lie on one side of the origin, and nothing rests there.
+  const std::vector<Eigen::Vector2d> chamfered = {{0.4, -0.2}, {0.4, 0.2},   {0.35, 0.3},
+                                                  {-0.4, 0.3}, {-0.4, -0.3}, {0.35, -0.3}};
+  EXPECT_NEAR(*resting_yaw(chamfered, 20.0 * degree), 0.0, 1e-6);
+}
+
+// Round ahead: the shipped omni base is a hexagon or the like; a circle of 16 corners is none that a wall
+// turns.
+TEST(TaskDraft, aligns_no_round_base) {
+  BaseFit fit = base_fit(shipped("mecanum_base"));
+  EXPECT_EQ(why_unfit("wall_align", fit), "");
+  fit.outline = regular(16, 0.0);
+  EXPECT_NE(why_unfit("wall_align", fit).find("11.3 deg"), std::string::npos) << why_unfit("wall_align", fit);
+}
+
+}  // namespace
+}  // namespace zwang::lang
