@@ -11,6 +11,7 @@
 #include "zwang/lang/nearest.hpp"
 #include "zwang/lang/open_places.hpp"
 #include "zwang/lang/robot_draft.hpp"
+#include "zwang/lang/robot_update.hpp"
 #include "zwang/lang/task_draft.hpp"
 
 namespace zwang::cli {
@@ -104,12 +105,12 @@ void require_wheels(const std::string& urdf, const lang::RobotDraft& draft) {
 }
 
 std::optional<lang::RobotDraft> drafted(const RobotInitArguments& arguments,
-                                        const std::optional<std::string>& file,
+                                        const std::optional<std::string>& file, lang::DraftOptions options,
                                         lang::Diagnostics& diagnostics) {
   fs::path named = fs::path(arguments.urdf).filename();
   if (file) named = fs::absolute(arguments.urdf).lexically_relative(fs::absolute(*file).parent_path());
-  const bool with_hook = arguments.task == "docking";
-  return lang::draft_robot(arguments.urdf, named.generic_string(), diagnostics, with_hook);
+  options.with_hook = arguments.task == "docking";
+  return lang::draft_robot(arguments.urdf, named.generic_string(), diagnostics, options);
 }
 
 void require_free(const fs::path& file, const std::string& way_out) {
@@ -117,41 +118,109 @@ void require_free(const fs::path& file, const std::string& way_out) {
     throw Impossible(file.string() + ": is there already; " + way_out + ". Nothing was written");
 }
 
+/// Written by one call, in this order: nothing is written before everything is known to be good.
+struct Written {
+  std::vector<std::pair<std::string, std::string>> files;  ///< path, text
+  std::string report;
+
+  void add(const std::string& path, const std::string& text, const char* how) {
+    files.emplace_back(path, text);
+    report += path + ": " + how + "\n";
+  }
+  void write() const {
+    for (const auto& [path, text] : files) write_file(path, text);
+  }
+};
+
+void add_task(const std::string& task, const lang::BaseFit& fit, const Files& files, Written& written) {
+  const lang::TaskTexts texts = fitted(task, fit, files);
+  const auto add = [&](const fs::path& file, const std::string& text) {
+    if (fs::exists(file)) {
+      written.report += file.string() + ": is there already, and kept\n";
+    } else {
+      written.add(file.string(), text, "written");
+    }
+  };
+  add(files.task, texts.task);
+  add(files.scene, texts.scene);
+}
+
+std::string what_next(const RobotInitArguments& arguments, const Files& files) {
+  const std::string file = (arguments.task ? files.task : files.robot).string();
+  return "\nthen\n  zwang validate " + file + "\n" + (arguments.task ? "  zwang run " + file + "\n" : "");
+}
+
+std::string listed(const std::string& title, const std::vector<lang::UpdateNote>& notes) {
+  std::vector<lang::OpenPlace> places;
+  for (const lang::UpdateNote& note : notes) places.push_back({note.line, note.text, ""});
+  return listed(title, places);
+}
+
+int write_new(const RobotInitArguments& arguments, const Files& files) {
+  require_free(files.robot, "`--update " + files.robot.string() + "` keeps what you filled in");
+  if (arguments.task) require_free(files.task, "remove it, or name another robot file");
+  if (arguments.task) require_free(files.scene, "remove it, or name another robot file");
+  lang::Diagnostics diagnostics;
+  const auto draft = drafted(arguments, files.robot.string(), {}, diagnostics);
+  if (!draft) return refused(diagnostics);
+  require_wheels(arguments.urdf, *draft);
+  Written written;
+  written.add(files.robot.string(), draft->text, "written");
+  if (arguments.task) add_task(*arguments.task, lang::base_fit(*draft), files, written);
+  written.write();
+  print(written.report + "\n" + to_decide(files.robot.string(), draft->text) +
+        listed("not in the URDF", draft->missing) + what_next(arguments, files));
+  return exit_good;
+}
+
+/// The robot as it is filled in, where it is; else as it was drafted.
+lang::BaseFit fit_of(const Files& files, const lang::RobotDraft& draft) {
+  lang::Diagnostics unheard;  // of what is still open; `validate` tells it
+  const auto robot = lang::load_robot(files.robot, unheard);
+  return robot ? lang::base_fit(*robot) : lang::base_fit(draft);
+}
+
+int update(const RobotInitArguments& arguments, const Files& files) {
+  require_file(files.robot.string());
+  lang::Diagnostics diagnostics;
+  const auto options = lang::options_of(files.robot, diagnostics);
+  if (!options) return refused(diagnostics);
+  const auto draft = drafted(arguments, files.robot.string(), *options, diagnostics);
+  if (!draft) return refused(diagnostics);
+  const auto changed = lang::update_robot_file(files.robot, arguments.urdf, *draft, diagnostics);
+  if (!changed) return refused(diagnostics);
+  Written written;
+  if (changed->text == text_of(files.robot)) {
+    written.report = files.robot.string() + ": nothing to add\n";
+  } else {
+    written.add(files.robot.string(), changed->text, "updated; every line of it was kept");
+  }
+  if (arguments.task) add_task(*arguments.task, fit_of(files, *draft), files, written);
+  written.write();
+  print(written.report + "\n" + listed("added, in " + files.robot.string(), changed->added) +
+        listed("the URDF has no such joint or link any more: remove it", changed->vanished) +
+        listed("kept, and the URDF says otherwise", changed->differ) +
+        listed("to fill in", lang::open_places(changed->text).to_fill_in) + what_next(arguments, files));
+  return exit_good;
+}
+
 }  // namespace
 
 int robot_init(const RobotInitArguments& arguments) {
   require_file(arguments.urdf);
   if (arguments.task) require_task(*arguments.task);
-  if (arguments.task && !arguments.out) throw Impossible("--task: name the robot file, too, with -o FILE");
-  std::optional<Files> files;
-  if (arguments.out) {
-    files.emplace(*arguments.out, arguments.task.value_or(""));
-    require_free(files->robot, "`--update " + *arguments.out + "` keeps what you filled in");
-    if (arguments.task) require_free(files->task, "remove it, or name another robot file");
-    if (arguments.task) require_free(files->scene, "remove it, or name another robot file");
+  const std::optional<std::string>& file = arguments.update ? arguments.update : arguments.out;
+  if (arguments.task && !file)
+    throw Impossible("--task: name the robot file, too, with -o FILE or --update FILE");
+  if (file) {
+    const Files files(*file, arguments.task.value_or(""));
+    return arguments.update ? update(arguments, files) : write_new(arguments, files);
   }
   lang::Diagnostics diagnostics;
-  const auto draft = drafted(arguments, arguments.out, diagnostics);
+  const auto draft = drafted(arguments, std::nullopt, {}, diagnostics);
   if (!draft) return refused(diagnostics);
   require_wheels(arguments.urdf, *draft);
-  if (!arguments.out) {
-    print_data(draft->text);
-    return exit_good;
-  }
-  std::string report = *arguments.out + ": written\n";
-  if (arguments.task) {
-    const lang::TaskTexts texts = fitted(*arguments.task, lang::base_fit(*draft), *files);
-    write_file(files->task.string(), texts.task);
-    write_file(files->scene.string(), texts.scene);
-    report += files->task.string() + ": written\n" + files->scene.string() + ": written\n";
-  }
-  write_file(*arguments.out, draft->text);
-  report += "\n" + to_decide(*arguments.out, draft->text) + listed("not in the URDF", draft->missing) +
-            "\nthen\n  ";
-  report += arguments.task
-                ? "zwang validate " + files->task.string() + "\n  zwang run " + files->task.string() + "\n"
-                : "zwang validate " + *arguments.out + "\n";
-  print(report);
+  print_data(draft->text);
   return exit_good;
 }
 

@@ -311,11 +311,11 @@ std::optional<Robot> build_from(const std::string& robot_file, const Urdf& urdf,
 }  // namespace
 
 std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const std::string& named_as,
-                                      Diagnostics& diagnostics, bool with_hook) {
-  const std::optional<Urdf> urdf = read_urdf(path, {}, diagnostics);
+                                      Diagnostics& diagnostics, const DraftOptions& options) {
+  const std::optional<Urdf> urdf = read_urdf(path, {}, diagnostics, options.ignored);
   if (!urdf) return std::nullopt;
   const FoundWheels found = find_wheels(*urdf);
-  Drafter drafter(*urdf, found, named_as, with_hook);
+  Drafter drafter(*urdf, found, named_as, options.with_hook);
   RobotDraft draft = drafter.draft();
   draft.assumption_notes = drafter.assumptions();
   const Urdf whole = completed(*urdf, drafter.weightless());

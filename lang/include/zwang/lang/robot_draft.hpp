@@ -51,9 +51,14 @@ struct RobotDraft {
 
 inline constexpr const char* fill_in = "FILL_IN";
 
-/// `named_as` is how the robot file names the URDF, relative to itself. `with_hook`: the frame `hook` is in
-/// the draft, to be filled in where the outline is not known. nullopt on a URDF that is refused.
+struct DraftOptions {
+  bool with_hook =
+      false;  ///< the frame `hook` is in the draft, to be filled in where nobody knows the outline
+  std::vector<std::string> ignored;  ///< links that are left out
+};
+
+/// `named_as` is how the robot file names the URDF, relative to itself. nullopt on a URDF that is refused.
 std::optional<RobotDraft> draft_robot(const std::filesystem::path& urdf, const std::string& named_as,
-                                      Diagnostics& diagnostics, bool with_hook = false);
+                                      Diagnostics& diagnostics, const DraftOptions& options = {});
 
 }  // namespace zwang::lang
