@@ -347,6 +347,11 @@ int robot_inspect(const RobotInspectArguments& arguments) {
   const auto robot = lang::load_robot(arguments.file, diagnostics);
   if (!robot) return refused(diagnostics, arguments.format);
   show(*robot, arguments.format);
+  if (arguments.format == Format::human && !diagnostics.all().empty()) {
+    std::ostringstream warnings;
+    lang::render_human(diagnostics, warnings);
+    print("\n" + warnings.str());
+  }
   return exit_good;
 }
 

@@ -180,11 +180,22 @@ lang::BaseFit fit_of(const Files& files, const lang::RobotDraft& draft) {
   return robot ? lang::base_fit(*robot) : lang::base_fit(draft);
 }
 
+/// x of the back of a robot that is filled in. [m]
+std::optional<double> back_of(const fs::path& robot_file) {
+  lang::Diagnostics unheard;
+  const auto robot = lang::load_robot(robot_file, unheard);
+  if (!robot || robot->footprint.empty()) return std::nullopt;
+  double back = 0.0;
+  for (const auto& corner : robot->footprint) back = std::min(back, corner.x());
+  return back;
+}
+
 int update(const RobotInitArguments& arguments, const Files& files) {
   require_file(files.robot.string());
   lang::Diagnostics diagnostics;
-  const auto options = lang::options_of(files.robot, diagnostics);
+  auto options = lang::options_of(files.robot, diagnostics);
   if (!options) return refused(diagnostics);
+  options->back = back_of(files.robot);
   const auto draft = drafted(arguments, files.robot.string(), *options, diagnostics);
   if (!draft) return refused(diagnostics);
   const auto changed = lang::update_robot_file(files.robot, arguments.urdf, *draft, diagnostics);

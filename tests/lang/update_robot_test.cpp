@@ -71,7 +71,7 @@ TEST_F(UpdateRobot, of_the_same_urdf_changes_nothing) {
 }
 
 TEST_F(UpdateRobot, keeps_every_line_and_adds_a_new_joint_with_its_line) {
-  std::string file = test::replaced(drafted(robot(two_wheels)), "left_wheel: {effort: FILL_IN}",
+  std::string file = test::replaced(drafted(robot(two_wheels)), "left_wheel: {}",
                                     "left_wheel: {effort: 3 N m, gear: 20}  # measured on the bench");
   file += "\n# mine\nlimits: {velocity: {x: +-0.5 m/s}}\n";
   const std::string lift = "<link name='fork'>" + std::string(inertial) +
@@ -102,7 +102,7 @@ TEST_F(UpdateRobot, tells_what_vanished_with_its_line_and_keeps_it) {
 
 TEST_F(UpdateRobot, leaves_out_what_a_comment_names) {
   const std::string draft = drafted(robot(two_wheels));
-  const std::string file = test::replaced(draft, "  right_wheel: {effort: FILL_IN}", "  # right_wheel: {}");
+  const std::string file = test::replaced(draft, "  right_wheel: {}", "  # right_wheel: none");
   EXPECT_EQ(updated(file, robot(two_wheels)).text, file);
 }
 

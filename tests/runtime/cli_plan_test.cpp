@@ -271,6 +271,53 @@ TEST_F(CliPlan, init_writes_a_file_that_is_refused_until_it_is_filled) {
   EXPECT_EQ(zwang("robot init robots/none.urdf").code, 2);
 }
 
+/// From the URDF to a task that is done, on three kinds of drives; what the URDF does not tell is filled in.
+TEST_F(CliPlan, init_with_a_task_runs_once_the_robot_file_is_filled_in) {
+  for (const std::string robot : {"mecanum_base", "diff_base", "omni_base"}) {
+    const std::string file = "robots/my_" + robot + ".yaml", task = "robots/my_" + robot + "_wall_align.yaml";
+    const Result made = zwang("robot init robots/" + robot + ".urdf --task wall_align -o " + file);
+    ASSERT_EQ(made.code, 0) << made.out;
+    std::string text = read(folder_ / file);
+    const std::string open = "kind: FILL_IN";
+    if (const std::size_t at = text.find(open); at != std::string::npos) {
+      EXPECT_EQ(zwang("validate " + task).code, 1) << "still open";
+      EXPECT_NE(made.out.find(open), std::string::npos) << made.out;
+      write(file, text.replace(at, open.size(), "kind: mecanum"));
+    }
+    const Result good = zwang("validate --deny warnings " + task);
+    EXPECT_EQ(good.code, 0) << good.out;
+    const json report = zwang_json("run --quiet " + task);
+    EXPECT_NEAR(report.at("truth").at("base").at("yaw").get<double>(), 0.0, 0.1 * std::numbers::pi / 180.0)
+        << robot;
+  }
+}
+
+TEST_F(CliPlan, init_overwrites_nothing_and_updates_what_it_is_told_to) {
+  ASSERT_EQ(zwang("robot init robots/diff_base.urdf --task obstacle -o robots/mine.yaml").code, 0);
+  const std::string robot = read(folder_ / "robots/mine.yaml"),
+                    scene = read(folder_ / "robots/mine_obstacle_scene.yaml");
+  const Result again = zwang("robot init robots/diff_base.urdf --task obstacle -o robots/mine.yaml");
+  EXPECT_EQ(again.code, 2) << again.out;
+  EXPECT_NE(again.out.find("--update robots/mine.yaml"), std::string::npos) << again.out;
+  // A scene that stands in the way of a new robot file is told before anything is written.
+  write("robots/other_docking_scene.yaml", "mine\n");
+  EXPECT_EQ(zwang("robot init robots/diff_base.urdf --task docking -o robots/other.yaml").code, 2);
+  EXPECT_FALSE(fs::exists(folder_ / "robots/other.yaml"));
+  write("robots/mine_obstacle_scene.yaml", scene + "# mine\n");
+  const Result updated = zwang("robot init robots/diff_base.urdf --task obstacle --update robots/mine.yaml");
+  EXPECT_EQ(updated.code, 0) << updated.out;
+  EXPECT_EQ(read(folder_ / "robots/mine.yaml"), robot);
+  EXPECT_EQ(read(folder_ / "robots/mine_obstacle_scene.yaml"), scene + "# mine\n");
+}
+
+TEST_F(CliPlan, init_refuses_a_task_that_the_base_cannot_do) {
+  const Result refused = zwang("robot init robots/tricycle_base.urdf --task wall_align -o robots/mine.yaml");
+  EXPECT_EQ(refused.code, 2) << refused.out;
+  EXPECT_NE(refused.out.find("E621"), std::string::npos) << refused.out;
+  EXPECT_FALSE(fs::exists(folder_ / "robots/mine.yaml"));
+  EXPECT_EQ(zwang("robot init robots/diff_base.urdf --task wall_aling -o robots/mine.yaml").code, 2);
+}
+
 TEST_F(CliPlan, inspect_refuses_what_is_no_robot) {
   write("robots/broken.urdf", "<robot name='x'><link/></robot>");
   const Result result = zwang("robot inspect robots/broken.urdf");

@@ -157,7 +157,19 @@ Diagnostic wheel_inertia_beyond_rim(const std::vector<HeavyWheel>& wheels) {
       "wheel " + in_ticks(first.joint) + " has " + figure(first.about_axle, "kg m^2") +
           " about its axle, and its mass, all of it on the rim, has " + figure(first.on_the_rim, "kg m^2") +
           others,
-      "give its link in the URDF the inertia of a disc, " + figure(0.5 * first.on_the_rim, "kg m^2"));
+      "list its link under `inertias` in the robot file, as `LINK: {}`: it counts as a disc then, with " +
+          figure(0.5 * first.on_the_rim, "kg m^2"));
+}
+
+Diagnostic push_beyond_floor(const Span& span, const std::string& joint, const Push& push) {
+  const double slips = push.effort * push.holds / push.push;
+  return warning("W872", span,
+                 "the URDF's torques press with " + figure(push.push, "N") +
+                     " against the floor, and no floor holds " + figure(push.holds, "N") + " of a robot of " +
+                     figure(push.mass, "kg") + ": " + in_ticks(joint) + " has " + figure(push.effort, "N m"),
+                 "write the motor's own torque, of its data sheet, as `" + joint +
+                     ": {effort: 2 N m}`, or for all wheels `each_wheel: {effort: 2 N m}`; with " +
+                     figure(slips, "N m") + " the wheel spins on every floor");
 }
 
 Diagnostic wheel_across(const Span& span, const std::string& wheel, const Span& declared) {

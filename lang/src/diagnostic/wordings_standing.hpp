@@ -59,6 +59,13 @@ struct HeavyWheel {
 };
 /// Not empty: who draws one so draws all so.
 Diagnostic wheel_inertia_beyond_rim(const std::vector<HeavyWheel>& wheels);
+struct Push {
+  double effort = 0.0;  ///< [N m] of the first wheel
+  double push = 0.0;    ///< [N] of all wheels at the floor
+  double holds = 0.0;   ///< [N] the most that a floor takes up
+  double mass = 0.0;    ///< [kg]
+};
+Diagnostic push_beyond_floor(const Span& span, const std::string& joint, const Push& push);
 Diagnostic wheel_across(const Span& span, const std::string& wheel, const Span& declared);
 /// `value` with its unit: no body has so much, or so little.
 Diagnostic beyond_all_bodies(const Span& span, const std::string& link, const std::string& what,

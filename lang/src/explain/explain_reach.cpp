@@ -290,8 +290,9 @@ gives the axis in the link's axes; this one may be in the parent's.)~",
               R"~(A wheel of mass m and radius R has at most m R^2 about its axle, if all of it is on the rim. URDFs that
 were written for a picture have 1 kg m^2 everywhere. The base then seems many times as heavy along the floor, and every force
 and acceleration is computed for that.)~",
-          .fix =
-              "Give the wheel's link the inertia of a disc, 1/2 m R^2 about the axle and 1/4 m R^2 across."},
+          .fix = "List the wheel's link under `inertias` in the robot file, as `left_wheel_link: {}`. It "
+                 "counts as a solid "
+                 "disc then, 1/2 m R^2 about the axle. Or mend the URDF."},
       Explanation{
           .code = "W871",
           .title = "an inertia that is nearly a body's",
@@ -301,6 +302,19 @@ link breaks the rule by little. zwang moves its moments to the nearest ones that
 Beyond that the robot is refused (E808).)~",
           .fix = "Correct the link's `<inertia>`. Exporters of drawings give the products of inertia either "
                  "sign."},
+      Explanation{
+          .code = "W872",
+          .title = "motors that no floor can take up",
+          .why =
+              R"~(The wheels press against the floor with their torques over their radii, and they spin before a floor holds
+more than mu m g. With mu = 1.5, soft rubber on clean, dry concrete, and a load as heavy as the robot itself, that is three
+times the robot's weight. A URDF that states more was written for a simulator. zwang would reckon with that push: in `plan`,
+in E601 and in the guard.)~",
+          .fix = "Write the motor's torque on the joint's side into the robot file, as `actuated: "
+                 "{left_wheel: {effort: 2 N "
+                 "m}}`, or once for all wheels as `each_wheel: {effort: 2 N m}`. Data sheets state it, or "
+                 "the motor's "
+                 "torque, which the gear multiplies. What the robot file states is believed."},
   };
   return entries;
 }

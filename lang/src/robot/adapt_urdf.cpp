@@ -5,6 +5,7 @@
 #include <map>
 
 #include "diagnostic/wordings.hpp"
+#include "robot/inertias.hpp"
 
 namespace zwang::lang {
 
@@ -48,6 +49,7 @@ std::vector<Word> used_parts(const RobotFile& file) {
   for (const PostureText& posture : file.posture) parts.push_back(posture.joint);
   for (const FrictionText& friction : file.friction) parts.push_back(friction.joint);
   for (const FrameText& frame : file.frames) parts.push_back(frame.parent);
+  for (const InertiaText& inertia : file.inertias) parts.push_back(inertia.link);
   parts.insert(parts.end(), file.supports.begin(), file.supports.end());
   return parts;
 }
@@ -69,6 +71,7 @@ void check_left_out(const RobotFile& file, const Urdf& urdf, Diagnostics& diagno
 }  // namespace
 
 void adapt_urdf(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics) {
+  apply_inertias(file, urdf, diagnostics);
   hold_joints(file.fixed, urdf, diagnostics);
   check_left_out(file, urdf, diagnostics);
 }

@@ -41,8 +41,9 @@ std::vector<Eigen::Vector2d> rectangle(const Eigen::Vector2d& half) {
 
 }  // namespace
 
-DraftFrames::DraftFrames(const Urdf& urdf, const FoundWheels& found, DriveKind drive, bool with_hook)
-    : urdf_(urdf), found_(found), drive_(drive), with_hook_(with_hook) {}
+DraftFrames::DraftFrames(const Urdf& urdf, const FoundWheels& found, DriveKind drive,
+                         const DraftOptions& options)
+    : urdf_(urdf), found_(found), drive_(drive), options_(options) {}
 
 std::vector<Eigen::Vector2d> DraftFrames::outline() const {
   return outline_is_known() ? found_.outline : rectangle(reach_of(found_));
@@ -102,12 +103,13 @@ std::string DraftFrames::frames(const std::string& open) const {
   std::string lines;
   // A turn moves the nose sideways by its distance from the axle: a nose close to it hardly moves.
   if (has_nose()) lines += frame("nose", metres(std::max(ahead, reach_of(found_).y())), "");
-  if (with_hook_) lines += frame("hook", open, back);
+  if (options_.with_hook) lines += frame("hook", options_.back ? metres(*options_.back) : open, back);
   const std::string example = "bumper: {parent: " + found_.base + ", at: [0.3 m, 0 m]}";
   if (lines.empty()) return "\n# Tasks name places on the robot, as frames: {" + example + "}.\n";
   std::string about = "\n# Places that tasks name, as " + example + ".";
   if (has_nose()) about += " Proposed: `nose`, ahead of the axle.";
-  if (with_hook_) about += "\n# `hook` is the middle of the back, as -0.4 m: what docks points out of it.";
+  if (options_.with_hook)
+    about += "\n# `hook` is the middle of the back, as -0.4 m: what docks points out of it.";
   return about + "\nframes:\n" + lines;
 }
 

@@ -12,8 +12,7 @@ namespace zwang::lang {
 
 class DraftFrames {
  public:
-  /// `with_hook`: `hook` is there although nobody knows where the back is.
-  DraftFrames(const Urdf& urdf, const FoundWheels& found, DriveKind drive, bool with_hook);
+  DraftFrames(const Urdf& urdf, const FoundWheels& found, DriveKind drive, const DraftOptions& options);
 
   bool outline_is_known() const { return !found_.outline.empty(); }
   /// [m] In the base, counter-clockwise; around the wheels alone where nobody knows.
@@ -35,7 +34,7 @@ class DraftFrames {
   const Urdf& urdf_;
   const FoundWheels& found_;
   DriveKind drive_;
-  bool with_hook_;
+  const DraftOptions& options_;
 };
 
 }  // namespace zwang::lang

@@ -4,8 +4,10 @@
 #include <map>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "robot/check_push.hpp"
 #include "robot/draft_frames.hpp"
 #include "robot/drive_kind.hpp"
+#include "robot/each_wheel.hpp"
 #include "robot/load_robot.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
@@ -27,8 +29,8 @@ std::string in_millimetres(double metres) {
 /// What stands in the open places.
 struct Filling {
   std::string radius = fill_in, effort = fill_in, footprint = fill_in, back = fill_in;
-  std::string holds = std::string("holds: ") + fill_in;  ///< of four wheels that may have rollers
-  bool mecanum = false;
+  std::string kind = fill_in;  ///< of four wheels that may have rollers
+  std::string mass = fill_in;  ///< of a link that moves
 };
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -43,12 +45,12 @@ double rounded_up(double value) {
 
 class Drafter {
  public:
-  Drafter(const Urdf& urdf, FoundWheels found, std::string named_as, bool with_hook)
+  Drafter(const Urdf& urdf, FoundWheels found, std::string named_as, const DraftOptions& options)
       : urdf_(urdf),
         found_(std::move(found)),
         named_as_(std::move(named_as)),
         drive_(drive_of(found_.wheels)),
-        frames_(urdf_, found_, drive_, with_hook) {
+        frames_(urdf_, found_, drive_, options) {
     const std::vector<std::string> open = without_inertia(urdf_);
     held_ = found_.in_between;
     for (const std::string& name : found_.others) {
@@ -56,7 +58,12 @@ class Drafter {
       if (joint.mimic || contains(open, joint.child)) held_.push_back(name);
     }
     for (const std::string& link : open) {
-      if (!contains(held_, urdf_.joint_above(link)->joint.name)) weightless_.push_back(link);
+      if (!contains(held_, urdf_.joint_above(link)->joint.name)) bodies_.push_back(link);
+    }
+    for (const auto* wheels : {&found_.wheels, &found_.casters}) {
+      for (const DraftWheel& wheel : *wheels) {
+        if (!contains(bodies_, wheel.link) && is_beyond_rim(wheel)) bodies_.push_back(wheel.link);
+      }
     }
   }
 
@@ -87,25 +94,23 @@ class Drafter {
     filling.effort = "1 N m";
     filling.footprint = frames_.around_wheels();
     filling.back = "-0.5 m";
+    filling.mass = "0.1 kg";
     if (drive_ != DriveKind::rollers_or_skid) return {{in_words(drive_, found_.wheels), text(filling)}};
     std::vector<std::pair<std::string, std::string>> texts;
-    filling.holds = "holds: [rolling]";
+    filling.kind = "skid";
     texts.emplace_back("with plain wheels that skid", text(filling));
-    filling.mecanum = true;
+    filling.kind = "mecanum";
     texts.emplace_back("with mecanum wheels", text(filling));
     return texts;
   }
 
-  /// Links that move, lack mass or inertia, and are not held.
-  const std::vector<std::string>& weightless() const { return weightless_; }
-
   std::vector<std::string> assumptions() const {
     std::vector<std::string> lines;
-    const bool any_effort = any([](const DraftWheel& w) { return !w.effort; });
     if (any_lacks_radius()) lines.push_back("wheels of radius " + wording::figure(assumed_radius(), "m"));
-    if (any_effort) lines.push_back("1 N m of torque where the URDF gives none");
+    if (any(lacks_effort)) lines.push_back("1 N m of torque where the URDF gives none");
     for (const std::string& joint : held_) lines.push_back("`" + joint + "` does not move");
-    if (!weightless_.empty()) lines.push_back("balls of 5 cm for links that move and have no inertia");
+    if (!bodies_.empty())
+      lines.push_back("discs and balls for links that move and have no inertia, or none that a body has");
     return lines;
   }
 
@@ -115,6 +120,28 @@ class Drafter {
     return std::any_of(found_.wheels.begin(), found_.wheels.end(), test);
   }
 
+  template <typename Test>
+  bool all(const Test& test) const {
+    return std::all_of(found_.wheels.begin(), found_.wheels.end(), test);
+  }
+
+  /// I > m r^2 about the axle: more than all of its mass has on its rim. No wheel here is larger than 0.3 m.
+  bool is_beyond_rim(const DraftWheel& wheel) const {
+    const UrdfLink& link = *urdf_.find_link(wheel.link);
+    const solver::Vector3& axle = urdf_.find_joint(wheel.joint)->joint.axis;
+    const double radius = wheel.radius.value_or(0.3);
+    return axle.dot(link.inertia.rotational * axle) > link.inertia.mass * radius * radius;
+  }
+
+  /// F = sum tau_i / R_i, as far as it is known. [N]
+  double push() const {
+    double sum = 0.0;
+    for (const DraftWheel& wheel : found_.wheels)
+      sum += wheel.effort.value_or(0.0) / wheel.radius.value_or(0.1);
+    return sum;
+  }
+
+  static bool lacks_effort(const DraftWheel& wheel) { return !wheel.effort; }
   static bool lacks_radius(const DraftWheel& wheel) { return !wheel.radius; }
 
   bool any_lacks_radius() const {
@@ -149,50 +176,53 @@ class Drafter {
     std::vector<DraftWheel> all = found_.wheels;
     all.insert(all.end(), found_.casters.begin(), found_.casters.end());
     add_missing(lines, "the radius, where the shape is a mesh: ", all, lacks_radius);
-    add_missing(lines, "the largest torque: ", found_.wheels, [](const DraftWheel& w) { return !w.effort; });
+    add_missing(lines, "the largest torque: ", found_.wheels, lacks_effort);
     if (drive_ == DriveKind::rollers_or_skid) {
       lines.push_back("whether the wheels have rollers (mecanum) or skid: a URDF does not tell");
     }
     std::string links;
-    for (const std::string& link : weightless_) links += (links.empty() ? "`" : ", `") + link + "`";
-    if (!links.empty()) lines.push_back("masses and inertias of links that move: " + links);
+    for (const std::string& link : bodies_) links += (links.empty() ? "`" : ", `") + link + "`";
+    if (!links.empty()) lines.push_back("inertias that a body can have, of links that move: " + links);
+    if (urdf_.mass() > 0.0 && push() > floor_holds(urdf_.mass()))
+      lines.push_back("the wheels' own torques: the URDF's press with " + wording::figure(push(), "N") +
+                      ", and no floor holds that (W872); give `each_wheel: {effort: ..}`");
     lines.push_back("gears and rotor inertias: often larger than the wheels' own");
     lines.push_back(found_.outline.empty() ? "`footprint`: the base has no simple collision shape"
                                            : "whether `stop` and `footprint`, which are proposed, are right");
     return lines;
   }
 
-  bool may_have_rollers(const DraftWheel& wheel) const {
-    return drive_ == DriveKind::rollers_or_skid && wheel.swivel.empty();
+  /// Open places of all wheels alike stand once, in `each_wheel`.
+  bool share_radius() const { return all(lacks_radius); }
+  bool share_effort() const { return all(lacks_effort); }
+
+  std::string each_wheel(const Filling& filling) const {
+    std::string about, keys;
+    const auto add = [&](const std::string& key, const std::string& value, const std::string& comment) {
+      keys += (keys.empty() ? "" : ", ") + key + ": " + value;
+      about += "# " + comment + "\n";
+    };
+    if (drive_ == DriveKind::rollers_or_skid)
+      add("kind", filling.kind,
+          "kind: `skid` if the wheels slide sideways to turn, `mecanum` if they have rollers.");
+    if (share_radius())
+      add("radius", filling.radius,
+          "radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.");
+    if (share_effort()) add("effort", filling.effort, "effort: the largest torque of a wheel, as `2 N m`.");
+    if (keys.empty()) return "";
+    return "# each_wheel: of every wheel with a motor, where its own entry says nothing.\n" + about +
+           "each_wheel: {" + keys + "}\n";
   }
 
-  /// On a mecanum base: front left and rear right one way, the others the other way.
-  static std::string mecanum_roller(const DraftWheel& wheel) {
-    return (wheel.at[0] > 0.0) == (wheel.at[1] > 0.0) ? "roller: 45 deg" : "roller: -45 deg";
-  }
-
-  std::string wheel_entry(const DraftWheel& wheel, const Filling& filling) const {
-    std::string entry = "  - {joint: " + wheel.joint +
-                        ", radius: " + (wheel.radius ? in_millimetres(*wheel.radius) : filling.radius);
-    if (may_have_rollers(wheel)) entry += ", " + (filling.mecanum ? mecanum_roller(wheel) : filling.holds);
-    if (drive_ == DriveKind::omni) entry += ", roller: 90 deg";
-    return entry + "}";
-  }
-
-  /// A line each; behind those that are open, in one column, what else they may be.
-  std::string wheel_lines(const std::vector<DraftWheel>& wheels, const Filling& filling) const {
-    std::size_t column = 0;
-    for (const DraftWheel& wheel : wheels) column = std::max(column, wheel_entry(wheel, filling).size() + 2);
-    std::string lines;
-    for (const DraftWheel& wheel : wheels) {
-      std::string line = wheel_entry(wheel, filling);
-      if (may_have_rollers(wheel) && !filling.mecanum) {
-        line.resize(column, ' ');
-        line += "# mecanum: " + mecanum_roller(wheel);
-      }
-      lines += line + "\n";
+  std::string wheel_entry(const DraftWheel& wheel, bool is_driven, const Filling& filling) const {
+    std::string entry = "  - {joint: " + wheel.joint;
+    if (wheel.radius) {
+      entry += ", radius: " + in_millimetres(*wheel.radius);
+    } else if (!is_driven || !share_radius()) {
+      entry += ", radius: " + filling.radius;
     }
-    return lines;
+    if (is_driven && drive_ == DriveKind::omni) entry += ", roller: 90 deg";
+    return entry + "}\n";
   }
 
   std::string actuated(const Filling& filling) const {
@@ -202,7 +232,13 @@ class Drafter {
       const bool is_known = joint != nullptr && std::isfinite(joint->joint.max_effort);
       text += "  " + name + ": {" + (is_known ? "" : "effort: " + open) + "}\n";
     };
-    for (const DraftWheel& wheel : found_.wheels) line(wheel.joint, filling.effort);
+    for (const DraftWheel& wheel : found_.wheels) {
+      if (share_effort()) {
+        text += "  " + wheel.joint + ": {}\n";
+      } else {
+        line(wheel.joint, filling.effort);
+      }
+    }
     // A swivel with one wheel is steered by a motor, one with two by the difference of theirs.
     for (const auto& [name, wheels] : swivels_of(found_.wheels)) {
       if (wheels == 1) line(name, filling.effort);
@@ -216,14 +252,26 @@ class Drafter {
     return text;
   }
 
-  /// A comment that names what only the URDF can be given.
-  std::string weightless_links() const {
-    if (weightless_.empty()) return "";
+  std::string inertias(const Filling& filling) const {
+    if (bodies_.empty()) return "";
     std::string text =
-        "# It is refused, too, until the URDF gives these links, which move, the mass and inertia of a "
-        "body:\n";
-    for (const std::string& link : weightless_) text += "#   " + link + "\n";
+        "\n# Links that move, and to which the URDF gives no inertia, or one that no body has: a wheel "
+        "counts as a "
+        "solid disc,\n# another link as a solid ball. Without `mass` the URDF's, without `radius` the "
+        "wheel's.\n"
+        "inertias:\n";
+    for (const std::string& link : bodies_) {
+      std::string keys;
+      if (urdf_.find_link(link)->inertia.mass <= 0.0) keys = "mass: " + filling.mass;
+      if (!is_wheel(link)) keys += (keys.empty() ? "" : ", ") + std::string("radius: 50 mm");
+      text += "  " + link + ": {" + keys + "}\n";
+    }
     return text;
+  }
+
+  bool is_wheel(const std::string& link) const {
+    const auto has_it = [&](const DraftWheel& wheel) { return wheel.link == link; };
+    return any(has_it) || std::any_of(found_.casters.begin(), found_.casters.end(), has_it);
   }
 
   static std::string listed(const std::vector<std::string>& names) {
@@ -243,8 +291,7 @@ class Drafter {
   }
 
   std::string text(const Filling& filling) const {
-    std::string text =
-        weightless_links() + "zwang_robot: 1\nurdf: " + named_as_ + "\n" + frames_.base_and_lead();
+    std::string text = "zwang_robot: 1\nurdf: " + named_as_ + "\n" + frames_.base_and_lead();
     if (!held_.empty())
       text +=
           "\n# They do not move here: they carry wheels and do not steer them, as rockers, springs and wheel "
@@ -252,21 +299,11 @@ class Drafter {
           "follow\n# another joint by a <mimic>, or have no mass or inertia behind them.\nfixed: " +
           listed(held_);
     text += "\n";
-    if (any_lacks_radius()) {
-      text += "# radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.\n";
-    }
-    if (drive_ == DriveKind::rollers_or_skid) {
-      text +=
-          "# Wheels that skid: `holds: [rolling]`. Mecanum wheels: the `roller` that stands behind, in the "
-          "place of "
-          "`holds`\n"
-          "# (from the wheel's axis to the roller's axis at the ground).\n";
-    }
-    text += "wheels:\n";
-    text += wheel_lines(found_.wheels, filling);
+    text += each_wheel(filling) + "wheels:\n";
+    for (const DraftWheel& wheel : found_.wheels) text += wheel_entry(wheel, true, filling);
     if (!found_.casters.empty())
       text += "  # Casters: they have no motor, and the swivel above each follows.\n";
-    text += wheel_lines(found_.casters, filling);
+    for (const DraftWheel& caster : found_.casters) text += wheel_entry(caster, false, filling);
     if (!found_.supports.empty())
       text += "\n# They stand on the ground and hold nothing.\nsupports: " + listed(found_.supports);
     text +=
@@ -275,7 +312,7 @@ class Drafter {
         "# rotor_inertia, as {gear: 20, rotor_inertia: 2 kg mm^2}: they are often larger than the wheel's "
         "own inertia.\n";
     text += actuated(filling);
-    text += stop() + frames_.footprint(filling.footprint) + frames_.frames(filling.back);
+    text += inertias(filling) + stop() + frames_.footprint(filling.footprint) + frames_.frames(filling.back);
     text +=
         "\n# In force where a task gives none, as limits: {acceleration: {x: +-1 m/s^2}, velocity: {x: +-1 "
         "m/s}}.\n"
@@ -295,16 +332,17 @@ class Drafter {
   std::string named_as_;
   DriveKind drive_;
   DraftFrames frames_;
-  std::vector<std::string> held_;        ///< joints of `fixed`
-  std::vector<std::string> weightless_;  ///< links
+  std::vector<std::string> held_;    ///< joints of `fixed`
+  std::vector<std::string> bodies_;  ///< links whose inertia is in the draft
 };
 
 std::optional<Robot> build_from(const std::string& robot_file, const Urdf& urdf, Diagnostics& diagnostics) {
   const std::optional<Document> document =
       read(diagnostics.add_source({"robot file", robot_file}), diagnostics);
   if (!document) return std::nullopt;
-  const std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);
+  std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);
   if (!file) return std::nullopt;
+  place_rollers(*file, urdf);
   return build_robot(*file, urdf, 0, diagnostics);
 }
 
@@ -315,13 +353,12 @@ std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const s
   const std::optional<Urdf> urdf = read_urdf(path, {}, diagnostics, options.ignored);
   if (!urdf) return std::nullopt;
   const FoundWheels found = find_wheels(*urdf);
-  Drafter drafter(*urdf, found, named_as, options.with_hook);
+  Drafter drafter(*urdf, found, named_as, options);
   RobotDraft draft = drafter.draft();
   draft.assumption_notes = drafter.assumptions();
-  const Urdf whole = completed(*urdf, drafter.weightless());
   for (const auto& [as, text] : drafter.assumed_texts()) {
     Diagnostics unheard;  // of a file that is not the user's; what the URDF lacks is
-    std::optional<Robot> robot = build_from(text, whole, unheard);
+    std::optional<Robot> robot = build_from(text, *urdf, unheard);
     if (robot) {
       draft.assumed.push_back({as, std::move(*robot)});
     } else if (draft.assumed.empty()) {

@@ -216,7 +216,8 @@ class Fitting {
     const double push = force_of(20.0), lever = std::max(0.05, std::abs(first.y()));
     const double bounce =
         std::max(2.0 * v * fit_.effective_mass / push, 2.0 * w * fit_.effective_inertia / (push * lever));
-    return std::max(shipped, std::ceil(1.5 * bounce * 10.0 - 1e-9) / 10.0);
+    constexpr double longest = 3.0;  // some inertias count all that casters resist
+    return std::clamp(std::ceil(1.5 * bounce * 10.0 - 1e-9) / 10.0, shipped, longest);
   }
 
   const std::string& task_;

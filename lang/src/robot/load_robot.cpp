@@ -12,7 +12,9 @@
 #include "diagnostic/wordings_statics.hpp"
 #include "robot/adapt_urdf.hpp"
 #include "robot/check_joints.hpp"
+#include "robot/check_push.hpp"
 #include "robot/drive_entry.hpp"
+#include "robot/each_wheel.hpp"
 #include "robot/exact_wheels.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
@@ -109,7 +111,8 @@ class RobotBuilder {
       const Dimension expected = slides ? dimension::force : dimension::torque;
       const std::string whose = "actuator `" + actuator.joint.text + "`'s ";
       joint->joint.actuated = true;
-      joint->joint.rotor_inertia = actuator.gear * actuator.gear * actuator.rotor_inertia;
+      const double gear = actuator.gear.value_or(1.0);
+      joint->joint.rotor_inertia = gear * gear * actuator.rotor_inertia.value_or(0.0);
       if (actuator.slew_text)
         require_positive(*actuator.slew_text, expected / dimension::time, whose + "slew", false,
                          diagnostics_);
@@ -388,7 +391,7 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   }
   const std::optional<Document> document = read(*source, diagnostics);
   if (!document) return std::nullopt;
-  const std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);
+  std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);
   if (!file || !file->urdf.exists()) return std::nullopt;
   const auto urdf_path = resolve_path(file->urdf.text, path, root, file->urdf.span, diagnostics);
   if (!urdf_path) return std::nullopt;
@@ -396,12 +399,14 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   for (const Word& link : file->ignored) ignored.push_back(link.text);
   const std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics, ignored);
   if (!urdf) return std::nullopt;
+  place_rollers(*file, *urdf);
   std::optional<Robot> robot = build_robot(*file, *urdf, errors_before, diagnostics);
   if (!robot) return std::nullopt;
   check_wheels_stand(*file, *urdf, *robot, diagnostics);
   check_rollers(*file, *robot, diagnostics);
   check_wheel_shapes(*file, *urdf, diagnostics);
   check_wheel_inertias(*file, *robot, diagnostics);
+  check_push(*file, *robot, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   check_speed_limits(*robot, diagnostics);
   return robot;

@@ -17,16 +17,18 @@ struct Reason {
 
 constexpr std::array fill_in_reasons{
     Reason{"radius", "from the axle to the ground, measured; a mesh does not tell"},
-    Reason{"holds", "[rolling] if the wheels skid; mecanum: the `roller` behind it, in its place"},
+    Reason{"kind", "of the wheels, `skid` or `mecanum`: a URDF does not tell"},
     Reason{"effort", "the largest torque on the joint's side, of the data sheet"},
+    Reason{"mass", "of the link; the URDF has none"},
     Reason{"force", "of the brake: mass x deceleration; the URDF has no masses"},
-    Reason{"polygon", "the outline from above, measured; the body is a mesh"},
+    Reason{"polygon", "the outline from above, measured; the URDF has no simple shape"},
     Reason{"at", "x of the middle of the back, as -0.4 m"},
 };
 
 constexpr std::array check_reasons{
     Reason{"base", "the link that floats, its x ahead"},
     Reason{"fixed", "what moves in truth must not stand here"},
+    Reason{"inertias", "the URDF has none, or none that a body has"},
     Reason{"stop", "how hard the base may brake"},
     Reason{"footprint", "around what collides in the URDF"},
 };

@@ -9,6 +9,8 @@
 #include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/drive_entry.hpp"
+#include "robot/each_wheel.hpp"
+#include "robot/inertias.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
 #include "tree/text.hpp"
@@ -25,14 +27,16 @@ void add_open_places(const Node& node, std::vector<Span>& places) {
   for (const Entry& entry : node.entries) add_open_places(entry.value, places);
 }
 
-WheelText parse_wheel(const Node& node, Diagnostics& diagnostics) {
+/// `each_has_radius`: a wheel may leave it to `each_wheel`.
+WheelText parse_wheel(const Node& node, bool each_has_radius, Diagnostics& diagnostics) {
   WheelText wheel;
   wheel.span = node.span;
   MapReader map(node, "a wheel", diagnostics,
                 "{joint: " + (node.is_scalar() ? node.text : "left_wheel") + ", radius: 75 mm}");
   if (const Node* joint = map.required("joint")) wheel.joint = parse_word(*joint, "`joint`", diagnostics);
   const std::string what = "wheel `" + wheel.joint.text + "`";
-  if (const Node* radius = map.required("radius")) {
+  wheel.gives_radius = map.node().find("radius") != nullptr;
+  if (const Node* radius = each_has_radius ? map.optional("radius") : map.required("radius")) {
     wheel.radius = parse_positive(*radius, dimension::length, what + "'s radius", false, diagnostics);
   }
   if (const Node* roller = map.optional("roller")) {
@@ -43,6 +47,7 @@ WheelText parse_wheel(const Node& node, Diagnostics& diagnostics) {
     }
   }
   const Node* holds = map.optional("holds");
+  wheel.gives_holds = holds != nullptr;
   if (holds != nullptr && require_sequence(*holds, what + "'s `holds`", diagnostics)) {
     wheel.holds_rolling = wheel.holds_sideways = false;
     for (const Node& item : holds->items) {
@@ -106,13 +111,11 @@ ActuatorText parse_actuator(const Entry& entry, bool is_told, Diagnostics& diagn
   }
   const Node* gear = map.optional("gear");
   if (gear != nullptr && !complain_of_ratio(*gear, diagnostics)) {
-    actuator.gear =
-        parse_positive(*gear, dimension::none, what + "'s gear", false, diagnostics).value_or(1.0);
+    actuator.gear = parse_positive(*gear, dimension::none, what + "'s gear", false, diagnostics);
   }
   if (const Node* inertia = map.optional("rotor_inertia")) {
     actuator.rotor_inertia =
-        parse_positive(*inertia, dimension::inertia, what + "'s rotor_inertia", true, diagnostics)
-            .value_or(0.0);
+        parse_positive(*inertia, dimension::inertia, what + "'s rotor_inertia", true, diagnostics);
   }
   map.finish();
   return actuator;
@@ -271,10 +274,12 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
   if (const Node* urdf = map.required("urdf")) file.urdf = parse_word(*urdf, "`urdf`", diagnostics);
   if (const Node* base = map.required("base")) file.base = parse_word(*base, "`base`", diagnostics);
   if (const Node* lead = map.optional("lead")) file.lead = parse_word(*lead, "`lead`", diagnostics);
+  if (const Node* each_wheel = map.optional("each_wheel"))
+    file.each_wheel = parse_each_wheel(*each_wheel, diagnostics);
   const Node* wheels = map.required("wheels");
   if (wheels != nullptr && require_sequence(*wheels, "`wheels`", diagnostics)) {
     for (const Node& item : wheels->items) {
-      file.wheels.push_back(parse_wheel(item, diagnostics));
+      file.wheels.push_back(parse_wheel(item, file.each_wheel.gives_radius, diagnostics));
       // Who writes one by its name writes all so.
       if (item.is_scalar()) break;
     }
@@ -301,6 +306,9 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
       is_told = is_told || !entry.value.is_mapping();
     }
   }
+  complete_wheels(file, diagnostics);
+  each(map.optional("inertias"), "inertias",
+       [&](const Entry& e) { file.inertias.push_back(parse_inertia(e, diagnostics)); });
   each(map.optional("posture"), "posture", [&](const Entry& e) {
     file.posture.push_back(
         {{e.key.text, e.key.span}, parse_value(e.value, posture_name(e.key.text), diagnostics)});

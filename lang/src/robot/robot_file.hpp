@@ -18,15 +18,35 @@ struct WheelText {
   std::optional<double> roller;  ///< [rad]
   bool holds_rolling = true;
   bool holds_sideways = true;
+  bool gives_radius = false, gives_holds = false;  ///< the file has the keys
   Span span;
+};
+
+enum class WheelKind { plain, skid, mecanum };
+
+/// Of every wheel with a motor that says nothing itself.
+struct EachWheel {
+  WheelKind kind = WheelKind::plain;
+  std::optional<double> radius;  ///< [m]
+  bool gives_radius = false;     ///< the file has the key
+  std::optional<ValueText> effort;
+  std::optional<double> gear;
+  std::optional<double> rotor_inertia;  ///< [kg m^2]
+};
+
+/// A body for a link, in the place of the URDF's.
+struct InertiaText {
+  Word link;
+  std::optional<double> mass;    ///< [kg]; not given: the URDF's
+  std::optional<double> radius;  ///< [m]; not given: the wheel's
 };
 
 struct ActuatorText {
   Word joint;
   std::optional<ValueText> effort_text;  ///< a torque or a force, as the joint says
   std::optional<ValueText> slew_text;    ///< of the same, per second
-  double gear = 1.0;
-  double rotor_inertia = 0.0;  ///< [kg m^2], the rotor's own
+  std::optional<double> gear;            ///< not given: 1
+  std::optional<double> rotor_inertia;   ///< [kg m^2], the rotor's own; not given: 0
 };
 
 /// Where a joint stands at the start.
@@ -46,6 +66,8 @@ struct RobotFile {
   Word base;
   Word lead;  ///< the link or frame that tasks drive; not given: the base
   std::vector<WheelText> wheels;
+  EachWheel each_wheel;
+  std::vector<InertiaText> inertias;
   std::vector<Word> fixed;    ///< joints that do not move, whatever the URDF says
   std::vector<Word> ignored;  ///< links that are left out, with all that hangs on them
   std::vector<Word> supports;

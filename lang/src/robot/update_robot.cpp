@@ -153,6 +153,7 @@ class Update {
     static const std::set<std::string> required = {"zwang_robot", "urdf", "base",     "wheels",
                                                    "actuated",    "stop", "footprint"};
     if (required.contains(key)) return true;
+    if (key == "each_wheel") return false;  // its wheels have their own values
     if (key == "lead") return !mentions(old_.text, "lead");
     const std::vector<Item> items = items_of(draft_, section.value);
     return std::any_of(items.begin(), items.end(),

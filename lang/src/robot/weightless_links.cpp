@@ -1,7 +1,6 @@
 #include "robot/weightless_links.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 
 namespace zwang::lang {
 
@@ -32,17 +31,6 @@ std::vector<std::string> without_inertia(const Urdf& urdf) {
     if (!is_good) names.push_back(joint.child);
   }
   return names;
-}
-
-Urdf completed(Urdf urdf, const std::vector<std::string>& open) {
-  for (UrdfLink& link : urdf.links) {
-    if (std::find(open.begin(), open.end(), link.name) == open.end()) continue;
-    const double mass = link.inertia.mass > 0.0 ? link.inertia.mass : 0.1;
-    const solver::Vector3 com = link.inertia.first_moment / mass;
-    link.inertia =
-        solver::RigidInertia::from_com(mass, com, 0.4 * mass * 0.05 * 0.05 * solver::Matrix3::Identity());
-  }
-  return urdf;
 }
 
 }  // namespace zwang::lang

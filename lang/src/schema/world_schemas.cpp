@@ -6,13 +6,15 @@ namespace zwang::lang::schema {
 namespace {
 
 Json wheel() {
-  return object("", {{"joint", word("the joint that the wheel turns on"), true},
-                     {"radius", reference("quantity"), true},
-                     {"roller", reference("quantity",
-                                          "mecanum and omni: from the wheel's axis to the roller's at "
-                                          "the ground, about the base's +z")},
-                     {"holds", list("the directions that a plain wheel holds; default both",
-                                    one_of_words("", {"rolling", "sideways"}))}});
+  return object(
+      "",
+      {{"joint", word("the joint that the wheel turns on"), true},
+       {"radius", reference("quantity", "from the axle to the ground; of a driven one also in `each_wheel`")},
+       {"roller", reference("quantity",
+                            "mecanum and omni: from the wheel's axis to the roller's at "
+                            "the ground, about the base's +z")},
+       {"holds", list("the directions that a plain wheel holds; default both",
+                      one_of_words("", {"rolling", "sideways"}))}});
 }
 
 Json base_ranges(const char* description) {
@@ -33,6 +35,22 @@ Json actuator() {
            {"slew", reference("quantity", "how fast the torque may change; default all of it within 5 ms")},
            {"gear", reference("quantity", "turns of the motor for one of the joint")},
            {"rotor_inertia", reference("quantity", "the inertia of the rotor alone, before the gear")}});
+}
+
+Json each_wheel() {
+  return object(
+      "of every wheel with a motor that says nothing itself",
+      {{"kind", one_of_words("what the wheels are; default plain", {"plain", "skid", "mecanum"})},
+       {"radius", reference("quantity", "from the axle to the ground")},
+       {"effort", reference("quantity", "largest torque on the joint's side; default the URDF's")},
+       {"gear", reference("quantity", "turns of the motor for one of the joint")},
+       {"rotor_inertia", reference("quantity", "the inertia of the rotor alone, before the gear")}});
+}
+
+Json link_inertia() {
+  return object("a solid disc of a wheel, else a solid ball",
+                {{"mass", reference("quantity", "default the URDF's")},
+                 {"radius", reference("quantity", "default the wheel's")}});
 }
 
 Json drive() {
@@ -189,6 +207,8 @@ Json robot_file() {
        {"urdf", word("the path of the URDF, from this file"), true},
        {"base", word("the link that floats"), true},
        {"wheels", list("the wheels; the drive follows from them", wheel()), true},
+       {"each_wheel", each_wheel()},
+       {"inertias", named("bodies of links, in the place of the URDF's", link_inertia())},
        {"fixed", list("joints of the URDF that do not move here", word("a joint"))},
        {"ignore", list("links of the URDF that are left out, with all that hangs on them", word("a link"))},
        {"lead", word("the link or frame that tasks drive, if not the base")},

@@ -54,6 +54,7 @@ inline constexpr const char* fill_in = "FILL_IN";
 struct DraftOptions {
   bool with_hook =
       false;  ///< the frame `hook` is in the draft, to be filled in where nobody knows the outline
+  std::optional<double> back;        ///< x of the outline's back in the base [m], where the owner measured it
   std::vector<std::string> ignored;  ///< links that are left out
 };
 

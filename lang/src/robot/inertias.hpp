@@ -1,0 +1,14 @@
+/// `inertias`: bodies for links to which the URDF gives none, or one that cannot be.
+#pragma once
+
+#include "robot/robot_file.hpp"
+#include "robot/urdf.hpp"
+
+namespace zwang::lang {
+
+InertiaText parse_inertia(const Entry& entry, Diagnostics& diagnostics);
+
+/// A wheel's link becomes a solid disc about its axle, another link a solid ball.
+void apply_inertias(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang
