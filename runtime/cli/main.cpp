@@ -227,11 +227,17 @@ int parse_and_do(int argc, char** argv) {
       ->add_option("-j,--jobs", to_test.jobs, "runs at the same time (default: as many as there are cores)")
       ->check(CLI::Range(1, 1024));
   test_verb->add_option("--junit", to_test.junit, "file for a JUnit XML report");
+  CLI::Option* with_page =
+      test_verb->add_flag("--report", to_test.report, "make a page of all runs, the worst first");
+  test_verb->add_option("-o,--out", to_test.out, "the page to write (default test-report.html)")
+      ->needs(with_page);
   takes(test_verb->add_option("--format", to_test.format, "human (default) or json: one object on stdout"),
         formats);
 
   CLI::App* run_verb = app.add_subcommand("run", "Run a task on the simulated robot");
-  run_verb->add_option("file", to_run.file, "the task file")->required();
+  run_verb->add_option("file", to_run.file, "the task file; or a scenario file, of which one cell runs")
+      ->required();
+  run_verb->add_option("--cell", to_run.cell, "of a scenario: the cell to run, by its name in `zwang test`");
   add_overrides(*run_verb, to_run.overrides);
   run_verb->add_option("--log", to_run.log,
                        "folder for the log (default runs/<task>-NNN); a log in it is written over");
@@ -256,10 +262,13 @@ int parse_and_do(int argc, char** argv) {
         formats);
 
   ReportArguments to_report;
-  CLI::App* report_verb = app.add_subcommand("report", "Make a page of a run: one file, for any browser");
+  CLI::App* report_verb =
+      app.add_subcommand("report", "Make a page of a run, or of two: one file, for any browser");
   report_verb->add_option("run", to_report.run, "the folder of the run, or its .mcap file")->required();
+  report_verb->add_option("--compare", to_report.compare,
+                          "another run: the page shows where the two part, with both in each curve and view");
   report_verb->add_option("-o,--out", to_report.out,
-                          "the page to write (default report.html beside the log)");
+                          "the page to write (default report.html beside the log, or compare.html)");
 
   ReplayArguments to_replay;
   CLI::App* replay_verb =

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "output.hpp"
+#include "scenario_choice.hpp"
 #include "zwang/lang/start.hpp"
 
 namespace zwang::cli {
@@ -32,6 +33,7 @@ Reloads::Reloads(const RunArguments& arguments, fs::path folder, const lang::Dia
 }
 
 std::optional<lang::Program> load(const RunArguments& arguments, lang::Diagnostics& diagnostics) {
+  if (arguments.choice) return load_choice(*arguments.choice, diagnostics);
   const lang::Start start{arguments.start_at, arguments.start_yaw};
   return lang::load_from(start, arguments.file, arguments.overrides.load_options(), diagnostics);
 }

@@ -1,15 +1,14 @@
-// The page of a run, from its log.
+// The page of a run, or of two, from their logs.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "json_parts.hpp"
 #include "output.hpp"
 #include "report_page.hpp"
-#include "report_world.hpp"
 #include "verbs.hpp"
 #include "zwang/runtime/replay.hpp"
 #include "zwang/runtime/series.hpp"
@@ -25,7 +24,7 @@ using runtime::Series;
 /// A page of 5 MB has room for so many numbers.
 constexpr std::size_t most_points = 900'000;
 
-std::string text_of(const std::vector<float>& numbers) {
+std::string packed_text(const std::vector<float>& numbers) {
   return base64(runtime::packed(numbers));
 }
 
@@ -82,9 +81,9 @@ ordered_json curves_of(const Series& series) {
     points.insert(points.end(), curve.points.begin(), curve.points.end());
   }
   return {{"count", series.times.size()},
-          {"times", text_of(since(series.log.begin, series.times))},
+          {"times", packed_text(since(series.log.begin, series.times))},
           {"columns", curves},
-          {"points", text_of(points)},
+          {"points", packed_text(points)},
           {"records_a_bucket", series.records_a_bucket}};
 }
 
@@ -97,12 +96,28 @@ ordered_json samples_of(const Series& series) {
     values.insert(values.end(), curve.samples.begin(), curve.samples.end());
   }
   return {{"count", series.sample_times.size()},
-          {"times", text_of(since(series.log.begin, series.sample_times))},
+          {"times", packed_text(since(series.log.begin, series.sample_times))},
           {"columns", names},
-          {"values", text_of(values)}};
+          {"values", packed_text(values)}};
 }
 
-std::string data_of(const fs::path& log, const Series& series) {
+Series series_of(const fs::path& log, std::size_t points) {
+  Series series = runtime::read_series(log, points);
+  if (series.log.records == 0) throw Impossible(log.string() + ": holds no record");
+  return series;
+}
+
+std::string write_page_with(std::string parts, const ordered_json& data, const fs::path& path) {
+  const std::string page = page_with(std::move(parts), text_of(data));
+  std::ofstream file(path, std::ios::binary);
+  file << page;
+  if (!file.flush()) throw Impossible(path.string() + ": cannot be written");
+  return path.string();
+}
+
+}  // namespace
+
+ordered_json page_data(const fs::path& log, const Series& series) {
   ordered_json tasks = ordered_json::array(), events = ordered_json::array();
   for (const runtime::Stretch& s : series.tasks)
     tasks.push_back({{"task", s.word}, {"begin", s.begin}, {"end", s.end}});
@@ -127,30 +142,41 @@ std::string data_of(const fs::path& log, const Series& series) {
     data["report"] = ordered_json::parse(report->second, nullptr, false);
   lang::Diagnostics diagnostics;
   if (const auto program = runtime::logged_program(series.log.context, diagnostics)) {
-    data["world"] = ordered_json::parse(world_of(*program));
-    data["graph"] = ordered_json::parse(graph_json(*program));
-    data["bounds"] = ordered_json::parse(bounds_of(*program));
+    data["world"] = world_of(*program);
+    data["graph"] = graph_json(*program);
+    data["bounds"] = bounds_of(*program);
   }
-  return data.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+  return data;
 }
 
-}  // namespace
+std::string text_of(const ordered_json& json) {
+  return json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+}
 
 std::string write_page(const std::string& run, const std::optional<std::string>& out) {
   std::string parts = page_parts();
   const fs::path log = log_of(run);
-  const Series series = runtime::read_series(log, most_points);
-  if (series.log.records == 0) throw Impossible(log.string() + ": holds no record");
-  const std::string page = page_with(std::move(parts), data_of(log, series));
-  const fs::path path = out ? fs::path(*out) : log.parent_path() / "report.html";
-  std::ofstream file(path, std::ios::binary);
-  file << page;
-  if (!file.flush()) throw Impossible(path.string() + ": cannot be written");
-  return path.string();
+  const Series series = series_of(log, most_points);
+  return write_page_with(std::move(parts), page_data(log, series),
+                         out ? fs::path(*out) : log.parent_path() / "report.html");
+}
+
+std::string write_comparison(const std::string& run, const std::string& other,
+                             const std::optional<std::string>& out) {
+  std::string parts = page_parts();
+  const fs::path log = log_of(run), other_log = log_of(other);
+  const Series first = series_of(log, most_points / 2), second = series_of(other_log, most_points / 2);
+  const ordered_json data = {{"format", 1},
+                             {"names", {log.string(), other_log.string()}},
+                             {"runs", {page_data(log, first), page_data(other_log, second)}},
+                             {"comparison", comparison_of(log, first, other_log, second)}};
+  return write_page_with(std::move(parts), data, out ? fs::path(*out) : log.parent_path() / "compare.html");
 }
 
 int report(const ReportArguments& arguments) {
-  const std::string page = write_page(arguments.run, arguments.out);
+  const std::string page = arguments.compare
+                               ? write_comparison(arguments.run, *arguments.compare, arguments.out)
+                               : write_page(arguments.run, arguments.out);
   print(page + "\n");
   return exit_good;
 }

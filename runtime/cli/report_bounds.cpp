@@ -1,7 +1,6 @@
 #include <cmath>
-#include <nlohmann/json.hpp>
 
-#include "report_world.hpp"
+#include "json_parts.hpp"
 #include "zwang/runtime/scheduler.hpp"
 
 namespace zwang::cli {
@@ -51,7 +50,7 @@ void add_axis(const lang::AxisStatements& axis, const std::string& name, const s
 
 }  // namespace
 
-std::string bounds_of(const lang::Program& program) {
+ordered_json bounds_of(const lang::Program& program) {
   const runtime::Scheduler scheduler(program, program.robot.control_period);
   const std::vector<double> parameters = program.parameter_values();
   ordered_json bounds = ordered_json::array();
@@ -76,7 +75,7 @@ std::string bounds_of(const lang::Program& program) {
         i < program.robot.joint_spans.size() ? program.robot.joint_spans[i] : lang::Span{};
     bounds.push_back(json_of({joint.name + ".tau", "", -joint.max_effort, joint.max_effort, span}));
   }
-  return bounds.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return bounds;
 }
 
 }  // namespace zwang::cli

@@ -18,6 +18,11 @@ std::string page_with(std::string parts, const std::string& json);
 /// log. The path of the page. Throws Impossible.
 std::string write_page(const std::string& run, const std::optional<std::string>& out);
 
+/// Makes the page that compares two runs; where no file is named, compare.html beside the first one's log.
+/// The path of the page. Throws Impossible.
+std::string write_comparison(const std::string& run, const std::string& other,
+                             const std::optional<std::string>& out);
+
 std::string base64(const std::string& bytes);
 
 }  // namespace zwang::cli

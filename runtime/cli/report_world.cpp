@@ -1,11 +1,9 @@
-#include "report_world.hpp"
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "graph.hpp"
+#include "json_parts.hpp"
 
 namespace zwang::cli {
 
@@ -164,7 +162,7 @@ ordered_json frames_of(const Program& program) {
 
 }  // namespace
 
-std::string world_of(const Program& program) {
+ordered_json world_of(const Program& program) {
   ordered_json signals = ordered_json::array();
   for (const lang::Signal& signal : program.signals)
     signals.push_back(
@@ -174,19 +172,17 @@ std::string world_of(const Program& program) {
                         {"frames", frames_of(program)},
                         {"signals", signals}};
   world["scene"] = program.scene ? scene_of(*program.scene) : ordered_json(nullptr);
-  return world.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return world;
 }
 
-std::string graph_json(const Program& program) {
+ordered_json graph_json(const Program& program) {
   const Graph graph = graph_of(program);
   ordered_json edges = ordered_json::array();
   for (const Edge& edge : graph.edges) {
     edges.push_back(
         {{"from", edge.from}, {"to", edge.to}, {"label", edge.label}, {"dashed", edge.is_interruption}});
   }
-  const ordered_json json = {
-      {"tasks", graph.tasks}, {"start", graph.start}, {"always", graph.has_always}, {"edges", edges}};
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return {{"tasks", graph.tasks}, {"start", graph.start}, {"always", graph.has_always}, {"edges", edges}};
 }
 
 }  // namespace zwang::cli

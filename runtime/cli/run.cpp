@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -14,6 +15,7 @@
 #include "report_page.hpp"
 #include "run_log.hpp"
 #include "run_report.hpp"
+#include "scenario_choice.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -79,7 +81,7 @@ class Live {
 
 /// The run itself; what it leaves is in the arguments and in the report.
 void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorders& recorders,
-             const lang::Program& program, bool with_watchdog, Reloads* reloads,
+             const lang::Program& program, bool with_watchdog, double time_limit, Reloads* reloads,
              const std::atomic<bool>& interrupted, Live& live, RunReport& report) {
   runtime::Sensed sensed(program);
   std::vector<double> truth(runtime::truth_columns(*program.scene).size());
@@ -91,7 +93,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   // request, as the pace of the machine must not decide how a simulated run ends.
   std::optional<runtime::Watchdog> watchdog;
   if (with_watchdog) watchdog.emplace(blocked_for, nullptr);
-  while (!runner.finished()) {
+  while (!runner.finished() && plant.truth().time < time_limit) {
     if (interrupted && !give_up) {
       give_up = Clock::now() + longest_signal_stop;
       runner.guard().stop(runtime::EventCode::requested);
@@ -121,6 +123,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   }
   if (runner.finished() && status == PlantStatus::ok) plant.end_lean();
   report.outcome = to_string(runner.state());
+  if (!runner.finished() && !give_up && status == PlantStatus::ok) report.outcome = "unfinished";
   if (runner.state() == runtime::RunState::stopped) report.because = describe(runner.guard().reason());
   report.ended_early = give_up && !runner.finished();
   report.may_still_move = runner.may_still_move();
@@ -157,14 +160,19 @@ std::string headline(const RunArguments& arguments, const lang::Program& program
 
 }  // namespace
 
-int run(const RunArguments& arguments) {
-  lang::Diagnostics diagnostics;
-  require_file(arguments.file);
+int run(const RunArguments& asked) {
+  lang::Diagnostics diagnostics, of_scenario;
+  const RunArguments arguments = with_choice(asked, of_scenario);
+  if (of_scenario.has_errors()) {
+    report_diagnostics(of_scenario, true, arguments.format);
+    return exit_bad;
+  }
   const std::optional<lang::Program> program = load(arguments, diagnostics);
   std::unique_ptr<runtime::ScenePlant> plant;
   if (program && program->scene && !diagnostics.has_errors()) {
     runtime::ScenePlantOptions options = plant_options(*program);
     options.seed = arguments.seed;
+    if (arguments.choice) options.faults = arguments.choice->faults;
     plant = start_plant(*program, options, diagnostics);
   }
   const bool refused = !program || diagnostics.has_errors();
@@ -203,8 +211,10 @@ int run(const RunArguments& arguments) {
   const auto begin = Clock::now();
   std::optional<Reloads> reloads;
   if (arguments.watch) reloads.emplace(arguments, folder, diagnostics, settings, recorders);
-  control(*plant, runner, recorders, *program, arguments.watchdog, reloads ? &*reloads : nullptr, interrupted,
-          live, report);
+  const double time_limit =
+      arguments.choice ? arguments.choice->time_limit : std::numeric_limits<double>::infinity();
+  control(*plant, runner, recorders, *program, arguments.watchdog, time_limit, reloads ? &*reloads : nullptr,
+          interrupted, live, report);
   if (reloads) {
     reloads->end();
     report.before = reloads->before();

@@ -72,6 +72,11 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Diagno
   if (arguments.overrides.robot) facts["robot"] = *arguments.overrides.robot;
   if (arguments.overrides.scene) facts["scene"] = *arguments.overrides.scene;
   facts["seed"] = std::to_string(arguments.seed);
+  if (arguments.choice) {
+    facts["scenario"] = arguments.choice->scenario;
+    facts["cell"] = arguments.cell.value_or("as written");
+    if (arguments.choice->blend) facts["blend [s]"] = exactly(*arguments.choice->blend);
+  }
   if (arguments.start_yaw) facts["start_yaw [rad]"] = exactly(*arguments.start_yaw);
   if (arguments.start_at) {
     facts["start_at [m]"] = exactly((*arguments.start_at)[0]) + ", " + exactly((*arguments.start_at)[1]);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "json_parts.hpp"
 #include "output.hpp"
 #include "table.hpp"
 #include "why_report.hpp"
@@ -277,7 +277,7 @@ ordered_json story(const RunReport& report, const runtime::Runner& runner,
                         {"seed", report.seed}};
   if (!report.because.empty()) whole["because"] = report.because;
   if (report.may_still_move) whole["may_still_move"] = true;
-  if (report.why) whole["why"] = ordered_json::parse(json_of(*report.why));
+  if (report.why) whole["why"] = json_of(*report.why);
   for (const Chapter& chapter : report.before) {
     whole["before"].push_back({{"until", chapter.until},
                                {"transitions", json_transitions(*chapter.runner, *chapter.diagnostics)},

@@ -9,6 +9,8 @@
 #include "file_kind.hpp"
 #include "interruption.hpp"
 #include "output.hpp"
+#include "report_page.hpp"
+#include "test_page.hpp"
 #include "test_report.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/scenario.hpp"
@@ -118,6 +120,11 @@ class Loader {
   std::mutex mutex_;
 };
 
+std::optional<CellScene> scene_of(const lang::ScenarioRun& run) {
+  if (!run.program || !run.program->scene) return std::nullopt;
+  return CellScene{run.program->robot.footprint, run.program->scene->objects};
+}
+
 void work(const std::vector<Job>& jobs, std::atomic<std::size_t>& next, Loader& loader,
           std::vector<ScenarioReport>& reports, const std::atomic<bool>& interrupted, Progress& progress) {
   for (std::size_t j = next++; j < jobs.size() && !interrupted; j = next++) {
@@ -128,6 +135,7 @@ void work(const std::vector<Job>& jobs, std::atomic<std::size_t>& next, Loader& 
     runtime::CellResult& result = report.cells[job.cell];
     if (const auto run = loader.load(job, report, codes)) {
       result = runtime::run_cell(*job.scenario, cell, *run, codes, &interrupted);
+      if (!report.scenes.empty()) report.scenes[job.cell] = scene_of(*run);
     } else {
       result.name = cell.name;
       result.outcome = "error";
@@ -140,6 +148,7 @@ void work(const std::vector<Job>& jobs, std::atomic<std::size_t>& next, Loader& 
 }  // namespace
 
 int test(const TestArguments& arguments) {
+  if (arguments.report) page_parts();  // missing ones are told before the runs, not behind them
   const std::vector<std::string> files = scenario_files(arguments.paths);
   std::vector<ScenarioReport> reports(files.size());
   std::vector<std::optional<lang::Scenario>> scenarios(files.size());
@@ -149,7 +158,9 @@ int test(const TestArguments& arguments) {
     scenarios[i] = lang::load_scenario(files[i], reports[i].diagnostics);
     reports[i].readable = scenarios[i].has_value();
     if (!scenarios[i]) continue;
+    reports[i].about = scenarios[i]->about;
     reports[i].cells.resize(scenarios[i]->cells.size());
+    if (arguments.report) reports[i].scenes.resize(scenarios[i]->cells.size());
     for (std::size_t c = 0; c < scenarios[i]->cells.size(); ++c) {
       reports[i].cells[c].name = scenarios[i]->cells[c].name;
       jobs.push_back({i, c, &*scenarios[i]});
@@ -175,6 +186,10 @@ int test(const TestArguments& arguments) {
     print_data(json_report(reports, seconds));
   } else {
     print(human_report(reports, seconds));
+  }
+  if (arguments.report) {
+    const std::string page = write_test_page(reports, seconds, arguments.out.value_or("test-report.html"));
+    if (arguments.format == Format::human) print("page   " + page + "\n");
   }
   if (arguments.junit) write_file(*arguments.junit, junit_report(reports));
   if (!std::all_of(reports.begin(), reports.end(), passed)) return exit_bad;

@@ -1,6 +1,7 @@
 /// What `zwang test` says of the scenarios that it ran.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,19 @@
 
 namespace zwang::cli {
 
+/// What a picture of a run shows beside the way of its base.
+struct CellScene {
+  std::vector<solver::Vector3> footprint;  ///< [m] in the base
+  std::vector<lang::SceneObject> objects;
+};
+
 /// One scenario file: its runs, or why there are none.
 struct ScenarioReport {
   std::string path;
-  lang::Diagnostics diagnostics;           ///< of the scenario file
-  std::vector<runtime::CellResult> cells;  ///< in the order of the matrix
+  std::string about;
+  lang::Diagnostics diagnostics;                 ///< of the scenario file
+  std::vector<runtime::CellResult> cells;        ///< in the order of the matrix
+  std::vector<std::optional<CellScene>> scenes;  ///< of the cells; empty: nobody asks for them
   bool readable = false;
 };
 

@@ -79,9 +79,20 @@ struct TestArguments {
   std::vector<std::string> paths;    ///< scenario files, or folders that are searched for them
   int jobs = 0;                      ///< threads; 0: as many as there are cores
   std::optional<std::string> junit;  ///< file for a JUnit XML report
+  bool report = false;               ///< a page of all runs
+  std::optional<std::string> out;    ///< of the page; none: test-report.html
   Format format = Format::human;
 };
 int test(const TestArguments& arguments);
+
+/// A cell of a scenario: what a run takes from it beside robot, scene, parameters, start and seed.
+struct ScenarioChoice {
+  std::string scenario;  ///< its file
+  std::size_t cell = 0;
+  std::vector<lang::Fault> faults;
+  std::optional<double> blend;  ///< [s]
+  double time_limit = 0.0;      ///< [s]
+};
 
 struct RunArguments {
   std::string file;
@@ -95,6 +106,8 @@ struct RunArguments {
   Format format = Format::human;
   std::optional<double> start_yaw;                ///< [rad]
   std::optional<std::array<double, 2>> start_at;  ///< [m]
+  std::optional<std::string> cell;                ///< of a scenario file, by its name
+  std::optional<ScenarioChoice> choice;           ///< what the cell says beside all that
 };
 int run(const RunArguments& arguments);
 
@@ -134,8 +147,9 @@ struct ReplayArguments {
 int replay(const ReplayArguments& arguments);
 
 struct ReportArguments {
-  std::string run;                 ///< the folder of a run, or its .mcap
-  std::optional<std::string> out;  ///< none: report.html beside the log
+  std::string run;                     ///< the folder of a run, or its .mcap
+  std::optional<std::string> compare;  ///< another run, to be shown beside it
+  std::optional<std::string> out;      ///< none: report.html, or compare.html, beside the log
 };
 int report(const ReportArguments& arguments);
 

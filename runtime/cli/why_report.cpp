@@ -1,7 +1,6 @@
 #include "why_report.hpp"
 
-#include <nlohmann/json.hpp>
-
+#include "json_parts.hpp"
 #include "output.hpp"
 #include "table.hpp"
 
@@ -14,16 +13,10 @@ using runtime::WaitedExit;
 using runtime::WaitedSignal;
 using runtime::WaitedTerm;
 
-std::string signal_in_words(const WaitedSignal& signal) {
-  if (!signal.received) return "`" + signal.name + "` was never received";
-  return "`" + signal.name + "` came last " + with_unit(signal.age, "s") + " ago";
-}
-
 std::string reading(const WaitedTerm& term) {
   std::string text;
   if (term.value) text = with_unit(*term.value, term.unit);
-  for (const WaitedSignal& signal : term.signals)
-    text += (text.empty() ? "" : ", ") + signal_in_words(signal);
+  for (const WaitedSignal& signal : term.signals) text += (text.empty() ? "" : ", ") + in_words(signal);
   return text + term.because;
 }
 
@@ -36,8 +29,12 @@ ordered_json json_of(const WaitedTerm& term) {
   if (term.bound) json["bound"] = *term.bound;
   if (!term.because.empty()) json["because"] = term.because;
   for (const WaitedSignal& s : term.signals) {
-    json["signals"].push_back(
-        {{"name", s.name}, {"received", s.received}, {"age", s.age}, {"stale_after", s.stale_after}});
+    json["signals"].push_back({{"name", s.name},
+                               {"received", s.received},
+                               {"refused", s.refused},
+                               {"age", s.age},
+                               {"stale_after", s.stale_after},
+                               {"words", in_words(s)}});
   }
   return json;
 }
@@ -71,14 +68,14 @@ std::string why_table(const runtime::Why& why, const lang::Diagnostics& diagnost
   return "waited for, in `" + why.waited.task + "`\n" + table.text() + "\n";
 }
 
-std::string json_of(const runtime::Why& why) {
+ordered_json json_of(const runtime::Why& why) {
   ordered_json exits = ordered_json::array();
   for (const WaitedExit& exit : why.waited.exits) exits.push_back(json_of(exit));
   ordered_json json = {{"sentence", why.sentence}, {"cause", to_string(why.cause)}, {"time", why.time},
                        {"task", why.waited.task},  {"elapsed", why.waited.elapsed}, {"exits", exits}};
   if (why.met) json["met"] = json_of(*why.met);
   if (!why.limit.empty()) json["limit"] = why.limit;
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return json;
 }
 
 }  // namespace zwang::cli

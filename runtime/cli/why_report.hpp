@@ -1,4 +1,4 @@
-/// Why a run is not `done`, as a table and as JSON.
+/// Why a run is not `done`, as a table; `json_parts.hpp` has it as JSON.
 #pragma once
 
 #include <string>
@@ -10,6 +10,5 @@ namespace zwang::cli {
 
 /// Each exit that was waited for, and each of its terms with its last value; an empty line at its end.
 std::string why_table(const runtime::Why& why, const lang::Diagnostics& diagnostics);
-std::string json_of(const runtime::Why& why);  ///< one JSON object
 
 }  // namespace zwang::cli

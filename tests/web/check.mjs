@@ -2,7 +2,7 @@
 // usage: node check.mjs ZWANG SPECS FOLDER CHROMIUM
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 
 const [zwang, specs, folder, chromium] = process.argv.slice(2);
@@ -112,12 +112,14 @@ async function checkUse(made) {
 async function checkLook(made, looks) {
   for (const [width, colorScheme] of looks) {
     const { page, close } = await open(made.path, { viewport: { width, height: 900 }, colorScheme, reducedMotion: 'reduce' });
-    await page.evaluate(() => window.zwang.clock.show(0.7 * window.zwang.run.duration));
+    await page.evaluate(() => window.zwang.clock?.show(0.7 * window.zwang.clock.duration));
+    const closed = page.locator('.cells .head').first();
+    if (await closed.count()) await closed.click();
     await page.waitForTimeout(200);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wide <= 0, `${width} px: the page is ${wide} px too wide`);
     const overlaps = await page.evaluate(() => {
-      const boxes = [...document.querySelectorAll('section, .verdict, .chart, figure')].map((element) => [element, element.getBoundingClientRect()]);
+      const boxes = [...document.querySelectorAll('section, .verdict, .chart, figure, .cells > li')].map((element) => [element, element.getBoundingClientRect()]);
       const found = [];
       boxes.forEach(([a, p], i) => boxes.slice(i + 1).forEach(([b, q]) => {
         if (a.contains(b) || b.contains(a)) return;
@@ -159,6 +161,111 @@ const tooFaint = (page) => page.evaluate(() => {
   return [...new Set(faint)].slice(0, 10);
 });
 
+/** Two runs of unlike length: what the page says of them is what their CSV logs say. */
+async function checkComparison(a, b, path) {
+  execFileSync(zwang, ['report', `${folder}/${a.name}`, '--compare', `${folder}/${b.name}`, '-o', path]);
+  const { page, close } = await open(path);
+  assert.equal(await page.textContent('#verdict-A'), a.report.verdict);
+  assert.equal(await page.textContent('#verdict-B'), b.report.verdict);
+  // A CSV has nine digits: it parts from the other where the page says, or later, and has the page's values there.
+  const [times, others] = [a, b].map((made) => made.csv.column('time'));
+  const found = await page.evaluate(() => window.zwang.comparison.columns.filter((one) => !one.input));
+  let exact = 0;
+  for (const one of found.slice(0, 60)) {
+    if (Number.isNaN(Number(one.first)) || Number.isNaN(Number(one.second))) continue;  // words
+    const [mine, its] = [a, b].map((made) => made.csv.column(one.name));
+    const at = times.findIndex((time) => Math.abs(time - one.time) < 1e-9);
+    const parted = times.findIndex((_, k) => k < others.length && mine[k] !== its[k] && !(Number.isNaN(mine[k]) && Number.isNaN(its[k])));
+    assert.ok(at >= 0 && (parted < 0 || parted >= at), `${one.name} parts at ${times[parted]} s, the page says ${one.time}`);
+    exact += parted === at ? 1 : 0;
+    for (const [shown, is] of [[one.first, mine[at]], [one.second, its[at]]])
+      assert.ok(shown === '' ? Number.isNaN(is) : Math.abs(Number(shown) - is) <= 1e-8 * Math.max(1e-6, Math.abs(is)), `${one.name}: ${shown} is ${is}`);
+  }
+  assert.ok(exact > 20, `${exact} columns part where the CSV does`);
+  // Both poses, at a time that both runs have, and behind the end of the shorter one.
+  const pose = (made, time) => {
+    const t = made.csv.column('time');
+    const i = Math.min(t.length - 1, Math.round(time / (t[1] - t[0])));
+    return ['truth.base.x', 'truth.base.y', 'truth.base.yaw'].map((name) => made.csv.column(name)[i]);
+  };
+  const end = Math.max(times.at(-1), others.at(-1));
+  for (const time of [0, 0.4 * end, end]) {
+    await page.evaluate((at) => window.zwang.clock.show(at), time);
+    for (const [made, attribute] of [[a, 'data-pose'], [b, 'data-other-pose']]) {
+      const shown = (await page.getAttribute('figure canvas', attribute)).split(' ').map(Number);
+      pose(made, time).forEach((is, k) => assert.ok(Math.abs(shown[k] - is) < 2e-3, `${attribute} at ${time} s: ${shown[k]} is ${is}`));
+    }
+  }
+  const over = await page.locator('.legend output').allTextContents();
+  assert.ok(over.includes('over') && over.some((text) => text !== 'over'), 'the shorter run is over');
+  // A click on a column shows both of its curves on one axis, and adds them if need be.
+  const names = await page.locator('#first td button.link[title]').allTextContents();
+  await page.locator('#first td button.link[title]').last().click();
+  const shown = page.locator(`[data-pair="${names.at(-1)}"]`);
+  assert.equal(await shown.count(), 1);
+  assert.equal(await shown.locator('li').count(), 2);
+  assert.equal(await page.locator('#transitions .unlike').count() > 0, true);
+  await page.locator('body').click({ position: { x: 3, y: 3 } });
+  await page.keyboard.press('Home');
+  assert.equal(await page.evaluate(() => window.zwang.clock.time), 0);
+  await close();
+}
+
+/** Runs of another task on another robot: the page says so, and still shows both. */
+async function checkUnlikeRuns(a, b) {
+  const path = `${folder}/unlike.html`;
+  execFileSync(zwang, ['report', `${folder}/${a.name}`, '--compare', `${folder}/${b.name}`, '-o', path]);
+  const { page, close } = await open(path);
+  const text = await page.textContent('#before');
+  for (const words of ['task', 'wall_align.yaml', 'docking.yaml', 'that run A alone has', 'that run B alone has']) assert.ok(text.includes(words), words);
+  assert.ok(await page.locator('#curves .chart[data-pair]').count() > 3);
+  await close();
+}
+
+/** A matrix in which one half misses what a hostile scenario expects. */
+async function checkMatrix() {
+  const at = `${folder}/matrix`;
+  mkdirSync(`${at}/scenarios`, { recursive: true });
+  for (const name of ['robots', 'scenes', 'wall_align.yaml']) cpSync(`${specs}/${name}`, `${at}/${name}`, { recursive: true });
+  writeFileSync(`${at}/.zwang-root`, '');
+  writeFileSync(`${at}/scenarios/square.yaml`, `zwang_scenario: 1
+about: "</script><img src=x onerror=alert(1)>"
+task: ../wall_align.yaml
+matrix:
+  params.push: [20 N, 30 N]
+  start_yaw: [5 deg, 12 deg]
+expect:
+  - outcome: done
+  - {always: truth.wall.steady < 21 N or elapsed < 3 s}
+`);
+  const page_ = `${folder}/matrix.html`;
+  const made = spawnSync(zwang, ['test', `${at}/scenarios`, '--format', 'json', '--report', '-o', page_], { encoding: 'utf8' });
+  const runs = JSON.parse(made.stdout).scenarios.flatMap((one) => one.runs);
+  assert.ok(runs.some((run) => run.passed) && runs.some((run) => !run.passed), 'one half is missed');
+  const { page, close } = await open(page_);
+  assert.equal(await page.locator('img').count(), 0);
+  assert.equal(await page.locator('.cells > li').count(), runs.length);
+  const failed = runs.filter((run) => !run.passed).length;
+  const words = await page.locator('.cells > li strong:first-child').allTextContents();
+  assert.deepEqual(words.slice(0, runs.length), [...Array(failed).fill('✗ FAIL'), ...Array(runs.length - failed).fill('✓ ok')]);
+  // The keyboard opens the worst run: what was missed, what happened, and the command.
+  const head = page.locator('.cells .head').first();
+  await head.focus();
+  await page.keyboard.press('Enter');
+  assert.equal(await head.getAttribute('aria-expanded'), 'true');
+  const worst = page.locator('.cells > li').first();
+  assert.match(await worst.locator('.command code').textContent(), /^zwang run .*square\.yaml --cell '.*' --report$/);
+  assert.ok(await worst.locator('tr.broken').count() >= 1);
+  assert.equal(await worst.locator('svg .way').count(), 1);
+  await page.locator('#failed').check();
+  assert.equal(await page.locator('.cells > li:visible').count(), failed);
+  await page.locator('#failed').uncheck();
+  await page.locator('input[type=search]').fill('12 deg');
+  assert.equal(await page.locator('.cells > li:visible').count(), 2);
+  await close();
+  assert.ok(statSync(page_).size < 1e6);
+}
+
 /** A task whose name and comments try to be HTML: the language takes such a comment, and a parameter's help. */
 async function checkHostile() {
   const text = readFileSync(`${specs}/laws/fence.yaml`, 'utf8');
@@ -177,6 +284,8 @@ async function checkHostile() {
 
 const wall = makePage('wall', `${specs}/wall_align.yaml`);
 const unseen = makePage('unseen', `${specs}/docking.yaml`, '--scene', `${specs}/scenes/dock_unseen.yaml`);
+const askew = makePage('askew', `${specs}/wall_align.yaml`, '--start-yaw', '12 deg', '-p', 'push=30N');
+const [comparison, matrix] = [{ name: 'comparison', path: `${folder}/comparison.html` }, { name: 'matrix', path: `${folder}/matrix.html` }];
 const steps = {
   'numbers of the wall': () => checkNumbers(wall),
   'numbers of a long run': () => checkNumbers(unseen),
@@ -189,6 +298,11 @@ const steps = {
   'use': () => checkUse(wall),
   'look of the wall': () => checkLook(wall, [[360, 'light'], [800, 'light'], [1600, 'light'], [1600, 'dark']]),
   'look of a failure': () => checkLook(unseen, [[360, 'dark']]),
+  'comparison': () => checkComparison(wall, askew, comparison.path),
+  'look of a comparison': () => checkLook(comparison, [[360, 'dark'], [800, 'light'], [1600, 'light']]),
+  'unlike runs': () => checkUnlikeRuns(wall, unseen),
+  'matrix': checkMatrix,
+  'look of a matrix': () => checkLook(matrix, [[360, 'light'], [800, 'dark'], [1600, 'light']]),
   'hostile text': checkHostile,
 };
 try {

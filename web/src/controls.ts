@@ -1,14 +1,15 @@
 // Play, scrub, speed, follow; the same by keys.
 import type { Clock } from './clock';
-import { taskAt, type Run } from './data';
 import { h } from './dom';
 import { seconds } from './units';
 
 export interface Followers { follow: boolean; draw(): void }
 
-export function controls(run: Run, clock: Clock, views: Followers[]): HTMLElement {
+/** `task`: what is active at a time, in words. */
+export function controls(clock: Clock, task: (time: number) => string, views: Followers[]): HTMLElement {
+  const { duration } = clock;
   const play = h('button', { class: 'play', 'aria-label': 'Play', onclick: () => clock.toggle() }, '▶');
-  const scrub = h('input', { type: 'range', min: 0, max: run.duration, step: run.duration / 2000, value: 0, 'aria-label': 'Time', class: 'scrub', oninput: () => clock.show(Number(scrub.value)) });
+  const scrub = h('input', { type: 'range', min: 0, max: duration, step: duration / 2000, value: 0, 'aria-label': 'Time', class: 'scrub', oninput: () => clock.show(Number(scrub.value)) });
   const speed = h('select', { 'aria-label': 'Speed', onchange: () => { clock.speed = Number(speed.value); } },
     ...[0.1, 0.25, 0.5, 1, 2, 5, 10, 50].map((value) => h('option', { value, selected: value === 1 }, `${value} ×`)));
   const follow = h('input', { type: 'checkbox', id: 'follow', onchange: () => {
@@ -24,17 +25,16 @@ export function controls(run: Run, clock: Clock, views: Followers[]): HTMLElemen
   });
   clock.onTime((time) => {
     scrub.value = String(time);
-    const task = taskAt(run, time);
-    now.textContent = `${seconds(time)}  ${task}`;
-    scrub.setAttribute('aria-valuetext', `${seconds(time)}, ${task}`);
+    now.textContent = `${seconds(time)}  ${task(time)}`;
+    scrub.setAttribute('aria-valuetext', `${seconds(time)}, ${task(time)}`);
   });
   document.addEventListener('keydown', (event) => {
     const isTyping = event.target instanceof Element && event.target.closest('select, button, input, [role=tablist]') !== null;
     if (isTyping || event.ctrlKey || event.metaKey || event.altKey) return;
-    const step = event.shiftKey ? run.duration / 10 : run.duration / 100;
+    const step = event.shiftKey ? duration / 10 : duration / 100;
     const keys: Record<string, () => void> = {
       ' ': () => clock.toggle(), ArrowRight: () => clock.show(clock.time + step), ArrowLeft: () => clock.show(clock.time - step),
-      Home: () => clock.show(0), End: () => clock.show(run.duration), f: () => follow.click(),
+      Home: () => clock.show(0), End: () => clock.show(duration), f: () => follow.click(),
     };
     const act = keys[event.key];
     if (!act) return;

@@ -27,7 +27,7 @@ export interface Limit {
 }
 export interface Term {
   text: string; is: string; holds_back: boolean; value: number | null; unit: string; because?: string;
-  signals?: { name: string; received: boolean; age: number; stale_after: number }[];
+  signals?: { name: string; received: boolean; age: number; stale_after: number; words?: string }[];
 }
 export interface Exit {
   column: string; when: string; line: number | null; to: string; is: string; longest: number; for: number; terms: Term[];
@@ -64,6 +64,48 @@ export interface Run {
   sample(name: string): Float32Array | undefined;
 }
 
+/** A file that the two runs do not have alike: from `line` on, as many lines each. */
+export interface FileDifference {
+  first: string; second: string; line: number;
+  first_lines: string[]; second_lines: string[]; first_count: number; second_count: number;
+}
+export interface ColumnDifference {
+  name: string; unit: string; input: boolean; time: number; first: string; second: string; records: number;
+  largest: number | null; largest_time: number;
+}
+export interface Happening { time: number; what: string }
+/** Two lists; `differs`: the number of the first pair that is not alike. */
+export interface Happenings { first: Happening[]; second: Happening[]; counts: number[]; differs: number | null }
+export interface Comparison {
+  facts: { name: string; first: string | null; second: string | null }[];
+  files: FileDifference[];
+  compared: number; until: number; periods: number[];
+  columns: ColumnDifference[]; only_first: string[]; only_second: string[];
+  transitions: Happenings; events: Happenings;
+}
+export interface ComparisonData { names: string[]; runs: [RunData, RunData]; comparison: Comparison }
+
+export interface Expectation {
+  text: string; held: boolean; margin: number | null; value: number | null; unit: string; time: number; where: string;
+}
+/** Lists of a run, cut where they are long; `counts`: how many transitions, events and limits there were. */
+export interface Story {
+  transitions: [number, string, string, string][]; events: [number, string, string][]; counts: number[];
+  limits: [string, number, number, number, string, boolean][]; path: number[];
+}
+export interface Cell {
+  scenario: number; name: string; passed: boolean; outcome: string; because: string; why: string; simulated: number; torque: number;
+  worst: number | null; expectations: Expectation[]; story: Story; command: string; scene?: number;
+  robots?: { name: string; outcome: string; because: string }[];
+}
+/** All runs of `zwang test`, the worst first. */
+export interface MatrixData {
+  seconds: number; runs: number;
+  scenarios: { file: string; about: string; readable: boolean; diagnostics: string }[];
+  cells: Cell[];
+  scenes: { objects: SceneObject[]; footprint: number[][] }[];
+}
+
 /** Base 64, deflated, the four bytes of the numbers in four planes. */
 async function unpack(text: string): Promise<Float32Array> {
   const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
@@ -77,8 +119,7 @@ async function unpack(text: string): Promise<Float32Array> {
   return new Float32Array(bytes.buffer);
 }
 
-export async function load(text: string): Promise<Run> {
-  const data = JSON.parse(text) as RunData;
+export async function load(data: RunData): Promise<Run> {
   const [times, points, sampleTimes, values] = await Promise.all(
     [data.curves.times, data.curves.points, data.samples.times, data.samples.values].map(unpack),
   ) as [Float32Array, Float32Array, Float32Array, Float32Array];

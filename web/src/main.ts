@@ -1,69 +1,17 @@
-// A run as a page.
-import { band } from './band';
-import { Clock } from './clock';
-import { controls } from './controls';
-import { load, type Run } from './data';
-import { h, part } from './dom';
-import { graph } from './graph';
-import { Chart, kindsOf } from './plots';
-import { Source } from './source';
-import { SpaceView } from './space';
+// What the data are decides which page it is.
+import { comparePage } from './compare_page';
+import { load, type ComparisonData, type MatrixData, type RunData } from './data';
+import { h } from './dom';
+import { matrixPage } from './matrix_page';
+import { runPage } from './run_page';
 import './style.css';
-import { events, facts, margins, why } from './tables';
-import { TopView } from './top';
-
-const symbols: Record<string, string> = { done: '✓', failed: '✗', stopped: '■', diverged: '✗' };
-
-function verdict(run: Run): HTMLElement {
-  const { report, facts: known, log, damage } = run.data;
-  const outcome = report?.outcome ?? 'cut';
-  const name = known['task']?.split('/').at(-1) ?? log;
-  document.title = `${name}: ${outcome}`;
-  const sentence = report?.verdict ?? `The log ends after ${run.duration.toFixed(3)} s without an outcome.`;
-  return h('header', { class: `verdict ${outcome}` },
-    h('h1', {}, h('span', { 'aria-hidden': 'true' }, `${symbols[outcome] ?? '?'} `), name),
-    h('p', { id: 'verdict' }, sentence),
-    damage.length > 0 && h('p', { class: 'note' }, `The log is damaged: ${damage.join('; ')}`));
-}
-
-function build(run: Run): void {
-  const clock = new Clock(run.duration);
-  const charts: Chart[] = [];
-  const onLine = (file: number, line: number): void => source.show(file, line);
-  const onCurve = (name: string): void => {
-    const chart = charts.find((one) => one.has(name));
-    chart?.show(name);
-    chart?.element.scrollIntoView({ block: 'center' });
-  };
-  const source = new Source(run, clock, onCurve);
-  for (const kind of kindsOf(run)) charts.push(new Chart(run, kind, clock, charts, onLine));
-  const world = run.data.world;
-  const top = world && new TopView(run, world, clock);
-  const space = world && new SpaceView(run, world, clock);
-  const reason = why(run, onLine);
-  const views = [top, space].filter((view) => view !== null);
-  document.getElementById('page')!.append(
-    verdict(run),
-    controls(run, clock, views),
-    h('main', {},
-      h('div', { class: 'wide' },
-        reason && part('why', 'Why', reason),
-        part('views', 'Where', top && space ? h('div', { class: 'views' }, top.element, space.element) : h('p', { class: 'note' }, 'The files of this run do not load any more: no view.')),
-        part('band', 'Tasks over time', band(run, clock)),
-        part('curves', 'Curves', h('p', { class: 'note' }, 'A drag zooms all charts, a double click shows all, a click goes to the time. Dotted: a limit, while its task is active.'), ...charts.map((chart) => chart.element)),
-        part('margins', 'Margins, worst first', margins(run, clock, onLine, onCurve)),
-        part('graph', 'Tasks', graph(run, clock)),
-        part('events', 'Events', events(run, clock)),
-        part('facts', 'Parameters, seed, versions', facts(run))),
-      h('aside', { 'aria-label': 'Files' }, part('source', 'Files', source.element))));
-  (window as unknown as { zwang: unknown }).zwang = { clock, run };
-  clock.show(0);
-  setTimeout(() => space?.start(), 50);
-}
 
 async function start(): Promise<void> {
   try {
-    build(await load(document.getElementById('data')!.textContent!));
+    const data = JSON.parse(document.getElementById('data')!.textContent!) as RunData | ComparisonData | MatrixData;
+    if ('comparison' in data) comparePage(data, await load(data.runs[0]), await load(data.runs[1]));
+    else if ('cells' in data) matrixPage(data);
+    else runPage(await load(data));
   } catch (error) {
     document.getElementById('page')!.append(h('p', { class: 'note' }, `This page cannot be shown: ${String(error)}`));
     throw error;

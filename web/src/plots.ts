@@ -2,13 +2,14 @@
 import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import type { Clock } from './clock';
-import { colour, dashes, ofStyle, onScheme } from './colours';
-import type { Bound, Run } from './data';
+import { colour, dashes, onScheme } from './colours';
+import type { Run } from './data';
 import { indexAt } from './data';
 import { h } from './dom';
+import { axes, drawBounds, lineSample, rangeOf, whileActive, withGaps, type Drawn } from './plot_parts';
 import { inUnit, withUnit } from './units';
 
-interface Shown { name: string; values: Float32Array; unit: string; bounds: Bound[] }
+interface Shown extends Drawn { name: string; unit: string }
 
 /** A chart of one kind of curves. `all`: what can be shown; `first`: what is shown when the page opens. */
 export interface Kind { id: string; title: string; unit: string; all: string[]; first: string[] }
@@ -54,12 +55,7 @@ export class Chart {
     const unit = effort ? '%' : column.unit;
     const factor = effort ? 100 / effort : inUnit(1, unit)[0];
     const values = factor === 1 ? raw : raw.map((value) => value * factor);
-    const bounds = (this.run.data.bounds ?? []).filter((bound) => bound.column === name).map((bound) => ({
-      ...bound,
-      low: bound.low === null ? null : bound.low * factor,
-      high: bound.high === null ? null : bound.high * factor,
-    }));
-    this.shown.push({ name, values, unit, bounds });
+    this.shown.push({ name, values, unit, bounds: whileActive(this.run, name, factor) });
   }
 
   private effortOf(name: string): number | null {
@@ -78,18 +74,17 @@ export class Chart {
       ...left.map((name) => h('option', { value: name }, name)));
     this.picker.hidden = left.length === 0;
     this.drawLegend();
-    const axis = { stroke: ofStyle('--ink'), grid: { stroke: ofStyle('--grid'), width: 1 }, ticks: { stroke: ofStyle('--grid') } };
     const options: uPlot.Options = {
       width: Math.max(200, this.place.clientWidth || 600), height: 200,
       legend: { show: false },
       cursor: { sync: { key: 'run' }, drag: { x: true, y: false } },
-      scales: { x: { time: false }, y: { range: (_, low, high) => this.rangeOf(low, high) } },
-      axes: [{ ...axis, values: (_, ticks) => ticks.map((t) => `${t} s`) }, { ...axis, size: 62 }],
+      scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, this.shown) } },
+      axes: axes(),
       series: [{}, ...this.shown.map((one, i): uPlot.Series => ({
         label: one.name, stroke: colour(i), width: 1.5, dash: dashes[i % dashes.length]!, points: { show: false }, spanGaps: false,
       }))],
       hooks: {
-        draw: [(plot) => this.drawBounds(plot)],
+        draw: [(plot) => drawBounds(plot, this.shown)],
         setScale: [(plot, key) => { if (key === 'x') this.zoomOthers(plot); }],
         ready: [(plot) => {
           plot.over.append(this.needle);
@@ -97,39 +92,16 @@ export class Chart {
         }],
       },
     };
-    // uPlot knows a blank as null alone.
-    const withGaps = (values: Float32Array): (number | null)[] => Array.from(values, (value) => (Number.isNaN(value) ? null : value));
     const data: uPlot.AlignedData = [Array.from(this.run.times), ...this.shown.map((one) => withGaps(one.values))];
     this.plot = new uPlot(options, data, this.place);
     this.point(this.clock.time);
   }
 
-  /** The curves with the limits that are not far from them, and a tenth of room; rounding alone is a line. */
-  private rangeOf(low: number | null, high: number | null): [number, number] {
-    let [a, b] = [low ?? 0, high ?? 0];
-    const near = 3 * Math.max(Math.abs(a), Math.abs(b));
-    for (const value of this.shown.flatMap((one) => one.bounds.flatMap((bound) => [bound.low, bound.high]))) {
-      if (value === null || Math.abs(value) > near) continue;
-      [a, b] = [Math.min(a, value), Math.max(b, value)];
-    }
-    const room = Math.max(0.1 * (b - a), 0.01, 1e-4 * Math.abs(a));
-    return [a - room, b + room];
-  }
-
   private drawLegend(): void {
     this.legend.replaceChildren(...this.shown.map((one, i) => {
       const column = this.run.columns.get(one.name)!;
-      const line = h('canvas', { width: 36, height: 8, 'aria-hidden': 'true' });
-      const c = line.getContext('2d')!;
-      c.strokeStyle = colour(i);
-      c.lineWidth = 2;
-      c.setLineDash(dashes[i % dashes.length]!);
-      c.beginPath();
-      c.moveTo(0, 4);
-      c.lineTo(36, 4);
-      c.stroke();
       const hasLine = column.file >= 0 && column.line > 0;
-      return h('li', {}, line,
+      return h('li', {}, lineSample(i),
         hasLine ? h('button', { class: 'link', title: 'Show its line', onclick: () => this.onLine(column.file, column.line) }, one.name) : h('span', {}, one.name),
         h('output', { 'data-curve': one.name }),
         h('button', { class: 'remove', 'aria-label': `Hide ${one.name}`, onclick: () => this.remove(one.name) }, '×'));
@@ -139,40 +111,6 @@ export class Chart {
   private remove(name: string): void {
     this.shown = this.shown.filter((one) => one.name !== name);
     this.rebuild();
-  }
-
-  /** Each limit while its task is active: dashes of dots in the colour of its curve. */
-  private drawBounds(plot: uPlot): void {
-    const c = plot.ctx;
-    c.save();
-    c.beginPath();
-    c.rect(plot.bbox.left, plot.bbox.top, plot.bbox.width, plot.bbox.height);
-    c.clip();
-    this.shown.forEach((one, i) => {
-      c.strokeStyle = colour(i);
-      c.lineWidth = 1.5 * devicePixelRatio;
-      c.setLineDash([2 * devicePixelRatio, 4 * devicePixelRatio]);
-      for (const bound of one.bounds) {
-        for (const [begin, end] of this.whileActive(bound.task)) {
-          for (const value of [bound.low, bound.high]) {
-            // A line far outside of the picture keeps some browsers busy for ever.
-            if (value === null || !(value >= plot.scales.y!.min! && value <= plot.scales.y!.max!)) continue;
-            const y = plot.valToPos(value, 'y', true);
-            c.beginPath();
-            c.moveTo(plot.valToPos(begin, 'x', true), y);
-            c.lineTo(plot.valToPos(end, 'x', true), y);
-            c.stroke();
-          }
-        }
-      }
-    });
-    c.restore();
-  }
-
-  private whileActive(task: string | null): [number, number][] {
-    if (task === null) return [[0, this.run.duration]];
-    const { tasks, begin } = this.run.data;
-    return tasks.filter((one) => one.task === task).map((one) => [one.begin - begin, one.end - begin]);
   }
 
   private isZooming = false;

@@ -6,10 +6,10 @@ import { seconds, withUnit } from './units';
 
 type OnLine = (file: number, line: number) => void;
 
-const table = (names: string[], rows: HTMLElement[]): HTMLElement =>
+export const table = (names: string[], rows: HTMLElement[]): HTMLElement =>
   h('div', { class: 'scroll', tabindex: 0 },
     h('table', {}, h('thead', {}, h('tr', {}, ...names.map((name) => h('th', { scope: 'col' }, name)))), h('tbody', {}, ...rows)));
-const cell = (text: string, kind = ''): HTMLElement => h('td', { class: kind }, text);
+export const cell = (text: string, kind = ''): HTMLElement => h('td', { class: kind }, text);
 
 /** `wall_align.yaml:22` as a way to the line. */
 function place(run: Run, where: string, onLine: OnLine): HTMLElement {
@@ -20,7 +20,8 @@ function place(run: Run, where: string, onLine: OnLine): HTMLElement {
 }
 
 function reading(term: Term): string {
-  const signals = (term.signals ?? []).map((s) => (s.received ? `${s.name} came last ${withUnit(s.age, 's')} ago` : `${s.name} was never received`));
+  // A log of zwang before it had the words has their figures alone.
+  const signals = (term.signals ?? []).map((s) => s.words ?? `\`${s.name}\` is ${withUnit(s.age, 's')} old`);
   return [term.value === null ? '' : withUnit(term.value, term.unit), ...signals, term.because ?? ''].filter(Boolean).join(', ');
 }
 

@@ -1,12 +1,30 @@
-// The top view: robot, scene, regions, frames and forces, drawn in the plane.
+// The top view: robot, scene, regions, frames and forces, drawn in the plane; of two runs both.
 import type { Clock } from './clock';
 import { ofStyle, onScheme } from './colours';
 import type { Run, World } from './data';
 import { h } from './dom';
 import { withUnit } from './units';
 import { contactsAt, cornersOf, extentOf, frameInWorld, instantAt, outlineOf, placeOf, worldPoint, type Instant } from './world';
+import type { Place } from './motion';
 
 type Point = number[];
+type ToPixels = (p: Point) => [number, number];
+
+/** A run in the view; `letter` tells it from another one. */
+export interface Viewed { run: Run; world: World; letter?: string }
+
+/** What tells the first run from the second: the dashes more than the colour. */
+const looks = [{ style: '--accent', fill: '--robot', dashes: [] as number[] }, { style: '--link', fill: '--other', dashes: [7, 4] }];
+
+/** The path of the base, as the plant has it; where nobody knows better, as zwang has it. */
+function pathOf(run: Run): Point[] {
+  const [x, y] = [run.sample('truth.base.x') ?? run.sample('base.x'), run.sample('truth.base.y') ?? run.sample('base.y')];
+  const path: Point[] = [];
+  for (let i = 0; x && y && i < x.length; ++i) {
+    if (Number.isFinite(x[i]! + y[i]!)) path.push([x[i]!, y[i]!]);
+  }
+  return path;
+}
 
 export class TopView {
   readonly element: HTMLElement;
@@ -15,14 +33,12 @@ export class TopView {
   private scale = 100;
   private centre: Point = [0, 0];
   private zoom = 1;
-  private readonly path: Point[] = [];
+  private readonly paths: Point[][];
 
-  constructor(private readonly run: Run, private readonly world: World, private readonly clock: Clock) {
-    this.element = h('figure', {}, this.canvas, h('figcaption', {}, 'From above. Wheel or + and - zoom, a drag moves. Dashed: where zwang has the base.'));
-    const [x, y] = [run.sample('truth.base.x') ?? run.sample('base.x'), run.sample('truth.base.y') ?? run.sample('base.y')];
-    for (let i = 0; x && y && i < x.length; ++i) {
-      if (Number.isFinite(x[i]! + y[i]!)) this.path.push([x[i]!, y[i]!]);
-    }
+  constructor(private readonly viewed: Viewed[], private readonly clock: Clock) {
+    const dashed = viewed.length > 1 ? `Solid: run ${viewed[0]!.letter}. Dashed: run ${viewed[1]!.letter}.` : 'Dashed: where zwang has the base.';
+    this.element = h('figure', {}, this.canvas, h('figcaption', {}, `From above. Wheel or + and - zoom, a drag moves. ${dashed}`));
+    this.paths = viewed.map(({ run }) => pathOf(run));
     this.fit();
     clock.onTime(() => this.draw());
     onScheme(() => this.draw());
@@ -48,7 +64,9 @@ export class TopView {
   }
 
   private fit(): void {
-    const [low, high] = extentOf(this.run, this.world);
+    const extents = this.viewed.map(({ run, world }) => extentOf(run, world));
+    const low = [0, 1].map((i) => Math.min(...extents.map((one) => one[0][i]!))) as [number, number];
+    const high = [0, 1].map((i) => Math.max(...extents.map((one) => one[1][i]!))) as [number, number];
     this.centre = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
     this.scale = 1.15 * Math.max(high[0] - low[0], high[1] - low[1]);
   }
@@ -64,24 +82,27 @@ export class TopView {
     if (this.canvas.width !== Math.round(width * ratio)) this.canvas.width = Math.round(width * ratio);
     if (this.canvas.height !== Math.round(height * ratio)) this.canvas.height = Math.round(height * ratio);
     const c = this.canvas.getContext('2d')!;
-    const now = instantAt(this.run, this.world.robot, this.clock.time);
-    const centre = this.follow ? [now.base.x, now.base.y] : this.centre;
+    // A run that is over stays where it ended.
+    const nows = this.viewed.map(({ run, world }) => instantAt(run, world.robot, Math.min(this.clock.time, run.duration)));
+    const base = nows[0]!.base;
+    const centre = this.follow ? [base.x, base.y] : this.centre;
     const s = this.pixels();
     const to = (p: Point): [number, number] => [width / 2 + (p[0]! - centre[0]!) * s, height / 2 - (p[1]! - centre[1]!) * s];
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     c.clearRect(0, 0, width, height);
     c.font = '12px system-ui, sans-serif';
     this.drawGrid(c, to, s, width, height, centre);
-    this.drawScene(c, to, now, s);
-    this.drawPath(c, to, now);
-    this.drawRobot(c, to, now, s);
-    this.drawForces(c, to, now, s);
-    this.canvas.setAttribute('aria-label', `Top view at ${now.time.toFixed(3)} s: base at x ${now.base.x.toFixed(3)} m, ` +
+    this.viewed.forEach((one, i) => this.drawScene(c, to, one, nows[i]!, s, i > 0));
+    this.viewed.forEach((one, i) => this.drawPath(c, to, one, this.paths[i]!, i));
+    this.viewed.forEach((one, i) => this.drawRobot(c, to, one, nows[i]!, i));
+    this.viewed.forEach((one, i) => this.drawForces(c, to, one, nows[i]!));
+    const places = nows.map((now, i) => `${this.viewed[i]!.letter ? `run ${this.viewed[i]!.letter}, ` : ''}base at x ${now.base.x.toFixed(3)} m, ` +
       `y ${now.base.y.toFixed(3)} m, heading ${withUnit(now.base.yaw, 'rad')}`);
-    this.canvas.dataset.pose = [now.base.x, now.base.y, now.base.yaw].join(' ');
+    this.canvas.setAttribute('aria-label', `Top view at ${this.clock.time.toFixed(3)} s: ${places.join('; ')}`);
+    nows.forEach((now, i) => { this.canvas.dataset[i ? 'otherPose' : 'pose'] = [now.base.x, now.base.y, now.base.yaw].join(' '); });
   }
 
-  private drawGrid(c: CanvasRenderingContext2D, to: (p: Point) => [number, number], s: number, width: number, height: number, centre: Point): void {
+  private drawGrid(c: CanvasRenderingContext2D, to: ToPixels, s: number, width: number, height: number, centre: Point): void {
     const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 50].find((metres) => metres * s > 45) ?? 100;
     c.strokeStyle = ofStyle('--grid');
     c.lineWidth = 1;
@@ -99,15 +120,44 @@ export class TopView {
     c.fillText(`grid ${step} m`, 8, height - 8);
   }
 
-  private polygon(c: CanvasRenderingContext2D, to: (p: Point) => [number, number], points: Point[]): void {
+  private polygon(c: CanvasRenderingContext2D, to: ToPixels, points: Point[]): void {
     c.beginPath();
     points.forEach((p, i) => (i ? c.lineTo(...to(p)) : c.moveTo(...to(p))));
     c.closePath();
   }
 
-  private drawScene(c: CanvasRenderingContext2D, to: (p: Point) => [number, number], now: Instant, s: number): void {
-    for (const region of this.world.regions) {
-      const corners = cornersOf(this.world, region, now);
+  /** `isSecond`: outlines alone, dashed, of what is not where the first run has it. */
+  private drawScene(c: CanvasRenderingContext2D, to: ToPixels, { run, world }: Viewed, now: Instant, s: number, isSecond: boolean): void {
+    if (!isSecond) this.drawRegions(c, to, world, now);
+    c.setLineDash(isSecond ? looks[1]!.dashes : []);
+    for (const object of world.scene?.objects ?? []) {
+      const place = placeOf(run, object, now.time);
+      if (isSecond && this.hasAlready(object.name, place)) continue;
+      if (object.shape === 'cylinder') {
+        c.beginPath();
+        c.arc(...to([place.x, place.y]), object.size[0]! * s, 0, 2 * Math.PI);
+      } else {
+        this.polygon(c, to, outlineOf(object).map((p) => worldPoint(place, p)));
+      }
+      this.finishObject(c, to, place, object.name, isSecond);
+    }
+    for (const robot of world.scene?.robots ?? []) {
+      const place = placeOf(run, { ...robot, shape: 'box', size: [], moves: true }, now.time);
+      if (!robot.robot || (isSecond && this.hasAlready(robot.name, place))) continue;
+      this.polygon(c, to, robot.robot.footprint.map((p) => worldPoint(place, p)));
+      this.finishObject(c, to, place, robot.name, isSecond);
+    }
+    c.setLineDash([]);
+    if (isSecond) return;
+    world.frames.forEach((frame, i) => {
+      const pose = frame.declared && i > 0 ? frameInWorld(world, i, now) : null;
+      if (pose) this.drawFrame(c, to, pose.p, Math.atan2(pose.r[3]!, pose.r[0]!), frame.name);
+    });
+  }
+
+  private drawRegions(c: CanvasRenderingContext2D, to: ToPixels, world: World, now: Instant): void {
+    for (const region of world.regions) {
+      const corners = cornersOf(world, region, now);
       if (!corners) continue;
       this.polygon(c, to, corners);
       c.strokeStyle = ofStyle('--region');
@@ -119,40 +169,29 @@ export class TopView {
       const [x, y] = to(corners[0]!);
       c.fillText(region.name, x + 4, y - 4);
     }
-    for (const object of this.world.scene?.objects ?? []) {
-      const place = placeOf(this.run, object, now.time);
-      if (object.shape === 'cylinder') {
-        c.beginPath();
-        c.arc(...to([place.x, place.y]), object.size[0]! * s, 0, 2 * Math.PI);
-      } else {
-        this.polygon(c, to, outlineOf(object).map((p) => worldPoint(place, p)));
-      }
-      c.fillStyle = ofStyle('--object');
-      c.strokeStyle = ofStyle('--ink');
-      c.lineWidth = 1;
-      c.fill();
-      c.stroke();
-      c.fillStyle = ofStyle('--ink');
-      const [x, y] = to([place.x, place.y]);
-      c.fillText(object.name, x + 6, y - 6);
-    }
-    for (const robot of this.world.scene?.robots ?? []) {
-      const place = placeOf(this.run, { ...robot, shape: 'box', size: [], moves: true }, now.time);
-      if (!robot.robot) continue;
-      this.polygon(c, to, robot.robot.footprint.map((p) => worldPoint(place, p)));
-      c.fillStyle = ofStyle('--object');
-      c.fill();
-      c.stroke();
-      c.fillStyle = ofStyle('--ink');
-      c.fillText(robot.name, ...to([place.x, place.y]));
-    }
-    this.world.frames.forEach((frame, i) => {
-      const pose = frame.declared && i > 0 ? frameInWorld(this.world, i, now) : null;
-      if (pose) this.drawFrame(c, to, pose.p, Math.atan2(pose.r[3]!, pose.r[0]!), frame.name);
-    });
   }
 
-  private drawFrame(c: CanvasRenderingContext2D, to: (p: Point) => [number, number], p: Point, yaw: number, name: string): void {
+  private hasAlready(name: string, place: Place): boolean {
+    const { run, world } = this.viewed[0]!;
+    const time = Math.min(this.clock.time, run.duration);
+    const object = world.scene?.objects.find((one) => one.name === name);
+    const robot = world.scene?.robots.find((one) => one.name === name);
+    const first = object ? placeOf(run, object, time) : robot ? placeOf(run, { ...robot, shape: 'box', size: [], moves: true }, time) : null;
+    return first !== null && Math.hypot(first.x - place.x, first.y - place.y) < 1e-3 && Math.abs(first.yaw - place.yaw) < 1e-3;
+  }
+
+  private finishObject(c: CanvasRenderingContext2D, to: ToPixels, place: Place, name: string, isSecond: boolean): void {
+    c.fillStyle = ofStyle('--object');
+    c.strokeStyle = ofStyle('--ink');
+    c.lineWidth = 1;
+    if (!isSecond) c.fill();
+    c.stroke();
+    c.fillStyle = ofStyle('--ink');
+    const [x, y] = to([place.x, place.y]);
+    c.fillText(isSecond ? `${name} (${this.viewed[1]!.letter})` : name, x + 6, y - 6);
+  }
+
+  private drawFrame(c: CanvasRenderingContext2D, to: ToPixels, p: Point, yaw: number, name: string): void {
     const [x, y] = to(p);
     for (const [turn, name_, style] of [[0, 'x', '--x'], [Math.PI / 2, 'y', '--y']] as const) {
       c.strokeStyle = ofStyle(style);
@@ -169,20 +208,25 @@ export class TopView {
     c.fillText(name, x + 4, y + 14);
   }
 
-  private drawPath(c: CanvasRenderingContext2D, to: (p: Point) => [number, number], now: Instant): void {
-    const passed = Math.floor((now.time / this.run.duration) * (this.path.length - 1));
-    for (const [from, until, style, width] of [[0, this.path.length, '--grid-strong', 1], [0, passed + 1, '--accent', 2]] as const) {
+  private drawPath(c: CanvasRenderingContext2D, to: ToPixels, { run }: Viewed, path: Point[], i: number): void {
+    const passed = Math.floor((Math.min(1, this.clock.time / run.duration)) * (path.length - 1));
+    const look = looks[i]!;
+    c.setLineDash(look.dashes);
+    for (const [from, until, style, width] of [[0, path.length, i ? look.style : '--grid-strong', 1], [0, passed + 1, look.style, 2]] as const) {
       c.beginPath();
-      this.path.slice(from, until).forEach((p, i) => (i ? c.lineTo(...to(p)) : c.moveTo(...to(p))));
+      path.slice(from, until).forEach((p, k) => (k ? c.lineTo(...to(p)) : c.moveTo(...to(p))));
       c.strokeStyle = ofStyle(style);
       c.lineWidth = width;
       c.stroke();
     }
+    c.setLineDash([]);
   }
 
-  private drawRobot(c: CanvasRenderingContext2D, to: (p: Point) => [number, number], now: Instant, s: number): void {
-    const robot = this.world.robot;
-    if (now.believed) {
+  private drawRobot(c: CanvasRenderingContext2D, to: ToPixels, { world, letter }: Viewed, now: Instant, i: number): void {
+    const robot = world.robot;
+    const look = looks[i]!;
+    // Of two runs the dashes tell the second.
+    if (now.believed && this.viewed.length === 1) {
       this.polygon(c, to, robot.footprint.map((p) => worldPoint(now.believed!, p)));
       c.setLineDash([4, 4]);
       c.strokeStyle = ofStyle('--quiet');
@@ -190,11 +234,13 @@ export class TopView {
       c.setLineDash([]);
     }
     this.polygon(c, to, robot.footprint.map((p) => worldPoint(now.base, p)));
-    c.fillStyle = ofStyle('--robot');
-    c.strokeStyle = ofStyle('--accent');
+    c.fillStyle = ofStyle(look.fill);
+    c.strokeStyle = ofStyle(look.style);
     c.lineWidth = 2;
+    c.setLineDash(look.dashes);
     c.fill();
     c.stroke();
+    c.setLineDash([]);
     for (const wheel of robot.wheels) {
       const pose = now.bodies[wheel.body]!;
       // The wheel rolls across its axle, which lies in the plane.
@@ -218,20 +264,24 @@ export class TopView {
       c.stroke();
     });
     const nose = Math.max(...robot.footprint.map((p) => p[0]!), 0.1);
-    this.arrow(c, to([now.base.x, now.base.y]), to(worldPoint(now.base, [nose, 0])), ofStyle('--accent'));
-    void s;
+    this.arrow(c, to([now.base.x, now.base.y]), to(worldPoint(now.base, [nose, 0])), ofStyle(look.style));
+    if (!letter) return;
+    c.fillStyle = ofStyle('--ink');
+    c.font = 'bold 16px system-ui, sans-serif';
+    const [x, y] = to(worldPoint(now.base, [-0.5 * nose, 0]));
+    c.fillText(letter, x - 6, y + (i ? 20 : -8));
+    c.font = '12px system-ui, sans-serif';
   }
 
-  private drawForces(c: CanvasRenderingContext2D, to: (p: Point) => [number, number], now: Instant, s: number): void {
-    void s;
-    for (const contact of contactsAt(this.run, this.world, now)) {
+  private drawForces(c: CanvasRenderingContext2D, to: ToPixels, { run, world, letter }: Viewed, now: Instant): void {
+    for (const contact of contactsAt(run, world, now)) {
       const [x, y] = to(contact.at);
       // A length that grows as the logarithm: 1 N is seen, 1 kN stays on the page.
       const length = 18 * Math.log10(1 + contact.force * 2);
       const tip: [number, number] = [x + contact.normal[0] * length, y - contact.normal[1] * length];
       this.arrow(c, [x, y], tip, ofStyle('--force'));
       c.fillStyle = ofStyle('--force');
-      c.fillText(withUnit(contact.force, 'N'), tip[0] + 5, tip[1] - 5);
+      c.fillText(withUnit(contact.force, 'N') + (letter ? ` (${letter})` : ''), tip[0] + 5, tip[1] - 5);
     }
   }
 

@@ -33,37 +33,58 @@ std::map<std::string, std::string> facts_of(std::string_view bytes) {
   return facts;
 }
 
-class LogReader {
+}  // namespace
+
+class LogRecords::Reading {
  public:
-  LogReader(const std::filesystem::path& path,
-            const std::function<void(double time, std::string_view json)>& record,
-            const std::function<void(const LogContents& head)>& before)
-      : file_(path, std::ios::binary), record_(record), before_(before) {
+  explicit Reading(const std::filesystem::path& path) : file_(path, std::ios::binary) {
     if (!file_) throw std::runtime_error(path.string() + ": " + std::strerror(errno));
     std::string magic(mcap::magic.size(), '\0');
     if (!take(magic) || magic != mcap::magic) throw std::runtime_error(path.string() + ": is no MCAP log");
     data_crc_ = crc32(magic);
     size_ = static_cast<std::uint64_t>(std::filesystem::file_size(path));
+    contents_.closed = ends_with_magic();
   }
 
-  LogContents read() {
-    contents_.closed = ends_with_magic();
-    std::string content;
-    while (at_ < size_) {
-      const std::uint64_t start = at_;
-      const std::optional<unsigned char> opcode = next_record(content);
-      const bool good = opcode && read_record(*opcode, content);
-      if (good && opcode == Opcode::data_end) break;
-      if (!good) {
-        damaged(start, "unreadable");
-        if (!go_to_next_chunk(start + 1)) break;
+  /// Goes on to the next message; false where there is none any more.
+  bool next() {
+    while (true) {
+      if (next_message()) return true;
+      if (!inside_.good()) lose(start_);
+      inside_ = Reader(std::string_view{});
+      if (is_over_ || at_ >= size_) break;
+      start_ = at_;
+      const std::optional<unsigned char> opcode = next_record(content_);
+      if (!opcode || !read_record(*opcode, content_)) {
+        lose(start_);
+      } else if (opcode == Opcode::data_end) {
+        is_over_ = true;
       }
     }
-    if (!contents_.closed) damaged(size_, "the log ends here, and was not closed");
-    return contents_;
+    if (!contents_.closed && !is_end_told_) damaged(size_, "the log ends here, and was not closed");
+    is_end_told_ = true;
+    return false;
   }
 
+  double time() const { return time_; }
+  std::string_view json() const { return json_; }
+  const LogContents& contents() const { return contents_; }
+
  private:
+  void lose(std::uint64_t start) {
+    damaged(start, "unreadable");
+    if (!go_to_next_chunk(start + 1)) is_over_ = true;
+  }
+
+  bool next_message() {
+    while (inside_.good() && !inside_.rest().empty()) {
+      const unsigned char opcode = inside_.opcode();
+      const std::string_view record = inside_.raw(inside_.u64());
+      if (inside_.good() && opcode == Opcode::message && read_message(record)) return true;
+    }
+    return false;
+  }
+
   bool take(std::string& bytes) {
     file_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     at_ += static_cast<std::uint64_t>(file_.gcount());
@@ -194,15 +215,11 @@ class LogReader {
     const std::string_view packed = fields.raw(fields.u64());
     if (!fields.good() || !fields.rest().empty() || size > largest_record || compression != "zstd")
       return false;
-    const std::optional<std::string> records = decompress(packed, static_cast<std::size_t>(size));
+    std::optional<std::string> records = decompress(packed, static_cast<std::size_t>(size));
     if (!records || crc32(*records) != crc) return false;
-    Reader inside(*records);
-    while (inside.good() && !inside.rest().empty()) {
-      const unsigned char opcode = inside.opcode();
-      const std::string_view record = inside.raw(inside.u64());
-      if (inside.good() && opcode == Opcode::message) read_message(record);
-    }
-    return inside.good();
+    chunk_ = std::move(*records);
+    inside_ = Reader(chunk_);
+    return true;
   }
 
   /// What is damaged and has no CRC of its own: schema, facts, the index of a chunk.
@@ -230,24 +247,30 @@ class LogReader {
                                before);
   }
 
-  void read_message(std::string_view content) {
+  bool read_message(std::string_view content) {
     Reader fields(content);
     fields.u16();
     const std::uint32_t sequence = fields.u32();
     const double time = static_cast<double>(fields.u64()) * 1e-9;
     fields.u64();
-    if (!fields.good()) return;
-    look_for_a_gap(sequence, std::to_string(time) + " s");
+    if (!fields.good()) return false;
+    if (sequence != next_sequence_) look_for_a_gap(sequence, std::to_string(time) + " s");
     next_sequence_ = sequence + 1;
-    if (contents_.records == 0 && before_) before_(contents_);
     if (contents_.records++ == 0) contents_.begin = time;
     contents_.end = time;
-    record_(time, fields.rest());
+    time_ = time;
+    json_ = fields.rest();
+    return true;
   }
 
   std::ifstream file_;
-  const std::function<void(double, std::string_view)>& record_;
-  const std::function<void(const LogContents&)>& before_;
+  std::string content_;                // of the record of the file that was read last
+  std::uint64_t start_ = 0;            // [bytes] where that record begins
+  std::string chunk_;                  // its messages, unpacked
+  Reader inside_{std::string_view{}};  // what is left of the chunk
+  double time_ = 0.0;                  // [s] of the present message
+  std::string_view json_;              // in `chunk_`
+  bool is_over_ = false, is_end_told_ = false;
   std::uint64_t at_ = 0;    // [bytes] read so far
   std::uint64_t size_ = 0;  // [bytes] of the file
   std::uint32_t next_sequence_ = 0;
@@ -255,12 +278,33 @@ class LogReader {
   LogContents contents_;
 };
 
-}  // namespace
+LogRecords::LogRecords(const std::filesystem::path& path) : reading_(std::make_unique<Reading>(path)) {}
+LogRecords::~LogRecords() = default;
+
+bool LogRecords::next() {
+  return reading_->next();
+}
+double LogRecords::time() const {
+  return reading_->time();
+}
+std::string_view LogRecords::json() const {
+  return reading_->json();
+}
+const LogContents& LogRecords::contents() const {
+  return reading_->contents();
+}
 
 LogContents read_log(const std::filesystem::path& path,
                      const std::function<void(double time, std::string_view json)>& record,
                      const std::function<void(const LogContents& head)>& before) {
-  return LogReader(path, record, before).read();
+  LogRecords records(path);
+  bool is_first = true;
+  while (records.next()) {
+    if (is_first && before) before(records.contents());
+    is_first = false;
+    record(records.time(), records.json());
+  }
+  return records.contents();
 }
 
 }  // namespace zwang::runtime

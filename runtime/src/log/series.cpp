@@ -3,58 +3,36 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 
 #include "log/compression.hpp"
 #include "log/extremes.hpp"
+#include "log/logged_columns.hpp"
+#include "log/record_batches.hpp"
 
 namespace zwang::runtime {
 
 namespace {
 
-using nlohmann::ordered_json;
-
 // Beyond these a curve has no more to show, or too little.
 constexpr std::size_t most_buckets = 4096;
 constexpr std::size_t fewest_buckets = 256;
 
-constexpr double blank = std::numeric_limits<double>::quiet_NaN();
-
-struct LoggedColumn {
-  std::string key;          ///< as a record writes it: `"base.x":`
-  int curve = -1;           ///< index into Series::curves; -1: none
-  double value = blank;     ///< of the present record
-  std::string_view word{};  ///< the same of a column of words
-};
-
-/// `[m/s] wall_align.yaml:22`, either part alone, or none.
-void read_description(const std::string& text, Curve& curve) {
-  std::string_view rest = text;
-  if (rest.starts_with('[')) {
-    const std::size_t close = rest.find(']');
-    curve.unit = rest.substr(1, close - 1);
-    rest.remove_prefix(std::min(rest.size(), close == std::string_view::npos ? rest.size() : close + 2));
-  }
-  const std::size_t colon = rest.rfind(':');
-  if (colon == std::string_view::npos) return;
-  curve.file = rest.substr(0, colon);
-  std::from_chars(rest.data() + colon + 1, rest.data() + rest.size(), curve.line);
-}
+constexpr int no_curve = -1;
 
 class SeriesReader {
  public:
   explicit SeriesReader(std::size_t most_points) : most_points_(most_points) {}
 
   void read(const std::filesystem::path& log) {
+    RecordBatches batches([this](double time, std::string_view record) { take(time, record); });
     series.log = read_log(
-        log, [this](double time, std::string_view record) { take(time, record); },
+        log, [&batches](double time, std::string_view record) { batches.add(time, record); },
         [this](const LogContents& head) { list_columns(head.schema); });
+    batches.finish();
     if (!open_.empty()) close_bucket();
     give_points();
   }
@@ -63,22 +41,16 @@ class SeriesReader {
 
  private:
   void list_columns(const std::string& schema) {
-    const ordered_json whole = ordered_json::parse(schema, nullptr, false);
-    const auto properties = whole.is_object() ? whole.find("properties") : whole.end();
-    if (properties == whole.end() || !properties->is_object()) return;
-    for (const auto& [name, property] : properties->items()) {
-      LoggedColumn& column = columns_.emplace_back();
-      column.key = ordered_json(name).dump() + ":";
-      if (name == "task") task_ = columns_.size() - 1;
-      if (name == "event") event_ = columns_.size() - 1;
-      const bool is_curve = !property.contains("enum") && name != "time" && !name.starts_with("sensed.") &&
-                            !name.starts_with("params.");
-      if (!is_curve) continue;
-      column.curve = static_cast<int>(series.curves.size());
-      Curve& curve = series.curves.emplace_back();
-      curve.name = name;
-      if (property.contains("description"))
-        read_description(property["description"].get<std::string>(), curve);
+    columns_ = logged_columns(schema);
+    parts_.emplace(columns_);
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const LoggedColumn& column = columns_[i];
+      if (column.name == "task") task_ = i;
+      if (column.name == "event") event_ = i;
+      const bool is_curve = !column.has_words && column.name != "time" &&
+                            !column.name.starts_with("sensed.") && !column.name.starts_with("params.");
+      curve_of_.push_back(is_curve ? static_cast<int>(series.curves.size()) : no_curve);
+      if (is_curve) series.curves.push_back({column.name, column.unit, column.file, column.line, {}, {}});
     }
     const std::size_t room = most_points_ / (2 * std::max<std::size_t>(1, series.curves.size()));
     most_ = std::clamp(room, fewest_buckets, most_buckets);
@@ -87,41 +59,15 @@ class SeriesReader {
     open_.assign(series.curves.size(), {});
   }
 
-  /// Keys stand in the order of the columns; those of blanks are left out.
-  void parse(std::string_view record) {
-    for (LoggedColumn& column : columns_) {
-      column.value = blank;
-      column.word = {};
-    }
-    std::size_t at = 1;
-    for (LoggedColumn& column : columns_) {
-      if (at >= record.size()) return;
-      if (record.compare(at, column.key.size(), column.key) != 0) continue;
-      at += column.key.size();
-      if (record[at] == '"') {
-        const std::size_t close = record.find('"', at + 1);
-        column.word = record.substr(at + 1, close - at - 1);
-        at = close + 2;
-      } else {
-        const char* const end = record.data() + record.size();
-        const auto [behind, error] = std::from_chars(record.data() + at, end, column.value);
-        if (error != std::errc()) column.value = blank;
-        at = std::min(record.find_first_of(",}", static_cast<std::size_t>(behind - record.data())),
-                      record.size()) +
-             1;
-      }
-    }
-  }
-
   void take(double time, std::string_view record) {
-    parse(record);
+    parts_->split(record);
     note_task(time);
     note_event(time);
     if (in_bucket_ == 0) begin_ = time;
-    for (const LoggedColumn& column : columns_) {
-      if (column.curve < 0) continue;
-      Bucket& bucket = open_[static_cast<std::size_t>(column.curve)];
-      const auto value = static_cast<float>(column.value);
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (curve_of_[i] == no_curve) continue;
+      Bucket& bucket = open_[static_cast<std::size_t>(curve_of_[i])];
+      const auto value = static_cast<float>(number_of((*parts_)[i]));
       if (in_bucket_ == 0) bucket.first = value;
       bucket.take(value);
     }
@@ -130,21 +76,21 @@ class SeriesReader {
   }
 
   void note_task(double time) {
-    if (!task_ || columns_[*task_].word.empty()) return;
-    const std::string_view word = columns_[*task_].word;
+    const std::string_view word = task_ ? (*parts_)[*task_] : std::string_view{};
+    if (word.empty()) return;
     if (!series.tasks.empty()) series.tasks.back().end = time;
     if (series.tasks.empty() || series.tasks.back().word != word)
       series.tasks.push_back({std::string(word), time, time});
   }
 
   void note_event(double time) {
-    if (!event_ || columns_[*event_].word.empty()) return;
+    if (!event_ || (*parts_)[*event_].empty()) return;
     LoggedEvent& told = series.events.emplace_back();
     told.time = time;
-    told.code = columns_[*event_].word;
+    told.code = (*parts_)[*event_];
     for (std::size_t i = *event_ + 1; i < columns_.size() && i < *event_ + 3; ++i) {
-      if (columns_[i].key == R"("event.signal":)") told.signal = columns_[i].word;
-      if (columns_[i].key == R"("event.value":)") told.value = columns_[i].value;
+      if (columns_[i].name == "event.signal") told.signal = (*parts_)[i];
+      if (columns_[i].name == "event.value") told.value = number_of((*parts_)[i]);
     }
   }
 
@@ -186,6 +132,8 @@ class SeriesReader {
   std::size_t most_points_;
   std::size_t most_ = most_buckets;
   std::vector<LoggedColumn> columns_;
+  std::vector<int> curve_of_;  ///< by column: index into Series::curves, or `no_curve`
+  std::optional<RecordParts> parts_;
   std::optional<std::size_t> task_, event_;
   std::vector<Bucket> open_;                  ///< by curve
   std::vector<std::vector<Bucket>> buckets_;  ///< by curve

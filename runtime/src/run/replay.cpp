@@ -126,6 +126,9 @@ std::optional<lang::Program> logged_program(const LogContext& context, lang::Dia
     const auto set = context.facts.find("params." + parameter.name);
     if (set != context.facts.end()) parameter.value = number_of(set->second);
   }
+  if (const auto blend = context.facts.find("blend [s]"); blend != context.facts.end()) {
+    for (lang::Task& each : program->tasks) each.blend = {.constant = number_of(blend->second)};
+  }
   return program;
 }
 

@@ -1,5 +1,6 @@
 #include "run/why.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "zwang/runtime/with_unit.hpp"
@@ -120,7 +121,7 @@ class Sentence {
     for (const WaitedTerm& term : why_.met->terms) {
       if (term.value) values += (values.empty() ? "" : ", ") + with_unit(*term.value, term.unit);
       for (const WaitedSignal& signal : term.signals)
-        values += (values.empty() ? "" : ", ") + words_.of_signal(signal);
+        values += (values.empty() ? "" : ", ") + in_words(signal);
     }
     return text + (values.empty() ? "" : ": " + values);
   }
@@ -156,9 +157,8 @@ class Sentence {
                words_.place(end_.scheduler.where(t)) + "; " + quoted(why_.waited.task) +
                " waited: " + waiting();
       case WhyCause::set:
-        return way_to_the_refusal(t) + ", on the way a frame is set" +
-               words_.place(end_.scheduler.where(t)) + ", which needs the pose of " +
-               quoted(end_.scheduler.unknown_frame(t)) + ": it is not known";
+        return way_to_the_refusal(t) + ", on the way a frame is set" + words_.place(end_.scheduler.where(t)) +
+               ", which needs the pose of " + quoted(end_.scheduler.unknown_frame(t)) + ": it is not known";
       case WhyCause::never_stood:
         return "the brake did not bring the base to rest";
       case WhyCause::waiting:
@@ -172,6 +172,17 @@ class Sentence {
   WhyWords words_;
   const Why& why_;
 };
+
+void note_refusals(const std::vector<RefusedSignal>& refused, WaitedExit& exit) {
+  for (WaitedTerm& term : exit.terms) {
+    for (WaitedSignal& signal : term.signals) {
+      const auto one = std::ranges::find(refused, signal.name, &RefusedSignal::name);
+      if (one == refused.end()) continue;
+      signal.refused = true;
+      signal.ahead = one->ahead;
+    }
+  }
+}
 
 }  // namespace
 
@@ -193,6 +204,8 @@ Why why_of(const EndOfRun& end) {
     }
   }
   if (task >= 0) why.waited = scheduler.waited(task);
+  for (WaitedExit& exit : why.waited.exits) note_refusals(end.refused, exit);
+  if (why.met) note_refusals(end.refused, *why.met);
   if (end.limit) why.limit = end.limit->row;
   why.sentence = Sentence(end, why).text(decided ? &*found : nullptr);
   return why;

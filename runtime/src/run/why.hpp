@@ -51,7 +51,6 @@ Why why_of(const EndOfRun& end);
 struct WhyWords {
   const EndOfRun& end;
   std::string place(const lang::Span& span) const;
-  std::string of_signal(const WaitedSignal& signal) const;
   std::string of_terms(const WaitedExit& exit) const;
   std::string of_exit(const WaitedExit& exit) const;
   std::string of_waiting(const WaitedTask& task) const;

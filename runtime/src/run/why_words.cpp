@@ -42,13 +42,13 @@ std::string WhyWords::place(const lang::Span& span) const {
          ")";
 }
 
-std::string WhyWords::of_signal(const WaitedSignal& signal) const {
+std::string in_words(const WaitedSignal& signal) {
   const std::string name = quoted(signal.name);
-  for (const RefusedSignal& refused : end.refused) {
-    if (refused.name != signal.name) continue;
-    if (refused.ahead == 0.0) return "samples of " + name + " came and were refused";
-    return "samples of " + name + " came and were refused, stamped " + seconds(std::abs(refused.ahead)) +
-           (refused.ahead > 0.0 ? " ahead" : " behind");
+  if (signal.refused) {
+    const std::string refused = "samples of " + name + " came and were refused";
+    if (signal.ahead == 0.0) return refused;
+    return refused + ", stamped " + seconds(std::abs(signal.ahead)) +
+           (signal.ahead > 0.0 ? " ahead" : " behind");
   }
   if (!signal.received) return name + " was never received";
   return name + " came last " + seconds(signal.age) + " ago and counts for " + seconds(signal.stale_after);
@@ -65,7 +65,7 @@ std::string WhyWords::of_terms(const WaitedExit& exit) const {
   for (const WaitedTerm& term : exit.terms) {
     if (!term.holds_back) continue;
     std::vector<std::string> signals;
-    for (const WaitedSignal& signal : term.signals) signals.push_back(of_signal(signal));
+    for (const WaitedSignal& signal : term.signals) signals.push_back(in_words(signal));
     std::string because = signals.empty() ? term.because : joined(signals, ", ", " and ");
     if (term.verdict != Verdict::unknown) {
       const std::string is = std::string(" is ") + to_string(term.verdict) + value_of(term);

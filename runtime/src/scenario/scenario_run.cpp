@@ -5,6 +5,7 @@
 #include <cmath>
 #include <exception>
 
+#include "scenario/cell_story.hpp"
 #include "scenario/expectation.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -92,6 +93,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   const std::vector<ScenePartner>& partners = plant.partners();
   std::vector<bool> had_stopped(partners.size(), false);
   Eigen::VectorXd tau;
+  PathWatch path;
   PlantStatus status = PlantStatus::ok;
   const auto is_interrupted = [interrupted] { return interrupted != nullptr && interrupted->load(); };
   while (!runner.finished() && plant.truth().time < scenario.time_limit && !is_interrupted()) {
@@ -101,6 +103,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     if (steps.tick_is_due()) tau = step(runner, sensed, plant.truth().time, facts);
     const double share = torque_share(program.robot.model, tau);
     facts.update(plant.truth(), plant.true_state(), share);
+    path.look(plant.truth());
     result.torque = std::max({result.torque, share, look_at_partners(plant, facts)});
     const bool in_task = runner.state() == RunState::running;
     for (ExpectationWatch& watch : watches) watch.look(facts, plant.truth().time, in_task);
@@ -127,6 +130,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     result.outcome = to_string(runner.state());
   }
   result.because = runner.because();
+  result.story = story_of(runner, path);
   const std::optional<Why> why = runner.why();
   if (why && status != PlantStatus::diverged) result.why = why->sentence;
   if (plant.truth().base.fallen) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,25 @@ struct LogContents {
   bool closed = false;                            ///< the log was ended properly
   /// What could not be read, and where; empty when all is well.
   std::vector<std::string> damage;
+};
+
+/// The records of a log, one by one. A cut or changed file is read as far as it is whole.
+class LogRecords {
+ public:
+  /// Throws std::runtime_error when the file cannot be opened or is no MCAP file.
+  explicit LogRecords(const std::filesystem::path& path);
+  ~LogRecords();
+  LogRecords(const LogRecords&) = delete;
+  LogRecords& operator=(const LogRecords&) = delete;
+
+  bool next();                          ///< false: there is no record any more
+  double time() const;                  ///< [s] of the record
+  std::string_view json() const;        ///< of the record; valid until `next`
+  const LogContents& contents() const;  ///< as far as the log has been read
+
+ private:
+  class Reading;
+  std::unique_ptr<Reading> reading_;
 };
 
 /// Calls `record` with the time [s] and the JSON text of every record that can be read, in the order of the

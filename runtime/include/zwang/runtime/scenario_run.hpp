@@ -1,12 +1,15 @@
 /// Runs one cell of a scenario and judges what was expected of it, by the plant's own measurements.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "zwang/lang/scenario.hpp"
+#include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
 
@@ -30,6 +33,25 @@ struct PartnerResult {
   std::string because;  ///< of a stop, and of a base that may still move
 };
 
+/// What happened in a run, for a report that shows it without its log. Long lists are cut.
+struct CellStory {
+  struct Step {
+    double time = 0.0;  ///< [s]
+    std::string from;   ///< task; empty at the start
+    std::string to;
+    std::string why;
+  };
+  struct Told {
+    double time = 0.0;  ///< [s]
+    std::string code, signal;
+  };
+  std::vector<Step> transitions;
+  std::vector<Told> events;
+  std::uint64_t transition_count = 0, event_count = 0;  ///< all of them
+  std::vector<LimitReport> limits;                      ///< the broken ones first, then the least margin
+  std::vector<std::array<double, 3>> path;  ///< x, y [m] and yaw [rad] of the base, as the plant has it
+};
+
 struct CellResult {
   std::string name;
   bool passed = false;
@@ -43,6 +65,7 @@ struct CellResult {
   double wall = 0.0;       ///< [s]
   double torque = 0.0;     ///< share of its limit, of the motor that came nearest to it, of any robot
   std::vector<ExpectationResult> expectations;
+  CellStory story;
 };
 
 /// `codes` are those of the task's errors and warnings. Touches nothing outside of its arguments:

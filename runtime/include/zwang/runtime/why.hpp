@@ -18,7 +18,11 @@ struct WaitedSignal {
   bool received = false;     ///< a valid sample has come
   double age = 0.0;          ///< [s]; since the start of the run where none has come
   double stale_after = 0.0;  ///< [s] the age at which it counts as invalid
+  bool refused = false;      ///< samples came that could not be taken
+  double ahead = 0.0;        ///< [s] of a refused sample's stamp; 0 where the stamp is not the reason
 };
+/// "`partner` was never received", or how long ago its last sample came, or why it was refused.
+std::string in_words(const WaitedSignal& signal);
 
 /// A comparison of a condition, or a name in it that is true or false.
 struct WaitedTerm {

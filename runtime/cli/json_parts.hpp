@@ -1,0 +1,37 @@
+/// Parts of the JSON that the program writes, for whoever puts them together.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/series.hpp"
+#include "zwang/runtime/why.hpp"
+
+namespace zwang::cli {
+
+nlohmann::ordered_json json_of(const runtime::Why& why);
+
+/// What the page of a run draws: robot, scene, regions and frames. Lengths in m, angles in rad; a pose is {p:
+/// [x, y, z], r: its rotation by rows}.
+nlohmann::ordered_json world_of(const lang::Program& program);
+
+/// Each task, each way between two of them, and the task that the run starts in.
+nlohmann::ordered_json graph_json(const lang::Program& program);
+
+/// Each bound that a row of the program has: the column that it bounds, in which task, and where it is
+/// written.
+nlohmann::ordered_json bounds_of(const lang::Program& program);
+
+/// All that the page shows of a run.
+nlohmann::ordered_json page_data(const std::filesystem::path& log, const runtime::Series& series);
+
+/// What two runs do not have alike.
+nlohmann::ordered_json comparison_of(const std::filesystem::path& first_log, const runtime::Series& first,
+                                     const std::filesystem::path& second_log, const runtime::Series& second);
+
+/// One line of ASCII letters.
+std::string text_of(const nlohmann::ordered_json& json);
+
+}  // namespace zwang::cli
