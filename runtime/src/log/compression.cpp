@@ -19,10 +19,9 @@ std::optional<std::string> compress(std::string_view bytes) {
   return packed;
 }
 
-std::optional<std::string> decompress(std::string_view bytes, std::size_t size) {
-  std::string whole(size, '\0');
-  if (ZSTD_decompress(whole.data(), size, bytes.data(), bytes.size()) != size) return std::nullopt;
-  return whole;
+bool decompress(std::string_view bytes, std::size_t size, std::string& whole) {
+  whole.resize(size);
+  return ZSTD_decompress(whole.data(), size, bytes.data(), bytes.size()) == size;
 }
 
 std::optional<std::string> deflate(std::string_view bytes) {

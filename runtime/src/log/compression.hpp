@@ -10,11 +10,12 @@ namespace zwang::runtime {
 
 /// Nothing when the library refuses.
 std::optional<std::string> compress(std::string_view bytes);
-/// Nothing unless `bytes` are a whole frame of exactly `size` bytes.
-std::optional<std::string> decompress(std::string_view bytes, std::size_t size);
-/// CRC-32 as in zlib; `crc` is that of the bytes before.
+/// False unless `bytes` are a whole frame of exactly `size` bytes. `whole` keeps its memory from call to
+/// call.
+bool decompress(std::string_view bytes, std::size_t size, std::string& whole);
 /// In the zlib format (RFC 1950), which browsers read; nullopt where memory ends.
 std::optional<std::string> deflate(std::string_view bytes);
+/// CRC-32 as in zlib; `crc` is that of the bytes before.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t crc = 0);
 
 }  // namespace zwang::runtime

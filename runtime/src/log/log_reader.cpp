@@ -215,9 +215,7 @@ class LogRecords::Reading {
     const std::string_view packed = fields.raw(fields.u64());
     if (!fields.good() || !fields.rest().empty() || size > largest_record || compression != "zstd")
       return false;
-    std::optional<std::string> records = decompress(packed, static_cast<std::size_t>(size));
-    if (!records || crc32(*records) != crc) return false;
-    chunk_ = std::move(*records);
+    if (!decompress(packed, static_cast<std::size_t>(size), chunk_) || crc32(chunk_) != crc) return false;
     inside_ = Reader(chunk_);
     return true;
   }

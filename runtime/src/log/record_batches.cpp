@@ -6,8 +6,8 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr std::size_t batch_size = std::size_t{1} << 20;  // [bytes]; a chunk of our logs
-constexpr std::size_t most_waiting = 4;                   // batches: the reader waits for the other thread
+constexpr std::size_t batch_size = std::size_t{1} << 18;  // [bytes]; stays in the cache of a core
+constexpr std::size_t most_waiting = 8;                   // batches: the reader waits for the other thread
 
 }  // namespace
 
@@ -27,7 +27,12 @@ void RecordBatches::add(double time, std::string_view record) {
 void RecordBatches::hand_over() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return waiting_.size() < most_waiting; });
-  waiting_.push_back(std::exchange(open_, {}));
+  waiting_.push_back(std::move(open_));
+  open_ = {};
+  if (!spare_.empty()) {
+    open_ = std::move(spare_.back());
+    spare_.pop_back();
+  }
   changed_.notify_all();
 }
 
@@ -47,12 +52,16 @@ void RecordBatches::work() {
   while (true) {
     changed_.wait(lock, [this] { return !waiting_.empty() || is_over_; });
     if (waiting_.empty()) return;
-    const Batch batch = std::move(waiting_.front());
+    Batch batch = std::move(waiting_.front());
     waiting_.pop_front();
     lock.unlock();
     changed_.notify_all();
     take_all(batch);
+    batch.bytes.clear();
+    batch.times.clear();
+    batch.ends.clear();
     lock.lock();
+    spare_.push_back(std::move(batch));
   }
 }
 

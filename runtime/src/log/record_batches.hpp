@@ -40,6 +40,7 @@ class RecordBatches {
   Take take_;
   Batch open_;
   std::deque<Batch> waiting_;
+  std::vector<Batch> spare_;  ///< their memory is used again
   bool is_over_ = false;
   std::mutex mutex_;
   std::condition_variable changed_;
