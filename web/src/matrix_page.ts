@@ -24,7 +24,7 @@ function outcomeOf(cell: Cell): string {
 
 function expectations(cell: Cell): HTMLElement {
   return table(['expected', 'is', 'figure, margin', 'line'], cell.expectations.map((one) => h('tr', { class: one.held ? '' : 'broken' },
-    td(one.text), one.held ? td('✓ held') : h('td', {}, h('strong', {}, '✗ missed')), td(reading(one)), td(one.where))));
+    td(one.text), one.held ? h('td', { class: 'sign' }, '✓ held') : h('td', {}, h('strong', {}, '✗ missed')), td(reading(one)), td(one.where))));
 }
 
 function more(shown: number, all: number): HTMLElement | false {
@@ -123,9 +123,11 @@ export function matrixPage(data: MatrixData): void {
   const sentence = `${good} of ${count(data.cells.length, 'run')} as expected` +
     (missing > 0 ? `, ended before ${count(missing, 'more run')}` : '') +
     (unreadable.length ? `, and ${count(unreadable.length, 'file')} with errors` : '') + `, in ${data.seconds.toFixed(1)} s.`;
+  // Runs that are still to come may be bad ones.
+  const [sign, kind] = isBad ? ['✗', 'failed'] : missing > 0 ? ['?', 'cut'] : ['✓', 'done'];
   document.title = `zwang test: ${sentence}`;
   document.getElementById('page')!.append(
-    h('header', { class: `verdict ${isBad ? 'failed' : 'done'}` }, h('h1', {}, h('span', { 'aria-hidden': 'true' }, isBad ? '✗ ' : '✓ '), 'zwang test'), h('p', { id: 'verdict' }, sentence)),
+    h('header', { class: `verdict ${kind}` }, h('h1', {}, h('span', { 'aria-hidden': 'true' }, `${sign} `), 'zwang test'), h('p', { id: 'verdict' }, sentence)),
     h('main', { class: 'single' },
       unreadable.length > 0 && part('unreadable', 'Files with errors', ...unreadable.map((one) => h('pre', { tabindex: 0 }, one.diagnostics))),
       part('runs', 'Runs, the worst first', h('div', { class: 'filters' }, search, h('label', { for: 'failed' }, failed, ' failed alone'), told), list),
