@@ -136,6 +136,8 @@ void bind_runner(py::module_& module) {
       .def_readonly("torque", &runtime::Command::torque, "(joints,) [N m] or [N]")
       .def_readonly("velocity", &runtime::Command::velocity,
                     "(joints,) [rad/s]; 0 of a drive that takes torques")
+      .def_readonly("twist", &runtime::Command::twist,
+                    "(3,) of the base in its axes: x, y [m/s], rz [rad/s]; of a drive that takes it")
       .def_readonly("lower", &runtime::Command::lower, "(joints,) least torque [N m]")
       .def_readonly("upper", &runtime::Command::upper, "(joints,) largest torque [N m]");
 

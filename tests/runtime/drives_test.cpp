@@ -176,7 +176,7 @@ TEST(RealRobots, AreSimulatedAsTheyAreDrafted) {
     const auto draft = lang::draft_robot(temporary.path() / "robot.urdf", "robot.urdf", diagnostics);
     ASSERT_TRUE(draft);
     std::string text = draft->text;
-    for (const auto& [open, value] : {std::pair{"holds: FILL_IN", "holds: [rolling]"},
+    for (const auto& [open, value] : {std::pair{"kind: FILL_IN", "kind: skid"},
                                       {"effort: FILL_IN", "effort: 5 N m"},
                                       {"deceleration: FILL_IN", "deceleration: 1 m/s^2"},
                                       {"force: FILL_IN", "force: 50 N"},
