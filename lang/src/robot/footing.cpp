@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "zwang/lang/plane.hpp"
 #include "zwang/lang/wheel_level.hpp"
@@ -51,7 +53,9 @@ void add_points(const Robot& robot, const Eigen::VectorXd& q, double ground, Foo
   for (const solver::Wheel& wheel : robot.model.wheels())
     footing.points.push_back(pose_at(robot.model, q, wheel.body).position);
   footing.wheels = footing.points.size();
+  std::set<std::string> stood_on;  // however often the file names it
   for (const std::string& support : robot.supports) {
+    if (!stood_on.insert(support).second) continue;
     const auto frame = robot.model.find_frame(support);
     if (!frame) continue;
     const solver::Frame& link = robot.model.frames()[static_cast<std::size_t>(*frame)];
