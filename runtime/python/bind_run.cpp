@@ -97,6 +97,7 @@ Result simulate(const lang::Program& program, double most, bool with_log, std::u
     status = plant.follow(runner.command());
     if (status != PlantStatus::ok) break;
   }
+  if (runner.finished() && status == PlantStatus::ok) plant.end_lean();
   if (recorder) recorder->close();
   result.time = plant.truth().time;
   result.truth = truths_of(plant.truth());
@@ -107,6 +108,7 @@ Result simulate(const lang::Program& program, double most, bool with_log, std::u
   if (plant.truth().base.fallen) {
     result.outcome = "fallen";
     result.because = runtime::describe_fall(plant.truth().base);
+    result.why.clear();
   }
   if (status == PlantStatus::diverged) result.outcome = "diverged";
   return result;
