@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../solver/malloc_counter.hpp"
 #include "../temporary_folder.hpp"
+#include "recorded_run.hpp"
 #include "zwang/lang/program.hpp"
-#include "zwang/runtime/recorder.hpp"
 #include "zwang/runtime/replay.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -342,24 +341,7 @@ TEST(BlindDrive, ReplaysBitByBitAndAllocatesNothing) {
   const lang::Program program = shipped("fence", "mecanum_twist");
   const std::filesystem::path log = folder.path() / "log.mcap";
   long calls = 0;
-  {
-    ScenePlant plant(program);
-    Runner runner(program);
-    std::vector<std::unique_ptr<LogSink>> sinks;
-    sinks.push_back(mcap_sink(log, {}));
-    Recorder recorder(std::move(sinks), runner.columns());
-    runner.record_to(&recorder);
-    Sensed sensed(program);
-    for (int i = 0; i < 2000; ++i) {
-      recorder.wait_for_room();
-      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
-      test::start_counting_heap_calls();
-      runner.step(sensed);
-      calls += test::stop_counting_heap_calls();
-      ASSERT_EQ(plant.follow(runner.command()), PlantStatus::ok);
-    }
-    recorder.close();
-  }
+  test::record_run(program, log, 2000, calls);
   if (test::can_count_heap_calls()) {
     EXPECT_EQ(calls, 0);
   }

@@ -14,9 +14,9 @@ namespace zwang::runtime {
 ///     t = T_c + delay/2 + 1/(2 rate).
 /// Blocked, the loop asks for m a at least, whatever t is: it rests on its torque limit.
 ///
-/// t is longer than the horizon in which velocity ranges brake, and than some drivers' time constant. So V
-/// stays inside the velocity ranges in force, and does not pass what a velocity driver asks for: the least
-/// change in kinetic energy, row by row.
+/// t is longer than some drivers' time constant, and an integral makes more of t a than a loop without one.
+/// So V stays inside the velocity ranges in force, and does not pass what a velocity driver asks for: the
+/// least change in kinetic energy, row by row. RowBounds keeps the accelerations.
 class SetPoint {
  public:
   SetPoint(const lang::Drive& drive, const solver::Model& model);

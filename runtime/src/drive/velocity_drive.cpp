@@ -5,18 +5,9 @@
 #include <cmath>
 
 #include "guard/wheel_motors.hpp"
+#include "schedule/braking.hpp"
 
 namespace zwang::runtime {
-
-namespace {
-
-double radius_of(const std::vector<solver::Vector3>& footprint) {
-  double radius = 0.0;
-  for (const solver::Vector3& corner : footprint) radius = std::max(radius, corner.head<2>().norm());
-  return radius;
-}
-
-}  // namespace
 
 VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_capacity)
     : drive_(robot.drive),
@@ -25,7 +16,7 @@ VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_ca
       limit_(Eigen::VectorXd::Zero(robot.model.joint_count())),
       row_bounds_(robot.model, row_capacity),
       set_point_(robot.drive, robot.model),
-      radius_(radius_of(robot.footprint)),
+      radius_(footprint_radius(robot)),
       pressing_(limit_),
       measured_(robot.model) {
   for (const WheelMotor& motor : wheel_motors(robot, 0.0)) {
