@@ -1,6 +1,6 @@
 #include "zwang/solver/base_analysis.hpp"
 
-#include <Eigen/SVD>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -57,11 +57,19 @@ struct WhitenedRobot {
   WhitenedRows rows;
 };
 
+/// sigma_i^2, the eigenvalues of A'A or AA', whichever is smaller. They are right to 1e-15 of the largest
+/// one.
+Eigen::VectorXd squared_singular_values(const Eigen::MatrixXd& A) {
+  Eigen::MatrixXd gram =
+      A.rows() < A.cols() ? A.lazyProduct(A.transpose()).eval() : A.transpose().lazyProduct(A).eval();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
 int rank_of(const Eigen::MatrixXd& columns) {
   if (columns.size() == 0) return 0;
-  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(columns).singularValues();
-  if (!(values(0) > 0.0)) return 0;
-  return static_cast<int>((values.array() > rank_tolerance * values(0)).count());
+  const Eigen::VectorXd squares = squared_singular_values(columns);
+  const double least = rank_tolerance * rank_tolerance * squares.maxCoeff();
+  return static_cast<int>((squares.array() > std::max(least, 0.0)).count());
 }
 
 /// Independent planar motions of the base; one counts where the ground leaves more than the smallest share of
@@ -73,8 +81,7 @@ int base_mobility(const WhitenedRobot& robot) {
     planar.col(i) = robot.base_freedom(freedom) / std::sqrt(robot.base_free_square(freedom));
   }
   if (planar.size() == 0) return 0;
-  const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(planar).singularValues();
-  return static_cast<int>((values.array() > std::sqrt(unreachable_share)).count());
+  return static_cast<int>((squared_singular_values(planar).array() > unreachable_share).count());
 }
 
 /// Columns T_j of the actuated joints, each of length 1: a rank should not depend on gears.

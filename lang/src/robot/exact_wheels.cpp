@@ -79,7 +79,7 @@ class ExactWheels {
     if (axis.dot(target) < 0.0) target = -target;
     if (angle_between(axis, target) < rounding) return;
     const Matrix3 parent = pose_in_base(model_.bodies()[at(body)].parent).rotation;
-    const Matrix3 turned = Eigen::Quaterniond::FromTwoVectors(axis, target).toRotationMatrix();
+    const Matrix3 turned = solver::rotation_between(axis, target);
     poses_[at(body)].rotation = parent.transpose() * turned * parent * poses_[at(body)].rotation;
   }
 

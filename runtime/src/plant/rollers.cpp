@@ -42,7 +42,7 @@ std::optional<RollerWheel> build_rollers(const solver::Model& model, const solve
   const Vector3 axis = body.joint.axis;
   const Vector3 down = in_wheel * -Vector3::UnitZ();
   const Vector3 along = Eigen::AngleAxisd(*wheel.roller_angle, in_wheel * Vector3::UnitZ()) * axis;
-  const Matrix3 first = Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), along).toRotationMatrix();
+  const Matrix3 first = solver::rotation_between(Vector3::UnitZ(), along);
   const double mass = mass_share * body.inertia.mass / roller_count;
   const Vector3 moments = 0.2 * mass * Vector3(r * r + half * half, r * r + half * half, 2.0 * r * r);
 

@@ -68,9 +68,8 @@ std::vector<HeldJoint> find_held_joints(std::vector<lang::FrameDeclaration>& fra
     const solver::Joint& joint = model.joint(j);
     if (!joint.actuated || turns_wheel(model, j + 1)) continue;
     const solver::Body& body = model.bodies()[static_cast<std::size_t>(j) + 1];
-    const solver::Pose along{
-        Eigen::Quaterniond::FromTwoVectors(solver::Vector3::UnitZ(), joint.axis).toRotationMatrix(),
-        solver::Vector3::Zero()};
+    const solver::Pose along{solver::rotation_between(solver::Vector3::UnitZ(), joint.axis),
+                             solver::Vector3::Zero()};
     HeldJoint held;
     held.name = joint.name;
     held.body = j + 1;

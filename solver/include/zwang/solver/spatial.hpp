@@ -62,6 +62,10 @@ inline double yaw_of(const Matrix3& rotation) {
 /// Rotation by roll, pitch, yaw about the fixed axes x, y, z, as in URDF: Rz(yaw) Ry(pitch) Rx(roll). [rad]
 Matrix3 rotation_from_rpy(double roll, double pitch, double yaw);
 
+/// A rotation that takes the unit vector `from` to the unit vector `to`: the smallest one, unless the two are
+/// opposite to within 2.6 deg.
+Matrix3 rotation_between(const Vector3& from, const Vector3& to);
+
 /// A twist or a spatial acceleration, in the coordinates of a frame and at its origin.
 template <typename Real>
 struct BasicMotionVector {
