@@ -15,6 +15,16 @@ if(ZWANG_SANITIZE)
   target_link_options(zwang_flags INTERFACE -fsanitize=${ZWANG_SANITIZE})
 endif()
 
+# zwang_text_under_sanitizers(<target>): code that reads and writes text, whose runs are short. Under a sanitizer it is
+# neither optimised nor given line numbers, which takes 40 % of the time to compile it; a find names its functions.
+# -D ZWANG_SANITIZED_LINES=ON brings the lines back.
+option(ZWANG_SANITIZED_LINES "Line numbers in the finds of a sanitizer, of text and tests, too" OFF)
+function(zwang_text_under_sanitizers target)
+  if(ZWANG_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0 $<$<NOT:$<BOOL:${ZWANG_SANITIZED_LINES}>>:-g0>)
+  endif()
+endfunction()
+
 # GCC 12 sees overlapping copies in optimised std::string sums of literals (GCC bug 105651), and writes beyond the vectors that
 # a precompiled header has grown; there are neither. Targets that are full of such sums do without both warnings.
 set(zwang_no_false_alarms $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>)

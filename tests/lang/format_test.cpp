@@ -148,7 +148,10 @@ TEST(Format, leaves_shipped_files_as_they_are) {
 /// A task file of the language's every part has a program to compare.
 TEST(Format, compares_programs_that_are_there) {
   int with_program = 0;
-  for (const std::string& file : files()) with_program += program_of(test::slurp(file), file).empty() ? 0 : 1;
+  for (const std::string& file : files()) {
+    if (with_program == 20) break;
+    with_program += program_of(test::slurp(file), file).empty() ? 0 : 1;
+  }
   EXPECT_GE(with_program, 20);
 }
 

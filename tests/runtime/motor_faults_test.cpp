@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ constexpr double allowed_speed = 0.08;  // [m/s] by the task
 constexpr double beyond = 1.1;          // of every bound
 constexpr double stiffness = 100e3;     // [N/m] the wall's
 constexpr double wall_at = 1.2;         // [m] its face
-constexpr int moments_between_hits = 6;
+const int moments_between_hits = std::getenv("ZWANG_LONG") != nullptr ? 6 : 2;
 constexpr double gap = 0.08;  // [m] to it, at the start
 constexpr double degree = M_PI / 180.0;
 
@@ -289,8 +290,10 @@ TEST_P(MotorFaults, BoundForceAndSpeedWhereverBetweenHitsTheyBegin) {
 /// has failed, as far out as a wheel, and answered by a command of its size. It pressed before it was
 /// answered, and 1 mm more is little of what it was pressed in by.
 TEST(SoftWall, IsNoFaultOfADifferentialBasesMotors) {
-  for (const double soft : {1e3, 2e3, 5e3, 10e3}) {
-    for (const double yaw : {-20.0, -12.0, -5.0, 5.0, 12.0, 20.0}) {
+  const bool is_long = std::getenv("ZWANG_LONG") != nullptr;
+  for (const double soft : is_long ? std::vector{1e3, 2e3, 5e3, 10e3} : std::vector{1e3, 5e3}) {
+    for (const double yaw :
+         is_long ? std::vector{-20.0, -12.0, -5.0, 5.0, 12.0, 20.0} : std::vector{-12.0, 5.0, 20.0}) {
       const double friction = yaw < 0.0 ? 0.15 : 0.0;  // the base is as wide to the left as to the right
       const Pressing pressing("diff", {.stiffness = soft, .friction = friction, .yaw = yaw * degree});
       const Outcome out = pressing.run(nullptr, 8.0);
