@@ -175,7 +175,7 @@ class ConditionCheck {
     }
     for (int axis = 0; axis < 3 && !context_.of_truth; ++axis) {
       if (node.word != estimated_forces[static_cast<std::size_t>(axis)]) continue;
-      if (context_.robot && context_.robot->drive.takes_velocity)
+      if (context_.robot && context_.robot->drive.takes_velocity && !context_.robot->drive.feels_contact())
         return complain(wording::estimate_without_torque(node.span, node.word));
       lowered.op = Op::estimated_force;
       lowered.axis = axis;

@@ -234,7 +234,25 @@ axis bounds the rate of that axis's velocity, and nothing of what a turn adds.)~
 are told. zwang sends velocities and learns of no force, so nothing would keep what the task says.)~",
           .fix =
               "Say how fast the base may go, and let a signal tell of contact: a bumper or a force sensor. "
-              "Forces need a drive that takes torques, or a torque limit in each cycle."},
+              "Forces need a drive that takes torques, a torque limit in each cycle, or a robot that "
+              "`feels`."},
+      Explanation{
+          .code = "E631",
+          .title = "a robot that feels contacts too late",
+          .why =
+              R"~(A drive with torque limits of its own presses until its command changes, and that changes when a sensor
+tells of the contact. Between both lie the sensor's filter, a cycle and the delay. Beyond some time no virtual robot, however heavy, stands
+still at a wall: base and wall would swing against each other.)~",
+          .fix = "Shorten the delay, as the message says, or raise the rate. A loop with a larger T_i, or a "
+                 "slower "
+                 "one, helps, too."},
+      Explanation{
+          .code = "W632",
+          .title = "a robot that is slow in contact",
+          .why =
+              R"~(What this robot feels comes late. So the virtual robot that leads it is heavy, and its velocities fade while
+something presses on it. A task that waits until a wall has squared the base up waits longer than on torques.)~",
+          .fix = "Give such tasks longer timeouts. If this is known, silence the line."},
       Explanation{
           .code = "W635",
           .title = "a robot that pushes with all that its motors have",
@@ -250,7 +268,8 @@ for 0.3 s, or by 5 mm/s and 30 % for 1.2 s. Until then nothing bounds the push b
           .title = "an estimated force on a drive that takes velocities",
           .why =
               R"~(`estimated.force` is what the wheels' motion lacks of the torques that were sent. A drive that takes
-velocities makes its torques itself, and does not tell them: only their bounds are known.)~",
+velocities makes its torques itself, and does not tell them: only their bounds are known. A robot that `feels` has what it
+feels in its place.)~",
           .fix = "Ask whether a row is `saturated`: the base is slower there than its force lets it be. Or "
                  "measure "
                  "the force, with a signal."},

@@ -134,7 +134,7 @@ void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe&
     const AxisFigures* figures = demand && demand->b != 0.0 ? probe.figures(axis) : nullptr;
     if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
     if (axis[solver::Quantity::force]) {
-      ask_axis(context, plan, axis, *demand, figures->mass, remarks);
+      ask_axis(context, plan, axis, *demand, context.robot->drive.mass_factor * figures->mass, remarks);
     } else if (!context.diagnostics.has_errors()) {
       ask_without_range(context, plan, axis, *demand, *figures, remarks);
     }

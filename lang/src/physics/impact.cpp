@@ -6,6 +6,11 @@
 //   K   n times the object's stiffness, c likewise: all n points of a flat side strike together
 //   F   what the driver presses with once it stands: m v / tau of a velocity, within its force range
 //
+// A robot that feels through the lags of a velocity loop presses on until its virtual robot gives way. It
+// strikes as with a stiffer spring, the drive's integral k = m k_i in series with the object's:
+//
+//   K + min(m / T_c^2, alpha K k / (K + k)),   k_i = 1/(T_c T_i)
+//
 // of the object of the scene that makes it largest. Without one the robot file's bumper is the spring,
 // undamped. Where a force range bounds F the peak is told above 2.5 times that bound, with the speed at which
 // it comes down to it; without a range it is told as it is.
@@ -42,11 +47,11 @@ double bound_of(const PlannedAxis& axis) {
   return range ? std::max(range->high, -range->low) : 0.0;
 }
 
-/// What the driver presses with against something that stops it. [N]
-double pressing(const PlannedAxis& axis, const AxisFigures& figures, double speed, double bound) {
+/// What the driver presses with against something that stops it, `led` times as heavy as the robot. [N]
+double pressing(const PlannedAxis& axis, const AxisFigures& figures, double led, double speed, double bound) {
   double most = bound > 0.0 ? std::min(bound, figures.force) : figures.force;
   if (axis.driver == solver::Quantity::velocity)
-    most = std::min(most, figures.mass * speed / axis.time_constant);
+    most = std::min(most, led * figures.mass * speed / axis.time_constant);
   return most;
 }
 
@@ -62,22 +67,40 @@ int foremost_corners(const std::vector<Vector3>& footprint, const Vector3& direc
 
 struct Struck {
   Hit hit;
-  std::string name;  ///< of the object; empty: the robot's own bumper
+  double stiffness = 0.0;  ///< [N/m] of the object alone
+  std::string name;        ///< of the object; empty: the robot's own bumper
   int points = 1;
 };
 
+/// What a drive that feels late adds. [N/m]
+double stiffness_of_drive(const Drive& drive, const Hit& hit) {
+  if (!drive.feels_contact()) return 0.0;
+  const double T = drive.time_constant;
+  double series = hit.stiffness;
+  if (drive.integral_time) {
+    const double k = hit.mass / (T * *drive.integral_time);
+    series *= k / (hit.stiffness + k);
+  }
+  return std::min(hit.mass / (T * T), drive.mass_factor * series);
+}
+
 Struck struck_bumper(const Robot& robot, const AxisFigures& figures, double speed, double push) {
-  return {{figures.mass, speed, robot.bumper_stiffness, 0.0, push}, "", 1};
+  const Hit hit{figures.mass, speed, robot.bumper_stiffness, 0.0, push};
+  Struck struck{hit, robot.bumper_stiffness, "", 1};
+  struck.hit.stiffness += stiffness_of_drive(robot.drive, hit);
+  return struck;
 }
 
 Struck struck_object(const SceneObject& object, const Robot& robot, const Hit& of_robot, int corners) {
-  Struck struck{of_robot, object.name, 1};
+  Struck struck{of_robot, 0.0, object.name, 1};
   const double other = object.mass ? 1.0 / *object.mass : 0.0;
   struck.hit.mass = 1.0 / (1.0 / of_robot.mass + other);
   // A flat side meets corners, or the corners of what is narrower; a round thing one point.
   if (object.shape != ShapeKind::cylinder) struck.points = corners;
   const double reduced = 1.0 / (1.0 / robot.model.total_mass() + other);
   struck.hit.stiffness = struck.points * object.stiffness;
+  struck.stiffness = struck.hit.stiffness;
+  struck.hit.stiffness += stiffness_of_drive(robot.drive, struck.hit);
   struck.hit.damping = struck.points * 2.0 * object.damping * std::sqrt(object.stiffness * reduced);
   return struck;
 }
@@ -114,7 +137,7 @@ void ask_hit(const PlannedTask& plan, const std::optional<Scene>& scene, Probe& 
     const double speed = speed_of(plan, axis);
     const double bound = bound_of(axis);
     if (!(speed > 0.0)) continue;
-    const double push = pressing(axis, *figures, speed, bound);
+    const double push = pressing(axis, *figures, robot.drive.mass_factor, speed, bound);
     const double sign = axis.target && *axis.target < 0.0 ? -1.0 : 1.0;
     const int corners =
         std::max(1, foremost_corners(robot.footprint, sign * direction_in_base(axis, probe, scene)));
@@ -128,7 +151,7 @@ void ask_hit(const PlannedTask& plan, const std::optional<Scene>& scene, Probe& 
     if (bound > 0.0 && peak <= allowed) continue;
     const Span& span = bound > 0.0 ? axis.span(solver::Quantity::force) : axis.driver_span();
     remarks.add(wording::first_hit(
-        span, axis.path, {struck->hit.mass, speed, struck->hit.stiffness, peak, struck->name, struck->points},
+        span, axis.path, {struck->hit.mass, speed, struck->stiffness, peak, struck->name, struck->points},
         allowed, bound > 0.0 ? gentle_speed(struck->hit, allowed) : 0.0));
   }
 }

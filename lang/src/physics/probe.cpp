@@ -346,8 +346,10 @@ std::vector<Pressed> Probe::pressed_in(const std::vector<Look>& looks, bool both
                                        const PlannedAxis& axis, double force,
                                        const std::vector<PlannedAxis>& limits) {
   const auto room = static_cast<int>(limits.size()) + 1;
+  // A robot that feels is led by one that is so much heavier, and presses with all that limits leave of it.
+  const double led = robot_.drive.mass_factor;
   solver::ConstraintSet set(room, 2 * room);
-  set.add(constraint_of(axis, force));
+  set.add(constraint_of(axis, force / led));
   for (const PlannedAxis& limit : limits) {
     // The axis's own range goes with the direction that it is looked at in.
     if (!limit[solver::Quantity::acceleration] || &limit == &axis) continue;
@@ -365,7 +367,7 @@ std::vector<Pressed> Probe::pressed_in(const std::vector<Look>& looks, bool both
       solver::AxisConstraint& pushing = set[0];
       pushing = look.constraint;
       pushing.level = axis.level;
-      pushing.driver->target = force;
+      pushing.driver->target = force / led;
       pushing.acceleration = axis[solver::Quantity::acceleration];
       if (side < 0.0) {
         if (pushing.measure != solver::Measure::direction) continue;
@@ -376,8 +378,8 @@ std::vector<Pressed> Probe::pressed_in(const std::vector<Look>& looks, bool both
           set.fill(robot_.model, state) && set.rows().size() <= static_cast<std::size_t>(most_rows) &&
           pay(set.rows().size(), 10.0) && solver_.solve(state, set.rows(), solution_) == solver::Status::ok;
       if (is_solved)
-        result.push_back({std::copysign(one.effective_mass, force) * along(set.rows()[0], solution_),
-                          one.largest_force, one.effective_mass});
+        result.push_back({std::copysign(led * one.effective_mass, force) * along(set.rows()[0], solution_),
+                          one.largest_force, led * one.effective_mass});
     }
   }
   return result;

@@ -16,6 +16,7 @@
 #include "robot/drive_entry.hpp"
 #include "robot/each_wheel.hpp"
 #include "robot/exact_wheels.hpp"
+#include "robot/feels_entry.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_speed.hpp"
@@ -54,6 +55,8 @@ class RobotBuilder {
       Robot robot = assemble();
       if (!stands(robot)) return std::nullopt;
       check_twist(file_, robot.model, diagnostics_);
+      check_feels(file_, robot.model, diagnostics_);
+      lead_by_contact(robot.drive, robot.model.total_mass(), file_.feels_span, diagnostics_);
       if (diagnostics_.error_count() > errors_before_) return std::nullopt;
       return robot;
     } catch (const std::invalid_argument& error) {

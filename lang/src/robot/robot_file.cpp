@@ -10,6 +10,7 @@
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/drive_entry.hpp"
 #include "robot/each_wheel.hpp"
+#include "robot/feels_entry.hpp"
 #include "robot/inertias.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
@@ -326,6 +327,10 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
   if (const Node* drive = map.optional("drive")) {
     file.drive = parse_drive(*drive, diagnostics);
     file.drive_span = drive->span;
+  }
+  if (const Node* feels = map.optional("feels")) {
+    file.drive.feels = parse_feels(*feels, diagnostics);
+    file.feels_span = feels->span;
   }
   each(map.optional("frames"), "frames",
        [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });

@@ -83,7 +83,7 @@ struct RobotFile {
   std::optional<double> control_period;
   std::optional<double> encoder_step;
   Drive drive;
-  Span drive_span;
+  Span drive_span, feels_span;
   std::vector<FrameText> frames;
 };
 

@@ -66,6 +66,19 @@ Json drive() {
                   one_of_words("sent with each command, or the drive's own", {"each_cycle", "fixed"})}});
 }
 
+Json feels() {
+  return object(
+      "what tells of contacts, where the drive has torque limits of its own; default nothing",
+      {{"wrench", object("a sensor of forces and torques between the base and the world",
+                         {{"frame", word("fixed to the base: its axes and its origin"), true},
+                          {"noise", reference("quantity", "a force, standard deviation"), true},
+                          {"filter", reference("quantity", "time constant of its low pass"), true}})},
+       {"effort", object("the torques of the wheels' motors",
+                         {{"noise", reference("quantity", "a torque, standard deviation"), true},
+                          {"resolution", reference("quantity", "a torque, the least step")},
+                          {"filter", reference("quantity", "time constant of its low pass"), true}})}});
+}
+
 Json joint_friction() {
   return object(
       "", {{"coulomb", reference("quantity", "dry friction")},
@@ -230,6 +243,7 @@ Json robot_file() {
        {"encoder_step",
         reference("quantity", "an angle: the least by which a driven wheel's position changes")},
        {"drive", drive()},
+       {"feels", feels()},
        {"frames", named("places on the robot", robot_frame())}});
 }
 

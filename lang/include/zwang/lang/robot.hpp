@@ -52,6 +52,23 @@ inline constexpr double longest_encoder_step = 0.1;
 /// Where a robot file gives no `slew`, a motor takes as long for all of its torque. [s]
 inline constexpr double full_torque_within = 5e-3;
 
+/// What tells a robot of the contacts that press on it. The sensor's low pass is of first order.
+struct Feels {
+  enum class By {
+    nothing,
+    wrench,  ///< a sensor between the base and what touches the world
+    effort,  ///< the torques of the wheels' motors
+  };
+  By by = By::nothing;
+  std::string frame;        ///< of a wrench: its axes and its origin, fixed to the base
+  double noise = 0.0;       ///< standard deviation of a sample: [N] of a wrench, [N m] of an effort
+  double resolution = 0.0;  ///< [N m] of an effort; 0: not known
+  double filter = 0.0;      ///< [s] time constant of the sensor's low pass
+
+  /// A wrench's moments have the noise of its forces at this arm. [m]
+  static constexpr double moment_arm = 0.1;
+};
+
 /// What the motors' drive takes, and how late. The delay is the way of an encoder's value to the runtime and
 /// of the command back to the wheel, half of it each.
 struct Drive {
@@ -63,15 +80,22 @@ struct Drive {
   double delay = 0.0;                   ///< [s]
   double time_constant = 0.0;           ///< T_c [s] of the wheels' velocity loops
   std::optional<double> integral_time;  ///< T_i [s] of the same; none: they have no integral
+  Feels feels;
+  /// Of a robot that feels, chosen for its drive: the virtual robot is so many times as heavy as the real
+  /// one,
+  double mass_factor = 1.0;
+  double contact_damping = 0.0;  ///< and while something presses on it, each velocity fades so fast [1/s]
 
-  /// It takes velocities, pushes as hard as it can, and tells of no force: the base is led by a virtual
-  /// robot.
-  bool is_blind() const { return takes_velocity && limit_is_fixed; }
+  /// It pushes as hard as it can until its wheels turn as they are told: the base is led by a virtual robot.
+  bool has_virtual_robot() const { return takes_velocity && limit_is_fixed; }
+  /// And nothing tells of forces.
+  bool is_blind() const { return has_virtual_robot() && feels.by == Feels::By::nothing; }
+  bool feels_contact() const { return has_virtual_robot() && feels.by != Feels::By::nothing; }
 
   /// Within which limits act [s]: of a drive that takes velocities from a sample to what the wheels make of
   /// it. A virtual robot does at once what the solver says.
   double horizon() const {
-    if (!takes_velocity || is_blind()) return solver::limit_horizon;
+    if (!takes_velocity || has_virtual_robot()) return solver::limit_horizon;
     return std::max(solver::limit_horizon, time_constant + delay + 1.0 / rate);
   }
 };
