@@ -25,6 +25,10 @@ void BaseWatch::read_motion(const MovingRobot& robot, const mjModel_& m, const m
   means_.look(speed.head<2>(), contacts.push, before < contacts.hit_until);
   truth.acceleration = means_.acceleration();
   truth.push = means_.push();
+  const Vector3 at = robot.base_position(m, d);
+  const Vector3 push(contacts.push.x(), contacts.push.y(), 0.0);
+  truth.contact = robot.base_rotation(m, d).transpose() * push;
+  truth.contact.z() = contacts.moment - (at.x() * push.y() - at.y() * push.x());
   if (!robot.is_on_ground()) return;
   robot.sense(m, d, state_);
   slip_.look(robot.model(), state_);

@@ -22,11 +22,13 @@ class ContactFriction {
   /// Sets `xfrc_applied` to the friction of the contacts that the last step found. Moves the bristles by one
   /// step.
   void push(const mjModel_& model, mjData_& data) noexcept;
-  /// What it set on each pair's bodies: `act(geom1, geom2, force on the second [N])`.
+  /// What it set on each pair's bodies: `act(geom1, geom2, force on the second [N], where [m])`.
   template <typename Act>
   void for_each(Act act) const {
     for (const Bristle& bristle : bristles_) {
-      if (bristle.load > 0.0) act(bristle.geoms[0], bristle.geoms[1], bristle.force);
+      if (bristle.load > 0.0)
+        act(bristle.geoms[0], bristle.geoms[1], bristle.force,
+            Eigen::Vector3d(bristle.loaded_point / bristle.load));
     }
   }
 

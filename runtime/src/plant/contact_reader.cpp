@@ -49,6 +49,7 @@ void ContactReader::read(const mjModel& model, const mjData& data, double before
   std::fill(truth.corner_forces.begin(), truth.corner_forces.end(), 0.0);
   for (RobotContacts& robot : robots_) {
     robot.push.setZero();
+    robot.moment = 0.0;
     robot.lies_on_floor = false;
   }
   for (int c = 0; c < data.ncon; ++c) {
@@ -67,7 +68,9 @@ void ContactReader::read(const mjModel& model, const mjData& data, double before
     for (const auto& [owner, sign] : {std::pair(&one, -1.0), std::pair(&other, 1.0)}) {
       if (!owner->touches) continue;
       RobotContacts& robot = robots_[static_cast<std::size_t>(owner->robot)];
-      robot.push += sign * force * Eigen::Vector2d(contact.frame[0], contact.frame[1]);
+      add_push(static_cast<std::size_t>(owner->robot),
+               sign * force * Eigen::Vector2d(contact.frame[0], contact.frame[1]),
+               {contact.pos[0], contact.pos[1]});
       if (swing > largest_swing(force))
         robot.hit_until = std::max(robot.hit_until, before + std::max(shortest_hit, spring->half_swing()));
       if (owner->robot == 0 && owner->corner >= 0)

@@ -13,6 +13,7 @@ namespace zwang::runtime {
 /// Of one robot, in one step.
 struct RobotContacts {
   Eigen::Vector2d push = Eigen::Vector2d::Zero();  ///< [N] of all that presses on it, in world axes
+  double moment = 0.0;                             ///< [N m] of the same, about the world's z
   double hit_until = -1.0;                         ///< [s] when its last hit is over
   bool lies_on_floor = false;                      ///< its body does
 };
@@ -27,8 +28,11 @@ class ContactReader {
   const GeomOwner& owner_of(int geom) const { return owners_[static_cast<std::size_t>(geom)]; }
   /// The contacts of the step that was just made are those at its beginning, `before` [s].
   void read(const mjModel_& model, const mjData_& data, double before, Truth& truth) noexcept;
-  /// To `push`: what else presses on a robot [N].
-  void add_push(std::size_t robot, const Eigen::Vector2d& force) noexcept { robots_[robot].push += force; }
+  /// To `push`: what else presses on a robot [N], at a point of the world [m].
+  void add_push(std::size_t robot, const Eigen::Vector2d& force, const Eigen::Vector2d& at) noexcept {
+    robots_[robot].push += force;
+    robots_[robot].moment += at.x() * force.y() - at.y() * force.x();
+  }
   /// A hook that catches is a hit.
   void note_catch(std::size_t robot, double time) noexcept;
   const RobotContacts& of_robot(std::size_t robot) const noexcept { return robots_[robot]; }

@@ -185,8 +185,11 @@ struct MujocoPlant::Simulation {
         if (data->efc_id[row] != dock.equality) continue;
         const mjtNum* f = data->efc_force + row;
         owner.pull = -(f[0] * std::cos(outwards) + f[1] * std::sin(outwards));
-        contacts.add_push(0, {f[0], f[1]});
-        if (dock.owner >= objects.size()) contacts.add_push(dock.owner - objects.size() + 1, {-f[0], -f[1]});
+        const Vector3 hook = vector_of(data->xpos + 3 * dock.hook_body) +
+                             matrix_of(data->xquat + 4 * dock.hook_body) * dock.hook;
+        contacts.add_push(0, {f[0], f[1]}, hook.head<2>());
+        if (dock.owner >= objects.size())
+          contacts.add_push(dock.owner - objects.size() + 1, {-f[0], -f[1]}, hook.head<2>());
       }
     }
   }
@@ -351,9 +354,9 @@ struct MujocoPlant::Simulation {
 
   /// After `contacts` and the docks were read; `before` [s] is the beginning of the step.
   void read_motion(double before) noexcept {
-    contact_friction.for_each([this](int geom1, int geom2, const Vector3& force) {
-      if (owner_of(geom1).touches) add_push(owner_of(geom1), -force);
-      if (owner_of(geom2).touches) add_push(owner_of(geom2), force);
+    contact_friction.for_each([this](int geom1, int geom2, const Vector3& force, const Vector3& at) {
+      if (owner_of(geom1).touches) add_push(owner_of(geom1), -force, at);
+      if (owner_of(geom2).touches) add_push(owner_of(geom2), force, at);
     });
     for (std::size_t r = 0; r < robots.size(); ++r)
       watches[r].read_motion(robots[r], *model, *data, contacts.of_robot(r), before, time(), base_truth(r));
@@ -364,8 +367,8 @@ struct MujocoPlant::Simulation {
       BaseWatch::look_for_fall(robots[r], *model, *data, contacts.of_robot(r), time(), base_truth(r));
   }
 
-  void add_push(const GeomOwner& owner, const Vector3& force) noexcept {
-    contacts.add_push(static_cast<std::size_t>(owner.robot), force.head<2>());
+  void add_push(const GeomOwner& owner, const Vector3& force, const Vector3& at) noexcept {
+    contacts.add_push(static_cast<std::size_t>(owner.robot), force.head<2>(), at.head<2>());
   }
 
   /// Counted: MuJoCo's own clock adds up its steps and with them their rounding.

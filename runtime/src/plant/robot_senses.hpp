@@ -19,12 +19,17 @@ class RobotSenses {
 
   /// Before the first sample: where the robot starts.
   void start_at(const Sensed& actual);
-  void measure(const Truth& truth, const solver::State& actual) noexcept { signals_.measure(truth, actual); }
+  /// To be called once a step of the simulation. What the robot feels comes into `actual`; `torque`: what its
+  /// motors made in the last step.
+  void measure(const Truth& truth, const Eigen::VectorXd& torque, Sensed& actual) noexcept;
   /// `actual` as it arrives: with noise, or without the base and with what corrects its reckoning.
   void tell(const Sensed& actual, Sensed& sensed) noexcept;
 
  private:
   void add_noise(solver::State& state) noexcept;
+  /// Through the sensor's low pass.
+  void feel(const Truth& truth, const Eigen::VectorXd& torque, Sensed& actual) noexcept;
+  void add_felt_noise(Sensed& sample) noexcept;
   /// The state of a drive that is sampled now and then.
   void tell_last_sample(const Sensed& actual, Sensed& sensed) noexcept;
   /// The sample that has arrived by now; of the first one until another has.
@@ -39,6 +44,11 @@ class RobotSenses {
   lang::Drive drive_;
   std::optional<SampledLine<Sensed>> drive_line_;  ///< of a drive that takes velocities
   Sensed last_sample_;                             ///< that has come over it, with its noise
+  int number_;
+  solver::Pose sensor_;  ///< of the wrench that is felt, on the base
+  solver::Vector3 felt_ = solver::Vector3::Zero();
+  Eigen::VectorXd effort_;
+  double felt_at_ = 0.0;  ///< [s]
 };
 
 }  // namespace zwang::runtime

@@ -190,7 +190,7 @@ struct ScenePlant::Parts {
     ScenePartner& partner = partners[i];
     Told& of = told[i];
     if (simulation.sense_partner(i, of.actual) != PlantStatus::ok) return;
-    of.senses.measure(simulation.truth(), of.actual.state);
+    of.senses.measure(simulation.truth(), of.torque, of.actual);
     const double time = of.actual.time;
     of.changes.make(simulation, of.faults, floor_friction(time), time);
     // A sample that does not arrive leaves the last one: the guard counts it.
@@ -238,7 +238,7 @@ PlantStatus ScenePlant::sense(Sensed& sensed) noexcept {
   const PlantStatus status = p.simulation.sense(p.actual);
   if (status != PlantStatus::ok) return status;
   if (sensed.state.q.size() != p.actual.state.q.size()) return PlantStatus::unreachable;
-  p.senses.measure(p.simulation.truth(), p.actual.state);
+  p.senses.measure(p.simulation.truth(), p.torque, p.actual);
   if (p.faults.active(FaultKind::samples_lost, p.actual.time)) return PlantStatus::unreachable;
   p.senses.tell(p.actual, sensed);
   p.faults.spoil(sensed);

@@ -31,6 +31,8 @@ struct BaseTruth {
   /// Means over 20 ms. While a hit falls into them they keep their value.
   double acceleration = 0.0;  ///< [m/s^2] of its origin, in the plane
   double push = 0.0;          ///< [N] planar sum of all contacts and docks of the whole robot
+  /// Of the same, at the base's origin and in its axes, now: x, y [N], rz [N m].
+  Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   /// [m/s] with which its worst wheel slides over the floor, beyond a tenth of its rim's speed, low-passed
   /// with 50 ms; and when it was above `told_slip` first. [s]
   double slip = 0.0;

@@ -50,9 +50,16 @@ struct Sensed {
   }
   double time = 0.0;  ///< [s] by any clock that goes on evenly; it may count from 1970
   solver::State state;
-  /// [s] when the state was measured, by the same clock; none: now. Of a drive that takes velocities: the same
-  /// stamp again is the same sample, which the runner carries on to `time`. A torque drive's state is of now.
+  /// [s] when the state was measured, by the same clock; none: now. Of a drive that takes velocities: the
+  /// same stamp again is the same sample, which the runner carries on to `time`. A torque drive's state is of
+  /// now.
   std::optional<double> measured_at;
+  /// Of a robot that `feels` by a wrench: what presses on the base, in the axes of the sensor's frame and
+  /// about its origin [N m, N], when the state was measured.
+  std::optional<solver::ForceVector> contact_wrench;
+  /// Of a robot that `feels` by effort: the motors' torques [N m], one entry a joint, then. Empty: not
+  /// measured.
+  Eigen::VectorXd effort;
   /// Whether the state's base pose and twist are measured: say so on every snapshot, or the runtime reckons
   /// them from the wheels, and the pose in the first snapshot is where it starts. On wheels its roll and
   /// pitch do not count: the floor is level.
