@@ -73,7 +73,9 @@ ordered_json bounds_of(const lang::Program& program) {
     const auto i = static_cast<std::size_t>(j);
     const lang::Span span =
         i < program.robot.joint_spans.size() ? program.robot.joint_spans[i] : lang::Span{};
-    bounds.push_back(json_of({joint.name + ".tau", "", -joint.max_effort, joint.max_effort, span}));
+    // Of a robot that feels the torques are the virtual robot's.
+    const double limit = program.robot.drive.mass_factor * joint.max_effort;
+    bounds.push_back(json_of({joint.name + ".tau", "", -limit, limit, span}));
   }
   return bounds;
 }

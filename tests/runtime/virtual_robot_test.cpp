@@ -107,13 +107,14 @@ TEST(LoopInput, AHeldCommandAcceleratesAWheelAsItIsMeantTo) {
 TEST(VirtualRobot, SamplesCorrectItsPoseWithinASecond) {
   const lang::Program program = shipped("fence", "mecanum_50_hz");
   VirtualRobot robot(program.robot, 1 * ms);
+  const solver::Solver solver(program.robot.model);
   solver::State state(program.robot.model);
   const solver::Solution rests(program.robot.model);
   robot.begin(state, 0.0);
   solver::State measured = state;
   measured.base_pose.position.x() = 0.01;
   for (int i = 1; i <= 2000; ++i) {
-    robot.move(state, rests, i * ms);
+    robot.move(state, solver, rests, i * ms);
     if (i % 20 == 0) robot.correct(measured, i * ms);
     robot.put(state);
   }
@@ -126,6 +127,7 @@ TEST(VirtualRobot, SamplesCorrectItsPoseWithinASecond) {
 TEST(VirtualRobot, ABaseThatFollowsByTheLagIsNotCorrected) {
   const lang::Program program = shipped("fence", "mecanum_50_hz");
   VirtualRobot robot(program.robot, 1 * ms);
+  const solver::Solver solver(program.robot.model);
   solver::State state(program.robot.model);
   const double v = 0.5;
   state.base_twist.linear.x() = v;
@@ -134,7 +136,7 @@ TEST(VirtualRobot, ABaseThatFollowsByTheLagIsNotCorrected) {
   robot.begin(state, 0.0);
   solver::State measured = state;
   for (int i = 1; i <= 2000; ++i) {
-    robot.move(state, goes_on, i * ms);
+    robot.move(state, solver, goes_on, i * ms);
     measured.base_pose.position.x() = v * (i * ms - robot.lag());
     if (i % 20 == 0) robot.correct(measured, i * ms);
     robot.put(state);

@@ -20,13 +20,14 @@ VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_ca
       pressing_(limit_),
       measured_(robot.model) {
   for (const WheelMotor& motor : wheel_motors(robot, 0.0)) {
-    const double limit = robot.model.joint(motor.joint).max_effort;
+    // The model is the virtual robot's, the motors are the real one's.
+    const double limit = robot.model.joint(motor.joint).max_effort / drive_.mass_factor;
     limit_(motor.joint) = limit;
     wheels_.push_back({.joint = motor.joint, .radius = motor.radius, .brake = limit});
   }
   const double force = robot.stop.force / std::max<double>(1.0, static_cast<double>(wheels_.size()));
   for (Wheel& wheel : wheels_) wheel.brake = std::min(wheel.brake, force * wheel.radius);
-  if (drive_.is_blind()) virtual_.emplace(robot, period);
+  if (drive_.has_virtual_robot()) virtual_.emplace(robot, period);
 }
 
 void VelocityDrive::take(const solver::State& state, double stamp) noexcept {
@@ -118,7 +119,7 @@ void VelocityDrive::drive(const solver::Solver& solver, const Scheduler& schedul
   slowest_ = solver::infinity;
   for (Wheel& wheel : wheels_) wheel.is_let_go = false;
   if (virtual_) {
-    virtual_->move(state, solution, time + period_);
+    virtual_->move(state, solver, solution, time + period_);
     virtual_->tell(command);
     command.lower = -limit_;
     command.upper = limit_;

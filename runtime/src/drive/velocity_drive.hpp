@@ -25,6 +25,13 @@ class VelocityDrive {
 
   /// Whether a sample that was measured at `stamp` [s] is newer than the last one.
   bool is_new(double stamp) const noexcept { return !(stamp <= measured_at_); }
+  /// Whether it has what tells a robot that feels of contacts.
+  bool can_feel(const Sensed& sensed) const noexcept { return !virtual_ || virtual_->can_feel(sensed); }
+  void feel(const Sensed& sensed, double stamp) noexcept {
+    if (virtual_) virtual_->feel(sensed, stamp);
+  }
+  /// Of a robot that feels: what presses on the base at its origin, in its axes; else nothing.
+  const solver::Vector3* felt_force() const noexcept { return virtual_ ? virtual_->felt_force() : nullptr; }
   /// The newest sample; and carried on to `time` [s]: its pose and positions by its velocities.
   void take(const solver::State& state, double stamp) noexcept;
   void carry_on(double time, solver::State& state) const noexcept;

@@ -18,7 +18,8 @@ LoopInput::LoopInput(const lang::Drive& drive, double period, Eigen::Index count
     : period_(period),
       time_constant_(drive.time_constant),
       integral_time_(drive.integral_time),
-      past_(Eigen::MatrixXd::Zero(count, std::max(1L, std::lround(1.0 / (drive.rate * period))))),
+      past_(Eigen::MatrixXd::Zero(
+          count, drive.feels_contact() ? 1L : std::max(1L, std::lround(1.0 / (drive.rate * period))))),
       acceleration_(Eigen::VectorXd::Zero(count)),
       made_up_(acceleration_),
       value_(acceleration_) {}
@@ -29,11 +30,13 @@ void LoopInput::begin(const Eigen::Ref<const Eigen::VectorXd>& velocity) noexcep
   value_ = velocity;
 }
 
-void LoopInput::update(const Eigen::Ref<const Eigen::VectorXd>& velocity) noexcept {
+void LoopInput::update(const Eigen::Ref<const Eigen::VectorXd>& velocity, bool is_pressed) noexcept {
   acceleration_ = (velocity - past_.col(oldest_)) / (period_ * static_cast<double>(past_.cols()));
   past_.col(oldest_) = velocity;
   oldest_ = (oldest_ + 1) % past_.cols();
-  if (integral_time_) made_up_ -= std::expm1(-period_ / *integral_time_) * (acceleration_ - made_up_);
+  if (integral_time_ && is_pressed) made_up_ *= std::exp(-period_ / *integral_time_);
+  if (integral_time_ && !is_pressed)
+    made_up_ -= std::expm1(-period_ / *integral_time_) * (acceleration_ - made_up_);
   value_ = time_constant_ * (acceleration_ - made_up_);
   for (Eigen::Index i = 0; i < past_.cols(); ++i) value_ += past_.col(i) / static_cast<double>(past_.cols());
 }
@@ -44,7 +47,9 @@ VirtualRobot::VirtualRobot(const lang::Robot& robot, double period)
       state_(robot.model),
       pose_(robot.model, {}, {.memory = memory, .period = period, .time_constant = corrected_within}),
       wheels_(robot.drive, period, robot.model.joint_count()),
-      base_(robot.drive, period, 3) {
+      base_(robot.drive, period, 3),
+      qdd_(Eigen::VectorXd::Zero(robot.model.joint_count())) {
+  if (robot.drive.feels_contact()) contact_.emplace(robot, period);
   // What is told in a tick has the velocity at its end.
   lag_ = std::max(0.0, lag_ + wheels_.age() - period);
   for (int j = 0; j < robot.model.joint_count(); ++j)
@@ -58,6 +63,7 @@ void VirtualRobot::begin(const solver::State& state, double time) noexcept {
   pose_.update(time, state_);
   wheels_.begin(state_.qd);
   base_.begin(planar(state_.base_twist));
+  if (contact_) contact_->begin();
   updates_ = 0;
   corrected_at_ = time;
   has_begun_ = true;
@@ -97,15 +103,19 @@ void VirtualRobot::put(solver::State& state) const noexcept {
   state.base_twist = state_.base_twist;
 }
 
-void VirtualRobot::move(const solver::State& state, const solver::Solution& solution, double time) noexcept {
-  state_.q = state.q + period_ * (state.qd + 0.5 * period_ * solution.qdd);
-  state_.qd = state.qd + period_ * solution.qdd;
+void VirtualRobot::move(const solver::State& state, const solver::Solver& solver,
+                        const solver::Solution& solution, double time) noexcept {
+  qdd_ = solution.qdd;
+  if (contact_) contact_->accelerate(solver, state, qdd_);
+  const bool is_pressed = contact_ && contact_->is_pressed();
+  state_.q = state.q + period_ * (state.qd + 0.5 * period_ * qdd_);
+  state_.qd = state.qd + period_ * qdd_;
   pose_.update(time, state_);
   Past& now = past_[updates_++ % past_.size()];
   now.time = time;
   now.q = state_.q;
-  wheels_.update(state_.qd);
-  base_.update(planar(state_.base_twist));
+  wheels_.update(state_.qd, is_pressed);
+  base_.update(planar(state_.base_twist), is_pressed);
 }
 
 void VirtualRobot::tell(Command& command) const noexcept {

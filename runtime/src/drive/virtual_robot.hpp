@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "drive/contact_response.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/command.hpp"
 #include "zwang/runtime/odometry.hpp"
@@ -23,12 +24,15 @@ namespace zwang::runtime {
 ///
 /// The drive takes c once a cycle and holds it. So V and V' are means over the last cycle: where V' jumps
 /// between two takes, the wheel would else make up for what it missed, and accelerate by up to 1.4 V'.
+///
+/// A robot that feels is told V itself, without the mean, as that is half a cycle younger: a contact swings
+/// with what comes late. Pressed, its wheels stand, the integral makes up for nothing, and L fades.
 class LoopInput {
  public:
   /// `period` [s] of the updates, `count` velocities.
   LoopInput(const lang::Drive& drive, double period, Eigen::Index count);
   void begin(const Eigen::Ref<const Eigen::VectorXd>& velocity) noexcept;
-  void update(const Eigen::Ref<const Eigen::VectorXd>& velocity) noexcept;
+  void update(const Eigen::Ref<const Eigen::VectorXd>& velocity, bool is_pressed = false) noexcept;
   const Eigen::VectorXd& value() const noexcept { return value_; }  ///< c
   /// How old the mean of V is, with the newest V of age 0. [s]
   double age() const noexcept { return 0.5 * period_ * static_cast<double>(past_.cols() - 1); }
@@ -53,7 +57,8 @@ class LoopInput {
 ///
 /// Its pose is dead reckoning by its own wheels. Each sample corrects it by what the measured pose differs
 /// from the virtual one that the base followed then, within 1 s; joint angles likewise. Its velocities are
-/// not corrected. Does not allocate, lock, throw or print after construction.
+/// not corrected. What a robot that feels feels accelerates it beside the solver, see ContactResponse. Does
+/// not allocate, lock, throw or print after construction.
 class VirtualRobot {
  public:
   VirtualRobot(const lang::Robot& robot, double period);
@@ -62,13 +67,21 @@ class VirtualRobot {
   /// As `state` is at `time` [s], which is known by then.
   void begin(const solver::State& state, double time) noexcept;
   void end() noexcept { has_begun_ = false; }
+  /// Whether a sample has what this robot needs; and what presses on it, measured at `stamp` [s].
+  bool can_feel(const Sensed& sensed) const noexcept { return !contact_ || contact_->can_feel(sensed); }
+  void feel(const Sensed& sensed, double stamp) noexcept {
+    if (contact_) contact_->feel(sensed, stamp);
+  }
+  /// Of a robot that feels.
+  const solver::Vector3* felt_force() const noexcept { return contact_ ? &contact_->force() : nullptr; }
   /// By a sample that was measured at `stamp` [s].
   void correct(const solver::State& measured, double stamp) noexcept;
   /// Joints and base of `state` become those of the virtual robot.
   void put(solver::State& state) const noexcept;
 
-  /// By the solution at `state` to `time` [s], a tick later.
-  void move(const solver::State& state, const solver::Solution& solution, double time) noexcept;
+  /// By the solution of `solver` at `state` to `time` [s], a tick later.
+  void move(const solver::State& state, const solver::Solver& solver, const solver::Solution& solution,
+            double time) noexcept;
   /// What its wheels and its base are told to follow it.
   void tell(Command& command) const noexcept;
 
@@ -89,6 +102,8 @@ class VirtualRobot {
   solver::State state_;
   Odometry pose_;
   LoopInput wheels_, base_;
+  std::optional<ContactResponse> contact_;
+  Eigen::VectorXd qdd_;
   std::vector<Past> past_;  ///< a ring
   std::size_t updates_ = 0;
   double corrected_at_ = 0.0;  ///< [s]

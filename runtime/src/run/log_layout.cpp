@@ -63,7 +63,7 @@ std::vector<std::string> task_names(const Scheduler& scheduler) {
 LogLayout::LogLayout(const StatementTable& statements, const Scheduler& scheduler, const solver::Model& model,
                      const lang::Program& program, const std::vector<std::string>& event_signals,
                      const std::vector<Column>& extra)
-    : inputs_(model, program.signals, program.parameters, program.robot.drive.takes_velocity) {
+    : inputs_(model, program.signals, program.parameters, program.robot.drive) {
   // In the order of `Fixed`.
   add("time", "s");
   add("task", "", task_names(scheduler));

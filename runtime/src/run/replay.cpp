@@ -145,7 +145,7 @@ void replay_part(const lang::Program& first, const ReplayPart& part, Runner& run
   const lang::Program& program = part.program;
   const solver::Model& model = program.robot.model;
   const bool takes_velocity = program.robot.drive.takes_velocity;
-  SensedColumns inputs(model, program.signals, program.parameters, takes_velocity);
+  SensedColumns inputs(model, program.signals, program.parameters, program.robot.drive);
   inputs.signals_at(places_in(first, program));
   Sensed sensed(first);
   std::vector<double> parameters(program.parameters.size());

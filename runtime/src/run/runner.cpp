@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "drive/led_program.hpp"
 #include "drive/velocity_drive.hpp"
 #include "estimate/disturbance.hpp"
 #include "estimate/friction.hpp"
@@ -182,6 +183,11 @@ struct Runner::Parts {
   void stop(const std::optional<Event>& found) noexcept;
   void tell_refusal(SampleStatus status) noexcept;
   void brake_protectively(bool good_sample) noexcept;
+  /// What presses on the base at its origin, in its axes: felt, or estimated.
+  const solver::Vector3& force_on_base() const noexcept {
+    const solver::Vector3* felt = drive ? drive->felt_force() : nullptr;
+    return felt != nullptr ? *felt : disturbance.base_force();
+  }
   /// Of the last tick that was solved.
   Shortfall find_shortfall() const noexcept;
 
@@ -274,7 +280,7 @@ double Runner::Parts::measured_at(const Sensed& sensed) const noexcept {
 
 void Runner::Parts::estimate_between_samples(const Sensed& sensed) noexcept {
   const double stamp = measured_at(sensed);
-  is_new_sample = drive->is_new(stamp);
+  is_new_sample = drive->is_new(stamp) && drive->can_feel(sensed);
   if (is_new_sample) {
     stop(rates.look(estimated.state, stamp));
     const auto dead_wheel = frozen_wheel.look(estimated.state, unknown_torque, stamp);
@@ -284,6 +290,7 @@ void Runner::Parts::estimate_between_samples(const Sensed& sensed) noexcept {
     estimate_base(sensed, stamp);
     stop(drive->look(estimated.state, stamp));
     drive->take(estimated.state, stamp);
+    drive->feel(sensed, stamp);
   } else {
     stop(drive->look_for_samples(estimated.time));
   }
@@ -386,6 +393,7 @@ bool Runner::Parts::control() noexcept {
   if (!project(estimated.state)) return false;
   friction.follow(sample.state.q);
   if (!is_virtual && is_new_sample) compare(estimated.state);
+  if (drive && drive->felt_force() != nullptr) scheduler.estimate_force(*drive->felt_force());
   if (guard.stopped()) return true;  // a motor is not to be trusted
   arm.bear(sample.state);            // it floats where nothing is said of it
   is_solution_of_rows = false;
@@ -568,7 +576,7 @@ void Runner::Parts::put_command(bool good, bool solved) noexcept {
 }
 
 Runner::Runner(const lang::Program& program, const RunnerSettings& settings)
-    : parts_(std::make_unique<Parts>(program, settings)) {}
+    : parts_(std::make_unique<Parts>(led_program(program), settings)) {}
 Runner::~Runner() = default;
 Runner::Runner(Runner&&) noexcept = default;
 Runner& Runner::operator=(Runner&&) noexcept = default;
@@ -625,7 +633,7 @@ const Eigen::VectorXd& Runner::step(const Sensed& sensed, std::span<const double
                     extra,
                     shortfall,
                     p.event,
-                    p.disturbance.base_force(),
+                    p.force_on_base(),
                     p.slip.speed()};
     p.recorder->record(p.layout.fill(p.statements, tick));
   }
@@ -766,7 +774,7 @@ std::string Runner::event_signal(const Event& event) const {
   return event.signal >= 0 && i < parts_->signal_words.size() ? parts_->signal_words[i] : std::string();
 }
 solver::Vector3 Runner::estimated_force() const noexcept {
-  return parts_->disturbance.base_force();
+  return parts_->force_on_base();
 }
 std::optional<ShortfallReport> Runner::shortfall() const {
   const Shortfall s = parts_->find_shortfall();

@@ -94,10 +94,29 @@ void visit_sample(Visitor& v, Sample& sample, lang::SignalType type) noexcept {
   }
 }
 
+/// One entry a joint; none where nothing was measured.
+void visit_effort(Writer& v, const Sensed& s) noexcept {
+  const bool has = s.effort.size() == s.state.q.size();
+  v.flag(has);
+  for (Eigen::Index j = 0; j < s.state.q.size(); ++j) v.number(has ? s.effort(j) : 0.0);
+}
+
+void visit_effort(Reader& v, Sensed& s) noexcept {
+  bool has = false;
+  v.flag(has);
+  s.effort.resize(has ? s.state.q.size() : 0);
+  for (Eigen::Index j = 0; j < s.state.q.size(); ++j) {
+    double value = 0.0;
+    v.number(value);
+    if (has) s.effort(j) = value;
+  }
+}
+
 /// The same order for both ways; `SensedColumns` names it.
 template <typename Visitor, typename Snapshot>
 void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>& types,
-                    const std::vector<std::size_t>& places, bool has_stamped_samples) noexcept {
+                    const std::vector<std::size_t>& places, bool has_stamped_samples,
+                    lang::Feels::By feels) noexcept {
   v.number(s.time);
   visit_all(v, s.state.q);
   visit_all(v, s.state.qd);
@@ -111,6 +130,9 @@ void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>
     visit_pose(v, fix.pose);
   });
   if (has_stamped_samples) v.maybe(s.measured_at, 1, [&v](auto& stamp) { v.number(stamp); });
+  if (feels == lang::Feels::By::wrench)
+    v.maybe(s.contact_wrench, vector_parts.size(), [&v](auto& wrench) { visit_vector(v, wrench); });
+  if (feels == lang::Feels::By::effort) visit_effort(v, s);
   for (std::size_t i = 0; i < types.size(); ++i) {
     SignalSample missing;
     if (places[i] < s.signals.size()) {
@@ -124,8 +146,8 @@ void visit_snapshot(Visitor& v, Snapshot& s, const std::vector<lang::SignalType>
 }  // namespace
 
 SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang::Signal>& signals,
-                             const std::vector<lang::Parameter>& parameters, bool has_stamped_samples)
-    : has_stamped_samples_(has_stamped_samples) {
+                             const std::vector<lang::Parameter>& parameters, const lang::Drive& drive)
+    : has_stamped_samples_(drive.takes_velocity), feels_(drive.feels.by) {
   name("sensed.time", {""});
   for (const char* what : {".q", ".qd", ".tau_ff"}) {
     for (int j = 0; j < model.joint_count(); ++j) name("sensed." + model.joint(j).name, {what});
@@ -136,7 +158,15 @@ SensedColumns::SensedColumns(const solver::Model& model, const std::vector<lang:
   name("sensed.base.measured", {""});
   name("sensed.fix", {"", ".stamp"});
   name("sensed.fix", pose_parts);
-  if (has_stamped_samples) name("sensed.measured", {"", ".stamp"});
+  if (has_stamped_samples_) name("sensed.measured", {"", ".stamp"});
+  if (feels_ == lang::Feels::By::wrench) {
+    name("sensed.contact_wrench", {""});
+    name("sensed.contact_wrench", vector_parts);
+  }
+  if (feels_ == lang::Feels::By::effort) {
+    name("sensed.effort", {""});
+    for (int j = 0; j < model.joint_count(); ++j) name("sensed." + model.joint(j).name, {".effort"});
+  }
   for (const lang::Signal& signal : signals) {
     const std::string of = "sensed.signal." + signal.name;
     places_.push_back(types_.size());
@@ -182,13 +212,13 @@ void SensedColumns::write(const Sensed& sensed, std::span<const double> paramete
             values.begin() + static_cast<std::ptrdiff_t>(first_parameter_));
   if (!sized) return;
   Writer writer{values};
-  visit_snapshot(writer, sensed, types_, places_, has_stamped_samples_);
+  visit_snapshot(writer, sensed, types_, places_, has_stamped_samples_, feels_);
 }
 
 void SensedColumns::read(std::span<const double> values, Sensed& sensed,
                          std::span<double> parameters) const noexcept {
   Reader reader{values};
-  visit_snapshot(reader, sensed, types_, places_, has_stamped_samples_);
+  visit_snapshot(reader, sensed, types_, places_, has_stamped_samples_, feels_);
   std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(first_parameter_), parameters.size(),
               parameters.begin());
 }

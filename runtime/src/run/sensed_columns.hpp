@@ -17,7 +17,7 @@ namespace zwang::runtime {
 class SensedColumns {
  public:
   SensedColumns(const solver::Model& model, const std::vector<lang::Signal>& signals,
-                const std::vector<lang::Parameter>& parameters, bool has_stamped_samples);
+                const std::vector<lang::Parameter>& parameters, const lang::Drive& drive);
 
   const std::vector<Column>& columns() const noexcept { return columns_; }
   /// Where a snapshot has each of the signals; without it in their own order. Does not allocate.
@@ -35,6 +35,7 @@ class SensedColumns {
   std::vector<lang::SignalType> types_;
   std::vector<std::size_t> places_;
   bool has_stamped_samples_;  ///< of a drive that takes velocities
+  lang::Feels::By feels_;
   std::size_t first_parameter_ = 0;
   std::vector<Column> columns_;
 };

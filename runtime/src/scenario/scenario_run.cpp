@@ -16,11 +16,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double torque_share(const solver::Model& model, const Eigen::VectorXd& tau) noexcept {
+/// Of a robot that feels `tau` is the virtual robot's, and so are the limits.
+double torque_share(const lang::Robot& robot, const Eigen::VectorXd& tau) noexcept {
+  const solver::Model& model = robot.model;
   double share = 0.0;
   for (int j = 0; j < model.joint_count(); ++j) {
     const solver::Joint& joint = model.joint(j);
-    if (joint.actuated) share = std::max(share, std::abs(tau(j)) / joint.max_effort);
+    if (joint.actuated)
+      share = std::max(share, std::abs(tau(j)) / (robot.drive.mass_factor * joint.max_effort));
   }
   return share;
 }
@@ -41,7 +44,7 @@ double look_at_partners(ScenePlant& plant, TrueFacts& facts) noexcept {
   double most = 0.0;
   for (std::size_t i = 0; i < plant.partners().size(); ++i) {
     const ScenePartner& partner = plant.partners()[i];
-    const double share = torque_share(partner.program->robot.model, partner.torque);
+    const double share = torque_share(partner.program->robot, partner.torque);
     facts.update_partner(i, plant.truth(), share);
     most = std::max(most, share);
   }
@@ -101,7 +104,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
     if (steps.tick_is_due()) tau = step(runner, sensed, plant.truth().time, facts);
-    const double share = torque_share(program.robot.model, tau);
+    const double share = torque_share(program.robot, tau);
     facts.update(plant.truth(), plant.true_state(), share);
     path.look(plant.truth());
     result.torque = std::max({result.torque, share, look_at_partners(plant, facts)});

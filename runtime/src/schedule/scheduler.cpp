@@ -81,7 +81,7 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       signals(given, positive(control_period)),
       period(control_period),
       horizon(given.robot.drive.horizon()),
-      keeps_all_sides(given.robot.drive.takes_velocity && !given.robot.drive.is_blind()),
+      keeps_all_sides(given.robot.drive.takes_velocity && !given.robot.drive.has_virtual_robot()),
       radius(footprint_radius(given.robot)),
       effective_mass(effective_mass_of(given.robot)),
       braking(solver::Vector3::Zero()),

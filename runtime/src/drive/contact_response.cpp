@@ -1,0 +1,74 @@
+#include "drive/contact_response.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace zwang::runtime {
+
+ContactResponse::ContactResponse(const lang::Robot& robot, double period)
+    : period_(period),
+      drive_(robot.drive),
+      threshold_(sigmas * robot.drive.feels.noise),
+      filter_(std::max(20e-3, 1.0 / robot.drive.rate)),
+      motions_(robot.model),
+      base_factor_(robot.model.joint_count() + 6),
+      base_(Eigen::MatrixXd::Zero(3, robot.model.joint_count() + 6)),
+      y_(Eigen::VectorXd::Zero(robot.model.joint_count() + 6)),
+      right_(y_) {
+  if (const auto frame = robot.model.find_frame(drive_.feels.frame))
+    sensor_ = robot.model.frames()[static_cast<std::size_t>(*frame)].pose_in_body;
+}
+
+bool ContactResponse::can_feel(const Sensed& sensed) const noexcept {
+  if (drive_.feels.by != lang::Feels::By::wrench) return false;
+  return sensed.contact_wrench && sensed.contact_wrench->linear.allFinite() &&
+         sensed.contact_wrench->angular.allFinite();
+}
+
+void ContactResponse::begin() noexcept {
+  w_.setZero();
+  creep_.setZero();
+  felt_at_ = -solver::infinity;
+  pressed_for_ = 0.0;
+}
+
+solver::Vector3 ContactResponse::felt_wrench(const Sensed& sensed) const noexcept {
+  const solver::Vector3 force = sensor_.rotation * sensed.contact_wrench->linear;
+  const solver::Vector3 moment =
+      sensor_.rotation * sensed.contact_wrench->angular + sensor_.position.cross(force);
+  return {force.x(), force.y(), moment.z()};
+}
+
+void ContactResponse::feel(const Sensed& sensed, double stamp) noexcept {
+  const double since = std::min(stamp - felt_at_, 1.0);
+  felt_at_ = stamp;
+  w_ -= std::expm1(-since / filter_) * (felt_wrench(sensed) - w_);
+}
+
+void ContactResponse::accelerate(const solver::Solver& solver, const solver::State& state,
+                                 Eigen::VectorXd& qdd) noexcept {
+  if (solver.free_motions(motions_)) {
+    base_.leftCols(motions_.count) = motions_.base.leftCols(motions_.count);
+    base_factor_.factorise(base_, 3, motions_.count);
+  }
+  const int m = motions_.count;
+  y_.head(m).noalias() = motions_.base.leftCols(m).transpose() * w_;
+  pressed_for_ = w_.head<2>().norm() > threshold_ ? pressed_on : std::max(0.0, pressed_for_ - period_);
+  if (is_pressed()) {
+    const solver::Vector3 V(state.base_twist.linear.x(), state.base_twist.linear.y(),
+                            state.base_twist.angular.z());
+    for (int k = 0; k < 3; ++k) {
+      const bool is_slow = std::abs(V(k)) < (k < 2 ? slow : slow_turn);
+      creep_(k) += period_ / taken_over_within * ((is_slow ? V(k) : 0.0) - creep_(k));
+    }
+    const solver::Vector3 fades = V - creep_;
+    right_.head(m).noalias() = motions_.base.leftCols(m).transpose() * fades;
+    base_factor_.solve(right_, right_);
+    y_.head(m) -= drive_.contact_damping * right_.head(m);
+  } else {
+    creep_.setZero();
+  }
+  qdd.noalias() += motions_.joint.leftCols(m) * y_.head(m);
+}
+
+}  // namespace zwang::runtime

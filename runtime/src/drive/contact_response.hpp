@@ -1,0 +1,67 @@
+/// What a contact that is felt makes of the virtual robot.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "estimate/normal_equations.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/runtime/plant.hpp"
+#include "zwang/solver/solver.hpp"
+#include "zwang/solver/state.hpp"
+
+namespace zwang::runtime {
+
+/// Behind the solver, so that no row works against it:
+///     alpha M V' + bias = J' tau + w - gamma alpha M (V - V_f).
+/// w is the felt force, low-passed. The damping acts while |w| > `threshold`, and 50 ms on: without it the
+/// delay makes of a wall a spring that bounces. V_f takes V over within 1 s where V is below 2 mm/s, or 5
+/// mrad/s, and else falls to 0: a base that creeps under load presses with all of its force. In the
+/// coordinates y of solver::FreeMotions, in which alpha M is 1, with the base's twist B y and T y of the
+/// joints, that is
+///     ydd = B' w - gamma (yd - yd_f).
+/// Does not allocate, lock, throw or print after construction.
+class ContactResponse {
+ public:
+  /// `robot`: the virtual one, whose drive says what it feels. `period` [s] of `accelerate`.
+  ContactResponse(const lang::Robot& robot, double period);
+
+  /// Whether the sample has what this robot feels by.
+  bool can_feel(const Sensed& sensed) const noexcept;
+  /// A sample that was measured at `stamp` [s].
+  void feel(const Sensed& sensed, double stamp) noexcept;
+  void begin() noexcept;
+
+  /// Adds to the joints' accelerations. `solver` has solved the rows at `state`, which is the virtual
+  /// robot's.
+  void accelerate(const solver::Solver& solver, const solver::State& state, Eigen::VectorXd& qdd) noexcept;
+
+  /// w: what presses on the base at its origin, in its axes: x, y [N] and rz [N m].
+  const solver::Vector3& force() const noexcept { return w_; }
+  bool is_pressed() const noexcept { return pressed_for_ > 0.0; }
+
+  static constexpr double pressed_on = 0.05;        ///< [s] that the damping stays
+  static constexpr double taken_over_within = 1.0;  ///< [s] of V_f
+  static constexpr double slow = 2e-3;              ///< [m/s]
+  static constexpr double slow_turn = 5e-3;         ///< [rad/s]
+  static constexpr double sigmas = 3.0;             ///< of the noise, the threshold
+
+ private:
+  solver::Vector3 felt_wrench(const Sensed& sensed) const noexcept;
+
+  double period_;
+  lang::Drive drive_;
+  solver::Pose sensor_;  ///< on the base
+  double threshold_;     ///< [N]
+  double filter_;        ///< [s]
+  solver::FreeMotions motions_;
+  NormalEquations base_factor_;  ///< of B'B
+  Eigen::MatrixXd base_;         ///< B
+  Eigen::VectorXd y_, right_;
+  solver::Vector3 w_ = solver::Vector3::Zero();
+  solver::Vector3 creep_ = solver::Vector3::Zero();  ///< V_f of the base: x, y [m/s], rz [rad/s]
+  double felt_at_ = -solver::infinity;               ///< [s]
+  double pressed_for_ = 0.0;                         ///< [s] that are left of `pressed_on`
+};
+
+}  // namespace zwang::runtime
