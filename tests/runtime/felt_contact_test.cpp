@@ -44,26 +44,64 @@ Eigen::VectorXd accelerated(const lang::Program& led, const solver::ForceVector&
   sensed.contact_wrench = wrench;
   for (int i = 0; i < samples; ++i) response.feel(sensed, i / robot.drive.rate);
   Eigen::VectorXd qdd = solution.qdd;
-  response.accelerate(solver, state, qdd);
+  response.accelerate(solver, solution, state, qdd);
   return qdd - solution.qdd;
 }
 
-/// F = alpha M a: m with the rotors' share, which the URDF and the robot file say.
+/// [kg] of wheels that all roll ahead, with the rotors' share, as the URDF and the robot file say.
+double driven_mass(const lang::Robot& robot) {
+  double mass = 0.0;
+  for (const solver::Body& body : robot.model.bodies()) mass += body.inertia.mass;
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const solver::Body& body = robot.model.bodies()[static_cast<std::size_t>(wheel.body)];
+    mass += (body.joint.axis.dot(body.inertia.rotational * body.joint.axis) + body.joint.rotor_inertia) /
+            (wheel.radius * wheel.radius);
+  }
+  return mass;
+}
+
+/// F = alpha M a.
 TEST(FeltContact, APushAcceleratesTheVirtualRobotByItsMass) {
   const lang::Program program = shipped("wall_align", "mecanum_wrench_50_hz", "wall_far");
   const lang::Program led = led_program(program);
-  double mass = 0.0, rotors = 0.0;
-  for (const solver::Body& body : program.robot.model.bodies()) mass += body.inertia.mass;
-  for (const solver::Wheel& wheel : program.robot.model.wheels()) {
-    const solver::Body& body = program.robot.model.bodies()[static_cast<std::size_t>(wheel.body)];
-    rotors += (body.joint.axis.dot(body.inertia.rotational * body.joint.axis) + body.joint.rotor_inertia) /
-              (wheel.radius * wheel.radius);
-  }
   const double push = -30.0;
   const Eigen::VectorXd qdd = accelerated(led, {{0.0, 0.0, 0.0}, {push, 0.0, 0.0}}, 1);
-  const double expected = push / (program.robot.drive.mass_factor * (mass + rotors));
+  const double expected = push / (program.robot.drive.mass_factor * driven_mass(program.robot));
   for (const solver::Wheel& wheel : led.robot.model.wheels())
     EXPECT_NEAR(qdd(wheel.body - 1) * wheel.radius, expected, 1e-6 * std::abs(expected));
+}
+
+/// w after a second of constant torques `t` [N m] at all wheels, which gain `gain` [rad/s^2].
+solver::Vector3 felt_by_effort(const lang::Program& led, double t, double gain) {
+  const lang::Robot& robot = led.robot;
+  solver::Solver solver(robot.model, {.base_motion = true});
+  solver::Solution solution(robot.model);
+  solver::State state(robot.model);
+  EXPECT_EQ(solver.project_velocity(state), solver::Status::ok);
+  EXPECT_EQ(solver.solve(state, std::vector<solver::Row>{}, solution), solver::Status::ok);
+  ContactResponse response(robot, 1 * ms);
+  Eigen::VectorXd qdd = solution.qdd;
+  response.accelerate(solver, solution, state, qdd);
+  Sensed sensed(led);
+  sensed.effort = Eigen::VectorXd::Constant(robot.model.joint_count(), t);
+  const double cycle = 1.0 / robot.drive.rate;
+  for (double time = 0.0; time < 1.0; time += cycle) {
+    sensed.state.qd.setConstant(gain * time);
+    EXPECT_TRUE(response.can_feel(sensed));
+    response.feel(sensed, time);
+  }
+  return response.force();
+}
+
+/// 0 = sum t/R + w at rest. In free motion the torques accelerate m, and w is 0.
+TEST(FeltContact, TorquesThatTheMotionDoesNotNeedArePressedAgainst) {
+  const lang::Program program = shipped("wall_align", "mecanum_effort_50_hz", "wall_far");
+  const lang::Program led = led_program(program);
+  const double R = program.robot.model.wheels()[0].radius;
+  EXPECT_NEAR(felt_by_effort(led, 0.5, 0.0).x(), -4.0 * 0.5 / R, 1e-6);
+  const double a = 0.3;
+  const double t = driven_mass(program.robot) * a * R / 4.0;
+  EXPECT_LT(felt_by_effort(led, t, a / R).norm(), 1e-3);
 }
 
 /// A push to the left at the bumper turns the base as its moment about the origin does.

@@ -8,7 +8,6 @@ namespace zwang::runtime {
 ContactResponse::ContactResponse(const lang::Robot& robot, double period)
     : period_(period),
       drive_(robot.drive),
-      threshold_(sigmas * robot.drive.feels.noise),
       filter_(std::max(20e-3, 1.0 / robot.drive.rate)),
       motions_(robot.model),
       base_factor_(robot.model.joint_count() + 6),
@@ -17,10 +16,15 @@ ContactResponse::ContactResponse(const lang::Robot& robot, double period)
       right_(y_) {
   if (const auto frame = robot.model.find_frame(drive_.feels.frame))
     sensor_ = robot.model.frames()[static_cast<std::size_t>(*frame)].pose_in_body;
+  if (drive_.feels.by == lang::Feels::By::effort) effort_.emplace(robot);
+  // A first-order low pass of white samples, one in a cycle.
+  const double a = std::exp(-1.0 / (drive_.rate * filter_));
+  threshold_ = sigmas * std::sqrt((1.0 - a) / (1.0 + a)) * (effort_ ? effort_->noise() : drive_.feels.noise);
+  if (effort_) threshold_ += effort_->unknown_friction();
 }
 
 bool ContactResponse::can_feel(const Sensed& sensed) const noexcept {
-  if (drive_.feels.by != lang::Feels::By::wrench) return false;
+  if (effort_) return effort_->can_feel(sensed);
   return sensed.contact_wrench && sensed.contact_wrench->linear.allFinite() &&
          sensed.contact_wrench->angular.allFinite();
 }
@@ -30,6 +34,9 @@ void ContactResponse::begin() noexcept {
   creep_.setZero();
   felt_at_ = -solver::infinity;
   pressed_for_ = 0.0;
+  velocity_.setZero();
+  acceleration_.setZero();
+  if (effort_) effort_->begin();
 }
 
 solver::Vector3 ContactResponse::felt_wrench(const Sensed& sensed) const noexcept {
@@ -42,18 +49,29 @@ solver::Vector3 ContactResponse::felt_wrench(const Sensed& sensed) const noexcep
 void ContactResponse::feel(const Sensed& sensed, double stamp) noexcept {
   const double since = std::min(stamp - felt_at_, 1.0);
   felt_at_ = stamp;
-  w_ -= std::expm1(-since / filter_) * (felt_wrench(sensed) - w_);
+  const solver::Vector3 felt = effort_ ? effort_->feel(sensed, stamp) : felt_wrench(sensed);
+  w_ -= std::expm1(-since / filter_) * (felt - w_);
 }
 
-void ContactResponse::accelerate(const solver::Solver& solver, const solver::State& state,
-                                 Eigen::VectorXd& qdd) noexcept {
+double ContactResponse::threshold(const solver::State& state) noexcept {
+  if (!effort_) return threshold_;
+  const solver::Vector3& v = state.base_twist.linear;
+  acceleration_ -= std::expm1(-period_ / accelerated_over) * ((v - velocity_) / period_ - acceleration_);
+  velocity_ = v;
+  const double mass = 1.0 / (drive_.mass_factor * motions_.base.row(0).head(motions_.count).squaredNorm());
+  return threshold_ + share_of_inertia * mass * acceleration_.head<2>().norm();
+}
+
+void ContactResponse::accelerate(const solver::Solver& solver, const solver::Solution& solution,
+                                 const solver::State& state, Eigen::VectorXd& qdd) noexcept {
   if (solver.free_motions(motions_)) {
     base_.leftCols(motions_.count) = motions_.base.leftCols(motions_.count);
     base_factor_.factorise(base_, 3, motions_.count);
   }
+  if (effort_) effort_->follow(motions_, solution);
   const int m = motions_.count;
   y_.head(m).noalias() = motions_.base.leftCols(m).transpose() * w_;
-  pressed_for_ = w_.head<2>().norm() > threshold_ ? pressed_on : std::max(0.0, pressed_for_ - period_);
+  pressed_for_ = w_.head<2>().norm() > threshold(state) ? pressed_on : std::max(0.0, pressed_for_ - period_);
   if (is_pressed()) {
     const solver::Vector3 V(state.base_twist.linear.x(), state.base_twist.linear.y(),
                             state.base_twist.angular.z());

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <optional>
 
+#include "drive/effort_sense.hpp"
 #include "estimate/normal_equations.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/plant.hpp"
@@ -32,9 +33,10 @@ class ContactResponse {
   void feel(const Sensed& sensed, double stamp) noexcept;
   void begin() noexcept;
 
-  /// Adds to the joints' accelerations. `solver` has solved the rows at `state`, which is the virtual
-  /// robot's.
-  void accelerate(const solver::Solver& solver, const solver::State& state, Eigen::VectorXd& qdd) noexcept;
+  /// Adds to the joints' accelerations: `qdd` begins as those of `solution`, which `solver` has at `state`,
+  /// the virtual robot's.
+  void accelerate(const solver::Solver& solver, const solver::Solution& solution, const solver::State& state,
+                  Eigen::VectorXd& qdd) noexcept;
 
   /// w: what presses on the base at its origin, in its axes: x, y [N] and rz [N m].
   const solver::Vector3& force() const noexcept { return w_; }
@@ -44,24 +46,34 @@ class ContactResponse {
   static constexpr double taken_over_within = 1.0;  ///< [s] of V_f
   static constexpr double slow = 2e-3;              ///< [m/s]
   static constexpr double slow_turn = 5e-3;         ///< [rad/s]
-  static constexpr double sigmas = 3.0;             ///< of the noise, the threshold
+  /// Of the noise behind the low pass, the threshold: noise passes it once in 15 days at 50 Hz, e^(-6^2/2). A
+  /// false contact brakes the base with gamma V, which looks like an obstacle.
+  static constexpr double sigmas = 6.0;
+  /// Beside it, of a robot that feels by effort: so much of M |V'|, over 30 ms, for a mass that is known
+  /// badly.
+  static constexpr double share_of_inertia = 0.3;
+  static constexpr double accelerated_over = 30e-3;  ///< [s]
 
  private:
   solver::Vector3 felt_wrench(const Sensed& sensed) const noexcept;
+  double threshold(const solver::State& state) noexcept;
 
   double period_;
   lang::Drive drive_;
-  solver::Pose sensor_;  ///< on the base
-  double threshold_;     ///< [N]
-  double filter_;        ///< [s]
+  solver::Pose sensor_;     ///< on the base
+  double threshold_ = 0.0;  ///< [N]
+  double filter_;           ///< [s]
+  std::optional<EffortSense> effort_;
   solver::FreeMotions motions_;
   NormalEquations base_factor_;  ///< of B'B
   Eigen::MatrixXd base_;         ///< B
   Eigen::VectorXd y_, right_;
   solver::Vector3 w_ = solver::Vector3::Zero();
-  solver::Vector3 creep_ = solver::Vector3::Zero();  ///< V_f of the base: x, y [m/s], rz [rad/s]
-  double felt_at_ = -solver::infinity;               ///< [s]
-  double pressed_for_ = 0.0;                         ///< [s] that are left of `pressed_on`
+  solver::Vector3 creep_ = solver::Vector3::Zero();         ///< V_f of the base: x, y [m/s], rz [rad/s]
+  double felt_at_ = -solver::infinity;                      ///< [s]
+  double pressed_for_ = 0.0;                                ///< [s] that are left of `pressed_on`
+  solver::Vector3 velocity_ = solver::Vector3::Zero();      ///< [m/s] of the base's origin, a tick ago
+  solver::Vector3 acceleration_ = solver::Vector3::Zero();  ///< [m/s^2] of the same, low-passed
 };
 
 }  // namespace zwang::runtime

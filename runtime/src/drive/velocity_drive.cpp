@@ -27,6 +27,8 @@ VelocityDrive::VelocityDrive(const lang::Robot& robot, double period, int row_ca
   }
   const double force = robot.stop.force / std::max<double>(1.0, static_cast<double>(wheels_.size()));
   for (Wheel& wheel : wheels_) wheel.brake = std::min(wheel.brake, force * wheel.radius);
+  if (drive_.feels_contact() && !drive_.integral_time)
+    bent_per_force_ = bent * drive_.time_constant * drive_.mass_factor / robot.model.total_mass();
   if (drive_.has_virtual_robot()) virtual_.emplace(robot, period);
 }
 
@@ -65,12 +67,13 @@ std::optional<Event> VelocityDrive::look_for_samples(double time) const noexcept
 bool VelocityDrive::differs(const Wheel& wheel, double rate, const Allowance& allowance) const noexcept {
   const double high = virtual_ ? wheel.most : std::max(0.0, wheel.most);
   const double low = virtual_ ? wheel.least : std::min(0.0, wheel.least);
-  const double room = allowance.slack / wheel.radius;
+  const double room = (allowance.slack + bent_by_) / wheel.radius;
   return rate > high + share * std::abs(high) + room || rate < low - share * std::abs(low) - room;
 }
 
 std::optional<Event> VelocityDrive::look(const solver::State& measured, double time) noexcept {
   std::optional<Event> found;
+  if (const solver::Vector3* force = felt_force()) bent_by_ = bent_per_force_ * force->head<2>().norm();
   const auto since = [time](bool is_so, double began) {
     return is_so ? std::min(began, time) : solver::infinity;
   };
@@ -97,7 +100,7 @@ bool VelocityDrive::differs(const solver::Vector3& velocity) const noexcept {
   const double square = way.squaredNorm();
   const double part = square > 0.0 ? std::clamp((v - before_).dot(way) / square, 0.0, 1.0) : 0.0;
   const double most = std::max(told_.norm(), before_.norm());
-  return (v - before_ - part * way).norm() > fast.slack + share * most;
+  return (v - before_ - part * way).norm() > fast.slack + bent_by_ + share * most;
 }
 
 /// The largest and the least of the commands that may still be on their way.

@@ -77,6 +77,9 @@ class VelocityDrive {
   /// differ by more. A loop without an integral leaves tau R/k_p of dry friction: 2 mm/s of 0.1 N m a wheel.
   static constexpr Allowance slow{0.005, 1.2};
   static constexpr double share = 0.3;
+  /// Beside, of a robot that feels and whose loops have no integral: so much of |w| T_c/m, which a loop that
+  /// presses with w stays behind.
+  static constexpr double bent = 1.5;
   static constexpr double lost_cycles = 3.0;  ///< without a sample, beside
   static constexpr double lost_time = 0.05;   ///< [s]
   static constexpr double full_brake = 0.5;   ///< [rad/s]: below it the brake's torque shrinks with the rate
@@ -109,7 +112,9 @@ class VelocityDrive {
   RowBounds row_bounds_;
   SetPoint set_point_;
   std::optional<VirtualRobot> virtual_;
-  double radius_;  ///< [m] of the footprint about the base's origin
+  double bent_per_force_ = 0.0;  ///< [m/s N] `bent` T_c/m
+  double bent_by_ = 0.0;         ///< [m/s] by what is felt now
+  double radius_;                ///< [m] of the footprint about the base's origin
   Eigen::VectorXd pressing_;
   solver::State measured_;
   double slowest_ = solver::infinity;                 ///< [m/s] rms of the rims while they are braked
