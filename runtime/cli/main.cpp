@@ -6,6 +6,8 @@
 #include <functional>
 #include <memory>
 
+#include "commit.hpp"
+#include "outline.hpp"
 #include "output.hpp"
 #include "shipped.hpp"
 #include "verbs.hpp"
@@ -191,6 +193,39 @@ void add_doctor(CLI::App& app, std::function<int()>& chosen) {
   verb->callback([&chosen] { chosen = [] { return doctor(); }; });
 }
 
+OptionOutline outline_of(const CLI::Option& option) {
+  OptionOutline outline{{}, option.get_description(), option.get_items_expected_max() > 0};
+  for (const std::string& name : option.get_snames()) outline.names.push_back("-" + name);
+  for (const std::string& name : option.get_lnames()) outline.names.push_back("--" + name);
+  if (outline.names.empty()) outline.names.push_back(option.get_name(true));
+  return outline;
+}
+
+VerbOutline outline_of(const CLI::App& verb) {
+  VerbOutline outline{verb.get_name(), verb.get_description(), {}, {}, {}};
+  for (const CLI::Option* option : verb.get_options()) {
+    (option->get_positional() ? outline.arguments : outline.options).push_back(outline_of(*option));
+  }
+  for (const CLI::App* inner : verb.get_subcommands({})) outline.verbs.push_back(outline_of(*inner));
+  return outline;
+}
+
+void add_completion(CLI::App& app, std::function<int()>& chosen) {
+  static const std::map<std::string, OutlineForm> forms = {{"bash", OutlineForm::bash},
+                                                           {"zsh", OutlineForm::zsh},
+                                                           {"fish", OutlineForm::fish},
+                                                           {"man", OutlineForm::man}};
+  const auto form = std::make_shared<OutlineForm>();
+  CLI::App* verb = app.add_subcommand("completion", "Print the completions of a shell, or the manual page");
+  takes(verb->add_option("form", *form, "bash, zsh, fish or man")->required(), forms);
+  verb->callback([=, &app, &chosen] {
+    chosen = [=, &app] {
+      print(render(outline_of(app), *form));
+      return exit_good;
+    };
+  });
+}
+
 /// `runn` is answered with `run`. Empty when the first word is a verb or an option.
 std::string unknown_verb(const CLI::App& app, int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
@@ -204,7 +239,8 @@ std::string unknown_verb(const CLI::App& app, int argc, char** argv) {
 
 int parse_and_do(int argc, char** argv) {
   CLI::App app("Checks and runs task files for robots that touch the world.", "zwang");
-  app.set_version_flag("--version", "zwang " ZWANG_VERSION);
+  const std::string built_from = *commit == '\0' ? "" : std::string(", commit ") + commit;
+  app.set_version_flag("--version", "zwang " ZWANG_VERSION + built_from);
   app.require_subcommand(1);
 
   std::function<int()> chosen;
@@ -217,6 +253,7 @@ int parse_and_do(int argc, char** argv) {
   add_robot(app, chosen);
   add_init(app, chosen);
   add_doctor(app, chosen);
+  add_completion(app, chosen);
 
   RunArguments to_run;
   std::optional<std::string> yaw_text, at_text, seed_text;
