@@ -11,6 +11,7 @@
 #include "output.hpp"
 #include "plant_start.hpp"
 #include "verbs.hpp"
+#include "zwang/lang/connection.hpp"
 #include "zwang/lang/notes.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
@@ -40,9 +41,11 @@ const char* word_of(FileKind kind) {
     case FileKind::scene:
       return "scene";
     case FileKind::scenario:
+      return "scenario";
+    case FileKind::connection:
       break;
   }
-  return "scenario";
+  return "connection";
 }
 
 namespace {
@@ -54,7 +57,8 @@ struct FirstKey {
 constexpr FirstKey first_keys[] = {{"zwang", FileKind::task},
                                    {"zwang_robot", FileKind::robot},
                                    {"zwang_scene", FileKind::scene},
-                                   {"zwang_scenario", FileKind::scenario}};
+                                   {"zwang_scenario", FileKind::scenario},
+                                   {"zwang_connection", FileKind::connection}};
 constexpr std::size_t is_another_word = 3;
 
 /// How many letters have to be written again for one word to become the other, if they stand together.
@@ -179,6 +183,10 @@ std::optional<std::string> read_as(FileKind kind, const std::string& path, lang:
       if (const auto scenario = lang::check_scenario(path, diagnostics)) {
         return "scenario, " + count(scenario->cells.size(), "run");
       }
+      return std::nullopt;
+    case FileKind::connection:
+      if (const auto connection = lang::load_connection(path, diagnostics))
+        return "connection, " + count(connection->signals.size(), "signal");
       return std::nullopt;
     case FileKind::task:
       break;

@@ -9,7 +9,7 @@
 
 namespace zwang::cli {
 
-enum class FileKind { task, robot, scene, scenario };
+enum class FileKind { task, robot, scene, scenario, connection };
 
 const char* word_of(FileKind kind);
 /// By the file's first key, a misspelt one, too: its reader says what is wrong. nullopt when it is none of

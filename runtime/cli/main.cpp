@@ -125,7 +125,8 @@ void add_fmt(CLI::App& app, std::function<int()>& chosen) {
 void add_schema(CLI::App& app, std::function<int()>& chosen) {
   const auto arguments = std::make_shared<SchemaArguments>();
   CLI::App* verb = app.add_subcommand("schema", "Print the JSON Schema of a kind of file, for editors");
-  takes(verb->add_option("kind", arguments->kind, "task (default), robot, scene or scenario"), schema_kinds);
+  takes(verb->add_option("kind", arguments->kind, "task (default), robot, scene, scenario or connection"),
+        schema_kinds);
   verb->callback([=, &chosen] { chosen = [=] { return schema(*arguments); }; });
 }
 

@@ -59,7 +59,8 @@ inline const std::map<std::string, lang::SchemaKind> schema_kinds = {
     {"task", lang::SchemaKind::task},
     {"robot", lang::SchemaKind::robot},
     {"scene", lang::SchemaKind::scene},
-    {"scenario", lang::SchemaKind::scenario}};
+    {"scenario", lang::SchemaKind::scenario},
+    {"connection", lang::SchemaKind::connection}};
 
 struct SchemaArguments {
   lang::SchemaKind kind = lang::SchemaKind::task;

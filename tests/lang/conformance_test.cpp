@@ -8,6 +8,7 @@
 
 #include "limits.hpp"
 #include "support.hpp"
+#include "zwang/lang/connection.hpp"
 #include "zwang/lang/notes.hpp"
 #include "zwang/lang/scenario.hpp"
 
@@ -32,6 +33,8 @@ void load_as_named(const std::filesystem::path& path, Diagnostics& diagnostics) 
     is_good = load_robot(path, diagnostics).has_value();
   } else if (name.starts_with("scene_")) {
     is_good = load_scene(path, diagnostics).has_value();
+  } else if (name.starts_with("connection_")) {
+    is_good = load_connection(path, diagnostics).has_value();
   } else if (name.starts_with("scenario_")) {
     is_good = check_scenario(path, diagnostics).has_value();
   } else {

@@ -17,5 +17,6 @@ std::span<const Explanation> reach();        ///< W416, W51x, W61x and more: wha
 std::span<const Explanation> robots();       ///< E80x
 std::span<const Explanation> urdfs();        ///< E85x
 std::span<const Explanation> scenes();       ///< E9xx
+std::span<const Explanation> connections();  ///< E92x
 
 }  // namespace zwang::lang::catalogue

@@ -126,6 +126,9 @@ std::string json_schema(SchemaKind kind) {
     case SchemaKind::scenario:
       schema = schema::scenario_file();
       break;
+    case SchemaKind::connection:
+      schema = schema::connection_file();
+      break;
   }
   schema::Json whole = {{"$schema", "http://json-schema.org/draft-07/schema#"}};
   whole.update(schema);

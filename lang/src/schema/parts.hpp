@@ -39,5 +39,6 @@ Json task_file();
 Json robot_file();
 Json scene_file();
 Json scenario_file();
+Json connection_file();
 
 }  // namespace zwang::lang::schema

@@ -6,7 +6,7 @@
 
 namespace zwang::lang {
 
-enum class SchemaKind { task, robot, scene, scenario };
+enum class SchemaKind { task, robot, scene, scenario, connection };
 
 /// What a schema can say of a file: keys, shapes, and whether a text looks like a quantity. Names, dimensions
 /// and everything else is for `load` to judge.

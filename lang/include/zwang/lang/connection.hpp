@@ -1,0 +1,97 @@
+/// A connection file: over which ROS 2 topics a robot is sensed and commanded.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang {
+
+struct Program;
+
+/// The messages that a connection can name or use.
+enum class MessageType {
+  joint_state,
+  odometry,
+  twist,
+  twist_stamped,
+  pose_stamped,
+  pose_with_covariance_stamped,
+  wrench_stamped,
+  boolean,
+  float64,
+  float64_multi_array,
+  laser_scan,
+};
+/// As ROS 2 writes it: `geometry_msgs/Twist`.
+const char* to_string(MessageType type) noexcept;
+
+enum class Reach {
+  loopback,  ///< 127.0.0.1 alone: peers need ROS_LOCALHOST_ONLY=1
+  network,   ///< every interface of this machine
+};
+
+struct Topic {
+  std::string name;  ///< absolute: `/joint_states`
+  Span span;
+};
+
+/// sensor_msgs/JointState.
+struct JointsSource {
+  Topic topic;
+  double stale_after = 0.0;                  ///< [s] without a new sample until the robot is stopped
+  std::map<std::string, std::string> names;  ///< the URDF's joint -> its name in the messages
+  std::map<std::string, Span> name_spans;    ///< by the URDF's joint
+};
+
+struct SignalSource {
+  std::string name;  ///< the task file's
+  Topic topic;
+  MessageType type = MessageType::boolean;
+  /// Of a LaserScan: the nearest range between these angles [rad].
+  std::optional<std::array<double, 2>> nearest;
+  Span span;
+};
+
+enum class CommandKind { twist, effort, velocity };
+
+struct CommandSink {
+  CommandKind kind = CommandKind::twist;
+  MessageType type = MessageType::twist;  ///< of a twist; joints take a Float64MultiArray
+  Topic topic;
+  std::optional<double> rate;      ///< [1/s] of a twist; none: once a control period
+  std::optional<double> timeout;   ///< [s] after which the receiver stops by itself; none: it does not
+  std::vector<std::string> order;  ///< joints of a Float64MultiArray
+  std::vector<Span> order_spans;
+  Span span;
+};
+
+struct Connection {
+  std::string path;  ///< as it was opened
+  int domain = 0;    ///< ROS_DOMAIN_ID
+  Reach reach = Reach::loopback;
+  JointsSource joints;
+  std::optional<Topic> base;  ///< nav_msgs/Odometry; none: the base is reckoned from its wheels
+  std::optional<Topic> fix;   ///< geometry_msgs/PoseWithCovarianceStamped in the world
+  std::vector<SignalSource> signals;
+  CommandSink command;
+  int priority = 0;  ///< of SCHED_FIFO; 0: the usual scheduler
+};
+
+/// Whether ROS 2 takes it as an absolute topic name.
+bool is_topic_name(std::string_view name);
+
+/// Reads and checks a connection file by itself.
+std::optional<Connection> load_connection(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+/// Whether the connection gives a program all that it reads, and takes what its drive sends: E301, E922,
+/// E923.
+bool check_connection(const Connection& connection, const Program& program, Diagnostics& diagnostics);
+
+}  // namespace zwang::lang

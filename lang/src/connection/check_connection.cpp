@@ -1,0 +1,114 @@
+#include <algorithm>
+
+#include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_connection.hpp"
+#include "zwang/lang/connection.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+SignalType measured_by(MessageType type) {
+  switch (type) {
+    case MessageType::pose_stamped:
+      return SignalType::pose;
+    case MessageType::wrench_stamped:
+      return SignalType::wrench;
+    case MessageType::float64:
+    case MessageType::laser_scan:
+      return SignalType::number;
+    default:
+      return SignalType::boolean;
+  }
+}
+
+std::vector<std::string> joint_names(const Program& program, bool with_motor) {
+  std::vector<std::string> names;
+  for (int j = 0; j < program.robot.model.joint_count(); ++j) {
+    const solver::Joint& joint = program.robot.model.joint(j);
+    if (!with_motor || joint.actuated) names.push_back(joint.name);
+  }
+  return names;
+}
+
+void check_signals(const Connection& connection, const Program& program, Diagnostics& diagnostics) {
+  std::vector<std::string> known;
+  for (const Signal& signal : program.signals) known.push_back(signal.name);
+  for (const SignalSource& source : connection.signals) {
+    const auto signal = std::find_if(program.signals.begin(), program.signals.end(),
+                                     [&](const Signal& s) { return s.name == source.name; });
+    // One connection serves several tasks: a signal that this one does not read is no mistake.
+    if (signal == program.signals.end()) continue;
+    if (signal->type != measured_by(source.type))
+      diagnostics.add(
+          wording::signal_of_another_type(source.span, source.name, to_string(source.type), signal->span));
+  }
+  for (const Signal& signal : program.signals) {
+    const bool has_source = std::any_of(connection.signals.begin(), connection.signals.end(),
+                                        [&](const SignalSource& s) { return s.name == signal.name; });
+    if (!has_source)
+      diagnostics.add(wording::signal_without_source(signal.span, signal.name, connection.path));
+  }
+}
+
+void check_order(const CommandSink& command, const Program& program, Diagnostics& diagnostics) {
+  const std::vector<std::string> motors = joint_names(program, true);
+  for (std::size_t i = 0; i < command.order.size(); ++i) {
+    const std::string& name = command.order[i];
+    if (std::find(motors.begin(), motors.end(), name) == motors.end())
+      diagnostics.add(wording::unknown_name(command.order_spans[i], "joint with a motor", name, motors));
+    if (std::count(command.order.begin(), command.order.begin() + static_cast<std::ptrdiff_t>(i), name) > 0)
+      diagnostics.add(wording::wrong_command(
+          command.order_spans[i], "joint `" + name + "` stands twice in `order`", "name each joint once"));
+  }
+  for (const std::string& motor : motors) {
+    if (std::find(command.order.begin(), command.order.end(), motor) == command.order.end())
+      diagnostics.add(wording::wrong_command(command.span,
+                                             "`order` leaves out the motor of joint `" + motor + "`",
+                                             "add `" + motor + "` where its controller expects it"));
+  }
+}
+
+void check_command(const CommandSink& command, const Program& program, Diagnostics& diagnostics) {
+  const Drive& drive = program.robot.drive;
+  const char* const sent = command.kind == CommandKind::twist    ? "twists"
+                           : command.kind == CommandKind::effort ? "efforts"
+                                                                 : "wheel velocities";
+  const char* const taken = drive.takes_twist      ? "twists"
+                            : drive.takes_velocity ? "wheel velocities"
+                                                   : "efforts";
+  if (std::string(sent) != taken) {
+    diagnostics.add(wording::wrong_command(
+        command.span,
+        std::string("the connection sends ") + sent + ", the robot file's `drive` takes " + taken,
+        drive.takes_twist ? "write `twist: {topic: /cmd_vel, type: geometry_msgs/Twist}`"
+        : drive.takes_velocity
+            ? "write `joints: {.., what: velocity, ..}`, or `as: twist` in the robot file"
+            : "write `joints: {.., what: effort, ..}`, or give the robot file a `drive` with "
+              "`command: velocity` and `as: twist`"));
+    return;
+  }
+  if (command.kind == CommandKind::velocity && !drive.limit_is_fixed)
+    diagnostics.add(wording::wrong_command(
+        command.span, "the drive takes a torque limit with each velocity, and a Float64MultiArray has none",
+        "give the robot file `torque_limit: fixed`"));
+  if (command.kind != CommandKind::twist) check_order(command, program, diagnostics);
+}
+
+}  // namespace
+
+bool check_connection(const Connection& connection, const Program& program, Diagnostics& diagnostics) {
+  const int errors_before = diagnostics.error_count();
+  const std::vector<std::string> joints = joint_names(program, false);
+  for (const auto& [name, span] : connection.joints.name_spans) {
+    if (std::find(joints.begin(), joints.end(), name) == joints.end())
+      diagnostics.add(wording::unknown_name(span, "joint", name, joints));
+  }
+  check_signals(connection, program, diagnostics);
+  check_command(connection.command, program, diagnostics);
+  diagnostics.settle();
+  return diagnostics.error_count() == errors_before;
+}
+
+}  // namespace zwang::lang

@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <cctype>
+
+#include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_connection.hpp"
+#include "spec/shape.hpp"
+#include "tree/file.hpp"
+#include "tree/read.hpp"
+#include "zwang/lang/connection.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+constexpr double default_joints_age = 100e-3;  // [s]
+constexpr int highest_domain = 232;            // its ports end below 65536
+constexpr int highest_priority = 98;
+
+constexpr MessageType signal_types[] = {MessageType::boolean, MessageType::float64, MessageType::pose_stamped,
+                                        MessageType::wrench_stamped, MessageType::laser_scan};
+
+/// `geometry_msgs/msg/Twist` is the same type as `geometry_msgs/Twist`.
+std::string without_msg(const std::string& type) {
+  const std::size_t at = type.find("/msg/");
+  return at == std::string::npos ? type : type.substr(0, at) + type.substr(at + 4);
+}
+
+template <typename Types>
+std::optional<MessageType> parse_type(const Node& node, const std::string& what, const Types& types,
+                                      Diagnostics& diagnostics) {
+  const Word word = parse_word(node, what, diagnostics);
+  if (!word.exists()) return std::nullopt;
+  std::vector<std::string> names;
+  for (const MessageType type : types) {
+    names.push_back(to_string(type));
+    if (names.back() == without_msg(word.text)) return type;
+  }
+  diagnostics.add(wording::unknown_name(word.span, "message type here", word.text, names));
+  return std::nullopt;
+}
+
+std::string parse_choice(const Node& node, const std::string& what, const std::vector<std::string>& words,
+                         Diagnostics& diagnostics) {
+  const Word word = parse_word(node, what, diagnostics);
+  if (!word.exists() || std::find(words.begin(), words.end(), word.text) != words.end()) return word.text;
+  diagnostics.add(wording::unknown_name(word.span, "word for " + what, word.text, words));
+  return "";
+}
+
+Topic parse_topic(MapReader& map, Diagnostics& diagnostics) {
+  const Node* node = map.required("topic");
+  if (node == nullptr) return {};
+  const Word word = parse_word(*node, map.what() + "'s `topic`", diagnostics);
+  if (word.exists() && !is_topic_name(word.text)) diagnostics.add(wording::bad_topic(word.span, word.text));
+  return {word.text, node->span};
+}
+
+/// `{topic: /odom}`, with an example of it for whoever writes `/odom` alone.
+Topic parse_topic_alone(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  MapReader map(node, what, diagnostics, "{topic: " + (node.is_scalar() ? node.text : "/odom") + "}");
+  Topic topic = parse_topic(map, diagnostics);
+  map.finish();
+  return topic;
+}
+
+void parse_ros2(const Node& node, Connection& connection, Diagnostics& diagnostics) {
+  MapReader map(node, "`ros2`", diagnostics);
+  if (const Node* domain = map.optional("domain"))
+    connection.domain =
+        parse_integer(*domain, "`domain`", 0, highest_domain, diagnostics).value_or(connection.domain);
+  if (const Node* reach = map.optional("reach")) {
+    const std::string word = parse_choice(*reach, "`reach`", {"loopback", "network"}, diagnostics);
+    if (word == "network") connection.reach = Reach::network;
+  }
+  map.finish();
+}
+
+JointsSource parse_joints(const Node& node, Diagnostics& diagnostics) {
+  JointsSource joints;
+  joints.stale_after = default_joints_age;
+  MapReader map(node, "`joints`", diagnostics,
+                "{topic: " + (node.is_scalar() ? node.text : "/joint_states") + "}");
+  joints.topic = parse_topic(map, diagnostics);
+  if (const Node* age = map.optional("stale_after"))
+    joints.stale_after =
+        parse_positive(*age, dimension::time, "joints.stale_after", false, diagnostics).value_or(1.0);
+  if (const Node* names = map.optional("names");
+      names != nullptr && require_mapping(*names, "`names`", diagnostics)) {
+    for (const Entry& entry : names->entries) {
+      if (entry.key.is_bad) continue;
+      joints.names[entry.key.text] = parse_word(entry.value, "names." + entry.key.text, diagnostics).text;
+      joints.name_spans[entry.key.text] = entry.key.span;
+    }
+  }
+  map.finish();
+  return joints;
+}
+
+void parse_state(const Node& node, Connection& connection, Diagnostics& diagnostics) {
+  MapReader map(node, "`state`", diagnostics, "{joints: {topic: /joint_states}}");
+  if (const Node* joints = map.required("joints")) connection.joints = parse_joints(*joints, diagnostics);
+  if (const Node* base = map.optional("base"))
+    connection.base = parse_topic_alone(*base, "`base`", diagnostics);
+  if (const Node* fix = map.optional("fix")) connection.fix = parse_topic_alone(*fix, "`fix`", diagnostics);
+  map.finish();
+}
+
+SignalSource parse_signal(const Entry& entry, Diagnostics& diagnostics) {
+  SignalSource signal;
+  signal.name = entry.key.text;
+  signal.span = entry.key.span;
+  MapReader map(entry.value, "signal `" + signal.name + "`", diagnostics,
+                "{topic: /" + signal.name + ", type: std_msgs/Bool}");
+  signal.topic = parse_topic(map, diagnostics);
+  if (const Node* type = map.required("type"))
+    signal.type =
+        parse_type(*type, map.what() + "'s `type`", signal_types, diagnostics).value_or(signal.type);
+  const Node* nearest = map.optional("nearest");
+  if (nearest != nullptr) {
+    const auto range =
+        parse_vector(*nearest, dimension::angle, 2, 2, map.what() + "'s `nearest`", diagnostics);
+    if (range) signal.nearest = {(*range)[0], (*range)[1]};
+  }
+  const bool is_scan = signal.type == MessageType::laser_scan;
+  if (map.is_mapping() && is_scan != (nearest != nullptr) && !map.has_misspelt({"nearest", "type"}))
+    diagnostics.add(wording::nearest_of_a_scan(nearest != nullptr ? nearest->span : signal.span, is_scan));
+  map.finish();
+  return signal;
+}
+
+void parse_timeout(MapReader& map, CommandSink& command, Diagnostics& diagnostics) {
+  if (const Node* timeout = map.optional("timeout"))
+    command.timeout = parse_positive(*timeout, dimension::time, "`timeout`", false, diagnostics);
+}
+
+void parse_twist_sink(const Node& node, CommandSink& command, Diagnostics& diagnostics) {
+  MapReader map(node, "`twist`", diagnostics, "{topic: /cmd_vel, type: geometry_msgs/Twist}");
+  command.topic = parse_topic(map, diagnostics);
+  constexpr MessageType types[] = {MessageType::twist, MessageType::twist_stamped};
+  if (const Node* type = map.required("type"))
+    command.type = parse_type(*type, "`type`", types, diagnostics).value_or(command.type);
+  if (const Node* rate = map.optional("rate"))
+    command.rate = parse_positive(*rate, dimension::frequency, "`rate`", false, diagnostics);
+  parse_timeout(map, command, diagnostics);
+  map.finish();
+}
+
+void parse_joints_sink(const Node& node, CommandSink& command, Diagnostics& diagnostics) {
+  MapReader map(node, "`joints`", diagnostics,
+                "{topic: /effort_controller/commands, what: effort, order: [left_wheel, right_wheel]}");
+  command.type = MessageType::float64_multi_array;
+  command.kind = CommandKind::effort;
+  command.topic = parse_topic(map, diagnostics);
+  if (const Node* what = map.required("what")) {
+    if (parse_choice(*what, "`what`", {"effort", "velocity"}, diagnostics) == "velocity")
+      command.kind = CommandKind::velocity;
+  }
+  const Node* order = map.required("order");
+  if (order != nullptr && require_sequence(*order, "`order`", diagnostics)) {
+    for (const Node& item : order->items) {
+      command.order.push_back(parse_word(item, "a joint of `order`", diagnostics).text);
+      command.order_spans.push_back(item.span);
+    }
+  }
+  parse_timeout(map, command, diagnostics);
+  map.finish();
+}
+
+CommandSink parse_command(const Node& node, Diagnostics& diagnostics) {
+  CommandSink command;
+  command.span = node.span;
+  MapReader map(node, "`command`", diagnostics, "{twist: {topic: /cmd_vel, type: geometry_msgs/Twist}}");
+  const Node* twist = map.optional("twist");
+  const Node* joints = map.optional("joints");
+  if (twist != nullptr) parse_twist_sink(*twist, command, diagnostics);
+  if (joints != nullptr && twist == nullptr) parse_joints_sink(*joints, command, diagnostics);
+  const bool is_one = (twist != nullptr) != (joints != nullptr);
+  if (map.is_mapping() && !is_one && (twist != nullptr || !map.has_unread_keys()))
+    diagnostics.add(wording::one_command(node.span));
+  const Node* sink = twist != nullptr ? twist : joints;
+  if (is_one && sink->is_mapping() && sink->find("timeout") == nullptr)
+    diagnostics.add(wording::nothing_stops_it(command.topic.span, command.topic.name));
+  map.finish();
+  return command;
+}
+
+std::optional<Connection> parse_connection(const Document& document, Diagnostics& diagnostics) {
+  MapReader map(document.root, "a connection file", diagnostics);
+  if (!map.is_mapping() || !check_version(map, "zwang_connection", 1, diagnostics)) return std::nullopt;
+  Connection connection;
+  if (const Node* ros2 = map.optional("ros2")) parse_ros2(*ros2, connection, diagnostics);
+  if (const Node* loop = map.optional("loop")) {
+    MapReader loop_map(*loop, "`loop`", diagnostics);
+    if (const Node* priority = loop_map.optional("priority"))
+      connection.priority =
+          parse_integer(*priority, "`priority`", 0, highest_priority, diagnostics).value_or(0);
+    loop_map.finish();
+  }
+  if (const Node* state = map.required("state")) parse_state(*state, connection, diagnostics);
+  const Node* signals = map.optional("signals");
+  if (signals != nullptr && require_mapping(*signals, "`signals`", diagnostics)) {
+    for (const Entry& entry : signals->entries) {
+      if (!entry.key.is_bad) connection.signals.push_back(parse_signal(entry, diagnostics));
+    }
+  }
+  if (const Node* command = map.required("command"))
+    connection.command = parse_command(*command, diagnostics);
+  map.finish();
+  return connection;
+}
+
+}  // namespace
+
+const char* to_string(MessageType type) noexcept {
+  switch (type) {
+    case MessageType::joint_state:
+      return "sensor_msgs/JointState";
+    case MessageType::odometry:
+      return "nav_msgs/Odometry";
+    case MessageType::twist:
+      return "geometry_msgs/Twist";
+    case MessageType::twist_stamped:
+      return "geometry_msgs/TwistStamped";
+    case MessageType::pose_stamped:
+      return "geometry_msgs/PoseStamped";
+    case MessageType::pose_with_covariance_stamped:
+      return "geometry_msgs/PoseWithCovarianceStamped";
+    case MessageType::wrench_stamped:
+      return "geometry_msgs/WrenchStamped";
+    case MessageType::boolean:
+      return "std_msgs/Bool";
+    case MessageType::float64:
+      return "std_msgs/Float64";
+    case MessageType::float64_multi_array:
+      return "std_msgs/Float64MultiArray";
+    case MessageType::laser_scan:
+      break;
+  }
+  return "sensor_msgs/LaserScan";
+}
+
+bool is_topic_name(std::string_view name) {
+  if (name.size() < 2 || name.size() > 240 || name.front() != '/' || name.back() == '/') return false;
+  char before = 'a';
+  for (const char c : name) {
+    const bool is_letter = std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+    const bool is_digit = c >= '0' && c <= '9';
+    if (!is_letter && !is_digit && c != '/') return false;
+    if (before == '/' && !is_letter) return false;
+    if (before == '_' && c == '_') return false;
+    before = c;
+  }
+  return true;
+}
+
+std::optional<Connection> load_connection(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  const int errors_before = diagnostics.error_count();
+  const std::optional<int> source = read_file(path, yaml_size_limit, {}, diagnostics);
+  if (!source) return std::nullopt;
+  const std::optional<Document> document = read(*source, diagnostics);
+  std::optional<Connection> connection;
+  if (document) connection = parse_connection(*document, diagnostics);
+  diagnostics.settle();
+  if (!connection || diagnostics.error_count() > errors_before) return std::nullopt;
+  connection->path = path.string();
+  return connection;
+}
+
+}  // namespace zwang::lang

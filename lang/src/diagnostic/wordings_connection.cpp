@@ -1,0 +1,47 @@
+#include "diagnostic/wordings_connection.hpp"
+
+#include "diagnostic/make.hpp"
+
+namespace zwang::lang::wording {
+
+Diagnostic bad_topic(const Span& span, const std::string& name) {
+  return error("E921", span, "`" + name + "` is not the name of a ROS 2 topic",
+               "write it with its namespace: `/cmd_vel`, of letters, digits, single `_` and `/`");
+}
+
+Diagnostic nearest_of_a_scan(const Span& span, bool is_scan) {
+  if (is_scan)
+    return error("E922", span, "a LaserScan has many ranges, and the signal is one number",
+                 "add the angles that count: `nearest: [-10 deg, 10 deg]`");
+  return error("E922", span, "`nearest` picks a range of a sensor_msgs/LaserScan; this is another type",
+               "delete it, or write `type: sensor_msgs/LaserScan`");
+}
+
+Diagnostic signal_without_source(const Span& span, const std::string& name, const std::string& connection) {
+  return error("E922", span, "signal `" + name + "` has no topic: nobody would measure it",
+               "add `" + name + ": {topic: .., type: ..}` to `signals` in " + connection);
+}
+
+Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& type,
+                                  const Span& declared) {
+  return with_related(error("E922", span, "signal `" + name + "` is not what a " + type + " holds",
+                            "name a topic of the type that the task file declares"),
+                      declared, "declared here");
+}
+
+Diagnostic one_command(const Span& span) {
+  return error("E923", span, "a connection has one command: `twist` or `joints`", "keep one of them");
+}
+
+Diagnostic wrong_command(const Span& span, const std::string& what, const std::string& help) {
+  return error("E923", span, what, help);
+}
+
+Diagnostic nothing_stops_it(const Span& span, const std::string& topic) {
+  return warning(
+      "W920", span,
+      "nothing stops this robot when zwang dies: no `timeout` of what listens to `" + topic + "` is stated",
+      "find out after which silence the receiver stops the motors, and write `timeout: 500 ms`");
+}
+
+}  // namespace zwang::lang::wording

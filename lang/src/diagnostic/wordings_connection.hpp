@@ -1,0 +1,20 @@
+/// What is said about connection files.
+#pragma once
+
+#include <string>
+
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang::wording {
+
+Diagnostic bad_topic(const Span& span, const std::string& name);
+/// `is_scan`: a LaserScan without `nearest`; else `nearest` beside another type.
+Diagnostic nearest_of_a_scan(const Span& span, bool is_scan);
+Diagnostic signal_without_source(const Span& span, const std::string& name, const std::string& connection);
+Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& type,
+                                  const Span& declared);
+Diagnostic one_command(const Span& span);
+Diagnostic wrong_command(const Span& span, const std::string& what, const std::string& help);
+Diagnostic nothing_stops_it(const Span& span, const std::string& topic);
+
+}  // namespace zwang::lang::wording

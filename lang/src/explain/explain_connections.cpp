@@ -1,0 +1,45 @@
+#include <array>
+
+#include "explain/catalogue.hpp"
+
+namespace zwang::lang::catalogue {
+
+std::span<const Explanation> connections() {
+  static constexpr std::array entries{
+      Explanation{
+          .code = "W920",
+          .title = "a robot that nothing stops when zwang dies",
+          .why =
+              R"~(A process can be killed, and a cable can be pulled. Then no command comes any more, not even a zero.
+A receiver with a timeout stops the motors after a silence: `diff_drive_controller` has 0.5 s. One
+without, as `forward_command_controller`, goes on with the last command for good.)~",
+          .fix =
+              R"~(Look up what the receiver does after a silence, try it out, and state its `timeout` under `twist` or
+`joints`. A receiver without one needs an emergency stop that somebody holds.)~"},
+      Explanation{
+          .code = "E921",
+          .title = "a name that is no ROS 2 topic",
+          .why =
+              R"~(ROS 2 refuses such a name, so nobody could ever be at the other end. A connection writes topics in
+full, because zwang has no namespace and remaps nothing.)~",
+          .fix = "Write the name that `ros2 topic list` prints, as `/base/cmd_vel`."},
+      Explanation{
+          .code = "E922",
+          .title = "a signal that no topic measures",
+          .why =
+              R"~(A signal of the task file needs a topic whose messages hold what the signal is: `Bool` a bool,
+`Float64` or the `nearest` range of a `LaserScan` a number, `PoseStamped` a pose, `WrenchStamped` a
+wrench. Without it the signal would never be known.)~",
+          .fix = "Name the topic, with its type, under `signals` of the connection file."},
+      Explanation{
+          .code = "E923",
+          .title = "a command that the robot's drive does not take",
+          .why =
+              R"~(The robot file says what the drive takes: torques, wheel velocities, or twists of the base. The
+connection has to send the same, to every motor.)~",
+          .fix = "Change `command` of the connection, or `drive` of the robot file, to what the robot has."},
+  };
+  return entries;
+}
+
+}  // namespace zwang::lang::catalogue

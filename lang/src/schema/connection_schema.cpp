@@ -1,0 +1,70 @@
+#include "schema/parts.hpp"
+
+namespace zwang::lang::schema {
+
+namespace {
+
+Json topic(const char* description) {
+  return object(description, {{"topic", word("a ROS 2 topic, with its namespace"), true}});
+}
+
+Json whole_number(int least, int most, const char* description) {
+  return {{"type", "integer"}, {"minimum", least}, {"maximum", most}, {"description", description}};
+}
+
+Json timeout() {
+  return reference("quantity", "after such a silence the receiver stops the motors by itself");
+}
+
+Json joints_source() {
+  return object(
+      "sensor_msgs/JointState",
+      {{"topic", word("a ROS 2 topic, with its namespace"), true},
+       {"stale_after", reference("quantity", "without a new sample the robot is stopped; default 100 ms")},
+       {"names", named("the URDF's joints that have other names in the messages", word("the name there"))}});
+}
+
+Json signal() {
+  return object(
+      "", {{"topic", word("a ROS 2 topic, with its namespace"), true},
+           {"type",
+            word("std_msgs/Bool, std_msgs/Float64, geometry_msgs/PoseStamped, "
+                 "geometry_msgs/WrenchStamped or sensor_msgs/LaserScan"),
+            true},
+           {"nearest", reference("vector", "of a LaserScan: the angles between which a range counts")}});
+}
+
+Json command() {
+  const Json twist = object("", {{"topic", word(""), true},
+                                 {"type", word("geometry_msgs/Twist or geometry_msgs/TwistStamped"), true},
+                                 {"rate", reference("quantity", "default: once a control period")},
+                                 {"timeout", timeout()}});
+  const Json joints =
+      object("std_msgs/Float64MultiArray", {{"topic", word(""), true},
+                                            {"what", one_of_words("", {"effort", "velocity"}), true},
+                                            {"order", list("every joint with a motor", word("")), true},
+                                            {"timeout", timeout()}});
+  return object("one of the two", {{"twist", twist}, {"joints", joints}});
+}
+
+}  // namespace
+
+Json connection_file() {
+  return object(
+      "The ROS 2 topics over which a robot is sensed and commanded",
+      {version("zwang_connection"),
+       {"ros2", object("", {{"domain", whole_number(0, 232, "ROS_DOMAIN_ID; default 0")},
+                            {"reach", one_of_words("default loopback", {"loopback", "network"})}})},
+       {"loop",
+        object("", {{"priority", whole_number(0, 98, "of SCHED_FIFO; default 0, the usual scheduler")}})},
+       {"state",
+        object("",
+               {{"joints", joints_source(), true},
+                {"base", topic("nav_msgs/Odometry; without it the wheels tell how the base moves")},
+                {"fix", topic("geometry_msgs/PoseWithCovarianceStamped: the base's pose, now and then")}}),
+        true},
+       {"signals", named("the sources of the task's signals", signal())},
+       {"command", command(), true}});
+}
+
+}  // namespace zwang::lang::schema
