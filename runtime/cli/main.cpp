@@ -188,6 +188,33 @@ void add_init(CLI::App& app, std::function<int()>& chosen) {
   verb->callback([=, &chosen] { chosen = [=] { return init(*arguments); }; });
 }
 
+void add_drive(CLI::App& app, std::function<int()>& chosen) {
+  const auto arguments = std::make_shared<ConnectArguments>();
+  CLI::App* verb =
+      app.add_subcommand("drive", "Run a task on a real robot that speaks ROS 2: its motors move");
+  verb->add_option("file", arguments->file, "the task file")->required();
+  verb->add_option("--over", arguments->connection, "the connection file: topics, command")->required();
+  add_overrides(*verb, arguments->overrides);
+  verb->add_option("--log", arguments->log, "an .mcap file for the log (default: none)");
+  verb->add_option("--observe", arguments->observe,
+                   "send nothing; for so many seconds tell what comes, and its signs")
+      ->check(CLI::Range(0.1, 86400.0));
+  verb->add_option("--wait", arguments->wait, "seconds to wait for the robot (default 10)")
+      ->check(CLI::Range(0.0, 86400.0));
+  verb->callback([=, &chosen] { chosen = [=] { return connect("drive", *arguments); }; });
+}
+
+void add_simulate(CLI::App& app, std::function<int()>& chosen) {
+  const auto arguments = std::make_shared<ConnectArguments>();
+  CLI::App* verb = app.add_subcommand(
+      "simulate", "Be the robot of a scene behind the topics of a connection, for `zwang drive`");
+  verb->add_option("file", arguments->file, "the task file, whose robot and scene are simulated")->required();
+  verb->add_option("--over", arguments->connection, "the connection file that `drive` reads")->required();
+  add_overrides(*verb, arguments->overrides);
+  verb->add_option("--seed", arguments->seed, "seed of everything random (default 0)");
+  verb->callback([=, &chosen] { chosen = [=] { return connect("simulate", *arguments); }; });
+}
+
 void add_doctor(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* verb =
       app.add_subcommand("doctor", "Say what this machine offers, and how to get what is missing");
@@ -255,6 +282,8 @@ int parse_and_do(int argc, char** argv) {
   add_init(app, chosen);
   add_doctor(app, chosen);
   add_completion(app, chosen);
+  add_drive(app, chosen);
+  add_simulate(app, chosen);
 
   RunArguments to_run;
   std::optional<std::string> yaw_text, at_text, seed_text;

@@ -112,6 +112,19 @@ struct RunArguments {
 };
 int run(const RunArguments& arguments);
 
+/// Of `drive` and `simulate`.
+struct ConnectArguments {
+  std::string file;        ///< the task file
+  std::string connection;  ///< the connection file
+  TaskOverrides overrides;
+  std::optional<std::string> log;     ///< an .mcap file
+  std::optional<double> observe;      ///< [s] to look for, and send nothing
+  std::optional<double> wait;         ///< [s] for the robot to be there
+  std::optional<std::uint64_t> seed;  ///< of a simulated robot
+};
+/// `verb`: drive or simulate. Does not return where the program for it is there.
+int connect(const std::string& verb, const ConnectArguments& arguments);
+
 struct InitArguments {
   std::string folder;
 };

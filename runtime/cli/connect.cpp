@@ -1,0 +1,60 @@
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+#include "output.hpp"
+#include "shipped.hpp"
+#include "verbs.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Beside `zwang` where it was built, in libexec/zwang where it was installed.
+fs::path program_for(const std::string& name) {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& path : {folder / name, folder.parent_path() / "libexec/zwang" / name}) {
+    if (!error && fs::exists(path, error)) return path;
+  }
+  throw Impossible(
+      "this zwang was built without ROS 2 topics: there is no " + name +
+      "\nInstall Fast DDS (apt install libfastrtps-dev), and build again with -DZWANG_CONNECT=ON.");
+}
+
+std::vector<std::string> words_of(const ConnectArguments& a) {
+  std::vector<std::string> words{file_or_shipped(a.file), "--over", file_or_shipped(a.connection)};
+  const auto add = [&words](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  if (a.overrides.robot) add("--robot", *a.overrides.robot);
+  if (a.overrides.scene) add("--scene", *a.overrides.scene);
+  for (const auto& [name, value] : a.overrides.parameters) add("-p", name + "=" + value);
+  if (a.log) add("--log", *a.log);
+  if (a.observe) add("--observe", std::to_string(*a.observe));
+  if (a.wait) add("--wait", std::to_string(*a.wait));
+  if (a.seed) add("--seed", std::to_string(*a.seed));
+  return words;
+}
+
+}  // namespace
+
+int connect(const std::string& verb, const ConnectArguments& arguments) {
+  require_file(file_or_shipped(arguments.connection));
+  const std::string program = program_for("zwang-" + verb).string();
+  std::vector<std::string> words = words_of(arguments);
+  words.insert(words.begin(), program);
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  // In the place of this process: signals reach what drives the robot without a way round.
+  execv(program.c_str(), argv.data());
+  throw Impossible(program + ": " + std::strerror(errno));
+}
+
+}  // namespace zwang::cli

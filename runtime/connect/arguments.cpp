@@ -1,0 +1,85 @@
+#include "arguments.hpp"
+
+#include <sched.h>
+#include <sys/mman.h>
+
+#include <atomic>
+#include <csignal>
+#include <iostream>
+#include <stdexcept>
+
+namespace zwang::connect {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal sets it");
+
+extern "C" void on_interruption(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+bool is_interrupted() noexcept {
+  return interrupted;
+}
+
+void catch_interruption() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interruption);
+}
+
+void become_punctual(int priority) {
+  if (priority == 0) return;
+  const sched_param parameters{priority};
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0 && sched_setscheduler(0, SCHED_FIFO, &parameters) == 0) return;
+  std::cerr
+      << "zwang: no real-time priority: that takes CAP_SYS_NICE and CAP_IPC_LOCK, or limits of rtprio and "
+         "memlock\n";
+}
+
+Arguments parse_arguments(int argc, char** argv) {
+  Arguments a;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (!word.starts_with("-")) {
+      a.task = word;
+      continue;
+    }
+    if (++i == argc) throw std::invalid_argument(word + " needs a value");
+    const std::string value = argv[i];
+    if (word == "--over")
+      a.connection = value;
+    else if (word == "--robot")
+      a.options.robot = value;
+    else if (word == "--scene")
+      a.options.scene = value;
+    else if (word == "--log")
+      a.log = value;
+    else if (word == "--observe")
+      a.observe = std::stod(value);
+    else if (word == "--wait")
+      a.wait = std::stod(value);
+    else if (word == "--seed")
+      a.seed = std::stoull(value);
+    else if (word == "-p" && value.find('=') != std::string::npos)
+      a.options.parameters[value.substr(0, value.find('='))] = value.substr(value.find('=') + 1);
+    else
+      throw std::invalid_argument("unknown option " + word);
+  }
+  if (a.task.empty() || a.connection.empty())
+    throw std::invalid_argument("a task and --over CONNECTION are needed");
+  return a;
+}
+
+std::optional<Loaded> load(const Arguments& arguments, lang::Diagnostics& diagnostics) {
+  auto connection = lang::load_connection(arguments.connection, diagnostics);
+  auto program = lang::load(arguments.task, arguments.options, diagnostics);
+  const bool is_good = program && connection && lang::check_connection(*connection, *program, diagnostics);
+  lang::render_human(diagnostics, std::cerr);
+  if (!is_good || diagnostics.has_errors()) return std::nullopt;
+  return Loaded{std::move(*program), std::move(*connection)};
+}
+
+}  // namespace zwang::connect

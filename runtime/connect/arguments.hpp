@@ -1,0 +1,43 @@
+/// What `zwang drive` and `zwang simulate` hand to the programs that do it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "zwang/lang/connection.hpp"
+#include "zwang/lang/program.hpp"
+
+namespace zwang::connect {
+
+enum ExitCode { exit_good = 0, exit_bad = 1, exit_impossible = 2 };
+
+struct Arguments {
+  std::string task, connection;
+  lang::LoadOptions options;
+  std::optional<std::string> log;  ///< an .mcap file
+  std::optional<double> observe;   ///< [s]: only look, for so long
+  double wait = 10.0;              ///< [s] for the other side to be there
+  std::uint64_t seed = 0;
+};
+
+/// TASK --over CONNECTION [--robot F] [--scene F] [-p NAME=VALUE]... [--log F] [--observe S] [--wait S]
+/// [--seed N]. Throws std::invalid_argument; people are answered by `zwang`, which calls this.
+Arguments parse_arguments(int argc, char** argv);
+
+struct Loaded {
+  lang::Program program;
+  lang::Connection connection;
+};
+/// Prints what is wrong; nothing if that is an error.
+std::optional<Loaded> load(const Arguments& arguments, lang::Diagnostics& diagnostics);
+
+/// SCHED_FIFO for this thread and those that it starts from now on, memory locked; says so where it may not.
+/// 0: nothing.
+void become_punctual(int priority);
+
+/// Set by SIGINT, SIGTERM and SIGHUP; the second one ends the process.
+bool is_interrupted() noexcept;
+void catch_interruption();
+
+}  // namespace zwang::connect

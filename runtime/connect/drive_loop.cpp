@@ -1,0 +1,153 @@
+#include "drive_loop.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "arguments.hpp"
+#include "zwang/runtime/watchdog.hpp"
+
+namespace zwang::connect {
+
+namespace {
+
+using runtime::EventCode;
+
+constexpr double blocked_for = 0.2;    // [s] without a tick: the thread hangs, and zeros go out without it
+constexpr double too_late = 0.1;       // [s] a tick that is so late is a stop
+constexpr double longest_brake = 2.0;  // [s] behind a signal
+constexpr double nearly_a_period = 0.7;
+
+void sleep_until(double time) {
+  const double left = time - now();
+  if (left <= 0.0) return;
+  timespec span{static_cast<time_t>(left), static_cast<long>(std::fmod(left, 1.0) * 1e9)};
+  clock_nanosleep(CLOCK_MONOTONIC, 0, &span, nullptr);
+}
+
+class Loop {
+ public:
+  Loop(const lang::Connection& connection, const lang::Program& program, Inbox& inbox, Outbox& outbox,
+       runtime::Runner& runner, DriveReport& report)
+      : connection_(connection),
+        inbox_(inbox),
+        outbox_(outbox),
+        runner_(runner),
+        report_(report),
+        sensed_(program),
+        takes_velocity_(program.robot.drive.takes_velocity),
+        period_(runner.period()),
+        send_every_(1.0 / connection.command.rate.value_or(1.0 / period_)) {}
+
+  void run() {
+    runtime::Watchdog watchdog(blocked_for, [this] {
+      outbox_.send_zeros(now());
+      static constexpr char text[] = "zwang drive: the loop was blocked for 0.2 s; zeros were sent\n";
+      [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
+      _exit(exit_bad);
+    });
+    begin_ = due_ = now();
+    inbox_.fill(sensed_);
+    sensed_.time = report_.first_sample = inbox_.joints().stamp;
+    while (!runner_.finished()) {
+      watchdog.feed();
+      takes_velocity_ ? wait_for_clock() : wait_for_sample();
+      watchdog.feed();
+      judge();
+      if (give_up_ && now() > *give_up_) break;
+      step();
+    }
+    report_.elapsed = now() - begin_;
+    report_.ended_early = !runner_.finished();
+  }
+
+ private:
+  void wait_for_clock() {
+    due_ += period_;
+    sleep_until(due_);
+    const double late = now() - due_;
+    note(late);
+    const double missed = std::floor(std::max(0.0, late) / period_);
+    report_.skipped += static_cast<std::uint64_t>(missed);
+    due_ += missed * period_;
+    inbox_.fill(sensed_);
+    sensed_.time = now();
+    sensed_.measured_at = inbox_.joints().stamp;
+  }
+
+  /// Samples may come more often than the control period: those between are passed over.
+  void wait_for_sample() {
+    const double last = inbox_.joints().stamp, until = now() + 1.5 * period_;
+    bool is_new = false;
+    while (!is_new && inbox_.wait_for_joints(until)) {
+      inbox_.fill(sensed_);
+      is_new = inbox_.joints().stamp - last > nearly_a_period * period_;
+    }
+    if (!is_new) {
+      ++report_.without_new;  // the guard counts it as lost
+      return;
+    }
+    note(now() - inbox_.joints().arrival);
+    if (has_stepped_)
+      report_.skipped += static_cast<std::uint64_t>(
+          std::max(0.0, std::round((inbox_.joints().stamp - last) / period_) - 1.0));
+    sensed_.time = inbox_.joints().stamp;
+  }
+
+  void note(double late) {
+    report_.lateness.add(late);
+    if (late > too_late) stop(EventCode::watchdog);
+  }
+
+  void stop(EventCode code) {
+    if (!runner_.guard().stopped()) runner_.guard().stop(code);
+  }
+
+  /// What the guard cannot know: by this process's own clock nothing comes any more, or somebody asks for the
+  /// end.
+  void judge() {
+    const double silence = now() - inbox_.last_arrival();
+    if (silence > connection_.joints.stale_after) stop(EventCode::lost_ticks);
+    if (is_interrupted() && !give_up_) {
+      give_up_ = now() + longest_brake;
+      stop(EventCode::requested);
+    }
+  }
+
+  void step() {
+    runner_.step(sensed_);
+    has_stepped_ = true;
+    const runtime::SafetyGuard& guard = runner_.guard();
+    if (!report_.silence && guard.stopped() && guard.reason() == EventCode::lost_ticks)
+      report_.silence = now() - inbox_.last_arrival();
+    // A tick that comes a little early is that of its cycle.
+    const double time = now();
+    if (time < send_at_ - 0.3 * period_) return;
+    send_at_ = std::max(send_at_ + send_every_, time);
+    if (!outbox_.send(runner_.command(), now())) ++report_.unsent;
+  }
+
+  const lang::Connection& connection_;
+  Inbox& inbox_;
+  Outbox& outbox_;
+  runtime::Runner& runner_;
+  DriveReport& report_;
+  runtime::Sensed sensed_;
+  bool takes_velocity_;
+  double period_, send_every_;
+  double begin_ = 0.0, due_ = 0.0, send_at_ = 0.0;  // [s]
+  bool has_stepped_ = false;
+  std::optional<double> give_up_;
+};
+
+}  // namespace
+
+void drive(const lang::Connection& connection, const lang::Program& program, Inbox& inbox, Outbox& outbox,
+           runtime::Runner& runner, DriveReport& report) {
+  Loop(connection, program, inbox, outbox, runner, report).run();
+  outbox.send_zeros(now());
+}
+
+}  // namespace zwang::connect

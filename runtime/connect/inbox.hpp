@@ -1,0 +1,73 @@
+/// What the robot tells: topics decoded on the threads of DDS, read by the control thread.
+#pragma once
+
+#include <semaphore.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dds.hpp"
+#include "mailbox.hpp"
+#include "message.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/plant.hpp"
+
+namespace zwang::connect {
+
+/// [s] of the clock that stamps go by, from 1970. It runs evenly within a process: no leap, no correction.
+double now() noexcept;
+
+/// How a topic does. Written by the threads of DDS.
+struct TopicCounts {
+  std::string topic;
+  const char* type = "";
+  std::atomic<std::uint64_t> received{0};
+  std::atomic<std::uint64_t> bad{0};       ///< not this message, or not whole, or numbers that cannot be
+  std::atomic<double> last_arrival{0.0};   ///< [s] 0: none
+  std::atomic<double> first_arrival{0.0};  ///< [s]
+  std::atomic<double> age_sum{0.0}, most_age{0.0};  ///< [s] from stamp to arrival
+};
+
+struct JointsSample {
+  double stamp = 0.0, arrival = 0.0;  ///< [s]
+  Eigen::VectorXd q, qd;              ///< of every joint of the model; one that is never told stays at 0
+};
+
+struct BaseSample {
+  double stamp = 0.0, arrival = 0.0;  ///< [s]
+  solver::Pose pose;                  ///< in the axes of the odometry
+  solver::MotionVector twist;         ///< in the axes of the base
+};
+
+class Inbox {
+ public:
+  /// The program and the connection outlive it; `check_connection` has found them good.
+  Inbox(const lang::Connection& connection, const lang::Program& program);
+  ~Inbox();
+
+  /// From now on it is filled. The participant must be closed before the inbox ends.
+  void subscribe(Participant& participant);
+
+  /// Waits for a sample of the joints until a time [s] of `now`; whether one has come. One thread calls it,
+  /// and `fill`.
+  bool wait_for_joints(double until) noexcept;
+  /// The newest that has come. The state as it was measured; `Sensed::time` and `measured_at` are the
+  /// caller's.
+  void fill(runtime::Sensed& sensed) noexcept;
+
+  const JointsSample& joints() const noexcept;  ///< as of the last `fill`
+  bool has_joints() const noexcept;  ///< every motor's joint has been told of; as of the last `fill`
+  bool has_base() const noexcept;    ///< or needs none
+  /// [s] when the newest sample of the joints has come, also of one that is not yet taken.
+  double last_arrival() const noexcept;
+  const std::vector<std::unique_ptr<TopicCounts>>& counts() const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace zwang::connect

@@ -1,0 +1,84 @@
+#include "outbox.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace zwang::connect {
+
+namespace {
+
+using lang::CommandKind;
+
+SixFields twist_of(const runtime::Command& command) {
+  return {command.twist.x(), command.twist.y(), 0.0, 0.0, 0.0, command.twist.z()};
+}
+
+}  // namespace
+
+std::vector<int> joints_in_order(const lang::CommandSink& sink, const solver::Model& model) {
+  std::vector<int> order;
+  for (const std::string& name : sink.order) order.push_back(model.find_joint(name).value());
+  return order;
+}
+
+Outbox::Outbox(const lang::Connection& connection, const lang::Program& program, Participant& participant)
+    : sink_(connection.command),
+      order_(joints_in_order(connection.command, program.robot.model)),
+      writer_(participant.advertise(sink_.topic.name, sink_.type)),
+      last_writer_(participant.advertise(sink_.topic.name, sink_.type)),
+      zeros_(program.robot.model.joint_count()) {}
+
+bool Outbox::send_by(Writer& writer, const runtime::Command& command, double stamp, Bytes& bytes) const {
+  if (sink_.type == lang::MessageType::twist) {
+    encode(Twist{twist_of(command)}, bytes);
+  } else if (sink_.type == lang::MessageType::twist_stamped) {
+    encode(TwistStamped{header_at(stamp, "base_link"), twist_of(command)}, bytes);
+  } else {
+    Float64MultiArray array;
+    const Eigen::VectorXd& values = sink_.kind == CommandKind::effort ? command.torque : command.velocity;
+    for (const int joint : order_) array.data.push_back(values(joint));
+    encode(array, bytes);
+  }
+  return writer.write(bytes);
+}
+
+bool Outbox::send(const runtime::Command& command, double stamp) noexcept {
+  return send_by(*writer_, command, stamp, bytes_);
+}
+
+void Outbox::send_zeros(double stamp) noexcept {
+  Bytes bytes;
+  for (int i = 0; i < 5; ++i) {
+    send_by(*last_writer_, zeros_, stamp, bytes);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
+bool read_command(const lang::CommandSink& sink, const std::vector<int>& order,
+                  std::span<const std::uint8_t> payload, runtime::Command& command) {
+  if (sink.kind == CommandKind::twist) {
+    SixFields twist{};
+    if (sink.type == lang::MessageType::twist) {
+      const auto message = decode<Twist>(payload);
+      if (!message) return false;
+      twist = message->twist;
+    } else {
+      const auto message = decode<TwistStamped>(payload);
+      if (!message) return false;
+      twist = message->twist;
+    }
+    command.twist = {twist[0], twist[1], twist[5]};
+    return command.twist.allFinite();
+  }
+  const auto message = decode<Float64MultiArray>(payload);
+  if (!message || message->data.size() != order.size()) return false;
+  Eigen::VectorXd& values = sink.kind == CommandKind::effort ? command.torque : command.velocity;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (!std::isfinite(message->data[i])) return false;
+    values(order[i]) = message->data[i];
+  }
+  return true;
+}
+
+}  // namespace zwang::connect

@@ -1,0 +1,42 @@
+/// What the robot is told.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dds.hpp"
+#include "message.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/command.hpp"
+
+namespace zwang::connect {
+
+class Outbox {
+ public:
+  /// The participant outlives it.
+  Outbox(const lang::Connection& connection, const lang::Program& program, Participant& participant);
+
+  /// One message; false where it could not be handed over within a millisecond.
+  bool send(const runtime::Command& command, double stamp) noexcept;
+  /// The last word to the motors: zeros, five times within 50 ms. By a writer of its own, so that a thread
+  /// that hangs in `send` cannot keep it back.
+  void send_zeros(double stamp) noexcept;
+  int readers() const noexcept { return writer_->readers(); }
+
+ private:
+  bool send_by(Writer& writer, const runtime::Command& command, double stamp, Bytes& bytes) const;
+
+  const lang::CommandSink& sink_;
+  std::vector<int> order_;
+  std::unique_ptr<Writer> writer_, last_writer_;
+  runtime::Command zeros_;
+  Bytes bytes_;
+};
+
+/// Drops the command behind a payload of the sink's type into `command`; false for a bad one.
+bool read_command(const lang::CommandSink& sink, const std::vector<int>& order,
+                  std::span<const std::uint8_t> payload, runtime::Command& command);
+/// The joints of `CommandSink::order` in the model.
+std::vector<int> joints_in_order(const lang::CommandSink& sink, const solver::Model& model);
+
+}  // namespace zwang::connect

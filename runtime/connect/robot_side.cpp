@@ -1,0 +1,129 @@
+#include "robot_side.hpp"
+
+#include <Eigen/Geometry>
+
+#include "inbox.hpp"
+#include "outbox.hpp"
+
+namespace zwang::connect {
+
+namespace {
+
+PoseFields fields_of(const solver::Pose& pose) {
+  const Eigen::Quaterniond q(pose.rotation);
+  const solver::Vector3& p = pose.position;
+  return {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+template <typename Motion>
+SixFields six_of(const Motion& m) {
+  return {m.linear.x(), m.linear.y(), m.linear.z(), m.angular.x(), m.angular.y(), m.angular.z()};
+}
+
+}  // namespace
+
+RobotSide::RobotSide(const lang::Connection& connection, const lang::Program& program)
+    : connection_(connection),
+      program_(program),
+      order_(joints_in_order(connection.command, program.robot.model)),
+      mail_(CommandMail{runtime::Command(program.robot.model.joint_count()), 0.0}),
+      zeros_(program.robot.model.joint_count()) {
+  for (int j = 0; j < program.robot.model.joint_count(); ++j) {
+    const std::string& name = program.robot.model.joint(j).name;
+    const auto renamed = connection.joints.names.find(name);
+    joint_state_.names.push_back(renamed == connection.joints.names.end() ? name : renamed->second);
+  }
+  odometry_.child_frame = program.robot.base_frame;
+  now();
+}
+
+void RobotSide::join(Participant& participant) {
+  joints_ = participant.advertise(connection_.joints.topic.name, lang::MessageType::joint_state);
+  if (connection_.base) base_ = participant.advertise(connection_.base->name, lang::MessageType::odometry);
+  if (connection_.fix)
+    fix_ = participant.advertise(connection_.fix->name, lang::MessageType::pose_with_covariance_stamped);
+  for (const lang::SignalSource& source : connection_.signals) {
+    for (std::size_t i = 0; i < program_.signals.size(); ++i) {
+      if (program_.signals[i].name != source.name) continue;
+      signals_.push_back({i, &source, participant.advertise(source.topic.name, source.type)});
+    }
+  }
+  const lang::CommandSink& sink = connection_.command;
+  participant.subscribe(sink.topic.name, sink.type, [this, &sink](auto payload) {
+    CommandMail& draft = mail_.draft();
+    if (!read_command(sink, order_, payload, draft.command)) return;
+    draft.arrival = now();
+    mail_.put();
+  });
+}
+
+void RobotSide::leave() noexcept {
+  joints_.reset(), base_.reset(), fix_.reset();
+  signals_.clear();
+}
+
+void RobotSide::publish(const runtime::Sensed& sensed, double stamp, double shift) {
+  const solver::State& state = sensed.state;
+  if (base_) {
+    odometry_.header = header_at(stamp, "odom");
+    odometry_.pose = fields_of(state.base_pose);
+    odometry_.twist = six_of(state.base_twist);
+    encode(odometry_, bytes_);
+    base_->write(bytes_);
+  }
+  if (fix_ && sensed.base_fix && sensed.base_fix->stamp != last_fix_) {
+    last_fix_ = sensed.base_fix->stamp;
+    encode(
+        PoseWithCovarianceStamped{header_at(last_fix_ + shift, "map"), fields_of(sensed.base_fix->pose), {}},
+        bytes_);
+    fix_->write(bytes_);
+  }
+  for (SignalWriter& signal : signals_) {
+    const runtime::SignalSample& sample = sensed.signals[signal.index];
+    if (!sample.valid || sample.stamp == signal.last_stamp) continue;
+    signal.last_stamp = sample.stamp;
+    publish_signal(*signal.source, sample, shift, *signal.writer);
+  }
+  // Last: they are what the other side ticks by.
+  joint_state_.header = header_at(stamp);
+  joint_state_.positions.assign(state.q.begin(), state.q.end());
+  joint_state_.velocities.assign(state.qd.begin(), state.qd.end());
+  encode(joint_state_, bytes_);
+  joints_->write(bytes_);
+}
+
+void RobotSide::publish_signal(const lang::SignalSource& source, const runtime::SignalSample& sample,
+                               double shift, Writer& writer) {
+  const Header header = header_at(sample.stamp + shift);
+  switch (source.type) {
+    case lang::MessageType::boolean:
+      encode(Bool{sample.boolean}, bytes_);
+      break;
+    case lang::MessageType::float64:
+      encode(Float64{sample.number}, bytes_);
+      break;
+    case lang::MessageType::pose_stamped:
+      encode(PoseStamped{header, fields_of(sample.pose)}, bytes_);
+      break;
+    case lang::MessageType::wrench_stamped:
+      encode(WrenchStamped{header, six_of(sample.wrench)}, bytes_);
+      break;
+    default: {
+      const auto middle = static_cast<float>(0.5 * ((*source.nearest)[0] + (*source.nearest)[1]));
+      LaserScan scan{header, {middle, middle, 0.01F, 0.0F, 0.0F, 0.0F, 100.0F}, {}, {}};
+      scan.ranges = {static_cast<float>(sample.number)};
+      encode(scan, bytes_);
+    }
+  }
+  writer.write(bytes_);
+}
+
+const runtime::Command& RobotSide::command(double time) noexcept {
+  mail_.take();
+  const CommandMail& newest = mail_.value();
+  const auto& timeout = connection_.command.timeout;
+  if (newest.arrival == 0.0 || (timeout && time - newest.arrival > *timeout)) return zeros_;
+  return newest.command;
+}
+
+}  // namespace zwang::connect

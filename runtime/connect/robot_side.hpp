@@ -1,0 +1,60 @@
+/// The robot's side of a connection: it publishes what `Inbox` reads, and takes what `Outbox` sends.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dds.hpp"
+#include "mailbox.hpp"
+#include "message.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/runtime/command.hpp"
+#include "zwang/runtime/plant.hpp"
+
+namespace zwang::connect {
+
+struct CommandMail {
+  runtime::Command command;
+  double arrival = 0.0;  ///< [s] of `now`; 0: none has come
+};
+
+class RobotSide {
+ public:
+  /// All of them outlive it, the participant excepted: that is closed before.
+  RobotSide(const lang::Connection& connection, const lang::Program& program);
+
+  void join(Participant& participant);
+  /// The writers go: before the participant does.
+  void leave() noexcept;
+  /// The joints, the base, a fix and the signals of a sample, which was measured at `stamp` [s] since 1970.
+  /// `shift` is the same time less that of the sample's own clock.
+  void publish(const runtime::Sensed& sensed, double stamp, double shift);
+  /// The newest command, or zeros when it is older than the receiver's `timeout`.
+  const runtime::Command& command(double time) noexcept;
+  const CommandMail& newest() const noexcept { return mail_.value(); }
+
+ private:
+  void publish_signal(const lang::SignalSource& source, const runtime::SignalSample& sample, double shift,
+                      Writer& writer);
+
+  struct SignalWriter {
+    std::size_t index = 0;  ///< in Program::signals
+    const lang::SignalSource* source = nullptr;
+    std::unique_ptr<Writer> writer;
+    double last_stamp = -1.0;  ///< [s] of the sample's own clock
+  };
+
+  const lang::Connection& connection_;
+  const lang::Program& program_;
+  std::vector<int> order_;
+  Mailbox<CommandMail> mail_;
+  runtime::Command zeros_;
+  std::unique_ptr<Writer> joints_, base_, fix_;
+  std::vector<SignalWriter> signals_;
+  JointState joint_state_;
+  Odometry odometry_;
+  double last_fix_ = -1.0;  // [s]
+  Bytes bytes_;
+};
+
+}  // namespace zwang::connect

@@ -1,0 +1,160 @@
+// The program behind `zwang simulate`: the scene's robot behind the topics of a connection, at the pace of
+// real time. The world begins to move with the first command.
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <thread>
+
+#include "arguments.hpp"
+#include "inbox.hpp"
+#include "lateness.hpp"
+#include "robot_side.hpp"
+#include "zwang/runtime/scene_plant.hpp"
+
+namespace {
+
+using namespace zwang;
+using namespace zwang::connect;
+
+constexpr double most_behind = 0.1;     // [s] a world that is farther behind goes on from where it is
+constexpr double silent_for = 0.5;      // [s] without a command, at rest: the other side has ended
+constexpr double longest_silent = 5.0;  // [s] the same of a world that still moves
+constexpr double at_rest = 1e-3;        // [m/s]
+
+void sleep_until(double time) {
+  const double left = time - now();
+  if (left > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
+}
+
+struct World {
+  runtime::ScenePlant plant;
+  runtime::SimulationSteps steps;
+  runtime::Sensed sensed;
+  double measured_at = -1.0;  ///< [s] of the sample that was published last
+
+  World(const lang::Program& program, std::uint64_t seed)
+      : plant(program, {.simulation = {}, .seed = seed, .faults = {}}),
+        steps(program.robot.control_period),
+        sensed(program) {}
+};
+
+struct Happenings {
+  Lateness lateness;
+  double first_command = 0.0;  ///< [s] of `now`; 0: none has come
+  double moved_last = 0.0;     ///< [s] of the world: when the base was last seen to move
+  double silent_since = 0.0;   ///< [s] of the world: when the last command had come
+};
+
+/// One step of the world; `shift` is the stamps' clock less the world's.
+runtime::PlantStatus step(const lang::Connection& connection, RobotSide& side, World& world, double shift) {
+  const runtime::PlantStatus sensed = world.plant.sense(world.sensed);
+  if (sensed == runtime::PlantStatus::diverged) return sensed;
+  const double measured = world.sensed.measured_at.value_or(world.sensed.time);
+  const bool is_due = world.steps.tick_is_due();
+  // A drive that takes velocities tells of its samples as seldom as it has them.
+  const bool is_new = world.sensed.measured_at ? measured != world.measured_at : is_due;
+  if (sensed == runtime::PlantStatus::ok && is_new) {
+    world.measured_at = measured;
+    if (connection.base && !world.sensed.base_measured) {
+      runtime::Sensed with_base = world.sensed;
+      with_base.state.base_pose = world.plant.true_state().base_pose;
+      with_base.state.base_twist = world.plant.true_state().base_twist;
+      side.publish(with_base, measured + shift, shift);
+    } else {
+      side.publish(world.sensed, measured + shift, shift);
+    }
+  }
+  return world.plant.follow(side.command(world.sensed.time + shift));
+}
+
+/// Stands still, and says so, until somebody commands.
+void wait_for_command(RobotSide& side, World& world, double period, Happenings& happenings) {
+  if (world.plant.sense(world.sensed) != runtime::PlantStatus::ok) return;
+  for (double due = now(); !is_interrupted() && happenings.first_command == 0.0; due += period) {
+    sleep_until(due);
+    side.publish(world.sensed, now(), now());
+    side.command(now());
+    happenings.first_command = side.newest().arrival;
+  }
+}
+
+runtime::PlantStatus run(const lang::Connection& connection, RobotSide& side, World& world,
+                         Happenings& happenings) {
+  double shift = now() - world.plant.truth().time;
+  for (double due = now(); !is_interrupted(); due += world.steps.period()) {
+    sleep_until(due);
+    happenings.lateness.add(std::max(0.0, now() - due));
+    if (now() - due > most_behind) {
+      shift += now() - due;
+      due = now();
+    }
+    const runtime::PlantStatus status = step(connection, side, world, shift);
+    if (status != runtime::PlantStatus::ok || world.plant.truth().base.fallen) return status;
+    const solver::MotionVector& twist = world.plant.true_state().base_twist;
+    const double time = world.plant.truth().time;
+    if (std::hypot(twist.linear.x(), twist.linear.y()) > at_rest || std::abs(twist.angular.z()) > at_rest)
+      happenings.moved_last = time;
+    happenings.silent_since = side.newest().arrival - shift;
+    const double silence = time - happenings.silent_since;
+    if (silence > longest_silent || (silence > silent_for && time - happenings.moved_last > silent_for))
+      break;
+  }
+  return runtime::PlantStatus::ok;
+}
+
+void print_report(const World& world, const Happenings& happenings) {
+  const runtime::Truth& truth = world.plant.truth();
+  constexpr double degrees = 57.29577951308232;
+  std::printf("simulated %.2f s: base at %.4f m, %.4f m, yaw %.3f deg\n", truth.time, truth.x, truth.y,
+              truth.yaw * degrees);
+  for (const runtime::ObjectTruth& object : truth.objects)
+    std::printf("%s: force %.2f N, peak %.2f N\n", object.name.c_str(), object.force, object.peak_force);
+  std::printf("last command at %.3f s, moved last at %.3f s\n", happenings.silent_since,
+              happenings.moved_last);
+  const Lateness& l = happenings.lateness;
+  std::printf("steps %llu: late by median %.2f, p99 %.2f, most %.2f ms\n",
+              static_cast<unsigned long long>(l.ticks()), 1e3 * l.quantile(0.5), 1e3 * l.quantile(0.99),
+              1e3 * l.most());
+  std::fflush(stdout);
+}
+
+int simulate(const Arguments& arguments) {
+  lang::Diagnostics diagnostics;
+  const std::optional<Loaded> loaded = load(arguments, diagnostics);
+  if (!loaded) return exit_bad;
+  if (!loaded->program.scene) {
+    std::fprintf(stderr, "zwang simulate: the task names no scene; give one with --scene FILE\n");
+    return exit_impossible;
+  }
+  catch_interruption();
+  become_punctual(loaded->connection.priority);
+  World world(loaded->program, arguments.seed);
+  RobotSide side(loaded->connection, loaded->program);
+  Participant participant(loaded->connection.domain, loaded->connection.reach, "zwang_simulated_robot");
+  side.join(participant);
+  Happenings happenings;
+  const lang::Drive& drive = loaded->program.robot.drive;
+  wait_for_command(side, world,
+                   drive.takes_velocity ? 1.0 / drive.rate : loaded->program.robot.control_period,
+                   happenings);
+  runtime::PlantStatus status = runtime::PlantStatus::ok;
+  if (!is_interrupted()) status = run(loaded->connection, side, world, happenings);
+  side.leave();
+  participant.close();
+  print_report(world, happenings);
+  if (world.plant.truth().base.fallen) std::printf("the robot fell over\n");
+  if (status != runtime::PlantStatus::ok) std::printf("the simulation %s\n", runtime::to_string(status));
+  return status == runtime::PlantStatus::ok && !world.plant.truth().base.fallen ? exit_good : exit_bad;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return simulate(parse_arguments(argc, argv));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "zwang simulate: %s\n", error.what());
+    return exit_impossible;
+  }
+}

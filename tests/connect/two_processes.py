@@ -1,0 +1,183 @@
+"""`zwang drive` and `zwang simulate` as two processes, over DDS on this machine.
+
+    two_processes.py PROGRAM ROOT
+
+A run ends as the same run inside one process does, with its peak force within 10 %. Either side may be killed or stopped:
+the other one brakes. Ends with 1 and says why when anything is otherwise.
+"""
+
+import concurrent.futures
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+STALE_AFTER = 0.1  # [s] in the connection files below
+TIMEOUT = 0.3  # [s] after which the simulated receiver stops the motors
+SLACK = 0.1  # [s] for a machine that does other things, too
+
+EFFORT = """command:
+  joints:
+    topic: /effort_controller/commands
+    what: effort
+    order: [front_left_wheel, front_right_wheel, rear_left_wheel, rear_right_wheel]
+    timeout: 300 ms
+"""
+TWIST = """command:
+  twist: {topic: /cmd_vel, type: geometry_msgs/TwistStamped, rate: 50 Hz, timeout: 300 ms}
+"""
+
+
+class Pair:
+    """Both processes of a task, each with its own file of output."""
+
+    def __init__(self, program, folder, task, command, options, number):
+        connection = folder / f"connection_{number}.yaml"
+        domain = 100 + (os.getpid() + number) % 100  # another one than that of a test beside this one
+        connection.write_text(
+            f"zwang_connection: 1\nros2: {{domain: {domain}, reach: loopback}}\nloop: {{priority: 40}}\n"
+            "state:\n  joints: {topic: /joint_states, stale_after: 100 ms}\n" + command)
+        arguments = [task, "--over", connection] + options
+        self.files = {side: folder / f"{side}_{number}" for side in ("simulate", "drive")}
+        for side in ("simulate", "drive"):
+            with open(self.files[side], "w", encoding="utf-8") as out:
+                setattr(self, side, subprocess.Popen([program, side] + arguments, stdout=out, stderr=out))
+
+    def end(self):
+        """The exit code of `drive`, and what both have said."""
+        code = self.drive.wait(40)
+        self.simulate.wait(20)
+        return code, self.text("drive"), self.text("simulate")
+
+    def text(self, side):
+        return self.files[side].read_text(encoding="utf-8")
+
+    def wait_until_it_drives(self, seconds):
+        """And so long after."""
+        end = time.monotonic() + 20.0
+        while "the task begins" not in self.text("drive") and time.monotonic() < end:
+            time.sleep(0.01)
+        time.sleep(seconds)
+
+
+def number(pattern, text):
+    found = re.search(pattern, text)
+    if not found:
+        raise AssertionError(f"no `{pattern}` in:\n{text}")
+    return float(found[1])
+
+
+def expect(condition, what, *texts):
+    if not condition:
+        raise AssertionError(what + "\n" + "\n".join(texts))
+
+
+def slow_robot(root, folder):
+    """The mecanum base with ticks of 2 ms: a busy machine keeps to them."""
+    robot = folder / "robot.yaml"
+    text = (root / "specs/robots/mecanum_base.yaml").read_text(encoding="utf-8")
+    robot.write_text(text.replace("\nurdf: ", "\ncontrol_period: 2 ms\nurdf: ", 1), encoding="utf-8")
+    for urdf in (root / "specs/robots").glob("mecanum_base.urdf"):
+        (folder / urdf.name).write_text(urdf.read_text(encoding="utf-8"), encoding="utf-8")
+    return robot
+
+
+def workplace(root, folder):
+    """Task, scene and robot below one folder, as zwang wants them."""
+    robot = slow_robot(root, folder)
+    scene = folder / "near_wall.yaml"
+    scene.write_text((root / "tests/connect/near_wall.yaml").read_text(encoding="utf-8"), encoding="utf-8")
+    task = folder / "wall_align.yaml"
+    text = (root / "specs/wall_align.yaml").read_text(encoding="utf-8")
+    text = text.replace("robots/mecanum_base.yaml", robot.name).replace("scenes/wall.yaml", scene.name)
+    task.write_text(text, encoding="utf-8")
+    return task
+
+
+def wall_aligns_as_inside_one_process(program, root, folder):
+    task = workplace(root, folder)
+    alone = subprocess.run([program, "run", task, "--quiet", "--log", folder / "log"], capture_output=True, text=True,
+                           check=False)
+    expect(alone.returncode == 0, "the task is not done inside one process", alone.stdout, alone.stderr)
+    peak_alone = number(r"peak ([0-9.]+) N", alone.stdout)
+    code, drive, simulate = Pair(program, folder, task, EFFORT, [], 1).end()
+    expect(code == 0 and "done after" in drive, "not done", drive, simulate)
+    peak = number(r"wall: force [0-9.-]+ N, peak ([0-9.]+) N", simulate)
+    expect(abs(peak - peak_alone) < 0.1 * peak_alone, f"peak {peak} N, alone {peak_alone} N", drive, simulate)
+    expect(abs(number(r"yaw (-?[0-9.]+) deg", simulate)) < 0.1, "the wall has not squared it up", simulate)
+
+
+def a_twist_drives_as_far(program, root, _folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    task = root / "specs/laws/speed_limit.yaml"
+    code, drive, simulate = Pair(program, _folder, task, TWIST, options, 2).end()
+    expect(code == 0, "not done", drive, simulate)
+    # 0.5 m/s^2 up to 0.4 m/s within 2 s, and down at 1 m/s^2: 0.64 m + 0.08 m.
+    expect(abs(number(r"base at (-?[0-9.]+) m", simulate) - 0.72) < 0.04, "another way", simulate)
+
+
+def silence_of_the_robot_stops(program, root, folder):
+    pair = Pair(program, folder, workplace(root, folder), EFFORT, [], 3)
+    pair.wait_until_it_drives(0.4)
+    pair.simulate.send_signal(signal.SIGSTOP)
+    time.sleep(0.5)
+    # Nobody shows it a base at rest: it would brake for 10 s.
+    pair.drive.send_signal(signal.SIGTERM)
+    code = pair.drive.wait(20)
+    pair.simulate.kill()
+    drive = pair.text("drive")
+    expect(code == 1 and "stopped" in drive, "it is not stopped", drive)
+    silence = number(r"stopped ([0-9.]+) ms after the last sample", drive)
+    expect(silence < 1e3 * (STALE_AFTER + SLACK), "it stops late", drive)
+
+
+def a_killed_drive_leaves_a_robot_at_rest(program, root, folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 4)
+    pair.wait_until_it_drives(0.7)
+    pair.drive.kill()
+    _, _, simulate = pair.end()
+    last = number(r"last command at ([0-9.]+) s", simulate)
+    expect(0.1 < last < 2.5, "it was not killed while it drove", simulate)
+    # The timeout, then the brake of the simulated drive, which is a step.
+    expect(number(r"moved last at ([0-9.]+) s", simulate) - last < TIMEOUT + 0.5 + SLACK, "it goes on", simulate)
+
+
+def a_request_ends_it_with_zeros(program, root, folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 5)
+    pair.wait_until_it_drives(0.3)
+    pair.drive.send_signal(signal.SIGTERM)
+    code, drive, simulate = pair.end()
+    expect(code == 1 and "stopped after" in drive, "it is not stopped", drive)
+    last = number(r"last command at ([0-9.]+) s", simulate)
+    expect(number(r"moved last at ([0-9.]+) s", simulate) < last + 0.5, "it moved behind the last command", simulate)
+
+
+def main(program, root):
+    root = pathlib.Path(root)
+
+    def is_good(case):
+        begin = time.monotonic()
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                case(program, root, pathlib.Path(folder))
+                print(f"ok      {time.monotonic() - begin:5.1f} s  {case.__name__}", flush=True)
+                return True
+            except AssertionError as error:
+                print(f"FAILED  {time.monotonic() - begin:5.1f} s  {case.__name__}\n{error}", flush=True)
+                return False
+
+    # Mostly they wait: two at a time take a tenth of a processor.
+    cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, silence_of_the_robot_stops,
+             a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros)
+    with concurrent.futures.ThreadPoolExecutor(2) as pool:
+        return 0 if all(list(pool.map(is_good, cases))) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
