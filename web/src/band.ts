@@ -1,5 +1,5 @@
 // Which task was active when, and which rows were at their limit meanwhile.
-import type { Clock } from './clock';
+import type { Moments } from './clock';
 import type { Run } from './data';
 import { h } from './dom';
 import { seconds } from './units';
@@ -22,7 +22,7 @@ function spansOf(run: Run, name: string): Span[] {
   return spans;
 }
 
-export function band(run: Run, clock: Clock): HTMLElement {
+export function band(run: Run, clock: Moments): HTMLElement {
   const percent = (time: number): string => `${(100 * time) / run.duration}%`;
   const bar = (span: Span, text: string, kind: string): HTMLElement => {
     const button = h('button', { class: `bar ${kind}`, title: `${text}: ${seconds(span[0])} to ${seconds(span[1])}`, onclick: () => clock.show(span[0]) }, text);

@@ -1,6 +1,9 @@
 // The moment that the page shows: one for all of its parts.
 export type Listener = (time: number) => void;
 
+/** What a part needs that shows a moment, and leads to another one. */
+export interface Moments { onTime(listener: Listener): void; show(time: number): void }
+
 export class Clock {
   time = 0;
   playing = false;
@@ -10,7 +13,7 @@ export class Clock {
   private last = 0;
   private readonly calm = matchMedia('(prefers-reduced-motion: reduce)');
 
-  constructor(readonly duration: number) {}
+  constructor(public duration: number) {}
 
   onTime(listener: Listener): void {
     this.listeners.push(listener);
@@ -53,5 +56,21 @@ export class Clock {
     } else {
       this.next();
     }
+  }
+}
+
+/** Of a run that goes on: stays at its end until somebody looks back. */
+export class LiveClock extends Clock {
+  isLive = true;
+
+  override show(time: number): void {
+    this.isLive = time >= this.duration;
+    super.show(time);
+  }
+
+  grow(duration: number): void {
+    const wasLive = this.isLive;
+    this.duration = duration;
+    this.show(wasLive ? duration : this.time);
   }
 }

@@ -28,19 +28,25 @@ export function controls(clock: Clock, task: (time: number) => string, views: Fo
     now.textContent = `${seconds(time)}  ${task(time)}`;
     scrub.setAttribute('aria-valuetext', `${seconds(time)}, ${task(time)}`);
   });
-  document.addEventListener('keydown', (event) => {
-    const isTyping = event.target instanceof Element && event.target.closest('select, button, input, [role=tablist]') !== null;
-    if (isTyping || event.ctrlKey || event.metaKey || event.altKey) return;
-    const step = event.shiftKey ? duration / 10 : duration / 100;
-    const keys: Record<string, () => void> = {
+  onKeys((far) => {
+    const step = duration / (far ? 10 : 100);
+    return {
       ' ': () => clock.toggle(), ArrowRight: () => clock.show(clock.time + step), ArrowLeft: () => clock.show(clock.time - step),
       Home: () => clock.show(0), End: () => clock.show(duration), f: () => follow.click(),
     };
-    const act = keys[event.key];
+  });
+  return h('div', { class: 'controls', role: 'group', 'aria-label': 'Playback' }, play, scrub, now,
+    h('label', {}, speed), h('label', { for: 'follow' }, follow, ' follow'), h('span', { class: 'keys' }, 'space plays, arrows step, shift steps far, f follows'));
+}
+
+/** Keys of the whole page, where nothing else takes them. `far`: with shift. */
+export function onKeys(keys: (far: boolean) => Record<string, () => void>): void {
+  document.addEventListener('keydown', (event) => {
+    const isTyping = event.target instanceof Element && event.target.closest('select, button, input, [role=tablist]') !== null;
+    if (isTyping || event.ctrlKey || event.metaKey || event.altKey) return;
+    const act = keys(event.shiftKey)[event.key];
     if (!act) return;
     event.preventDefault();
     act();
   });
-  return h('div', { class: 'controls', role: 'group', 'aria-label': 'Playback' }, play, scrub, now,
-    h('label', {}, speed), h('label', { for: 'follow' }, follow, ' follow'), h('span', { class: 'keys' }, 'space plays, arrows step, shift steps far, f follows'));
 }

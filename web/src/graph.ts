@@ -1,5 +1,5 @@
 // The tasks and the ways between them, with the path that the run took.
-import type { Clock } from './clock';
+import type { Moments } from './clock';
 import { stretchAt, type Run } from './data';
 import { h, svg } from './dom';
 import { seconds } from './units';
@@ -26,7 +26,7 @@ function depths(start: string, nodes: string[], edges: { from: string; to: strin
   return depth;
 }
 
-export function graph(run: Run, clock: Clock): HTMLElement {
+export function graph(run: Run, clock: Moments): HTMLElement {
   const { graph: whole, tasks, begin, report } = run.data;
   if (!whole) return h('p', { class: 'note' }, 'The files of this run do not load any more: no graph.');
   const nodes = [...new Set([...whole.tasks, ...whole.edges.flatMap((edge) => [edge.from, edge.to])])];

@@ -46,6 +46,22 @@ export class Chart {
     this.rebuild();
   }
 
+  /** The run has grown. Who has zoomed keeps the piece. */
+  grow(): void {
+    const [old, scale] = [this.plot?.data[0], this.plot?.scales.x];
+    const isWhole = !old?.length || (scale?.min === old[0] && scale?.max === old.at(-1));
+    const names = this.shown.map((one) => one.name);
+    this.shown = [];
+    for (const name of names) this.add(name);
+    this.plot?.setData(this.dataOf(), isWhole);
+    if (!isWhole) this.plot?.redraw();
+    this.point(this.clock.time);
+  }
+
+  private dataOf(): uPlot.AlignedData {
+    return [Array.from(this.run.times), ...this.shown.map((one) => withGaps(one.values))];
+  }
+
   private add(name: string): void {
     if (this.shown.some((one) => one.name === name)) return;
     const raw = this.run.curve(name);
@@ -78,7 +94,7 @@ export class Chart {
       width: Math.max(200, this.place.clientWidth || 600), height: 200,
       legend: { show: false },
       cursor: { sync: { key: 'run' }, drag: { x: true, y: false } },
-      scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, this.shown) } },
+      scales: { x: { time: false, range: (_, low, high) => [low, Math.max(high, low + 1e-3)] }, y: { range: (_, low, high) => rangeOf(low, high, this.shown) } },
       axes: axes(),
       series: [{}, ...this.shown.map((one, i): uPlot.Series => ({
         label: one.name, stroke: colour(i), width: 1.5, dash: dashes[i % dashes.length]!, points: { show: false }, spanGaps: false,
@@ -92,8 +108,7 @@ export class Chart {
         }],
       },
     };
-    const data: uPlot.AlignedData = [Array.from(this.run.times), ...this.shown.map((one) => withGaps(one.values))];
-    this.plot = new uPlot(options, data, this.place);
+    this.plot = new uPlot(options, this.dataOf(), this.place);
     this.point(this.clock.time);
   }
 
@@ -151,9 +166,11 @@ export class Chart {
 export function kindsOf(run: Run): Kind[] {
   const names = [...run.columns.keys()];
   const ending = (...ends: string[]): string[] => names.filter((name) => ends.some((end) => name.endsWith(end)));
-  const largest = (name: string): number => run.curve(name)?.reduce((most, v) => (Math.abs(v) > most ? Math.abs(v) : most), 0) ?? 0;
+  // At the begin of a live run nobody knows yet which curves will matter.
+  const isNew = run.data.report === null && run.times.length <= 2;
+  const largest = (name: string): number => isNew ? 1 : run.curve(name)?.reduce((most, v) => (Math.abs(v) > most ? Math.abs(v) : most), 0) ?? 0;
   const byUnit = (unit: string): string[] => names.filter((name) => run.columns.get(name)!.unit === unit);
-  const inTask = new Set(run.data.tasks.map((one) => one.task));
+  const inTask = new Set([...run.data.tasks.map((one) => one.task), ...(isNew ? [run.data.graph?.start.replace(/^task /, '') ?? ''] : [])]);
   const isTold = (name: string): boolean => inTask.has(name.split('.')[0]!) || name.startsWith('always.');
   const truth = names.filter((name) => name.startsWith('truth.') && name.endsWith('.force') && largest(name) > 0);
   const asked = ending('.nu', '.sum').filter((name) => run.columns.get(name)!.unit === 'N' && isTold(name) && largest(name) > 0);

@@ -26,6 +26,8 @@ export class SpaceView {
   private readonly bodies: three.Object3D[] = [];
   private readonly movers: ((now: Instant) => void)[] = [];
   private readonly arrows = new three.Group();
+  private readonly path = new three.Line(new three.BufferGeometry(), new three.LineBasicMaterial({ color: '#0b62c4' }));
+  private pathSamples = 0;
   private readonly target = new three.Vector3();
 
   constructor(private readonly run: Run, private readonly world: World, private readonly clock: Clock) {
@@ -76,7 +78,8 @@ export class SpaceView {
       this.scene.add(mesh);
       this.movers.push((now) => this.place(mesh, placeOf(this.run, { ...other, shape: 'box', size: [], moves: true }, now.time)));
     }
-    this.buildPath();
+    this.path.geometry = this.pathGeometry();
+    this.scene.add(this.path);
     for (const region of this.world.regions) {
       const line = new three.LineLoop(new three.BufferGeometry(), new three.LineBasicMaterial({ color: '#b07400' }));
       this.scene.add(line);
@@ -147,14 +150,24 @@ export class SpaceView {
     this.movers.push((now) => this.place(mesh, placeOf(this.run, object, now.time)));
   }
 
-  private buildPath(): void {
+  /** The run has grown; drawn with the next time. */
+  grow(): void {
+    const count = this.run.sampleTimes.length;
+    // A hundredth more shows no difference.
+    if (!this.renderer || count < 1.01 * this.pathSamples) return;
+    this.pathSamples = count;
+    this.path.geometry.dispose();
+    this.path.geometry = this.pathGeometry();
+  }
+
+  private pathGeometry(): three.BufferGeometry {
     const points: three.Vector3[] = [];
     for (const time of this.run.sampleTimes) {
       const base = baseAt(this.run, time);
       const point = new three.Vector3(base.x, base.y, 0.004);
       if (!points.length || point.distanceTo(points.at(-1)!) > 1e-3) points.push(point);
     }
-    this.scene.add(new three.Line(new three.BufferGeometry().setFromPoints(points), new three.LineBasicMaterial({ color: '#0b62c4' })));
+    return new three.BufferGeometry().setFromPoints(points);
   }
 
   private look(): void {

@@ -1,5 +1,5 @@
 // Why, margins, events and facts, as tables.
-import type { Clock } from './clock';
+import type { Moments } from './clock';
 import type { Exit, Limit, Run, Term } from './data';
 import { h } from './dom';
 import { seconds, withUnit } from './units';
@@ -39,7 +39,7 @@ export function why(run: Run, onLine: OnLine): HTMLElement | null {
   return h('div', {}, h('p', {}, `What `, h('code', {}, reason.task), ` waited for, with the last values:`), table(['exit and its terms', 'is', 'reading', 'leads to', 'line'], rows));
 }
 
-export function margins(run: Run, clock: Clock, onLine: OnLine, onCurve: (name: string) => void): HTMLElement {
+export function margins(run: Run, clock: Moments, onLine: OnLine, onCurve: (name: string) => void): HTMLElement {
   void clock;
   const limits = run.data.report?.limits;
   if (!limits) return h('p', { class: 'note' }, 'The log has no report at its end: the run was cut, or an older zwang wrote it.');
@@ -55,7 +55,7 @@ export function margins(run: Run, clock: Clock, onLine: OnLine, onCurve: (name: 
   return table(['column of the log', 'worst', 'limit', 'margin', 'left', 'line'], rows);
 }
 
-export function events(run: Run, clock: Clock): HTMLElement {
+export function events(run: Run, clock: Moments): HTMLElement {
   const all = run.data.report?.events ?? run.data.events;
   if (!all.length) return h('p', {}, 'None: nothing went wrong that the guard sees.');
   return table(['time', 'event', 'signal', 'value'], all.map((one) => h('tr', {},
@@ -68,5 +68,9 @@ export function facts(run: Run): HTMLElement {
     ['records', `${run.data.records}${run.data.damage.length ? ', damaged' : ''}`],
     ['points', run.data.curves.records_a_bucket > 1
       ? `${run.data.curves.count}; two of them are the least and the largest of ${run.data.curves.records_a_bucket} records` : `${run.data.curves.count}, every record`]];
+  return factList(rows);
+}
+
+export function factList(rows: [string, string][]): HTMLElement {
   return h('dl', { class: 'facts' }, ...rows.flatMap(([name, value]) => [h('dt', {}, name), h('dd', {}, value)]));
 }

@@ -33,7 +33,8 @@ export class TopView {
   private scale = 100;
   private centre: Point = [0, 0];
   private zoom = 1;
-  private readonly paths: Point[][];
+  private paths: Point[][];
+  private isTouched = false;
 
   constructor(private readonly viewed: Viewed[], private readonly clock: Clock) {
     const dashed = viewed.length > 1 ? `Solid: run ${viewed[0]!.letter}. Dashed: run ${viewed[1]!.letter}.` : 'Dashed: where zwang has the base.';
@@ -53,12 +54,20 @@ export class TopView {
     });
     this.canvas.addEventListener('pointermove', (event) => {
       if (event.buttons !== 1) return;
+      this.isTouched = true;
       this.centre = [this.centre[0]! - event.movementX / this.pixels(), this.centre[1]! + event.movementY / this.pixels()];
       this.draw();
     });
   }
 
+  /** The runs have grown; drawn with the next time. */
+  grow(): void {
+    this.paths = this.viewed.map(({ run }) => pathOf(run));
+    if (!this.isTouched) this.fit();
+  }
+
   setZoom(zoom: number): void {
+    this.isTouched = true;
     this.zoom = Math.min(40, Math.max(0.2, zoom));
     this.draw();
   }
