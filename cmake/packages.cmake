@@ -1,5 +1,5 @@
 # The Debian packages that `./dev package` makes: the program, the libraries with their headers, the Python module.
-# What each holds is said where it is installed, by its COMPONENT: program, development, python.
+# What each holds is said where it is installed, by its COMPONENT: program, ros2, development, python.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME zwang)
 set(CPACK_PACKAGE_VENDOR "zwang")
@@ -9,6 +9,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program development)
+if(ZWANG_CONNECT)
+  list(APPEND CPACK_COMPONENTS_ALL ros2)
+endif()
 if(ZWANG_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
@@ -54,11 +57,16 @@ zwang_package(development libzwang-dev libdevel
 "task language and runtime for mobile robots - libraries and headers
  What a host links to run zwang tasks in its own loop: the solver, the
  language, the runtime without a simulator, and the simulation on MuJoCo.")
+zwang_package(ros2 zwang-ros2 science "zwang (= ${PROJECT_VERSION})"
+"task language and runtime for mobile robots - ROS 2 robots
+ Runs a task on a robot over its ROS 2 topics, by DDS, and simulates such a
+ robot. Neither needs an installation of ROS.")
 zwang_package(python python3-zwang python "python3 (>= 3.11), python3 (<< 3.12), python3-numpy"
 "task language and runtime for mobile robots - Python module
  Checks and runs task files, sweeps parameters, reads logs as numpy arrays,
  and steps a plant that is written in Python.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_ROS2_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 
 # The manual page and the completions come from the program itself.
