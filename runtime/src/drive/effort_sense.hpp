@@ -1,4 +1,4 @@
-/// What presses on the base, by the torques that the wheels' motors tell.
+/// The force on the base, by the torques that the wheels' motors tell.
 #pragma once
 
 #include <Eigen/Core>
