@@ -317,8 +317,17 @@ int parse_and_do(int argc, char** argv) {
   run_verb->add_flag("--watchdog", to_run.watchdog,
                      "stop as a robot would when no tick happens for 200 ms of real time");
   run_verb->add_flag("--report", to_run.report, "make a page of the run, report.html beside its log");
-  run_verb->add_flag("--watch", to_run.watch,
-                     "at the pace of real time; a task file that changes under way is loaded again");
+  CLI::Option* watch =
+      run_verb->add_flag("--watch", to_run.watch,
+                         "at the pace of real time; a task file that changes under way is loaded again");
+  bool is_live = false;
+  int port = 0;
+  CLI::Option* live = run_verb->add_flag(
+      "--live", is_live, "at the pace of real time, with a page in the browser that shows and steers it");
+  live->excludes(watch)->excludes("--watchdog");
+  run_verb->add_option("--port", port, "of that page on 127.0.0.1 (default any free one)")
+      ->needs(live)
+      ->check(CLI::Range(1, 65535));
   takes(run_verb->add_option("--format", to_run.format, "human (default) or json: one object on stdout"),
         formats);
 
@@ -367,6 +376,7 @@ int parse_and_do(int argc, char** argv) {
   if (replay_verb->parsed()) return replay(to_replay);
   if (report_verb->parsed()) return report(to_report);
   to_run.file = file_or_shipped(to_run.file);
+  if (is_live) to_run.live_port = port;
   if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);
   if (at_text) to_run.start_at = point(*at_text);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "interruption.hpp"
+#include "live_view.hpp"
 #include "output.hpp"
 #include "plant_start.hpp"
 #include "reload.hpp"
@@ -82,7 +83,7 @@ class Live {
 /// The run itself; what it leaves is in the arguments and in the report.
 void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorders& recorders,
              const lang::Program& program, bool with_watchdog, double time_limit, Reloads* reloads,
-             const std::atomic<bool>& interrupted, Live& live, RunReport& report) {
+             LiveView* view, const std::atomic<bool>& interrupted, Live& live, RunReport& report) {
   runtime::Sensed sensed(program);
   std::vector<double> truth(runtime::truth_columns(*program.scene).size());
   runtime::SimulationSteps steps(runner.period());
@@ -111,6 +112,8 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
       runtime::put_truth(plant.truth(), *program.scene, truth);
       // Who has asked for the end does not wait for the pace of real time.
       if (reloads != nullptr && !give_up) reloads->look(runner, sensed.time);
+      if (view != nullptr && !give_up) view->wait_for_tick(runner, sensed.time, interrupted);
+      if (view != nullptr && view->is_restart_asked()) break;
       runner.step(sensed, truth);
       if (runner.state() == runtime::RunState::running && runner.scheduler().transition())
         report.asked = asked_forces(runner.scheduler());
@@ -158,9 +161,7 @@ std::string headline(const RunArguments& arguments, const lang::Program& program
   return line + "\n";
 }
 
-}  // namespace
-
-int run(const RunArguments& asked) {
+int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>& interrupted) {
   lang::Diagnostics diagnostics, of_scenario;
   const RunArguments arguments = with_choice(asked, of_scenario);
   if (of_scenario.has_errors()) {
@@ -189,7 +190,8 @@ int run(const RunArguments& asked) {
 
   const fs::path folder = make_log_folder(arguments);
   Recorders recorders;
-  recorders.push_back(record(runner, folder, "log", context_of(arguments, diagnostics)));
+  recorders.push_back(record(runner, folder, "log", context_of(arguments, diagnostics),
+                             view != nullptr ? view->begin(*program, diagnostics, runner) : nullptr));
   for (std::size_t i = 0; i < plant->partners().size(); ++i) {
     const lang::SceneRobot& robot = program->scene->robots[i];
     recorders.push_back(record(plant->partners()[i].runner, folder, "log-" + robot.name,
@@ -207,14 +209,14 @@ int run(const RunArguments& asked) {
   RunReport report;
   report.seed = arguments.seed;
   report.logs.push_back((folder / "log.csv").string());
-  const std::atomic<bool>& interrupted = catch_interruption();
+  if (view != nullptr) view->wait_for_page(interrupted);
   const auto begin = Clock::now();
   std::optional<Reloads> reloads;
   if (arguments.watch) reloads.emplace(arguments, folder, diagnostics, settings, recorders);
   const double time_limit =
       arguments.choice ? arguments.choice->time_limit : std::numeric_limits<double>::infinity();
   control(*plant, runner, recorders, *program, arguments.watchdog, time_limit, reloads ? &*reloads : nullptr,
-          interrupted, live, report);
+          view, interrupted, live, report);
   if (reloads) {
     reloads->end();
     report.before = reloads->before();
@@ -227,8 +229,10 @@ int run(const RunArguments& asked) {
     recorders[i + 1]->conclude(conclusion(plant->partners()[i], plant->truth().robots[i].base));
   // The log that goes on to the end: the last one of a task file that was loaded again.
   const bool is_reloaded = recorders.size() > partner_logs + 1;
-  (is_reloaded ? recorders.back() : recorders.front())->conclude(conclusion(report, runner, of_files));
+  const std::map<std::string, std::string> ending = conclusion(report, runner, of_files);
+  (is_reloaded ? recorders.back() : recorders.front())->conclude(ending);
   for (const auto& recorder : recorders) recorder->close();
+  if (view != nullptr) view->end(ending.at("report"));
   live.end();
 
   for (std::size_t i = 0; i < recorders.size(); ++i) {
@@ -250,6 +254,19 @@ int run(const RunArguments& asked) {
     return exit_impossible;
   }
   return report.outcome == "done" ? exit_good : exit_bad;
+}
+
+}  // namespace
+
+int run(const RunArguments& arguments) {
+  const std::atomic<bool>& interrupted = catch_interruption();
+  if (!arguments.live_port) return run_once(arguments, nullptr, interrupted);
+  LiveView view(*arguments.live_port);
+  int code = run_once(arguments, &view, interrupted);
+  // Files that are refused at once have nothing to show.
+  while (view.has_begun() && view.wait_for_restart(interrupted))
+    code = run_once(arguments, &view, interrupted);
+  return code;
 }
 
 }  // namespace zwang::cli

@@ -55,11 +55,13 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene&
 }
 
 std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const fs::path& folder,
-                                          const std::string& name, runtime::LogContext context) {
+                                          const std::string& name, runtime::LogContext context,
+                                          std::unique_ptr<runtime::LogSink> also) {
   context.facts.merge(runner.facts());
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
   sinks.push_back(runtime::mcap_sink(folder / (name + ".mcap"), std::move(context)));
   sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
+  if (also) sinks.push_back(std::move(also));
   auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
   runner.record_to(recorder.get());
   return recorder;

@@ -102,8 +102,9 @@ struct RunArguments {
   std::uint64_t seed = 0;
   bool quiet = false;
   bool watchdog = false;
-  bool watch = false;   ///< files that change are loaded again
-  bool report = false;  ///< a page of the run, beside its log
+  bool watch = false;            ///< files that change are loaded again
+  bool report = false;           ///< a page of the run, beside its log
+  std::optional<int> live_port;  ///< the page while it runs, at this port; 0: any free one
   Format format = Format::human;
   std::optional<double> start_yaw;                ///< [rad]
   std::optional<std::array<double, 2>> start_at;  ///< [m]
