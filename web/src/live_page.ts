@@ -17,7 +17,7 @@ import { TopView } from './top';
 const viewsEvery = 33;    // [ms]
 const chartsEvery = 250;
 const bandEvery = 1000;
-const restShare = 4;      // of the time that drawing takes, until it draws again
+const restShare = 1.5;     // of the time that drawing takes, until it draws again
 
 /** A part that is drawn anew: what listened to the clock for the last drawing ends with it. */
 function redrawn(clock: LiveClock, build: (moments: Moments) => HTMLElement): { element: HTMLElement; draw(): void } {
@@ -46,7 +46,10 @@ function paced(every: number, draw: () => void): () => void {
     setTimeout(() => {
       const begin = performance.now();
       draw();
-      setTimeout(() => { isDue = false; }, restShare * (performance.now() - begin));
+      // The second frame comes when the first one is on the screen: without a graphics card that takes long.
+      requestAnimationFrame(() => requestAnimationFrame(() => {
+        setTimeout(() => { isDue = false; }, restShare * (performance.now() - begin));
+      }));
     }, wait);
   };
 }
@@ -112,6 +115,9 @@ function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask
     const reason = why(run as Run, onLine);
     const parts = [reason && part('why', 'Why', reason), part('margins', 'Margins, worst first', margins(run, clock, onLine, onCurve))];
     ending.replaceChildren(...parts.filter((one) => one !== null));
+    clock.grow(run.duration);
+    for (const chart of charts) chart.grow();
+    bands.draw();
     tasks.draw();
     told.draw();
   };
@@ -146,6 +152,7 @@ export function livePage(path: string): void {
       if (!page) {
         page = build(begin, run, (request) => stream.ask(request));
         if (state) for (const one of page.steerings) one.tell(state);
+        setTimeout(() => stream.ask({ do: 'ready' }), 200);
       }
       page.onBucket();
     } else if (message.kind === 'state') {

@@ -11,6 +11,9 @@ import { inUnit, withUnit } from './units';
 
 interface Shown extends Drawn { name: string; unit: string }
 
+/** The end of the axis of time. A run that has just begun has one moment alone. */
+const endOf = (begin: number, end: number): number => Math.max(end, begin + 1e-3);
+
 /** A chart of one kind of curves. `all`: what can be shown; `first`: what is shown when the page opens. */
 export interface Kind { id: string; title: string; unit: string; all: string[]; first: string[] }
 
@@ -49,7 +52,7 @@ export class Chart {
   /** The run has grown. Who has zoomed keeps the piece. */
   grow(): void {
     const [old, scale] = [this.plot?.data[0], this.plot?.scales.x];
-    const isWhole = !old?.length || (scale?.min === old[0] && scale?.max === old.at(-1));
+    const isWhole = !old?.length || (scale?.min === old[0] && scale?.max === endOf(old[0]!, old.at(-1)!));
     const names = this.shown.map((one) => one.name);
     this.shown = [];
     for (const name of names) this.add(name);
@@ -94,13 +97,13 @@ export class Chart {
       width: Math.max(200, this.place.clientWidth || 600), height: 200,
       legend: { show: false },
       cursor: { sync: { key: 'run' }, drag: { x: true, y: false } },
-      scales: { x: { time: false, range: (_, low, high) => [low, Math.max(high, low + 1e-3)] }, y: { range: (_, low, high) => rangeOf(low, high, this.shown) } },
+      scales: { x: { time: false, range: (_, low, high) => [low, endOf(low, high)] }, y: { range: (_, low, high) => rangeOf(low, high, this.shown) } },
       axes: axes(),
       series: [{}, ...this.shown.map((one, i): uPlot.Series => ({
         label: one.name, stroke: colour(i), width: 1.5, dash: dashes[i % dashes.length]!, points: { show: false }, spanGaps: false,
       }))],
       hooks: {
-        draw: [(plot) => drawBounds(plot, this.shown)],
+        draw: [(plot) => drawBounds(plot, this.shown), () => this.point(this.clock.time)],
         setScale: [(plot, key) => { if (key === 'x') this.zoomOthers(plot); }],
         ready: [(plot) => {
           plot.over.append(this.needle);

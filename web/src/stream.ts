@@ -21,7 +21,7 @@ export interface Over { kind: 'over'; report: RunData['report'] }
 export type Message = Begin | Bucket | State | Over;
 
 export type Request =
-  | { do: 'pause' | 'go' | 'tick' | 'restart' } | { do: 'speed'; value: number } | { do: 'set'; name: string; value: number };
+  | { do: 'ready' | 'pause' | 'go' | 'tick' | 'restart' } | { do: 'speed'; value: number } | { do: 'set'; name: string; value: number };
 
 export class Stream {
   private readonly socket: WebSocket;
