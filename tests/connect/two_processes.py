@@ -2,8 +2,8 @@
 
     two_processes.py PROGRAM ROOT
 
-A run ends as the same run inside one process does, with its peak force within 10 %. Either side may be killed or stopped:
-the other one brakes. Ends with 1 and says why when anything is otherwise.
+A run ends as the same run inside one process does, with its peak force within 10 %. Either side may
+be killed or stopped: the other one brakes. Ends with 1 and says why when anything is otherwise.
 """
 
 import concurrent.futures
