@@ -33,7 +33,7 @@ bool wait_for_robot(const lang::Connection& connection, Inbox& inbox, const Outb
   const std::string& topic = !inbox.has_joints() ? connection.joints.topic.name
                              : !inbox.has_base() ? connection.base->name
                                                  : connection.command.topic.name;
-  std::fprintf(stderr, "zwang drive: %s%s in domain %d within %.0f s; nothing was sent\n", missing,
+  std::fprintf(stderr, "zwang drive: %s%s in domain %d within %g s; nothing was sent\n", missing,
                topic.c_str(), connection.domain, most);
   return false;
 }
