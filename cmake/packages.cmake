@@ -5,6 +5,8 @@ set(CPACK_PACKAGE_NAME zwang)
 set(CPACK_PACKAGE_VENDOR "zwang")
 set(CPACK_PACKAGE_CONTACT "zwang maintainers <maintainers@zwang.invalid>" CACHE STRING "Maintainer of the packages, with an address")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+# Each package has a summary of its own; this one would stand above it.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
@@ -19,13 +21,12 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-function(zwang_package component name section depends description)
+function(zwang_package component name section depends summary description)
   string(TOUPPER ${component} key)
   set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${name} PARENT_SCOPE)
   set(CPACK_DEBIAN_${key}_PACKAGE_SECTION ${section} PARENT_SCOPE)
   set(CPACK_DEBIAN_${key}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
-  set(CPACK_DEBIAN_${key}_DESCRIPTION "${description}" PARENT_SCOPE)
-  set(CPACK_COMPONENT_${key}_DESCRIPTION "${description}" PARENT_SCOPE)
+  set(CPACK_DEBIAN_${key}_DESCRIPTION "${summary}\n${description}" PARENT_SCOPE)
   set(documents ${PROJECT_BINARY_DIR}/packaging/${name})
   file(MAKE_DIRECTORY ${documents})
   file(CONFIGURE OUTPUT ${documents}/changelog CONTENT
@@ -48,23 +49,19 @@ if(zwang_no_git)
 endif()
 
 zwang_package(program zwang science ""
-"task language and runtime for mobile robots that touch the world
- A YAML file declares force, acceleration, velocity and position on the axes of
- a robot's frames, with units. zwang checks it against the robot, and runs it
- on a simulated base.")
+"task language and runtime for mobile robots that touch the world" "A YAML file declares force, acceleration, velocity and position on the axes of
+a robot's frames, with units. zwang checks it against the robot, and runs it
+on a simulated base.")
 zwang_package(development libzwang-dev libdevel
   "libeigen3-dev (>= 3.4), libyaml-cpp-dev, liburdfdom-dev, libzstd-dev, zlib1g-dev, libmujoco-dev, pkg-config"
-"task language and runtime for mobile robots - libraries and headers
- What a host links to run zwang tasks in its own loop: the solver, the
- language, the runtime without a simulator, and the simulation on MuJoCo.")
+"task language and runtime for mobile robots - libraries and headers" "What a host links to run zwang tasks in its own loop: the solver, the
+language, the runtime without a simulator, and the simulation on MuJoCo.")
 zwang_package(ros2 zwang-ros2 science "zwang (= ${PROJECT_VERSION})"
-"task language and runtime for mobile robots - ROS 2 robots
- Runs a task on a robot over its ROS 2 topics, by DDS, and simulates such a
- robot. Neither needs an installation of ROS.")
+"task language and runtime for mobile robots - ROS 2 robots" "Runs a task on a robot over its ROS 2 topics, by DDS, and simulates such a
+robot. Neither needs an installation of ROS.")
 zwang_package(python python3-zwang python "python3 (>= 3.11), python3 (<< 3.12), python3-numpy"
-"task language and runtime for mobile robots - Python module
- Checks and runs task files, sweeps parameters, reads logs as numpy arrays,
- and steps a plant that is written in Python.")
+"task language and runtime for mobile robots - Python module" "Checks and runs task files, sweeps parameters, reads logs as numpy arrays,
+and steps a plant that is written in Python.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_ROS2_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)

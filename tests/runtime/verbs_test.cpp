@@ -259,7 +259,7 @@ TEST_F(Verbs, SchemaPrintsEveryKind) {
   EXPECT_EQ(zwang({"schema", "robots"}).code, 2);
   // The words that may stand there, and where to read about this verb.
   EXPECT_EQ(zwang({"schema", "robots"}).err,
-            "zwang: kind: robots not in {robot,scenario,scene,task}\nTry `zwang schema --help`.\n");
+            "zwang: kind: robots not in {connection,robot,scenario,scene,task}\nTry `zwang schema --help`.\n");
   EXPECT_EQ(zwang({"robot", "inspect"}).err, "zwang: file is required\nTry `zwang robot inspect --help`.\n");
 }
 
