@@ -170,7 +170,7 @@ has "$err" 'time failed'
 
 touch -d '+2 minutes' "$place/CMakePresets.json"
 try 'run after the presets changed' 1 "$place/dev" run a.yaml
-has "$called" "-D ZWANG_BUILD_TESTS=ON -D ZWANG_PYTHON=ON -S $place --preset release"
+has "$called" "-D ZWANG_BUILD_TESTS=ON -D ZWANG_PYTHON=ON -D ZWANG_CONNECT=ON -S $place --preset release"
 printf 'CMAKE_HOME_DIRECTORY:INTERNAL=/elsewhere\n' >"$place/build/release/CMakeCache.txt"
 try 'run in a checkout that was moved' 1 "$place/dev" run a.yaml
 has "$called" '--fresh'

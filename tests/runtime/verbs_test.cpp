@@ -249,7 +249,7 @@ TEST_F(Verbs, FmtLeavesFilesWithErrorsAlone) {
 }
 
 TEST_F(Verbs, SchemaPrintsEveryKind) {
-  for (const char* kind : {"task", "robot", "scene", "scenario"}) {
+  for (const char* kind : {"task", "robot", "scene", "scenario", "connection"}) {
     const Result r = zwang({"schema", kind});
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.out, read(specs / "schemas" / (std::string(kind) + ".json"))) << kind;
