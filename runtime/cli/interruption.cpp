@@ -25,4 +25,8 @@ const std::atomic<bool>& catch_interruption() {
   return interrupted;
 }
 
+bool is_interrupted() noexcept {
+  return interrupted;
+}
+
 }  // namespace zwang::cli

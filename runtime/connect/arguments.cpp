@@ -3,32 +3,10 @@
 #include <sched.h>
 #include <sys/mman.h>
 
-#include <atomic>
-#include <csignal>
 #include <iostream>
 #include <stdexcept>
 
 namespace zwang::connect {
-
-namespace {
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal sets it");
-
-extern "C" void on_interruption(int signal) {
-  interrupted = true;
-  std::signal(signal, SIG_DFL);
-}
-
-}  // namespace
-
-bool is_interrupted() noexcept {
-  return interrupted;
-}
-
-void catch_interruption() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interruption);
-}
 
 void become_punctual(int priority) {
   if (priority == 0) return;

@@ -36,8 +36,4 @@ std::optional<Loaded> load(const Arguments& arguments, lang::Diagnostics& diagno
 /// 0: nothing.
 void become_punctual(int priority);
 
-/// Set by SIGINT, SIGTERM and SIGHUP; the second one ends the process.
-bool is_interrupted() noexcept;
-void catch_interruption();
-
 }  // namespace zwang::connect

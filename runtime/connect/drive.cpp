@@ -4,6 +4,7 @@
 #include <exception>
 #include <thread>
 
+#include "../cli/interruption.hpp"
 #include "arguments.hpp"
 #include "drive_loop.hpp"
 #include "observe.hpp"
@@ -25,7 +26,7 @@ bool wait_for_robot(const lang::Connection& connection, Inbox& inbox, const Outb
                     runtime::Sensed& sensed) {
   const double until = now() + most;
   const auto is_there = [&] { return inbox.has_joints() && inbox.has_base() && outbox.readers() > 0; };
-  for (; !is_there() && now() < until && !is_interrupted(); pause()) inbox.fill(sensed);
+  for (; !is_there() && now() < until && !cli::is_interrupted(); pause()) inbox.fill(sensed);
   if (is_there()) return true;
   const char* missing = !inbox.has_joints() ? "no sample of every motor's joint on "
                         : !inbox.has_base() ? "no odometry on "
@@ -102,7 +103,7 @@ int drive(const Arguments& arguments) {
   const std::optional<Loaded> loaded = load(arguments, diagnostics);
   if (!loaded) return exit_bad;
   const lang::Connection& connection = loaded->connection;
-  catch_interruption();
+  cli::catch_interruption();
   become_punctual(connection.priority);
   Inbox inbox(connection, loaded->program);
   Participant participant(connection.domain, connection.reach, "zwang");

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
+#include "../cli/interruption.hpp"
 #include "arguments.hpp"
 #include "zwang/runtime/watchdog.hpp"
 
@@ -19,13 +19,6 @@ constexpr double blocked_for = 0.2;    // [s] without a tick: the thread hangs, 
 constexpr double too_late = 0.1;       // [s] a tick that is so late is a stop
 constexpr double longest_brake = 2.0;  // [s] behind a signal
 constexpr double nearly_a_period = 0.7;
-
-void sleep_until(double time) {
-  const double left = time - now();
-  if (left <= 0.0) return;
-  timespec span{static_cast<time_t>(left), static_cast<long>(std::fmod(left, 1.0) * 1e9)};
-  clock_nanosleep(CLOCK_MONOTONIC, 0, &span, nullptr);
-}
 
 class Loop {
  public:
@@ -110,7 +103,7 @@ class Loop {
   void judge() {
     const double silence = now() - inbox_.last_arrival();
     if (silence > connection_.joints.stale_after) stop(EventCode::lost_ticks);
-    if (is_interrupted() && !give_up_) {
+    if (cli::is_interrupted() && !give_up_) {
       give_up_ = now() + longest_brake;
       stop(EventCode::requested);
     }

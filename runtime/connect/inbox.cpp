@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 
@@ -85,10 +84,7 @@ class JointsMerger {
  public:
   JointsMerger(const lang::JointsSource& source, const solver::Model& model) : model_(model) {
     const int n = model.joint_count();
-    for (int j = 0; j < n; ++j) {
-      const auto renamed = source.names.find(model.joint(j).name);
-      index_[renamed == source.names.end() ? model.joint(j).name : renamed->second] = j;
-    }
+    for (int j = 0; j < n; ++j) index_[source.name_of(model.joint(j).name)] = j;
     is_told_.assign(static_cast<std::size_t>(n), false);
     q_ = qd_ = Eigen::VectorXd::Zero(n);
   }
@@ -129,13 +125,6 @@ struct SignalBox {
 };
 
 }  // namespace
-
-double now() noexcept {
-  using namespace std::chrono;
-  static const auto steady_start = steady_clock::now();
-  static const double start = duration<double>(system_clock::now().time_since_epoch()).count();
-  return start + duration<double>(steady_clock::now() - steady_start).count();
-}
 
 struct Inbox::Parts {
   const lang::Connection& connection;

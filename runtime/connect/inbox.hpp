@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "clock.hpp"
 #include "dds.hpp"
 #include "mailbox.hpp"
 #include "message.hpp"
@@ -16,9 +17,6 @@
 #include "zwang/runtime/plant.hpp"
 
 namespace zwang::connect {
-
-/// [s] of the clock that stamps go by, from 1970. It runs evenly within a process: no leap, no correction.
-double now() noexcept;
 
 /// How a topic does. Written by the threads of DDS.
 struct TopicCounts {

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "../cli/interruption.hpp"
 #include "arguments.hpp"
 
 namespace zwang::connect {
@@ -53,7 +54,7 @@ int observe(const lang::Connection& connection, const lang::Program& program, In
   runtime::Sensed sensed(program);
   std::optional<JointsSample> before;
   solver::Pose first_pose;
-  for (const double until = now() + seconds; now() < until && !is_interrupted();) {
+  for (const double until = now() + seconds; now() < until && !cli::is_interrupted();) {
     if (!inbox.wait_for_joints(now() + 0.1)) continue;
     inbox.fill(sensed);
     const JointsSample& sample = inbox.joints();

@@ -28,11 +28,8 @@ RobotSide::RobotSide(const lang::Connection& connection, const lang::Program& pr
       order_(joints_in_order(connection.command, program.robot.model)),
       mail_(CommandMail{runtime::Command(program.robot.model.joint_count()), 0.0}),
       zeros_(program.robot.model.joint_count()) {
-  for (int j = 0; j < program.robot.model.joint_count(); ++j) {
-    const std::string& name = program.robot.model.joint(j).name;
-    const auto renamed = connection.joints.names.find(name);
-    joint_state_.names.push_back(renamed == connection.joints.names.end() ? name : renamed->second);
-  }
+  for (int j = 0; j < program.robot.model.joint_count(); ++j)
+    joint_state_.names.push_back(connection.joints.name_of(program.robot.model.joint(j).name));
   odometry_.child_frame = program.robot.base_frame;
   now();
 }

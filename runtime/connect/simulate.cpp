@@ -1,11 +1,10 @@
 // The program behind `zwang simulate`: the scene's robot behind the topics of a connection, at the pace of
 // real time. The world begins to move with the first command.
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
-#include <thread>
 
+#include "../cli/interruption.hpp"
 #include "arguments.hpp"
 #include "inbox.hpp"
 #include "lateness.hpp"
@@ -21,11 +20,6 @@ constexpr double most_behind = 0.1;     // [s] a world that is farther behind go
 constexpr double silent_for = 0.5;      // [s] without a command, at rest: the other side has ended
 constexpr double longest_silent = 5.0;  // [s] the same of a world that still moves
 constexpr double at_rest = 1e-3;        // [m/s]
-
-void sleep_until(double time) {
-  const double left = time - now();
-  if (left > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
-}
 
 struct World {
   runtime::ScenePlant plant;
@@ -71,7 +65,7 @@ runtime::PlantStatus step(const lang::Connection& connection, RobotSide& side, W
 /// Stands still, and says so, until somebody commands.
 void wait_for_command(RobotSide& side, World& world, double period, Happenings& happenings) {
   if (world.plant.sense(world.sensed) != runtime::PlantStatus::ok) return;
-  for (double due = now(); !is_interrupted() && happenings.first_command == 0.0; due += period) {
+  for (double due = now(); !cli::is_interrupted() && happenings.first_command == 0.0; due += period) {
     sleep_until(due);
     side.publish(world.sensed, now(), now());
     side.command(now());
@@ -82,7 +76,7 @@ void wait_for_command(RobotSide& side, World& world, double period, Happenings& 
 runtime::PlantStatus run(const lang::Connection& connection, RobotSide& side, World& world,
                          Happenings& happenings) {
   double shift = now() - world.plant.truth().time;
-  for (double due = now(); !is_interrupted(); due += world.steps.period()) {
+  for (double due = now(); !cli::is_interrupted(); due += world.steps.period()) {
     sleep_until(due);
     happenings.lateness.add(std::max(0.0, now() - due));
     if (now() - due > most_behind) {
@@ -127,7 +121,7 @@ int simulate(const Arguments& arguments) {
     std::fprintf(stderr, "zwang simulate: the task names no scene; give one with --scene FILE\n");
     return exit_impossible;
   }
-  catch_interruption();
+  cli::catch_interruption();
   become_punctual(loaded->connection.priority);
   World world(loaded->program, arguments.seed);
   RobotSide side(loaded->connection, loaded->program);
@@ -139,7 +133,7 @@ int simulate(const Arguments& arguments) {
                    drive.takes_velocity ? 1.0 / drive.rate : loaded->program.robot.control_period,
                    happenings);
   runtime::PlantStatus status = runtime::PlantStatus::ok;
-  if (!is_interrupted()) status = run(loaded->connection, side, world, happenings);
+  if (!cli::is_interrupted()) status = run(loaded->connection, side, world, happenings);
   side.leave();
   participant.close();
   print_report(world, happenings);

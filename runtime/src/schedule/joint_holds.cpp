@@ -1,6 +1,5 @@
 #include "schedule/joint_holds.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "zwang/solver/wheels.hpp"

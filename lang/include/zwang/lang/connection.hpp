@@ -48,6 +48,12 @@ struct JointsSource {
   double stale_after = 0.0;                  ///< [s] without a new sample until the robot is stopped
   std::map<std::string, std::string> names;  ///< the URDF's joint -> its name in the messages
   std::map<std::string, Span> name_spans;    ///< by the URDF's joint
+
+  /// What the messages call the URDF's joint.
+  const std::string& name_of(const std::string& joint) const {
+    const auto renamed = names.find(joint);
+    return renamed == names.end() ? joint : renamed->second;
+  }
 };
 
 struct SignalSource {
