@@ -1,14 +1,13 @@
 // The page of a run that goes on.
 import { band } from './band';
 import { LiveClock, type Moments } from './clock';
+import { curvesOf } from './curves';
 import { taskAt, type Run } from './data';
 import { h, part } from './dom';
 import { graph } from './graph';
 import { liveControls, parameterPanel, type Steering } from './live_controls';
 import { LiveRun } from './live_run';
-import { Chart, kindsOf } from './plots';
 import { symbols } from './run_page';
-import { Source } from './source';
 import { SpaceView } from './space';
 import { Stream, type Begin, type Over, type State } from './stream';
 import { events, factList, margins, why } from './tables';
@@ -58,15 +57,7 @@ interface Page { onBucket(): void; onOver(over: Over): void; steerings: Steering
 
 function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask']>[0]) => void): Page {
   const clock = new LiveClock(run.duration);
-  const charts: Chart[] = [];
-  const onLine = (file: number, line: number): void => source.show(file, line);
-  const onCurve = (name: string): void => {
-    const chart = charts.find((one) => one.has(name));
-    chart?.show(name);
-    chart?.element.scrollIntoView({ block: 'center' });
-  };
-  const source = new Source(run, clock, onCurve);
-  for (const kind of kindsOf(run)) charts.push(new Chart(run, kind, clock, charts, onLine));
+  const { charts, source, onLine, onCurve, element: curves } = curvesOf(run, clock);
   const top = new TopView([{ run, world: begin.world }], clock);
   const space = new SpaceView(run, begin.world, clock);
   const name = begin.facts['task']?.split('/').at(-1) ?? 'a run';
@@ -87,7 +78,7 @@ function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask
         part('parameters', 'Parameters', parameters.element),
         part('views', 'Where', h('div', { class: 'views' }, top.element, space.element)),
         part('band', 'Tasks over time', bands.element),
-        part('curves', 'Curves', h('p', { class: 'note' }, 'A drag zooms all charts, a double click shows all, a click goes to the time. Dotted: a limit, while its task is active.'), ...charts.map((chart) => chart.element)),
+        curves,
         part('graph', 'Tasks', tasks.element),
         part('events', 'Events', told.element),
         part('facts', 'Parameters at the start, seed, versions', factList(Object.entries(begin.facts)))),

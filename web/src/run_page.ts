@@ -2,11 +2,10 @@
 import { band } from './band';
 import { Clock } from './clock';
 import { controls } from './controls';
+import { curvesOf } from './curves';
 import { taskAt, type Run } from './data';
 import { h, part } from './dom';
 import { graph } from './graph';
-import { Chart, kindsOf } from './plots';
-import { Source } from './source';
 import { SpaceView } from './space';
 import { events, facts, margins, why } from './tables';
 import { TopView } from './top';
@@ -27,15 +26,7 @@ function verdict(run: Run): HTMLElement {
 
 export function runPage(run: Run): void {
   const clock = new Clock(run.duration);
-  const charts: Chart[] = [];
-  const onLine = (file: number, line: number): void => source.show(file, line);
-  const onCurve = (name: string): void => {
-    const chart = charts.find((one) => one.has(name));
-    chart?.show(name);
-    chart?.element.scrollIntoView({ block: 'center' });
-  };
-  const source = new Source(run, clock, onCurve);
-  for (const kind of kindsOf(run)) charts.push(new Chart(run, kind, clock, charts, onLine));
+  const { source, onLine, onCurve, element: curves } = curvesOf(run, clock);
   const world = run.data.world;
   const top = world && new TopView([{ run, world }], clock);
   const space = world && new SpaceView(run, world, clock);
@@ -49,7 +40,7 @@ export function runPage(run: Run): void {
         reason && part('why', 'Why', reason),
         part('views', 'Where', top && space ? h('div', { class: 'views' }, top.element, space.element) : h('p', { class: 'note' }, 'The files of this run do not load any more: no view.')),
         part('band', 'Tasks over time', band(run, clock)),
-        part('curves', 'Curves', h('p', { class: 'note' }, 'A drag zooms all charts, a double click shows all, a click goes to the time. Dotted: a limit, while its task is active.'), ...charts.map((chart) => chart.element)),
+        curves,
         part('margins', 'Margins, worst first', margins(run, clock, onLine, onCurve)),
         part('graph', 'Tasks', graph(run, clock)),
         part('events', 'Events', events(run, clock)),
