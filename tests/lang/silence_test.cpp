@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <random>
 
+#include "../is_long.hpp"
 #include "support.hpp"
 #include "zwang/lang/program.hpp"
 
@@ -315,7 +315,7 @@ class Silence : public testing::Test {
     return all;
   }
 
-  static int count() { return std::getenv("ZWANG_LONG") != nullptr ? 200 : 70; }
+  static int count() { return zwang::test::is_long() ? 200 : 70; }
 
   test::Folder folder_;
 };

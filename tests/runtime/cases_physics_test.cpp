@@ -11,6 +11,7 @@
 #include <functional>
 #include <numbers>
 
+#include "../is_long.hpp"
 #include "../temporary_folder.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -352,7 +353,7 @@ const Rubbing rubbing_drives[] = {{"mecanum_base", 4.0 / 0.0759},
 TEST(Push, AgainstStictionHoldsTenPercentWithoutASensorAndOneWithForceFeedback) {
   for (const auto& [robot, turns] : rubbing_drives) {
     const lang::Program program = rubbing(write(pressing, specs / "scenes/wall_far.yaml", robot), rough);
-    const bool every_wall = std::getenv("ZWANG_LONG") != nullptr || robot == rubbing_drives[0].robot;
+    const bool every_wall = test::is_long() || robot == rubbing_drives[0].robot;
     for (const double stiffness : every_wall ? std::vector{1e4, 1e5, 1e6} : std::vector{1e5}) {
       lang::Program walled = program;
       walled.scene->objects.at(0).stiffness = stiffness;
@@ -499,8 +500,7 @@ TEST(Switches, OfTheFourCasesStepByTheBlendsShareOnThePlantAndHarderWithoutIt) {
        {Case{"obstacle.yaml", {}, 40.0, 0.2, 0.0}, Case{"wall_align.yaml", {}, 20.0, 0.3, 0.0},
         Case{"docking.yaml", {{"seat_force", "10 N"}}, 80.0, 0.2, mass * (0.08 - 0.05) / 0.2},
         Case{"hospital.yaml", {}, 60.0, 0.2, 0.0}}) {
-    if (std::string(c.file) == "hospital.yaml" && std::getenv("ZWANG_LONG") == nullptr)
-      continue;  // 70 s, three times
+    if (std::string(c.file) == "hospital.yaml" && !test::is_long()) continue;  // 70 s, three times
     lang::LoadOptions options;
     options.parameters = c.parameters;
     const lang::Program program = load(specs / c.file, options);

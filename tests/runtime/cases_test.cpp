@@ -2,7 +2,6 @@
 // language promises, judged by the base's own motion and by the forces at its contacts.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -11,6 +10,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "../is_long.hpp"
 #include "../solver/malloc_counter.hpp"
 #include "../temporary_folder.hpp"
 #include "robots.hpp"
@@ -381,7 +381,7 @@ TEST(Tick, MakesNoHeapCallWithSignalsRegionsAndInterruptions) {
   long calls = 0;
   std::uint64_t ticks = 0;
   // A million ticks when asked for: round after round of the same task file.
-  const std::uint64_t wanted = std::getenv("ZWANG_LONG") != nullptr ? 1'000'000 : 30'000;
+  const std::uint64_t wanted = zwang::test::is_long() ? 1'000'000 : 30'000;
   while (ticks < wanted) {
     HospitalRun round;
     round.nearest = [](double t) { return t < 10.0 || t > 12.0 ? 5.0 : 0.5; };

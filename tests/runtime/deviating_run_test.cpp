@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "../deviating_robot.hpp"
+#include "../is_long.hpp"
 #include "../temporary_folder.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -96,7 +96,7 @@ constexpr Drive drives[] = {{"diff_base", true},       {"tricycle_base", true}, 
                             {"mecanum_arm_base", true}};
 
 TEST(DeviatingRobots, DriveAsTheExactOnes) {
-  const bool is_long = std::getenv("ZWANG_LONG") != nullptr;
+  const bool is_long = test::is_long();
   for (const Drive& drive : drives) {
     if (!is_long && &drive >= drives + 3) break;
     expect_as_exact(drive, is_long ? 20 : 1);
@@ -106,7 +106,7 @@ TEST(DeviatingRobots, DriveAsTheExactOnes) {
 // 13 um or 0.05 deg beside the axle once were a robot that could not turn: stopped for `torque_lost`.
 TEST(DeviatingRobots, AreTurnedSquareByTheWall) {
   const std::filesystem::path task = ZWANG_SOURCE_DIR "/specs/wall_align.yaml";
-  const bool is_long = std::getenv("ZWANG_LONG") != nullptr;
+  const bool is_long = test::is_long();
   for (unsigned seed = 0; seed < (is_long ? 20U : 1U); ++seed) {
     const test::TemporaryFolder folder;
     const auto robot = test::write_deviating_robot(folder.path(), "diff_base", most, seed);

@@ -6,12 +6,10 @@
 #include <cstdio>
 #include <numbers>
 
-#include "../temporary_folder.hpp"
 #include "drive/contact_response.hpp"
 #include "drive/led_program.hpp"
 #include "recorded_run.hpp"
 #include "zwang/lang/program.hpp"
-#include "zwang/runtime/replay.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
@@ -170,18 +168,9 @@ TEST(FeltContact, TheWallSquaresTheBaseUpWithTheForceOfTheRow) {
 }
 
 TEST(FeltContact, ReplaysBitByBitAndAllocatesNothing) {
-  const test::TemporaryFolder folder;
   lang::Program program = shipped("wall_align", "mecanum_wrench_100_hz", "wall_far");
   program.scene->start_at = {0.72, 0.0};
-  const std::filesystem::path log = folder.path() / "log.mcap";
-  long calls = 0;
-  test::record_run(program, log, 3000, calls);
-  if (test::can_count_heap_calls()) {
-    EXPECT_EQ(calls, 0);
-  }
-  const ReplayResult result = replay(log, program, {});
-  EXPECT_EQ(result.records, 3000);
-  EXPECT_EQ(result.equal, result.records);
+  test::expect_replay_without_heap_calls(program, 3000);
 }
 
 }  // namespace

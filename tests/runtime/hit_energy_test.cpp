@@ -4,12 +4,12 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <random>
 #include <sstream>
 
+#include "../is_long.hpp"
 #include "../temporary_folder.hpp"
 #include "plant/contact_spring.hpp"
 #include "plant_robots.hpp"
@@ -151,7 +151,7 @@ TEST(HitForecast, IsThePlantsPeakWithinAQuarter) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
   const char* const robots[] = {"mecanum_base", "omni_base", "diff_base", "kelo_base"};
-  const int hits = std::getenv("ZWANG_LONG") != nullptr ? 200 : 8;
+  const int hits = test::is_long() ? 200 : 8;
   double worst = 0.0;
   for (int i = 0; i < hits; ++i) {
     const std::string name = robots[i % 4];

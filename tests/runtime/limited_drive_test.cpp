@@ -6,11 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "../temporary_folder.hpp"
 #include "plant/velocity_loop.hpp"
 #include "recorded_run.hpp"
 #include "zwang/lang/program.hpp"
-#include "zwang/runtime/replay.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
@@ -172,15 +170,7 @@ TEST(LimitedDrive, StopsWhenItsSamplesStayAway) {
 }
 
 TEST(LimitedDrive, ReplaysBitByBitAndAllocatesNothing) {
-  const test::TemporaryFolder folder;
-  const lang::Program program = shipped("wall_align", "limited/mecanum_50_hz", "wall_far");
-  const std::filesystem::path log = folder.path() / "log.mcap";
-  long calls = 0;
-  test::record_run(program, log, 2000, calls);
-  EXPECT_EQ(calls, 0);
-  const ReplayResult result = replay(log, program, {});
-  EXPECT_EQ(result.records, 2000);
-  EXPECT_EQ(result.equal, result.records);
+  test::expect_replay_without_heap_calls(shipped("wall_align", "limited/mecanum_50_hz", "wall_far"), 2000);
 }
 
 }  // namespace

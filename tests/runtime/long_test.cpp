@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "../is_long.hpp"
 #include "../solver/malloc_counter.hpp"
 #include "../temporary_folder.hpp"
 #include "zwang/lang/program.hpp"
@@ -18,10 +18,6 @@ namespace zwang::runtime {
 namespace {
 
 constexpr double period = 1e-3;
-
-bool is_long() {
-  return std::getenv("ZWANG_LONG") != nullptr;
-}
 
 lang::Program patrol() {
   lang::Diagnostics diagnostics;
@@ -46,7 +42,7 @@ long resident() {
 /// The runner alone: what the plant allocates is the simulator's business.
 TEST(Long, NoTickAllocates) {
   if (!test::can_count_heap_calls()) GTEST_SKIP() << "a sanitizer owns malloc";
-  const long ticks = is_long() ? 1'000'000 : 30'000;
+  const long ticks = test::is_long() ? 1'000'000 : 30'000;
   const lang::Program program = patrol();
   ScenePlant plant(program);
   Runner runner(program, {.period = period});
@@ -76,7 +72,7 @@ TEST(Long, NoTickAllocates) {
 
 TEST(Long, MemoryStaysFlat) {
   if (!test::can_count_heap_calls()) GTEST_SKIP() << "a sanitizer keeps what is freed";
-  const double hour = is_long() ? 3600.0 : 20.0;
+  const double hour = test::is_long() ? 3600.0 : 20.0;
   const lang::Program program = patrol();
   ScenePlant plant(program);
   Runner runner(program, {.period = period});

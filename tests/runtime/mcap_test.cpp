@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "../is_long.hpp"
 #include "../temporary_folder.hpp"
 #include "zwang/runtime/log_reader.hpp"
 #include "zwang/runtime/recorder.hpp"
@@ -214,7 +214,7 @@ TEST(McapLog, MemoryStaysFlatHoweverLongItGets) {
 #if defined(ZWANG_SANITIZED) || !defined(__GLIBC__)
   GTEST_SKIP() << "somebody else owns malloc";
 #else
-  const int chunks = std::getenv("ZWANG_LONG") != nullptr ? 720'000 : 4'000;
+  const int chunks = test::is_long() ? 720'000 : 4'000;
   const Folder folder;
   const std::unique_ptr<LogSink> sink = mcap_sink(folder.path / "log.mcap", context());
   ASSERT_EQ(sink->open(columns), "");

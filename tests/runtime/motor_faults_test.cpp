@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "../is_long.hpp"
 #include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -27,7 +27,7 @@ constexpr double allowed_speed = 0.08;  // [m/s] by the task
 constexpr double beyond = 1.1;          // of every bound
 constexpr double stiffness = 100e3;     // [N/m] the wall's
 constexpr double wall_at = 1.2;         // [m] its face
-const int moments_between_hits = std::getenv("ZWANG_LONG") != nullptr ? 6 : 2;
+const int moments_between_hits = test::is_long() ? 6 : 2;
 constexpr double gap = 0.08;  // [m] to it, at the start
 constexpr double degree = M_PI / 180.0;
 
@@ -290,7 +290,7 @@ TEST_P(MotorFaults, BoundForceAndSpeedWhereverBetweenHitsTheyBegin) {
 /// has failed, as far out as a wheel, and answered by a command of its size. It pressed before it was
 /// answered, and 1 mm more is little of what it was pressed in by.
 TEST(SoftWall, IsNoFaultOfADifferentialBasesMotors) {
-  const bool is_long = std::getenv("ZWANG_LONG") != nullptr;
+  const bool is_long = test::is_long();
   for (const double soft : is_long ? std::vector{1e3, 2e3, 5e3, 10e3} : std::vector{1e3, 5e3}) {
     for (const double yaw :
          is_long ? std::vector{-20.0, -12.0, -5.0, 5.0, 12.0, 20.0} : std::vector{-12.0, 5.0, 20.0}) {

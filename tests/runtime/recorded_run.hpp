@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "../solver/malloc_counter.hpp"
+#include "../temporary_folder.hpp"
 #include "zwang/runtime/recorder.hpp"
+#include "zwang/runtime/replay.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
@@ -33,6 +35,18 @@ inline void record_run(const lang::Program& program, const std::filesystem::path
     ASSERT_EQ(plant.follow(runner.command()), runtime::PlantStatus::ok);
   }
   recorder.close();
+}
+
+/// The runner's steps make no call of the heap, and the log of `ticks` replays to the last bit.
+inline void expect_replay_without_heap_calls(const lang::Program& program, int ticks) {
+  const TemporaryFolder folder;
+  const std::filesystem::path log = folder.path() / "log.mcap";
+  long calls = 0;
+  record_run(program, log, ticks, calls);
+  EXPECT_EQ(calls, 0);
+  const runtime::ReplayResult result = runtime::replay(log, program, {});
+  EXPECT_EQ(result.records, ticks);
+  EXPECT_EQ(result.equal, result.records);
 }
 
 }  // namespace zwang::test

@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../temporary_folder.hpp"
 #include "recorded_run.hpp"
 #include "zwang/lang/program.hpp"
-#include "zwang/runtime/replay.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
@@ -339,17 +337,7 @@ TEST(BlindDrive, BeginsAnewAfterAStop) {
 }
 
 TEST(BlindDrive, ReplaysBitByBitAndAllocatesNothing) {
-  const test::TemporaryFolder folder;
-  const lang::Program program = shipped("fence", "mecanum_twist");
-  const std::filesystem::path log = folder.path() / "log.mcap";
-  long calls = 0;
-  test::record_run(program, log, 2000, calls);
-  if (test::can_count_heap_calls()) {
-    EXPECT_EQ(calls, 0);
-  }
-  const ReplayResult result = replay(log, program, {});
-  EXPECT_EQ(result.records, 2000);
-  EXPECT_EQ(result.equal, result.records);
+  test::expect_replay_without_heap_calls(shipped("fence", "mecanum_twist"), 2000);
 }
 
 }  // namespace

@@ -2,19 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <thread>
 
+#include "../is_long.hpp"
 #include "table.hpp"
 
 namespace zwang::sweep {
 namespace {
-
-bool is_long() {
-  return std::getenv("ZWANG_LONG") != nullptr;
-}
 
 TEST(Sweep, ASeedFixesARun) {
   const Drawn a = draw(7, 3, Which::all), b = draw(7, 3, Which::all), c = draw(7, 4, Which::all);
@@ -36,7 +32,7 @@ void expect_bounds(const Result& result, const Drawn& drawn, int index) {
 
 /// The task's speed and a tenth; no wall is reached. In the suite one of each drive, at eight onsets.
 TEST(Sweep, EncodersThatFailAfterAStartStopTheBase) {
-  for (int i = 0; i < start_count; i += is_long() ? 1 : 11) {
+  for (int i = 0; i < start_count; i += test::is_long() ? 1 : 11) {
     const Drawn drawn = draw(1, i, Which::starts);
     const Result result = run(drawn);
     expect_bounds(result, drawn, i);
@@ -54,24 +50,24 @@ TEST(Sweep, UnevenStepsOfAStartAreNoContact) {
 }
 
 TEST(Sweep, EncodersThatFailAtAnyMomentKeepTheBounds) {
-  const int runs = is_long() ? 1000 : 6;
-  const int threads = is_long() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
+  const int runs = test::is_long() ? 1000 : 6;
+  const int threads = test::is_long() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
   const auto results = run_all(3, 0, runs, Which::faulty, threads);
   for (int i = 0; i < runs; ++i)
     expect_bounds(results[static_cast<std::size_t>(i)], draw(3, i, Which::faulty), i);
-  if (is_long()) print(3, 0, Which::faulty, results, std::cout);
+  if (test::is_long()) print(3, 0, Which::faulty, results, std::cout);
 }
 
 /// With encoders of steps up to 5e-5 rad.
 TEST(Sweep, AHealthyRunIsNotFrozen) {
-  const int runs = is_long() ? 1000 : 4;
-  const int threads = is_long() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
+  const int runs = test::is_long() ? 1000 : 4;
+  const int threads = test::is_long() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
   const auto results = run_all(3, 0, runs, Which::healthy, threads);
   for (int i = 0; i < runs; ++i) {
     if (draw(3, i, Which::healthy).encoder_step > 5e-5) continue;
     EXPECT_NE(results[static_cast<std::size_t>(i)].reason, "frozen") << i;
   }
-  if (is_long()) print(3, 0, Which::healthy, results, std::cout);
+  if (test::is_long()) print(3, 0, Which::healthy, results, std::cout);
 }
 
 }  // namespace
