@@ -13,13 +13,19 @@ target_compile_options(zwang_flags INTERFACE
 if(ZWANG_SANITIZE)
   target_compile_options(zwang_flags INTERFACE -fsanitize=${ZWANG_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(zwang_flags INTERFACE -fsanitize=${ZWANG_SANITIZE})
+  # A null or wild pointer is found by the address sanitizer, too. Its checks at each use kept Eigen's functions from being
+  # inlined: half of the time to compile the solver, four fifths of the time to run it.
+  if(ZWANG_SANITIZE MATCHES "address,undefined")
+    target_compile_options(zwang_flags INTERFACE
+      -fno-sanitize=null,alignment,object-size,pointer-overflow,nonnull-attribute,returns-nonnull-attribute)
+  endif()
 endif()
 
-# zwang_text_under_sanitizers(<target>): code that reads and writes text, whose runs are short. Under a sanitizer it is
-# neither optimised nor given line numbers, which takes 40 % of the time to compile it; a find names its functions.
+# zwang_quick_under_sanitizers(<target>): code that runs once in a test. Under a sanitizer it is neither optimised nor given
+# line numbers, which takes 40 % of the time to compile it; a find names its functions.
 # -D ZWANG_SANITIZED_LINES=ON brings the lines back.
 option(ZWANG_SANITIZED_LINES "Line numbers in the finds of a sanitizer, of text and tests, too" OFF)
-function(zwang_text_under_sanitizers target)
+function(zwang_quick_under_sanitizers target)
   if(ZWANG_SANITIZE)
     target_compile_options(${target} PRIVATE -O0 $<$<NOT:$<BOOL:${ZWANG_SANITIZED_LINES}>>:-g0>)
   endif()

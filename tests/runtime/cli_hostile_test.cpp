@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 
+#include "../times_count.hpp"
 #include "program.hpp"
 
 namespace zwang {
@@ -13,12 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path specs = fs::path(ZWANG_SOURCE_DIR) / "specs";
-
-#ifdef ZWANG_SANITIZED
-constexpr bool is_sanitized = true;
-#else
-constexpr bool is_sanitized = false;
-#endif
 
 constexpr std::size_t most_bytes = 256 * 1024;
 
@@ -166,7 +161,7 @@ class Means : public test::Program {
     std::set<fs::path> before = files();
     const Spent spent = spent_on(arguments);
     EXPECT_TRUE(spent.code == 0 || spent.code == 1) << spent.code;
-    if (!is_sanitized) {
+    if (test::times_count) {
       EXPECT_LT(spent.seconds, 2.0);
       EXPECT_LT(spent.megabytes, 256.0);
     }
