@@ -152,9 +152,9 @@ INSTANTIATE_TEST_SUITE_P(Stiffness, UnexpectedObstacle,
                                          Meeting{"omni_base", "obstacle.yaml", 10.0, 1e4},
                                          Meeting{"omni_base", "obstacle.yaml", 10.0, 1e5},
                                          Meeting{"omni_base", "obstacle.yaml", 10.0, 1e6},
-                                         Meeting{"diff_base", "obstacle_nose.yaml", 15.0, 1e4},
-                                         Meeting{"diff_base", "obstacle_nose.yaml", 15.0, 1e5},
-                                         Meeting{"diff_base", "obstacle_nose.yaml", 15.0, 1e6}));
+                                         Meeting{"diff_base", "obstacle.yaml", 15.0, 1e4},
+                                         Meeting{"diff_base", "obstacle.yaml", 15.0, 1e5},
+                                         Meeting{"diff_base", "obstacle.yaml", 15.0, 1e6}));
 
 /// Ahead at `speed` in a room with the corners of `polygon`.
 std::string fenced(const std::string& polygon, const std::string& speed) {

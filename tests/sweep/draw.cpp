@@ -41,7 +41,7 @@ const std::vector<Job>& jobs() {
        0.18,
        40.0,
        0.0},
-      {"obstacle_nose.yaml",
+      {"obstacle.yaml",
        {"obstacle", "obstacle_soft", "obstacle_corner"},
        {"diff_base"},
        80.0,

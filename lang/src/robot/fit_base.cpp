@@ -155,7 +155,7 @@ std::string why_unfit(const std::string& task, const BaseFit& fit) {
 }
 
 std::string shipped_variant(const std::string& task, const BaseFit& fit) {
-  const bool has_variant = task == "obstacle" || task == "docking" || task == "hospital";
+  const bool has_variant = task == "docking" || task == "hospital";
   return fit.freedoms == Freedoms::two && has_variant ? task + "_nose" : task;
 }
 

@@ -45,7 +45,7 @@ std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, d
 /// Why this base cannot do `task`; empty: it can, as far as is known.
 std::string why_unfit(const std::string& task, const BaseFit& fit);
 
-/// The shipped task that is `task` for this base: `obstacle_nose` is `obstacle` for two freedoms.
+/// The shipped task that is `task` for this base: `docking_nose` is `docking` for two freedoms.
 std::string shipped_variant(const std::string& task, const BaseFit& fit);
 
 struct TaskTexts {
