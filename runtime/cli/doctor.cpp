@@ -13,6 +13,7 @@
 #include "shipped.hpp"
 #include "verbs.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
+#include "zwang/version.hpp"
 
 namespace zwang::cli {
 

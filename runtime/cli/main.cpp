@@ -13,6 +13,7 @@
 #include "verbs.hpp"
 #include "zwang/lang/nearest.hpp"
 #include "zwang/lang/quantity.hpp"
+#include "zwang/version.hpp"
 
 namespace {
 

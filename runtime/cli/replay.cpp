@@ -7,6 +7,7 @@
 
 #include "output.hpp"
 #include "verbs.hpp"
+#include "zwang/version.hpp"
 
 namespace zwang::cli {
 

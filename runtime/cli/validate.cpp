@@ -8,6 +8,7 @@
 #include "output.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/program.hpp"
+#include "zwang/version.hpp"
 
 namespace zwang::cli {
 

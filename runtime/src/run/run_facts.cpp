@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "zwang/version.hpp"
+
 namespace zwang::runtime {
 
 namespace {

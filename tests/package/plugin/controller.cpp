@@ -1,12 +1,18 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
+#include <string_view>
 
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
+#include "zwang/version.hpp"
 
-/// Ten ticks of a task, of a robot that stands and does not answer. The largest torque that was asked for [N m]; negative:
-/// it could not be loaded.
+static_assert(std::string_view(ZWANG_VERSION) == FOUND_VERSION, "the headers are those of the package");
+static_assert(ZWANG_VERSION_MAJOR == FOUND_MAJOR && ZWANG_VERSION_MINOR == FOUND_MINOR &&
+              ZWANG_VERSION_PATCH == FOUND_PATCH);
+
+/// Ten ticks of a task, of a robot that stands and does not answer. The largest torque that was asked for [N
+/// m]; negative: it could not be loaded.
 extern "C" double largest_torque_of_ten_ticks(const char* task) {
   using namespace zwang;
   try {
