@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "mjcf_text.hpp"
 #include "object_geometry.hpp"
@@ -39,7 +40,6 @@ class MjcfWriter {
         "<option integrator=\"Euler\" solver=\"Newton\" cone=\"elliptic\" impratio=\"10\" "
         "tolerance=\"1e-12\"" +
         attribute("timestep", text_of(period)) + attribute("gravity", list_of(first.gravity())) + "/>\n";
-    text_ += "<size nconmax=\"500\" njmax=\"2000\" nuser_geom=\"1\"/>\n";
     text_ += "<default><geom contype=\"0\" conaffinity=\"0\" condim=\"3\" " + stiff() + "/></default>\n";
     write_assets();
     text_ += "<worldbody>\n";
@@ -50,11 +50,33 @@ class MjcfWriter {
     write_pairs();
     write_docks();
     write_motors();
+    write_size();
     text_ += "</mujoco>\n";
     return std::move(text_);
   }
 
  private:
+  /// As many contact points and constraint rows as there can be at once. MuJoCo takes memory for the square
+  /// of the rows and writes zeros to it: 2000 rows take 50 MB and 20 ms at each start.
+  void write_size() {
+    constexpr std::size_t points_of_a_pair = 8, rows_of_a_point = 3, rows_of_a_joint = 2, rows_of_a_dock = 3;
+    constexpr std::size_t most_points = 500, most_rows = 2000;
+    std::size_t joints = 0;
+    for (const SimulatedRobot& robot : robots_)
+      joints += static_cast<std::size_t>(robot.robot.model.joint_count());
+    const std::size_t points = std::min(most_points, points_of_a_pair * elements("<pair"));
+    const std::size_t rows = std::min(most_rows, rows_of_a_point * points + rows_of_a_joint * joints +
+                                                     rows_of_a_dock * elements("<connect"));
+    text_ += "<size" + attribute("nconmax", std::to_string(points)) +
+             attribute("njmax", std::to_string(rows)) + " nuser_geom=\"1\"/>\n";
+  }
+
+  std::size_t elements(std::string_view begin) const {
+    std::size_t count = 0;
+    for (std::size_t at = text_.find(begin); at != std::string::npos; at = text_.find(begin, at + 1)) ++count;
+    return count;
+  }
+
   void write_assets() {
     std::string assets;
     for (const RobotText& robot : texts_) assets += robot.assets;
