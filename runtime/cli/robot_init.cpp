@@ -99,8 +99,9 @@ int refused(const lang::Diagnostics& diagnostics) {
 void require_wheels(const std::string& urdf, const lang::RobotDraft& draft) {
   if (!draft.wheels.empty()) return;
   std::string reason = ": no wheels found: a robot file needs some";
-  if (!draft.wheels_that_stand.empty())
-    reason += "; `" + draft.wheels_that_stand.front() + "` is `fixed`, a wheel's joint is `continuous`";
+  if (!draft.stuck.empty())
+    reason += "; `" + draft.stuck.front().joint + "` is " + draft.stuck.front().how +
+              ", a wheel's joint is `continuous`";
   throw Impossible(urdf + reason);
 }
 

@@ -26,7 +26,7 @@ std::string polygon_text(const std::vector<Eigen::Vector2d>& corners) {
 /// Half of the rectangle around all wheels. [m]
 Eigen::Vector2d reach_of(const FoundWheels& found) {
   Eigen::Vector2d most{0.1, 0.1};
-  for (const auto* wheels : {&found.wheels, &found.casters}) {
+  for (const auto* wheels : {&found.wheels, &found.idle, &found.casters}) {
     for (const DraftWheel& wheel : *wheels) {
       most.x() = std::max(most.x(), std::abs(wheel.at[0]) + wheel.radius.value_or(0.1));
       most.y() = std::max(most.y(), std::abs(wheel.at[1]));

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "diagnostic/wordings_standing.hpp"
 #include "robot/check_push.hpp"
 #include "robot/draft_frames.hpp"
 #include "robot/drive_kind.hpp"
@@ -49,7 +50,7 @@ class Drafter {
       : urdf_(urdf),
         found_(std::move(found)),
         named_as_(std::move(named_as)),
-        drive_(drive_of(found_.wheels)),
+        drive_(drive_of(holding_wheels(found_))),
         frames_(urdf_, found_, drive_, options) {
     const std::vector<std::string> open = without_inertia(urdf_);
     held_ = found_.in_between;
@@ -60,7 +61,7 @@ class Drafter {
     for (const std::string& link : open) {
       if (!contains(held_, urdf_.joint_above(link)->joint.name)) bodies_.push_back(link);
     }
-    for (const auto* wheels : {&found_.wheels, &found_.casters}) {
+    for (const auto* wheels : {&found_.wheels, &found_.idle, &found_.casters}) {
       for (const DraftWheel& wheel : *wheels) {
         if (!contains(bodies_, wheel.link) && is_beyond_rim(wheel)) bodies_.push_back(wheel.link);
       }
@@ -71,12 +72,13 @@ class Drafter {
     RobotDraft draft;
     draft.name = urdf_.name;
     draft.base = found_.base;
-    draft.drive = in_words(drive_, found_.wheels);
+    draft.drive = in_words(drive_, holding_wheels(found_));
     draft.mass = urdf_.mass();
     draft.wheels = found_.wheels;
+    draft.idle = found_.idle;
     draft.casters = found_.casters;
     draft.supports = found_.supports;
-    draft.wheels_that_stand = found_.wheels_that_stand;
+    draft.stuck = found_.stuck;
     draft.outline = frames_.outline();
     draft.outline_is_known = frames_.outline_is_known();
     draft.arm_reach = found_.arm_reach;
@@ -95,7 +97,8 @@ class Drafter {
     filling.footprint = frames_.around_wheels();
     filling.back = "-0.5 m";
     filling.mass = "0.1 kg";
-    if (drive_ != DriveKind::rollers_or_skid) return {{in_words(drive_, found_.wheels), text(filling)}};
+    if (drive_ != DriveKind::rollers_or_skid)
+      return {{in_words(drive_, holding_wheels(found_)), text(filling)}};
     std::vector<std::pair<std::string, std::string>> texts;
     filling.kind = "skid";
     texts.emplace_back("with plain wheels that skid", text(filling));
@@ -145,7 +148,8 @@ class Drafter {
   static bool lacks_radius(const DraftWheel& wheel) { return !wheel.radius; }
 
   bool any_lacks_radius() const {
-    return any(lacks_radius) || std::any_of(found_.casters.begin(), found_.casters.end(), lacks_radius);
+    return any(lacks_radius) || std::any_of(found_.idle.begin(), found_.idle.end(), lacks_radius) ||
+           std::any_of(found_.casters.begin(), found_.casters.end(), lacks_radius);
   }
 
   double assumed_radius() const {
@@ -170,10 +174,11 @@ class Drafter {
     if (drive_ == DriveKind::none) {
       lines.push_back(
           "wheels: no joint turns without end about a level axle and is called a wheel or is round");
-      for (const std::string& joint : found_.wheels_that_stand)
-        lines.push_back("a `continuous` joint where the URDF has `" + joint + "`, which is `fixed`");
+      for (const StuckWheel& wheel : found_.stuck)
+        lines.push_back("a `continuous` joint where the URDF has `" + wheel.joint + "`, which is " +
+                        wheel.how);
     }
-    std::vector<DraftWheel> all = found_.wheels;
+    std::vector<DraftWheel> all = holding_wheels(found_);
     all.insert(all.end(), found_.casters.begin(), found_.casters.end());
     add_missing(lines, "the radius, where the shape is a mesh: ", all, lacks_radius);
     add_missing(lines, "the largest torque: ", found_.wheels, lacks_effort);
@@ -214,7 +219,8 @@ class Drafter {
            "each_wheel: {" + keys + "}\n";
   }
 
-  std::string wheel_entry(const DraftWheel& wheel, bool is_driven, const Filling& filling) const {
+  std::string wheel_entry(const DraftWheel& wheel, bool is_driven, bool slides_sideways,
+                          const Filling& filling) const {
     std::string entry = "  - {joint: " + wheel.joint;
     if (wheel.radius) {
       entry += ", radius: " + in_millimetres(*wheel.radius);
@@ -222,6 +228,7 @@ class Drafter {
       entry += ", radius: " + filling.radius;
     }
     if (is_driven && drive_ == DriveKind::omni) entry += ", roller: 90 deg";
+    if (slides_sideways) entry += ", holds: [rolling]";
     return entry + "}\n";
   }
 
@@ -239,10 +246,7 @@ class Drafter {
         line(wheel.joint, filling.effort);
       }
     }
-    // A swivel with one wheel is steered by a motor, one with two by the difference of theirs.
-    for (const auto& [name, wheels] : swivels_of(found_.wheels)) {
-      if (wheels == 1) line(name, filling.effort);
-    }
+    for (const std::string& name : found_.steering) line(name, filling.effort);
     for (const std::string& name : found_.others) {
       const UrdfJoint* joint = urdf_.find_joint(name);
       if (contains(held_, name)) continue;
@@ -271,7 +275,8 @@ class Drafter {
 
   bool is_wheel(const std::string& link) const {
     const auto has_it = [&](const DraftWheel& wheel) { return wheel.link == link; };
-    return any(has_it) || std::any_of(found_.casters.begin(), found_.casters.end(), has_it);
+    return any(has_it) || std::any_of(found_.idle.begin(), found_.idle.end(), has_it) ||
+           std::any_of(found_.casters.begin(), found_.casters.end(), has_it);
   }
 
   static std::string listed(const std::vector<std::string>& names) {
@@ -294,16 +299,21 @@ class Drafter {
     std::string text = "zwang_robot: 1\nurdf: " + named_as_ + "\n" + frames_.base_and_lead();
     if (!held_.empty())
       text +=
-          "\n# They do not move here: they carry wheels and do not steer them, as rockers, springs and wheel "
-          "drops do, "
-          "follow\n# another joint by a <mimic>, or have no mass or inertia behind them.\nfixed: " +
+          "\n# They do not move here. They carry wheels and do not steer them, as rockers and springs do; "
+          "follow "
+          "another joint\n# by a <mimic>; have no inertia behind them; or are stiff casters, or a "
+          "simulator's "
+          "rails.\nfixed: " +
           listed(held_);
     text += "\n";
     text += each_wheel(filling) + "wheels:\n";
-    for (const DraftWheel& wheel : found_.wheels) text += wheel_entry(wheel, true, filling);
+    for (const DraftWheel& wheel : found_.wheels) text += wheel_entry(wheel, true, false, filling);
+    if (!found_.idle.empty()) text += "  # They have no motor, and roll along.\n";
+    const bool is_skid = drive_ == DriveKind::rollers_or_skid;
+    for (const DraftWheel& wheel : found_.idle) text += wheel_entry(wheel, false, is_skid, filling);
     if (!found_.casters.empty())
       text += "  # Casters: they have no motor, and the swivel above each follows.\n";
-    for (const DraftWheel& caster : found_.casters) text += wheel_entry(caster, false, filling);
+    for (const DraftWheel& caster : found_.casters) text += wheel_entry(caster, false, false, filling);
     if (!found_.supports.empty())
       text += "\n# They stand on the ground and hold nothing.\nsupports: " + listed(found_.supports);
     text +=
@@ -336,6 +346,23 @@ class Drafter {
   std::vector<std::string> bodies_;  ///< links whose inertia is in the draft
 };
 
+/// Larger than any: a file in millimetres has wheels of 50 m.
+constexpr double most_wheel_radius = 3.0, most_reach = 30.0;  // [m]
+
+/// False, and told, where no robot has such wheels.
+bool has_wheels_in_metres(const FoundWheels& found, const Urdf& urdf, Diagnostics& diagnostics) {
+  for (const DraftWheel& wheel : holding_wheels(found)) {
+    const double reach = std::hypot(wheel.at[0], wheel.at[1]), radius = wheel.radius.value_or(0.0);
+    if (radius <= most_wheel_radius && reach <= most_reach) continue;
+    const bool is_large = radius > most_wheel_radius;
+    diagnostics.add(wording::beyond_all_bodies(urdf.find_joint(wheel.joint)->span, wheel.link,
+                                               is_large ? "a wheel's radius" : "a place",
+                                               wording::figure(is_large ? radius : reach, "m")));
+    return false;
+  }
+  return true;
+}
+
 std::optional<Robot> build_from(const std::string& robot_file, const Urdf& urdf, Diagnostics& diagnostics) {
   const std::optional<Document> document =
       read(diagnostics.add_source({"robot file", robot_file}), diagnostics);
@@ -353,6 +380,7 @@ std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const s
   const std::optional<Urdf> urdf = read_urdf(path, {}, diagnostics, options.ignored);
   if (!urdf) return std::nullopt;
   const FoundWheels found = find_wheels(*urdf);
+  if (!has_wheels_in_metres(found, *urdf, diagnostics)) return std::nullopt;
   Drafter drafter(*urdf, found, named_as, options);
   RobotDraft draft = drafter.draft();
   draft.assumption_notes = drafter.assumptions();

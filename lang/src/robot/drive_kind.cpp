@@ -32,7 +32,8 @@ DriveKind drive_of(const std::vector<DraftWheel>& wheels) {
   if (steered == count) return DriveKind::swivels;
   if (steered == 0 && count == 2) return DriveKind::differential;
   if (steered == 0 && count >= 3 && !are_parallel(wheels)) return DriveKind::omni;
-  if (steered == 0 && count == 4) return DriveKind::rollers_or_skid;
+  if (steered == 0 && count >= 4) return DriveKind::rollers_or_skid;
+  if (steered > 0) return DriveKind::car;
   return DriveKind::other;
 }
 
@@ -44,13 +45,18 @@ std::string in_words(DriveKind drive, const std::vector<DraftWheel>& wheels) {
     case DriveKind::differential:
       return "differential: two plain wheels";
     case DriveKind::rollers_or_skid:
-      return "four wheels that do not steer: mecanum or skid steering";
+      return (wheels.size() == 4 ? "four wheels" : count) + " that do not steer: mecanum or skid steering";
     case DriveKind::omni:
       return "omni: " + count + " whose axles point different ways";
     case DriveKind::swivels: {
       const auto units = std::to_string(swivels_of(wheels).size());
       const bool pairs = swivels_of(wheels).size() * 2 == wheels.size();
       return pairs ? units + " swivels with two driven wheels each" : units + " steered wheels";
+    }
+    case DriveKind::car: {
+      std::size_t steered = 0;
+      for (const auto& [name, carried] : swivels_of(wheels)) steered += static_cast<std::size_t>(carried);
+      return "as a car: " + std::to_string(steered) + " of " + count + " steer";
     }
     case DriveKind::other:
       break;

@@ -9,7 +9,7 @@
 
 namespace zwang::lang {
 
-enum class DriveKind { none, differential, rollers_or_skid, omni, swivels, other };
+enum class DriveKind { none, differential, rollers_or_skid, omni, swivels, car, other };
 
 DriveKind drive_of(const std::vector<DraftWheel>& wheels);
 std::string in_words(DriveKind drive, const std::vector<DraftWheel>& wheels);

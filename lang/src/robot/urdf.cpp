@@ -116,6 +116,7 @@ void find_round_shape(const Shapes& shapes, UrdfLink& link) {
     const std::optional<double> radius = shape ? radius_of(shape->geometry) : std::nullopt;
     if (!radius || !(*radius > link.radius.value_or(0.0))) continue;
     link.radius = radius;
+    link.round_at = to_pose(shape->origin).position;
     link.cylinder_axis.reset();
     if (std::dynamic_pointer_cast<urdf::Cylinder>(shape->geometry))
       link.cylinder_axis = to_pose(shape->origin).rotation.col(2);
@@ -168,6 +169,18 @@ std::map<int, UrdfMimic> find_mimics(const std::vector<XmlElement>& elements) {
     mimics.try_emplace(element.parent, UrdfMimic{joint != nullptr ? joint->value : "", element.span});
   }
   return mimics;
+}
+
+/// The joints that motors are said to turn.
+std::set<std::string> find_transmissions(const std::vector<XmlElement>& elements) {
+  std::set<std::string> joints;
+  for (const XmlElement& element : elements) {
+    const XmlAttribute* name = element.find("name");
+    if (element.name != "joint" || element.parent <= 0 || name == nullptr) continue;
+    const std::string& parent = elements[static_cast<std::size_t>(element.parent)].name;
+    if (parent == "transmission" || parent == "ros2_control") joints.insert(name->value);
+  }
+  return joints;
 }
 
 /// Of links that move by themselves; what is fixed to another is judged with it.
@@ -253,7 +266,9 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
   urdf.name = model->getName();
   urdf.root = model->getRoot()->name;
   for (const auto& [name, link] : model->links_) {
-    UrdfLink result{name, {}, span_of(*elements, "link", name), {}, {}, {}};
+    UrdfLink result;
+    result.name = name;
+    result.span = span_of(*elements, "link", name);
     for (const auto& shape : link->collision_array) {
       if (shape && shape->geometry) add_corners(*shape->geometry, to_pose(shape->origin), result.corners);
     }
@@ -265,12 +280,14 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
   // In the order of the text, which is the author's order of joints.
   std::set<std::string> done;
   const std::map<int, UrdfMimic> mimics = find_mimics(*elements);
+  const std::set<std::string> driven = find_transmissions(*elements);
   for (const XmlElement& element : *elements) {
     if (element.parent != 0 || element.name != "joint") continue;
     const auto joint = model->joints_.find(element.find("name")->value);
     if (joint == model->joints_.end() || !done.insert(joint->first).second) continue;
     urdf.joints.push_back(to_joint(*joint->second));
     urdf.joints.back().span = element.span;
+    urdf.joints.back().has_transmission = driven.contains(joint->first);
     const auto mimic = mimics.find(static_cast<int>(&element - elements->data()));
     if (mimic != mimics.end()) urdf.joints.back().mimic = mimic->second;
   }

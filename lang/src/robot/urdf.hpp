@@ -19,7 +19,8 @@ struct UrdfLink {
   solver::RigidInertia inertia;  ///< zero where the file gives none
   Span span;
   std::optional<double> radius;  ///< [m] of its largest cylinder or sphere, of what collides if there is any
-  std::optional<solver::Vector3> cylinder_axis;  ///< unit vector in the link, where that is a cylinder
+  std::optional<solver::Vector3> cylinder_axis;        ///< unit vector in the link, where that is a cylinder
+  solver::Vector3 round_at = solver::Vector3::Zero();  ///< [m] in the link, the middle of that shape
   std::vector<solver::Vector3> corners;  ///< [m] in the link, of the shapes that collide; a mesh has none
 };
 
@@ -35,6 +36,7 @@ struct UrdfJoint {
   solver::Pose origin;  ///< X_PC at q = 0
   solver::Joint joint;  ///< named; not actuated; max_effort infinite where the file gives none
   std::optional<UrdfMimic> mimic;
+  bool has_transmission = false;  ///< a <transmission> or <ros2_control> names it, with a motor
   Span span;
 };
 

@@ -1,7 +1,5 @@
-// A wheel turns without end about a level axle, and nothing moves beyond it. Which of those do is told by the
-// name
-// (`wheel`), else by a round shape. A wheel behind a joint about the vertical is steered; alone on one that
-// is called a caster, it has no motor.
+// A wheel turns without end about a level axle, and nothing moves beyond it. It is called a wheel, or it is
+// round and stands on the ground. A wheel behind a joint about the vertical is on a swivel.
 #include "robot/wheel_search.hpp"
 
 #include <algorithm>
@@ -9,7 +7,8 @@
 #include <set>
 #include <utility>
 
-#include "tree/text.hpp"
+#include "robot/wheel_names.hpp"
+#include "robot/wheel_roles.hpp"
 
 namespace zwang::lang {
 
@@ -17,13 +16,10 @@ namespace {
 
 constexpr double level = 0.1;    // |z| of an axle's direction
 constexpr double upright = 0.9;  // |z| of a swivel's
+constexpr double slack = 0.2;    // of a radius: as far off a round shape is drawn beside its place
 
 bool moves(const UrdfJoint& joint) {
   return joint.joint.type != solver::JointType::fixed;
-}
-
-bool mentions(const std::string& name, const char* word) {
-  return lower_case(name).find(word) != std::string::npos;
 }
 
 /// Counter-clockwise (Andrew's monotone chain). Empty where the points span no area.
@@ -60,27 +56,43 @@ class WheelSearch {
   }
 
   FoundWheels find() {
-    std::vector<const UrdfJoint*> wheels = candidates(true);
-    if (wheels.empty()) wheels = candidates(false);
-    for (const UrdfJoint* joint : wheels) add(*joint);
-    drop_casters();
+    for (const UrdfJoint* joint : candidates()) add(*joint);
+    if (!found_.wheels.empty()) assign_roles(urdf_, found_);
     find_balls();
     find_others();
     find_arm_reach();
-    if (found_.wheels.empty()) find_wheels_that_stand();
+    if (found_.wheels.empty()) find_stuck_wheels();
     find_outline();
     return found_;
   }
 
  private:
-  /// `base_link` where it is fixed to the root, as it often hangs on a footprint; else the root.
-  std::string base() const {
-    if (urdf_.find_link("base_link") == nullptr) return urdf_.root;
-    for (const UrdfJoint* above = urdf_.joint_above("base_link"); above != nullptr;
+  /// `base_link` where it is fixed to the root, as it often hangs on a footprint; else the root. Rails that
+  /// lead to a base and have no mass are a simulator's.
+  std::string base() {
+    std::string root = urdf_.root;
+    for (const UrdfJoint* rail = only_rail(root); rail != nullptr; rail = only_rail(root)) {
+      found_.in_between.push_back(rail->joint.name);
+      root = rail->child;
+    }
+    if (urdf_.find_link("base_link") == nullptr) return root;
+    for (const UrdfJoint* above = urdf_.joint_above("base_link"); above != nullptr && above->child != root;
          above = urdf_.joint_above(above->parent)) {
-      if (moves(*above)) return urdf_.root;
+      if (moves(*above)) return root;
     }
     return "base_link";
+  }
+
+  /// The joint below a link without mass, where it moves and is the only one.
+  const UrdfJoint* only_rail(const std::string& link) const {
+    const UrdfJoint* below = nullptr;
+    for (const UrdfJoint& joint : urdf_.joints) {
+      if (joint.parent != link) continue;
+      if (below != nullptr) return nullptr;
+      below = &joint;
+    }
+    const bool is_rail = below != nullptr && moves(*below) && !(urdf_.find_link(link)->inertia.mass > 0.0);
+    return is_rail ? below : nullptr;
   }
 
   void place_links() {
@@ -104,8 +116,9 @@ class WheelSearch {
 
   /// The nearest moving joint above a link; nullptr when it is fixed to the base.
   const UrdfJoint* carrier(const std::string& link) const {
-    const UrdfJoint* above = urdf_.joint_above(link);
-    while (above != nullptr && !moves(*above)) above = urdf_.joint_above(above->parent);
+    const auto next = [&](const std::string& l) { return l == found_.base ? nullptr : urdf_.joint_above(l); };
+    const UrdfJoint* above = next(link);
+    while (above != nullptr && !moves(*above)) above = next(above->parent);
     return above;
   }
 
@@ -115,16 +128,60 @@ class WheelSearch {
     });
   }
 
-  std::vector<const UrdfJoint*> candidates(bool by_name) const {
-    std::vector<const UrdfJoint*> result;
+  static bool is_named(const UrdfJoint& joint) {
+    return is_called_wheel(joint.joint.name) || is_called_wheel(joint.child) ||
+           is_called_caster(joint.joint.name);
+  }
+
+  /// A wheel has the name of one, or is round and stands as low as the named ones. Without names the lowest
+  /// round links are wheels.
+  std::vector<const UrdfJoint*> candidates() const {
+    std::vector<const UrdfJoint*> named, round, result;
     for (const UrdfJoint& joint : urdf_.joints) {
       const bool turns_for_ever = joint.joint.type == solver::JointType::continuous;
       if (!turns_for_ever || std::abs(axis_of(joint).z()) > level || !is_last(joint)) continue;
-      const bool is_named = mentions(joint.joint.name, "wheel") || mentions(joint.child, "wheel") ||
-                            mentions(joint.joint.name, "caster");
-      if (by_name ? is_named : urdf_.find_link(joint.child)->radius.has_value()) result.push_back(&joint);
+      if (is_named(joint)) named.push_back(&joint);
+      if (lowest_of(joint)) round.push_back(&joint);
+    }
+    std::optional<double> ground;
+    for (const UrdfJoint* joint : named.empty() ? round : named) {
+      const std::optional<double> low = lowest_of(*joint);
+      if (low) ground = std::min(*low, ground.value_or(*low));
+    }
+    for (const UrdfJoint& joint : urdf_.joints) {
+      const auto is_in = [&](const std::vector<const UrdfJoint*>& joints) {
+        return std::find(joints.begin(), joints.end(), &joint) != joints.end();
+      };
+      if (is_in(named) || (is_in(round) && ground && stands_at(*ground, joint))) result.push_back(&joint);
     }
     return result;
+  }
+
+  /// Its height in the base. [m]
+  std::optional<double> lowest_of(const UrdfJoint& joint) const {
+    const std::optional<double> radius = radius_of(joint);
+    if (!radius) return std::nullopt;
+    return in_base_.at(joint.child).position.z() - *radius;
+  }
+
+  bool stands_at(double ground, const UrdfJoint& joint) const {
+    return std::abs(*lowest_of(joint) - ground) < slack * *radius_of(joint);
+  }
+
+  /// Of a wheel, whose tyre may be a link of its own.
+  std::optional<double> radius_of(const UrdfJoint& joint) const {
+    std::optional<double> radius = urdf_.find_link(joint.child)->radius;
+    for (const UrdfLink& link : urdf_.links) {
+      if (link.name == joint.child || !link.radius || carrier(link.name) != &joint) continue;
+      const bool is_on_axle = (in_base_.at(link.name) * link.round_at - in_base_.at(joint.child).position)
+                                  .cross(axis_of(joint))
+                                  .norm() < slack * *link.radius;
+      const bool lies_flat =
+          link.cylinder_axis &&
+          (in_base_.at(link.name).rotation * *link.cylinder_axis).cross(axis_of(joint)).norm() > level;
+      if (is_on_axle && !lies_flat) radius = std::max(radius.value_or(0.0), *link.radius);
+    }
+    return radius;
   }
 
   void add(const UrdfJoint& joint) {
@@ -134,12 +191,13 @@ class WheelSearch {
     const solver::Vector3& at = in_base_.at(joint.child).position;
     wheel.at = {at.x(), at.y(), at.z()};
     wheel.axle = axis_of(joint).head<2>();
-    wheel.radius = urdf_.find_link(joint.child)->radius;
+    wheel.radius = radius_of(joint);
     if (std::isfinite(joint.joint.max_effort)) wheel.effort = joint.joint.max_effort;
     for (const UrdfJoint* above = carrier(joint.parent); above != nullptr; above = carrier(above->parent)) {
       const bool slides = above->joint.type == solver::JointType::prismatic;
       if (!slides && std::abs(axis_of(*above).z()) > upright) {
         wheel.swivel = above->joint.name;
+        wheel.trail = std::abs((at - in_base_.at(above->child).position).cross(axis_of(joint)).z());
       } else {
         note(found_.in_between, above->joint.name);
       }
@@ -151,37 +209,32 @@ class WheelSearch {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
 
-  void drop_casters() {
-    std::map<std::string, int> on_swivel;
-    for (const DraftWheel& wheel : found_.wheels) ++on_swivel[wheel.swivel];
-    std::erase_if(found_.wheels, [&](const DraftWheel& wheel) {
-      const bool is_caster = !wheel.swivel.empty() && on_swivel[wheel.swivel] == 1 &&
-                             (mentions(wheel.swivel, "caster") || mentions(wheel.joint, "caster"));
-      if (!is_caster) return false;
-      found_.casters.push_back(wheel);
-      passive_.insert({wheel.joint, wheel.swivel});
-      return true;
-    });
-  }
-
+  /// Fixed to the base, and called a ball or a caster; or a sphere as low as the wheels.
   void find_balls() {
+    std::optional<double> ground;
+    for (const DraftWheel& wheel : found_.wheels) {
+      const double low = wheel.at[2] - wheel.radius.value_or(0.0);
+      if (wheel.radius) ground = std::min(low, ground.value_or(low));
+    }
     for (const UrdfLink& link : urdf_.links) {
       const UrdfJoint* above = urdf_.joint_above(link.name);
-      const bool is_ball = above != nullptr && !moves(*above) && carrier(above->parent) == nullptr &&
-                           (mentions(link.name, "caster") || mentions(link.name, "ball"));
-      if (is_ball) found_.supports.push_back(link.name);
+      if (above == nullptr || moves(*above) || carrier(link.name) != nullptr || link.name == found_.base)
+        continue;
+      const bool is_named = is_called_caster(link.name) || is_called_ball(link.name);
+      const bool is_sphere = ground && link.radius && !link.cylinder_axis;
+      const double low = is_sphere ? (in_base_.at(link.name) * link.round_at).z() - *link.radius : 0.0;
+      if (is_named || (is_sphere && std::abs(low - *ground) < slack * *link.radius))
+        found_.supports.push_back(link.name);
     }
   }
 
   void find_others() {
+    std::set<std::string> known(found_.in_between.begin(), found_.in_between.end());
+    for (const auto* wheels : {&found_.wheels, &found_.idle, &found_.casters}) {
+      for (const DraftWheel& wheel : *wheels) known.insert({wheel.joint, wheel.swivel});
+    }
     for (const UrdfJoint& joint : urdf_.joints) {
-      const std::string& name = joint.joint.name;
-      const bool is_known =
-          !moves(joint) || passive_.contains(name) ||
-          std::find(found_.in_between.begin(), found_.in_between.end(), name) != found_.in_between.end() ||
-          std::any_of(found_.wheels.begin(), found_.wheels.end(),
-                      [&](const DraftWheel& wheel) { return wheel.joint == name || wheel.swivel == name; });
-      if (!is_known) found_.others.push_back(name);
+      if (moves(joint) && !known.contains(joint.joint.name)) found_.others.push_back(joint.joint.name);
     }
   }
 
@@ -195,10 +248,16 @@ class WheelSearch {
     }
   }
 
-  void find_wheels_that_stand() {
+  void find_stuck_wheels() {
     for (const UrdfJoint& joint : urdf_.joints) {
-      if (!moves(joint) && mentions(joint.joint.name, "wheel") && !mentions(joint.joint.name, "caster"))
-        found_.wheels_that_stand.push_back(joint.joint.name);
+      const bool turns = joint.joint.type == solver::JointType::continuous;
+      const std::string& name = joint.joint.name;
+      const bool is_tyre = !moves(joint) && is_called_wheel(joint.parent);
+      if (turns || is_tyre || !is_called_wheel(name) || is_called_caster(name)) continue;
+      const bool slides = joint.joint.type == solver::JointType::prismatic;
+      found_.stuck.push_back({name, !moves(joint) ? "`fixed`"
+                                    : slides      ? "`prismatic`"
+                                                  : "`revolute` with limits"});
     }
   }
 
@@ -214,7 +273,7 @@ class WheelSearch {
         corners.emplace_back((in_base_.at(link.name) * corner).head<2>());
     }
     if (heaviest == nullptr || heaviest->corners.empty()) return;
-    for (const DraftWheel& wheel : found_.wheels) {
+    for (const DraftWheel& wheel : holding_wheels(found_)) {
       const Eigen::Vector2d ahead =
           wheel.radius.value_or(0.0) * Eigen::Vector2d(wheel.axle.y(), -wheel.axle.x());
       for (const double side : {-1.0, 1.0})
@@ -226,10 +285,15 @@ class WheelSearch {
   const Urdf& urdf_;
   FoundWheels found_;
   std::map<std::string, solver::Pose> in_base_;
-  std::set<std::string> passive_;
 };
 
 }  // namespace
+
+std::vector<DraftWheel> holding_wheels(const FoundWheels& found) {
+  std::vector<DraftWheel> wheels = found.wheels;
+  wheels.insert(wheels.end(), found.idle.begin(), found.idle.end());
+  return wheels;
+}
 
 FoundWheels find_wheels(const Urdf& urdf) {
   return WheelSearch(urdf).find();

@@ -11,18 +11,23 @@
 namespace zwang::lang {
 
 struct FoundWheels {
-  std::string base;  ///< the link that floats
-  std::vector<DraftWheel> wheels;
-  std::vector<DraftWheel> casters;      ///< wheels that nobody drives, alone on a swivel
+  std::string base;                     ///< the link that floats
+  std::vector<DraftWheel> wheels;       ///< with a motor
+  std::vector<DraftWheel> idle;         ///< without one, and they hold: a car's front wheels, for example
+  std::vector<DraftWheel> casters;      ///< without one, on swivels that follow
+  std::vector<std::string> steering;    ///< swivels that a motor turns
   std::vector<std::string> supports;    ///< links of balls
   std::vector<std::string> others;      ///< moving joints that are neither wheels, nor swivels, nor casters
   std::vector<std::string> in_between;  ///< moving joints between base and wheels that do not steer
-  std::vector<std::string> wheels_that_stand;  ///< `fixed` joints that are called wheels, where none turns
+  std::vector<StuckWheel> stuck;        ///< joints that are called wheels, where none turns without end
   /// [m] Corners in the base, counter-clockwise, of the convex hull of its collision shapes and the wheels.
   /// Empty: its body is a mesh.
   std::vector<Eigen::Vector2d> outline;
   double arm_reach = 0.0;  ///< [m] from the base's origin, from above, to the farthest link behind `others`
 };
+
+/// With motors and without, those that hold the base.
+std::vector<DraftWheel> holding_wheels(const FoundWheels& found);
 
 FoundWheels find_wheels(const Urdf& urdf);
 

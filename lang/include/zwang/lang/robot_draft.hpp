@@ -19,6 +19,13 @@ struct DraftWheel {
   std::optional<double> radius;    ///< [m] of the link's largest cylinder or sphere
   std::optional<double> effort;    ///< [N m] of the URDF's limit
   std::string swivel;              ///< the joint that steers it; empty: fixed to the base
+  double trail = 0.0;              ///< [m] of its axle behind the swivel's axis
+};
+
+/// A joint that is called a wheel and cannot be one.
+struct StuckWheel {
+  std::string joint;
+  std::string how;  ///< "`fixed`", for example
 };
 
 /// The draft with its open places filled by assumption, to be looked at and not to be run.
@@ -33,13 +40,13 @@ struct RobotDraft {
   std::string drive;  ///< what the wheels look like, in words
   double mass = 0.0;  ///< [kg] of all links
   std::vector<DraftWheel> wheels;
-  std::vector<DraftWheel> casters;    ///< wheels on swivels, and no motor of either
-  std::vector<std::string> supports;  ///< links
-  std::vector<std::string>
-      wheels_that_stand;              ///< `fixed` joints that are called wheels, where no wheel was found
-  std::vector<std::string> missing;   ///< what could not be known, a line each
-  std::vector<AssumedRobot> assumed;  ///< one for each kind of wheel that it may have; empty where no
-                                      ///< assumption makes a model of it
+  std::vector<DraftWheel> idle;               ///< wheels without a motor that hold the base
+  std::vector<DraftWheel> casters;            ///< wheels on swivels, and no motor of either
+  std::vector<std::string> supports;          ///< links
+  std::vector<StuckWheel> stuck;              ///< where no wheel was found
+  std::vector<std::string> missing;           ///< what could not be known, a line each
+  std::vector<AssumedRobot> assumed;          ///< one for each kind of wheel that it may have; empty where no
+                                              ///< assumption makes a model of it
   std::vector<std::string> assumption_notes;  ///< what was assumed, a line each
   /// [m] Corners in the base, counter-clockwise; of the wheels alone where the URDF does not tell it.
   std::vector<Eigen::Vector2d> outline;

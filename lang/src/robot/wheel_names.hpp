@@ -1,0 +1,14 @@
+/// Names of wheels, casters and balls in English, German, French, Spanish and Italian.
+#pragma once
+
+#include <string>
+
+namespace zwang::lang {
+
+bool is_called_wheel(const std::string& name);
+/// Of a wheel that follows: `caster`, `Lenkrolle`, `roue folle`, `rueda loca`, `ruota pivottante`.
+bool is_called_caster(const std::string& name);
+/// Of a ball that rolls every way.
+bool is_called_ball(const std::string& name);
+
+}  // namespace zwang::lang
