@@ -77,6 +77,36 @@ TEST_F(Draft, of_the_shipped_urdf_has_its_wheels) {
   expect_refused_until_filled(*draft);
 }
 
+struct Parts {
+  std::set<std::string> wheels, motors;
+};
+
+Parts parts_of(const Robot& robot) {
+  Parts parts;
+  for (const solver::Wheel& wheel : robot.model.wheels())
+    parts.wheels.insert(robot.model.joint(wheel.body - 1).name);
+  for (int j = 0; j < robot.model.joint_count(); ++j) {
+    if (robot.model.joint(j).actuated) parts.motors.insert(robot.model.joint(j).name);
+  }
+  return parts;
+}
+
+// The shipped robot files were written by hand.
+TEST_F(Draft, of_shipped_robots_has_the_wheels_and_motors_of_their_files) {
+  for (const char* name : {"car_base", "diff_base", "kelo_base", "kelo_two_base", "omni_base", "skid_base",
+                           "swerve_base", "tricycle_base"}) {
+    const std::filesystem::path robots = test::source_dir / "specs/robots";
+    const auto draft = this->draft(robots / (std::string(name) + ".urdf"));
+    ASSERT_TRUE(draft) << name;
+    Diagnostics diagnostics;
+    const auto drafted = load_robot(folder_.write("robot.yaml", filled(draft->text)), diagnostics);
+    const auto by_hand = load_robot(robots / (std::string(name) + ".yaml"), diagnostics);
+    ASSERT_TRUE(drafted && by_hand) << name << test::rendered(diagnostics);
+    EXPECT_EQ(parts_of(*drafted).wheels, parts_of(*by_hand).wheels) << draft->text;
+    EXPECT_EQ(parts_of(*drafted).motors, parts_of(*by_hand).motors) << draft->text;
+  }
+}
+
 TEST_F(Draft, of_a_smaller_urdf_takes_its_efforts) {
   const auto draft = this->draft(test::source_dir / "tests/conformance/robots/mini.urdf");
   ASSERT_TRUE(draft);
