@@ -8,6 +8,7 @@
 #include "support.hpp"
 #include "zwang/lang/format.hpp"
 #include "zwang/lang/robot_draft.hpp"
+#include "zwang/lang/task_draft.hpp"
 
 namespace zwang::lang {
 namespace {
@@ -55,6 +56,25 @@ class Draft : public testing::Test {
   test::Folder folder_;
   Diagnostics diagnostics_;
 };
+
+// The posture by hand, specs/robots/mecanum_arm_folded.yaml, has nothing beyond the outline either. A motor
+// that holds half of what it can has the other half for motion.
+TEST_F(Draft, folds_an_arm_above_the_outline) {
+  const auto draft = this->draft(test::source_dir / "specs/robots/mecanum_arm_base.urdf");
+  ASSERT_TRUE(draft);
+  EXPECT_EQ(draft->arm_reach, 0.0);
+  Diagnostics diagnostics;
+  const auto robot = load_robot(folder_.write("robot.yaml", filled(draft->text)), diagnostics);
+  ASSERT_TRUE(robot) << test::rendered(diagnostics) << draft->text;
+  const BaseFit fit = base_fit(*robot);
+  EXPECT_EQ(fit.arm_reach, 0.0);
+  EXPECT_EQ(fit.arm_ahead, 0.0);
+  for (int j = 0; j < robot->model.joint_count(); ++j) {
+    const solver::Joint& joint = robot->model.joint(j);
+    EXPECT_GE(robot->posture(j), joint.lower) << joint.name;
+    EXPECT_LE(robot->posture(j), joint.upper) << joint.name;
+  }
+}
 
 class RealDraft : public Draft {
  protected:
@@ -233,6 +253,20 @@ TEST_F(RealDraft, gives_discs_to_wheels_that_no_mass_can_turn_so_hard) {
     const auto draft = real_draft(name);
     ASSERT_TRUE(draft) << name;
     EXPECT_EQ(said_of(filled(draft->text)).find("W870"), std::string::npos) << said_of(filled(draft->text));
+  }
+}
+
+// At 0 the arms of Fetch, TIAGo and Eddie reach 1 m ahead, and would touch a wall before the base does.
+TEST_F(RealDraft, folds_arms) {
+  for (const char* name : {"fetch", "tiago", "eddie"}) {
+    const auto draft = real_draft(name);
+    ASSERT_TRUE(draft) << name;
+    EXPECT_NE(draft->text.find("\nposture:\n"), std::string::npos) << name;
+    EXPECT_LT(draft->arm_reach, 0.5) << name;
+    Diagnostics diagnostics;
+    const auto robot = load_robot(folder_.write("robot.yaml", filled(draft->text)), diagnostics);
+    ASSERT_TRUE(robot) << name << test::rendered(diagnostics);
+    EXPECT_EQ(why_unfit("wall_align", base_fit(*robot)), "") << name << draft->text;
   }
 }
 

@@ -122,6 +122,13 @@ TEST(RestingYaw, of_a_polygon_is_that_of_its_nearest_side) {
   EXPECT_NEAR(*resting_yaw(chamfered, 20.0 * degree), 0.0, 1e-6);
 }
 
+// The same base with its arm stretched ahead and with its arm folded.
+TEST(TaskDraft, aligns_no_base_whose_arm_touches_first) {
+  EXPECT_NE(why_unfit("wall_align", base_fit(shipped("mecanum_arm_base"))).find("`posture`"),
+            std::string::npos);
+  EXPECT_EQ(why_unfit("wall_align", base_fit(shipped("mecanum_arm_folded"))), "");
+}
+
 // Round ahead: the shipped omni base is a hexagon or the like; a circle of 16 corners is none that a wall
 // turns.
 TEST(TaskDraft, aligns_no_round_base) {

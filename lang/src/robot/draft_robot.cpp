@@ -4,11 +4,11 @@
 #include <map>
 
 #include "diagnostic/wordings_physics.hpp"
-#include "diagnostic/wordings_standing.hpp"
 #include "robot/check_push.hpp"
 #include "robot/draft_frames.hpp"
 #include "robot/drive_kind.hpp"
 #include "robot/each_wheel.hpp"
+#include "robot/folded_arm.hpp"
 #include "robot/load_robot.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
@@ -58,6 +58,11 @@ class Drafter {
       const UrdfJoint& joint = *urdf_.find_joint(name);
       if (joint.mimic || contains(open, joint.child)) held_.push_back(name);
     }
+    std::vector<std::string> arms;
+    for (const std::string& name : found_.others) {
+      if (!contains(held_, name)) arms.push_back(name);
+    }
+    folded_ = fold_arm(urdf_, found_.base, arms, frames_.outline());
     for (const std::string& link : open) {
       if (!contains(held_, urdf_.joint_above(link)->joint.name)) bodies_.push_back(link);
     }
@@ -81,7 +86,7 @@ class Drafter {
     draft.stuck = found_.stuck;
     draft.outline = frames_.outline();
     draft.outline_is_known = frames_.outline_is_known();
-    draft.arm_reach = found_.arm_reach;
+    draft.arm_reach = folded_.reach;
     draft.has_own_base = found_.base != "base" && urdf_.find_link("base") != nullptr;
     draft.missing = missing();
     draft.text = text(Filling{});
@@ -322,7 +327,8 @@ class Drafter {
         "# rotor_inertia, as {gear: 20, rotor_inertia: 2 kg mm^2}: they are often larger than the wheel's "
         "own inertia.\n";
     text += actuated(filling);
-    text += inertias(filling) + stop() + frames_.footprint(filling.footprint) + frames_.frames(filling.back);
+    text += inertias(filling) + posture_entry(urdf_, folded_) + stop() +
+            frames_.footprint(filling.footprint) + frames_.frames(filling.back);
     text +=
         "\n# In force where a task gives none, as limits: {acceleration: {x: +-1 m/s^2}, velocity: {x: +-1 "
         "m/s}}.\n"
@@ -344,24 +350,8 @@ class Drafter {
   DraftFrames frames_;
   std::vector<std::string> held_;    ///< joints of `fixed`
   std::vector<std::string> bodies_;  ///< links whose inertia is in the draft
+  FoldedArm folded_;
 };
-
-/// Larger than any: a file in millimetres has wheels of 50 m.
-constexpr double most_wheel_radius = 3.0, most_reach = 30.0;  // [m]
-
-/// False, and told, where no robot has such wheels.
-bool has_wheels_in_metres(const FoundWheels& found, const Urdf& urdf, Diagnostics& diagnostics) {
-  for (const DraftWheel& wheel : holding_wheels(found)) {
-    const double reach = std::hypot(wheel.at[0], wheel.at[1]), radius = wheel.radius.value_or(0.0);
-    if (radius <= most_wheel_radius && reach <= most_reach) continue;
-    const bool is_large = radius > most_wheel_radius;
-    diagnostics.add(wording::beyond_all_bodies(urdf.find_joint(wheel.joint)->span, wheel.link,
-                                               is_large ? "a wheel's radius" : "a place",
-                                               wording::figure(is_large ? radius : reach, "m")));
-    return false;
-  }
-  return true;
-}
 
 std::optional<Robot> build_from(const std::string& robot_file, const Urdf& urdf, Diagnostics& diagnostics) {
   const std::optional<Document> document =

@@ -6,6 +6,7 @@
 
 #include "diagnostic/wordings_physics.hpp"
 #include "zwang/lang/configurations.hpp"
+#include "zwang/lang/plane.hpp"
 #include "zwang/lang/task_draft.hpp"
 #include "zwang/lang/wheel_level.hpp"
 #include "zwang/solver/base_analysis.hpp"
@@ -22,6 +23,9 @@ constexpr std::size_t x_axis = 0, y_axis = 1, yaw_axis = 2;
 
 /// By as much a body may reach beyond its wheels while the outline is not known. [m]
 constexpr double overhang = 0.3;
+
+/// An arm's point as far beyond the outline is told; outlines are no more exact. [m]
+constexpr double beyond_outline = 0.01;
 
 /// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
 /// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]
@@ -53,18 +57,24 @@ double radius_of(const std::vector<Eigen::Vector2d>& outline) {
   return most;
 }
 
-/// Of the bodies that neither are wheels nor carry them. [m]
-double arm_reach_of(const solver::Model& model) {
-  std::set<int> of_wheels;
+/// Of bodies that neither are wheels nor carry them: how far what lies beyond the outline reaches.
+void add_arm(const Robot& robot, BaseFit& fit) {
+  const solver::Model& model = robot.model;
+  std::set<int> of_base{0};  // and of wheels
   for (const solver::Wheel& wheel : model.wheels()) {
-    for (int b = wheel.body; b > 0; b = model.bodies()[static_cast<std::size_t>(b)].parent)
-      of_wheels.insert(b);
+    for (int b = wheel.body; b > 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) of_base.insert(b);
   }
-  double most = 0.0;
-  for (int body = 1; body < static_cast<int>(model.bodies().size()); ++body) {
-    if (!of_wheels.contains(body)) most = std::max(most, pose_in_base(model, body).position.head<2>().norm());
+  double front = 0.0;
+  for (const Eigen::Vector2d& corner : fit.outline) front = std::max(front, corner.x());
+  const Eigen::VectorXd q = start_state(robot).q;
+  for (const solver::Frame& frame : model.frames()) {
+    if (of_base.contains(frame.body)) continue;
+    const Eigen::Vector2d at = (pose_in_base(model, frame.body, q) * frame.pose_in_body.position).head<2>();
+    if (plane::contains(fit.outline, at) || plane::distance_to_edges(fit.outline, at) < beyond_outline)
+      continue;
+    fit.arm_reach = std::max(fit.arm_reach, at.norm());
+    if (at.x() > front) fit.arm_ahead = std::max(fit.arm_ahead, at.x());
   }
-  return most;
 }
 
 void add_masses(const Robot& robot, BaseFit& fit) {
@@ -95,7 +105,7 @@ BaseFit base_fit(const Robot& robot) {
   fit.robot = robot.name;
   for (const solver::Vector3& corner : robot.footprint) fit.outline.emplace_back(corner.head<2>());
   fit.outline_is_known = true;
-  fit.arm_reach = arm_reach_of(robot.model);
+  if (!fit.outline.empty()) add_arm(robot, fit);
   fit.mass = robot.model.total_mass();
   fit.freedoms = freedoms_of(robot);
   add_masses(robot, fit);
@@ -147,6 +157,9 @@ std::string why_unfit(const std::string& task, const BaseFit& fit) {
       return "its outline is round ahead: pressed to a wall it rests " +
              wording::figure(rests.value_or(askew) * 180.0 / std::numbers::pi, "deg") + " askew";
   }
+  if (task == "wall_align" && fit.outline_is_known && fit.arm_ahead > 0.0)
+    return "its arm reaches " + wording::figure(fit.arm_ahead, "m") +
+           " ahead, beyond the outline, and would touch the wall first: fold it by `posture`";
   if (task == "hospital" && fit.outline_is_known && radius_of(fit.outline) > room_of_corridor + 1e-3)
     return "its corridor leaves room to turn within " + wording::figure(room_of_corridor, "m") +
            ", and the outline reaches " + wording::figure(radius_of(fit.outline), "m") +

@@ -14,34 +14,16 @@ namespace zwang::lang {
 
 namespace {
 
-using solver::Body;
-using solver::JointType;
 using solver::Pose;
 using solver::Vector3;
 
 constexpr double least_area = 1e-6;  ///< [m^2] twice that of a triangle of points that carries
 
-/// X_BaseBody with the joints at `q`.
-Pose pose_at(const solver::Model& model, const Eigen::VectorXd& q, int body) {
-  Pose pose;
-  for (int b = body; b > 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) {
-    const Body& link = model.bodies()[static_cast<std::size_t>(b)];
-    Pose moved;
-    if (link.joint.type == JointType::prismatic) {
-      moved.position = q(b - 1) * link.joint.axis;
-    } else {
-      moved.rotation = Eigen::AngleAxisd(q(b - 1), link.joint.axis).toRotationMatrix();
-    }
-    pose = link.pose_in_parent * moved * pose;
-  }
-  return pose;
-}
-
 void add_mass(const Robot& robot, const Eigen::VectorXd& q, Footing& footing) {
   Vector3 moment = Vector3::Zero();
   for (int b = 0; b < robot.model.body_count(); ++b) {
     const solver::RigidInertia& inertia = robot.model.bodies()[static_cast<std::size_t>(b)].inertia;
-    const Pose pose = pose_at(robot.model, q, b);
+    const Pose pose = pose_in_base(robot.model, b, q);
     footing.mass += inertia.mass;
     moment += inertia.mass * pose.position + pose.rotation * inertia.first_moment;
   }
@@ -51,7 +33,7 @@ void add_mass(const Robot& robot, const Eigen::VectorXd& q, Footing& footing) {
 
 void add_points(const Robot& robot, const Eigen::VectorXd& q, double ground, Footing& footing) {
   for (const solver::Wheel& wheel : robot.model.wheels())
-    footing.points.push_back(pose_at(robot.model, q, wheel.body).position);
+    footing.points.push_back(pose_in_base(robot.model, wheel.body, q).position);
   footing.wheels = footing.points.size();
   std::set<std::string> stood_on;  // however often the file names it
   for (const std::string& support : robot.supports) {
@@ -59,7 +41,7 @@ void add_points(const Robot& robot, const Eigen::VectorXd& q, double ground, Foo
     const auto frame = robot.model.find_frame(support);
     if (!frame) continue;
     const solver::Frame& link = robot.model.frames()[static_cast<std::size_t>(*frame)];
-    footing.points.push_back((pose_at(robot.model, q, link.body) * link.pose_in_body).position);
+    footing.points.push_back((pose_in_base(robot.model, link.body, q) * link.pose_in_body).position);
   }
   if (robot.supports.empty() && footing.wheels < 3)
     footing.points.insert(footing.points.end(), robot.footprint.begin(), robot.footprint.end());

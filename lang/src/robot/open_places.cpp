@@ -28,6 +28,7 @@ constexpr std::array fill_in_reasons{
 constexpr std::array check_reasons{
     Reason{"base", "the link that floats, its x ahead"},
     Reason{"fixed", "what moves in truth must not stand here"},
+    Reason{"posture", "how the arm stands at the start: folded, as far as a URDF tells"},
     Reason{"inertias", "the URDF has none, or none that a body has"},
     Reason{"stop", "how hard the base may brake"},
     Reason{"footprint", "around what collides in the URDF"},

@@ -1,5 +1,6 @@
 #include "zwang/lang/wheel_level.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 namespace zwang::lang {
@@ -8,6 +9,21 @@ solver::Pose pose_in_base(const solver::Model& model, int body) {
   solver::Pose pose;
   for (int b = body; b > 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) {
     pose = model.bodies()[static_cast<std::size_t>(b)].pose_in_parent * pose;
+  }
+  return pose;
+}
+
+solver::Pose pose_in_base(const solver::Model& model, int body, const Eigen::VectorXd& q) {
+  solver::Pose pose;
+  for (int b = body; b > 0; b = model.bodies()[static_cast<std::size_t>(b)].parent) {
+    const solver::Body& link = model.bodies()[static_cast<std::size_t>(b)];
+    solver::Pose moved;
+    if (link.joint.type == solver::JointType::prismatic) {
+      moved.position = q(b - 1) * link.joint.axis;
+    } else {
+      moved.rotation = Eigen::AngleAxisd(q(b - 1), link.joint.axis).toRotationMatrix();
+    }
+    pose = link.pose_in_parent * moved * pose;
   }
   return pose;
 }

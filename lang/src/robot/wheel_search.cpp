@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "diagnostic/wordings_physics.hpp"
+#include "diagnostic/wordings_standing.hpp"
 #include "robot/wheel_names.hpp"
 #include "robot/wheel_roles.hpp"
 
@@ -48,6 +50,9 @@ std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
   return hull.size() >= 3 ? hull : std::vector<Eigen::Vector2d>{};
 }
 
+/// Larger than any: a file in millimetres has wheels of 50 m.
+constexpr double most_wheel_radius = 3.0, most_reach = 30.0;  // [m]
+
 class WheelSearch {
  public:
   explicit WheelSearch(const Urdf& urdf) : urdf_(urdf) {
@@ -60,7 +65,6 @@ class WheelSearch {
     if (!found_.wheels.empty()) assign_roles(urdf_, found_);
     find_balls();
     find_others();
-    find_arm_reach();
     if (found_.wheels.empty()) find_stuck_wheels();
     find_outline();
     return found_;
@@ -238,16 +242,6 @@ class WheelSearch {
     }
   }
 
-  void find_arm_reach() {
-    for (const UrdfLink& link : urdf_.links) {
-      const UrdfJoint* above = carrier(link.name);
-      if (above == nullptr || above == carrier(found_.base)) continue;
-      const auto& others = found_.others;
-      if (std::find(others.begin(), others.end(), above->joint.name) == others.end()) continue;
-      found_.arm_reach = std::max(found_.arm_reach, in_base_.at(link.name).position.head<2>().norm());
-    }
-  }
-
   void find_stuck_wheels() {
     for (const UrdfJoint& joint : urdf_.joints) {
       const bool turns = joint.joint.type == solver::JointType::continuous;
@@ -293,6 +287,19 @@ std::vector<DraftWheel> holding_wheels(const FoundWheels& found) {
   std::vector<DraftWheel> wheels = found.wheels;
   wheels.insert(wheels.end(), found.idle.begin(), found.idle.end());
   return wheels;
+}
+
+bool has_wheels_in_metres(const FoundWheels& found, const Urdf& urdf, Diagnostics& diagnostics) {
+  for (const DraftWheel& wheel : holding_wheels(found)) {
+    const double reach = std::hypot(wheel.at[0], wheel.at[1]), radius = wheel.radius.value_or(0.0);
+    if (radius <= most_wheel_radius && reach <= most_reach) continue;
+    const bool is_large = radius > most_wheel_radius;
+    diagnostics.add(wording::beyond_all_bodies(urdf.find_joint(wheel.joint)->span, wheel.link,
+                                               is_large ? "a wheel's radius" : "a place",
+                                               wording::figure(is_large ? radius : reach, "m")));
+    return false;
+  }
+  return true;
 }
 
 FoundWheels find_wheels(const Urdf& urdf) {

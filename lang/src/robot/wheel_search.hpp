@@ -23,12 +23,14 @@ struct FoundWheels {
   /// [m] Corners in the base, counter-clockwise, of the convex hull of its collision shapes and the wheels.
   /// Empty: its body is a mesh.
   std::vector<Eigen::Vector2d> outline;
-  double arm_reach = 0.0;  ///< [m] from the base's origin, from above, to the farthest link behind `others`
 };
 
 /// With motors and without, those that hold the base.
 std::vector<DraftWheel> holding_wheels(const FoundWheels& found);
 
 FoundWheels find_wheels(const Urdf& urdf);
+
+/// False, and told, where no robot has such wheels (E858): a file in millimetres has wheels of 50 m.
+bool has_wheels_in_metres(const FoundWheels& found, const Urdf& urdf, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

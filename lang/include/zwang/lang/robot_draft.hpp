@@ -51,7 +51,8 @@ struct RobotDraft {
   /// [m] Corners in the base, counter-clockwise; of the wheels alone where the URDF does not tell it.
   std::vector<Eigen::Vector2d> outline;
   bool outline_is_known = false;
-  double arm_reach = 0.0;     ///< [m] from the base's origin to the farthest link of an arm; 0: there is none
+  /// [m] From the base's origin to the farthest point of an arm beyond the outline; 0: none is.
+  double arm_reach = 0.0;
   bool has_own_base = false;  ///< the URDF calls a link `base` that is not the base
   std::string text;           ///< the robot file; `FILL_IN` stands where it is refused until filled
 };

@@ -27,8 +27,9 @@ struct BaseFit {
   std::vector<Eigen::Vector2d>
       outline;  ///< [m] corners in the base; of the wheels alone where it is not known
   bool outline_is_known = false;
-  double arm_reach = 0.0;       ///< [m] from the base's origin to the farthest joint of an arm
-  double mass = 0.0;            ///< [kg]; 0: not known
+  double arm_reach = 0.0;  ///< [m] from the base's origin to the farthest point of an arm beyond the outline
+  double arm_ahead = 0.0;  ///< [m] in the base, the foremost of those points; 0: none is ahead
+  double mass = 0.0;       ///< [kg]; 0: not known
   double effective_mass = 0.0;  ///< [kg] that a force along x moves, wheels and rotors included; 0: not known
   double effective_inertia = 0.0;  ///< [kg m^2] of a turn, likewise
   Freedoms freedoms = Freedoms::all;

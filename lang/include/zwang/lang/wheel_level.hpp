@@ -1,4 +1,4 @@
-/// How the wheels stand while all joints are at 0.
+/// Places of bodies in the base, and how the wheels stand while all joints are at 0.
 #pragma once
 
 #include <vector>
@@ -9,6 +9,8 @@ namespace zwang::lang {
 
 /// X_BaseBody where all joints are at 0.
 solver::Pose pose_in_base(const solver::Model& model, int body);
+/// The same with the joints at `q`.
+solver::Pose pose_in_base(const solver::Model& model, int body, const Eigen::VectorXd& q);
 
 /// How far wheels may end from their average; a simulation levels so much out. [m]
 inline constexpr double most_wheel_lift = 0.002;
