@@ -91,28 +91,32 @@ export function extentOf(run: Run, world: World): [[number, number], [number, nu
   return [low, high];
 }
 
-/** Where two outlines are nearest, and the way from the second into the first. */
+const flush = 1e-3;  // [m] an edge that lies on another one touches with both of its ends
+
+/** Where two outlines are nearest, the middle of an edge that lies flush, and the way from the second into the first. */
 function nearest(robot: number[][], object: number[][]): { at: [number, number]; normal: [number, number] } {
-  let best = Infinity;
-  let found = { at: [0, 0] as [number, number], normal: [0, 0] as [number, number] };
+  const places: { at: [number, number]; normal: [number, number]; distance: number }[] = [];
   const look = (points: number[][], edges: number[][], edgesAreObject: boolean): void => {
     for (const p of points) {
       edges.forEach((a, i) => {
         const b = edges[(i + 1) % edges.length]!;
-        const q = nearestOnSegment(p, a, b);
-        const distance = Math.hypot(p[0]! - q[0], p[1]! - q[1]);
-        if (distance >= best) return;
-        best = distance;
+        const at = nearestOnSegment(p, a, b);
         const length = Math.hypot(b[0]! - a[0]!, b[1]! - a[1]!);
         // Counter-clockwise: the outside of an edge is on its right.
         const out: [number, number] = [(b[1]! - a[1]!) / length, -(b[0]! - a[0]!) / length];
-        found = { at: q, normal: edgesAreObject ? out : [-out[0], -out[1]] };
+        places.push({ at, normal: edgesAreObject ? out : [-out[0], -out[1]], distance: Math.hypot(p[0]! - at[0], p[1]! - at[1]) });
       });
     }
   };
   look(robot, object, true);
   look(object, robot, false);
-  return found;
+  const best = places.reduce((least, one) => (one.distance < least.distance ? one : least));
+  const touching = places.filter((one) => one.distance <= best.distance + flush).map((one) => one.at);
+  const middle = (axis: 0 | 1): number => {
+    const values = touching.map((at) => at[axis]);
+    return (Math.min(...values) + Math.max(...values)) / 2;
+  };
+  return { at: [middle(0), middle(1)], normal: best.normal };
 }
 
 /** The forces that the plant measured, at the place where the outlines are nearest. */
