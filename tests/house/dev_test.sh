@@ -168,6 +168,20 @@ has "$err" 'fuzzing scenario for 10 s'
 ZWANG_MOST_PROCESSOR_SECONDS=-1 try 'all in more than its time' 1 "$place/dev" test --all
 has "$err" 'time failed'
 
+# The pictures: made by node from the program and the page's parts; too many bytes are refused.
+mkdir -p "$place/docs/pictures" "$place/web"
+stand_in node <<BODY
+echo "node \$*" >>"$calls"
+head -c "\${PICTURE_BYTES:-10}" /dev/zero | tee "\$4/a.svg" "\$4/a.webp" >"\$4/a.png"
+BODY
+for tool in npm chromium; do stand_in "$tool" <<<"echo \"$tool \$*\" >>\"$calls\""; done
+ABSENT='chromium webp' try 'pictures' 0 "$place/dev" pictures
+has "$called" 'install -y --no-install-recommends chromium webp'
+has "$called" "node $place/docs/pictures/make.mjs $place/build/release/zwang $place/specs $place/docs/pictures $place/bin/chromium"
+has "$err" '30 bytes'
+PICTURE_BYTES=2000000 try 'pictures that are too large' 2 "$place/dev" pictures
+has "$err" 'more than 4000000'
+
 touch -d '+2 minutes' "$place/CMakePresets.json"
 try 'run after the presets changed' 1 "$place/dev" run a.yaml
 has "$called" "-D ZWANG_BUILD_TESTS=ON -D ZWANG_PYTHON=ON -D ZWANG_CONNECT=ON -S $place --preset release"
