@@ -32,6 +32,8 @@ nlohmann::ordered_json comparison_of(const std::filesystem::path& first_log, con
                                      const std::filesystem::path& second_log, const runtime::Series& second);
 
 /// One line of ASCII letters.
-std::string text_of(const nlohmann::ordered_json& json);
+inline std::string text_of(const nlohmann::ordered_json& json) {
+  return json.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+}
 
 }  // namespace zwang::cli

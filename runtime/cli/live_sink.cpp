@@ -43,9 +43,11 @@ class LiveSink : public runtime::LogSink {
     return {};
   }
 
-  /// A run that is slow or stands is seen tick by tick.
+  /// A run that is slow is seen tick by tick. If no record came since the last look, the run stands: what is
+  /// held back goes at once.
   std::string flush() override {
-    if (Clock::now() - sent_ > most_wait) send_bucket();
+    if (records_ == looked_at_ || Clock::now() - sent_ > most_wait) send_bucket();
+    looked_at_ = records_;
     return {};
   }
 
@@ -131,7 +133,7 @@ class LiveSink : public runtime::LogSink {
   std::vector<double> last_;
   double begin_ = 0.0;
   Clock::time_point sent_;
-  std::uint64_t records_ = 0;
+  std::uint64_t records_ = 0, looked_at_ = 0;
   ordered_json active_, tasks_ = ordered_json::array(), events_ = ordered_json::array();
 };
 

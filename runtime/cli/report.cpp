@@ -149,10 +149,6 @@ ordered_json page_data(const fs::path& log, const Series& series) {
   return data;
 }
 
-std::string text_of(const ordered_json& json) {
-  return json.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
-}
-
 std::string write_page(const std::string& run, const std::optional<std::string>& out) {
   std::string parts = page_parts();
   const fs::path log = log_of(run);

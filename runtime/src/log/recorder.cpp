@@ -91,7 +91,11 @@ struct Recorder::Writer {
   void drain() {
     const std::uint64_t end = head.load(std::memory_order_acquire);
     std::uint64_t begin = tail.load(std::memory_order_relaxed);
-    if (begin == end) return;
+    if (begin == end) {
+      // A sink that holds records back learns here that no more are on their way.
+      each([](LogSink& sink) { return sink.flush(); });
+      return;
+    }
     std::uint64_t count = 0;
     for (; begin != end; ++begin) {
       const auto slot = static_cast<std::size_t>(begin % capacity);
