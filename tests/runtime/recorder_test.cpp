@@ -1,6 +1,7 @@
 #include "zwang/runtime/recorder.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <filesystem>
@@ -63,6 +64,34 @@ TEST(Recorder, KeepsEveryRecordWhenTheProducerWaits) {
     ASSERT_EQ(line, std::to_string(i) + ",press,");
   }
   EXPECT_FALSE(std::getline(lines, line));
+}
+
+std::string complaint_of(const std::filesystem::path& path) {
+  Recorder recorder(path, columns);
+  return recorder.status().error;
+}
+
+TEST(Recorder, WritesThroughNoLinkAndIntoNoPipe) {
+  Folder folder;
+  std::ofstream(folder.path / "kept") << "precious";
+  std::filesystem::create_symlink(folder.path / "kept", folder.path / "link.csv");
+  EXPECT_NE(complaint_of(folder.path / "link.csv").find("is a symbolic link"), std::string::npos);
+  EXPECT_EQ(read(folder.path / "kept"), "precious");
+  ASSERT_EQ(mkfifo((folder.path / "pipe.csv").c_str(), 0600), 0);
+  EXPECT_NE(complaint_of(folder.path / "pipe.csv").find("is a pipe"), std::string::npos);
+}
+
+TEST(Recorder, LeavesALogToTheRunThatWritesIt) {
+  Folder folder;
+  {
+    Recorder first(folder.path / "log.csv", columns);
+    EXPECT_TRUE(first.record(std::vector{0.001, 0.0, 1.0}));
+    EXPECT_NE(complaint_of(folder.path / "log.csv").find("another run writes this log"), std::string::npos);
+    first.close();
+    EXPECT_TRUE(first.status().complete());
+  }
+  EXPECT_NE(read(folder.path / "log.csv").find("0.001,press,1"), std::string::npos);
+  EXPECT_EQ(complaint_of(folder.path / "log.csv"), "") << "a run that is over leaves it";
 }
 
 TEST(Recorder, AnOverflowDropsAndCountsAndNeverWaits) {

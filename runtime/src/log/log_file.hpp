@@ -1,6 +1,8 @@
 /// A file that is appended to and read back, and words for what goes wrong with it.
 #pragma once
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -20,10 +22,18 @@ class LogFile {
   LogFile(const LogFile&) = delete;
   LogFile& operator=(const LogFile&) = delete;
 
-  /// Each returns what went wrong, or nothing.
+  /// Each returns what went wrong, or nothing. A link is not followed, a pipe not filled, and a file that
+  /// another run writes is left to it.
   std::string open() {
-    file_ = std::fopen(path_.c_str(), "wb+");
-    return file_ == nullptr ? path_.string() + ": " + std::strerror(errno) : "";
+    const int descriptor =
+        ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    if (descriptor < 0)
+      return path_.string() + ": " + (errno == ELOOP ? "is a symbolic link" : std::strerror(errno));
+    std::string refused = refusal(descriptor);
+    if (refused.empty()) file_ = ::fdopen(descriptor, "wb+");
+    if (refused.empty() && file_ == nullptr) refused = std::strerror(errno);
+    if (file_ == nullptr) ::close(descriptor);
+    return refused.empty() ? "" : path_.string() + ": " + refused;
   }
   std::string append(std::string_view bytes) {
     size_ += bytes.size();
@@ -50,6 +60,16 @@ class LogFile {
   std::size_t size() const { return size_; }  ///< [bytes] appended so far
 
  private:
+  /// Takes a lock, which closing lets go, and then empties the file.
+  static std::string refusal(int descriptor) {
+    struct stat facts = {};
+    if (::fstat(descriptor, &facts) != 0) return std::strerror(errno);
+    if (S_ISFIFO(facts.st_mode)) return "is a pipe";
+    if (!S_ISREG(facts.st_mode)) return "";
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+      return errno == EWOULDBLOCK ? "another run writes this log" : std::strerror(errno);
+    return ::ftruncate(descriptor, 0) == 0 ? "" : std::strerror(errno);
+  }
   /// A file without a name takes what is written, and is gone when it is closed.
   bool has_a_name() const {
     struct stat facts = {};
