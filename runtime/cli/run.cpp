@@ -190,11 +190,12 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
 
   const fs::path folder = make_log_folder(arguments);
   Recorders recorders;
-  recorders.push_back(record(runner, folder, "log", context_of(arguments, diagnostics),
+  recorders.push_back(record(runner, *program, folder, "log", context_of(arguments, diagnostics),
                              view != nullptr ? view->begin(*program, diagnostics, runner) : nullptr));
   for (std::size_t i = 0; i < plant->partners().size(); ++i) {
     const lang::SceneRobot& robot = program->scene->robots[i];
-    recorders.push_back(record(plant->partners()[i].runner, folder, "log-" + robot.name,
+    recorders.push_back(record(plant->partners()[i].runner, *plant->partners()[i].program, folder,
+                               "log-" + robot.name,
                                context_of(arguments, *program->scene, robot, diagnostics)));
   }
 

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "output.hpp"
+#include "zwang/runtime/log_channels.hpp"
 
 namespace zwang::cli {
 
@@ -54,12 +55,14 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene&
   return context;
 }
 
-std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const fs::path& folder,
-                                          const std::string& name, runtime::LogContext context,
+std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const lang::Program& program,
+                                          const fs::path& folder, const std::string& name,
+                                          runtime::LogContext context,
                                           std::unique_ptr<runtime::LogSink> also) {
   context.facts.merge(runner.facts());
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
-  sinks.push_back(runtime::mcap_sink(folder / (name + ".mcap"), std::move(context)));
+  sinks.push_back(
+      runtime::mcap_sink(folder / (name + ".mcap"), std::move(context), runtime::scene_channels(program)));
   sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
   if (also) sinks.push_back(std::move(also));
   auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());

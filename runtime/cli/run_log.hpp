@@ -24,10 +24,11 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Diagno
 runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene& scene,
                                const lang::SceneRobot& robot, const lang::Diagnostics& diagnostics);
 
-/// A log of `runner` in the folder, as MCAP and as CSV, and in the form of `also`. Its status tells what
-/// cannot be opened.
-std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const std::filesystem::path& folder,
-                                          const std::string& name, runtime::LogContext context,
+/// A log of `runner`, which runs `program`, in the folder, as MCAP and as CSV, and in the form of `also`. Its
+/// status tells what cannot be opened.
+std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const lang::Program& program,
+                                          const std::filesystem::path& folder, const std::string& name,
+                                          runtime::LogContext context,
                                           std::unique_ptr<runtime::LogSink> also = nullptr);
 
 }  // namespace zwang::cli

@@ -8,6 +8,7 @@
 #include "arguments.hpp"
 #include "drive_loop.hpp"
 #include "observe.hpp"
+#include "zwang/runtime/log_channels.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace {
@@ -85,6 +86,7 @@ void print_report(const runtime::Runner& runner, const DriveReport& report, cons
 }
 
 std::unique_ptr<runtime::Recorder> recorder_for(const Arguments& arguments, runtime::Runner& runner,
+                                                const lang::Program& program,
                                                 const lang::Diagnostics& diagnostics) {
   if (!arguments.log) return nullptr;
   runtime::LogContext context;
@@ -92,7 +94,7 @@ std::unique_ptr<runtime::Recorder> recorder_for(const Arguments& arguments, runt
   context.facts = runner.facts();
   if (arguments.options.robot) context.facts["robot"] = arguments.options.robot->string();
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
-  sinks.push_back(runtime::mcap_sink(*arguments.log, context));
+  sinks.push_back(runtime::mcap_sink(*arguments.log, context, runtime::scene_channels(program)));
   auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
   runner.record_to(recorder.get());
   return recorder;
@@ -115,7 +117,7 @@ int drive(const Arguments& arguments) {
   if (!wait_for_robot(connection, inbox, outbox, arguments.wait, sensed) || !clocks_agree(connection, inbox))
     return exit_impossible;
   runtime::Runner runner(loaded->program);
-  const auto recorder = recorder_for(arguments, runner, diagnostics);
+  const auto recorder = recorder_for(arguments, runner, loaded->program, diagnostics);
   std::printf("the robot is there: the task begins\n");
   std::fflush(stdout);
   DriveReport report;

@@ -159,10 +159,7 @@ class LogRecords::Reading {
         fields.text();
         break;
       case Opcode::schema:
-        fields.u16();
-        fields.text();
-        fields.text();
-        contents_.schema = fields.text();
+        read_schema(fields);
         break;
       case Opcode::channel:
         fields.u32();
@@ -188,6 +185,15 @@ class LogRecords::Reading {
         return false;
     }
     return fields.good() && fields.rest().empty();
+  }
+
+  /// That of the records alone.
+  void read_schema(Reader& fields) {
+    const bool is_ours = fields.u16() == mcap::tick_channel;
+    fields.text();
+    fields.text();
+    const std::string_view schema = fields.text();
+    if (is_ours) contents_.schema = schema;
   }
 
   bool read_attachment(std::string_view content) {
@@ -247,7 +253,7 @@ class LogRecords::Reading {
 
   bool read_message(std::string_view content) {
     Reader fields(content);
-    fields.u16();
+    if (fields.u16() != mcap::tick_channel) return false;
     const std::uint32_t sequence = fields.u32();
     const double time = static_cast<double>(fields.u64()) * 1e-9;
     fields.u64();

@@ -6,6 +6,7 @@
 #include "log/mcap_format.hpp"
 #include "log/source_paths.hpp"
 #include "log/tick_json.hpp"
+#include "zwang/runtime/log_channels.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace zwang::runtime {
@@ -20,7 +21,7 @@ constexpr std::uint64_t chunk_span = 50'000'000;          // [ns]
 constexpr std::size_t chunk_room = std::size_t{1} << 20;  // [bytes]
 // Where time stands still, because no samples arrive, its records have to be on disk all the same.
 constexpr std::size_t chunk_records = 100;
-constexpr std::uint16_t tick_id = 1;  // of the schema and of the channel
+constexpr std::uint16_t tick_id = mcap::tick_channel;  // of the schema, too; those of other channels follow
 
 std::uint64_t nanoseconds(double seconds) {
   return seconds > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds * 1e9)) : 0;
@@ -40,17 +41,17 @@ std::string map_of(const std::map<std::string, std::string>& facts) {
 /// attachments, chunks), summary, footer.
 class McapSink : public LogSink {
  public:
-  McapSink(const std::filesystem::path& path, LogContext context)
-      : file_(path), context_(with_paths_from_one_folder(std::move(context))) {}
+  McapSink(const std::filesystem::path& path, LogContext context, std::unique_ptr<LogChannels> more)
+      : file_(path), context_(with_paths_from_one_folder(std::move(context))), more_(std::move(more)) {}
 
   std::string open(const std::vector<Column>& columns) override {
     json_ = std::make_unique<TickJson>(columns);
     std::string error = file_.open();
     if (!error.empty()) return error;
-    schema_and_channel_ = schema_record(columns) + channel_record();
-    error =
-        append(std::string(mcap::magic) +
-               mcap::record(Opcode::header, Content().text("").text("zwang").bytes()) + schema_and_channel_);
+    open_channels(columns);
+    error = append(std::string(mcap::magic) +
+                   mcap::record(Opcode::header, Content().text("").text("zwang").bytes()) +
+                   schemas_and_channels_);
     if (error.empty()) error = append_metadata(mcap::facts_name, context_.facts);
     for (const lang::Source& source : context_.sources) {
       if (error.empty()) error = append_attachment(source);
@@ -60,29 +61,31 @@ class McapSink : public LogSink {
   }
 
   std::string write(std::span<const double> values) override {
-    const std::uint64_t time = nanoseconds(values.front());
+    time_ = nanoseconds(values.front());
     std::string error;
     const bool is_full =
-        !chunk_times_.empty() && (time >= chunk_times_.front().time + chunk_span ||
-                                  chunk_times_.size() >= chunk_records || chunk_.size() > chunk_room);
+        messages_in_chunk_ > 0 && (time_ >= chunk_begin_ + chunk_span ||
+                                   messages_in_chunk_ >= chunk_records || chunk_.size() > chunk_room);
     if (is_full) error = append_chunk();
-    const std::string& json = json_->of(values);
-    chunk_times_.push_back({time, chunk_.size()});
-    chunk_ += mcap::record(Opcode::message,
-                           Content().u16(tick_id).u32(sequence_++).u64(time).u64(time).raw(json).bytes());
-    ++messages_;
+    add_message(ticks(), json_->of(values));
+    if (more_)
+      more_->take(values,
+                  [this](std::size_t i, std::string_view json) { add_message(channels_[i + 1], json); });
     last_is_missing_ = false;
     return error;
   }
 
   std::string skip(std::uint64_t records) override {
-    sequence_ += static_cast<std::uint32_t>(records);
+    ticks().sequence += static_cast<std::uint32_t>(records);
     last_is_missing_ = true;
     return "";
   }
 
   std::string conclude(const std::map<std::string, std::string>& facts) override {
-    const std::string error = chunk_times_.empty() ? "" : append_chunk();
+    if (more_ && messages_ > 0)
+      more_->conclude(facts,
+                      [this](std::size_t i, std::string_view json) { add_message(channels_[i + 1], json); });
+    const std::string error = messages_in_chunk_ == 0 ? "" : append_chunk();
     return error.empty() ? append_metadata(mcap::conclusion_name, facts) : error;
   }
 
@@ -90,9 +93,9 @@ class McapSink : public LogSink {
 
   std::string close() override {
     if (!file_.is_open()) return "";
-    std::string error = chunk_times_.empty() ? "" : append_chunk();
+    std::string error = messages_in_chunk_ == 0 ? "" : append_chunk();
     if (error.empty() && last_is_missing_)
-      error = append_metadata(mcap::end_name, {{mcap::end_sequence, std::to_string(sequence_)}});
+      error = append_metadata(mcap::end_name, {{mcap::end_sequence, std::to_string(ticks().sequence)}});
     // Chunks and attachments have CRCs of their own; schema, facts and the index of each chunk have this one.
     if (error.empty()) error = append(mcap::record(Opcode::data_end, Content().u32(data_crc_).bytes()));
     if (error.empty()) error = append_summary();
@@ -111,18 +114,40 @@ class McapSink : public LogSink {
     return file_.append(bytes);
   }
 
-  std::string schema_record(const std::vector<Column>& columns) const {
-    return mcap::record(Opcode::schema, Content()
-                                            .u16(tick_id)
-                                            .text("zwang.Tick")
-                                            .text("jsonschema")
-                                            .text(tick_schema(columns, context_.sources))
-                                            .bytes());
+  struct Channel {
+    std::uint16_t id = tick_id;
+    std::uint32_t sequence = 0;
+    std::uint64_t messages = 0;
+    std::vector<Stamp> in_chunk;
+  };
+  Channel& ticks() { return channels_.front(); }
+
+  void open_channels(const std::vector<Column>& columns) {
+    add_channel("/tick", "zwang.Tick", tick_schema(columns, context_.sources));
+    if (!more_) return;
+    more_->open(columns);
+    for (const LogChannel& one : more_->channels()) add_channel(one.topic, one.schema, one.definition);
   }
 
-  static std::string channel_record() {
-    return mcap::record(Opcode::channel,
-                        Content().u16(tick_id).u16(tick_id).text("/tick").text("json").text("").bytes());
+  void add_channel(const std::string& topic, const std::string& schema, const std::string& definition) {
+    Channel channel;
+    channel.id = static_cast<std::uint16_t>(tick_id + channels_.size());
+    schemas_and_channels_ += mcap::record(
+        Opcode::schema, Content().u16(channel.id).text(schema).text("jsonschema").text(definition).bytes());
+    schemas_and_channels_ += mcap::record(
+        Opcode::channel, Content().u16(channel.id).u16(channel.id).text(topic).text("json").text("").bytes());
+    channels_.push_back(channel);
+  }
+
+  /// A message of the present record.
+  void add_message(Channel& channel, std::string_view json) {
+    if (messages_in_chunk_++ == 0) chunk_begin_ = time_;
+    channel.in_chunk.push_back({time_, chunk_.size()});
+    Content content;
+    content.u16(channel.id).u32(channel.sequence++).u64(time_).u64(time_).raw(json);
+    chunk_ += mcap::record(Opcode::message, content.bytes());
+    ++channel.messages;
+    ++messages_;
   }
 
   std::string append_metadata(std::string_view name, const std::map<std::string, std::string>& facts) {
@@ -155,30 +180,43 @@ class McapSink : public LogSink {
   std::string append_chunk() {
     const std::optional<std::string> packed = compress(chunk_);
     if (!packed) return "the log could not be compressed";
-    const auto [first, last] = std::minmax_element(chunk_times_.begin(), chunk_times_.end(),
-                                                   [](Stamp a, Stamp b) { return a.time < b.time; });
+    std::uint64_t first = ~std::uint64_t{0}, last = 0;
+    std::string index;
+    for (Channel& channel : channels_) {
+      if (channel.in_chunk.empty()) continue;
+      Content stamps;
+      for (const Stamp& stamp : channel.in_chunk) {
+        stamps.u64(stamp.time).u64(stamp.offset);
+        first = std::min(first, stamp.time);
+        last = std::max(last, stamp.time);
+      }
+      index += mcap::record(Opcode::message_index, Content().u16(channel.id).text(stamps.bytes()).bytes());
+      channel.in_chunk.clear();
+    }
     Content content;
-    content.u64(first->time).u64(last->time).u64(chunk_.size()).u32(crc32(chunk_)).text("zstd");
+    content.u64(first).u64(last).u64(chunk_.size()).u32(crc32(chunk_)).text("zstd");
     content.u64(packed->size()).raw(*packed);
-    const std::string whole = mcap::record(Opcode::chunk, content.bytes());
-    Content stamps;
-    for (const Stamp& stamp : chunk_times_) stamps.u64(stamp.time).u64(stamp.offset);
-    const std::string index =
-        mcap::record(Opcode::message_index, Content().u16(tick_id).text(stamps.bytes()).bytes());
-    begin_ = std::min(begin_, first->time);
-    end_ = std::max(end_, last->time);
+    begin_ = std::min(begin_, first);
+    end_ = std::max(end_, last);
     ++chunks_;
     chunk_.clear();
-    chunk_times_.clear();
-    const std::string error = append(whole + index);
+    messages_in_chunk_ = 0;
+    const std::string error = append(mcap::record(Opcode::chunk, content.bytes()) + index);
     return error.empty() ? file_.flush() : error;
   }
 
   std::string statistics() const {
     Content content;
-    content.u64(messages_).u16(1).u32(1).u32(static_cast<std::uint32_t>(context_.sources.size()));
-    content.u32(metadata_).u32(chunks_).u64(messages_ > 0 ? begin_ : 0).u64(end_);
-    content.text(Content().u16(tick_id).u64(messages_).bytes());
+    content.u64(messages_).u16(static_cast<std::uint16_t>(channels_.size()));
+    content.u32(static_cast<std::uint32_t>(channels_.size()));
+    content.u32(static_cast<std::uint32_t>(context_.sources.size()))
+        .u32(metadata_)
+        .u32(chunks_)
+        .u64(messages_ > 0 ? begin_ : 0)
+        .u64(end_);
+    Content counts;
+    for (const Channel& channel : channels_) counts.u16(channel.id).u64(channel.messages);
+    content.text(counts.bytes());
     return mcap::record(Opcode::statistics, content.bytes());
   }
 
@@ -197,14 +235,22 @@ class McapSink : public LogSink {
     head.u32();
     head.text();
     const std::uint64_t packed = head.u64();
-    const std::string of_messages = file_.read_at(next, mcap::record_head);
-    mcap::Reader index(of_messages);
-    index.opcode();
-    const std::uint64_t index_size = mcap::record_head + index.u64();
-    if (!head.good() || !index.good()) return "";
+    if (!head.good()) return "";
+    Content offsets;
+    const std::size_t begin = next;
+    while (true) {
+      const std::string of_messages = file_.read_at(next, mcap::record_head + sizeof(std::uint16_t));
+      mcap::Reader index(of_messages);
+      const unsigned char kind = index.opcode();
+      const std::uint64_t index_size = mcap::record_head + index.u64();
+      const std::uint16_t channel = index.u16();
+      if (!index.good() || kind != Opcode::message_index) break;
+      offsets.u16(channel).u64(next);
+      next += static_cast<std::size_t>(index_size);
+    }
     Content content;
-    content.u64(first).u64(last).u64(place).u64(size).text(Content().u16(tick_id).u64(next).bytes());
-    content.u64(index_size).text(compression).u64(packed).u64(unpacked);
+    content.u64(first).u64(last).u64(place).u64(size).text(offsets.bytes());
+    content.u64(next - begin).text(compression).u64(packed).u64(unpacked);
     return mcap::record(Opcode::chunk_index, content.bytes());
   }
 
@@ -218,7 +264,7 @@ class McapSink : public LogSink {
       crc = crc32(bytes, crc);
       if (error.empty()) error = file_.append(bytes);
     };
-    put(schema_and_channel_ + statistics());
+    put(schemas_and_channels_ + statistics());
     for (std::size_t place = first_chunk_, next = 0; place < begin && error.empty(); place = next) {
       put(chunk_index_at(place, next));
       if (next <= place) break;
@@ -237,12 +283,15 @@ class McapSink : public LogSink {
   LogFile file_;
   LogContext context_;
   std::unique_ptr<TickJson> json_;
-  std::string schema_and_channel_, index_;  // of the summary
-  std::size_t first_chunk_ = 0;             ///< [bytes] where it begins
+  std::string schemas_and_channels_, index_;  // of the summary
+  std::size_t first_chunk_ = 0;               ///< [bytes] where it begins
+  std::unique_ptr<LogChannels> more_;
+  std::vector<Channel> channels_;  ///< the records', then the others in their order
   std::string chunk_;
-  std::vector<Stamp> chunk_times_;
+  std::size_t messages_in_chunk_ = 0;
+  std::uint64_t time_ = 0, chunk_begin_ = 0;  ///< [ns] of the present record; of the chunk's first one
   std::uint32_t data_crc_ = 0;
-  std::uint32_t sequence_ = 0, chunks_ = 0, metadata_ = 0;
+  std::uint32_t chunks_ = 0, metadata_ = 0;
   std::uint64_t messages_ = 0;
   bool last_is_missing_ = false;  ///< records behind the last message were dropped
   std::uint64_t begin_ = ~std::uint64_t{0}, end_ = 0;
@@ -251,7 +300,12 @@ class McapSink : public LogSink {
 }  // namespace
 
 std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context) {
-  return std::make_unique<McapSink>(path, std::move(context));
+  return mcap_sink(path, std::move(context), nullptr);
+}
+
+std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context,
+                                   std::unique_ptr<LogChannels> channels) {
+  return std::make_unique<McapSink>(path, std::move(context), std::move(channels));
 }
 
 }  // namespace zwang::runtime

@@ -1,0 +1,248 @@
+#include "log/foxglove.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace zwang::runtime::foxglove {
+
+namespace {
+
+using nlohmann::ordered_json;
+using solver::Vector3;
+
+constexpr double fallback_height = 0.2;  // [m] of a body above its footprint, where no bumper says more
+constexpr double link_thickness = 0.04;  // [m]
+constexpr double tyre_share = 0.6;       // width of a wheel, of its radius
+constexpr int line_strip = 0, line_loop = 1;
+
+ordered_json xyz(const Vector3& v) {
+  return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}};
+}
+
+ordered_json quaternion(const solver::Matrix3& rotation) {
+  const Eigen::Quaterniond q(rotation);
+  return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}};
+}
+
+ordered_json pose_json(const solver::Pose& pose) {
+  return {{"position", xyz(pose.position)}, {"orientation", quaternion(pose.rotation)}};
+}
+
+ordered_json colour(double r, double g, double b, double a) {
+  return {{"r", r}, {"g", g}, {"b", b}, {"a", a}};
+}
+const ordered_json of_robot = colour(0.18, 0.49, 0.88, 0.55), of_other = colour(0.55, 0.43, 0.31, 0.9),
+                   of_tyre = colour(0.14, 0.15, 0.18, 1.0), of_link = colour(0.85, 0.51, 0.17, 1.0),
+                   of_object = colour(0.60, 0.65, 0.71, 0.9), of_region = colour(0.69, 0.45, 0.0, 1.0);
+
+ordered_json entity(double time, const std::string& frame, const std::string& id) {
+  ordered_json one = {{"timestamp", stamp(time)},
+                      {"frame_id", frame},
+                      {"id", id},
+                      {"lifetime", {{"sec", 0}, {"nsec", 0}}},  // until the end
+                      {"frame_locked", true}};
+  for (const char* part :
+       {"metadata", "arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"})
+    one[part] = ordered_json::array();
+  return one;
+}
+
+ordered_json line(int type, const std::vector<Vector3>& points, double thickness, const ordered_json& of) {
+  ordered_json corners = ordered_json::array();
+  for (const Vector3& point : points) corners.push_back(xyz(point));
+  return {{"type", type},
+          {"pose", pose_json({})},
+          {"thickness", thickness},
+          {"scale_invariant", false},
+          {"points", corners},
+          {"color", of},
+          {"colors", ordered_json::array()},
+          {"indices", ordered_json::array()}};
+}
+
+/// The footprint as a prism, by the triangles of its top and its sides.
+ordered_json prism(const std::vector<Vector3>& footprint, double low, double high, const ordered_json& of) {
+  ordered_json points = ordered_json::array();
+  const auto put = [&](const Vector3& corner, double z) {
+    points.push_back(xyz({corner.x(), corner.y(), z}));
+  };
+  for (std::size_t i = 0; i < footprint.size(); ++i) {
+    const Vector3 &a = footprint[i], &b = footprint[(i + 1) % footprint.size()];
+    put(a, low), put(b, low), put(b, high);
+    put(a, low), put(b, high), put(a, high);
+    if (i > 0 && i + 1 < footprint.size()) put(footprint[0], high), put(a, high), put(b, high);
+  }
+  return {{"pose", pose_json({})},
+          {"points", points},
+          {"color", of},
+          {"colors", ordered_json::array()},
+          {"indices", ordered_json::array()}};
+}
+
+ordered_json cylinder(const solver::Pose& pose, double radius, double height, const ordered_json& of) {
+  return {{"pose", pose_json(pose)},
+          {"size", xyz({2.0 * radius, 2.0 * radius, height})},
+          {"bottom_scale", 1.0},
+          {"top_scale", 1.0},
+          {"color", of}};
+}
+
+void add_body(const lang::Robot& robot, const ordered_json& of, ordered_json& one) {
+  const double high = robot.bumper_height > 0.0 ? 1.3 * robot.bumper_height : fallback_height;
+  if (robot.footprint.size() > 2) one["triangles"].push_back(prism(robot.footprint, 0.2 * high, high, of));
+}
+
+void add_links(double time, const lang::Robot& robot, ordered_json& entities) {
+  const std::vector<solver::Body>& bodies = robot.model.bodies();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    ordered_json one = entity(time, bodies[b].name, "link " + bodies[b].name);
+    const auto rolls = [&](const solver::Wheel& wheel) { return wheel.body == static_cast<int>(b); };
+    const auto wheel = std::ranges::find_if(robot.model.wheels(), rolls);
+    if (b == 0) add_body(robot, of_robot, one);
+    if (wheel != robot.model.wheels().end()) {
+      solver::Pose along_axle;
+      along_axle.rotation =
+          Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), bodies[b].joint.axis).toRotationMatrix();
+      one["cylinders"].push_back(cylinder(along_axle, wheel->radius, tyre_share * wheel->radius, of_tyre));
+    }
+    for (const solver::Body& child : bodies) {
+      const auto is_wheel = [&](const solver::Wheel& w) {
+        return &bodies[static_cast<std::size_t>(w.body)] == &child;
+      };
+      if (child.parent == static_cast<int>(b) && &child != &bodies[0] &&
+          std::ranges::none_of(robot.model.wheels(), is_wheel))
+        one["lines"].push_back(
+            line(line_strip, {Vector3::Zero(), child.pose_in_parent.position}, link_thickness, of_link));
+    }
+    entities.push_back(one);
+  }
+}
+
+ordered_json object_entity(double time, const lang::SceneObject& object) {
+  ordered_json one = entity(time, frame_of(object.name), "object " + object.name);
+  const auto [a, b, c] = object.size;
+  solver::Pose middle;
+  middle.position.z() = c / 2.0;
+  if (object.shape == lang::ShapeKind::cylinder) {
+    one["cylinders"].push_back(cylinder(middle, a, c, of_object));
+  } else {
+    const bool is_wall = object.shape == lang::ShapeKind::wall;  // its face is at its origin, along y
+    if (is_wall) middle.position.x() = b / 2.0;
+    const Vector3 size = is_wall ? Vector3(b, a, c) : Vector3(a, b, c);
+    one["cubes"].push_back({{"pose", pose_json(middle)}, {"size", xyz(size)}, {"color", of_object}});
+  }
+  return one;
+}
+
+ordered_json region_entity(double time, const lang::Region& region, const std::string& frame) {
+  constexpr int corners_of_a_circle = 48;
+  constexpr double thickness = 0.02;
+  std::vector<Vector3> corners;
+  for (const auto& corner : region.polygon) corners.emplace_back(corner[0], corner[1], 0.01);
+  for (int i = 0; i < corners_of_a_circle && region.radius > 0.0; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / corners_of_a_circle;
+    corners.emplace_back(region.centre[0] + region.radius * std::cos(angle),
+                         region.centre[1] + region.radius * std::sin(angle), 0.01);
+  }
+  ordered_json one = entity(time, frame, "region " + region.name);
+  one["lines"].push_back(line(line_loop, corners, thickness, of_region));
+  return one;
+}
+
+// Each definition holds the fields that the messages of a log have.
+constexpr const char* time_definition =
+    R"({"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}})";
+
+std::string definition(const std::string& title, const std::string& properties) {
+  return R"({"title":")" + title + R"(","type":"object","properties":{)" + properties + "}}";
+}
+
+std::string of_transforms() {
+  const std::string numbers = R"({"type":"object","additionalProperties":{"type":"number"}})";
+  return definition(
+      "foxglove.FrameTransforms",
+      R"("transforms":{"type":"array","items":{"type":"object","properties":{"timestamp":)" +
+          std::string(time_definition) +
+          R"(,"parent_frame_id":{"type":"string"},"child_frame_id":{"type":"string"},"translation":)" +
+          numbers + R"(,"rotation":)" + numbers + "}}}");
+}
+
+std::string of_scene() {
+  std::string parts;
+  for (const char* part :
+       {"arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"})
+    parts += std::string(",\"") + part + R"(":{"type":"array","items":{"type":"object"}})";
+  return definition(
+      "foxglove.SceneUpdate",
+      R"("deletions":{"type":"array","items":{"type":"object"}},"entities":{"type":"array","items":)"
+      R"({"type":"object","properties":{"timestamp":)" +
+          std::string(time_definition) +
+          R"(,"frame_id":{"type":"string"},"id":{"type":"string"},"lifetime":)" + time_definition +
+          R"(,"frame_locked":{"type":"boolean"})" + parts + "}}}");
+}
+
+std::string of_log() {
+  return definition("foxglove.Log",
+                    R"("timestamp":)" + std::string(time_definition) +
+                        R"(,"level":{"type":"integer"},"message":{"type":"string"},"name":)"
+                        R"({"type":"string"},"file":{"type":"string"},"line":{"type":"integer"})");
+}
+
+}  // namespace
+
+std::vector<LogChannel> channels() {
+  return {{"/tf", "foxglove.FrameTransforms", of_transforms()},
+          {"/tf_static", "foxglove.FrameTransforms", of_transforms()},
+          {"/scene", "foxglove.SceneUpdate", of_scene()},
+          {"/log", "foxglove.Log", of_log()}};
+}
+
+ordered_json stamp(double time) {
+  const auto nanoseconds = time > 0.0 ? static_cast<std::int64_t>(std::llround(time * 1e9)) : 0;
+  return {{"sec", nanoseconds / 1'000'000'000}, {"nsec", nanoseconds % 1'000'000'000}};
+}
+
+ordered_json transform(double time, const std::string& parent, const std::string& child,
+                       const solver::Pose& pose) {
+  return {{"timestamp", stamp(time)},
+          {"parent_frame_id", parent},
+          {"child_frame_id", child},
+          {"translation", xyz(pose.position)},
+          {"rotation", quaternion(pose.rotation)}};
+}
+
+ordered_json log_message(double time, Level level, const std::string& message, const std::string& name) {
+  return {{"timestamp", stamp(time)},
+          {"level", static_cast<int>(level)},
+          {"message", message},
+          {"name", name},
+          {"file", ""},
+          {"line", 0}};
+}
+
+std::string frame_of(const std::string& object) {
+  return "scene/" + object;
+}
+
+ordered_json scene_update(double time, const lang::Program& program) {
+  ordered_json entities = ordered_json::array();
+  add_links(time, program.robot, entities);
+  for (const lang::Region& region : program.regions) {
+    const std::string& frame = program.frames[static_cast<std::size_t>(region.parent)].name;
+    entities.push_back(region_entity(time, region, frame));
+  }
+  if (program.scene) {
+    for (const lang::SceneObject& object : program.scene->objects)
+      entities.push_back(object_entity(time, object));
+    for (const lang::SceneRobot& robot : program.scene->robots) {
+      ordered_json one = entity(time, frame_of(robot.name), "robot " + robot.name);
+      if (robot.program) add_body(robot.program->robot, of_other, one);
+      entities.push_back(one);
+    }
+  }
+  return {{"deletions", ordered_json::array()}, {"entities", entities}};
+}
+
+}  // namespace zwang::runtime::foxglove

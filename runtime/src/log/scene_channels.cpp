@@ -1,0 +1,232 @@
+// Where everything stands and what happens, as messages beside the records of a log.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "log/foxglove.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+using foxglove::Level;
+using nlohmann::ordered_json;
+using solver::Matrix3;
+using solver::Pose;
+using solver::Vector3;
+
+constexpr double transforms_every = 0.02;  // [s]
+constexpr double rounding = 1e-9;          // [s]
+constexpr const char* world = "world";
+
+Matrix3 turned(double roll, double pitch, double yaw) {
+  return (Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3::UnitY()) *
+          Eigen::AngleAxisd(roll, Vector3::UnitX()))
+      .toRotationMatrix();
+}
+
+std::string text_of(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+/// How high the base's origin is above the floor on which its wheels stand. [m]
+double height_of(const lang::Robot& robot) {
+  const std::vector<solver::Body>& bodies = robot.model.bodies();
+  double height = 0.0;
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    double z = 0.0;
+    for (auto b = static_cast<std::size_t>(wheel.body); b > 0; b = static_cast<std::size_t>(bodies[b].parent))
+      z += bodies[b].pose_in_parent.position.z();
+    height = std::max(height, wheel.radius - z);
+  }
+  return height;
+}
+
+class SceneChannels : public LogChannels {
+ public:
+  explicit SceneChannels(const lang::Program& program)
+      : program_(program), channels_(foxglove::channels()), height_(height_of(program.robot)) {}
+
+  const std::vector<LogChannel>& channels() const override { return channels_; }
+
+  void open(const std::vector<Column>& columns) override {
+    columns_ = columns;
+    const std::string base = place_of("truth.base.x") < columns_.size() ? "truth.base" : "base";
+    base_ = places_of(base);
+    lean_ = {place_of(base + ".roll"), place_of(base + ".pitch")};
+    for (int j = 0; j < program_.robot.model.joint_count(); ++j)
+      joints_.push_back(place_of(program_.robot.model.joint(j).name + ".q"));
+    if (program_.scene) {
+      for (const lang::SceneObject& object : program_.scene->objects) add_mover(object.name);
+      for (const lang::SceneRobot& robot : program_.scene->robots) add_mover(robot.name);
+    }
+    for (const char* name : {"task", "event", "event.signal"}) words_.push_back(place_of(name));
+  }
+
+  void take(std::span<const double> values, const Put& put) override {
+    time_ = values.front();
+    if (!has_begun_) {
+      put(foxglove::fixed_transforms, text_of({{"transforms", fixed_transforms()}}));
+      put(foxglove::scene, text_of(foxglove::scene_update(time_, program_)));
+    }
+    // A clock that jumps back gets its transforms, too.
+    const bool is_due = !has_begun_ || time_ >= sent_ + transforms_every - rounding || time_ < sent_;
+    has_begun_ = true;
+    if (is_due) {
+      sent_ = time_;
+      put(foxglove::transforms, text_of({{"transforms", moving_transforms(values)}}));
+    }
+    tell_task(values, put);
+    tell_event(values, put);
+  }
+
+  void conclude(const std::map<std::string, std::string>& facts, const Put& put) override {
+    const auto outcome = facts.find("outcome");
+    if (outcome == facts.end()) return;
+    const auto report = facts.find("report");
+    const ordered_json json =
+        report == facts.end() ? ordered_json() : ordered_json::parse(report->second, nullptr, false);
+    const bool has_verdict = json.is_object() && json.contains("verdict") && json["verdict"].is_string();
+    const Level level = outcome->second == "done" ? Level::info : Level::error;
+    tell(level, has_verdict ? json["verdict"].get<std::string>() : outcome->second, "run", put);
+  }
+
+ private:
+  /// The columns of x, y and yaw.
+  using Places = std::array<std::size_t, 3>;
+  struct Mover {
+    std::string name;
+    Places places;
+  };
+
+  std::size_t place_of(const std::string& name) const {
+    const auto found =
+        std::ranges::find_if(columns_, [&](const Column& column) { return column.name == name; });
+    return static_cast<std::size_t>(found - columns_.begin());
+  }
+  Places places_of(const std::string& name) const {
+    return {place_of(name + ".x"), place_of(name + ".y"), place_of(name + ".yaw")};
+  }
+  void add_mover(const std::string& name) {
+    const Places places = places_of("truth." + name);
+    if (places[0] < columns_.size()) movers_.push_back({name, places});
+  }
+  /// Zero where it is blank or not logged.
+  static double value(std::span<const double> values, std::size_t place) {
+    return place < values.size() && std::isfinite(values[place]) ? values[place] : 0.0;
+  }
+  std::string word(std::span<const double> values, std::size_t place) const {
+    if (place >= values.size() || !(values[place] >= 0.0)) return "";
+    const auto index = static_cast<std::size_t>(values[place]);
+    return index < columns_[place].words.size() ? columns_[place].words[index] : "";
+  }
+
+  ordered_json moving_transforms(std::span<const double> values) const {
+    ordered_json list = ordered_json::array();
+    const std::vector<solver::Body>& bodies = program_.robot.model.bodies();
+    Pose base;
+    base.position = {value(values, base_[0]), value(values, base_[1]), height_};
+    base.rotation = turned(value(values, lean_[0]), value(values, lean_[1]), value(values, base_[2]));
+    list.push_back(foxglove::transform(time_, world, bodies[0].name, base));
+    for (std::size_t b = 1; b < bodies.size(); ++b) {
+      const solver::Body& body = bodies[b];
+      const double q = value(values, joints_[b - 1]);
+      Pose pose = body.pose_in_parent;
+      if (body.joint.type == solver::JointType::prismatic) {
+        pose.position += pose.rotation * (q * body.joint.axis);
+      } else {
+        pose.rotation = pose.rotation * Eigen::AngleAxisd(q, body.joint.axis).toRotationMatrix();
+      }
+      list.push_back(
+          foxglove::transform(time_, bodies[static_cast<std::size_t>(body.parent)].name, body.name, pose));
+    }
+    for (const Mover& mover : movers_) {
+      const auto [x, y, yaw] = mover.places;
+      list.push_back(foxglove::transform(time_, world, foxglove::frame_of(mover.name),
+                                         planar(value(values, x), value(values, y), value(values, yaw))));
+    }
+    return list;
+  }
+
+  static Pose planar(double x, double y, double yaw) {
+    Pose pose;
+    pose.position = {x, y, 0.0};
+    pose.rotation = turned(0.0, 0.0, yaw);
+    return pose;
+  }
+
+  /// Of the robot's frames, of the task's own, and of objects that stay. A frame that a signal carries is in
+  /// no record; one that a task sets is where the file has it.
+  ordered_json fixed_transforms() const {
+    ordered_json list = ordered_json::array();
+    std::set<std::string> known{world};
+    const auto add = [&](const std::string& parent, const std::string& child, const Pose& pose) {
+      if (known.insert(child).second) list.push_back(foxglove::transform(time_, parent, child, pose));
+    };
+    const std::vector<solver::Body>& bodies = program_.robot.model.bodies();
+    for (const solver::Body& body : bodies) known.insert(body.name);
+    for (const lang::FrameDeclaration& frame : program_.frames) {
+      const auto index = static_cast<std::size_t>(std::max(0, frame.parent_index));
+      if (frame.parent == lang::FrameParent::world) add(world, frame.name, frame.pose);
+      if (frame.parent == lang::FrameParent::body) add(bodies[index].name, frame.name, frame.pose);
+      if (frame.parent == lang::FrameParent::frame) add(program_.frames[index].name, frame.name, frame.pose);
+    }
+    if (!program_.scene) return list;
+    const auto moves = [&](const std::string& name) {
+      return std::ranges::any_of(movers_, [&](const Mover& mover) { return mover.name == name; });
+    };
+    for (const lang::SceneObject& object : program_.scene->objects) {
+      if (!moves(object.name))
+        add(world, foxglove::frame_of(object.name), planar(object.at[0], object.at[1], object.yaw));
+    }
+    for (const lang::SceneRobot& robot : program_.scene->robots) {
+      if (!moves(robot.name))
+        add(world, foxglove::frame_of(robot.name), planar(robot.at[0], robot.at[1], robot.yaw));
+    }
+    return list;
+  }
+
+  void tell(Level level, const std::string& message, const std::string& name, const Put& put) const {
+    put(foxglove::log, text_of(foxglove::log_message(time_, level, message, name)));
+  }
+
+  void tell_task(std::span<const double> values, const Put& put) {
+    const std::string task = word(values, words_[0]);
+    if (task.empty() || task == task_) return;
+    tell(task == "failed" ? Level::error : Level::info, task_.empty() ? task : task_ + " -> " + task, "task",
+         put);
+    task_ = task;
+  }
+
+  void tell_event(std::span<const double> values, const Put& put) const {
+    const std::string event = word(values, words_[1]);
+    if (event.empty() || event == "none") return;
+    const std::string signal = word(values, words_[2]);
+    std::string message = event;
+    if (!signal.empty()) message += " " + signal;
+    tell(Level::warning, message, "guard", put);
+  }
+
+  lang::Program program_;
+  std::vector<LogChannel> channels_;
+  double height_;  ///< [m] of the base's origin
+  std::vector<Column> columns_;
+  Places base_{};
+  std::array<std::size_t, 2> lean_{};  ///< the columns of roll and pitch
+  std::vector<std::size_t> joints_;
+  std::vector<Mover> movers_;
+  std::vector<std::size_t> words_;
+  bool has_begun_ = false;
+  double time_ = 0.0, sent_ = 0.0;  ///< [s]
+  std::string task_;
+};
+
+}  // namespace
+
+std::unique_ptr<LogChannels> scene_channels(const lang::Program& program) {
+  return std::make_unique<SceneChannels>(program);
+}
+
+}  // namespace zwang::runtime
