@@ -1,6 +1,7 @@
 /// `zwang run --live`: the page of a run while it goes on.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/recorder.hpp"
 #include "zwang/runtime/runner.hpp"
+#include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::cli {
 
@@ -31,6 +33,8 @@ class LiveView {
 
   /// Between two ticks. `time` [s] is that of the run.
   void wait_for_tick(runtime::Runner& runner, double time, const std::atomic<bool>& interrupted);
+  /// What somebody presses with on the base by the mouse. It ends with the last page.
+  const runtime::Push& push() const { return push_; }
   /// The page wants the run from its begin.
   bool is_restart_asked() const { return restart_; }
 
@@ -44,6 +48,7 @@ class LiveView {
   void look(runtime::Runner* runner);
   void obey(const std::string& request, runtime::Runner* runner);
   void set(runtime::Runner& runner, const std::string& name, double value);
+  void press(const std::array<double, 2>& at, const std::array<double, 2>& force);
   void begin_pace(double time);
   void tell_state();
 
@@ -53,9 +58,10 @@ class LiveView {
   bool paused_ = false;
   bool is_ready_ = false;       ///< the page is built
   Clock::time_point ready_by_;  ///< a page that is not built by then is not waited for
-  int ticks_ = 0;               ///< to make although it is paused
-  double speed_ = 1.0;          ///< 1: real time
-  double now_ = 0.0;            ///< [s] of the run
+  runtime::Push push_;
+  int ticks_ = 0;       ///< to make although it is paused
+  double speed_ = 1.0;  ///< 1: real time
+  double now_ = 0.0;    ///< [s] of the run
   double since_time_ = 0.0;
   Clock::time_point since_;
   std::string refused_;  ///< what the last request asked in vain

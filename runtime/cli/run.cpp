@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "interruption.hpp"
@@ -85,7 +86,8 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
              const lang::Program& program, bool with_watchdog, double time_limit, Reloads* reloads,
              LiveView* view, const std::atomic<bool>& interrupted, Live& live, RunReport& report) {
   runtime::Sensed sensed(program);
-  std::vector<double> truth(runtime::truth_columns(*program.scene).size());
+  const std::size_t true_values = runtime::truth_columns(*program.scene).size();
+  std::vector<double> truth(true_values + (view != nullptr ? runtime::push_columns().size() : 0));
   runtime::SimulationSteps steps(runner.period());
   TruthWatch watch(plant.truth(), steps.period());
   PlantStatus status = PlantStatus::ok;
@@ -114,6 +116,10 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
       if (reloads != nullptr && !give_up) reloads->look(runner, sensed.time);
       if (view != nullptr && !give_up) view->wait_for_tick(runner, sensed.time, interrupted);
       if (view != nullptr && view->is_restart_asked()) break;
+      if (view != nullptr) {
+        plant.set_push(view->push());
+        runtime::put_push(view->push(), std::span(truth).subspan(true_values));
+      }
       runner.step(sensed, truth);
       if (runner.state() == runtime::RunState::running && runner.scheduler().transition())
         report.asked = asked_forces(runner.scheduler());
@@ -186,6 +192,10 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
 
   runtime::RunnerSettings settings;
   settings.extra_columns = runtime::truth_columns(*program->scene);
+  if (view != nullptr) {
+    const std::vector<runtime::Column> pushed = runtime::push_columns();
+    settings.extra_columns.insert(settings.extra_columns.end(), pushed.begin(), pushed.end());
+  }
   runtime::Runner runner(*program, settings);
 
   const fs::path folder = make_log_folder(arguments);

@@ -261,6 +261,41 @@ signals: {felt: {force_of: wall, delay: 50 ms}}
   EXPECT_NEAR(felt - *plant.truth().objects[0].touched, 0.05, 2.5 * period);
 }
 
+/// Of the mecanum base: its URDF's masses, and what its wheels' spin adds at 45 deg rollers, (I + gear^2 J) /
+/// r^2 each.
+constexpr double spin = 4.0 * (0.0066249 + 26.0 * 26.0 * 13.5e-6) / (0.0759 * 0.0759);  // [kg]
+constexpr double pushed_mass = 46.0 + spin;
+constexpr double pushed_inertia =
+    2.15157 + 4.0 * (0.0045084 + 2.3 * (0.27 * 0.27 + 0.22 * 0.22)) + spin * 0.49 * 0.49;
+
+TEST(ScenePlant, AHandMovesTheBaseAsItsMassSays) {
+  const lang::Program program = program_with("start: {at: [0 m, 0 m], yaw: 30 deg}\n");
+  ScenePlant plant(program);
+  follow(plant, program, 0.05, idle, [](const Sensed&, PlantStatus) {});
+  const solver::Vector3 before = plant.truth().velocity;
+  plant.set_push({{0.0, 0.0}, {0.0, 30.0}});  // in the world's y
+  follow(plant, program, 0.1, idle, [](const Sensed&, PlantStatus) {});
+  const solver::Vector3 gained = plant.truth().velocity - before;
+  const double speed = 30.0 * 0.1 / pushed_mass;
+  EXPECT_NEAR(gained.x(), speed * std::sin(30.0 * degree), 0.01 * speed);
+  EXPECT_NEAR(gained.y(), speed * std::cos(30.0 * degree), 0.01 * speed);
+  EXPECT_NEAR(gained.z(), 0.0, 0.01 * speed);
+  EXPECT_NEAR(plant.truth().base.contact.head<2>().norm(), 30.0, 1e-9) << "the hand is felt";
+  plant.set_push({});
+  follow(plant, program, 0.1, idle, [](const Sensed&, PlantStatus) {});
+  EXPECT_NEAR((plant.truth().velocity - before - gained).norm(), 0.0, 0.01 * speed)
+      << "nobody pushes any more";
+}
+
+TEST(ScenePlant, AHandAtItsCornerTurnsTheBase) {
+  const lang::Program program = program_with("");
+  ScenePlant plant(program);
+  plant.set_push({{0.4, 0.0}, {0.0, 10.0}});
+  follow(plant, program, 0.1, idle, [](const Sensed&, PlantStatus) {});
+  const double turning = 0.4 * 10.0 * 0.1 / pushed_inertia;
+  EXPECT_NEAR(plant.truth().velocity.z(), turning, 0.02 * turning);
+}
+
 TEST(ScenePlant, OneSeedIsOneRun) {
   const char* const measured = "distance_to: post, noise: 20 mm, dropouts: 20 %";
   EXPECT_EQ(distances(measured, 7).values, distances(measured, 7).values);

@@ -80,6 +80,32 @@ async function checkParameter() {
   assert.equal(await page.evaluate(() => window.zwang.run.curve('params.push').at(-1)), 40);
 }
 
+/** The force grows with the way that the base is dragged, and is in the log. A base that is let go is not pushed. */
+async function checkPush() {
+  const canvas = page.locator('figure canvas').first();
+  await canvas.scrollIntoViewIfNeeded();
+  const box = await canvas.boundingBox();
+  const [held, scale] = await page.evaluate(() => {
+    const { run, top } = window.zwang;
+    const base = ['x', 'y'].map((axis) => run.sample(`truth.base.${axis}`).at(-1));
+    return [top.mapping()(base), top.mapping()([1, 0])[0] - top.mapping()([0, 0])[0]];
+  });
+  const [x, y] = [box.x + held[0], box.y + held[1]];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y - 60, { steps: 4 });
+  await page.waitForTimeout(200);
+  await page.keyboard.press('.');
+  const force = () => page.evaluate(() => ['x', 'y'].map((axis) => window.zwang.run.curve(`hand.force.${axis}`).at(-1)));
+  await until(() => window.zwang.run.curve('hand.force.y').at(-1) > 1);
+  const [fx, fy] = await force();
+  assert.ok(Math.abs(fx) < 3 && Math.abs(fy - (150 * 60) / scale) < 3, `pushed with ${fx}, ${fy} N over ${60 / scale} m`);
+  await page.mouse.up();
+  await page.waitForTimeout(200);
+  await page.keyboard.press('.');
+  await until(() => window.zwang.run.curve('hand.force.y').at(-1) === 0);
+}
+
 async function checkLook() {
   for (const [width, colorScheme] of [[360, 'light'], [800, 'dark'], [1600, 'light']]) {
     await page.setViewportSize({ width, height: 900 });
@@ -107,7 +133,7 @@ async function checkEnd() {
 }
 
 try {
-  for (const step of [checkSteering, checkRestart, checkParameter, checkGoingOn, checkLook, checkEnd]) {
+  for (const step of [checkSteering, checkRestart, checkParameter, checkPush, checkGoingOn, checkLook, checkEnd]) {
     const begin = Date.now();
     await step();
     console.log(`ok ${step.name} (${Date.now() - begin} ms)`);

@@ -43,7 +43,7 @@ export function liveControls(clock: LiveClock, task: (time: number) => string, v
   });
   const element = h('div', { class: 'controls', role: 'group', 'aria-label': 'The run' }, pause, tick, restart, h('label', {}, speed), status,
     scrub, now, toNow, h('label', { for: 'follow' }, follow, ' follow'),
-    h('span', { class: 'keys' }, 'space pauses, . makes a tick, arrows look back, End is now, f follows'));
+    h('span', { class: 'keys' }, 'space pauses, . makes a tick, arrows look back, End is now, f follows, w a s d push'));
   const steers = [pause, tick, restart, speed];
   return {
     element,

@@ -1,10 +1,13 @@
 // The page of a run that goes on.
 import { band } from './band';
 import { LiveClock, type Moments } from './clock';
+import { onKeys } from './controls';
 import { curvesOf } from './curves';
 import { taskAt, type Run } from './data';
 import { h, part } from './dom';
 import { graph } from './graph';
+import { baseAt } from './motion';
+import { Hand } from './push';
 import { liveControls, parameterPanel, type Steering } from './live_controls';
 import { LiveRun } from './live_run';
 import { symbols } from './run_page';
@@ -53,6 +56,17 @@ function paced(every: number, draw: () => void): () => void {
   };
 }
 
+const byKeys = 40;  // [N]
+const ways: Record<string, [number, number]> = { w: [0, byKeys], a: [-byKeys, 0], s: [0, -byKeys], d: [byKeys, 0] };
+
+/** As long as one of four keys is held, as the views have up, left, down and right. */
+function pressByKeys(hand: Hand): void {
+  onKeys(() => Object.fromEntries(Object.entries(ways).map(([key, force]) => [key, () => hand.press(force)])));
+  const release = (): void => hand.press([0, 0]);
+  document.addEventListener('keyup', (event) => { if (event.key in ways) release(); });
+  window.addEventListener('blur', release);
+}
+
 interface Page { onBucket(): void; onOver(over: Over): void; steerings: Steering[] }
 
 function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask']>[0]) => void): Page {
@@ -60,6 +74,9 @@ function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask
   const { charts, source, onLine, onCurve, element: curves } = curvesOf(run, clock);
   const top = new TopView([{ run, world: begin.world }], clock);
   const space = new SpaceView(run, begin.world, clock);
+  const hand = new Hand((push) => ask({ do: 'push', ...push }), () => (clock.isLive ? baseAt(run, run.duration) : null));
+  top.hand = hand;
+  pressByKeys(hand);
   const name = begin.facts['task']?.split('/').at(-1) ?? 'a run';
   document.title = `${name}: live`;
   const sign = h('span', { 'aria-hidden': 'true' }, '● ');
@@ -112,7 +129,7 @@ function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask
     tasks.draw();
     told.draw();
   };
-  (window as unknown as { zwang: unknown }).zwang = { clock, run };
+  (window as unknown as { zwang: unknown }).zwang = { clock, run, top };
   clock.grow(run.duration);
   setTimeout(() => space.start(), 50);
   return {

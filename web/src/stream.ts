@@ -21,7 +21,8 @@ export interface Over { kind: 'over'; report: RunData['report'] }
 export type Message = Begin | Bucket | State | Over;
 
 export type Request =
-  | { do: 'ready' | 'pause' | 'go' | 'tick' | 'restart' } | { do: 'speed'; value: number } | { do: 'set'; name: string; value: number };
+  | { do: 'ready' | 'pause' | 'go' | 'tick' | 'restart' } | { do: 'speed'; value: number } | { do: 'set'; name: string; value: number }
+  | { do: 'push'; at: [number, number]; force: [number, number] };
 
 export class Stream {
   private readonly socket: WebSocket;

@@ -3,8 +3,9 @@ import type { Clock } from './clock';
 import { ofStyle, onScheme } from './colours';
 import type { Run, World } from './data';
 import { h } from './dom';
+import { isInside, type Hand } from './push';
 import { withUnit } from './units';
-import { contactsAt, cornersOf, extentOf, frameInWorld, instantAt, outlineOf, placeOf, worldPoint, type Instant } from './world';
+import { contactsAt, cornersOf, extentOf, frameInWorld, instantAt, outlineOf, placeOf, pushAt, worldPoint, type Instant } from './world';
 import type { Place } from './motion';
 
 type Point = number[];
@@ -29,6 +30,13 @@ function pathOf(run: Run): Point[] {
 export class TopView {
   readonly element: HTMLElement;
   follow = false;
+  /** Of a run that goes on: a drag that begins on the robot pushes it. */
+  set hand(hand: Hand) {
+    this.pusher = hand;
+    this.caption.append(' A drag that begins on the robot pushes it.');
+  }
+  private pusher: Hand | null = null;
+  private readonly caption = h('figcaption', {});
   private readonly canvas = h('canvas', { class: 'view', tabindex: 0, role: 'img' });
   private scale = 100;
   private centre: Point = [0, 0];
@@ -38,7 +46,8 @@ export class TopView {
 
   constructor(private readonly viewed: Viewed[], private readonly clock: Clock) {
     const dashed = viewed.length > 1 ? `Solid: run ${viewed[0]!.letter}. Dashed: run ${viewed[1]!.letter}.` : 'Dashed: where zwang has the base.';
-    this.element = h('figure', {}, this.canvas, h('figcaption', {}, `From above. Wheel or + and - zoom, a drag moves. ${dashed}`));
+    this.caption.append(`From above. Wheel or + and - zoom, a drag moves. ${dashed}`);
+    this.element = h('figure', {}, this.canvas, this.caption);
     this.paths = viewed.map(({ run }) => pathOf(run));
     this.fit();
     clock.onTime(() => this.draw());
@@ -52,8 +61,16 @@ export class TopView {
       if (event.key === '+') this.setZoom(this.zoom * 1.25);
       if (event.key === '-') this.setZoom(this.zoom / 1.25);
     });
+    this.canvas.addEventListener('pointerdown', (event) => {
+      const point = this.toWorld(event);
+      if (event.button !== 0 || !this.pusher || !isInside(this.footprint(), point)) return;
+      this.canvas.setPointerCapture(event.pointerId);
+      this.pusher.take(point);
+    });
+    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) this.canvas.addEventListener(end, () => this.pusher?.release());
     this.canvas.addEventListener('pointermove', (event) => {
       if (event.buttons !== 1) return;
+      if (this.pusher?.move(this.toWorld(event))) return this.draw();
       this.isTouched = true;
       this.centre = [this.centre[0]! - event.movementX / this.pixels(), this.centre[1]! + event.movementY / this.pixels()];
       this.draw();
@@ -84,6 +101,29 @@ export class TopView {
     return (Math.min(this.canvas.clientWidth, this.canvas.clientHeight) / this.scale) * this.zoom;
   }
 
+  private shownCentre(): Point {
+    const base = this.first().base;
+    return this.follow ? [base.x, base.y] : this.centre;
+  }
+  private first(): Instant {
+    const { run, world } = this.viewed[0]!;
+    return instantAt(run, world.robot, Math.min(this.clock.time, run.duration));
+  }
+  private footprint(): Point[] {
+    return this.viewed[0]!.world.robot.footprint.map((corner) => worldPoint(this.first().base, corner));
+  }
+  /** From a point of the world [m] to one of the canvas [px]. */
+  mapping(): ToPixels {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [centre, s] = [this.shownCentre(), this.pixels()];
+    return (p) => [width / 2 + (p[0]! - centre[0]!) * s, height / 2 - (p[1]! - centre[1]!) * s];
+  }
+  private toWorld(event: PointerEvent): Point {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [centre, s] = [this.shownCentre(), this.pixels()];
+    return [centre[0]! + (event.offsetX - width / 2) / s, centre[1]! - (event.offsetY - height / 2) / s];
+  }
+
   draw(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const ratio = devicePixelRatio || 1;
@@ -93,10 +133,9 @@ export class TopView {
     const c = this.canvas.getContext('2d')!;
     // A run that is over stays where it ended.
     const nows = this.viewed.map(({ run, world }) => instantAt(run, world.robot, Math.min(this.clock.time, run.duration)));
-    const base = nows[0]!.base;
-    const centre = this.follow ? [base.x, base.y] : this.centre;
+    const centre = this.shownCentre();
     const s = this.pixels();
-    const to = (p: Point): [number, number] => [width / 2 + (p[0]! - centre[0]!) * s, height / 2 - (p[1]! - centre[1]!) * s];
+    const to = this.mapping();
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     c.clearRect(0, 0, width, height);
     c.font = '12px system-ui, sans-serif';
@@ -105,6 +144,7 @@ export class TopView {
     this.viewed.forEach((one, i) => this.drawPath(c, to, one, this.paths[i]!, i));
     this.viewed.forEach((one, i) => this.drawRobot(c, to, one, nows[i]!, i));
     this.viewed.forEach((one, i) => this.drawForces(c, to, one, nows[i]!));
+    this.drawHand(c, to, nows[0]!);
     const places = nows.map((now, i) => `${this.viewed[i]!.letter ? `run ${this.viewed[i]!.letter}, ` : ''}base at x ${now.base.x.toFixed(3)} m, ` +
       `y ${now.base.y.toFixed(3)} m, heading ${withUnit(now.base.yaw, 'rad')}`);
     this.canvas.setAttribute('aria-label', `Top view at ${this.clock.time.toFixed(3)} s: ${places.join('; ')}`);
@@ -292,6 +332,17 @@ export class TopView {
       c.fillStyle = ofStyle('--force');
       c.fillText(withUnit(contact.force, 'N') + (letter ? ` (${letter})` : ''), tip[0] + 5, tip[1] - 5);
     }
+  }
+
+  /** The push of the pointer, and the one that the log has at this time. */
+  private drawHand(c: CanvasRenderingContext2D, to: ToPixels, now: Instant): void {
+    const pulled = this.pusher?.arrow;
+    const push = pulled ?? pushAt(this.viewed[0]!.run, now);
+    if (!push) return;
+    const [from, tip] = [to(push.from), to(push.to)];
+    this.arrow(c, from, tip, ofStyle('--link'));
+    c.fillStyle = ofStyle('--link');
+    c.fillText(`${withUnit(Math.hypot(...push.force), 'N')} by hand`, tip[0] + 8, tip[1] + 4);
   }
 
   private arrow(c: CanvasRenderingContext2D, from: [number, number], tip: [number, number], style: string): void {

@@ -91,6 +91,9 @@ export function extentOf(run: Run, world: World): [[number, number], [number, nu
   return [low, high];
 }
 
+/** How strong a hand gets with the way that it is dragged. [N/m] */
+export const pushPerMetre = 150;
+
 const flush = 1e-3;  // [m] an edge that lies on another one touches with both of its ends
 
 /** Where two outlines are nearest, the middle of an edge that lies flush, and the way from the second into the first. */
@@ -117,6 +120,15 @@ function nearest(robot: number[][], object: number[][]): { at: [number, number];
     return (Math.min(...values) + Math.max(...values)) / 2;
   };
   return { at: [middle(0), middle(1)], normal: best.normal };
+}
+
+/** Of a live run: what a hand presses with, drawn as far as it was dragged. */
+export function pushAt(run: Run, now: Instant): { from: number[]; to: number[]; force: [number, number] } | null {
+  const i = indexAt(run.sampleTimes, now.time);
+  const [x, y, fx, fy] = ['hand.at.x', 'hand.at.y', 'hand.force.x', 'hand.force.y'].map((name) => run.sample(name)?.[i] ?? 0) as [number, number, number, number];
+  if (fx === 0 && fy === 0) return null;
+  const from = worldPoint(now.base, [x, y]);
+  return { from, to: [from[0]! + fx / pushPerMetre, from[1]! + fy / pushPerMetre], force: [fx, fy] };
 }
 
 /** The forces that the plant measured, at the place where the outlines are nearest. */

@@ -74,8 +74,8 @@ void ContactFriction::find_loads(const mjModel& model, const mjData& data) noexc
 }
 
 void ContactFriction::push(const mjModel& model, mjData& data) noexcept {
-  if (bristles_.empty()) return;
   std::fill(data.xfrc_applied, data.xfrc_applied + 6 * model.nbody, 0.0);
+  if (bristles_.empty()) return;
   find_loads(model, data);
   for (Bristle& bristle : bristles_) {
     if (!(bristle.load > 0.0)) {

@@ -137,6 +137,20 @@ void MovingRobot::push(const mjModel& m, mjData& d) noexcept {
   Eigen::Map<Vector3>(d.qfrc_applied + base_velocity_ + 3) = wrench.angular;
 }
 
+void MovingRobot::press(const mjModel& m, mjData& d, const Eigen::Vector2d& at,
+                        const Eigen::Vector2d& force) const noexcept {
+  // The simulation takes the force at the body's centre of mass.
+  const Vector3 arm =
+      base_rotation(m, d) * (Vector3(at.x(), at.y(), 0.0) - vector_of(m.body_ipos + 3 * base_body_));
+  const Vector3 whole(force.x(), force.y(), 0.0);
+  Eigen::Map<Vector3>(d.xfrc_applied + 6 * base_body_) += whole;
+  Eigen::Map<Vector3>(d.xfrc_applied + 6 * base_body_ + 3) += arm.cross(whole);
+}
+
+Vector3 MovingRobot::in_world(const mjModel& m, const mjData& d, const Eigen::Vector2d& at) const noexcept {
+  return base_position(m, d) + base_rotation(m, d) * Vector3(at.x(), at.y(), 0.0);
+}
+
 void MovingRobot::read(const mjModel& m, const mjData& d) noexcept {
   for (std::size_t j = 0; j < joints_.size(); ++j) {
     const JointAddress& address = joints_[j];

@@ -44,6 +44,12 @@ class MovingRobot {
   bool give(mjData_& d, const Eigen::VectorXd& tau, double period) noexcept;
   /// Before a step: what stands in for the wheels' own inertia, and skidding wheels' friction.
   void push(const mjModel_& m, mjData_& d) noexcept;
+  /// Into `xfrc_applied`, beside what is there for the next step: a force on the base [N] in world axes, at a
+  /// point of it [m] in its own.
+  void press(const mjModel_& m, mjData_& d, const Eigen::Vector2d& at,
+             const Eigen::Vector2d& force) const noexcept;
+  /// A point of the base, as high as its origin. [m]
+  solver::Vector3 in_world(const mjModel_& m, const mjData_& d, const Eigen::Vector2d& at) const noexcept;
   /// After a step. `loads`: of the wheels, see `needs_loads`.
   void read(const mjModel_& m, const mjData_& d) noexcept;
   bool needs_loads() const noexcept { return !side_friction_.empty(); }

@@ -310,6 +310,7 @@ struct MujocoPlant::Simulation {
       add_floor_friction(object, model->opt.timestep, data->qvel, data->qfrc_applied);
     }
     contact_friction.push(*model, *data);
+    press_by_hand();
     if (!guarded(mj_step, model.get(), data.get())) return false;
     read_loads();
     const double elapsed = data->time - before;
@@ -395,6 +396,7 @@ struct MujocoPlant::Simulation {
     contacts.read(*model, *data, before, truth);
     read_objects();
     read_pulls();
+    feel_hand();
     read_motion(before);
     look_for_falls();
     latch_hooks();
@@ -410,6 +412,17 @@ struct MujocoPlant::Simulation {
     return PlantStatus::ok;
   }
 
+  /// The force of the hand goes into the step, behind the friction of contacts, and to the sum of all
+  /// contacts.
+  void press_by_hand() noexcept {
+    if (!push.force.isZero(0.0)) first().press(*model, *data, push.at, push.force);
+  }
+  void feel_hand() noexcept {
+    if (push.force.isZero(0.0)) return;
+    const Vector3 at = first().in_world(*model, *data, push.at);
+    contacts.add_push(0, push.force, at.head<2>());
+  }
+
   std::vector<MovingRobot> robots;  ///< the first, then the scene's
   std::string text;
   ModelPointer model;
@@ -420,6 +433,7 @@ struct MujocoPlant::Simulation {
   std::vector<SimulatedObject> objects;
   std::vector<SimulatedDock> docks;
   Vector3 velocity = Vector3::Zero();
+  Push push;
   Truth truth;
   std::int64_t steps_since_start = 0;
   bool diverged = false;
@@ -457,6 +471,10 @@ PlantStatus MujocoPlant::give_partner(std::size_t partner, const Eigen::VectorXd
 
 const Truth& MujocoPlant::truth() const noexcept {
   return simulation_->truth;
+}
+
+void MujocoPlant::set_push(const Push& push) noexcept {
+  simulation_->push = push;
 }
 
 void MujocoPlant::set_floor_friction(double coefficient) noexcept {

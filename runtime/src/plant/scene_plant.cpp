@@ -271,6 +271,10 @@ PlantStatus ScenePlant::Parts::step() noexcept {
   return simulation.apply(torque);
 }
 
+void ScenePlant::set_push(const Push& push) noexcept {
+  parts_->simulation.set_push(push);
+}
+
 void ScenePlant::end_lean() noexcept {
   constexpr double longest = 1.0;  // [s]
   Parts& p = *parts_;

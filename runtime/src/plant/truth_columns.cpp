@@ -1,5 +1,6 @@
 // What the plant measured, as columns of a log.
 #include <algorithm>
+#include <array>
 
 #include "zwang/runtime/scene_plant.hpp"
 
@@ -40,6 +41,16 @@ void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> v
     const ObjectTruth& o = truth.objects[i];
     for (const double place : {o.x, o.y, o.yaw}) values[at++] = place;
   }
+}
+
+std::vector<Column> push_columns() {
+  return {
+      {"hand.at.x", "m", {}}, {"hand.at.y", "m", {}}, {"hand.force.x", "N", {}}, {"hand.force.y", "N", {}}};
+}
+
+void put_push(const Push& push, std::span<double> values) {
+  const std::array<double, 4> all{push.at.x(), push.at.y(), push.force.x(), push.force.y()};
+  std::copy(all.begin(), all.end(), values.begin());
 }
 
 }  // namespace zwang::runtime

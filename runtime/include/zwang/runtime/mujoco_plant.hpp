@@ -73,6 +73,12 @@ struct Truth {
   std::vector<RobotTruth> robots;     ///< the scene's
 };
 
+/// What a hand presses with on the first robot's base, beside everything that the scene says.
+struct Push {
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();     ///< [m] where, in the base's axes, as high as its origin
+  Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< [N] in the world's axes
+};
+
 /// Of the library that is loaded, as `2.3.7`.
 const char* mujoco_version() noexcept;
 
@@ -122,6 +128,8 @@ class MujocoPlant : public Plant {
   /// The base's own inertia about its centre of mass is that of its model times `factor`, > 0. `robot` as
   /// above.
   void scale_inertia(std::size_t robot, double factor) noexcept;
+  /// From the next step on, until another one; finite.
+  void set_push(const Push& push) noexcept;
   /// As if the simulation had failed.
   void diverge() noexcept;
   /// The MJCF that was compiled, for inspection.

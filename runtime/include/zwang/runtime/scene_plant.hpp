@@ -58,6 +58,11 @@ std::vector<Column> truth_columns(const lang::Scene& scene);
 /// In the order of those columns, as many values.
 void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> values);
 
+/// Of a run in which a hand may press on the base: where, in the base's axes, and with what, in the world's.
+std::vector<Column> push_columns();
+/// In the order of those columns, as many values.
+void put_push(const Push& push, std::span<double> values);
+
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
 /// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its
 /// own samples and with its own runner, then makes one step of the world. A robot whose control period is
@@ -76,6 +81,8 @@ class ScenePlant : public Plant {
   /// A drive that takes velocities hands the command on at its rate, half of its delay late, to a PI loop at
   /// each wheel. Its samples are as seldom and as late: Sensed::measured_at.
   PlantStatus follow(const Command& command) noexcept override;
+  /// On the first robot, from the next step on, until another one; finite.
+  void set_push(const Push& push) noexcept;
   /// At the end of a run: a base that still leans stands up or falls, without torque, within 1 s.
   void end_lean() noexcept;
   const Truth& truth() const noexcept;
