@@ -177,7 +177,10 @@ class TreeBuilder final : public YAML::EventHandler {
     if (!node.items.empty()) end = node.items.back().span.end;
     if (!node.entries.empty()) end = node.entries.back().value.span.end;
     node.span.end = end;
-    if (node.is_flow) {
+    // A pair alone in a list, `[v: 1 m/s]`, is a mapping without braces.
+    const std::size_t begin = index_.offset(node.span.begin);
+    const bool has_brackets = begin < text_.size() && (text_[begin] == '{' || text_[begin] == '[');
+    if (node.is_flow && has_brackets) {
       const bool is_empty = node.items.empty() && node.entries.empty();
       const std::size_t from = index_.offset(end) + (is_empty ? 1 : 0);
       node.span.end = index_.position(end_of_flow(text_, from, node.is_mapping() ? '}' : ']'));
