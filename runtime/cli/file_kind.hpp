@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "zwang/lang/file_kind.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::cli {
 
-enum class FileKind { task, robot, scene, scenario, connection };
+using lang::FileKind;
+using lang::word_of;
 
-const char* word_of(FileKind kind);
-/// By the file's first key, a misspelt one, too: its reader says what is wrong. nullopt when it is none of
-/// zwang's.
+/// `lang::kind_of_text` of the file's first lines.
 std::optional<FileKind> kind_by_key(const std::string& path);
 /// The YAML files below a folder, in the order of their names. Links are followed; a file that several names
 /// lead to is there once, by the name without a link where it has one. Throws Impossible for a folder that

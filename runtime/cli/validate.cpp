@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <iostream>
 #include <list>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -7,6 +8,7 @@
 #include "file_kind.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
+#include "zwang/lang/open_texts.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/version.hpp"
 
@@ -33,11 +35,24 @@ std::vector<std::string> files_below(const std::string& folder) {
   return files;
 }
 
-std::vector<std::string> files_of(const std::vector<std::string>& paths) {
+/// Of the reader's limit one byte more: it then says that the text is too large.
+constexpr std::size_t most_of_stdin = 256 * 1024 + 1;
+
+std::string text_of_stdin() {
+  std::string text(most_of_stdin, '\0');
+  std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::cin.gcount()));
+  return text;
+}
+
+std::vector<std::string> files_of(const ValidateArguments& arguments, lang::OpenTexts& unsaved) {
   std::vector<std::string> files;
-  for (const std::string& path : paths) {
+  for (const std::string& path : arguments.files) {
     std::error_code error;
-    if (fs::is_directory(path, error)) {
+    if (path == "-") {
+      if (unsaved.find(arguments.stdin_path) == nullptr) unsaved.put(arguments.stdin_path, text_of_stdin());
+      files.push_back(arguments.stdin_path);
+    } else if (fs::is_directory(path, error)) {
       const std::vector<std::string> below = files_below(path);
       files.insert(files.end(), below.begin(), below.end());
     } else {
@@ -108,7 +123,9 @@ std::string sarif(const std::list<Checked>& checked, const ValidateArguments& ar
 }  // namespace
 
 int validate(const ValidateArguments& arguments) {
-  const std::vector<std::string> paths = files_of(arguments.files);
+  lang::OpenTexts unsaved;
+  const std::vector<std::string> paths = files_of(arguments, unsaved);
+  const lang::ReadsOpenTexts reading(unsaved);
   require_task_for(arguments.overrides, paths);
   const lang::LoadOptions options = arguments.overrides.load_options();
   std::list<Checked> checked;

@@ -34,8 +34,10 @@ struct TaskOverrides {
 };
 
 struct ValidateArguments {
-  std::vector<std::string> files;  ///< or folders
-  TaskOverrides overrides;         ///< for the task files among them
+  std::vector<std::string> files;  ///< or folders; `-`: the standard input
+  std::string stdin_path =
+      "stdin.yaml";         ///< where the text of `-` stands for: paths in it are seen from there
+  TaskOverrides overrides;  ///< for the task files among them
   ReportFormat format = ReportFormat::human;
   bool deny_warnings = false;
   bool notes = false;
@@ -55,15 +57,15 @@ struct FmtArguments {
 };
 int fmt(const FmtArguments& arguments);
 
-inline const std::map<std::string, lang::SchemaKind> schema_kinds = {
-    {"task", lang::SchemaKind::task},
-    {"robot", lang::SchemaKind::robot},
-    {"scene", lang::SchemaKind::scene},
-    {"scenario", lang::SchemaKind::scenario},
-    {"connection", lang::SchemaKind::connection}};
+inline const std::map<std::string, lang::FileKind> schema_kinds = {
+    {"task", lang::FileKind::task},
+    {"robot", lang::FileKind::robot},
+    {"scene", lang::FileKind::scene},
+    {"scenario", lang::FileKind::scenario},
+    {"connection", lang::FileKind::connection}};
 
 struct SchemaArguments {
-  lang::SchemaKind kind = lang::SchemaKind::task;
+  lang::FileKind kind = lang::FileKind::task;
 };
 int schema(const SchemaArguments& arguments);
 
@@ -132,6 +134,9 @@ struct InitArguments {
 int init(const InitArguments& arguments);
 
 int doctor();
+
+/// The language server, over the standard input and output.
+int lsp();
 
 struct PlanArguments {
   std::string file;

@@ -157,8 +157,8 @@ std::set<std::string> words_of_code() {
 
 TEST(LanguageOfThePage, has_every_key_and_word_of_the_schemas) {
   const std::set<std::string> written = words_of_code();
-  for (const SchemaKind kind :
-       {SchemaKind::task, SchemaKind::robot, SchemaKind::scene, SchemaKind::scenario}) {
+  for (const FileKind kind :
+       {FileKind::task, FileKind::robot, FileKind::scene, FileKind::scenario}) {
     std::set<std::string> keys;
     gather_keys(nlohmann::json::parse(json_schema(kind)), keys);
     EXPECT_GT(keys.size(), 10u);

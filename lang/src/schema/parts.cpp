@@ -111,22 +111,22 @@ Json definitions() {
 
 }  // namespace schema
 
-std::string json_schema(SchemaKind kind) {
+std::string json_schema(FileKind kind) {
   schema::Json schema;
   switch (kind) {
-    case SchemaKind::task:
+    case FileKind::task:
       schema = schema::task_file();
       break;
-    case SchemaKind::robot:
+    case FileKind::robot:
       schema = schema::robot_file();
       break;
-    case SchemaKind::scene:
+    case FileKind::scene:
       schema = schema::scene_file();
       break;
-    case SchemaKind::scenario:
+    case FileKind::scenario:
       schema = schema::scenario_file();
       break;
-    case SchemaKind::connection:
+    case FileKind::connection:
       schema = schema::connection_file();
       break;
   }

@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "diagnostic/wordings.hpp"
+#include "zwang/lang/open_texts.hpp"
 
 namespace zwang::lang {
 
@@ -60,8 +61,11 @@ std::filesystem::path root_of(const std::filesystem::path& file) {
   return folder;
 }
 
-std::optional<int> read_file(const std::filesystem::path& path, const SizeLimit& limit, const Span& cause,
-                             Diagnostics& diagnostics) {
+namespace {
+
+/// What is on the disk, at most one byte more than the limit; nullopt where it cannot be read.
+std::optional<std::string> text_on_disk(const std::filesystem::path& path, const SizeLimit& limit,
+                                        const Span& cause, Diagnostics& diagnostics) {
   const Descriptor file(path);
   if (file.number() < 0) {
     diagnostics.add(wording::unreadable_file(cause, path.string(), std::strerror(errno)));
@@ -73,10 +77,18 @@ std::optional<int> read_file(const std::filesystem::path& path, const SizeLimit&
     return std::nullopt;
   }
   std::optional<std::string> text = read_bytes(file.number(), limit.bytes + 1);
-  if (!text) {
-    diagnostics.add(wording::unreadable_file(cause, path.string(), std::strerror(errno)));
-    return std::nullopt;
-  }
+  if (!text) diagnostics.add(wording::unreadable_file(cause, path.string(), std::strerror(errno)));
+  return text;
+}
+
+}  // namespace
+
+std::optional<int> read_file(const std::filesystem::path& path, const SizeLimit& limit, const Span& cause,
+                             Diagnostics& diagnostics) {
+  const std::string* unsaved = open_text_of(path);
+  std::optional<std::string> text =
+      unsaved != nullptr ? std::optional(*unsaved) : text_on_disk(path, limit, cause, diagnostics);
+  if (!text) return std::nullopt;
   const bool is_too_large = text->size() > limit.bytes;
   if (is_too_large) text->clear();
   if (text->starts_with("\xEF\xBB\xBF")) text->erase(0, 3);

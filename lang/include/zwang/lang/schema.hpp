@@ -4,12 +4,12 @@
 
 #include <string>
 
-namespace zwang::lang {
+#include "zwang/lang/file_kind.hpp"
 
-enum class SchemaKind { task, robot, scene, scenario, connection };
+namespace zwang::lang {
 
 /// What a schema can say of a file: keys, shapes, and whether a text looks like a quantity. Names, dimensions
 /// and everything else is for `load` to judge.
-std::string json_schema(SchemaKind kind);
+std::string json_schema(FileKind kind);
 
 }  // namespace zwang::lang

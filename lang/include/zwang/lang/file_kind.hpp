@@ -1,0 +1,18 @@
+/// Which of zwang's files a text is.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+namespace zwang::lang {
+
+enum class FileKind { task, robot, scene, scenario, connection };
+
+/// `task`, `robot`, `scene`, `scenario` or `connection`.
+const char* word_of(FileKind kind);
+
+/// By the text's first key, a misspelt one, too: its reader says what is wrong. nullopt when it is none of
+/// zwang's files.
+std::optional<FileKind> kind_of_text(std::string_view text);
+
+}  // namespace zwang::lang

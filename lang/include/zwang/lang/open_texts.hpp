@@ -1,0 +1,43 @@
+/// Texts that an editor holds and has not saved: they are read in the place of the files on the disk.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace zwang::lang {
+
+/// Texts by the files that they belong to. A file is known by its canonical path, so each of its names leads
+/// to the same text.
+class OpenTexts {
+ public:
+  void put(const std::filesystem::path& file, std::string text);
+  void remove(const std::filesystem::path& file);
+  /// nullptr when no text is held for the file.
+  const std::string* find(const std::filesystem::path& file) const;
+
+ private:
+  std::map<std::filesystem::path, std::string> texts_;
+};
+
+/// While it lives, the functions of this room that read files on this thread ask `texts` first: tasks,
+/// robots, scenes, scenarios, connections and URDFs. A scope rather than a parameter, because a file may lead
+/// to any other. Scopes nest: the innermost one counts. `texts` must outlive it.
+class ReadsOpenTexts {
+ public:
+  explicit ReadsOpenTexts(const OpenTexts& texts);
+  ReadsOpenTexts(const ReadsOpenTexts&) = delete;
+  ReadsOpenTexts& operator=(const ReadsOpenTexts&) = delete;
+  ~ReadsOpenTexts();
+
+ private:
+  const OpenTexts* outer_;
+};
+
+/// The text that the innermost scope of this thread holds for the file; nullptr when there is none.
+const std::string* open_text_of(const std::filesystem::path& file);
+
+/// The name by which `OpenTexts` knows a file: links followed, absolute; as given where that fails.
+std::filesystem::path canonical_name(const std::filesystem::path& file);
+
+}  // namespace zwang::lang
