@@ -87,13 +87,14 @@ std::string table(const std::vector<std::vector<std::string>>& lines) {
   return text;
 }
 
-std::string rows_table(const TaskPlan& plan) {
+std::string rows_table(const TaskPlan& plan, const lang::Diagnostics& diagnostics) {
   std::vector<std::vector<std::string>> lines{
       {"row", "level", "", "b", "nu", "A_N (moment | force)", "from"}};
   for (const PlannedRow& planned : plan.rows) {
     lines.push_back({planned.name, std::to_string(planned.row.level),
                      std::string(word(planned.row.kind)) + " " + word(planned.row.quantity), demand(planned),
-                     softness(planned) + bounds(planned), column(planned.row.a), planned.line});
+                     softness(planned) + bounds(planned), column(planned.row.a),
+                     place(diagnostics, planned.span)});
   }
   return table(lines);
 }
@@ -130,10 +131,10 @@ std::string axes_table(const TaskPlan& plan) {
   return table(lines);
 }
 
-std::string dormant_text(const TaskPlan& plan) {
+std::string dormant_text(const TaskPlan& plan, const lang::Diagnostics& diagnostics) {
   std::string text;
-  for (const DormantRow& row : plan.dormant) {
-    text += "  " + row.name + ": " + row.why + " (" + row.line + ")\n";
+  for (const runtime::DormantRow& row : plan.dormant) {
+    text += "  " + row.name + ": " + row.why + " (" + place(diagnostics, row.span) + ")\n";
   }
   std::string names;
   for (const std::string& name : plan.unknown_signals) names += (names.empty() ? "`" : ", `") + name + "`";
@@ -170,7 +171,7 @@ ordered_json json_of(const TaskPlan& plan, const lang::Diagnostics& diagnostics)
                     {"hi", finite(p.row.hi)},
                     {"weight", p.weight ? ordered_json(*p.weight) : ordered_json(nullptr)},
                     {"fraction", p.fraction ? ordered_json(*p.fraction) : ordered_json(nullptr)},
-                    {"from", p.line}});
+                    {"from", place(diagnostics, p.span)}});
     if (p.row.reference_body >= 0) rows.back()["a_reference"] = json_of(p.row.a_reference);
   }
   ordered_json axes = ordered_json::array();
@@ -184,8 +185,8 @@ ordered_json json_of(const TaskPlan& plan, const lang::Diagnostics& diagnostics)
                     {"largest_force_range", json_of(axis.force)}});
   }
   ordered_json dormant = ordered_json::array();
-  for (const DormantRow& row : plan.dormant) {
-    dormant.push_back({{"row", row.name}, {"why", row.why}, {"from", row.line}});
+  for (const runtime::DormantRow& row : plan.dormant) {
+    dormant.push_back({{"row", row.name}, {"why", row.why}, {"from", place(diagnostics, row.span)}});
   }
   ordered_json notes = ordered_json::array();
   for (const lang::Diagnostic& d : plan.notes) {
@@ -204,7 +205,7 @@ std::string human(const TaskPlan& plan, int mobility, const Configurations& conf
                   const lang::Diagnostics& diagnostics) {
   std::string text = plan.task + "\n";
   if (!plan.refused.empty()) return text + "  no rows: " + plan.refused + "\n";
-  text += rows_table(plan) + dormant_text(plan) + "\n" + axes_table(plan);
+  text += rows_table(plan, diagnostics) + dormant_text(plan, diagnostics) + "\n" + axes_table(plan);
   if (configurations.count > 1) {
     text += "  at the start; in brackets from least to most over " + std::to_string(configurations.count) +
             " configurations:\n  " + configurations.words + "\n";

@@ -1,68 +1,18 @@
-/// What `zwang plan` found of a task, and how it is told.
+/// How `zwang plan` tells what it found of a task.
 #pragma once
 
-#include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "zwang/lang/diagnostic.hpp"
-#include "zwang/solver/base_analysis.hpp"
-#include "zwang/solver/constraint.hpp"
+#include "zwang/runtime/planner.hpp"
 
 namespace zwang::cli {
 
-struct PlannedRow {
-  solver::Row row;
-  std::string name;                ///< "contact.x"
-  std::string line;                ///< "wall_align.yaml:24"; empty where there is no text
-  std::optional<double> weight;    ///< [kg] or [kg m^2]
-  std::optional<double> fraction;  ///< of b that a soft row meets
-  bool turns = false;
-};
-
-/// The smallest and the largest over the configurations; values that are not finite do not count.
-struct Spread {
-  double least = solver::infinity, most = -solver::infinity;
-  void add(double value) {
-    if (!std::isfinite(value)) return;
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
-  bool exists() const { return least <= most; }
-  bool is_one_number() const { return most - least <= 1e-3 * std::abs(most); }
-};
-
-struct PlannedAxis {
-  std::string name;
-  bool turns = false;
-  solver::AxisAnalysis analysis;  ///< at the start pose
-  Spread mass, force;             ///< where the joints let it move
-  bool is_sometimes_held = false;
-};
-
-/// A statement that has no row at the start pose.
-struct DormantRow {
-  std::string name, why, line;
-};
-
-struct TaskPlan {
-  std::string task;
-  std::string refused;  ///< why there are no rows; empty otherwise
-  std::vector<PlannedRow> rows;
-  std::vector<DormantRow> dormant;
-  std::vector<std::string> unknown_signals;  ///< that frames or drivers of the task hang on
-  std::vector<PlannedAxis> axes;
-  int equality_rows = 0;
-  int rank = 0;  ///< of the equality rows, on the ground
-  std::vector<lang::Diagnostic> notes;
-};
-
-/// What the spreads are over.
-struct Configurations {
-  std::size_t count = 1;
-  std::string words;
-};
+using runtime::Configurations;
+using runtime::PlannedAxis;
+using runtime::PlannedRow;
+using runtime::Spread;
+using runtime::TaskPlan;
 
 std::string human(const TaskPlan& plan, int mobility, const Configurations& configurations,
                   const lang::Diagnostics& diagnostics);

@@ -1,0 +1,86 @@
+/// The rows of each task as the solver will get them at the start pose, and what the robot can make of them.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/diagnostic.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/solver/base_analysis.hpp"
+#include "zwang/solver/constraint.hpp"
+
+namespace zwang::runtime {
+
+struct PlannedRow {
+  solver::Row row;
+  std::string name;                ///< "contact.x"
+  lang::Span span;                 ///< of the statement; none: it has no text
+  std::optional<double> weight;    ///< [kg] or [kg m^2]
+  std::optional<double> fraction;  ///< of b that a soft row meets
+  bool turns = false;
+};
+
+/// The smallest and the largest over the configurations; values that are not finite do not count.
+struct Spread {
+  double least = solver::infinity, most = -solver::infinity;
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  bool exists() const { return least <= most; }
+  bool is_one_number() const { return most - least <= 1e-3 * std::abs(most); }
+};
+
+struct PlannedAxis {
+  std::string name;
+  bool turns = false;
+  solver::AxisAnalysis analysis;  ///< at the start pose
+  Spread mass, force;             ///< where the joints let it move
+  bool is_sometimes_held = false;
+};
+
+/// A statement that has no row at the start pose.
+struct DormantRow {
+  std::string name, why;
+  lang::Span span;
+};
+
+struct TaskPlan {
+  std::string task;
+  std::string refused;  ///< why there are no rows; empty otherwise
+  std::vector<PlannedRow> rows;
+  std::vector<DormantRow> dormant;
+  std::vector<std::string> unknown_signals;  ///< that frames or drivers of the task hang on
+  std::vector<PlannedAxis> axes;
+  int equality_rows = 0;
+  int rank = 0;  ///< of the equality rows, on the ground
+  std::vector<lang::Diagnostic> notes;
+};
+
+/// What the spreads are over.
+struct Configurations {
+  std::size_t count = 1;
+  std::string words;
+};
+
+/// Looks at a program's tasks at the start pose and over `lang::configurations`. Program and diagnostics must
+/// outlive it.
+class Planner {
+ public:
+  /// `diagnostics`: those of loading the program, whose physical ones each plan repeats.
+  Planner(const lang::Program& program, const lang::Diagnostics& diagnostics);
+
+  Configurations configurations() const;
+  /// `task`: an index into Program::tasks.
+  TaskPlan plan(int task) const;
+
+ private:
+  const lang::Program& program_;
+  const lang::Diagnostics& diagnostics_;
+  std::vector<solver::State> states_;  ///< the start pose first
+};
+
+}  // namespace zwang::runtime
