@@ -1,0 +1,48 @@
+/// Completion, in a text that no reader takes yet.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zwang/lang/file_kind.hpp"
+#include "zwang/lang/names.hpp"
+
+namespace zwang::lang {
+
+/// Where a place stands in a YAML text, found by indents and brackets alone: the text may be wrong elsewhere.
+struct TextPlace {
+  std::vector<std::string> keys;  ///< from the root; `-` for an item of a list
+  bool is_key = false;            ///< a key can begin here; else a value
+  std::string value;              ///< of the value as far as it is written, from its begin to the place
+  std::size_t word_begin = 0;     ///< [bytes] of the word that the place stands in or behind
+};
+TextPlace place_at(std::string_view text, std::size_t offset);
+
+enum class ProposalKind { key, word, unit, name, function };
+
+struct Proposal {
+  std::string text;  ///< stands in the place of the word
+  ProposalKind kind = ProposalKind::key;
+  std::string about;  ///< a few words; may be empty
+};
+
+/// The names that a completion knows beside the text.
+struct KnownNames {
+  std::vector<NamePlace> given;     ///< by the last text that could be read
+  std::vector<std::string> frames;  ///< of the robot, and `world`
+};
+
+/// Keys by the schema, words, names and units that fit, in this order. `offset`: bytes from the begin.
+std::vector<Proposal> proposals(FileKind kind, std::string_view text, std::size_t offset,
+                                const KnownNames& known);
+
+/// The schema's description of a key or of its value; may be empty.
+std::string about_key(FileKind kind, const std::vector<std::string>& keys);
+
+/// In SI, as `0.08 m/s`, what a quantity is; empty where the text is no quantity with a unit or is in SI
+/// already.
+std::string in_si(std::string_view text);
+
+}  // namespace zwang::lang

@@ -1,0 +1,174 @@
+#include "zwang/lang/completion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "edit/schema_walk.hpp"
+#include "edit/units_that_fit.hpp"
+#include "spec/expression.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+bool is_one_of(const std::string& key, std::initializer_list<const char*> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](const char* one) { return key == one; });
+}
+
+/// `tasks.press` or `templates.go`: the task that the place stands in; `always` in that section.
+std::string scope_of(const std::vector<std::string>& keys) {
+  if (!keys.empty() && keys.front() == "always") return "always";
+  const bool is_named = keys.size() > 1 && is_one_of(keys.front(), {"tasks", "templates"});
+  return is_named ? keys[0] + "." + keys[1] : "";
+}
+
+class Proposer {
+ public:
+  Proposer(FileKind kind, const TextPlace& place, const KnownNames& known)
+      : kind_(kind), place_(place), known_(known), key_(place.keys.empty() ? "" : place.keys.back()) {
+    for (auto k = place.keys.rbegin(); key_ == "-" && k != place.keys.rend(); ++k) key_ = *k;
+  }
+
+  std::vector<Proposal> propose() {
+    const SchemaPlace schema = schema_place(kind_, place_.keys);
+    if (place_.is_key) {
+      for (const SchemaKey& key : schema.keys) add(key.name, ProposalKind::key, key.about);
+      add_arguments();
+      return std::move(all_);
+    }
+    if (is_behind_number()) {
+      for (const std::string& unit : units_that_fit(kind_, place_.keys)) add(unit, ProposalKind::unit, "");
+      return std::move(all_);
+    }
+    if (is_behind_dollar()) {
+      add_names(NameKind::argument);
+      add_names(NameKind::parameter);
+      return std::move(all_);
+    }
+    for (const std::string& word : schema.words) add(word, ProposalKind::word, "");
+    is_condition() ? add_condition() : add_by_key();
+    return std::move(all_);
+  }
+
+ private:
+  /// In front of the word that is being written.
+  std::string_view before() const {
+    std::string_view text = place_.value;
+    while (!text.empty() &&
+           (std::isalnum(static_cast<unsigned char>(text.back())) != 0 || text.back() == '_'))
+      text.remove_suffix(1);
+    return text;
+  }
+
+  bool is_behind_number() const {
+    std::string_view text = before();
+    if (text.empty() || text.back() != ' ') return false;
+    text.remove_suffix(1);
+    return !text.empty() && text.back() >= '0' && text.back() <= '9';
+  }
+
+  bool is_behind_dollar() const { return before().ends_with('$'); }
+
+  bool is_condition() const {
+    return is_one_of(key_, {"when", "require", "that"}) || (kind_ == FileKind::scenario && key_ == "always");
+  }
+
+  void add(const std::string& text, ProposalKind kind, const std::string& about) {
+    if (seen_.insert(text).second) all_.push_back({text, kind, about});
+  }
+
+  void add_names(NameKind kind) {
+    const std::string scope = scope_of(place_.keys);
+    for (const NamePlace& given : known_.given) {
+      if (!given.is_given || given.kinds.front() != kind) continue;
+      const bool has_scope = kind == NameKind::group || kind == NameKind::argument;
+      if (has_scope && given.scope != scope && given.scope != "always" && kind_ == FileKind::task) continue;
+      add(given.name, ProposalKind::name, word_of(kind));
+    }
+  }
+
+  void add_frames() {
+    add_names(NameKind::frame);
+    for (const std::string& frame : known_.frames) add(frame, ProposalKind::name, "frame of the robot");
+  }
+
+  /// Of the template that a task uses: keys below `with`.
+  void add_arguments() {
+    if (key_ != "with") return;
+    for (const NamePlace& given : known_.given) {
+      if (given.is_given && given.kinds.front() == NameKind::argument)
+        add(given.name, ProposalKind::name, "argument of " + given.scope);
+    }
+  }
+
+  void add_by_key() {
+    if (is_one_of(key_, {"move", "in", "parent", "holds", "distance", "angle"})) add_frames();
+    if (key_ == "parent") add_names(NameKind::signal);
+    if (key_ == "move" && !place_.keys.empty()) add("footprint", ProposalKind::word, "with `inside`");
+    if (is_one_of(key_, {"goto", "start"})) add_names(NameKind::task);
+    if (key_ == "goto") {
+      for (const char* end : {"done", "failed", "back"}) add(end, ProposalKind::word, "");
+    }
+    if (key_ == "use") add_names(NameKind::task_template);
+    if (key_ == "inside") add_names(NameKind::region);
+    if (key_ == "feature") add_names(NameKind::feature);
+    if (is_below("set")) add_frames();
+    if (is_below("with")) {
+      add_frames();
+      for (const NameKind kind : {NameKind::task, NameKind::region, NameKind::signal}) add_names(kind);
+    }
+    if (is_one_of(key_, {"pose_of", "distance_to", "force_on", "latch"})) add_names(NameKind::object);
+  }
+
+  bool is_below(const char* key) const {
+    return place_.keys.size() > 1 && place_.keys[place_.keys.size() - 2] == key;
+  }
+
+  /// `contact.x.velocity`: what can follow each point.
+  void add_condition() {
+    const std::string_view text = before();
+    if (text.ends_with('.')) {
+      const std::size_t begin = text.find_last_of(" (<>+-*/", text.size() - 1);
+      const std::string_view path = text.substr(begin == std::string_view::npos ? 0 : begin + 1);
+      const auto points = std::count(path.begin(), path.end(), '.');
+      if (points == 1) {
+        for (const char* axis : {"x", "y", "z", "rx", "ry", "rz"}) add(axis, ProposalKind::word, "axis");
+      }
+      for (const char* what : {"position", "velocity", "force", "residual", "saturated"})
+        add(what, ProposalKind::word, "");
+      return;
+    }
+    for (const NameKind kind : {NameKind::group, NameKind::signal, NameKind::feature}) add_names(kind);
+    if (text.ends_with('(')) return add_frames();
+    add("elapsed", ProposalKind::word, "time since the task was entered");
+    for (const std::string& function : function_names()) add(function, ProposalKind::function, "");
+    for (const char* word : {"and", "or", "not"}) add(word, ProposalKind::word, "");
+  }
+
+  FileKind kind_;
+  const TextPlace& place_;
+  const KnownNames& known_;
+  std::string key_;
+  std::vector<Proposal> all_;
+  std::set<std::string> seen_;
+};
+
+}  // namespace
+
+std::vector<Proposal> proposals(FileKind kind, std::string_view text, std::size_t offset,
+                                const KnownNames& known) {
+  const TextPlace place = place_at(text, offset);
+  return Proposer(kind, place, known).propose();
+}
+
+std::string about_key(FileKind kind, const std::vector<std::string>& keys) {
+  if (keys.empty()) return {};
+  const std::vector<std::string> above(keys.begin(), keys.end() - 1);
+  for (const SchemaKey& key : schema_place(kind, above).keys) {
+    if (key.name == keys.back() && !key.about.empty()) return key.about;
+  }
+  return schema_place(kind, keys).about;
+}
+
+}  // namespace zwang::lang
