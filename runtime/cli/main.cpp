@@ -1,18 +1,17 @@
 // The program `zwang`. The only file that knows CLI11.
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <csignal>
 #include <exception>
 #include <functional>
 #include <memory>
 
+#include "argument_text.hpp"
 #include "commit.hpp"
 #include "outline.hpp"
 #include "output.hpp"
 #include "shipped.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/nearest.hpp"
-#include "zwang/lang/quantity.hpp"
 #include "zwang/version.hpp"
 
 namespace {
@@ -20,44 +19,6 @@ namespace {
 using namespace zwang::cli;
 
 const std::map<std::string, Format> formats = {{"human", Format::human}, {"json", Format::json}};
-
-double angle(const std::string& text) {
-  const auto value = zwang::lang::read_angle(text);
-  if (!value) throw Impossible("--start-yaw: `" + text + "` is not an angle; write it as `20 deg`");
-  return *value;
-}
-
-std::array<double, 2> point(const std::string& text) {
-  const std::size_t comma = text.find(',');
-  const auto x = zwang::lang::read_length(text.substr(0, comma));
-  const auto y = comma == std::string::npos ? std::nullopt : zwang::lang::read_length(text.substr(comma + 1));
-  if (!x || !y) throw Impossible("--start-at: `" + text + "` is not a point; write it as `0 m, 0.5 m`");
-  return {*x, *y};
-}
-
-std::uint64_t seed(const std::string& text) {
-  // CLI11 would wrap a negative number around.
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    throw Impossible("--seed: `" + text + "` is not a whole number from 0 to 2^64 - 1");
-  }
-  return value;
-}
-
-std::map<std::string, std::string> parameters(const std::vector<std::string>& texts) {
-  std::map<std::string, std::string> values;
-  for (const std::string& text : texts) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw Impossible("-p: `" + text + "` does not set a parameter; write it as `name=20 N`");
-    }
-    const std::string name = text.substr(0, equals);
-    if (!values.emplace(name, text.substr(equals + 1)).second)
-      throw Impossible("-p: `" + name + "` is set twice; set it once");
-  }
-  return values;
-}
 
 /// The words that an option takes: told as they are written, not with the numbers that they stand for.
 template <typename Value>
@@ -89,9 +50,11 @@ void add_validate(CLI::App& app, std::function<int()>& chosen) {
   const auto deny = std::make_shared<std::string>();
   CLI::App* verb =
       app.add_subcommand("validate", "Check task, robot, scene and scenario files without running them");
-  verb->add_option("files", arguments->files,
-                   "files, whose first key tells what they are, or folders of such files")
+  verb->add_option(
+          "files", arguments->files,
+          "files, whose first key tells what they are, or folders of such files; `-`: the standard input")
       ->required();
+  verb->add_option("--stdin-path", arguments->stdin_path, "the file that the text of `-` belongs to");
   takes(verb->add_option("--format", arguments->format,
                          "human (default), short (a line each), json (one object) or sarif (2.1.0)"),
         report_formats);
@@ -216,10 +179,12 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
   verb->callback([=, &chosen] { chosen = [=] { return connect("simulate", *arguments); }; });
 }
 
-void add_doctor(CLI::App& app, std::function<int()>& chosen) {
-  CLI::App* verb =
-      app.add_subcommand("doctor", "Say what this machine offers, and how to get what is missing");
-  verb->callback([&chosen] { chosen = [] { return doctor(); }; });
+/// A verb that takes nothing.
+CLI::App* add_plain(CLI::App& app, std::function<int()>& chosen, const char* name, const char* words,
+                    int (*verb)()) {
+  CLI::App* added = app.add_subcommand(name, words);
+  added->callback([&chosen, verb] { chosen = verb; });
+  return added;
 }
 
 OptionOutline outline_of(const CLI::Option& option) {
@@ -281,7 +246,11 @@ int parse_and_do(int argc, char** argv) {
   add_plan(app, chosen);
   add_robot(app, chosen);
   add_init(app, chosen);
-  add_doctor(app, chosen);
+  add_plain(app, chosen, "doctor", "Say what this machine offers, and how to get what is missing", doctor);
+  add_plain(app, chosen, "lsp", "Be a language server, which an editor starts and speaks with over stdio",
+            lsp)
+      ->add_flag("--stdio")
+      ->description("as it does anyway; some editors say it");
   add_completion(app, chosen);
   add_drive(app, chosen);
   add_simulate(app, chosen);

@@ -1,0 +1,18 @@
+/// What the words of the command line mean. Each throws Impossible where it is none of what is asked for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace zwang::cli {
+
+double angle(const std::string& text);                 ///< `20 deg` [rad]
+std::array<double, 2> point(const std::string& text);  ///< `0 m, 0.5 m` [m]
+std::uint64_t seed(const std::string& text);           ///< a whole number
+/// `push=30N` each: values as text, by name.
+std::map<std::string, std::string> parameters(const std::vector<std::string>& texts);
+
+}  // namespace zwang::cli

@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "features.hpp"
+#include "shared_name.hpp"
+#include "zwang/lang/completion.hpp"
+#include "zwang/lang/explanation.hpp"
+#include "zwang/runtime/planner.hpp"
+#include "zwang/runtime/with_unit.hpp"
+
+namespace zwang::lsp {
+
+namespace {
+
+using runtime::with_unit;
+
+bool is_before(const lang::Position& a, const lang::Position& b) {
+  return std::tie(a.line, a.column) <= std::tie(b.line, b.column);
+}
+
+/// From the axis's key to the end of its last statement.
+bool holds_axis(const lang::AxisStatements& axis, const lang::Span& of_file, const lang::Position& place) {
+  if (!axis.span.exists() || axis.span.source != of_file.source) return false;
+  lang::Span whole = axis.span;
+  for (const lang::Span& statement : axis.statement_spans) {
+    if (statement.exists() && statement.source == whole.source && is_before(whole.end, statement.end))
+      whole.end = statement.end;
+  }
+  return holds(whole, place);
+}
+
+std::string mass_of(const runtime::PlannedAxis& axis) {
+  const char* unit = axis.turns ? "kg m^2" : "kg";
+  if (!std::isfinite(axis.analysis.effective_mass)) return "held by the ground";
+  std::string text = with_unit(axis.analysis.effective_mass, unit, 3);
+  if (axis.mass.exists() && !axis.mass.is_one_number())
+    text += " (" + with_unit(axis.mass.least, unit, 3) + " to " + with_unit(axis.mass.most, unit, 3) +
+            " over the joints' configurations)";
+  return text;
+}
+
+std::string force_of(const runtime::PlannedAxis& axis) {
+  const char* unit = axis.turns ? "N m" : "N";
+  if (!axis.analysis.reachable) return "none: no motor moves it";
+  if (!std::isfinite(axis.analysis.largest_force)) return "no limit known";
+  return with_unit(axis.analysis.largest_force, unit, 3);
+}
+
+/// The robot's acceleration limit along the axis, if it allows less than the motors do.
+std::string limit_of(const lang::Program& program, const lang::Diagnostics& diagnostics,
+                     const runtime::PlannedAxis& axis, solver::Axis direction) {
+  for (const lang::BaseLimit& limit : program.robot.limits) {
+    if (limit.axis != direction || limit.quantity != solver::Quantity::acceleration) continue;
+    const double force = limit.range.high * axis.analysis.effective_mass;
+    if (!std::isfinite(force) || (axis.analysis.reachable && force >= axis.analysis.largest_force)) continue;
+    const std::string place =
+        limit.span.exists()
+            ? " (" + std::filesystem::path(diagnostics.source(limit.span.source).path).filename().string() +
+                  ":" + std::to_string(limit.span.begin.line) + ")"
+            : "";
+    return "the robot's acceleration limit of " +
+           with_unit(limit.range.high, axis.turns ? "rad/s^2" : "m/s^2", 3) + place + " leaves " +
+           with_unit(force, axis.turns ? "N m" : "N", 3);
+  }
+  return "the motors";
+}
+
+std::string words_of(const solver::Row& row) {
+  static constexpr std::array quantities{"position", "velocity", "acceleration", "force"};
+  const std::string quantity = quantities[static_cast<std::size_t>(row.quantity)];
+  switch (row.kind) {
+    case solver::RowKind::driver:
+      return "drives the " + quantity;
+    case solver::RowKind::upper:
+      return "bounds the " + quantity + " from above";
+    case solver::RowKind::lower:
+      return "bounds the " + quantity + " from below";
+    case solver::RowKind::force:
+      return "presses";
+    default:
+      return "bounds the sum of the forces";
+  }
+}
+
+std::string rows_of(const runtime::TaskPlan& plan, const std::string& name, bool turns) {
+  std::string text;
+  for (const runtime::PlannedRow& planned : plan.rows) {
+    if (planned.name != name) continue;
+    text += "- " + words_of(planned.row) + ", level " + std::to_string(planned.row.level);
+    if (planned.row.kind == solver::RowKind::driver)
+      text += ": asks for " + with_unit(planned.row.b, turns ? "rad/s^2" : "m/s^2", 3) + " at the start";
+    if (planned.fraction) text += "; soft: meets " + with_unit(*planned.fraction, "", 2) + " of it";
+    text += "\n";
+  }
+  return text;
+}
+
+/// Of the first task in which the axis stands: what its rows do, and what the robot has for them.
+std::string about_axis(const Loaded& loaded, std::size_t task, const lang::AxisStatements& axis) {
+  const runtime::TaskPlan plan =
+      runtime::Planner(loaded.program, loaded.diagnostics).plan(static_cast<int>(task));
+  if (!plan.refused.empty())
+    return "`" + axis.name + "` in `" + plan.task + "`: no rows: " + plan.refused + "\n";
+  for (const runtime::PlannedAxis& planned : plan.axes) {
+    if (planned.name != axis.name) continue;
+    return "**`" + axis.name + "`** in `" + plan.task + "` on `" + loaded.program.robot.name + "`\n\n" +
+           rows_of(plan, axis.name, planned.turns) + "\neffective mass: " + mass_of(planned) +
+           "  \nlargest force: " + force_of(planned) +
+           "  \nlimited by: " + limit_of(loaded.program, loaded.diagnostics, planned, axis.axis) + "\n";
+  }
+  return "`" + axis.name + "` has no row at the start of `" + plan.task + "`\n";
+}
+
+std::string about_row(const Asked& asked, const lang::Position& place) {
+  const Judgement* judgement = asked.workspace.judgement(asked.file);
+  if (judgement == nullptr || !judgement->now) return {};
+  const lang::Program& program = judgement->now->program;
+  for (std::size_t t = 0; t < program.tasks.size(); ++t) {
+    for (const auto* groups : {&program.tasks[t].groups, &program.always.groups}) {
+      for (const lang::Group& group : *groups) {
+        for (const lang::AxisStatements& axis : group.axes) {
+          if (holds_axis(axis, program.tasks[t].span, place)) return about_axis(*judgement->now, t, axis);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+/// The codes of the diagnostics at the place, and why they matter.
+std::string about_diagnostics(const Asked& asked, const lang::Position& place) {
+  std::string text;
+  for (const auto& [reader, judgement] : asked.workspace.judgements()) {
+    for (const lang::Diagnostic& d : judgement.diagnostics.sorted()) {
+      if (!d.span.exists() || !holds(d.span, place)) continue;
+      if (lang::canonical_name(judgement.diagnostics.source(d.span.source).path) != asked.file) continue;
+      const lang::Explanation* explanation = lang::find_explanation(d.code);
+      if (explanation != nullptr) text += "\n**" + d.code + "** " + std::string(explanation->why) + "\n";
+    }
+  }
+  return text;
+}
+
+std::string about_parameter(const Asked& asked, const std::string& name) {
+  const Judgement* judgement = asked.workspace.judgement(asked.file);
+  if (judgement == nullptr || !judgement->last) return {};
+  for (const lang::Parameter& p : judgement->last->program.parameters) {
+    if (p.name != name) continue;
+    const auto written = [&](double value) {
+      char text[40];
+      std::snprintf(text, sizeof text, "%g", value / p.unit_scale);
+      return std::string(text) + (p.unit.empty() ? "" : " " + p.unit);
+    };
+    std::string text = "parameter `" + name + "` = " + written(p.value);
+    if (p.range) text += ", from " + written(p.range->low) + " to " + written(p.range->high);
+    return text + (p.help.empty() ? "\n" : "  \n" + p.help + "\n");
+  }
+  return {};
+}
+
+std::string about_name(const Asked& asked, const lang::Position& place) {
+  lang::Diagnostics diagnostics;
+  for (const lang::NamePlace& name : lang::names_of(asked.kind, asked.file, diagnostics)) {
+    if (!holds(name.span, place)) continue;
+    if (name.may_be(lang::NameKind::parameter)) {
+      const std::string text = about_parameter(asked, name.name);
+      if (!text.empty()) return text;
+    }
+    return std::string(lang::word_of(name.kinds.front())) + " `" + name.name + "`\n";
+  }
+  return {};
+}
+
+bool is_in_a_quantity(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+         std::string_view(" .+-/^%").find(c) != std::string_view::npos;
+}
+
+/// The number with its unit around the place.
+std::string about_quantity(const Asked& asked) {
+  const std::string& text = asked.document.text;
+  const std::size_t at = Lines(text).offset(asked.position);
+  std::size_t begin = at, end = at;
+  while (begin > 0 && is_in_a_quantity(text[begin - 1])) --begin;
+  while (end < text.size() && is_in_a_quantity(text[end])) ++end;
+  while (begin < end && text[begin] == ' ') ++begin;
+  while (end > begin && text[end - 1] == ' ') --end;
+  const std::string written = text.substr(begin, end - begin);
+  const std::string si = lang::in_si(written);
+  return si.empty() ? "" : "`" + written + "` = " + si + "\n";
+}
+
+std::string about_place(const Asked& asked) {
+  const std::string& text = asked.document.text;
+  std::size_t at = Lines(text).offset(asked.position);
+  // To the end of the word: a key is known by its colon.
+  while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_'))
+    ++at;
+  lang::TextPlace place = lang::place_at(text, at);
+  if (place.is_key) place.keys.push_back(text.substr(place.word_begin, at - place.word_begin));
+  return lang::about_key(asked.kind, place.keys);
+}
+
+}  // namespace
+
+Json hover(const Asked& asked) {
+  const lang::Position place = Lines(asked.document.text).from_editor(asked.position);
+  std::string text;
+  for (const std::string& part : {about_row(asked, place), about_name(asked, place), about_quantity(asked),
+                                  about_place(asked), about_diagnostics(asked, place)}) {
+    if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
+  }
+  if (text.empty()) return nullptr;
+  return {{"contents", {{"kind", "markdown"}, {"value", text}}}};
+}
+
+}  // namespace zwang::lsp

@@ -1,0 +1,137 @@
+#include "workspace.hpp"
+
+#include <fstream>
+#include <utility>
+
+#include "uri.hpp"
+#include "zwang/lang/connection.hpp"
+#include "zwang/lang/notes.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/scenario.hpp"
+#include "zwang/lang/scene.hpp"
+
+namespace zwang::lsp {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void judge_task(const fs::path& path, Judgement& judgement) {
+  auto program = lang::load_with_notes(path, {}, judgement.diagnostics);
+  if (!program) return;
+  judgement.now = std::make_shared<const Loaded>(Loaded{judgement.diagnostics, *std::move(program)});
+  judgement.last = judgement.now;
+}
+
+}  // namespace
+
+std::optional<lang::FileKind> kind_of(const fs::path& path) {
+  if (const std::string* open = lang::open_text_of(path)) return lang::kind_of_text(*open);
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return std::nullopt;
+  std::string start(16 * 1024, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return lang::kind_of_text(start);
+}
+
+Judgement judge(const fs::path& path, lang::FileKind kind) {
+  Judgement judgement;
+  judgement.kind = kind;
+  switch (kind) {
+    case lang::FileKind::task:
+      judge_task(path, judgement);
+      break;
+    case lang::FileKind::robot:
+      lang::load_robot(path, judgement.diagnostics);
+      break;
+    case lang::FileKind::scene:
+      lang::load_scene(path, judgement.diagnostics);
+      break;
+    case lang::FileKind::scenario:
+      lang::check_scenario(path, judgement.diagnostics);
+      break;
+    case lang::FileKind::connection:
+      lang::load_connection(path, judgement.diagnostics);
+      break;
+  }
+  judgement.read.insert(lang::canonical_name(path));
+  for (const lang::Source& source : judgement.diagnostics.sources())
+    judgement.read.insert(lang::canonical_name(source.path));
+  return judgement;
+}
+
+void Workspace::open(const fs::path& path, Document document) {
+  texts_.put(path, document.text);
+  documents_[path] = std::move(document);
+  // A file that was missing may be there now.
+  look_again();
+}
+
+void Workspace::change(const fs::path& path, int version, std::string text) {
+  const auto found = documents_.find(path);
+  if (found == documents_.end()) return;
+  found->second.version = version;
+  found->second.text = std::move(text);
+  texts_.put(path, found->second.text);
+  concern(path);
+}
+
+void Workspace::close(const fs::path& path) {
+  texts_.remove(path);
+  documents_.erase(path);
+  judgements_.erase(path);
+  stale_.erase(path);
+  look_again();
+}
+
+void Workspace::look_again() {
+  for (const auto& [path, document] : documents_) stale_.insert(path);
+}
+
+void Workspace::concern(const fs::path& changed) {
+  stale_.insert(changed);
+  for (const auto& [path, judgement] : judgements_) {
+    if (judgement.read.contains(changed)) stale_.insert(path);
+  }
+}
+
+bool Workspace::update() {
+  if (stale_.empty()) return false;
+  const lang::ReadsOpenTexts reading(texts_);
+  for (const fs::path& path : std::exchange(stale_, {})) {
+    const auto kind = lang::kind_of_text(documents_.at(path).text);
+    if (!kind) {
+      judgements_.erase(path);  // a URDF, or another program's file: what reads it is judged
+      continue;
+    }
+    Judgement judgement = judge(path, *kind);
+    lang::Diagnostics unheard;
+    judgement.last_names = lang::names_of(*kind, path, unheard);
+    const auto before = judgements_.find(path);
+    if (before != judgements_.end()) {
+      if (!judgement.last) judgement.last = std::move(before->second.last);
+      if (judgement.last_names.empty()) judgement.last_names = std::move(before->second.last_names);
+    }
+    judgements_.insert_or_assign(path, std::move(judgement));
+  }
+  return true;
+}
+
+const Document* Workspace::document(const fs::path& path) const {
+  const auto found = documents_.find(path);
+  return found == documents_.end() ? nullptr : &found->second;
+}
+
+const Judgement* Workspace::judgement(const fs::path& path) const {
+  const auto found = judgements_.find(path);
+  return found == judgements_.end() ? nullptr : &found->second;
+}
+
+std::string Workspace::uri(const fs::path& path) const {
+  const Document* open = document(path);
+  return open == nullptr ? uri_of(path) : open->uri;
+}
+
+}  // namespace zwang::lsp

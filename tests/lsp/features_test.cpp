@@ -1,0 +1,203 @@
+// The answers to an editor about a place in a text.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "../temporary_folder.hpp"
+#include "editor.hpp"
+
+namespace zwang::lsp {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Editor;
+using test::json;
+using test::replaced;
+using test::slurp;
+
+const fs::path specs = fs::path(ZWANG_SOURCE_DIR) / "specs";
+
+bool contains(const json& answer, const std::string& words) {
+  return answer.dump().find(words) != std::string::npos;
+}
+
+std::set<std::string> labels(const json& completion) {
+  std::set<std::string> labels;
+  for (const json& item : completion["items"]) labels.insert(item["label"]);
+  return labels;
+}
+
+/// A copy of the shipped files, which a rename may change.
+class Features : public ::testing::Test {
+ protected:
+  Features() {
+    const fs::path copy = folder_.path() / "specs";
+    fs::create_directories(copy / "scenarios");
+    for (const char* part : {"robots", "scenes", "hospital.yaml", "wall_align.yaml",
+                             "scenarios/hospital.yaml", "scenarios/wall_align.yaml"})
+      fs::copy(specs / part, copy / part, fs::copy_options::recursive);
+    std::ofstream(copy / ".zwang-root");
+  }
+
+  fs::path open(const std::string& name) {
+    const fs::path path = fs::canonical(folder_.path() / "specs" / name);
+    editor_.open(path, slurp(path));
+    return path;
+  }
+  /// The proposals where `written` stands in the place of `from`, with the cursor behind it.
+  std::set<std::string> proposed(const fs::path& path, const std::string& from, const std::string& written) {
+    const std::string text = replaced(slurp(path), from, written);
+    editor_.change(path, text);
+    const std::size_t at = slurp(path).find(from) + written.size();
+    return labels(editor_.ask("textDocument/completion", {{"textDocument", {{"uri", uri_of(path)}}},
+                                                          {"position", Editor::position(text, at)}}));
+  }
+  json rename(const fs::path& path, const std::string& words, std::size_t into, const std::string& name) {
+    return editor_.at("textDocument/rename", path, words, into, {{"newName", name}});
+  }
+  /// Does the edits of a rename on the disk.
+  void apply(const json& edit) {
+    for (const auto& [uri, edits] : edit["changes"].items()) {
+      const fs::path path = path_of(uri).value();
+      const std::string text = Editor::edited(slurp(path), edits);
+      std::ofstream(path, std::ios::binary) << text;
+    }
+  }
+
+  const zwang::test::TemporaryFolder folder_;
+  Editor editor_;
+};
+
+TEST_F(Features, HoverTellsWhatARowDoesOnThisRobot) {
+  const fs::path task = open("wall_align.yaml");
+  const json answer = editor_.at("textDocument/hover", task, "x:  {force: $push", 1);
+  // The mass of the mecanum base with its wheels' inertia, and what its acceleration limit of 1 m/s^2 makes
+  // of it.
+  EXPECT_TRUE(contains(answer, "effective mass: 56.9 kg")) << answer.dump(1);
+  EXPECT_TRUE(contains(answer, "56.9 N")) << answer.dump(1);
+  EXPECT_TRUE(contains(answer, "mecanum_base.yaml:")) << answer.dump(1);
+  EXPECT_TRUE(contains(answer, "parameter `push` = 20 N") ||
+              contains(editor_.at("textDocument/hover", task, "$push", 2),
+                       "parameter `push` = 20 N, from 5 N to 40 N"));
+}
+
+TEST_F(Features, HoverTellsSiUnitsAndKeys) {
+  const fs::path task = open("hospital.yaml");
+  EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "margin: 10 cm", 9), "`10 cm` = 0.1 m"));
+  EXPECT_TRUE(
+      contains(editor_.at("textDocument/hover", task, "margin", 2), "the distance kept from the border"));
+  EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "$target", 3), "argument `target`"));
+}
+
+TEST_F(Features, CompletionKnowsKeysNamesAndUnits) {
+  const fs::path task = open("hospital.yaml");
+  EXPECT_TRUE(proposed(task, "margin: 10 cm", "ma").contains("margin"));
+  EXPECT_FALSE(proposed(task, "margin: 10 cm", "ma").contains("goto"));
+  const auto frames = proposed(task, "in: $target", "in: ");
+  for (const char* frame : {"pharmacy", "ward", "base_link", "world"})
+    EXPECT_TRUE(frames.contains(frame)) << frame;
+  EXPECT_TRUE(proposed(task, "inside: corridor", "inside: ").contains("corridor"));
+  EXPECT_TRUE(proposed(task, "{use: drive_to", "{use: ").contains("drive_to"));
+  const auto ends = proposed(task, "goto: pause}", "goto: p");
+  for (const char* end : {"pause", "load", "done", "failed", "back"}) EXPECT_TRUE(ends.contains(end)) << end;
+  const auto given = proposed(task, "velocity: [0 m/s, $speed]", "velocity: [0 m/s, $s");
+  for (const char* name : {"speed", "soft", "patience"}) EXPECT_TRUE(given.contains(name)) << name;
+  const auto condition = proposed(task, "when: loaded", "when: l");
+  for (const char* name : {"loaded", "stand", "elapsed", "moved"})
+    EXPECT_TRUE(condition.contains(name)) << name;
+  EXPECT_EQ(proposed(task, "x:  {velocity: 0 m/s, force: +-$soft}", "x:  {velocity: 0 "),
+            (std::set<std::string>{"m/s", "cm/s", "mm/s"}));
+  EXPECT_TRUE(proposed(task, "rz: {velocity: 0 rad/s", "rz: {velocity: 0 r").contains("deg/s"));
+}
+
+TEST_F(Features, ACompletionIsNoMistake) {
+  // Each proposal for a `goto` leaves the file without an error, but for `back`.
+  const fs::path task = open("hospital.yaml");
+  for (const std::string& name : proposed(task, "goto: pause}", "goto: ")) {
+    editor_.change(task, replaced(slurp(task), "goto: pause}", "goto: " + name + "}"));
+    const std::vector<std::string> codes = editor_.codes(task, 1);
+    for (const std::string& code : codes) EXPECT_EQ(code, "E508") << name;  // `back` in an exit of `always`
+  }
+}
+
+TEST_F(Features, DefinitionLeadsToTheNameAndToTheFile) {
+  const fs::path task = open("hospital.yaml");
+  const auto line_of = [&](const std::string& words) {
+    return Editor::position(editor_.text(task), editor_.text(task).find(words))["line"];
+  };
+  EXPECT_EQ(editor_.at("textDocument/definition", task, "goto: pause", 7)["range"]["start"]["line"],
+            line_of("  pause:"));
+  EXPECT_EQ(editor_.at("textDocument/definition", task, "go.x.position", 1)["range"]["start"]["line"],
+            line_of("        go:"));
+  EXPECT_EQ(editor_.at("textDocument/definition", task, "$pace", 2)["range"]["start"]["line"],
+            line_of("args:"));
+  EXPECT_EQ(editor_.at("textDocument/definition", task, "robots/mecanum", 2)["uri"],
+            uri_of(task.parent_path() / "robots/mecanum_base.yaml"));
+  const fs::path scenario = open("scenarios/hospital.yaml");
+  EXPECT_EQ(editor_.at("textDocument/definition", scenario, "../hospital", 2)["uri"], uri_of(task));
+}
+
+TEST_F(Features, ARenameGoesOverTaskSceneAndScenario) {
+  const fs::path task = open("hospital.yaml");
+  const json edit = rename(task, "  loaded:", 3, "has_load");
+  ASSERT_TRUE(edit.contains("changes")) << edit.dump(1);
+  EXPECT_TRUE(edit["changes"].contains(uri_of(task)));
+  EXPECT_TRUE(edit["changes"].contains(uri_of(task.parent_path() / "scenes/corridor.yaml")));
+  const auto messages = [&](const fs::path& path) {
+    Editor fresh;
+    fresh.open(path, slurp(path));
+    return fresh.codes(path);
+  };
+  const auto before = messages(task);
+  apply(edit);
+  EXPECT_EQ(messages(task), before);
+  EXPECT_EQ(slurp(task).find("loaded:"), slurp(task).find("unloaded:"));  // none is left
+}
+
+TEST_F(Features, ARenameThereAndBackIsNoChange) {
+  const fs::path task = open("wall_align.yaml");
+  const std::string good = slurp(task);
+  for (const auto& [words, into] :
+       std::vector<std::pair<std::string, std::size_t>>{{"$push", 1}, {"start: ", 7}}) {
+    const json there = rename(task, words, into, "another");
+    ASSERT_TRUE(there.contains("changes")) << there.dump(1);
+    std::map<std::string, std::string> old;
+    for (const auto& [uri, edits] : there["changes"].items()) old[uri] = slurp(*path_of(uri));
+    apply(there);
+    editor_.open(task, slurp(task));
+    const std::string name = good.substr(good.find(words) + into);
+    const json back = rename(task, words.front() == '$' ? "$another" : words, into,
+                             name.substr(0, name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_")));
+    ASSERT_TRUE(back.contains("changes")) << back.dump(1);
+    apply(back);
+    for (const auto& [uri, text] : old) EXPECT_EQ(slurp(*path_of(uri)), text);
+    editor_.open(task, slurp(task));
+  }
+}
+
+TEST_F(Features, ARenameThatWouldHarmIsRefused) {
+  const fs::path task = open("hospital.yaml");
+  for (const char* name : {"", "1st", "a b", "a.b", "back", "load"}) {
+    const json refused = rename(task, "  pause:", 3, name);
+    EXPECT_EQ(refused.value("code", 0), -32803) << name << refused.dump(1);
+  }
+  EXPECT_EQ(rename(task, "speed:", 1, "soft").value("code", 0), -32803);
+  // Nobody's name: the link of a URDF.
+  EXPECT_EQ(rename(task, "move: base_link", 8, "another").value("code", 0), -32803);
+}
+
+TEST_F(Features, SymbolsAreTheNamesOfTheFile) {
+  const fs::path task = open("hospital.yaml");
+  std::set<std::string> names;
+  for (const json& symbol :
+       editor_.ask("textDocument/documentSymbol", {{"textDocument", {{"uri", uri_of(task)}}}}))
+    names.insert(symbol["name"]);
+  for (const char* name :
+       {"speed", "loaded", "ward", "corridor", "drive_to", "pace", "pause", "go", "boundary"})
+    EXPECT_TRUE(names.contains(name)) << name;
+}
+
+}  // namespace
+}  // namespace zwang::lsp
