@@ -33,7 +33,7 @@ def session():
     assert codes(client) == ["E203"], client.told
     fix = client.ask("textDocument/codeAction", {
         "textDocument": {"uri": task.as_uri()}, "range": client.told[task.as_uri()][0]["range"], "context": {}})[0]
-    assert fix["edit"]["changes"][task.as_uri()][0]["newText"] == "20 N m", fix
+    assert fix["edit"]["changes"][task.as_uri()][0]["newText"] == "20 N", fix
     client.change(task, good)
     while codes(client):
         client.hear()

@@ -3,6 +3,7 @@
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "spec/measured_value.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
 #include "spec/task_file.hpp"
@@ -21,10 +22,14 @@ ParameterText parse_parameter(const Entry& entry, Diagnostics& diagnostics) {
     return parameter;
   }
   MapReader map(entry.value, what, diagnostics);
-  if (const Node* value = map.required("value")) parameter.value = parse_value(*value, what, diagnostics);
   if (const Node* range = map.optional("range")) {
     parameter.range = parse_range(*range, "the range of " + what, diagnostics);
   }
+  const bool has_unit = parameter.range && parameter.range->low.kind == ValueKind::quantity &&
+                        parameter.range->low.quantity.has_unit;
+  const auto measured = has_unit ? std::optional(parameter.range->low.quantity.dimension) : std::nullopt;
+  if (const Node* value = map.required("value"))
+    parameter.value = parse_measured_value(*value, what, measured, diagnostics);
   if (const Node* help = map.optional("help")) parameter.help = parse_text(*help, "`help`", diagnostics);
   map.finish();
   return parameter;

@@ -4,6 +4,7 @@
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/decimal_comma.hpp"
+#include "spec/measured_value.hpp"
 #include "tree/text.hpp"
 
 namespace zwang::lang {
@@ -39,15 +40,17 @@ bool is_spelt_oddly(const std::string& text, const Span& span, Diagnostics& diag
 }
 
 /// The unit that was meant; what an axis that does not turn presses with is no torque.
-std::string unit_meant(const std::string& unknown, const std::string& what) {
+std::string unit_meant(const std::string& unknown, const std::string& what,
+                       const std::optional<Dimension>& measured) {
   const std::string meant = nearest_unit(unknown);
-  const bool is_force =
-      what.ends_with(".x.force") || what.ends_with(".y.force") || what.ends_with(".z.force");
+  const bool is_force = measured == dimension::force || what.ends_with(".x.force") ||
+                        what.ends_with(".y.force") || what.ends_with(".z.force");
   return is_force && meant == "N m" ? "N" : meant;
 }
 
 ValueText parse_value_text(const std::string& text, const std::string& what, const Span& span,
-                           Diagnostics& diagnostics) {
+                           Diagnostics& diagnostics,
+                           const std::optional<Dimension>& measured = std::nullopt) {
   ValueText value;
   value.span = span;
   const bool has_braces = text.starts_with("${") || text.starts_with("-${");
@@ -83,10 +86,10 @@ ValueText parse_value_text(const std::string& text, const std::string& what, con
         value.quantity = std::move(result.quantity);
         break;
       case QuantityError::unknown_unit:
-        diagnostics.add(
-            result.unknown.find('+') != std::string::npos || result.unknown.starts_with('-')
-                ? wording::computed_value(span, text)
-                : wording::unknown_unit(span, text, result.unknown, unit_meant(result.unknown, what)));
+        diagnostics.add(result.unknown.find('+') != std::string::npos || result.unknown.starts_with('-')
+                            ? wording::computed_value(span, text)
+                            : wording::unknown_unit(span, text, result.unknown,
+                                                    unit_meant(result.unknown, what, measured)));
         break;
       case QuantityError::too_large:
         diagnostics.add(wording::number_out_of_range(span, text));
@@ -119,6 +122,11 @@ bool is_identifier(std::string_view text) {
 }
 
 ValueText parse_value(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  return parse_measured_value(node, what, std::nullopt, diagnostics);
+}
+
+ValueText parse_measured_value(const Node& node, const std::string& what,
+                               const std::optional<Dimension>& measured, Diagnostics& diagnostics) {
   ValueText bad;
   bad.span = node.span;
   if (node.is_bad) return bad;
@@ -131,7 +139,7 @@ ValueText parse_value(const Node& node, const std::string& what, Diagnostics& di
     diagnostics.add(wording::range_where_value(node.span, what, trimmed(std::string_view(text).substr(2))));
     return bad;
   }
-  return parse_value_text(text, what, node.span, diagnostics);
+  return parse_value_text(text, what, node.span, diagnostics, measured);
 }
 
 namespace {
