@@ -2,10 +2,15 @@
 
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <cstring>
+#include <deque>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
@@ -16,6 +21,7 @@
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 #include "message.hpp"
@@ -62,21 +68,67 @@ class RawType : public dds::TopicDataType {
   bool getKey(void*, rtps::InstanceHandle_t*, bool) override { return false; }
 };
 
+/// Which processes run on this machine, by the addresses that they name when they are discovered.
+class Neighbours : public dds::DomainParticipantListener {
+ public:
+  explicit Neighbours(bool admits_all) : admits_all_(admits_all) {}
+
+  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&& info) override {
+    using Info = rtps::ParticipantDiscoveryInfo;
+    const std::lock_guard lock(mutex_);
+    const rtps::GuidPrefix_t& process = info.info.m_guid.guidPrefix;
+    const bool is_gone = info.status == Info::REMOVED_PARTICIPANT || info.status == Info::DROPPED_PARTICIPANT;
+    std::erase(here_, process);
+    if (is_gone) return;
+    std::vector<Address> named;
+    for (const auto& locator : info.info.default_locators.unicast) {
+      Address address{};
+      std::copy_n(locator.address + 12, address.size(), address.begin());
+      named.push_back(address);
+    }
+    if (is_of_this_machine(named, own_addresses())) here_.push_back(process);
+  }
+
+  bool admits(const rtps::GuidPrefix_t& process) {
+    if (admits_all_) return true;
+    const std::lock_guard lock(mutex_);
+    const bool is_here = std::find(here_.begin(), here_.end(), process) != here_.end();
+    if (!is_here) ++foreign;
+    return is_here;
+  }
+
+  std::atomic<std::uint64_t> foreign{0};
+
+ private:
+  bool admits_all_;
+  std::mutex mutex_;
+  std::vector<rtps::GuidPrefix_t> here_;
+};
+
+Sender sender_of(const rtps::GUID_t& guid) {
+  Sender sender{};
+  std::copy_n(guid.guidPrefix.value, 12, sender.begin());
+  std::copy_n(guid.entityId.value, 4, sender.begin() + 12);
+  return sender;
+}
+
 class Listener : public dds::DataReaderListener {
  public:
-  explicit Listener(std::function<void(std::span<const std::uint8_t>)> on_payload)
-      : on_payload_(std::move(on_payload)) {}
+  Listener(std::function<void(const Payload&)> on_payload, Neighbours& neighbours)
+      : on_payload_(std::move(on_payload)), neighbours_(neighbours) {}
   void on_data_available(dds::DataReader* reader) override {
     // Peers may be served by different threads of the transport.
     const std::lock_guard lock(mutex_);
     dds::SampleInfo info;
     while (reader->take_next_sample(&bytes_, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
-      if (info.valid_data) on_payload_(bytes_);
+      const rtps::GUID_t& writer = info.sample_identity.writer_guid();
+      if (info.valid_data && neighbours_.admits(writer.guidPrefix)) on_payload_({bytes_, sender_of(writer)});
     }
   }
 
  private:
-  std::function<void(std::span<const std::uint8_t>)> on_payload_;
+  std::function<void(const Payload&)> on_payload_;
+  Neighbours& neighbours_;
   std::mutex mutex_;
   Bytes bytes_;
 };
@@ -91,11 +143,18 @@ class CountingListener : public dds::DataWriterListener {
 
 class DdsWriter : public Writer {
  public:
-  DdsWriter(dds::Publisher& publisher, dds::Topic& topic) {
+  DdsWriter(const DdsWriter&) = delete;
+  DdsWriter& operator=(const DdsWriter&) = delete;
+  // DDS must not call a listener that is gone.
+  ~DdsWriter() override {
+    if (writer_ != nullptr) publisher_.delete_datawriter(writer_);
+  }
+  DdsWriter(dds::Publisher& publisher, dds::Topic& topic, bool keeps_last) : publisher_(publisher) {
     dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
     qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
     qos.reliability().max_blocking_time = longest_write;
     qos.history().depth = 1;  // only the latest command counts
+    if (keeps_last) qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
     qos.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
     qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     qos.data_sharing().off();
@@ -112,8 +171,135 @@ class DdsWriter : public Writer {
   int readers() const noexcept override { return listener_.readers; }
 
  private:
+  dds::Publisher& publisher_;
   CountingListener listener_;
   dds::DataWriter* writer_ = nullptr;
+};
+
+/// The processes whose readers have found a writer.
+class MatchListener : public dds::DataWriterListener {
+ public:
+  void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
+    const rtps::GUID_t reader = rtps::iHandle2GUID(status.last_subscription_handle);
+    {
+      const std::lock_guard lock(mutex_);
+      std::erase(readers_, reader);
+      if (status.current_count_change > 0) readers_.push_back(reader);
+    }
+    changed_.notify_all();
+  }
+  /// Waits until a reader of the process is there; for so long at most.
+  void wait_for(const rtps::GuidPrefix_t& process, std::chrono::milliseconds most) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, most, [&] {
+      return std::any_of(readers_.begin(), readers_.end(),
+                         [&](const rtps::GUID_t& reader) { return reader.guidPrefix == process; });
+    });
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<rtps::GUID_t> readers_;
+};
+
+template <typename Qos>
+void make_service_like(Qos& qos) {
+  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+  qos.history().depth = input_depth;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+}
+
+/// Threads of DDS queue requests, and a thread of its own answers them. A reply may wait until its reader is
+/// found, and threads of DDS also bring the robot's samples.
+class TriggerService : public dds::DataReaderListener {
+ public:
+  TriggerService(std::function<TriggerReply()> answer, Neighbours& neighbours)
+      : answer_(std::move(answer)), neighbours_(neighbours) {}
+  ~TriggerService() override { stop(); }
+
+  void start(dds::Publisher& publisher, dds::Subscriber& subscriber, dds::Topic& request, dds::Topic& reply) {
+    dds::DataWriterQos writing = dds::DATAWRITER_QOS_DEFAULT;
+    make_service_like(writing);
+    writer_ = publisher.create_datawriter(&reply, writing, &matches_);
+    thread_ = std::thread([this] { serve(); });
+    dds::DataReaderQos reading = dds::DATAREADER_QOS_DEFAULT;
+    make_service_like(reading);
+    const bool is_good =
+        writer_ != nullptr && subscriber.create_datareader(&request, reading, this) != nullptr;
+    if (!is_good) throw std::runtime_error("DDS gives no service " + request.get_name());
+  }
+  void stop() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_over_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  void on_data_available(dds::DataReader* reader) override {
+    Request request;
+    dds::SampleInfo info;
+    while (reader->take_next_sample(&request.bytes, &info) ==
+           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+      if (!info.valid_data || !neighbours_.admits(info.sample_identity.writer_guid().guidPrefix)) continue;
+      request.identity = info.sample_identity;
+      // rmw_fastrtps names the reader of the reply here.
+      const rtps::GUID_t& reply_reader = info.related_sample_identity.writer_guid();
+      request.is_named = reply_reader != rtps::GUID_t::unknown();
+      if (request.is_named) request.reply_reader = reply_reader;
+      const std::lock_guard lock(mutex_);
+      if (waiting_.size() < most_waiting) waiting_.push_back(request);
+      changed_.notify_all();
+    }
+  }
+
+ private:
+  static constexpr std::size_t most_waiting = 32;  // more are dropped: their clients time out
+  struct Request {
+    Bytes bytes;
+    rtps::SampleIdentity identity;
+    rtps::GUID_t reply_reader;
+    bool is_named = false;
+  };
+
+  void serve() {
+    for (;;) {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [&] { return is_over_ || !waiting_.empty(); });
+      if (is_over_) return;
+      const Request request = std::move(waiting_.front());
+      waiting_.pop_front();
+      lock.unlock();
+      answer(request);
+    }
+  }
+
+  void answer(const Request& request) {
+    const rtps::GUID_t& client = request.identity.writer_guid();
+    const Sender sender = sender_of(client);
+    // A damaged request is not done.
+    if (!trigger_reply(request.bytes, sender, {})) return;
+    const auto reply = trigger_reply(request.bytes, sender, answer_());
+    matches_.wait_for(client.guidPrefix, std::chrono::milliseconds(100));
+    rtps::WriteParams parameters;
+    parameters.related_sample_identity(request.identity);
+    if (request.is_named) parameters.related_sample_identity().writer_guid() = request.reply_reader;
+    const std::span<const std::uint8_t> bytes(*reply);
+    writer_->write(const_cast<void*>(static_cast<const void*>(&bytes)), parameters);
+  }
+
+  std::function<TriggerReply()> answer_;
+  Neighbours& neighbours_;
+  MatchListener matches_;
+  dds::DataWriter* writer_ = nullptr;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Request> waiting_;
+  bool is_over_ = false;
+  std::thread thread_;
 };
 
 dds::DomainParticipantQos participant_qos(lang::Reach reach, const std::string& name) {
@@ -122,10 +308,9 @@ dds::DomainParticipantQos participant_qos(lang::Reach reach, const std::string& 
   // Shared memory would leave out peers by Cyclone, and every peer of another user.
   qos.transport().use_builtin_transports = false;
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
-  if (reach == lang::Reach::loopback) {
-    udp->interfaceWhiteList = {"127.0.0.1"};
-    udp->TTL = 0;
-  }
+  if (reach == lang::Reach::loopback) udp->interfaceWhiteList = {"127.0.0.1"};
+  // Nobody outside hears that this process is there.
+  if (reach != lang::Reach::network) udp->TTL = 0;
   qos.transport().user_transports.push_back(udp);
   return qos;
 }
@@ -133,13 +318,17 @@ dds::DomainParticipantQos participant_qos(lang::Reach reach, const std::string& 
 }  // namespace
 
 struct Participant::Parts {
+  explicit Parts(lang::Reach reach) : neighbours(reach != lang::Reach::machine) {}
+
+  Neighbours neighbours;
   dds::DomainParticipant* participant = nullptr;
   dds::Publisher* publisher = nullptr;
   dds::Subscriber* subscriber = nullptr;
   std::vector<std::unique_ptr<Listener>> listeners;
+  std::vector<std::unique_ptr<TriggerService>> services;
 
-  dds::Topic& topic(const std::string& name, lang::MessageType type) {
-    const std::string full = dds_topic(name), type_name = dds_type(type);
+  /// By the names that DDS has for them.
+  dds::Topic& topic(const std::string& full, const std::string& type_name) {
     dds::TypeSupport(new RawType(type_name)).register_type(participant);
     if (auto* known = dynamic_cast<dds::Topic*>(participant->lookup_topicdescription(full))) return *known;
     dds::Topic* made = participant->create_topic(full, type_name, dds::TOPIC_QOS_DEFAULT);
@@ -149,10 +338,11 @@ struct Participant::Parts {
 };
 
 Participant::Participant(int domain, lang::Reach reach, const std::string& name)
-    : parts_(std::make_unique<Parts>()) {
+    : parts_(std::make_unique<Parts>(reach)) {
   auto* factory = dds::DomainParticipantFactory::get_instance();
   const dds::DomainParticipantQos qos = participant_qos(reach, name);
-  parts_->participant = factory->create_participant(static_cast<std::uint32_t>(domain), qos);
+  parts_->participant = factory->create_participant(static_cast<std::uint32_t>(domain), qos,
+                                                    &parts_->neighbours, dds::StatusMask::none());
   if (parts_->participant == nullptr)
     throw std::runtime_error("DDS does not start in domain " + std::to_string(domain));
   parts_->publisher = parts_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
@@ -165,27 +355,50 @@ Participant::~Participant() {
 
 void Participant::close() noexcept {
   if (parts_->participant == nullptr) return;
+  stop_serving();
   parts_->participant->delete_contained_entities();
   dds::DomainParticipantFactory::get_instance()->delete_participant(parts_->participant);
   parts_->participant = nullptr;
 }
 
+void Participant::stop_serving() noexcept {
+  for (const auto& service : parts_->services) service->stop();
+}
+
 void Participant::subscribe(const std::string& topic, lang::MessageType type,
-                            std::function<void(std::span<const std::uint8_t>)> on_payload) {
+                            std::function<void(const Payload&)> on_payload) {
   dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
   // Best effort finds writers of either kind, and a lost sample is not waited for.
   qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
   qos.history().depth = input_depth;
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   qos.data_sharing().off();
-  parts_->listeners.push_back(std::make_unique<Listener>(std::move(on_payload)));
-  dds::Topic& of = parts_->topic(topic, type);
+  parts_->listeners.push_back(std::make_unique<Listener>(std::move(on_payload), parts_->neighbours));
+  dds::Topic& of = parts_->topic(dds_topic(topic), dds_type(type));
   if (parts_->subscriber->create_datareader(&of, qos, parts_->listeners.back().get()) == nullptr)
     throw std::runtime_error("DDS gives no reader for " + topic);
 }
 
+std::uint64_t Participant::foreign() const noexcept {
+  return parts_->neighbours.foreign;
+}
+
 std::unique_ptr<Writer> Participant::advertise(const std::string& topic, lang::MessageType type) {
-  return std::make_unique<DdsWriter>(*parts_->publisher, parts_->topic(topic, type));
+  return std::make_unique<DdsWriter>(*parts_->publisher, parts_->topic(dds_topic(topic), dds_type(type)),
+                                     false);
+}
+
+std::unique_ptr<Writer> Participant::advertise_last(const std::string& topic, const std::string& type) {
+  return std::make_unique<DdsWriter>(*parts_->publisher, parts_->topic(dds_topic(topic), dds_type(type)),
+                                     true);
+}
+
+void Participant::serve_trigger(const std::string& service, std::function<TriggerReply()> answer) {
+  const std::string type = "std_srvs::srv::dds_::Trigger_";
+  parts_->services.push_back(std::make_unique<TriggerService>(std::move(answer), parts_->neighbours));
+  parts_->services.back()->start(*parts_->publisher, *parts_->subscriber,
+                                 parts_->topic(dds_request(service), type + "Request_"),
+                                 parts_->topic(dds_reply(service), type + "Response_"));
 }
 
 }  // namespace zwang::connect

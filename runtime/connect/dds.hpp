@@ -7,9 +7,17 @@
 #include <span>
 #include <string>
 
+#include "sender.hpp"
+#include "service.hpp"
 #include "zwang/lang/connection.hpp"
 
 namespace zwang::connect {
+
+/// A message as it came.
+struct Payload {
+  std::span<const std::uint8_t> bytes;
+  Sender sender{};
+};
 
 /// Puts messages on one topic. As long as its participant lives.
 class Writer {
@@ -29,10 +37,20 @@ class Participant {
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
-  /// `on_payload` is called on threads of DDS, for one topic one call at a time. It must not throw.
+  /// `on_payload` is called on threads of DDS, for one topic one call at a time. It must not throw. With
+  /// `Reach::machine` it hears processes of this machine only.
   void subscribe(const std::string& topic, lang::MessageType type,
-                 std::function<void(std::span<const std::uint8_t>)> on_payload);
+                 std::function<void(const Payload&)> on_payload);
+  /// Messages that came from another machine, and were not taken.
+  std::uint64_t foreign() const noexcept;
   std::unique_ptr<Writer> advertise(const std::string& topic, lang::MessageType type);
+  /// Of a topic whose last message late subscribers get, too. `type`: as `std_msgs/String`.
+  std::unique_ptr<Writer> advertise_last(const std::string& topic, const std::string& type);
+  /// Answers a service of the type std_srvs/Trigger. `answer` is called on a thread of its own, one request
+  /// at a time. It must not throw.
+  void serve_trigger(const std::string& service, std::function<TriggerReply()> answer);
+  /// No request is answered any more when this returns.
+  void stop_serving() noexcept;
   /// No callback runs any more when this returns.
   void close() noexcept;
 

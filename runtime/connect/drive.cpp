@@ -40,6 +40,21 @@ bool wait_for_robot(const lang::Connection& connection, Inbox& inbox, const Outb
   return false;
 }
 
+/// Until the service `start` is called. False: somebody ended it before.
+bool wait_for_start(const lang::Connection& connection, Inbox& inbox, Control& control,
+                    runtime::Sensed& sensed) {
+  control.enter(Phase::ready);
+  if (!connection.waits_for_start) return true;
+  std::printf("the robot is there: waiting for the service %s/start\n", connection.name.c_str());
+  std::fflush(stdout);
+  for (; !control.wants_start(); pause()) {
+    inbox.fill(sensed);
+    if (cli::is_interrupted() || control.wants_stop()) return false;
+  }
+  inbox.fill(sensed);
+  return true;
+}
+
 /// Stamps of another clock would make every sample old, or of the future.
 bool clocks_agree(const lang::Connection& connection, const Inbox& inbox) {
   const double age = inbox.joints().arrival - inbox.joints().stamp;
@@ -114,16 +129,24 @@ int drive(const Arguments& arguments) {
 
   Outbox outbox(connection, loaded->program, participant);
   runtime::Sensed sensed(loaded->program);
-  if (!wait_for_robot(connection, inbox, outbox, arguments.wait, sensed) || !clocks_agree(connection, inbox))
-    return exit_impossible;
+  Control control(connection, loaded->program, participant,
+                  [&] { return now() - inbox.last_arrival() < connection.joints.stale_after; });
+  const bool is_ready = wait_for_robot(connection, inbox, outbox, arguments.wait, sensed) &&
+                        wait_for_start(connection, inbox, control, sensed) && clocks_agree(connection, inbox);
+  if (!is_ready) return exit_impossible;
   runtime::Runner runner(loaded->program);
   const auto recorder = recorder_for(arguments, runner, loaded->program, diagnostics);
+  control.enter(Phase::running);
   std::printf("the robot is there: the task begins\n");
   std::fflush(stdout);
   DriveReport report;
-  drive(connection, loaded->program, inbox, outbox, runner, report);
+  drive(connection, loaded->program, inbox, outbox, control, runner, report);
+  control.end(runtime::to_string(runner.state()), runner.because());
   if (recorder) recorder->close();
   print_report(runner, report, inbox);
+  if (participant.foreign() > 0)
+    std::printf("%llu messages of other machines were not taken\n",
+                static_cast<unsigned long long>(participant.foreign()));
   return runner.state() == runtime::RunState::done ? exit_good : exit_bad;
 }
 

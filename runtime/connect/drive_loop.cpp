@@ -23,10 +23,11 @@ constexpr double nearly_a_period = 0.7;
 class Loop {
  public:
   Loop(const lang::Connection& connection, const lang::Program& program, Inbox& inbox, Outbox& outbox,
-       runtime::Runner& runner, DriveReport& report)
+       Control& control, runtime::Runner& runner, DriveReport& report)
       : connection_(connection),
         inbox_(inbox),
         outbox_(outbox),
+        control_(control),
         runner_(runner),
         report_(report),
         sensed_(program),
@@ -98,12 +99,12 @@ class Loop {
     if (!runner_.guard().stopped()) runner_.guard().stop(code);
   }
 
-  /// What the guard cannot know: by this process's own clock nothing comes any more, or somebody asks for the
-  /// end.
+  /// The guard cannot know that nothing comes any more by this process's own clock, or that somebody asks for
+  /// the end: by a signal, or by the service `stop`.
   void judge() {
     const double silence = now() - inbox_.last_arrival();
     if (silence > connection_.joints.stale_after) stop(EventCode::lost_ticks);
-    if (cli::is_interrupted() && !give_up_) {
+    if ((cli::is_interrupted() || control_.wants_stop()) && !give_up_) {
       give_up_ = now() + longest_brake;
       stop(EventCode::requested);
     }
@@ -111,6 +112,7 @@ class Loop {
 
   void step() {
     runner_.step(sensed_);
+    control_.note(runner_.scheduler().task(), now() - begin_);
     has_stepped_ = true;
     const runtime::SafetyGuard& guard = runner_.guard();
     if (!report_.silence && guard.stopped() && guard.reason() == EventCode::lost_ticks)
@@ -125,6 +127,7 @@ class Loop {
   const lang::Connection& connection_;
   Inbox& inbox_;
   Outbox& outbox_;
+  Control& control_;
   runtime::Runner& runner_;
   DriveReport& report_;
   runtime::Sensed sensed_;
@@ -138,8 +141,8 @@ class Loop {
 }  // namespace
 
 void drive(const lang::Connection& connection, const lang::Program& program, Inbox& inbox, Outbox& outbox,
-           runtime::Runner& runner, DriveReport& report) {
-  Loop(connection, program, inbox, outbox, runner, report).run();
+           Control& control, runtime::Runner& runner, DriveReport& report) {
+  Loop(connection, program, inbox, outbox, control, runner, report).run();
   outbox.send_zeros(now());
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "control.hpp"
 #include "inbox.hpp"
 #include "lateness.hpp"
 #include "outbox.hpp"
@@ -27,6 +28,6 @@ struct DriveReport {
 /// of its joints; one that takes velocities by the clock. The tick calls nothing of DDS but a write that is
 /// handed over. Afterwards zeros have been sent.
 void drive(const lang::Connection& connection, const lang::Program& program, Inbox& inbox, Outbox& outbox,
-           runtime::Runner& runner, DriveReport& report);
+           Control& control, runtime::Runner& runner, DriveReport& report);
 
 }  // namespace zwang::connect

@@ -79,6 +79,12 @@ void count(TopicCounts& counts, double arrival, double stamp) {
   counts.most_age = std::max(counts.most_age.load(), arrival - stamp);
 }
 
+bool is_obeyed(const Payload& payload, double arrival, TopicCounts& counts) {
+  if (counts.publisher.admits(payload.sender, arrival)) return true;
+  ++counts.others;
+  return false;
+}
+
 /// Messages may hold a part of the joints each: the last of each joint is kept.
 class JointsMerger {
  public:
@@ -86,7 +92,17 @@ class JointsMerger {
     const int n = model.joint_count();
     for (int j = 0; j < n; ++j) index_[source.name_of(model.joint(j).name)] = j;
     is_told_.assign(static_cast<std::size_t>(n), false);
+    publishers_.resize(static_cast<std::size_t>(n));
     q_ = qd_ = Eigen::VectorXd::Zero(n);
+  }
+
+  /// Whether it comes from the publisher that has told of these joints before.
+  bool admits(const JointState& message, const Sender& sender, double arrival) {
+    return std::all_of(message.names.begin(), message.names.end(), [&](const std::string& name) {
+      const auto joint = index_.find(name);
+      return joint == index_.end() ||
+             publishers_[static_cast<std::size_t>(joint->second)].admits(sender, arrival);
+    });
   }
 
   /// False: the message is no good, and nothing is taken.
@@ -116,6 +132,7 @@ class JointsMerger {
   const solver::Model& model_;
   std::map<std::string, int> index_;
   std::vector<bool> is_told_;
+  std::vector<OnePublisher> publishers_;  // of each joint
   Eigen::VectorXd q_, qd_;
 };
 
@@ -156,9 +173,13 @@ struct Inbox::Parts {
 
   void subscribe_joints(Participant& participant) {
     TopicCounts& of = add_counts(connection.joints.topic, MessageType::joint_state);
-    participant.subscribe(of.topic, MessageType::joint_state, [this, &of](auto payload) {
+    participant.subscribe(of.topic, MessageType::joint_state, [this, &of](const Payload& payload) {
       const double arrival = now();
-      const auto message = decode<JointState>(payload);
+      const auto message = decode<JointState>(payload.bytes);
+      if (message && !merger.admits(*message, payload.sender, arrival)) {
+        ++of.others;
+        return;
+      }
       if (!message || !merger.take(*message)) {
         ++of.bad;
         return;
@@ -177,9 +198,10 @@ struct Inbox::Parts {
 
   void subscribe_base(Participant& participant) {
     TopicCounts& of = add_counts(*connection.base, MessageType::odometry);
-    participant.subscribe(of.topic, MessageType::odometry, [this, &of](auto payload) {
+    participant.subscribe(of.topic, MessageType::odometry, [this, &of](const Payload& payload) {
       const double arrival = now();
-      const auto message = decode<Odometry>(payload);
+      if (!is_obeyed(payload, arrival, of)) return;
+      const auto message = decode<Odometry>(payload.bytes);
       const auto pose = message ? pose_of(message->pose) : std::nullopt;
       if (!pose || !are_finite(message->twist)) {
         ++of.bad;
@@ -199,17 +221,19 @@ struct Inbox::Parts {
 
   void subscribe_fix(Participant& participant) {
     TopicCounts& of = add_counts(*connection.fix, MessageType::pose_with_covariance_stamped);
-    participant.subscribe(of.topic, MessageType::pose_with_covariance_stamped, [this, &of](auto payload) {
-      const auto message = decode<PoseWithCovarianceStamped>(payload);
-      const auto pose = message ? pose_of(message->pose) : std::nullopt;
-      if (!pose) {
-        ++of.bad;
-        return;
-      }
-      count(of, now(), message->header.stamp());
-      fix.draft() = {message->header.stamp(), *pose};
-      fix.put();
-    });
+    participant.subscribe(of.topic, MessageType::pose_with_covariance_stamped,
+                          [this, &of](const Payload& payload) {
+                            if (!is_obeyed(payload, now(), of)) return;
+                            const auto message = decode<PoseWithCovarianceStamped>(payload.bytes);
+                            const auto pose = message ? pose_of(message->pose) : std::nullopt;
+                            if (!pose) {
+                              ++of.bad;
+                              return;
+                            }
+                            count(of, now(), message->header.stamp());
+                            fix.draft() = {message->header.stamp(), *pose};
+                            fix.put();
+                          });
   }
 
   void subscribe_signal(const lang::SignalSource& source, std::size_t index, Participant& participant) {
@@ -217,9 +241,10 @@ struct Inbox::Parts {
     signals.push_back(std::make_unique<SignalBox>());
     SignalBox& box = *signals.back();
     box.index = index;
-    participant.subscribe(of.topic, source.type, [&of, &box, &source](auto payload) {
+    participant.subscribe(of.topic, source.type, [&of, &box, &source](const Payload& payload) {
       const double arrival = now();
-      const auto sample = sample_of(source, payload, arrival);
+      if (!is_obeyed(payload, arrival, of)) return;
+      const auto sample = sample_of(source, payload.bytes, arrival);
       if (!sample) {
         ++of.bad;
         return;

@@ -23,10 +23,12 @@ struct TopicCounts {
   std::string topic;
   const char* type = "";
   std::atomic<std::uint64_t> received{0};
+  std::atomic<std::uint64_t> others{0};    ///< of another publisher than the one that is obeyed
   std::atomic<std::uint64_t> bad{0};       ///< not this message, or not whole, or numbers that cannot be
   std::atomic<double> last_arrival{0.0};   ///< [s] 0: none
   std::atomic<double> first_arrival{0.0};  ///< [s]
   std::atomic<double> age_sum{0.0}, most_age{0.0};  ///< [s] from stamp to arrival
+  OnePublisher publisher;                           ///< of all that the topic tells, but for joints
 };
 
 struct JointsSample {

@@ -94,6 +94,7 @@ ZWANG_BOTH_WAYS(TwistStamped);
 ZWANG_BOTH_WAYS(PoseStamped);
 ZWANG_BOTH_WAYS(PoseWithCovarianceStamped);
 ZWANG_BOTH_WAYS(WrenchStamped);
+ZWANG_BOTH_WAYS(String);
 ZWANG_BOTH_WAYS(Bool);
 ZWANG_BOTH_WAYS(Float64);
 ZWANG_BOTH_WAYS(Float64MultiArray);
@@ -120,7 +121,10 @@ std::optional<double> LaserScan::nearest(double low, double high) const {
 }
 
 std::string dds_type(lang::MessageType type) {
-  const std::string name = lang::to_string(type);
+  return dds_type(lang::to_string(type));
+}
+
+std::string dds_type(const std::string& name) {
   const std::size_t slash = name.find('/');
   return name.substr(0, slash) + "::msg::dds_::" + name.substr(slash + 1) + "_";
 }

@@ -60,6 +60,9 @@ struct WrenchStamped {
   Header header;
   SixFields wrench{};
 };
+struct String {
+  std::string data;
+};
 struct Bool {
   bool data = false;
 };
@@ -92,8 +95,9 @@ void encode(const Message& message, Bytes& bytes);
 template <typename Message>
 std::optional<Message> decode(std::span<const std::uint8_t> bytes);
 
-/// As DDS knows it: `geometry_msgs::msg::dds_::Twist_`.
+/// As DDS knows it: `geometry_msgs::msg::dds_::Twist_`. Of a name: as ROS 2 writes it, `std_msgs/String`.
 std::string dds_type(lang::MessageType type);
+std::string dds_type(const std::string& name);
 /// As DDS knows it: `rt/cmd_vel`.
 std::string dds_topic(const std::string& topic);
 

@@ -44,6 +44,8 @@ void print_topics(const Inbox& inbox) {
     if (received > 1.0 && span > 0.0)
       std::printf(", %.1f Hz, age mean %.2f, most %.2f ms", (received - 1.0) / span,
                   1e3 * c->age_sum / received, 1e3 * c->most_age);
+    const auto others = static_cast<unsigned long long>(c->others.load());
+    if (others > 0) std::printf(", %llu of another publisher not taken", others);
     std::printf("\n");
   }
 }
@@ -82,7 +84,7 @@ int observe(const lang::Connection& connection, const lang::Program& program, In
         first_pose.rotation.transpose() * (sensed.state.base_pose.position - first_pose.position);
     std::printf("  the base went %.3f m ahead, %.3f m to its left\n", way.x(), way.y());
   }
-  for (const auto& c : inbox.counts()) is_good = is_good && c->received > 0 && c->bad == 0;
+  for (const auto& c : inbox.counts()) is_good = is_good && c->received > 0 && c->bad == 0 && c->others == 0;
   std::fflush(stdout);
   return is_good ? exit_good : exit_bad;
 }

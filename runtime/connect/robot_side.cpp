@@ -1,6 +1,7 @@
 #include "robot_side.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "inbox.hpp"
 #include "outbox.hpp"
@@ -46,10 +47,15 @@ void RobotSide::join(Participant& participant) {
     }
   }
   const lang::CommandSink& sink = connection_.command;
-  participant.subscribe(sink.topic.name, sink.type, [this, &sink](auto payload) {
+  participant.subscribe(sink.topic.name, sink.type, [this, &sink](const Payload& payload) {
+    const double arrival = now();
+    // The last zeros of a drive come from a writer of their own, in the same process.
+    Sender process = payload.sender;
+    std::fill(process.begin() + 12, process.end(), std::uint8_t{0});
     CommandMail& draft = mail_.draft();
-    if (!read_command(sink, order_, payload, draft.command)) return;
-    draft.arrival = now();
+    if (!commander_.admits(process, arrival)) return;
+    if (!read_command(sink, order_, payload.bytes, draft.command)) return;
+    draft.arrival = arrival;
     mail_.put();
   });
 }

@@ -48,6 +48,7 @@ class RobotSide {
   const lang::Program& program_;
   std::vector<int> order_;
   Mailbox<CommandMail> mail_;
+  OnePublisher commander_;  ///< of the thread of DDS that takes commands
   runtime::Command zeros_;
   std::unique_ptr<Writer> joints_, base_, fix_;
   std::vector<SignalWriter> signals_;

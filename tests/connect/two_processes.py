@@ -1,6 +1,6 @@
 """`zwang drive` and `zwang simulate` as two processes, over DDS on this machine.
 
-    two_processes.py PROGRAM ROOT
+    two_processes.py PROGRAM ROOT TRIGGER_CLIENT
 
 A run ends as the same run inside one process does, with its peak force within 10 %. Either side may
 be killed or stopped: the other one brakes. Ends with 1 and says why when anything is otherwise.
@@ -35,11 +35,11 @@ TWIST = """command:
 class Pair:
     """Both processes of a task, each with its own file of output."""
 
-    def __init__(self, program, folder, task, command, options, number):
+    def __init__(self, program, folder, task, command, options, number, ros2="reach: loopback", more=""):
         connection = folder / f"connection_{number}.yaml"
-        domain = 100 + (os.getpid() + number) % 100  # another one than that of a test beside this one
+        self.domain = domain = 100 + (os.getpid() + number) % 100  # another one than that of a test beside this one
         connection.write_text(
-            f"zwang_connection: 1\nros2: {{domain: {domain}, reach: loopback}}\nloop: {{priority: 40}}\n"
+            f"zwang_connection: 1\nros2: {{domain: {domain}, {ros2}}}\n{more}loop: {{priority: 40}}\n"
             "state:\n  joints: {topic: /joint_states, stale_after: 100 ms}\n" + command)
         arguments = [task, "--over", connection] + options
         self.files = {side: folder / f"{side}_{number}" for side in ("simulate", "drive")}
@@ -58,10 +58,17 @@ class Pair:
 
     def wait_until_it_drives(self, seconds):
         """And so long after."""
-        end = time.monotonic() + 20.0
-        while "the task begins" not in self.text("drive") and time.monotonic() < end:
-            time.sleep(0.01)
+        self.wait_for("the task begins")
         time.sleep(seconds)
+
+    def wait_for(self, words):
+        end = time.monotonic() + 20.0
+        while words not in self.text("drive") and time.monotonic() < end:
+            time.sleep(0.01)
+
+    def call(self, service):
+        return subprocess.run([TRIGGER_CLIENT, str(self.domain), service], capture_output=True, text=True, timeout=20,
+                              check=False).stdout
 
 
 def number(pattern, text):
@@ -158,7 +165,38 @@ def a_request_ends_it_with_zeros(program, root, folder):
     expect(number(r"moved last at ([0-9.]+) s", simulate) < last + 0.5, "it moved behind the last command", simulate)
 
 
-def main(program, root):
+def services_start_and_stop_it(program, root, folder):
+    # Slowly and for long: a client takes a second or more until it has found the service.
+    task = folder / "slow.yaml"
+    task.write_text("zwang: 2\nrobot: robot.yaml\nstart: go\ntasks:\n  go:\n    constraints:\n"
+                    "      go: {move: base_link, in: base_link, x: {velocity: 0.02 m/s}, y: {velocity: 0 m/s}, "
+                    "rz: {velocity: 0 rad/s}}\n    exits:\n      - {when: elapsed > 60 s, goto: done}\n", encoding="utf-8")
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml", "--scene", root / "specs/scenes/open.yaml"]
+    pair = Pair(program, folder, task, TWIST, options, 6, more="start: wait\n")
+    pair.wait_for("waiting for the service /zwang/start")
+    time.sleep(0.5)
+    expect("the task begins" not in pair.text("drive"), "it begins before it is asked to", pair.text("drive"))
+    expect(pair.call("/zwang/start").startswith("success"), "start is refused", pair.text("drive"))
+    pair.wait_until_it_drives(0.5)
+    expect(pair.call("/zwang/start") == "refused: the task runs already\n", "it starts twice", pair.text("drive"))
+    expect(pair.call("/zwang/stop") == "success: it brakes, and the run ends\n", "stop is refused")
+    code, drive, _ = pair.end()
+    expect(code == 1 and "stopped after" in drive, "it is not stopped", drive)
+
+
+def this_machine_alone_is_enough(program, root, folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 7, ros2="reach: machine")
+    code, drive, simulate = pair.end()
+    expect(code == 0, "not done", drive, simulate)
+
+
+TRIGGER_CLIENT = ""
+
+
+def main(program, root, trigger_client):
+    global TRIGGER_CLIENT
+    TRIGGER_CLIENT = trigger_client
     root = pathlib.Path(root)
 
     def is_good(case):
@@ -174,7 +212,8 @@ def main(program, root):
 
     # Mostly they wait: two at a time take a tenth of a processor.
     cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, silence_of_the_robot_stops,
-             a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros)
+             a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros, services_start_and_stop_it,
+             this_machine_alone_is_enough)
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return 0 if all(list(pool.map(is_good, cases))) else 1
 

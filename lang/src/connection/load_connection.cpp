@@ -69,8 +69,14 @@ void parse_ros2(const Node& node, Connection& connection, Diagnostics& diagnosti
     connection.domain =
         parse_integer(*domain, "`domain`", 0, highest_domain, diagnostics).value_or(connection.domain);
   if (const Node* reach = map.optional("reach")) {
-    const std::string word = parse_choice(*reach, "`reach`", {"loopback", "network"}, diagnostics);
+    const std::string word = parse_choice(*reach, "`reach`", {"loopback", "machine", "network"}, diagnostics);
+    if (word == "machine") connection.reach = Reach::machine;
     if (word == "network") connection.reach = Reach::network;
+  }
+  if (const Node* name = map.optional("name")) {
+    const Word word = parse_word(*name, "`name`", diagnostics);
+    if (word.exists() && !is_topic_name(word.text)) diagnostics.add(wording::bad_topic(word.span, word.text));
+    if (word.exists()) connection.name = word.text;
   }
   map.finish();
 }
@@ -189,6 +195,8 @@ std::optional<Connection> parse_connection(const Document& document, Diagnostics
   if (!map.is_mapping() || !check_version(map, "zwang_connection", 1, diagnostics)) return std::nullopt;
   Connection connection;
   if (const Node* ros2 = map.optional("ros2")) parse_ros2(*ros2, connection, diagnostics);
+  if (const Node* start = map.optional("start"))
+    connection.waits_for_start = parse_choice(*start, "`start`", {"at_once", "wait"}, diagnostics) == "wait";
   if (const Node* loop = map.optional("loop")) {
     MapReader loop_map(*loop, "`loop`", diagnostics);
     if (const Node* priority = loop_map.optional("priority"))

@@ -34,6 +34,7 @@ const char* to_string(MessageType type) noexcept;
 
 enum class Reach {
   loopback,  ///< 127.0.0.1 alone: peers need ROS_LOCALHOST_ONLY=1
+  machine,   ///< every interface; only processes of this machine are obeyed, and hear of this one
   network,   ///< every interface of this machine
 };
 
@@ -79,8 +80,10 @@ struct CommandSink {
 };
 
 struct Connection {
-  std::string path;  ///< as it was opened
-  int domain = 0;    ///< ROS_DOMAIN_ID
+  std::string path;              ///< as it was opened
+  int domain = 0;                ///< ROS_DOMAIN_ID
+  std::string name = "/zwang";   ///< before the names of the own services and topics: `/zwang/start`
+  bool waits_for_start = false;  ///< the task begins with the service `start`; else at once
   Reach reach = Reach::loopback;
   JointsSource joints;
   std::optional<Topic> base;  ///< nav_msgs/Odometry; none: the base is reckoned from its wheels
