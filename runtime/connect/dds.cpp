@@ -141,6 +141,14 @@ class CountingListener : public dds::DataWriterListener {
   std::atomic<int> readers{0};
 };
 
+template <typename Qos>
+void set_up(Qos& qos, dds::ReliabilityQosPolicyKind kind, int depth) {
+  qos.reliability().kind = kind;
+  qos.history().depth = depth;
+  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
+  qos.data_sharing().off();
+}
+
 class DdsWriter : public Writer {
  public:
   DdsWriter(const DdsWriter&) = delete;
@@ -151,13 +159,10 @@ class DdsWriter : public Writer {
   }
   DdsWriter(dds::Publisher& publisher, dds::Topic& topic, bool keeps_last) : publisher_(publisher) {
     dds::DataWriterQos qos = dds::DATAWRITER_QOS_DEFAULT;
-    qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
+    set_up(qos, dds::RELIABLE_RELIABILITY_QOS, 1);  // only the latest command counts
     qos.reliability().max_blocking_time = longest_write;
-    qos.history().depth = 1;  // only the latest command counts
     if (keeps_last) qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
     qos.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
-    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-    qos.data_sharing().off();
     writer_ = publisher.create_datawriter(&topic, qos, &listener_);
     if (writer_ == nullptr) throw std::runtime_error("DDS gives no writer for " + topic.get_name());
   }
@@ -203,14 +208,6 @@ class MatchListener : public dds::DataWriterListener {
   std::vector<rtps::GUID_t> readers_;
 };
 
-template <typename Qos>
-void make_service_like(Qos& qos) {
-  qos.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
-  qos.history().depth = input_depth;
-  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-  qos.data_sharing().off();
-}
-
 /// Threads of DDS queue requests, and a thread of its own answers them. A reply may wait until its reader is
 /// found, and threads of DDS also bring the robot's samples.
 class TriggerService : public dds::DataReaderListener {
@@ -221,11 +218,11 @@ class TriggerService : public dds::DataReaderListener {
 
   void start(dds::Publisher& publisher, dds::Subscriber& subscriber, dds::Topic& request, dds::Topic& reply) {
     dds::DataWriterQos writing = dds::DATAWRITER_QOS_DEFAULT;
-    make_service_like(writing);
+    set_up(writing, dds::RELIABLE_RELIABILITY_QOS, input_depth);
     writer_ = publisher.create_datawriter(&reply, writing, &matches_);
     thread_ = std::thread([this] { serve(); });
     dds::DataReaderQos reading = dds::DATAREADER_QOS_DEFAULT;
-    make_service_like(reading);
+    set_up(reading, dds::RELIABLE_RELIABILITY_QOS, input_depth);
     const bool is_good =
         writer_ != nullptr && subscriber.create_datareader(&request, reading, this) != nullptr;
     if (!is_good) throw std::runtime_error("DDS gives no service " + request.get_name());
@@ -369,10 +366,7 @@ void Participant::subscribe(const std::string& topic, lang::MessageType type,
                             std::function<void(const Payload&)> on_payload) {
   dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
   // Best effort finds writers of either kind, and a lost sample is not waited for.
-  qos.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
-  qos.history().depth = input_depth;
-  qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-  qos.data_sharing().off();
+  set_up(qos, dds::BEST_EFFORT_RELIABILITY_QOS, input_depth);
   parts_->listeners.push_back(std::make_unique<Listener>(std::move(on_payload), parts_->neighbours));
   dds::Topic& of = parts_->topic(dds_topic(topic), dds_type(type));
   if (parts_->subscriber->create_datareader(&of, qos, parts_->listeners.back().get()) == nullptr)
