@@ -14,7 +14,7 @@ std::filesystem::path explanations() {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  for (const char* way : {"../share/doc/zwang/errors", "../../docs/errors"}) {
+  for (const char* way : {"../share/doc/zwang/docs/errors", "../../docs/errors"}) {
     const fs::path folder = (program.parent_path() / way).lexically_normal();
     if (!error && fs::exists(folder / "E201.md", error)) return folder;
   }
