@@ -286,7 +286,7 @@ void UrdfDrawing::draw_arm() {
   const double up = 2.0 * radius_, out = 0.1 * robot_.size;
   add({"shoulder_joint", "revolute", body_, "arm_link", {0.0, 0.0, up}, {}, {0.0, 1.0, 0.0}, "", ""}, true);
   add({"finger_1", "prismatic", "arm_link", "finger_1_link", {out, 0.0, 0.0}, {}, {0.0, 1.0, 0.0}, "", ""},
-      true);
+      false);
   add({"finger_2",
        "prismatic",
        "arm_link",

@@ -107,7 +107,8 @@ class UrdfDrawing {
 
   void put_caster(const std::string& number, const Place& place);
 
-  /// A shoulder and two fingers, the second of which follows the first.
+  /// A shoulder and two fingers, the second of which follows the first: zwang couples no joints, and both
+  /// stand.
   void draw_arm();
 
   /// A milligram that no body has the inertia of, and round.

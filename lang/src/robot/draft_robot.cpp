@@ -58,6 +58,12 @@ class Drafter {
       const UrdfJoint& joint = *urdf_.find_joint(name);
       if (joint.mimic || contains(open, joint.child)) held_.push_back(name);
     }
+    // A finger alone is no gripper: the one that leads stands with those that follow.
+    for (const std::string& name : std::vector<std::string>(held_)) {
+      const std::optional<UrdfMimic>& mimic = urdf_.find_joint(name)->mimic;
+      if (mimic && contains(found_.others, mimic->joint) && !contains(held_, mimic->joint))
+        held_.push_back(mimic->joint);
+    }
     std::vector<std::string> arms;
     for (const std::string& name : found_.others) {
       if (!contains(held_, name)) arms.push_back(name);
