@@ -1,0 +1,94 @@
+/// Friction and torque constants of a base's motors, from how it moved.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "zwang/lang/robot.hpp"
+
+namespace zwang::runtime {
+
+/// Why nothing could be told, in words for the user.
+class NotIdentified : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Estimate {
+  double value = 0.0;
+  double error = 0.0;  ///< standard error; 0 of what was given
+};
+
+struct IdentifiedMotor {
+  std::string joint;
+  Estimate torque_factor;  ///< what the motor gives of the torque it is told
+  Estimate coulomb;        ///< [N m]
+  Estimate viscous;        ///< [N m s/rad]
+};
+
+struct Identification {
+  std::vector<IdentifiedMotor> motors;
+  Estimate mass;     ///< [kg] without the added load
+  Estimate inertia;  ///< [kg m^2] about the vertical through the base's origin
+  std::size_t windows = 0;
+};
+
+/// Takes the records of one run after the other, and estimates by least squares. Equations: in the source.
+class DriveIdentification {
+ public:
+  /// Without `mass` [kg] it is estimated, too: one of the runs must carry a known load. Throws NotIdentified
+  /// on a robot whose motors do not turn wheels that are fixed to the base, or are not told torques.
+  DriveIdentification(const lang::Robot& robot, std::optional<double> mass);
+
+  /// A run, with `added_load` [kg] over the base's centre of mass.
+  void begin_run(double added_load);
+  /// Of all joints of the model: positions [rad], rates [rad/s], and the torques sent [N m] at `time` [s].
+  void add(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& qd, const Eigen::VectorXd& tau);
+
+  /// Throws NotIdentified where the motion tells too little.
+  Identification solve() const;
+
+ private:
+  struct Wheel {
+    int joint = 0;
+    std::string name;
+    bool has_motor = false;
+    double inertia = 0.0;   ///< [kg m^2] about its axis, rotor included
+    Eigen::Vector3d rates;  ///< j: rate [rad/s] = j . (vx, vy, wz)
+  };
+  struct Sample {
+    double time = 0.0;
+    Eigen::VectorXd rates;  ///< [rad/s] of the wheels
+    Eigen::Vector3d twist;  ///< (vx, vy, wz) of the base, in its axes
+  };
+  void find_wheels(const lang::Robot& robot);
+  void end_window(const Sample& last, const Eigen::VectorXd& q);
+  Sample sample_of(double time, const Eigen::VectorXd& qd) const;
+  /// m^-1 (p_x, p_y, L - J w) of a twist.
+  Eigen::Vector3d momentum_per_mass(const Eigen::Vector3d& twist) const;
+  Eigen::Index columns() const;
+
+  std::vector<Wheel> wheels_;        ///< that stand fixed to the base
+  std::vector<int> swivels_;         ///< joints of casters
+  std::vector<std::size_t> motors_;  ///< of `wheels_`
+  Eigen::MatrixXd permitted_;        ///< 3 x n, the motions that no wheel holds
+  Eigen::MatrixXd twist_of_;         ///< 3 x wheels, (vx, vy, wz) from the rates
+  Eigen::Vector2d centre_;           ///< [m] of mass, in the base
+  double caster_mass_ = 0.0;         ///< [kg] that the spin of caster wheels adds along x and y
+  double length_ = 0.3;              ///< [m] makes forces of torques
+  std::optional<double> mass_;
+  double added_load_ = 0.0;
+  // The window that is open.
+  std::optional<Sample> first_, last_;
+  Eigen::VectorXd first_q_, impulse_;  ///< [N m s] of the motors
+  Eigen::VectorXd last_tau_;
+  Eigen::Vector3d turned_;  ///< integral of w x p and v x p, a mass's share
+  bool is_clean_ = true;
+  std::vector<Eigen::VectorXd> rows_;
+  std::vector<double> right_;
+};
+
+}  // namespace zwang::runtime
