@@ -9,6 +9,7 @@
 #include "commit.hpp"
 #include "outline.hpp"
 #include "output.hpp"
+#include "robot_identify.hpp"
 #include "shipped.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/nearest.hpp"
@@ -123,6 +124,23 @@ void add_plan(CLI::App& app, std::function<int()>& chosen) {
   });
 }
 
+void add_identify(CLI::App& verb, std::function<int()>& chosen) {
+  const auto arguments = std::make_shared<RobotIdentifyArguments>();
+  CLI::App* identify = verb.add_subcommand(
+      "identify", "Estimate friction and torque constants from logs of the task `identify`");
+  identify->add_option("logs", arguments->logs, "logs (.mcap) of one robot")->required();
+  CLI::Option* mass = identify->add_option("--mass", arguments->mass, "what the robot weighs, as '46 kg'");
+  identify
+      ->add_option("--added", arguments->added,
+                   "the load in the last log, as '15 kg': the mass is estimated, too")
+      ->excludes(mass);
+  identify->add_option("--update", arguments->update, "the robot file to write (default the logged one)");
+  identify->add_flag("--dry-run", arguments->dry_run, "only print");
+  takes(identify->add_option("--format", arguments->format, "human (default) or json: one object on stdout"),
+        formats);
+  identify->callback([=, &chosen] { chosen = [=] { return robot_identify(*arguments); }; });
+}
+
 void add_robot(CLI::App& app, std::function<int()>& chosen) {
   CLI::App* verb = app.add_subcommand("robot", "Look at a robot, or begin its robot file");
   verb->require_subcommand(1);
@@ -143,6 +161,7 @@ void add_robot(CLI::App& app, std::function<int()>& chosen) {
       "also write a task and its scene for this robot: wall_align, feel_wall, obstacle, docking or "
       "hospital");
   init->callback([=, &chosen] { chosen = [=] { return robot_init(*begun); }; });
+  add_identify(*verb, chosen);
 }
 
 void add_init(CLI::App& app, std::function<int()>& chosen) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "support.hpp"
+#include "zwang/lang/friction_update.hpp"
 #include "zwang/lang/robot_draft.hpp"
 #include "zwang/lang/robot_update.hpp"
 
@@ -133,6 +134,43 @@ TEST_F(UpdateRobot, fills_what_the_urdf_says_now_and_tells_what_it_says_otherwis
   ASSERT_EQ(update.differ.size(), 1U);
   EXPECT_EQ(update.differ[0].text, "radius of `right_wheel`: 98 mm here, 100 mm in the URDF");
   EXPECT_NE(line_of(update.text, update.differ[0].line).find("98 mm"), std::string::npos);
+}
+
+/// The shipped file with these frictions, read again.
+std::optional<Robot> with_measured(const char* name, const std::vector<MeasuredFriction>& frictions,
+                                   std::string& text) {
+  const std::filesystem::path robots = test::source_dir / "specs/robots";
+  const test::Folder folder;
+  Diagnostics diagnostics;
+  text = with_friction(robots / (std::string(name) + ".yaml"), frictions, diagnostics).value_or("");
+  folder.write("mecanum_base.urdf", test::slurp(robots / "mecanum_base.urdf"));
+  std::optional<Robot> robot = load_robot(folder.write("robot.yaml", text), diagnostics);
+  EXPECT_TRUE(robot) << test::rendered(diagnostics) << text;
+  return robot;
+}
+
+TEST(FrictionUpdate, keeps_what_is_not_measured) {
+  std::string text;
+  const auto measured = with_measured("mecanum_rough", {{"rear_left_wheel", 0.25, 0.03}}, text);
+  ASSERT_TRUE(measured);
+  const auto friction = [&](const char* joint) {
+    return measured->friction.at(static_cast<std::size_t>(*measured->model.find_joint(joint)));
+  };
+  EXPECT_DOUBLE_EQ(friction("rear_left_wheel").coulomb, 0.25);
+  EXPECT_DOUBLE_EQ(friction("rear_left_wheel").viscous, 0.03);
+  EXPECT_DOUBLE_EQ(friction("rear_left_wheel").presliding, 0.2e-3);
+  EXPECT_DOUBLE_EQ(friction("rear_left_wheel").compensate, 0.9);
+  EXPECT_DOUBLE_EQ(friction("rear_right_wheel").coulomb, 0.1);
+}
+
+TEST(FrictionUpdate, adds_the_section_where_there_is_none) {
+  std::string text;
+  const auto measured = with_measured("mecanum_base", {{"rear_left_wheel", 0.25, 0.03}}, text);
+  ASSERT_TRUE(measured);
+  EXPECT_TRUE(text.starts_with(test::slurp(test::source_dir / "specs/robots/mecanum_base.yaml")));
+  EXPECT_DOUBLE_EQ(
+      measured->friction.at(static_cast<std::size_t>(*measured->model.find_joint("rear_left_wheel"))).coulomb,
+      0.25);
 }
 
 }  // namespace

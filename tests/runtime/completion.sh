@@ -24,7 +24,7 @@ verbs=$("$program" --help | awk '/^Subcommands:/ { on = 1; next } on && NF { pri
 expect 'zwang TAB' "$(offered zwang '' | grep -v '^-')" "$verbs"
 expect 'zwang va TAB' "$(offered zwang va)" validate
 expect 'zwang run --sc TAB' "$(offered zwang run --sc)" --scene
-expect 'zwang robot TAB' "$(offered zwang robot '')" "$(printf 'init\ninspect')"
+expect 'zwang robot TAB' "$(offered zwang robot '')" "$(printf 'identify\ninit\ninspect')"
 expect 'zwang robot init --up TAB' "$(offered zwang robot init --up)" --update
 expect 'zwang run TAB: left to files' "$(offered zwang run '')" ''
 

@@ -28,4 +28,8 @@ std::optional<double> read_angle(std::string_view text) {
   return read(text, dimension::angle);
 }
 
+std::optional<double> read_mass(std::string_view text) {
+  return read(text, dimension::mass);
+}
+
 }  // namespace zwang::lang

@@ -10,5 +10,7 @@ namespace zwang::lang {
 std::optional<double> read_length(std::string_view text);
 /// `20 deg`, `0.3 rad`: [rad]. nullopt when the text is anything but one angle.
 std::optional<double> read_angle(std::string_view text);
+/// `46 kg`: [kg]. nullopt when the text is anything but one mass.
+std::optional<double> read_mass(std::string_view text);
 
 }  // namespace zwang::lang
