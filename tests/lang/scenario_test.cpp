@@ -230,7 +230,9 @@ TEST(Scenario, checking_ends_however_many_cells_there_are) {
   EXPECT_TRUE(check_scenario(shelf.path, diagnostics)) << rendered(diagnostics);
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   EXPECT_EQ(test::count(diagnostics, "N608"), 1);
-  if (zwang::test::times_count) EXPECT_LT(seconds, 2.0);  // of CPU
+  if (zwang::test::times_count) {
+    EXPECT_LT(seconds, 2.0);  // of CPU
+  }
 }
 
 /// Of so many keys with two values, and one with the given number.

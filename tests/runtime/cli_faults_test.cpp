@@ -87,7 +87,9 @@ TEST_F(FromOutside, ASignalEndsTheRunWithinHalfASecond) {
     const Result r = finish(child);
     const double took = std::chrono::duration<double>(Clock::now() - begin).count();
     std::printf("signal %d: stopped, log closed and process gone after %.0f ms\n", signal, 1e3 * took);
-    if (test::times_count) EXPECT_LE(took, 0.5);
+    if (test::times_count) {
+      EXPECT_LE(took, 0.5);
+    }
     const json j = json::parse(r.out);
     EXPECT_EQ(j["outcome"], "stopped");
     EXPECT_TRUE(j["log_complete"]);
@@ -107,7 +109,9 @@ TEST_F(FromOutside, ASignalBringsARobotToRestThatIsWatched) {
   kill(child, SIGINT);
   const Result r = finish(child);
   const double took = std::chrono::duration<double>(Clock::now() - begin).count();
-  if (test::times_count) EXPECT_LE(took, 0.5);
+  if (test::times_count) {
+    EXPECT_LE(took, 0.5);
+  }
   const json j = json::parse(r.out);
   EXPECT_EQ(j["events"][0]["code"], "requested");
   EXPECT_EQ(j["because"].get<std::string>().find("before the robot stood"), std::string::npos);
