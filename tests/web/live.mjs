@@ -34,13 +34,14 @@ async function until(what, value) {
     await page.waitForTimeout(50);
   }
 }
+/** A click that waits for no frame: without a graphics card a busy machine draws one in many seconds. */
+const press = (button) => page.locator(button).dispatchEvent('click');
 const records = () => page.evaluate(() => window.zwang.run.data.records);
 const status = (word) => until((text) => document.getElementById('status')?.textContent.includes(text), word);
 
 async function checkSteering() {
   await page.goto(address);
   await until(() => Boolean(window.zwang));
-  await page.locator('body').click({ position: { x: 3, y: 3 } });
   await page.keyboard.press('Space');
   await status('paused');
   await page.waitForTimeout(300);
@@ -60,7 +61,7 @@ async function checkSteering() {
 async function checkRestart() {
   const before = await records();
   await page.evaluate(() => { window.isOld = true; });
-  await page.locator('#restart').click();
+  await press('#restart');
   await until(() => !window.isOld && Boolean(window.zwang));
   await status('paused');
   assert.ok(await records() < before, 'the run begins anew');
@@ -70,12 +71,12 @@ async function checkRestart() {
 async function checkParameter() {
   await page.locator('[data-parameter=push]').focus();
   await page.keyboard.press('End');
-  await page.locator('#tick').click();
+  await press('#tick');
   await until(() => window.zwang.run.curve('params.push').at(-1) === 40);
   await page.locator('#set-push').fill('400');
   await page.keyboard.press('Enter');
   await status('refused');
-  await page.locator('#tick').click();
+  await press('#tick');
   await page.waitForTimeout(300);
   assert.equal(await page.evaluate(() => window.zwang.run.curve('params.push').at(-1)), 40);
 }
@@ -110,16 +111,15 @@ async function checkLook() {
   for (const [width, colorScheme] of [[360, 'light'], [800, 'dark'], [1600, 'light']]) {
     await page.setViewportSize({ width, height: 900 });
     await page.emulateMedia({ colorScheme });
-    await page.waitForTimeout(300);
-    const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+    // The page's charts and views follow its width at their own pace.
+    await until((wide) => innerWidth === wide && document.documentElement.scrollWidth <= wide, width);
     await page.screenshot({ path: `${folder}/live_${width}.png`, fullPage: true });
-    assert.ok(wide <= 0, `${width} px: the page is ${wide} px too wide`);
   }
 }
 
 async function checkGoingOn() {
   const before = await records();
-  await page.locator('#pause').click();
+  await press('#pause');
   await until((count) => window.zwang.run.data.records > count + 500, before);
   const [time, x] = await page.evaluate(() => [window.zwang.run.duration, window.zwang.run.sample('truth.base.x').at(-1)]);
   assert.ok(time > 0.4 && x !== 0, `after ${time} s the base is at x ${x}`);
