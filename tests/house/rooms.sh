@@ -79,7 +79,7 @@ keep_library 'CLI/' 'runtime/cli/.*\.cpp' 1
 keep_library '(eprosima|fastdds|fastrtps|fastcdr)/' 'runtime/connect/.*\.cpp' 1
 keep_library 'libwebsockets' 'runtime/cli/.*\.cpp' 1
 keep_library 'mujoco/' 'runtime/src/plant/.*\.cpp' 5
-keep_library 'nlohmann/' '(lang|runtime)/.*\.cpp|lang/src/schema/parts\.hpp|runtime/(cli/json_parts|lsp/json)\.hpp' 20
+keep_library 'nlohmann/' '(lang|runtime)/.*\.cpp|lang/src/schema/parts\.hpp|runtime/(cli/json_parts|lsp/json|src/log/foxglove)\.hpp' 20
 keep_library 'pybind11/' 'runtime/python/.*\.[ch]pp' 5
 keep_library 'zstd|zlib' 'runtime/src/log/.*\.cpp' 1
 keep_library 'kdl/' 'tests/.*' 0
