@@ -1,11 +1,15 @@
 #!/usr/bin/env bash
 # scenarios.sh PROGRAM [FILE...]: what the shipped scenarios claim; of all of them, where none is named. Those that vary
-# what another scenario runs once, or run it on another drive, take 40 % of the time: `./dev test --long` runs them.
+# what another scenario runs once, or run it on another drive, take half of the time: `./dev test --long` runs them.
 set -euo pipefail
 program=$1
 files=("${@:2}")
-long=(blind_hospital docking_in_vain_casters docking_steady faults_of_mass_casters faults_of_mass_diff hospital_blind
-  hospital_loaded limited_hospital obstacle_stays_casters oncoming_fails pressed_on wall_align_soft wipe_varied)
+long=(blind_hospital blind_obstacle docking_casters docking_casters_badly_seen docking_in_vain_casters
+  docking_live_casters docking_live_nose docking_nose_badly_seen docking_nose_in_vain docking_steady
+  faults_of_mass_casters faults_of_mass_diff faults_slip_askew hospital_blind hospital_loaded
+  hospital_nose_blind hospital_nose_closed limited_docking limited_hospital obstacle_leaves_diff
+  obstacle_rollers obstacle_stays_casters oncoming_fails pressed_on switch_hospital_hard switch_obstacle_hard
+  wall_align_soft wipe_varied)
 
 is_long() { [[ " ${long[*]} " == *" $(basename "$1" .yaml) "* ]]; }
 
