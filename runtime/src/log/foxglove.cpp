@@ -103,8 +103,7 @@ void add_links(double time, const lang::Robot& robot, ordered_json& entities) {
     if (b == 0) add_body(robot, of_robot, one);
     if (wheel != robot.model.wheels().end()) {
       solver::Pose along_axle;
-      along_axle.rotation =
-          Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), bodies[b].joint.axis).toRotationMatrix();
+      along_axle.rotation = solver::rotation_between(Vector3::UnitZ(), bodies[b].joint.axis);
       one["cylinders"].push_back(cylinder(along_axle, wheel->radius, tyre_share * wheel->radius, of_tyre));
     }
     for (const solver::Body& child : bodies) {
