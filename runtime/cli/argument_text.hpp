@@ -1,4 +1,5 @@
-/// What the words of the command line mean. Each throws Impossible where it is none of what is asked for.
+/// The words of the command line have a meaning. Each function throws Impossible where it is none of what is
+/// asked for.
 #pragma once
 
 #include <array>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <utility>
 
@@ -11,7 +10,6 @@
 #include "verbs.hpp"
 #include "zwang/lang/connection.hpp"
 #include "zwang/lang/notes.hpp"
-#include "zwang/lang/open_texts.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
 #include "zwang/lang/scene_for_robot.hpp"
@@ -29,15 +27,6 @@ lang::LoadOptions TaskOverrides::load_options() const {
   if (scene) options.scene = *scene;
   options.parameters = parameters;
   return options;
-}
-
-std::optional<FileKind> kind_by_key(const std::string& path) {
-  if (const std::string* unsaved = lang::open_text_of(path)) return lang::kind_of_text(*unsaved);
-  std::string start(16 * 1024, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
-  return lang::kind_of_text(start);
 }
 
 namespace {

@@ -11,10 +11,9 @@
 namespace zwang::cli {
 
 using lang::FileKind;
+using lang::kind_of_file;
 using lang::word_of;
 
-/// `lang::kind_of_text` of the file's first lines.
-std::optional<FileKind> kind_by_key(const std::string& path);
 /// The YAML files below a folder, in the order of their names. Links are followed; a file that several names
 /// lead to is there once, by the name without a link where it has one. Throws Impossible for a folder that
 /// cannot be read.

@@ -59,7 +59,7 @@ int fmt(const FmtArguments& arguments) {
   for (const std::string& path : arguments.files) {
     lang::Diagnostics diagnostics;
     // A file with errors is left alone: what it will mean once mended is not known.
-    const FileKind kind = kind_by_key(path).value_or(FileKind::task);
+    const FileKind kind = kind_of_file(path).value_or(FileKind::task);
     const bool is_readable = read_as(kind, path, diagnostics).has_value() && !diagnostics.has_errors();
     lang::Diagnostics layout;
     const std::optional<std::string> text =

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "output.hpp"
+#include "zwang/lang/file_kind.hpp"
 #include "zwang/lang/friction_update.hpp"
 #include "zwang/lang/quantity.hpp"
 #include "zwang/runtime/identification.hpp"
@@ -43,7 +44,7 @@ LoggedRobot robot_of(const std::string& log) {
   if (!program) throw Impossible(log + ": the logged files do not load any more");
   LoggedRobot logged{log, std::move(program->robot), ""};
   for (const lang::Source& source : contents.context.sources) {
-    const bool is_robot_file = source.text.find("zwang_robot:") != std::string::npos;
+    const bool is_robot_file = lang::kind_of_text(source.text) == lang::FileKind::robot;
     if (is_robot_file && logged.robot_file.empty()) logged.robot_file = source.path;
   }
   return logged;

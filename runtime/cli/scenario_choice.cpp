@@ -15,7 +15,7 @@ constexpr std::size_t most_names = 8;  // that a message lists
 
 bool is_scenario(const std::string& file) {
   require_file(file);
-  return kind_by_key(file) == FileKind::scenario;
+  return kind_of_file(file) == FileKind::scenario;
 }
 
 std::vector<std::string> names_of(const lang::Scenario& scenario) {

@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 
 /// A file of a folder. What is none of zwang's is named: it may have been meant as a scenario.
 bool is_scenario(const std::string& path) {
-  const std::optional<FileKind> kind = kind_by_key(path);
+  const std::optional<FileKind> kind = kind_of_file(path);
   if (!kind) print_error("zwang: " + path + " is passed over: its first key is none of zwang's\n");
   return kind == FileKind::scenario;
 }

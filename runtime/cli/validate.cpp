@@ -30,7 +30,7 @@ struct Checked {
 /// zwang's own files below a folder, in the order of their names.
 std::vector<std::string> files_below(const std::string& folder) {
   std::vector<std::string> files = yaml_files_below(folder);
-  std::erase_if(files, [](const std::string& path) { return !kind_by_key(path); });
+  std::erase_if(files, [](const std::string& path) { return !kind_of_file(path); });
   if (files.empty()) throw Impossible(folder + ": no task, robot or scene file below this folder");
   return files;
 }
@@ -65,7 +65,7 @@ std::vector<std::string> files_of(const ValidateArguments& arguments, lang::Open
 
 /// What is none of zwang's is read as a task file, whose reader says what is wrong.
 FileKind kind_of(const std::string& path) {
-  return kind_by_key(path).value_or(FileKind::task);
+  return kind_of_file(path).value_or(FileKind::task);
 }
 
 /// `-p`, `--robot` and `--scene` speak of task files; `--robot` of scene files, too.

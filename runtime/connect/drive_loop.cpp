@@ -99,8 +99,8 @@ class Loop {
     if (!runner_.guard().stopped()) runner_.guard().stop(code);
   }
 
-  /// The guard cannot know that nothing comes any more by this process's own clock, or that somebody asks for
-  /// the end: by a signal, or by the service `stop`.
+  /// The guard does not know this process's own clock, by which nothing may come any more. Nor does it know
+  /// that somebody asks for the end, by a signal or by the service `stop`.
   void judge() {
     const double silence = now() - inbox_.last_arrival();
     if (silence > connection_.joints.stale_after) stop(EventCode::lost_ticks);

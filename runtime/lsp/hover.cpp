@@ -160,16 +160,13 @@ std::string about_parameter(const Asked& asked, const std::string& name) {
 }
 
 std::string about_name(const Asked& asked, const lang::Position& place) {
-  lang::Diagnostics diagnostics;
-  for (const lang::NamePlace& name : lang::names_of(asked.kind, asked.file, diagnostics)) {
-    if (!holds(name.span, place)) continue;
-    if (name.may_be(lang::NameKind::parameter)) {
-      const std::string text = about_parameter(asked, name.name);
-      if (!text.empty()) return text;
-    }
-    return std::string(lang::word_of(name.kinds.front())) + " `" + name.name + "`\n";
+  const std::optional<lang::NamePlace> name = name_at(asked.file, asked.kind, place);
+  if (!name) return {};
+  if (name->may_be(lang::NameKind::parameter)) {
+    const std::string text = about_parameter(asked, name->name);
+    if (!text.empty()) return text;
   }
-  return {};
+  return std::string(lang::word_of(name->kinds.front())) + " `" + name->name + "`\n";
 }
 
 bool is_in_a_quantity(char c) {

@@ -12,9 +12,11 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string text_with(const FileOfName& file, const std::string& new_name) {
-  std::string text = file.diagnostics.source(file.spans.front().source).text;
+  const std::string& before = file.diagnostics.source(file.spans.front().source).text;
+  const Lines lines(before);
+  std::string text = before;
+  // From the end: what stands in front keeps its place.
   for (auto span = file.spans.rbegin(); span != file.spans.rend(); ++span) {
-    const Lines lines(text);
     const std::size_t begin = lines.offset(lines.to_editor(span->begin));
     const std::size_t end = lines.offset(lines.to_editor(span->end));
     text.replace(begin, end - begin, new_name);

@@ -9,7 +9,6 @@
 namespace zwang::lsp {
 
 namespace fs = std::filesystem;
-using lang::NameKind;
 
 namespace {
 
@@ -23,10 +22,6 @@ fs::path root_above(const fs::path& file) {
     if (fs::exists(folder / ".zwang-root", error)) return folder;
   }
   return file.parent_path();
-}
-
-bool has_scope(NameKind kind) {
-  return kind == NameKind::group || kind == NameKind::argument;
 }
 
 std::set<fs::path> named_in(const fs::path& file) {

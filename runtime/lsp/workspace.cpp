@@ -1,6 +1,5 @@
 #include "workspace.hpp"
 
-#include <fstream>
 #include <utility>
 
 #include "uri.hpp"
@@ -26,14 +25,9 @@ void judge_task(const fs::path& path, Judgement& judgement) {
 }  // namespace
 
 std::optional<lang::FileKind> kind_of(const fs::path& path) {
-  if (const std::string* open = lang::open_text_of(path)) return lang::kind_of_text(*open);
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) return std::nullopt;
-  std::string start(16 * 1024, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
-  return lang::kind_of_text(start);
+  const bool can_be_read = lang::open_text_of(path) != nullptr || fs::is_regular_file(path, error);
+  return can_be_read ? lang::kind_of_file(path) : std::nullopt;
 }
 
 Judgement judge(const fs::path& path, lang::FileKind kind) {

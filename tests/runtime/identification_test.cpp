@@ -53,7 +53,7 @@ void expect_true(const Identification& found, const lang::Robot& robot, double f
     EXPECT_NEAR(motor.torque_factor.value, factor, bound * factor) << motor.joint;
     EXPECT_NEAR(motor.coulomb.value, truth.coulomb, bound * truth.coulomb) << motor.joint;
     EXPECT_NEAR(motor.viscous.value, truth.viscous, bound * truth.viscous) << motor.joint;
-    // What is told of the error is of its size.
+    // The error that is told is of the size of the error.
     EXPECT_LT(motor.coulomb.error, bound * truth.coulomb);
     EXPECT_LT(motor.viscous.error, bound * truth.viscous);
   }

@@ -38,7 +38,7 @@ class Proposer {
       return std::move(all_);
     }
     if (is_behind_number()) {
-      for (const std::string& unit : units_that_fit(kind_, place_.keys)) add(unit, ProposalKind::unit, "");
+      for (const std::string& unit : units_that_fit(place_.keys)) add(unit, ProposalKind::unit, "");
       return std::move(all_);
     }
     if (is_behind_dollar()) {
@@ -82,8 +82,8 @@ class Proposer {
     const std::string scope = scope_of(place_.keys);
     for (const NamePlace& given : known_.given) {
       if (!given.is_given || given.kinds.front() != kind) continue;
-      const bool has_scope = kind == NameKind::group || kind == NameKind::argument;
-      if (has_scope && given.scope != scope && given.scope != "always" && kind_ == FileKind::task) continue;
+      if (has_scope(kind) && given.scope != scope && given.scope != "always" && kind_ == FileKind::task)
+        continue;
       add(given.name, ProposalKind::name, word_of(kind));
     }
   }

@@ -49,10 +49,8 @@ void NameWalk::mean_part(const Node& scalar, std::size_t begin, std::size_t end,
                          const std::string& scope) {
   const std::string name = scalar.text.substr(begin, end - begin);
   if (!is_name(name)) return;
-  const std::vector<Position> positions = positions_of(scalar, text_);
-  if (end >= positions.size()) return;
-  places_.push_back(
-      {std::move(kinds), name, scope, {document_.source, positions[begin], positions[end]}, false});
+  const std::optional<Span> span = span_of(scalar, begin, end);
+  if (span) places_.push_back({std::move(kinds), name, scope, *span, false});
 }
 
 /// A scalar that stands as it is on one line needs no search for the places of its letters.

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "edit/name_walk.hpp"
+#include "spec/value.hpp"
 #include "tree/file.hpp"
 
 namespace zwang::lang {
@@ -19,8 +20,7 @@ const NamePlace* given_for(const NamePlace& meant, const std::vector<NamePlace>&
     const NamePlace* elsewhere = nullptr;
     for (const NamePlace& place : all) {
       if (!place.is_given || place.kinds.front() != kind || place.name != meant.name) continue;
-      const bool has_scope = kind == NameKind::group || kind == NameKind::argument;
-      if (!has_scope || place.scope == meant.scope || place.scope == "always") return &place;
+      if (!has_scope(kind) || place.scope == meant.scope || place.scope == "always") return &place;
       // A task that uses a template may speak of the template's groups.
       if (kind == NameKind::group && elsewhere == nullptr) elsewhere = &place;
     }
@@ -63,11 +63,12 @@ bool NamePlace::may_be(NameKind kind) const {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
 }
 
+bool has_scope(NameKind kind) {
+  return kind == NameKind::group || kind == NameKind::argument;
+}
+
 bool is_name(const std::string& text) {
-  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  return !text.empty() && is_letter(text.front()) && std::all_of(text.begin(), text.end(), [&](char c) {
-    return is_letter(c) || (c >= '0' && c <= '9');
-  });
+  return is_identifier(text);
 }
 
 std::vector<NamePlace> names_of(FileKind kind, const fs::path& path, Diagnostics& diagnostics) {

@@ -79,7 +79,7 @@ constexpr std::array usual_units{"m",   "cm",    "mm",     "m/s",     "cm/s",   
 
 }  // namespace
 
-std::vector<std::string> units_that_fit(FileKind, const std::vector<std::string>& keys) {
+std::vector<std::string> units_that_fit(const std::vector<std::string>& keys) {
   const std::optional<Dimension> wanted = dimension_below(keys);
   std::vector<std::string> units;
   for (const char* unit : usual_units) {

@@ -4,11 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "zwang/lang/file_kind.hpp"
-
 namespace zwang::lang {
 
 /// Units of what the key measures, the usual one first; all units where that is not known.
-std::vector<std::string> units_that_fit(FileKind kind, const std::vector<std::string>& keys);
+std::vector<std::string> units_that_fit(const std::vector<std::string>& keys);
 
 }  // namespace zwang::lang

@@ -63,7 +63,7 @@ std::filesystem::path root_of(const std::filesystem::path& file) {
 
 namespace {
 
-/// What is on the disk, at most one byte more than the limit; nullopt where it cannot be read.
+/// The bytes on the disk, at most one more than the limit; nullopt where they cannot be read.
 std::optional<std::string> text_on_disk(const std::filesystem::path& path, const SizeLimit& limit,
                                         const Span& cause, Diagnostics& diagnostics) {
   const Descriptor file(path);

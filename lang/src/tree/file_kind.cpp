@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <fstream>
+#include <string>
+
+#include "zwang/lang/open_texts.hpp"
 
 namespace zwang::lang {
 
@@ -75,6 +79,15 @@ std::optional<FileKind> kind_of_text(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return std::nullopt;
+}
+
+std::optional<FileKind> kind_of_file(const std::filesystem::path& path) {
+  if (const std::string* open = open_text_of(path)) return kind_of_text(*open);
+  std::string start(16 * 1024, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return kind_of_text(start);
 }
 
 }  // namespace zwang::lang

@@ -10,8 +10,8 @@
 //       = sum_i B' j_i ( k_i tau_i - c_i sign(w_i) - d_i w_i ).
 //
 // Integrated over windows of 0.1 s, no rate needs a derivative: impulses of torques stand beside differences
-// of momenta and of angles. The lines are linear in the torque factor k_i, dry friction c_i and viscous
-// friction d_i of each motor, in J, and in m where it is asked for:
+// of momenta and of angles. The lines are linear in each motor's torque factor k_i, dry friction c_i and
+// viscous friction d_i. They are linear in J, and in m where it is asked for:
 //
 //   y = X b,   b = (X'X)^-1 X'y,   error of b_n = sqrt( |y - X b|^2 / (lines - columns) (X'X)^-1_nn ).
 //

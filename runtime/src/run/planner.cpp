@@ -162,7 +162,7 @@ class Look {
     }
   }
 
-  /// What is written and has no row at the start pose, and what has another one until a signal comes.
+  /// Statements without a row at the start pose, and those that have another row until a signal comes.
   void add_dormant(const lang::Task& task, const std::vector<double>& parameters, TaskPlan& plan) const {
     std::set<std::string> unknown;
     for (const auto* groups : {&program_.always.groups, &task.groups}) {
@@ -200,7 +200,7 @@ class Look {
     if (equalities.solve(state_, rows, motion) == solver::Status::ok) plan.rank = motion.rank - ground;
   }
 
-  /// What was said about the lines of the task, and of `always`, which holds in every task.
+  /// The diagnostics about the lines of the task, and of `always`, which holds in every task.
   std::vector<lang::Diagnostic> notes_of(const lang::Task& task) const {
     int next = 1 << 30;
     int first_task = 1 << 30;

@@ -1,6 +1,7 @@
 /// Which of zwang's files a text is.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string_view>
 
@@ -14,5 +15,7 @@ const char* word_of(FileKind kind);
 /// By the text's first key, a misspelt one, too: its reader says what is wrong. nullopt when it is none of
 /// zwang's files.
 std::optional<FileKind> kind_of_text(std::string_view text);
+/// The same of a file's first lines, or of its open text.
+std::optional<FileKind> kind_of_file(const std::filesystem::path& path);
 
 }  // namespace zwang::lang

@@ -28,6 +28,9 @@ enum class NameKind {
 /// `task`, `template`, ...: for people.
 const char* word_of(NameKind kind);
 
+/// Whether names of this kind are known within one task or template alone.
+bool has_scope(NameKind kind);
+
 struct NamePlace {
   /// The kinds that the name may have, the likeliest first; one kind if the file gives the name itself.
   std::vector<NameKind> kinds;
