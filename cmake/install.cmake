@@ -40,6 +40,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/zwangConfigVersion.cmake 
 install(FILES ${PROJECT_BINARY_DIR}/zwangConfig.cmake ${PROJECT_BINARY_DIR}/zwangConfigVersion.cmake
   ${PROJECT_SOURCE_DIR}/cmake/zwang_mujoco.cmake DESTINATION ${zwang_package_folder} COMPONENT development)
 
+install(FILES ${PROJECT_SOURCE_DIR}/package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/zwang COMPONENT development)
+
 # What pkg-config tells hosts that are not built by CMake.
 file(RELATIVE_PATH zwang_from_pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 foreach(file IN ITEMS zwang zwang-simulation)

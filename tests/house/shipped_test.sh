@@ -40,6 +40,10 @@ while IFS= read -r file; do
   done
 done < <(find specs/scenarios -name '*.yaml')
 
+# colcon and CMake speak of the same version.
+version=$(sed -nE 's/^#define ZWANG_VERSION "(.*)"/\1/p' solver/include/zwang/version.hpp)
+if ! grep -qF "<version>$version</version>" package.xml; then complain "package.xml has not version $version of version.hpp"; fi
+
 # Relative links of the documentation.
 links=0
 while IFS= read -r page; do

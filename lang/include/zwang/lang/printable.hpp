@@ -6,7 +6,7 @@
 
 namespace zwang::lang {
 
-/// The text with \xNN for each byte of a control character (C0, DEL, C1), of a character that makes a text
+/// The text with `\xNN` for each byte of a control character (C0, DEL, C1), of a character that makes a text
 /// look other than it is, and for each byte that is not UTF-8. `kept` are control characters that stay.
 std::string printable(std::string_view text, std::string_view kept = "\n\t");
 
