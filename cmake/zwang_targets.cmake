@@ -1,8 +1,9 @@
 # What every target of zwang shares: warnings as errors, and sanitizers where a preset asks for them. Clang's
 # -Wdouble-promotion would refuse the oracle's long double, too.
+option(ZWANG_UNITY "Compile the files of a folder together" OFF)
 add_library(zwang_flags INTERFACE)
 target_compile_options(zwang_flags INTERFACE
-  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
+  -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:${ZWANG_UNITY}>>:-Wshadow> -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
   -Woverloaded-virtual -Wnull-dereference $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Wformat=2
   $<$<BOOL:${ZWANG_WARNINGS_AS_ERRORS}>:-Werror>)
 # Designated initializers leave fields at their defaults on purpose.
@@ -30,6 +31,25 @@ function(zwang_quick_under_sanitizers target)
   if(ZWANG_SANITIZE AND (NOT ARGN OR ZWANG_SANITIZE IN_LIST ARGN))
     target_compile_options(${target} PRIVATE -O0)
   endif()
+endfunction()
+
+# zwang_together(<target>): ZWANG_UNITY compiles the files of a folder together, eight at most, which takes a third of the time:
+# their headers are read, and what these instantiate is compiled, once. The files' anonymous namespaces meet then, so that
+# -Wshadow would compare the names of one file with those of another; a build without it does.
+function(zwang_together target)
+  if(NOT ZWANG_UNITY)
+    return()
+  endif()
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(folder "${source}" DIRECTORY)
+    string(MAKE_C_IDENTIFIER "${folder}" folder)
+    list(APPEND of_${folder} ${source})
+    list(LENGTH of_${folder} count)
+    math(EXPR group "${count} / 8")
+    set_property(SOURCE ${source} PROPERTY UNITY_GROUP "${folder}_${group}")
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 
 # GCC 12 sees overlapping copies in optimised std::string sums of literals (GCC bug 105651), and writes beyond the vectors that
@@ -73,4 +93,5 @@ function(zwang_room name)
   set_target_properties(zwang_${name} PROPERTIES
     VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   zwang_precompiled(zwang_${name} ${zwang_headers_of_${name}})
+  zwang_together(zwang_${name})
 endfunction()

@@ -66,6 +66,13 @@ std::string padded(std::string_view text, std::size_t width) {
   return out;
 }
 
+std::string titled_list(const std::string& title, const std::vector<std::string>& lines) {
+  if (lines.empty()) return "";
+  std::string text = title + "\n";
+  for (const std::string& line : lines) text += "  " + line + "\n";
+  return text;
+}
+
 std::string padded_left(std::string_view text, std::size_t width) {
   return text.size() < width ? std::string(width - text.size(), ' ').append(text) : std::string(text);
 }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/runtime/with_unit.hpp"
@@ -34,6 +35,8 @@ void secure_standard_streams();
 using runtime::with_unit;
 std::string padded(std::string_view text, std::size_t width);       ///< to the left
 std::string padded_left(std::string_view text, std::size_t width);  ///< to the right
+/// The title, and each of the lines below it, indented; nothing where there are none.
+std::string titled_list(const std::string& title, const std::vector<std::string>& lines);
 
 std::string count(std::size_t n, std::string_view thing);  ///< `1 error`, `2 errors`
 

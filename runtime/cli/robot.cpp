@@ -29,7 +29,7 @@ bool is_urdf(const std::string& path) {
   return first == '<';
 }
 
-std::string number(double value) {
+std::string known_number(double value) {
   if (!std::isfinite(value)) return "no limit known";
   char text[40];
   std::snprintf(text, sizeof text, std::abs(value) >= 1e4 ? "%.0f" : "%.4g", value);
@@ -47,7 +47,7 @@ struct Spread {
   bool exists() const { return least <= most; }
   std::string text(const char* unit) const {
     const bool is_one = most - least < 1e-3 * most;
-    return (is_one ? number(least) : number(least) + " to " + number(most)) + " " + unit;
+    return (is_one ? known_number(least) : known_number(least) + " to " + known_number(most)) + " " + unit;
   }
 };
 
@@ -205,9 +205,9 @@ std::string statics_text(const lang::Robot& robot) {
   if (!footing) return "";
   const std::array<double, 4> tips = tipping_accelerations(*footing);
   return "  its mass is " + with_unit(footing->inside * 1e3, "mm", 3) + " inside its wheels and supports, " +
-         with_unit(footing->height * 1e3, "mm", 3) + " high: it tips over beyond " + number(tips[0]) +
-         " m/s^2 ahead,\n  " + number(tips[1]) + " back, " + number(tips[2]) + " to the left, " +
-         number(tips[3]) + " to the right\n";
+         with_unit(footing->height * 1e3, "mm", 3) + " high: it tips over beyond " + known_number(tips[0]) +
+         " m/s^2 ahead,\n  " + known_number(tips[1]) + " back, " + known_number(tips[2]) + " to the left, " +
+         known_number(tips[3]) + " to the right\n";
 }
 
 ordered_json statics_json(const lang::Robot& robot) {
@@ -242,13 +242,6 @@ ordered_json wheel_json(const lang::Robot& robot, const solver::Wheel& wheel) {
       {"effort", std::isfinite(joint.max_effort) ? ordered_json(joint.max_effort) : ordered_json(nullptr)}};
 }
 
-std::string listed(const char* title, const std::vector<std::string>& lines) {
-  if (lines.empty()) return "";
-  std::string text = std::string(title) + "\n";
-  for (const std::string& line : lines) text += "  " + line + "\n";
-  return text;
-}
-
 void show(const lang::Robot& robot, Format format) {
   const Analysis analysis = analyse(robot);
   if (format == Format::json) {
@@ -261,19 +254,19 @@ void show(const lang::Robot& robot, Format format) {
     print_data(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
     return;
   }
-  std::string text = "robot `" + robot.name + "`, " + number(robot.model.total_mass()) + " kg, " +
+  std::string text = "robot `" + robot.name + "`, " + known_number(robot.model.total_mass()) + " kg, " +
                      drive_of(robot.model) + "\n\nwheels\n";
   for (const solver::Wheel& wheel : robot.model.wheels()) {
     const solver::Joint& joint = robot.model.joint(wheel.body - 1);
     text += "  " + joint.name + ": radius " + with_unit(wheel.radius * 1e3, "mm") + ", " + holds(wheel) +
             ", " +
-            (joint.actuated ? number(joint.max_effort) + " N m, at most " +
-                                  number(joint.max_effort / wheel.radius) + " N at the ground"
+            (joint.actuated ? known_number(joint.max_effort) + " N m, at most " +
+                                  known_number(joint.max_effort / wheel.radius) + " N at the ground"
                             : std::string("no motor")) +
             "\n";
   }
   text += "\nthe base, in its own axes\n" + axes_text(analysis) + verdicts(analysis) + statics_text(robot) +
-          "\n" + listed("missing", gaps(robot));
+          "\n" + titled_list("missing", gaps(robot));
   print(text);
 }
 
@@ -301,12 +294,13 @@ void show(const lang::RobotDraft& draft, Format format) {
     print_data(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
     return;
   }
-  std::string text = "URDF of `" + draft.name + "`, " + number(draft.mass) + " kg, " + draft.drive + "\n\n";
+  std::string text =
+      "URDF of `" + draft.name + "`, " + known_number(draft.mass) + " kg, " + draft.drive + "\n\n";
   if (!draft.wheels.empty()) text += "wheels\n";
   for (const lang::DraftWheel& w : draft.wheels) {
-    text += "  " + w.joint + ": at (" + number(w.at[0]) + ", " + number(w.at[1]) + ") m, radius " +
-            (w.radius ? with_unit(*w.radius * 1e3, "mm") : std::string("unknown")) + ", torque " +
-            (w.effort ? number(*w.effort) + " N m" : std::string("unknown")) +
+    text += "  " + w.joint + ": at (" + known_number(w.at[0]) + ", " + known_number(w.at[1]) +
+            ") m, radius " + (w.radius ? with_unit(*w.radius * 1e3, "mm") : std::string("unknown")) +
+            ", torque " + (w.effort ? known_number(*w.effort) + " N m" : std::string("unknown")) +
             (w.swivel.empty() ? "" : ", on the swivel `" + w.swivel + "`") + "\n";
   }
   for (const lang::DraftWheel& caster : draft.casters)
@@ -316,8 +310,8 @@ void show(const lang::RobotDraft& draft, Format format) {
     const Analysis analysis = analyse(a.robot);
     text += "\nthe base, " + a.as + "\n" + axes_text(analysis) + verdicts(analysis);
   }
-  text += "\n" + listed("assumed for these figures", draft.assumption_notes) +
-          listed("missing in the URDF; `zwang robot init` writes a robot file to fill", draft.missing);
+  text += "\n" + titled_list("assumed for these figures", draft.assumption_notes) +
+          titled_list("missing in the URDF; `zwang robot init` writes a robot file to fill", draft.missing);
   print(text);
 }
 

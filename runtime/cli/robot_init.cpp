@@ -78,12 +78,6 @@ std::string listed(const std::string& title, const std::vector<lang::OpenPlace>&
   return text;
 }
 
-std::string listed(const std::string& title, const std::vector<std::string>& lines) {
-  std::string text = lines.empty() ? "" : title + "\n";
-  for (const std::string& line : lines) text += "  " + line + "\n";
-  return text;
-}
-
 std::string to_decide(const std::string& file, const std::string& text) {
   const lang::OpenPlaces places = lang::open_places(text);
   return listed("to fill in, in " + file, places.to_fill_in) + listed("proposed, to check", places.to_check);
@@ -170,7 +164,7 @@ int write_new(const RobotInitArguments& arguments, const Files& files) {
   if (arguments.task) add_task(*arguments.task, lang::base_fit(*draft), files, written);
   written.write();
   print(written.report + "\n" + to_decide(files.robot.string(), draft->text) +
-        listed("not in the URDF", draft->missing) + what_next(arguments, files));
+        titled_list("not in the URDF", draft->missing) + what_next(arguments, files));
   return exit_good;
 }
 

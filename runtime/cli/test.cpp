@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 /// A file of a folder. What is none of zwang's is named: it may have been meant as a scenario.
-bool is_scenario(const std::string& path) {
+bool is_scenario_or_passed_over(const std::string& path) {
   const std::optional<FileKind> kind = kind_of_file(path);
   if (!kind) print_error("zwang: " + path + " is passed over: its first key is none of zwang's\n");
   return kind == FileKind::scenario;
@@ -44,7 +44,7 @@ std::vector<std::string> scenario_files(const std::vector<std::string>& paths) {
       continue;
     }
     std::vector<std::string> found = yaml_files_below(path);
-    std::erase_if(found, [](const std::string& file) { return !is_scenario(file); });
+    std::erase_if(found, [](const std::string& file) { return !is_scenario_or_passed_over(file); });
     if (found.empty()) throw Impossible(path + ": there is no scenario file in it");
     files.insert(files.end(), found.begin(), found.end());
   }

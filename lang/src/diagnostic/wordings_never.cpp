@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "diagnostic/axis_units.hpp"
 #include "diagnostic/make.hpp"
 #include "spec/units.hpp"
 
@@ -26,14 +27,6 @@ std::string ticked(const std::string& path) {
 
 std::string by_the_range(const std::string& by) {
   return by.empty() ? "this base keeps it so" : ticked(by) + " keeps it so";
-}
-
-struct Units {
-  const char *force, *mass, *acceleration, *speed, *way;
-};
-
-Units units(bool turns) {
-  return turns ? Units{"N m", "kg m^2", "rad/s^2", "rad/s", "deg"} : Units{"N", "kg", "m/s^2", "m/s", "m"};
 }
 
 }  // namespace
@@ -188,7 +181,7 @@ Diagnostic never_in_time(const Span& span, const std::string& by, const Span& en
 }
 
 Diagnostic never_reached(const Span& span, const Unreached& u, const Span& limit) {
-  const Units unit = units(u.turns);
+  const AxisUnits unit = axis_units(u.turns);
   std::string help = "`force: +-" + figure(u.pressed, unit.force) + "` says what it makes";
   if (u.enough > 0.0) help += ", `time_constant: " + figure(u.enough, "s") + "` makes more of it";
   if (u.velocity != 0.0 && !limit.exists()) {
@@ -212,7 +205,7 @@ Diagnostic never_reached(const Span& span, const Unreached& u, const Span& limit
 }
 
 Diagnostic limited_range(const Span& span, const Unreached& u, const Span& limit) {
-  const Units unit = units(u.turns);
+  const AxisUnits unit = axis_units(u.turns);
   return related_where_known(
       make("N619", Severity::note, span,
            "blocked, `" + u.axis + "` presses with " + figure(u.pressed, unit.force) + " at most (" +
@@ -223,7 +216,7 @@ Diagnostic limited_range(const Span& span, const Unreached& u, const Span& limit
 }
 
 Diagnostic never_saturated(const Span& span, const Unreached& u, double motors) {
-  const Units unit = units(u.turns);
+  const AxisUnits unit = axis_units(u.turns);
   return warning("W602", span,
                  "`" + u.axis + "` is never saturated: blocked, it presses with " +
                      figure(u.pressed, unit.force) + " at most (" + figure(u.mass, unit.mass) + " x " +
@@ -233,7 +226,7 @@ Diagnostic never_saturated(const Span& span, const Unreached& u, double motors) 
 }
 
 Diagnostic clipped_spring(const Span& span, const Cap& cap, double clipped, const Span& limit) {
-  const Units unit = units(cap.turns);
+  const AxisUnits unit = axis_units(cap.turns);
   const double degrees = 180.0 / 3.14159265358979;
   return related_where_known(
       warning("W601", span,

@@ -3,20 +3,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "diagnostic/axis_units.hpp"
 #include "diagnostic/make.hpp"
 #include "zwang/solver/constraint.hpp"
 
 namespace zwang::lang::wording {
 
 namespace {
-
-struct Units {
-  const char *force, *mass, *speed, *acceleration;
-};
-
-Units units(bool turns) {
-  return turns ? Units{"N m", "kg m^2", "rad/s", "rad/s^2"} : Units{"N", "kg", "m/s", "m/s^2"};
-}
 
 /// To three significant digits, down or up: what is offered in the place of a number must do.
 double rounded(double value, bool up) {
@@ -33,7 +26,7 @@ std::string at_least(double value, const std::string& unit) {
   return figure(rounded(value, true), unit);
 }
 
-std::string product(double mass, double acceleration, const Units& u) {
+std::string product(double mass, double acceleration, const AxisUnits& u) {
   return figure(mass, u.mass) + " x " + figure(acceleration, u.acceleration);
 }
 
@@ -48,7 +41,7 @@ std::string ahead(const std::string& frame) {
 }
 
 Diagnostic capped(Diagnostic diagnostic, const Cap& cap, const Span& limit) {
-  const Units u = units(cap.turns);
+  const AxisUnits u = axis_units(cap.turns);
   diagnostic.help = "ask for `" + at_most(cap.most, u.force) + "` or less, or allow an acceleration of `" +
                     at_least(cap.wanted / cap.mass, u.acceleration) + "`";
   if (!limit.exists()) return diagnostic;
@@ -140,7 +133,7 @@ Diagnostic pushes_fully(const Span& span, double push, const Span& motor) {
 }
 
 Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit) {
-  const Units u = units(cap.turns);
+  const AxisUnits u = axis_units(cap.turns);
   return capped(error("E601", span,
                       "`" + cap.axis + "` can never press with " + figure(cap.wanted, u.force) +
                           ": the acceleration limit caps it at " + figure(cap.most, u.force) + " (" +
@@ -149,7 +142,7 @@ Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit) {
 }
 
 Diagnostic cannot_press_everywhere(const Span& span, const Cap& least, const Span& limit) {
-  const Units u = units(least.turns);
+  const AxisUnits u = axis_units(least.turns);
   return capped(warning("W601", span,
                         "`" + least.axis + "` cannot press with " + figure(least.wanted, u.force) +
                             " in every configuration: the acceleration limit caps it at " +
@@ -159,7 +152,7 @@ Diagnostic cannot_press_everywhere(const Span& span, const Cap& least, const Spa
 }
 
 Diagnostic cannot_press_at_range_end(const Span& span, const Cap& cap, const Span& limit) {
-  const Units u = units(cap.turns);
+  const AxisUnits u = axis_units(cap.turns);
   return capped(
       warning("W601", span,
               "`" + cap.axis + "` cannot press with " + figure(cap.wanted, u.force) +
@@ -170,7 +163,7 @@ Diagnostic cannot_press_at_range_end(const Span& span, const Cap& cap, const Spa
 
 Diagnostic dead_guard(const Span& span, const std::string& axis, bool turns, double mass, double acceleration,
                       double pressed, double time_constant, const Span& guard) {
-  const Units u = units(turns);
+  const AxisUnits u = axis_units(turns);
   std::string help = "a force range of `+-" + at_most(pressed, u.force) + "` or less";
   if (time_constant > 0.0) help += ", or a `time_constant` of `" + at_most(time_constant, "s") + "` or less";
   return with_related(
@@ -183,7 +176,7 @@ Diagnostic dead_guard(const Span& span, const std::string& axis, bool turns, dou
 
 Diagnostic brakes_too_hard(const Span& span, const std::string& axis, bool turns, const Braking& b,
                            double enough) {
-  const Units u = units(turns);
+  const AxisUnits u = axis_units(turns);
   const std::string limit = b.by_force ? "its force range allows " + figure(b.allowed, u.acceleration) +
                                              " (" + figure(b.allowed * b.mass, u.force) + " / " +
                                              figure(b.mass, u.mass) + ")"
@@ -205,7 +198,7 @@ Diagnostic faster_than_the_tick(const Span& span, const std::string& axis, doubl
 Diagnostic damped_too_hard(const Span& span, const std::string& axis, bool turns, double mass, double period,
                            double most) {
   return warning("W604", span,
-                 "the damping of `" + axis + "` shakes " + figure(mass, units(turns).mass) + ": " +
+                 "the damping of `" + axis + "` shakes " + figure(mass, axis_units(turns).mass) + ": " +
                      control_period_of(period) + " cannot follow it",
                  "`damping: " + at_most(most, turns ? "N m s/rad" : "N s/m") + "` or less");
 }
@@ -213,14 +206,14 @@ Diagnostic damped_too_hard(const Span& span, const std::string& axis, bool turns
 Diagnostic too_stiff(const Span& span, const std::string& axis, bool turns, double mass, double period,
                      double most) {
   return warning("W604", span,
-                 "`" + axis + "` is too stiff for its damping: on " + figure(mass, units(turns).mass) +
+                 "`" + axis + "` is too stiff for its damping: on " + figure(mass, axis_units(turns).mass) +
                      " and with " + control_period_of(period) + " it swings wider and wider",
                  "`stiffness: " + at_most(most, turns ? "N m/rad" : "N/m") + "` or less, or more damping");
 }
 
 Diagnostic force_budget(const Span& span, const std::string& axis, bool turns, double own,
                         const std::string& others, double added) {
-  const Units u = units(turns);
+  const AxisUnits u = axis_units(turns);
   return make(
       "N605", Severity::note, span,
       "`" + axis + "` <= " + figure(own, u.force) + ", but " + others + " may add " + figure(added, u.force),
@@ -229,7 +222,7 @@ Diagnostic force_budget(const Span& span, const std::string& axis, bool turns, d
 
 Diagnostic beyond_the_motors(const Span& span, const std::string& axis, bool turns, double asked, double most,
                              double mass, double time_constant, bool always) {
-  const Units u = units(turns);
+  const AxisUnits u = axis_units(turns);
   std::string from = mass > 0.0 ? " (" + product(mass, asked / mass, u) + ")" : "";
   std::string help = mass > 0.0 ? "ask for `" + at_most(most / mass, u.acceleration) + "` or less"
                                 : "ask for `" + at_most(most, u.force) + "` or less";
@@ -242,7 +235,7 @@ Diagnostic beyond_the_motors(const Span& span, const std::string& axis, bool tur
 
 Diagnostic boundary_not_held(const Span& span, const std::string& axis, bool turns, double mass,
                              double braking, double force, double enough) {
-  const Units u = units(turns);
+  const AxisUnits u = axis_units(turns);
   constexpr double share = solver::braking_share;
   return warning("W607", span,
                  "the boundary of `" + axis + "` brakes with up to " +

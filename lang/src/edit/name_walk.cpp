@@ -15,10 +15,6 @@ bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-bool is_word_part(char c) {
-  return is_word_start(c) || is_digit(c);
-}
-
 std::size_t end_of_word(std::string_view text, std::size_t at) {
   while (at < text.size() && is_word_part(text[at])) ++at;
   return at;

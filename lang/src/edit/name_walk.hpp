@@ -11,6 +11,11 @@
 
 namespace zwang::lang {
 
+/// Whether `c` may stand in a name, behind its first letter.
+constexpr bool is_word_part(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
 /// The places of names, as they are found. Knows the text, for places inside of scalars.
 class NameWalk {
  public:

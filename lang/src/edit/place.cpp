@@ -1,14 +1,11 @@
 #include <algorithm>
 
+#include "edit/name_walk.hpp"
 #include "zwang/lang/completion.hpp"
 
 namespace zwang::lang {
 
 namespace {
-
-bool is_word_part(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
 
 std::string trimmed_key(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(" \t\"'");

@@ -15,7 +15,7 @@ namespace {
 /// The shipped robot's mass, for which the shipped forces were chosen. [kg]
 constexpr double shipped_mass = 46.0;
 
-std::string metres(double value) {
+std::string to_the_millimetre(double value) {
   return wording::figure(std::round(value * 1e3) / 1e3, "m");
 }
 
@@ -97,9 +97,9 @@ class Fitting {
   }
 
   std::string gap_text(double gap) const {
-    return metres(gap) + (fit_.outline_is_known
-                              ? " ahead of the base's outline"
-                              : " ahead of what the body may reach, for its outline is not known yet");
+    return to_the_millimetre(gap) +
+           (fit_.outline_is_known ? " ahead of the base's outline"
+                                  : " ahead of what the body may reach, for its outline is not known yet");
   }
 
   std::string head(const std::string& about) const {
@@ -107,8 +107,8 @@ class Fitting {
   }
 
   static std::string wall(double x, double length) {
-    return "objects:\n  wall:\n    wall: {length: " + metres(length) +
-           ", thickness: 0.1 m, height: 1 m}\n    at: [" + metres(x) +
+    return "objects:\n  wall:\n    wall: {length: " + to_the_millimetre(length) +
+           ", thickness: 0.1 m, height: 1 m}\n    at: [" + to_the_millimetre(x) +
            ", 0 m]\n    yaw: 0 deg\n    fixed: true\n    stiffness: 100 kN/m\n    damping: 0.3  # ratio to "
            "the critical "
            "one\n    friction: 0\n";
@@ -131,7 +131,7 @@ class Fitting {
   }
 
   std::string cart_scene() const {
-    const std::string at = metres(ahead(0.0) + cart_gap + 0.2);
+    const std::string at = to_the_millimetre(ahead(0.0) + cart_gap + 0.2);
     return head("a cart in the way, " + gap_text(cart_gap) + ", that is pulled aside after 20 s.") +
            "start: {at: [0 m, 0 m], yaw: 0 deg}\nfloor: {friction: 0.9}\n\nobjects:\n  cart:\n    box: [0.4 "
            "m, 1.2 m, "
@@ -144,12 +144,12 @@ class Fitting {
   }
 
   std::string dock_scene() const {
-    return head("the back of another robot, " + metres(dock_gap) +
+    return head("the back of another robot, " + to_the_millimetre(dock_gap) +
                 " behind this one, with a socket that latches.") +
            "start: {at: [0 m, 0 m], yaw: 0 deg}\nfloor: {friction: 0.9}\n\nobjects:\n  partner:\n    box: "
            "[0.6 m, 0.5 m, "
            "0.4 m]\n    at: [" +
-           metres(-(behind() + dock_gap + 0.3)) +
+           to_the_millimetre(-(behind() + dock_gap + 0.3)) +
            ", 0 m]\n    fixed: true\n    stiffness: 100 kN/m\n    damping: 0.3  # ratio to the critical "
            "one\n    "
            "friction: 0.1\n    dock: {at: [0.3 m, 0 m], reach: 1 cm, hook: hook}\n\nsignals:\n  # Seen as by "

@@ -20,10 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_parameter(const std::string& key) {
-  return key.starts_with("params.");
-}
-
 /// The parameters that the task file declares, read from its text among the sources; nullopt where they
 /// cannot be told. What is wrong with that file is not the scenario's matter.
 std::optional<Symbols> parameters_of(const fs::path& task, const Diagnostics& diagnostics) {

@@ -12,14 +12,14 @@
 
 namespace zwang::lang {
 
+bool is_parameter(const std::string& key) {
+  return key.starts_with("params.") && key.size() > 7;
+}
+
 namespace {
 
 const std::vector<std::string> outcomes{"done",     "failed",  "stopped",   "fallen",
                                         "diverged", "refused", "unfinished"};
-
-bool is_parameter(const std::string& key) {
-  return key.rfind("params.", 0) == 0 && key.size() > 7;
-}
 
 std::string stem(const std::string& path) {
   return std::filesystem::path(path).stem().string();

@@ -13,6 +13,9 @@
 
 namespace zwang::lang {
 
+/// Whether a key of the matrix names a parameter: `params.NAME`.
+bool is_parameter(const std::string& key);
+
 /// A value that varies, as one cell has it.
 struct MatrixValue {
   std::string label;  ///< for the cell's name

@@ -15,8 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double frequency = 100.0;    ///< w [1/s]
-constexpr double damping_ratio = 0.7;  ///< while the bristles hold
+constexpr double contact_frequency = 100.0;    ///< w [1/s]
+constexpr double contact_damping_ratio = 0.7;  ///< while the bristles hold
 
 /// Of the body's point at `point`, in world axes.
 Vector3d velocity_at(const mjModel& m, const mjData& d, int body, const Vector3d& point) {
@@ -47,8 +47,8 @@ ContactFriction::ContactFriction(const mjModel& model, const std::vector<GeomOwn
       inverse_mass += model.body_invweight0[2 * bristle.bodies[side]];
     }
     if (!(bristle.coefficient > 0.0) || !(inverse_mass > 0.0)) continue;
-    bristle.stiffness = frequency * frequency / inverse_mass;
-    bristle.damping = 2.0 * damping_ratio * frequency / inverse_mass;
+    bristle.stiffness = contact_frequency * contact_frequency / inverse_mass;
+    bristle.damping = 2.0 * contact_damping_ratio * contact_frequency / inverse_mass;
     bristles_.push_back(bristle);
   }
 }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+
+#include "refuse.hpp"
 
 namespace zwang::runtime {
 
@@ -10,11 +11,9 @@ namespace {
 
 template <typename Touched>
 Touchable::Skin skin_of(const Touched& object, const char* kind) {
-  const auto refuse = [&](const char* what) {
-    throw std::invalid_argument("plant: " + std::string(what) + " (" + kind + " `" + object.name + "`)");
-  };
   if (!(object.stiffness > 0.0) || !(object.damping >= 0.0) || !(object.friction.value_or(0.0) >= 0.0)) {
-    refuse("stiffness, damping or friction is out of range");
+    refuse(std::string("stiffness, damping or friction is out of range (") + kind + " `" + object.name +
+           "`)");
   }
   return {object.stiffness, object.damping};
 }

@@ -10,8 +10,8 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr double frequency = 200.0;  ///< w [1/s]
-constexpr double damping = 0.7;      ///< ratio, while the bristles hold
+constexpr double floor_frequency = 200.0;  ///< w [1/s]
+constexpr double damping = 0.7;            ///< ratio, while the bristles hold
 
 }  // namespace
 
@@ -20,10 +20,10 @@ FloorFriction::FloorFriction(double mass, double yaw_inertia, double load, doubl
 
 Eigen::Vector3d FloorFriction::step(const Eigen::Vector3d& velocity, double period) noexcept {
   stretch_ += period * velocity;
-  const Eigen::Vector2d stiffness = frequency * frequency * inertia_;
+  const Eigen::Vector2d stiffness = floor_frequency * floor_frequency * inertia_;
   cut(stretch_.head<2>(), limit_[0] / stiffness[0]);
   cut(stretch_.tail<1>(), limit_[1] / stiffness[1]);
-  const Eigen::Vector3d pull = stretch_ + 2.0 * damping / frequency * velocity;
+  const Eigen::Vector3d pull = stretch_ + 2.0 * damping / floor_frequency * velocity;
   Eigen::Vector3d force;
   force << -stiffness[0] * pull.head<2>(), -stiffness[1] * pull.tail<1>();
   cut(force.head<2>(), limit_[0]);

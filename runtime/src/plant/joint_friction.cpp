@@ -7,8 +7,8 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr double frequency = 500.0;    ///< [1/s] of the stiffest bristle
-constexpr double damping_ratio = 0.7;  ///< while the bristle holds
+constexpr double joint_frequency = 500.0;    ///< [1/s] of the stiffest bristle
+constexpr double joint_damping_ratio = 0.7;  ///< while the bristle holds
 
 }  // namespace
 
@@ -25,10 +25,10 @@ JointFriction::JointFriction(const lang::Robot& robot) {
     bristle.joint = static_cast<Eigen::Index>(j);
     bristle.coulomb = friction.coulomb;
     bristle.viscous = friction.viscous;
-    const double stiffest = inertia * frequency * frequency;
+    const double stiffest = inertia * joint_frequency * joint_frequency;
     bristle.longest = std::max(friction.presliding, friction.coulomb / stiffest);
     bristle.stiffness = bristle.longest > 0.0 ? friction.coulomb / bristle.longest : stiffest;
-    bristle.damping = 2.0 * damping_ratio * std::sqrt(inertia * bristle.stiffness);
+    bristle.damping = 2.0 * joint_damping_ratio * std::sqrt(inertia * bristle.stiffness);
     joints_.push_back(bristle);
   }
 }

@@ -1,13 +1,13 @@
 #include "mjcf.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 #include <string_view>
 
 #include "mjcf_text.hpp"
 #include "object_geometry.hpp"
 #include "outline.hpp"
 #include "pair_friction.hpp"
+#include "refuse.hpp"
 
 namespace zwang::runtime {
 
@@ -20,10 +20,6 @@ using solver::RigidInertia;
 using solver::Vector3;
 
 constexpr double scripted_mass = 1e6;  ///< [kg] whatever meets it does not move it
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("plant: " + what);
-}
 
 class MjcfWriter {
  public:

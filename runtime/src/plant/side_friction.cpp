@@ -7,8 +7,8 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr double frequency = 200.0;    ///< [1/s] of the share of the robot's mass on a bristle
-constexpr double damping_ratio = 0.7;  ///< while the bristles hold
+constexpr double side_frequency = 200.0;    ///< [1/s] of the share of the robot's mass on a bristle
+constexpr double side_damping_ratio = 0.7;  ///< while the bristles hold
 
 }  // namespace
 
@@ -28,8 +28,8 @@ SideFriction::SideFriction(const solver::Model& model, double coefficient) {
   }
   if (wheels_.empty()) return;
   const double mass = model.total_mass() / static_cast<double>(wheels_.size());
-  stiffness_ = mass * frequency * frequency;
-  damping_ = 2.0 * damping_ratio * mass * frequency;
+  stiffness_ = mass * side_frequency * side_frequency;
+  damping_ = 2.0 * side_damping_ratio * mass * side_frequency;
 }
 
 solver::ForceVector SideFriction::step(const solver::MotionVector& twist, const std::vector<double>& loads,

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 
 #include "mjcf.hpp"
+#include "refuse.hpp"
 #include "zwang/lang/footing.hpp"
 #include "zwang/lang/plane.hpp"
 #include "zwang/lang/wheel_level.hpp"
@@ -15,10 +15,6 @@ using solver::Model;
 using solver::Vector3;
 
 namespace {
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("plant: " + what);
-}
 
 std::string in_millimetres(double metres) {
   char text[32];

@@ -14,9 +14,9 @@
 #include <cstring>
 #include <mutex>
 #include <numbers>
-#include <stdexcept>
 
 #include "contact_spring.hpp"
+#include "refuse.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 
 namespace zwang::runtime {
@@ -24,10 +24,6 @@ namespace zwang::runtime {
 namespace {
 
 using Vector3 = Eigen::Vector3d;
-
-[[noreturn]] void refuse(const std::string& what) {
-  throw std::invalid_argument("plant: " + what);
-}
 
 // MuJoCo reports errors through handlers of the whole process. Its own wait for a key and write a file.
 // No frame between the handler and the place that it jumps to holds anything that would need destroying.

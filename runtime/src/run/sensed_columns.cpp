@@ -9,7 +9,7 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr double blank = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_sensed = std::numeric_limits<double>::quiet_NaN();
 constexpr double not_finite = std::numeric_limits<double>::infinity();
 
 constexpr std::initializer_list<const char*> pose_parts = {".xx", ".yx", ".zx", ".xy", ".yy", ".zy",
@@ -20,7 +20,7 @@ constexpr std::initializer_list<const char*> vector_parts = {".rx", ".ry", ".rz"
 struct Writer {
   void number(double x) noexcept {
     double value = x;
-    if (x == 0.0 && !std::signbit(x)) value = blank;
+    if (x == 0.0 && !std::signbit(x)) value = not_sensed;
     if (!std::isfinite(x)) value = not_finite;
     values[at++] = value;
   }
@@ -29,7 +29,7 @@ struct Writer {
   void maybe(const std::optional<T>& x, std::size_t columns, const Visit& visit) noexcept {
     flag(x.has_value());
     if (x) return visit(*x);
-    for (std::size_t i = 0; i < columns; ++i) values[at++] = blank;
+    for (std::size_t i = 0; i < columns; ++i) values[at++] = not_sensed;
   }
   std::span<double> values;
   std::size_t at = 0;
@@ -207,7 +207,7 @@ void SensedColumns::write(const Sensed& sensed, std::span<const double> paramete
   const bool sized = sensed.state.q.size() == sensed.state.qd.size() &&
                      sensed.state.q.size() == sensed.state.tau_ff.size() &&
                      static_cast<std::size_t>(sensed.state.q.size()) + 1 == sensed.state.f_ext.size();
-  for (double& value : values) value = blank;
+  for (double& value : values) value = not_sensed;
   std::copy(parameters.begin(), parameters.end(),
             values.begin() + static_cast<std::ptrdiff_t>(first_parameter_));
   if (!sized) return;

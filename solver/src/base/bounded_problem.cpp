@@ -30,10 +30,6 @@ double authority(Quantity quantity) {
   }
 }
 
-double nonzero(double length) {
-  return length > 0.0 ? length : 1.0;
-}
-
 }  // namespace
 
 BoundedProblem::BoundedProblem(int rows, int motors, int dimension)

@@ -30,6 +30,11 @@
 
 namespace zwang::solver {
 
+/// What to divide by for a length of 1; a length of 0 stays.
+inline double nonzero(double length) noexcept {
+  return length > 0.0 ? length : 1.0;
+}
+
 class BoundedProblem {
  public:
   BoundedProblem(int row_capacity, int motor_capacity, int dimension_capacity);

@@ -24,9 +24,9 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double mostly_along = 0.7;  // a cosine
-constexpr double tie = 1e-9;          // relative: limits closer than that are equal
-constexpr double rounding = 1e-12;    // the same, of a limit that stands where it pushes to
+constexpr double mostly_along = 0.7;      // a cosine
+constexpr double tie = 1e-9;              // relative: limits closer than that are equal
+constexpr double limit_rounding = 1e-12;  // the same, of a limit that stands where it pushes to
 
 /// Whether `one` is clearly beyond `other`, seen from inside the range that `side` (1: upper) bounds.
 bool is_beyond(double one, double other, double side) {
@@ -212,7 +212,7 @@ bool BoundedProblem::limits_above_hold(int first) noexcept {
 
 /// Of a limit that takes no share of what another one pushes.
 double BoundedProblem::least_room(int i) noexcept {
-  return 1e3 * rounding * (std::abs(d_(i)) + std::abs(entry(i).offset));
+  return 1e3 * limit_rounding * (std::abs(d_(i)) + std::abs(entry(i).offset));
 }
 
 /// Whether the posed rows are limits that are content with the present motion: those that push stand exactly

@@ -8,11 +8,7 @@ namespace zwang::solver {
 
 namespace {
 
-constexpr double rounding = 1e-12;  // relative: what sums may show at a limit
-
-double nonzero(double length) {
-  return length > 0.0 ? length : 1.0;
-}
+constexpr double sum_rounding = 1e-12;  // relative: what sums may show at a limit
 
 }  // namespace
 
@@ -41,7 +37,8 @@ bool BoundedProblem::sums_hold(int level, const Vector& p) noexcept {
     if (!sum_counts(i, level)) continue;
     const Entry& e = entry(i);
     const double sum = sum_of(i, p);
-    if (sum < e.lo - rounding * std::abs(e.lo) || sum > e.hi + rounding * std::abs(e.hi)) return false;
+    if (sum < e.lo - sum_rounding * std::abs(e.lo) || sum > e.hi + sum_rounding * std::abs(e.hi))
+      return false;
   }
   return true;
 }
