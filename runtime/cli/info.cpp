@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "output.hpp"
+#include "run_log.hpp"
 #include "verbs.hpp"
 #include "zwang/runtime/log_reader.hpp"
 
@@ -25,13 +27,33 @@ struct ToldEvent {
   std::string code, signal;
 };
 
-/// The word of a column. A record is one flat object of ours, so that it need not be parsed whole.
-std::string_view word_of(std::string_view record, std::string_view key) {
-  const std::size_t begin = record.find(key);
-  if (begin == std::string_view::npos) return {};
-  record.remove_prefix(begin + key.size());
-  return record.substr(0, record.find('"'));
-}
+/// What happens in a log, record by record.
+class Story {
+ public:
+  void begin(const runtime::LogContents& head) {
+    columns_ = head.columns;
+    task_ = place_of(columns_, "task");
+    event_ = place_of(columns_, "event");
+    signal_ = place_of(columns_, "event.signal");
+  }
+
+  void take(double time, std::span<const double> values) {
+    const std::string_view task = word(values, task_), event = word(values, event_);
+    if (!event.empty()) events.push_back({time, std::string(event), std::string(word(values, signal_))});
+    if (!task.empty() && (tasks.empty() || tasks.back().task != task))
+      tasks.push_back({time, std::string(task)});
+  }
+
+  std::vector<TaskBegin> tasks;
+  std::vector<ToldEvent> events;
+
+ private:
+  std::string_view word(std::span<const double> values, std::size_t place) const {
+    return place < values.size() ? columns_[place].word(values[place]) : std::string_view{};
+  }
+  std::vector<runtime::LoggedColumn> columns_;
+  std::size_t task_ = 0, event_ = 0, signal_ = 0;
+};
 
 ordered_json said_at_the_end(const runtime::LogContents& log, const std::string& what) {
   const auto said = log.conclusion.find(what);
@@ -98,26 +120,17 @@ std::string as_text(const std::string& file, const runtime::LogContents& log,
 }  // namespace
 
 int info(const InfoArguments& arguments) {
-  require_file(arguments.file);
-  std::vector<TaskBegin> tasks;
-  std::vector<ToldEvent> events;
-  const runtime::LogContents log =
-      runtime::read_log(arguments.file, [&tasks, &events](double time, std::string_view record) {
-        const std::string_view task = word_of(record, R"("task":")");
-        const std::string_view event = word_of(record, R"("event":")");
-        if (!event.empty()) {
-          events.push_back({time, std::string(event), std::string(word_of(record, R"("event.signal":")"))});
-        }
-        if (!task.empty() && (tasks.empty() || tasks.back().task != task)) {
-          tasks.push_back({time, std::string(task)});
-        }
-      });
+  require_log(arguments.file);
+  Story story;
+  const runtime::LogContents log = runtime::read_log(
+      arguments.file, [&story](double time, std::span<const double> values) { story.take(time, values); },
+      [&story](const runtime::LogContents& head) { story.begin(head); });
   if (arguments.format == Format::json) {
-    print_data(as_json(arguments.file, log, tasks, events)
+    print_data(as_json(arguments.file, log, story.tasks, story.events)
                    .dump(2, ' ', false, ordered_json::error_handler_t::replace) +
                "\n");
   } else {
-    print(as_text(arguments.file, log, tasks, events));
+    print(as_text(arguments.file, log, story.tasks, story.events));
   }
   return log.closed && log.damage.empty() ? exit_good : exit_bad;
 }

@@ -3,9 +3,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "output.hpp"
+#include "run_log.hpp"
 #include "verbs.hpp"
 #include "zwang/version.hpp"
 
@@ -25,8 +27,8 @@ std::string exactly(double value) {
 constexpr std::size_t most_parts = 1000;
 
 runtime::LogContents contents_of(const fs::path& log) {
-  require_file(log.string());
-  return runtime::read_log(log, [](double, std::string_view) {});
+  require_log(log.string());
+  return runtime::read_log(log, [](double, std::span<const double>) {});
 }
 
 lang::Program program_of(const runtime::LogContext& context) {
@@ -84,10 +86,12 @@ std::string as_text(const std::string& file, const runtime::ReplayResult& result
 }  // namespace
 
 int replay(const ReplayArguments& arguments) {
-  const runtime::LogContents log = contents_of(arguments.file);
-  std::vector<runtime::ReplayPart> parts{{arguments.file, program_of(log.context)}};
+  require_log(arguments.file);
+  const fs::path file = runtime::log_files(arguments.file).back();
+  const runtime::LogContents log = contents_of(file);
+  std::vector<runtime::ReplayPart> parts{{file, program_of(log.context)}};
   // A log that goes on where another one ends, and so on back to the begin of the run.
-  for (std::optional<fs::path> before = log_before(arguments.file, log.context); before;) {
+  for (std::optional<fs::path> before = log_before(file, log.context); before;) {
     if (parts.size() > most_parts) throw Impossible("its logs go on from one another without a begin");
     const runtime::LogContext context = contents_of(*before).context;
     parts.insert(parts.begin(), {*before, program_of(context)});

@@ -9,6 +9,7 @@
 #include "json_parts.hpp"
 #include "output.hpp"
 #include "report_page.hpp"
+#include "run_log.hpp"
 #include "verbs.hpp"
 #include "zwang/runtime/replay.hpp"
 #include "zwang/runtime/series.hpp"
@@ -28,12 +29,17 @@ std::string packed_text(const std::vector<float>& numbers) {
   return base64(runtime::packed(numbers));
 }
 
+/// A file, or the folder of several that are one log.
 fs::path log_of(const std::string& run) {
-  const fs::path path = fs::is_directory(run) ? fs::path(run) / "log.mcap" : fs::path(run);
-  if (path.extension() == ".csv")
+  if (fs::path(run).extension() == ".csv")
     throw Impossible(run + ": a CSV has neither files nor lines; give the .mcap beside it");
-  require_file(path.string());
-  return path;
+  require_log(run);
+  const std::vector<fs::path> files = runtime::log_files(run);
+  return files.size() == 1 ? files.front() : fs::path(run);
+}
+
+fs::path folder_of(const fs::path& log) {
+  return fs::is_directory(log) ? log : log.parent_path();
 }
 
 ordered_json files_of(const runtime::LogContext& context) {
@@ -125,7 +131,7 @@ ordered_json page_data(const fs::path& log, const Series& series) {
     events.push_back({{"time", e.time}, {"code", e.code}, {"signal", e.signal}, {"value", e.value}});
   const auto report = series.log.conclusion.find("report");
   ordered_json data = {{"format", 1},
-                       {"log", log.filename().string()},
+                       {"log", runtime::log_files(log).front().filename().string()},
                        {"facts", series.log.context.facts},
                        {"damage", series.log.damage},
                        {"records", series.log.records},
@@ -154,7 +160,7 @@ std::string write_page(const std::string& run, const std::optional<std::string>&
   const fs::path log = log_of(run);
   const Series series = series_of(log, most_points);
   return write_page_with(std::move(parts), page_data(log, series),
-                         out ? fs::path(*out) : log.parent_path() / "report.html");
+                         out ? fs::path(*out) : folder_of(log) / "report.html");
 }
 
 std::string write_comparison(const std::string& run, const std::string& other,
@@ -166,7 +172,7 @@ std::string write_comparison(const std::string& run, const std::string& other,
                              {"names", {log.string(), other_log.string()}},
                              {"runs", {page_data(log, first), page_data(other_log, second)}},
                              {"comparison", comparison_of(log, first, other_log, second)}};
-  return write_page_with(std::move(parts), data, out ? fs::path(*out) : log.parent_path() / "compare.html");
+  return write_page_with(std::move(parts), data, out ? fs::path(*out) : folder_of(log) / "compare.html");
 }
 
 int report(const ReportArguments& arguments) {

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <sstream>
 
 #include "output.hpp"
+#include "run_log.hpp"
 #include "zwang/lang/file_kind.hpp"
 #include "zwang/lang/friction_update.hpp"
 #include "zwang/lang/quantity.hpp"
@@ -37,8 +39,8 @@ double mass_of(const std::string& option, const std::string& text) {
 }
 
 LoggedRobot robot_of(const std::string& log) {
-  require_file(log);
-  const runtime::LogContents contents = runtime::read_log(log, [](double, std::string_view) {});
+  require_log(log);
+  const runtime::LogContents contents = runtime::read_log(log, [](double, std::span<const double>) {});
   lang::Diagnostics diagnostics;
   std::optional<lang::Program> program = runtime::logged_program(contents.context, diagnostics);
   if (!program) throw Impossible(log + ": the logged files do not load any more");
@@ -64,27 +66,38 @@ void require_one_robot(const std::vector<LoggedRobot>& logs) {
   }
 }
 
-double number(const nlohmann::json& record, const std::string& column) {
-  const auto found = record.find(column);
-  return found != record.end() && found->is_number() ? found->get<double>()
-                                                     : std::numeric_limits<double>::quiet_NaN();
+/// Where a record has the numbers of a joint.
+struct JointPlaces {
+  std::size_t q = 0, qd = 0, tau = 0;
+};
+
+std::vector<JointPlaces> places_in(const runtime::LogContents& head, const std::vector<std::string>& names) {
+  std::vector<JointPlaces> places;
+  const auto place = [&](const std::string& name) { return place_of(head.columns, name); };
+  for (const std::string& name : names)
+    places.push_back({place(name + ".q"), place(name + ".qd"), place(name + ".tau")});
+  return places;
 }
 
 void feed(const LoggedRobot& logged, double added_load, runtime::DriveIdentification& identification) {
   const std::vector<std::string> names = joints_of(logged.robot);
   Eigen::VectorXd q = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.size())), qd = q, tau = q;
+  std::vector<JointPlaces> places;
   identification.begin_run(added_load);
-  runtime::read_log(logged.log, [&](double time, std::string_view json) {
-    const auto record = nlohmann::json::parse(json, nullptr, false);
-    if (record.is_discarded()) return;
+  const auto add = [&](double time, std::span<const double> values) {
+    const auto number = [&](std::size_t place) {
+      return place < values.size() ? values[place] : std::numeric_limits<double>::quiet_NaN();
+    };
     for (std::size_t j = 0; j < names.size(); ++j) {
       const auto k = static_cast<Eigen::Index>(j);
-      q(k) = number(record, names[j] + ".q");
-      qd(k) = number(record, names[j] + ".qd");
-      tau(k) = number(record, names[j] + ".tau");
+      q(k) = number(places[j].q);
+      qd(k) = number(places[j].qd);
+      tau(k) = number(places[j].tau);
     }
     if (q.allFinite() && qd.allFinite() && tau.allFinite()) identification.add(time, q, qd, tau);
-  });
+  };
+  runtime::read_log(logged.log, add,
+                    [&](const runtime::LogContents& head) { places = places_in(head, names); });
 }
 
 std::string digits(double value) {

@@ -3,10 +3,12 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 #include <system_error>
 
 #include "output.hpp"
 #include "zwang/runtime/log_channels.hpp"
+#include "zwang/runtime/log_reader.hpp"
 
 namespace zwang::cli {
 
@@ -42,6 +44,15 @@ std::filesystem::path make_log_folder(const RunArguments& arguments) {
     if (fs::create_directory(folder, error)) return folder;
   }
   throw Impossible("runs: cannot make a folder for the log: " + error.message());
+}
+
+void require_log(const std::string& log) {
+  if (!fs::is_directory(log)) return require_file(log);
+  try {
+    for (const fs::path& file : runtime::log_files(log)) require_file(file.string());
+  } catch (const std::runtime_error& error) {
+    throw Impossible(error.what());
+  }
 }
 
 runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene& scene,

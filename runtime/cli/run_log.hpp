@@ -18,6 +18,9 @@ using Recorders = std::vector<std::unique_ptr<runtime::Recorder>>;
 /// A folder of its own for the run: the given one, else the first free `runs/<task>-NNN`.
 std::filesystem::path make_log_folder(const RunArguments& arguments);
 
+/// Throws Impossible unless it is a log that can be read: an .mcap file, or a folder that holds one.
+void require_log(const std::string& log);
+
 /// The files that were read and everything that the command line changed: the same run again needs no more.
 runtime::LogContext context_of(const RunArguments& arguments, const lang::Diagnostics& diagnostics);
 /// Of one of the scene's robots: its task file alone says what it does.

@@ -39,7 +39,7 @@ void bind_log(py::module_& module) {
   using py::arg;
   py::class_<LogTable, std::shared_ptr<LogTable>>(
       module, "Log", "A run, tick by tick: `log['time']` is a read-only numpy column, NaN where it is blank.")
-      .def_property_readonly("columns", &column_names, "their names, as in log.csv")
+      .def_property_readonly("columns", &column_names, "their names")
       .def("__getitem__", &column_of, arg("name"))
       .def("__contains__",
            [](const LogTable& table, const std::string& name) {
@@ -62,9 +62,10 @@ void bind_log(py::module_& module) {
           [](const LogTable& table, const std::string& name) {
             return table.columns()[table.column(name)].unit;
           },
-          arg("name"), "SI; empty for pure numbers, and for logs that were read from a file.");
-  module.def("read_log", &read_table, arg("path"), py::call_guard<py::gil_scoped_release>(),
-             "The log.mcap of a run, as far as it can be read. Raises RuntimeError if it is none.");
+          arg("name"), "SI; empty for pure numbers.");
+  module.def(
+      "read_log", &read_table, arg("path"), py::call_guard<py::gil_scoped_release>(),
+      "The log of a run, a file or its folder, as far as it can be read. Raises RuntimeError if it is none.");
 }
 
 }  // namespace zwang::python

@@ -1,8 +1,5 @@
 #include "log_table.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "zwang/runtime/log_reader.hpp"
@@ -26,28 +23,16 @@ class TableSink final : public runtime::LogSink {
   std::shared_ptr<LogTable> table_;
 };
 
-/// The properties of the schema, in their order.
-std::vector<runtime::Column> columns_of(const std::string& schema) {
-  const auto parsed = nlohmann::ordered_json::parse(schema, nullptr, false);
+std::vector<runtime::Column> columns_of(const runtime::LogContents& log) {
   std::vector<runtime::Column> columns;
-  if (!parsed.is_object() || !parsed.contains("properties")) return columns;
-  for (const auto& [name, property] : parsed["properties"].items()) {
+  for (const runtime::LoggedColumn& logged : log.columns) {
     runtime::Column column;
-    column.name = name;
-    if (property.contains("enum"))
-      for (const auto& word : property["enum"])
-        if (word.is_string()) column.words.push_back(word.get<std::string>());
+    column.name = logged.name;
+    column.unit = logged.unit;
+    column.words = logged.words;
     columns.push_back(std::move(column));
   }
   return columns;
-}
-
-double number_of(const nlohmann::json& value, const std::vector<std::string>& words) {
-  if (value.is_number()) return value.get<double>();
-  if (!value.is_string()) return std::numeric_limits<double>::quiet_NaN();
-  const auto at = std::find(words.begin(), words.end(), value.get_ref<const std::string&>());
-  return at == words.end() ? std::numeric_limits<double>::quiet_NaN()
-                           : static_cast<double>(at - words.begin());
 }
 
 }  // namespace
@@ -68,21 +53,9 @@ std::unique_ptr<runtime::LogSink> table_sink(std::shared_ptr<LogTable> table) {
 
 std::shared_ptr<LogTable> read_table(const std::filesystem::path& path) {
   std::shared_ptr<LogTable> table;
-  std::vector<double> row;
-  const auto begin = [&](const runtime::LogContents& head) {
-    table = std::make_shared<LogTable>(columns_of(head.schema));
-  };
-  const auto add = [&](double, std::string_view text) {
-    const auto record = nlohmann::json::parse(text, nullptr, false);
-    if (table == nullptr || !record.is_object()) return;
-    row.assign(table->columns().size(), std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const auto value = record.find(table->columns()[i].name);
-      if (value != record.end()) row[i] = number_of(*value, table->columns()[i].words);
-    }
-    table->add(row);
-  };
-  runtime::read_log(path, add, begin);
+  runtime::read_log(
+      path, [&](double, std::span<const double> values) { table->add(values); },
+      [&](const runtime::LogContents& head) { table = std::make_shared<LogTable>(columns_of(head)); });
   return table != nullptr ? table : std::make_shared<LogTable>(std::vector<runtime::Column>{});
 }
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +10,8 @@
 #include <fstream>
 #include <limits>
 #include <random>
+#include <span>
+#include <sstream>
 #include <stdexcept>
 
 #include "../is_long.hpp"
@@ -70,36 +71,31 @@ void put_bytes(const std::filesystem::path& path, std::string_view bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-LogContents read(const std::filesystem::path& path, std::vector<std::string>* lines = nullptr) {
-  return read_log(path, [lines](double, std::string_view json) {
-    if (lines != nullptr) lines->emplace_back(json);
+LogContents read(const std::filesystem::path& path, std::vector<std::vector<double>>* records = nullptr) {
+  return read_log(path, [records](double, std::span<const double> values) {
+    if (records != nullptr) records->emplace_back(values.begin(), values.end());
   });
 }
 
+/// Each bit of a double may be any: a blank, an infinity and a zero with a sign come back as they were.
 TEST(McapLog, NumbersComeBackBitByBit) {
   std::vector<double> awkward = {0.1,
-                                 1.0 / 3.0,
+                                 -0.0,
                                  5e-324,
                                  -std::numeric_limits<double>::max(),
-                                 123456789.123456789,
+                                 std::numeric_limits<double>::quiet_NaN(),
+                                 -std::numeric_limits<double>::infinity(),
                                  std::nextafter(1.0, 2.0)};
   std::mt19937_64 random(1);
   for (int i = 0; i < 1000; ++i) awkward.push_back(std::bit_cast<double>(random()));
-  std::erase_if(awkward, [](double x) { return !std::isfinite(x); });
   std::vector<std::vector<double>> records;
   for (std::size_t i = 0; i < awkward.size(); ++i) records.push_back({double(i) * period, 0.0, awkward[i]});
   const Folder folder;
-  std::vector<std::string> lines;
-  const LogContents log = read(write_log(folder, records), &lines);
-  ASSERT_EQ(lines.size(), awkward.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::string key = R"("a \"b\"":)";
-    const std::size_t at = lines[i].find(key);
-    ASSERT_NE(at, std::string::npos) << lines[i];
-    double value = 0.0;
-    std::from_chars(lines[i].data() + at + key.size(), lines[i].data() + lines[i].size(), value);
-    EXPECT_EQ(std::memcmp(&value, &awkward[i], sizeof value), 0) << lines[i];
-  }
+  std::vector<std::vector<double>> found;
+  const LogContents log = read(write_log(folder, records), &found);
+  ASSERT_EQ(found.size(), awkward.size());
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_EQ(std::memcmp(found[i].data(), records[i].data(), 3 * sizeof(double)), 0) << i;
   EXPECT_TRUE(log.closed);
   EXPECT_TRUE(log.damage.empty());
   EXPECT_DOUBLE_EQ(log.end, double(awkward.size() - 1) * period);
@@ -116,15 +112,56 @@ TEST(McapLog, HoldsTheFilesTheFactsAndTheLinesThatColumnsComeFrom) {
   EXPECT_NE(log.schema.find("[N] task.yaml:7"), std::string::npos) << log.schema;
 }
 
-TEST(McapLog, BlanksAreLeftOutAndInfinitiesAreNull) {
+TEST(McapLog, TellsOfItsColumnsWhatTheRecorderKnew) {
   const Folder folder;
-  std::vector<std::string> lines;
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  read(write_log(folder, {{0.0, nan, nan}, {0.001, 1.0, inf}}), &lines);
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0], R"({"time":0})");
-  EXPECT_EQ(lines[1], R"({"time":0.001,"task":"hold","a \"b\"":null})");
+  const LogContents log = read(write_log(folder, ramp(10)));
+  ASSERT_EQ(log.columns.size(), columns.size());
+  EXPECT_EQ(place_of(log.columns, "task"), 1u);
+  EXPECT_EQ(place_of(log.columns, "none"), columns.size());
+  EXPECT_EQ(log.columns[1].words, columns[1].words);
+  EXPECT_EQ(log.columns[1].text(1.0), "hold");
+  EXPECT_EQ(log.columns[1].text(2.0), "");
+  EXPECT_EQ(log.columns[2].name, "a \"b\"");
+  EXPECT_EQ(log.columns[2].unit, "N");
+  EXPECT_EQ(log.columns[2].file, "task.yaml");
+  EXPECT_EQ(log.columns[2].line, 7);
+  EXPECT_EQ(log.columns[2].text(0.1), "0.1");
+}
+
+/// Before 2026-11-26 a record was a JSON message. The CSV that the same run wrote has nine digits of each
+/// number.
+TEST(McapLog, ReadsLogsWhoseRecordsAreJson) {
+  const std::filesystem::path logs = ZWANG_SOURCE_DIR "/tests/runtime/logs";
+  std::ifstream csv(logs / "before_blocks.csv");
+  std::string line;
+  std::getline(csv, line);
+  std::vector<LoggedColumn> known;
+  std::size_t lines = 0;
+  const auto compare = [&](double, std::span<const double> values) {
+    ASSERT_TRUE(std::getline(csv, line)) << lines;
+    ++lines;
+    std::istringstream cells(line);
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (known[i].is_input()) continue;
+      std::string cell;
+      std::getline(cells, cell, ',');
+      char digits[32];
+      std::snprintf(digits, sizeof digits, "%.9g", values[i] == 0.0 ? 0.0 : values[i]);
+      const bool has_words = !known[i].words.empty();
+      EXPECT_EQ(std::isnan(values[i]) ? ""
+                : has_words           ? known[i].text(values[i])
+                                      : digits,
+                cell)
+          << known[i].name << ", line " << lines;
+    }
+  };
+  const LogContents log =
+      read_log(logs / "before_blocks.mcap", compare, [&](const LogContents& head) { known = head.columns; });
+  EXPECT_TRUE(log.closed && log.damage.empty());
+  EXPECT_EQ(log.records, 23u);
+  EXPECT_EQ(lines, log.records);
+  EXPECT_GT(known.size(), 200u);
+  EXPECT_EQ(log.context.facts.at("period [s]"), "0.01");
 }
 
 TEST(McapLog, TwoLogsOfTheSameNumbersAreTheSameBytes) {

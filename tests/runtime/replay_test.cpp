@@ -113,7 +113,7 @@ TEST(Replay, KnowsTheSettingsOfAHost) {
     runner.step(sensed);
   }
   recorder.close();
-  const LogContext context = read_log(log, [](double, std::string_view) {}).context;
+  const LogContext context = read_log(log, [](double, std::span<const double>) {}).context;
   EXPECT_EQ(context.facts.at("task"), program.path);
   EXPECT_EQ(context.facts.at("params.push"), "20");
   const RunnerSettings logged = logged_settings(context);

@@ -2,14 +2,27 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace zwang::runtime {
 
-/// Nothing when the library refuses.
-std::optional<std::string> compress(std::string_view bytes);
+/// Keeps its memory from call to call.
+class Compressor {
+ public:
+  Compressor();
+  ~Compressor();
+  Compressor(const Compressor&) = delete;
+  Compressor& operator=(const Compressor&) = delete;
+  /// Valid until the next call; nothing when the library refuses.
+  std::optional<std::string_view> compress(std::string_view bytes);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 /// False unless `bytes` are a whole frame of exactly `size` bytes. `whole` keeps its memory from call to
 /// call.
 bool decompress(std::string_view bytes, std::size_t size, std::string& whole);

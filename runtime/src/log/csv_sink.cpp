@@ -68,6 +68,7 @@ class CsvSink : public LogSink {
 
   std::string flush() override { return file_.flush(); }
   std::string close() override { return file_.close(); }
+  std::uint64_t size() const override { return file_.size(); }
 
  private:
   LogFile file_;

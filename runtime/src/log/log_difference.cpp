@@ -18,10 +18,6 @@ bool is_clock(const std::string& name) {
   return name == "sensed.time" || name.ends_with(".stamp");
 }
 
-bool is_input(const std::string& name) {
-  return name.starts_with("sensed.") || name.starts_with("params.");
-}
-
 /// A log that is read record by record.
 class Side {
  public:
@@ -32,7 +28,8 @@ class Side {
   /// [s] since the run began
   double time() const { return records_.time() - begin(); }
   double begin() const { return records_.contents().begin; }
-  std::string_view record() const { return records_.json(); }
+  std::span<const double> values() const { return records_.values(); }
+  const std::vector<LoggedColumn>& columns() const { return contents().columns; }
   const LogContents& contents() const { return records_.contents(); }
 
  private:
@@ -53,16 +50,15 @@ class Comparison {
       : first_(first), second_(second) {}
 
   LogDifference of_all() {
-    columns_ = logged_columns(first_.contents().schema);
-    const std::vector<LoggedColumn> others = logged_columns(second_.contents().schema);
-    pair_up(others);
-    RecordParts first(columns_), second(others);
+    columns_ = first_.contents().columns;
+    others_ = second_.contents().columns;
+    pair_up();
     const double shorter =
         std::min(period_of(first_.contents().context), period_of(second_.contents().context));
     tolerance_ = share_of_a_period * shorter;
     while (first_.is_open() && second_.is_open()) {
       const double ahead = first_.time() - second_.time();
-      if (std::abs(ahead) <= tolerance_) compare(first, second);
+      if (std::abs(ahead) <= tolerance_) compare(first_.values(), second_.values());
       if (ahead <= tolerance_) first_.go_on();
       if (ahead >= -tolerance_) second_.go_on();
     }
@@ -77,9 +73,9 @@ class Comparison {
   }
 
  private:
-  void pair_up(const std::vector<LoggedColumn>& others) {
+  void pair_up() {
     std::map<std::string_view, std::size_t> places;
-    for (std::size_t i = 0; i < others.size(); ++i) places[others[i].name] = i;
+    for (std::size_t i = 0; i < others_.size(); ++i) places[others_[i].name] = i;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const auto other = places.find(columns_[i].name);
       if (other == places.end()) {
@@ -89,61 +85,64 @@ class Comparison {
       if (columns_[i].name != "time") pairs_.push_back({i, other->second, is_clock(columns_[i].name)});
       places.erase(other);
     }
-    for (const LoggedColumn& other : others) {
+    for (const LoggedColumn& other : others_) {
       if (places.contains(other.name)) found_.only_second.push_back(other.name);
     }
   }
 
-  void compare(RecordParts& first, RecordParts& second) {
+  void compare(std::span<const double> first, std::span<const double> second) {
     ++found_.compared;
     found_.until = first_.time();
-    // Runs are alike most of the time, and their texts then are, too.
-    if (first_.record() == second_.record()) return;
-    first.split(first_.record());
-    second.split(second_.record());
     for (Pair& pair : pairs_) {
-      const std::string_view a = first[pair.first], b = second[pair.second];
-      if (a == b || (is_zero(pair, a) && is_zero(pair, b))) continue;
+      const double a = first[pair.first], b = second[pair.second];
+      if (are_alike(pair, a, b)) continue;
       if (!pair.is_clock || !are_one_instant(a, b)) note(pair, a, b);
     }
   }
 
+  bool has_words(const Pair& pair) const { return !columns_[pair.first].words.empty(); }
+
   /// Zeros of either sign are alike. An input that is left out is 0.
-  bool is_zero(const Pair& pair, std::string_view text) const {
-    return text == "0" || text == "-0.0" || (text.empty() && is_input(columns_[pair.first].name));
+  double number(const Pair& pair, double value) const {
+    return std::isnan(value) && !has_words(pair) && columns_[pair.first].is_input() ? 0.0 : value;
+  }
+
+  bool are_alike(const Pair& pair, double a, double b) const {
+    if (has_words(pair)) return columns_[pair.first].word(a) == others_[pair.second].word(b);
+    const double first = number(pair, a), second = number(pair, b);
+    return first == second || (std::isnan(first) && std::isnan(second));
   }
 
   /// A blank clock is one at 0.
-  bool are_one_instant(std::string_view a, std::string_view b) const {
-    const double first = a.empty() ? 0.0 : number_of(a), second = b.empty() ? 0.0 : number_of(b);
+  bool are_one_instant(double a, double b) const {
+    const double first = std::isnan(a) ? 0.0 : a, second = std::isnan(b) ? 0.0 : b;
     return std::abs((first - first_.begin()) - (second - second_.begin())) <= tolerance_;
   }
 
-  void note(Pair& pair, std::string_view a, std::string_view b) {
+  void note(Pair& pair, double a, double b) {
+    const LoggedColumn& column = columns_[pair.first];
     if (pair.difference < 0) {
       pair.difference = static_cast<int>(found_.columns.size());
       ColumnDifference& one = found_.columns.emplace_back();
-      one.name = columns_[pair.first].name;
-      one.unit = columns_[pair.first].unit;
-      one.is_input = is_input(one.name);
+      one.name = column.name;
+      one.unit = column.unit;
+      one.is_input = column.is_input();
       one.time = first_.time();
-      // An input that is left out is 0.
-      const bool is_zero_blank = one.is_input && !columns_[pair.first].has_words;
-      one.first = a.empty() && is_zero_blank ? "0" : a;
-      one.second = b.empty() && is_zero_blank ? "0" : b;
+      one.first = column.text(number(pair, a));
+      one.second = others_[pair.second].text(number(pair, b));
     }
     ColumnDifference& one = found_.columns[static_cast<std::size_t>(pair.difference)];
     ++one.records;
     // NaN of a word, and of a blank: neither is larger than anything.
-    const double size = columns_[pair.first].has_words ? std::nan("") : std::abs(number_of(a) - number_of(b));
+    const double size = has_words(pair) ? std::nan("") : std::abs(a - b);
     if (!(size > one.largest.value_or(-1.0))) return;
     one.largest = size;
     one.largest_time = first_.time();
   }
 
   Side first_, second_;
-  double tolerance_ = 0.0;             // [s]
-  std::vector<LoggedColumn> columns_;  // of the first log
+  double tolerance_ = 0.0;                      // [s]
+  std::vector<LoggedColumn> columns_, others_;  // of the first log, and of the second one
   std::vector<Pair> pairs_;
   LogDifference found_;
 };

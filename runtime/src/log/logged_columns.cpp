@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,23 @@ namespace zwang::runtime {
 namespace {
 
 using nlohmann::ordered_json;
+
+constexpr double blank = std::numeric_limits<double>::quiet_NaN();
+
+std::string json_text(const std::string& text) {
+  return ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::string unquoted(const std::string& text) {
+  return text.substr(1, text.size() - 2);
+}
+
+std::vector<std::string> words_in(const ordered_json& list) {
+  std::vector<std::string> words;
+  if (!list.is_array()) return words;
+  for (const ordered_json& word : list) words.push_back(word.is_string() ? word.get<std::string>() : "");
+  return words;
+}
 
 /// `[m/s] wall_align.yaml:22`, either part alone, or none.
 void read_description(const std::string& text, LoggedColumn& column) {
@@ -28,6 +46,28 @@ void read_description(const std::string& text, LoggedColumn& column) {
 
 }  // namespace
 
+bool LoggedColumn::is_input() const {
+  return name.starts_with("sensed.") || name.starts_with("params.");
+}
+
+std::string_view LoggedColumn::word(double value) const noexcept {
+  const bool is_one = value >= 0.0 && value < static_cast<double>(words.size());
+  return is_one ? std::string_view(words[static_cast<std::size_t>(value)]) : std::string_view{};
+}
+
+std::string LoggedColumn::text(double value) const {
+  if (std::isnan(value)) return "";
+  if (!words.empty()) return std::string(word(value));
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::size_t place_of(const std::vector<LoggedColumn>& columns, std::string_view name) noexcept {
+  const auto found =
+      std::ranges::find_if(columns, [&](const LoggedColumn& column) { return column.name == name; });
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
 std::vector<LoggedColumn> logged_columns(const std::string& schema) {
   std::vector<LoggedColumn> columns;
   const ordered_json whole = ordered_json::parse(schema, nullptr, false);
@@ -36,7 +76,7 @@ std::vector<LoggedColumn> logged_columns(const std::string& schema) {
   for (const auto& [name, property] : properties->items()) {
     LoggedColumn& column = columns.emplace_back();
     column.name = name;
-    column.has_words = property.contains("enum");
+    if (const auto words = property.find("enum"); words != property.end()) column.words = words_in(*words);
     const auto description = property.find("description");
     if (description != property.end() && description->is_string())
       read_description(description->get<std::string>(), column);
@@ -44,14 +84,25 @@ std::vector<LoggedColumn> logged_columns(const std::string& schema) {
   return columns;
 }
 
-RecordParts::RecordParts(const std::vector<LoggedColumn>& columns) : parts_(columns.size()) {
-  for (const LoggedColumn& column : columns)
-    keys_.push_back(ordered_json(column.name).dump(-1, ' ', false, ordered_json::error_handler_t::replace) +
-                    ":");
+JsonRecord::JsonRecord(const std::vector<LoggedColumn>& columns) {
+  for (const LoggedColumn& column : columns) {
+    keys_.push_back(json_text(column.name) + ":");
+    words_.emplace_back();
+    for (const std::string& word : column.words) words_.back().push_back(unquoted(json_text(word)));
+  }
 }
 
-void RecordParts::split(std::string_view record) {
-  std::ranges::fill(parts_, std::string_view{});
+double JsonRecord::value_of(std::size_t column, std::string_view text, bool is_word) const {
+  if (is_word) {
+    const std::vector<std::string>& words = words_[column];
+    const auto found = std::ranges::find(words, text);
+    return found == words.end() ? blank : static_cast<double>(found - words.begin());
+  }
+  return text == "null" ? std::numeric_limits<double>::infinity() : number_of(text);
+}
+
+void JsonRecord::read(std::string_view record, std::vector<double>& values) const {
+  values.assign(keys_.size(), blank);
   const char* at = record.data() + std::min<std::size_t>(1, record.size());
   const char* const end = record.data() + record.size();
   for (std::size_t i = 0; i < keys_.size() && at < end; ++i) {
@@ -62,13 +113,12 @@ void RecordParts::split(std::string_view record) {
     const bool is_word = at < end && *at == '"';
     const char* const begin = is_word ? at + 1 : at;
     at = begin;
-    // A loop of its own: it is most of the time that a long log takes to read.
     if (is_word) {
       while (at < end && *at != '"') ++at;
     } else {
       while (at < end && *at != ',' && *at != '}') ++at;
     }
-    parts_[i] = {begin, static_cast<std::size_t>(at - begin)};
+    values[i] = value_of(i, {begin, static_cast<std::size_t>(at - begin)}, is_word);
     at += std::min<std::ptrdiff_t>(is_word ? 2 : 1, end - at);
   }
 }

@@ -1,36 +1,31 @@
-/// The columns of a log, and a record taken apart into them.
+/// The columns of a log from its schema, and records that are JSON, as logs of before 2026-11-26 have them.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace zwang::runtime {
+#include "zwang/runtime/log_reader.hpp"
 
-struct LoggedColumn {
-  std::string name;
-  std::string unit;
-  std::string file;  ///< whose line it comes from, as the log names it; empty: none
-  int line = 0;
-  bool has_words = false;
-};
+namespace zwang::runtime {
 
 /// From the JSON schema of the records; empty where it cannot be read.
 std::vector<LoggedColumn> logged_columns(const std::string& schema);
 
-/// The texts of a record by column. Keys stand in the order of the columns; those of blanks are left out.
-class RecordParts {
+/// Takes records apart whose keys stand in the order of the columns; those of blanks are left out.
+class JsonRecord {
  public:
-  explicit RecordParts(const std::vector<LoggedColumn>& columns);
+  explicit JsonRecord(const std::vector<LoggedColumn>& columns);
 
-  /// `record` must outlive the parts.
-  void split(std::string_view record);
-  /// A number as it is written, a word without its quotes; empty where the column is blank.
-  std::string_view operator[](std::size_t column) const { return parts_[column]; }
+  /// One number a column, as a record of today has it. An infinity, which JSON has as null, is positive.
+  void read(std::string_view record, std::vector<double>& values) const;
 
  private:
+  double value_of(std::size_t column, std::string_view text, bool is_word) const;
+
   std::vector<std::string> keys_;  ///< as a record writes them: `"base.x":`
-  std::vector<std::string_view> parts_;
+  std::vector<std::vector<std::string>> words_;
 };
 
 /// NaN where it is blank or no number.

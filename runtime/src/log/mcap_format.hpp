@@ -30,8 +30,8 @@ enum Opcode : unsigned char {
 };
 
 inline constexpr std::size_t record_head = 9;  // opcode and length
-/// Of the records, `/tick`. Other channels are for other programs.
-inline constexpr std::uint16_t tick_channel = 1;
+/// Of the records, and of their schema. Other channels are for other programs.
+inline constexpr std::uint16_t records_channel = 1;
 
 // Metadata of ours: the facts; those that only the end of a run knows; and where the last records were
 // dropped, the sequence number behind them.

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "log/block_code.hpp"
 #include "log/compression.hpp"
 #include "log/log_file.hpp"
 #include "log/mcap_format.hpp"
+#include "log/pace.hpp"
 #include "log/source_paths.hpp"
 #include "log/tick_json.hpp"
 #include "zwang/runtime/log_channels.hpp"
@@ -21,7 +23,8 @@ constexpr std::uint64_t chunk_span = 50'000'000;          // [ns]
 constexpr std::size_t chunk_room = std::size_t{1} << 20;  // [bytes]
 // Where time stands still, because no samples arrive, its records have to be on disk all the same.
 constexpr std::size_t chunk_records = 100;
-constexpr std::uint16_t tick_id = mcap::tick_channel;  // of the schema, too; those of other channels follow
+constexpr std::uint16_t records_id = mcap::records_channel;  // of the schema, too; other channels follow
+constexpr double shown_every = 0.02;                         // [s]: a record in the form that viewers read
 
 std::uint64_t nanoseconds(double seconds) {
   return seconds > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds * 1e9)) : 0;
@@ -45,6 +48,7 @@ class McapSink : public LogSink {
       : file_(path), context_(with_paths_from_one_folder(std::move(context))), more_(std::move(more)) {}
 
   std::string open(const std::vector<Column>& columns) override {
+    block_ = std::make_unique<BlockWriter>(columns.size());
     json_ = std::make_unique<TickJson>(columns);
     std::string error = file_.open();
     if (!error.empty()) return error;
@@ -63,39 +67,41 @@ class McapSink : public LogSink {
   std::string write(std::span<const double> values) override {
     time_ = nanoseconds(values.front());
     std::string error;
-    const bool is_full =
-        messages_in_chunk_ > 0 && (time_ >= chunk_begin_ + chunk_span ||
-                                   messages_in_chunk_ >= chunk_records || chunk_.size() > chunk_room);
+    const bool is_full = has_chunk_ && (time_ >= chunk_begin_ + chunk_span ||
+                                        block_->records() >= chunk_records || chunk_.size() > chunk_room);
     if (is_full) error = append_chunk();
-    add_message(ticks(), json_->of(values));
-    if (more_)
-      more_->take(values,
-                  [this](std::size_t i, std::string_view json) { add_message(channels_[i + 1], json); });
+    begin_chunk();
+    if (block_->records() == 0) block_begin_ = time_;
+    block_->add(values.data());
+    if (shown_.is_due(values.front())) add_message(channels_[shown], time_, json_->of(values));
+    if (more_) more_->take(values, put_);
     last_is_missing_ = false;
     return error;
   }
 
+  /// A block has no gap: its records are counted from the first one.
   std::string skip(std::uint64_t records) override {
-    ticks().sequence += static_cast<std::uint32_t>(records);
+    const std::string error = block_->records() == 0 ? "" : append_chunk();
+    channels_[all].sequence += static_cast<std::uint32_t>(records);
     last_is_missing_ = true;
-    return "";
+    return error;
   }
 
   std::string conclude(const std::map<std::string, std::string>& facts) override {
-    if (more_ && messages_ > 0)
-      more_->conclude(facts,
-                      [this](std::size_t i, std::string_view json) { add_message(channels_[i + 1], json); });
-    const std::string error = messages_in_chunk_ == 0 ? "" : append_chunk();
+    if (more_ && (messages_ > 0 || has_chunk_)) more_->conclude(facts, put_);
+    const std::string error = has_chunk_ ? append_chunk() : "";
     return error.empty() ? append_metadata(mcap::conclusion_name, facts) : error;
   }
 
+  std::uint64_t size() const override { return file_.size(); }
   std::string flush() override { return ""; }  // a chunk is on its way as soon as it is full
 
   std::string close() override {
     if (!file_.is_open()) return "";
-    std::string error = messages_in_chunk_ == 0 ? "" : append_chunk();
+    std::string error = has_chunk_ ? append_chunk() : "";
     if (error.empty() && last_is_missing_)
-      error = append_metadata(mcap::end_name, {{mcap::end_sequence, std::to_string(ticks().sequence)}});
+      error =
+          append_metadata(mcap::end_name, {{mcap::end_sequence, std::to_string(channels_[all].sequence)}});
     // Chunks and attachments have CRCs of their own; schema, facts and the index of each chunk have this one.
     if (error.empty()) error = append(mcap::record(Opcode::data_end, Content().u32(data_crc_).bytes()));
     if (error.empty()) error = append_summary();
@@ -115,39 +121,62 @@ class McapSink : public LogSink {
   }
 
   struct Channel {
-    std::uint16_t id = tick_id;
+    std::uint16_t id = records_id;
     std::uint32_t sequence = 0;
     std::uint64_t messages = 0;
     std::vector<Stamp> in_chunk;
   };
-  Channel& ticks() { return channels_.front(); }
+  /// Two channels share the schema of the records: all of them in blocks, and some of them as JSON.
+  enum Own : std::size_t { all, shown, others };
 
   void open_channels(const std::vector<Column>& columns) {
-    add_channel("/tick", "zwang.Tick", tick_schema(columns, context_.sources));
+    add_schema(records_id, "zwang.Tick", tick_schema(columns, context_.sources));
+    add_channel("/records", records_id, block_encoding);
+    add_channel("/tick", records_id, "json");
     if (!more_) return;
     more_->open(columns);
-    for (const LogChannel& one : more_->channels()) add_channel(one.topic, one.schema, one.definition);
+    for (const LogChannel& one : more_->channels()) {
+      const auto schema = static_cast<std::uint16_t>(records_id + channels_.size());
+      add_schema(schema, one.schema, one.definition);
+      add_channel(one.topic, schema, "json");
+    }
   }
 
-  void add_channel(const std::string& topic, const std::string& schema, const std::string& definition) {
+  void add_schema(std::uint16_t id, const std::string& name, const std::string& definition) {
+    schemas_and_channels_ += mcap::record(
+        Opcode::schema, Content().u16(id).text(name).text("jsonschema").text(definition).bytes());
+    ++schemas_;
+  }
+
+  void add_channel(const std::string& topic, std::uint16_t schema, const std::string& encoding) {
     Channel channel;
-    channel.id = static_cast<std::uint16_t>(tick_id + channels_.size());
+    channel.id = static_cast<std::uint16_t>(records_id + channels_.size());
     schemas_and_channels_ += mcap::record(
-        Opcode::schema, Content().u16(channel.id).text(schema).text("jsonschema").text(definition).bytes());
-    schemas_and_channels_ += mcap::record(
-        Opcode::channel, Content().u16(channel.id).u16(channel.id).text(topic).text("json").text("").bytes());
+        Opcode::channel, Content().u16(channel.id).u16(schema).text(topic).text(encoding).text("").bytes());
     channels_.push_back(channel);
   }
 
-  /// A message of the present record.
-  void add_message(Channel& channel, std::string_view json) {
-    if (messages_in_chunk_++ == 0) chunk_begin_ = time_;
-    channel.in_chunk.push_back({time_, chunk_.size()});
+  void begin_chunk() {
+    if (!has_chunk_) chunk_begin_ = time_;
+    has_chunk_ = true;
+  }
+
+  void add_message(Channel& channel, std::uint64_t time, std::string_view message) {
+    begin_chunk();
+    channel.in_chunk.push_back({time, chunk_.size()});
     Content content;
-    content.u16(channel.id).u32(channel.sequence++).u64(time_).u64(time_).raw(json);
+    content.u16(channel.id).u32(channel.sequence++).u64(time).u64(time).raw(message);
     chunk_ += mcap::record(Opcode::message, content.bytes());
     ++channel.messages;
     ++messages_;
+  }
+
+  /// One message, stamped with the time of its first record.
+  void add_block() {
+    const std::size_t records = block_->records();
+    if (records == 0) return;
+    add_message(channels_[all], block_begin_, block_->take());
+    channels_[all].sequence += static_cast<std::uint32_t>(records - 1);
   }
 
   std::string append_metadata(std::string_view name, const std::map<std::string, std::string>& facts) {
@@ -178,7 +207,8 @@ class McapSink : public LogSink {
   }
 
   std::string append_chunk() {
-    const std::optional<std::string> packed = compress(chunk_);
+    add_block();
+    const std::optional<std::string_view> packed = compressor_.compress(chunk_);
     if (!packed) return "the log could not be compressed";
     std::uint64_t first = ~std::uint64_t{0}, last = 0;
     std::string index;
@@ -200,14 +230,14 @@ class McapSink : public LogSink {
     end_ = std::max(end_, last);
     ++chunks_;
     chunk_.clear();
-    messages_in_chunk_ = 0;
+    has_chunk_ = false;
     const std::string error = append(mcap::record(Opcode::chunk, content.bytes()) + index);
     return error.empty() ? file_.flush() : error;
   }
 
   std::string statistics() const {
     Content content;
-    content.u64(messages_).u16(static_cast<std::uint16_t>(channels_.size()));
+    content.u64(messages_).u16(schemas_);
     content.u32(static_cast<std::uint32_t>(channels_.size()));
     content.u32(static_cast<std::uint32_t>(context_.sources.size()))
         .u32(metadata_)
@@ -282,14 +312,22 @@ class McapSink : public LogSink {
 
   LogFile file_;
   LogContext context_;
+  std::unique_ptr<BlockWriter> block_;
   std::unique_ptr<TickJson> json_;
+  Pace shown_{shown_every};
+  Compressor compressor_;
   std::string schemas_and_channels_, index_;  // of the summary
   std::size_t first_chunk_ = 0;               ///< [bytes] where it begins
   std::unique_ptr<LogChannels> more_;
-  std::vector<Channel> channels_;  ///< the records', then the others in their order
-  std::string chunk_;
-  std::size_t messages_in_chunk_ = 0;
+  std::vector<Channel> channels_;  ///< as `Own`, then the others in their order
+  std::uint16_t schemas_ = 0;
+  LogChannels::Put put_ = [this](std::size_t i, std::string_view json) {
+    add_message(channels_[others + i], time_, json);
+  };
+  std::string chunk_;  ///< messages, without the block that is open
+  bool has_chunk_ = false;
   std::uint64_t time_ = 0, chunk_begin_ = 0;  ///< [ns] of the present record; of the chunk's first one
+  std::uint64_t block_begin_ = 0;             ///< [ns]
   std::uint32_t data_crc_ = 0;
   std::uint32_t chunks_ = 0, metadata_ = 0;
   std::uint64_t messages_ = 0;

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <mutex>
 #include <stdexcept>
@@ -86,6 +87,9 @@ struct Recorder::Writer {
       const std::string said = complaint([&] { return output.sink->close(); });
       if (!said.empty()) fail(output, said);
     }
+    timespec taken{};
+    if (::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &taken) == 0)
+      processor_time = static_cast<double>(taken.tv_sec) + 1e-9 * static_cast<double>(taken.tv_nsec);
   }
 
   void drain() {
@@ -124,6 +128,7 @@ struct Recorder::Writer {
   std::atomic<std::uint64_t> tail{0};
   std::atomic<std::uint64_t> written{0};
   std::atomic<std::uint64_t> dropped{0};
+  std::atomic<double> processor_time{0.0};
   std::atomic<bool> closing{false};
   mutable std::mutex error_mutex;  // never taken by the control thread
   std::string error;
@@ -198,6 +203,7 @@ RecorderStatus Recorder::status() const {
   status.recorded = writer_->head.load();
   status.written = writer_->written.load();
   status.dropped = writer_->dropped.load();
+  status.processor_time = writer_->processor_time.load();
   const std::lock_guard lock(writer_->error_mutex);
   status.error = writer_->error;
   return status;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "log/foxglove.hpp"
+#include "log/pace.hpp"
 
 namespace zwang::runtime {
 
@@ -18,7 +19,6 @@ using solver::Pose;
 using solver::Vector3;
 
 constexpr double transforms_every = 0.02;  // [s]
-constexpr double rounding = 1e-9;          // [s]
 constexpr const char* world = "world";
 
 Matrix3 turned(double roll, double pitch, double yaw) {
@@ -71,13 +71,8 @@ class SceneChannels : public LogChannels {
       put(foxglove::fixed_transforms, text_of({{"transforms", fixed_transforms()}}));
       put(foxglove::scene, text_of(foxglove::scene_update(time_, program_)));
     }
-    // A clock that jumps back gets its transforms, too.
-    const bool is_due = !has_begun_ || time_ >= sent_ + transforms_every - rounding || time_ < sent_;
     has_begun_ = true;
-    if (is_due) {
-      sent_ = time_;
-      put(foxglove::transforms, text_of({{"transforms", moving_transforms(values)}}));
-    }
+    if (pace_.is_due(time_)) put(foxglove::transforms, text_of({{"transforms", moving_transforms(values)}}));
     tell_task(values, put);
     tell_event(values, put);
   }
@@ -219,7 +214,8 @@ class SceneChannels : public LogChannels {
   std::vector<Mover> movers_;
   std::vector<std::size_t> words_;
   bool has_begun_ = false;
-  double time_ = 0.0, sent_ = 0.0;  ///< [s]
+  double time_ = 0.0;  ///< [s]
+  Pace pace_{transforms_every};
   std::string task_;
 };
 

@@ -10,8 +10,6 @@
 
 #include "log/compression.hpp"
 #include "log/extremes.hpp"
-#include "log/logged_columns.hpp"
-#include "log/record_batches.hpp"
 
 namespace zwang::runtime {
 
@@ -28,11 +26,9 @@ class SeriesReader {
   explicit SeriesReader(std::size_t most_points) : most_points_(most_points) {}
 
   void read(const std::filesystem::path& log) {
-    RecordBatches batches([this](double time, std::string_view record) { take(time, record); });
     series.log = read_log(
-        log, [&batches](double time, std::string_view record) { batches.add(time, record); },
-        [this](const LogContents& head) { list_columns(head.schema); });
-    batches.finish();
+        log, [this](double time, std::span<const double> values) { take(time, values); },
+        [this](const LogContents& head) { list_columns(head.columns); });
     if (!open_.empty()) close_bucket();
     give_points();
   }
@@ -40,15 +36,15 @@ class SeriesReader {
   Series series;
 
  private:
-  void list_columns(const std::string& schema) {
-    columns_ = logged_columns(schema);
-    parts_.emplace(columns_);
+  void list_columns(const std::vector<LoggedColumn>& columns) {
+    columns_ = columns;
+    task_ = place_of(columns_, "task");
+    event_ = place_of(columns_, "event");
+    signal_ = place_of(columns_, "event.signal");
+    value_ = place_of(columns_, "event.value");
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const LoggedColumn& column = columns_[i];
-      if (column.name == "task") task_ = i;
-      if (column.name == "event") event_ = i;
-      const bool is_curve = !column.has_words && column.name != "time" &&
-                            !column.name.starts_with("sensed.") && !column.name.starts_with("params.");
+      const bool is_curve = column.words.empty() && column.name != "time" && !column.is_input();
       curve_of_.push_back(is_curve ? static_cast<int>(series.curves.size()) : no_curve);
       if (is_curve) series.curves.push_back({column.name, column.unit, column.file, column.line, {}, {}});
     }
@@ -59,15 +55,14 @@ class SeriesReader {
     open_.assign(series.curves.size(), {});
   }
 
-  void take(double time, std::string_view record) {
-    parts_->split(record);
-    note_task(time);
-    note_event(time);
+  void take(double time, std::span<const double> values) {
+    note_task(time, values);
+    note_event(time, values);
     if (in_bucket_ == 0) begin_ = time;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (curve_of_[i] == no_curve) continue;
       Bucket& bucket = open_[static_cast<std::size_t>(curve_of_[i])];
-      const auto value = static_cast<float>(number_of((*parts_)[i]));
+      const auto value = static_cast<float>(values[i]);
       if (in_bucket_ == 0) bucket.first = value;
       bucket.take(value);
     }
@@ -75,23 +70,26 @@ class SeriesReader {
     if (++in_bucket_ >= series.records_a_bucket) close_bucket();
   }
 
-  void note_task(double time) {
-    const std::string_view word = task_ ? (*parts_)[*task_] : std::string_view{};
-    if (word.empty()) return;
-    if (!series.tasks.empty()) series.tasks.back().end = time;
-    if (series.tasks.empty() || series.tasks.back().word != word)
-      series.tasks.push_back({std::string(word), time, time});
+  std::string_view word(std::span<const double> values, std::size_t place) const {
+    return place < values.size() ? columns_[place].word(values[place]) : std::string_view{};
   }
 
-  void note_event(double time) {
-    if (!event_ || (*parts_)[*event_].empty()) return;
+  void note_task(double time, std::span<const double> values) {
+    const std::string_view task = word(values, task_);
+    if (task.empty()) return;
+    if (!series.tasks.empty()) series.tasks.back().end = time;
+    if (series.tasks.empty() || series.tasks.back().word != task)
+      series.tasks.push_back({std::string(task), time, time});
+  }
+
+  void note_event(double time, std::span<const double> values) {
+    const std::string_view event = word(values, event_);
+    if (event.empty()) return;
     LoggedEvent& told = series.events.emplace_back();
     told.time = time;
-    told.code = (*parts_)[*event_];
-    for (std::size_t i = *event_ + 1; i < columns_.size() && i < *event_ + 3; ++i) {
-      if (columns_[i].name == "event.signal") told.signal = (*parts_)[i];
-      if (columns_[i].name == "event.value") told.value = number_of((*parts_)[i]);
-    }
+    told.code = event;
+    told.signal = word(values, signal_);
+    if (value_ < values.size()) told.value = values[value_];
   }
 
   void close_bucket() {
@@ -133,11 +131,10 @@ class SeriesReader {
   std::size_t most_ = most_buckets;
   std::vector<LoggedColumn> columns_;
   std::vector<int> curve_of_;  ///< by column: index into Series::curves, or `no_curve`
-  std::optional<RecordParts> parts_;
-  std::optional<std::size_t> task_, event_;
-  std::vector<Bucket> open_;                  ///< by curve
-  std::vector<std::vector<Bucket>> buckets_;  ///< by curve
-  std::vector<Span> spans_;                   ///< of each bucket
+  std::size_t task_ = 0, event_ = 0, signal_ = 0, value_ = 0;  ///< columns
+  std::vector<Bucket> open_;                                   ///< by curve
+  std::vector<std::vector<Bucket>> buckets_;                   ///< by curve
+  std::vector<Span> spans_;                                    ///< of each bucket
   std::size_t in_bucket_ = 0;
   double begin_ = 0.0, end_ = 0.0;
 };

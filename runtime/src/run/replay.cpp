@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <nlohmann/json.hpp>
+#include <span>
 #include <stdexcept>
 
 #include "run/command_columns.hpp"
@@ -21,7 +21,6 @@ namespace zwang::runtime {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
 
 /// A folder of one's own.
 class TemporaryFolder {
@@ -59,27 +58,38 @@ double number_of(const std::string& text) {
   return *value;
 }
 
-double value_of(const json& record, const std::string& column) {
-  const auto found = record.find(column);
-  if (found == record.end()) return std::numeric_limits<double>::quiet_NaN();
-  return found->is_number() ? found->get<double>() : std::numeric_limits<double>::infinity();
-}
+/// A record by the names of its columns.
+class LoggedRecord {
+ public:
+  explicit LoggedRecord(const std::vector<LoggedColumn>& columns)
+      : columns_(columns), event_(place("event")), guard_(place("guard")) {}
 
-/// A stop that the runner did not come to by itself.
-EventCode outside_stop(const json& record) {
-  const auto event = record.find("event");
-  if (event == record.end() || !event->is_string()) return EventCode::none;
-  for (const EventCode code : {EventCode::requested, EventCode::watchdog, EventCode::plant}) {
-    if (*event == to_string(code)) return code;
+  std::size_t place(std::string_view column) const { return place_of(columns_, column); }
+  void take(std::span<const double> values) { values_ = values; }
+  /// NaN where it is blank or not logged.
+  double operator[](std::size_t place) const {
+    return place < values_.size() ? values_[place] : std::numeric_limits<double>::quiet_NaN();
   }
-  return EventCode::none;
-}
 
-/// The stop was latched when this record was written.
-bool is_stopped(const json& record) {
-  const auto guard = record.find("guard");
-  return guard != record.end() && *guard == to_string(GuardStatus::stopped);
-}
+  /// A stop that the runner did not come to by itself.
+  EventCode outside_stop() const {
+    for (const EventCode code : {EventCode::requested, EventCode::watchdog, EventCode::plant}) {
+      if (is_word(event_, to_string(code))) return code;
+    }
+    return EventCode::none;
+  }
+  /// The stop was latched when this record was written.
+  bool is_stopped() const { return is_word(guard_, to_string(GuardStatus::stopped)); }
+
+ private:
+  bool is_word(std::size_t place, std::string_view word) const {
+    return place < values_.size() && columns_[place].word(values_[place]) == word;
+  }
+
+  std::vector<LoggedColumn> columns_;
+  std::size_t event_, guard_;
+  std::span<const double> values_;
+};
 
 bool same_bits(double a, double b) {
   return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -141,55 +151,106 @@ std::vector<std::size_t> places_in(const lang::Program& first, const lang::Progr
   return own.places();
 }
 
-void replay_part(const lang::Program& first, const ReplayPart& part, Runner& runner, ReplayResult& result) {
-  const lang::Program& program = part.program;
-  const solver::Model& model = program.robot.model;
-  const bool takes_velocity = program.robot.drive.takes_velocity;
-  SensedColumns inputs(model, program.signals, program.parameters, program.robot.drive);
-  inputs.signals_at(places_in(first, program));
-  Sensed sensed(first);
-  std::vector<double> parameters(program.parameters.size());
-  std::vector<double> values(inputs.columns().size());
-  std::vector<std::string> torques;
-  std::vector<std::array<CommandColumn, 3>> commands;
-  for (int j = 0; j < model.joint_count(); ++j) {
-    torques.push_back(model.joint(j).name + ".tau");
-    commands.push_back(command_columns(model.joint(j)));
-  }
-  const auto compare = [&](double time, std::string_view text) {
-    const json record = json::parse(text, nullptr, false);
-    if (!record.is_object()) throw std::runtime_error("replay: a record is no JSON object");
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = value_of(record, inputs.columns()[i].name);
-    inputs.read(values, sensed, parameters);
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      if (!std::isnan(parameters[i]) && parameters[i] != runner.scheduler().parameters()[i])
-        runner.set_parameter(program.parameters[i].name, parameters[i]);
+/// The commands of a runner, beside those of a record.
+class CommandCheck {
+ public:
+  CommandCheck(const lang::Program& program, const LoggedRecord& record) : program_(program) {
+    const solver::Model& model = program.robot.model;
+    for (int j = 0; j < model.joint_count(); ++j) {
+      note(record, model.joint(j).name + ".tau");
+      if (!program.robot.drive.takes_velocity) continue;
+      for (const CommandColumn& column : command_columns(model.joint(j))) note(record, column.name);
     }
-    if (runner.guard().stopped() && !is_stopped(record)) runner.guard().reset();
-    if (const EventCode reason = outside_stop(record); reason != EventCode::none) runner.guard().stop(reason);
-    const Eigen::VectorXd& tau = runner.step(sensed);
+    if (!program.robot.drive.takes_twist) return;
+    for (const auto& column : twist_columns) note(record, column[0]);
+  }
+
+  /// Whether they are the same to the last bit; the first that is not goes into the result.
+  bool is_equal(double time, const LoggedRecord& record, const Runner& runner, const Eigen::VectorXd& tau,
+                ReplayResult& result) const {
     bool equal = true;
-    const auto compare_one = [&](const std::string& column, double computed) {
-      const double logged = value_of(record, column);
+    std::size_t next = 0;
+    const auto compare = [&](double computed) {
+      const auto& [name, place] = columns_[next++];
+      const double logged = record[place];
       if (same_bits(logged, computed)) return;
       equal = false;
-      if (!result.first) result.first = ReplayDifference{time, column, logged, computed};
+      if (!result.first) result.first = ReplayDifference{time, name, logged, computed};
     };
-    for (int j = 0; j < model.joint_count(); ++j) {
-      compare_one(torques[static_cast<std::size_t>(j)], tau(j));
-      if (!takes_velocity) continue;
-      const auto told = command_values(runner.command(), j);
-      for (std::size_t k = 0; k < told.size(); ++k)
-        compare_one(commands[static_cast<std::size_t>(j)][k].name, told[k]);
+    for (int j = 0; j < program_.robot.model.joint_count(); ++j) {
+      compare(tau(j));
+      if (!program_.robot.drive.takes_velocity) continue;
+      for (const double told : command_values(runner.command(), j)) compare(told);
     }
-    for (int k = 0; program.robot.drive.takes_twist && k < 3; ++k)
-      compare_one(twist_columns[static_cast<std::size_t>(k)][0], runner.command().twist(k));
-    ++result.records;
-    if (equal) ++result.equal;
-  };
-  const LogContents contents = read_log(part.log, compare);
-  if (contents.schema.find("\"sensed.time\"") == std::string::npos)
-    throw std::runtime_error("replay: the log does not hold what was sensed");
+    for (int k = 0; program_.robot.drive.takes_twist && k < 3; ++k) compare(runner.command().twist(k));
+    return equal;
+  }
+
+ private:
+  void note(const LoggedRecord& record, const std::string& name) {
+    columns_.emplace_back(name, record.place(name));
+  }
+
+  const lang::Program& program_;
+  std::vector<std::pair<std::string, std::size_t>> columns_;  ///< in the order of the comparison
+};
+
+/// Steps a runner through the records of a part.
+class PartReplay {
+ public:
+  PartReplay(const lang::Program& first, const ReplayPart& part, Runner& runner, ReplayResult& result)
+      : program_(part.program),
+        runner_(runner),
+        result_(result),
+        inputs_(program_.robot.model, program_.signals, program_.parameters, program_.robot.drive),
+        sensed_(first),
+        parameters_(program_.parameters.size()),
+        values_(inputs_.columns().size()) {
+    inputs_.signals_at(places_in(first, program_));
+  }
+
+  void begin(const LogContents& head) {
+    if (place_of(head.columns, "sensed.time") == head.columns.size())
+      throw std::runtime_error("replay: the log does not hold what was sensed");
+    record_.emplace(head.columns);
+    check_.emplace(program_, *record_);
+    for (const Column& column : inputs_.columns()) places_.push_back(record_->place(column.name));
+  }
+
+  void step(double time, std::span<const double> values) {
+    LoggedRecord& record = *record_;
+    record.take(values);
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = record[places_[i]];
+    inputs_.read(values_, sensed_, parameters_);
+    for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      if (!std::isnan(parameters_[i]) && parameters_[i] != runner_.scheduler().parameters()[i])
+        runner_.set_parameter(program_.parameters[i].name, parameters_[i]);
+    }
+    if (runner_.guard().stopped() && !record.is_stopped()) runner_.guard().reset();
+    if (const EventCode reason = record.outside_stop(); reason != EventCode::none)
+      runner_.guard().stop(reason);
+    const Eigen::VectorXd& tau = runner_.step(sensed_);
+    ++result_.records;
+    if (check_->is_equal(time, record, runner_, tau, result_)) ++result_.equal;
+  }
+
+ private:
+  const lang::Program& program_;
+  Runner& runner_;
+  ReplayResult& result_;
+  SensedColumns inputs_;
+  Sensed sensed_;
+  std::vector<double> parameters_, values_;
+  std::optional<LoggedRecord> record_;
+  std::optional<CommandCheck> check_;
+  std::vector<std::size_t> places_;  ///< of the inputs, in a record
+};
+
+void replay_part(const lang::Program& first, const ReplayPart& part, Runner& runner, ReplayResult& result) {
+  PartReplay steps(first, part, runner, result);
+  read_log(
+      part.log, [&](double time, std::span<const double> values) { steps.step(time, values); },
+      [&](const LogContents& head) { steps.begin(head); });
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // Runs a task and reads its log with MCAP's own readers: by the index, and as a stream with every CRC checked.
+// The blocks of records are unpacked as docs/logs.md tells it, and compared with the records that are shown as JSON.
 // Channels with Foxglove's schemas are judged by those of @foxglove/schemas.
 // usage: node check.mjs ZWANG TASK FOLDER
 import schemas from '@foxglove/schemas/jsonschema.js';
@@ -25,8 +26,49 @@ const readable = {
 const reader = await McapIndexedReader.Initialize({readable, decompressHandlers});
 const schemaOf = (channel) => reader.schemasById.get(channel.schemaId);
 const channelOf = new Map([...reader.channelsById.values()].map((channel) => [channel.topic, channel]));
-for (const channel of channelOf.values()) assert.equal(schemaOf(channel).encoding, 'jsonschema');
-const properties = JSON.parse(text(schemaOf(channelOf.get('/tick')).data)).properties;
+for (const channel of channelOf.values()) {
+  assert.equal(schemaOf(channel).encoding, 'jsonschema');
+  assert.equal(channel.messageEncoding, channel.topic === '/records' ? 'zwang.block' : 'json');
+}
+const properties = JSON.parse(text(schemaOf(channelOf.get('/records')).data)).properties;
+const names = Object.keys(properties);
+
+/** A record an array, one number a column, as docs/logs.md tells it. */
+function unpack(data) {
+  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  const [count, columns] = [view.getUint32(0, true), view.getUint32(4, true)];
+  assert.equal(columns, names.length);
+  let at = 8;
+  const number = () => view.getBigUint64((at += 8) - 8, true);
+  const column = (all) => {
+    const kind = view.getUint8(at++);
+    if (kind === 0) return Array(count).fill(0x7ff8000000000000n);
+    if (kind === 1) return Array(count).fill(number());
+    if (kind === 2) return all[view.getUint16((at += 2) - 2, true)];
+    const [order, width] = [kind >> 4, kind & 15];
+    const numbers = Array.from({length: count}, (_, i) => (i < order ? number() : 0n));
+    for (let plane = width - 1; plane >= 0; plane -= 1)
+      for (let i = order; i < count; i += 1) numbers[i] |= BigInt(view.getUint8(at++)) << BigInt(8 * plane);
+    for (let i = order; i < count; i += 1) numbers[i] = (numbers[i] >> 1n) ^ -(numbers[i] & 1n);
+    for (let from = order; from > 0; from -= 1)
+      for (let i = from; i < count; i += 1) numbers[i] = BigInt.asUintN(64, numbers[i] + numbers[i - 1]);
+    return numbers;
+  };
+  const all = [];
+  while (all.length < columns) all.push(column(all));
+  assert.equal(at, data.byteLength);
+  const double = (bits) => new Float64Array(new BigUint64Array([bits]).buffer)[0];
+  return Array.from({length: count}, (_, i) => all.map((bits) => double(bits[i])));
+}
+
+/** What JSON makes of a record: blanks left out, words in the place of their numbers. */
+function shownOf(record) {
+  const cells = names.map((name, i) => {
+    const words = properties[name].enum;
+    return [name, words ? (words[record[i]] ?? '') : Number.isFinite(record[i]) ? record[i] : null];
+  });
+  return Object.fromEntries(cells.filter((_, i) => !Number.isNaN(record[i])));
+}
 
 /** The schema with every field required and no other one allowed. */
 function exact(schema) {
@@ -38,31 +80,46 @@ function exact(schema) {
 const ajv = new Ajv({strict: false});
 const judges = new Map([schemas.Log, schemas.FrameTransforms, schemas.SceneUpdate].map((schema) => [schema.title, ajv.compile(exact(schema))]));
 
-let messages = 0;
-let last = null;
+const records = [];
+const ticks = new Map();
 const shown = new Map();
+let blocks = 0;
 for await (const message of reader.readMessages()) {
   const channel = reader.channelsById.get(message.channelId);
-  const content = JSON.parse(text(message.data));
-  if (channel.topic !== '/tick') {
-    const judge = judges.get(schemaOf(channel).name);
-    assert.ok(judge(content), `${channel.topic}: ${ajv.errorsText(judge.errors)}`);
-    shown.set(channel.topic, [...(shown.get(channel.topic) ?? []), {content, time: message.logTime, tick: last}]);
+  if (channel.topic === '/records') {
+    assert.equal(message.sequence, records.length);
+    for (const record of unpack(message.data)) {
+      if (records.length === message.sequence)
+        assert.ok(Math.abs(record[0] * 1e9 - Number(message.logTime)) <= 1, `time of record ${records.length}`);
+      records.push(record);
+    }
+    blocks += 1;
     continue;
   }
-  last = content;
-  assert.ok(Math.abs(content.time * 1e9 - Number(message.logTime)) <= 1, `time of record ${messages}`);
-  for (const name of Object.keys(content)) assert.ok(name in properties, `${name} is in the schema`);
-  messages += 1;
+  const content = JSON.parse(text(message.data));
+  if (channel.topic === '/tick') {
+    assert.ok(Math.abs(content.time * 1e9 - Number(message.logTime)) <= 1, `time of tick ${ticks.size}`);
+    ticks.set(message.logTime, content);
+    continue;
+  }
+  const judge = judges.get(schemaOf(channel).name);
+  assert.ok(judge(content), `${channel.topic}: ${ajv.errorsText(judge.errors)}`);
+  shown.set(channel.topic, [...(shown.get(channel.topic) ?? []), {content, time: message.logTime}]);
 }
+const messages = records.length;
 assert.ok(messages > 1000, `${messages} records`);
-const others = [...shown.values()].reduce((sum, list) => sum + list.length, 0);
-assert.equal(BigInt(messages + others), reader.statistics.messageCount);
+const byTime = new Map(records.map((record) => [record[0], record]));
+const last = records.at(-1)[0];
+assert.ok(ticks.size > 40 * last && ticks.size < 60 * last, `${ticks.size} records shown in ${last} s`);
+for (const tick of ticks.values()) assert.deepEqual(tick, shownOf(byTime.get(tick.time)));
+for (const list of shown.values()) for (const one of list) one.tick = ticks.get(one.time);
+const others = [...shown.values()].reduce((sum, list) => sum + list.length, blocks + ticks.size);
+assert.equal(BigInt(others), reader.statistics.messageCount);
 assert.equal(messages, info.records);
 
 // Where the robot is, as the records have it, stamped with the time of the run.
 const moves = shown.get('/tf');
-assert.ok(moves.length > 40 * last.time && moves.length < 60 * last.time, `${moves.length} transforms in ${last.time} s`);
+assert.equal(moves.length, ticks.size);
 for (const {content, time, tick} of moves) {
   const [base] = content.transforms;
   assert.equal(base.parent_frame_id, 'world');
@@ -103,5 +160,5 @@ stream.append(bytes);
 let streamed = 0;
 for (let record; (record = stream.nextRecord()); ) streamed += record.type === 'Message' ? 1 : 0;
 assert.ok(stream.done());
-assert.equal(streamed, messages + others);
+assert.equal(streamed, others);
 console.log(`${run.outcome}: ${messages} records, ${attachments} files, read by @mcap/core`);

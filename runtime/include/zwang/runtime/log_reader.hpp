@@ -1,4 +1,4 @@
-/// Reads the MCAP logs that `mcap_sink` writes, whole or damaged.
+/// Reads the MCAP logs that `mcap_sink` writes, whole or damaged, and those of zwang before 2026-11-26.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,10 +15,29 @@
 
 namespace zwang::runtime {
 
+/// What a log says of one of its columns.
+struct LoggedColumn {
+  std::string name;
+  std::string unit;                ///< empty for pure numbers and words
+  std::vector<std::string> words;  ///< when not empty, a value is an index into it
+  std::string file;                ///< whose line it comes from, as the log names it; empty: none
+  int line = 0;
+
+  bool is_input() const;  ///< came from outside: sensed, or a parameter that was set
+  /// Empty: blank, or no word of its own.
+  std::string_view word(double value) const noexcept;
+  /// As many digits as bring the number back bit by bit, or the word; empty: blank.
+  std::string text(double value) const;
+};
+
+/// The number of the column with this name; that of all columns where there is none.
+std::size_t place_of(const std::vector<LoggedColumn>& columns, std::string_view name) noexcept;
+
 struct LogContents {
   LogContext context;
   std::map<std::string, std::string> conclusion;  ///< given when the run was over: "outcome", "report"
   std::string schema;                             ///< JSON schema of the records
+  std::vector<LoggedColumn> columns;              ///< of the records, in their order
   std::uint64_t records = 0;                      ///< that could be read
   double begin = 0.0;                             ///< [s] of the first record
   double end = 0.0;                               ///< [s] of the last one
@@ -26,32 +46,41 @@ struct LogContents {
   std::vector<std::string> damage;
 };
 
+/// The files of a run's log: `log.mcap` in its folder, or `log_0.mcap`, `log_1.mcap` and so on in their
+/// order. What is no folder is a file of its own. Throws std::runtime_error where the folder holds no log.
+std::vector<std::filesystem::path> log_files(const std::filesystem::path& run);
+
 /// The records of a log, one by one. A cut or changed file is read as far as it is whole.
 class LogRecords {
  public:
-  /// Throws std::runtime_error when the file cannot be opened or is no MCAP file.
-  explicit LogRecords(const std::filesystem::path& path);
+  /// `log`: a file, or the folder of a run. Throws std::runtime_error when the file cannot be opened or is no
+  /// MCAP file.
+  explicit LogRecords(const std::filesystem::path& log);
   ~LogRecords();
   LogRecords(const LogRecords&) = delete;
   LogRecords& operator=(const LogRecords&) = delete;
 
-  bool next();                          ///< false: there is no record any more
-  double time() const;                  ///< [s] of the record
-  std::string_view json() const;        ///< of the record; valid until `next`
-  const LogContents& contents() const;  ///< as far as the log has been read
+  bool next();                             ///< false: there is no record any more
+  double time() const;                     ///< [s] of the record
+  std::span<const double> values() const;  ///< one a column, NaN: blank; valid until `next`
+  const LogContents& contents() const;     ///< as far as the log has been read
 
  private:
-  class Reading;
-  std::unique_ptr<Reading> reading_;
+  class File;
+  bool open_next();
+
+  LogContents contents_;
+  std::vector<std::filesystem::path> files_;
+  std::size_t opened_ = 0;  ///< of the files
+  std::unique_ptr<File> file_;
 };
 
-/// Calls `record` with the time [s] and the JSON text of every record that can be read, in the order of the
-/// file, and before the first one `before`, with the files, the facts and the schema. A cut or changed file
-/// is read as far as it is whole, and `damage` tells the rest. What is in the file never makes it
-/// throw, and it needs no more memory than a chunk. It throws std::runtime_error when the file cannot be
-/// opened or is no MCAP file.
-LogContents read_log(const std::filesystem::path& path,
-                     const std::function<void(double time, std::string_view json)>& record,
+/// Calls `record` with the time [s] and the values of every record that can be read, in their order, and
+/// before the first one `before`, with the files, the facts and the columns. A cut or changed file is read as
+/// far as it is whole, and `damage` tells the rest. What is in the file never makes it throw, and it needs no
+/// more memory than a chunk. Throws as LogRecords.
+LogContents read_log(const std::filesystem::path& log,
+                     const std::function<void(double time, std::span<const double> values)>& record,
                      const std::function<void(const LogContents& head)>& before = {});
 
 }  // namespace zwang::runtime

@@ -43,23 +43,26 @@ class LogSink {
   virtual std::string conclude(const std::map<std::string, std::string>& facts);
   virtual std::string flush() = 0;  ///< now and then, when there is nothing to write
   virtual std::string close() = 0;
+  virtual std::uint64_t size() const { return 0; }  ///< [bytes] handed to the disk so far; 0: not known
 };
 
 /// A line a record, `name [unit]` in the header. The bytes depend on the values alone: numbers have nine
 /// significant digits and a point whatever the locale.
 std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path);
 
-/// MCAP (https://mcap.dev): messages of the channel `/tick` with a JSON schema, numbers in full, in
-/// compressed chunks of at most 50 ms; the context's sources are its attachments. Cut anywhere, all whole
-/// chunks before the cut can be read. Dropped records are missing among the messages' sequence numbers, and
-/// `read_log` tells so. Wants a first column `time` in seconds.
+/// MCAP (https://mcap.dev): every bit of each record in the channel `/records`, in blocks and compressed
+/// chunks of at most 50 ms (docs/logs.md has the format); 50 records a second as JSON in `/tick`, for
+/// viewers. The context's sources are its attachments. Cut anywhere, all whole chunks before the cut can be
+/// read. Dropped records are missing among the sequence numbers, and `read_log` tells so. Wants a first
+/// column `time` in seconds.
 std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context);
 
 struct RecorderStatus {
-  std::uint64_t recorded = 0;  ///< records accepted by `record`
-  std::uint64_t written = 0;   ///< records handed to every sink without an error
-  std::uint64_t dropped = 0;   ///< records refused because the writer was behind
-  std::string error;           ///< what a sink said first; empty when all is well
+  std::uint64_t recorded = 0;   ///< records accepted by `record`
+  std::uint64_t written = 0;    ///< records handed to every sink without an error
+  std::uint64_t dropped = 0;    ///< records refused because the writer was behind
+  double processor_time = 0.0;  ///< [s] that the writer's thread took; known after `close`
+  std::string error;            ///< what a sink said first; empty when all is well
   bool complete() const { return dropped == 0 && error.empty() && recorded == written; }
 };
 

@@ -47,8 +47,7 @@ struct Series {
 };
 
 /// The curves have `most_points` together, or little more where there are very many columns. Columns of
-/// words, and those that begin with `sensed.` or `params.`, are no curves. A second thread takes the records
-/// apart. Throws as `read_log`.
+/// words, and inputs, are no curves. Throws as `read_log`.
 Series read_series(const std::filesystem::path& log, std::size_t most_points);
 
 /// As 32-bit floats of this machine's byte order, the first bytes of all numbers before their second ones and
