@@ -1,6 +1,6 @@
 // The axes of docs/language.md and their signs. The base, the frame and the numbers are those of a run's first record.
 import { execFileSync } from 'node:child_process';
-import { cpSync, mkdirSync, readFileSync, writeFileSync } from 'node:fs';
+import { cpSync, mkdirSync, writeFileSync } from 'node:fs';
 
 const goal = [1.35, 0.62];  // [m] in the world
 const task = `zwang: 1
@@ -24,7 +24,7 @@ function firstRecord(zwang, specs, folder) {
   writeFileSync(`${folder}/way.yaml`, task);
   writeFileSync(`${folder}/floor.yaml`, scene);
   execFileSync(zwang, ['run', `${folder}/way.yaml`, '--log', `${folder}/run`, '--quiet'], { stdio: 'pipe' });
-  const [head, values] = readFileSync(`${folder}/run/log.csv`, 'utf8').split('\n').map((line) => line.split(','));
+  const [head, values] = execFileSync(zwang, ['log', `${folder}/run`], { encoding: 'utf8' }).split('\n').map((line) => line.split(','));
   return (name) => Number(values[head.findIndex((one) => one.startsWith(`${name} [`) || one === name)]);
 }
 

@@ -31,6 +31,17 @@ std::uint64_t seed(const std::string& text) {
   return value;
 }
 
+runtime::LogRotation rotation(const std::vector<std::string>& texts) {
+  runtime::LogRotation rotation;
+  for (const std::string& text : texts) {
+    if (!runtime::read_rotation(text, rotation))
+      throw Impossible("--log-rotate: `" + text +
+                       "` is no size of at least 1 MB and no time of at least 1 s; write it as `500 MB` or "
+                       "`10 min`");
+  }
+  return rotation;
+}
+
 std::map<std::string, std::string> parameters(const std::vector<std::string>& texts) {
   std::map<std::string, std::string> values;
   for (const std::string& text : texts) {

@@ -8,11 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "zwang/runtime/log_parts.hpp"
+
 namespace zwang::cli {
 
-double angle(const std::string& text);                 ///< `20 deg` [rad]
-std::array<double, 2> point(const std::string& text);  ///< `0 m, 0.5 m` [m]
-std::uint64_t seed(const std::string& text);           ///< a whole number
+double angle(const std::string& text);                                 ///< `20 deg` [rad]
+std::array<double, 2> point(const std::string& text);                  ///< `0 m, 0.5 m` [m]
+std::uint64_t seed(const std::string& text);                           ///< a whole number
+runtime::LogRotation rotation(const std::vector<std::string>& texts);  ///< `500 MB`, `10 min`, or both
 /// `push=30N` each: values as text, by name.
 std::map<std::string, std::string> parameters(const std::vector<std::string>& texts);
 

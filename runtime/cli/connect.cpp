@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "argument_text.hpp"
 #include "output.hpp"
 #include "shipped.hpp"
 #include "verbs.hpp"
@@ -36,6 +37,9 @@ std::vector<std::string> words_of(const ConnectArguments& a) {
   if (a.overrides.scene) add("--scene", *a.overrides.scene);
   for (const auto& [name, value] : a.overrides.parameters) add("-p", name + "=" + value);
   if (a.log) add("--log", *a.log);
+  if (a.log_rate) add("--log-rate", std::to_string(*a.log_rate));
+  rotation(a.rotation);  // what is none is told here
+  for (const std::string& limit : a.rotation) add("--log-rotate", limit);
   if (a.observe) add("--observe", std::to_string(*a.observe));
   if (a.wait) add("--wait", std::to_string(*a.wait));
   if (a.seed) add("--seed", std::to_string(*a.seed));

@@ -31,6 +31,18 @@ void takes(CLI::Option* option, const std::map<std::string, Value>& words) {
   option->transform(to_value)->transform(CLI::IsMember(names, CLI::ignore_case))->type_name("TEXT");
 }
 
+void add_format(CLI::App& verb, Format& format) {
+  takes(verb.add_option("--format", format, "human (default) or json: one object on stdout"), formats);
+}
+
+/// The option `--log-rotate`.
+CLI::Option* add_log_limits(CLI::App& verb, std::optional<double>& rate, std::vector<std::string>& rotation) {
+  verb.add_option("--log-rate", rate, "most records a second, beside switches and events; replay needs all")
+      ->check(CLI::Range(1e-3, 1e6));
+  const char* words = "a new file after `500 MB` or `10 min`, or after both: log_0.mcap, log_1.mcap ..";
+  return verb.add_option("--log-rotate", rotation, words)->allow_extra_args(false);
+}
+
 /// What every verb that reads a task file may put in the place of its words.
 void add_overrides(CLI::App& verb, TaskOverrides& overrides) {
   verb.add_option("--robot", overrides.robot, "robot file, in the place of the task's own");
@@ -116,8 +128,7 @@ void add_plan(CLI::App& app, std::function<int()>& chosen) {
   verb->add_option("file", arguments->file, "the task file")->required();
   verb->add_option("--task", arguments->task, "this task only");
   add_overrides(*verb, arguments->overrides);
-  takes(verb->add_option("--format", arguments->format, "human (default) or json: one object on stdout"),
-        formats);
+  add_format(*verb, arguments->format);
   verb->callback([=, &chosen] {
     arguments->file = file_or_shipped(arguments->file);
     chosen = [=] { return plan(*arguments); };
@@ -136,8 +147,7 @@ void add_identify(CLI::App& verb, std::function<int()>& chosen) {
       ->excludes(mass);
   identify->add_option("--update", arguments->update, "the robot file to write (default the logged one)");
   identify->add_flag("--dry-run", arguments->dry_run, "only print");
-  takes(identify->add_option("--format", arguments->format, "human (default) or json: one object on stdout"),
-        formats);
+  add_format(*identify, arguments->format);
   identify->callback([=, &chosen] { chosen = [=] { return robot_identify(*arguments); }; });
 }
 
@@ -147,8 +157,7 @@ void add_robot(CLI::App& app, std::function<int()>& chosen) {
   const auto inspected = std::make_shared<RobotInspectArguments>();
   CLI::App* inspect = verb->add_subcommand("inspect", "What the robot is and can do");
   inspect->add_option("file", inspected->file, "a robot file, or a bare URDF")->required();
-  takes(inspect->add_option("--format", inspected->format, "human (default) or json: one object on stdout"),
-        formats);
+  add_format(*inspect, inspected->format);
   inspect->callback([=, &chosen] { chosen = [=] { return robot_inspect(*inspected); }; });
   const auto begun = std::make_shared<RobotInitArguments>();
   CLI::App* init = verb->add_subcommand("init", "Write a robot file from a URDF, to be filled in");
@@ -179,6 +188,7 @@ void add_drive(CLI::App& app, std::function<int()>& chosen) {
   verb->add_option("--over", arguments->connection, "the connection file: topics, command")->required();
   add_overrides(*verb, arguments->overrides);
   verb->add_option("--log", arguments->log, "an .mcap file for the log (default: none)");
+  add_log_limits(*verb, arguments->log_rate, arguments->rotation);
   verb->add_option("--observe", arguments->observe,
                    "send nothing; for so many seconds tell what comes, and its signs")
       ->check(CLI::Range(0.1, 86400.0));
@@ -276,6 +286,7 @@ int parse_and_do(int argc, char** argv) {
 
   RunArguments to_run;
   std::optional<std::string> yaw_text, at_text, seed_text;
+  std::vector<std::string> rotation_texts;
   TestArguments to_test;
   CLI::App* test_verb = app.add_subcommand("test", "Run scenario files and judge what they expect");
   test_verb->add_option("paths", to_test.paths, "scenario files, or folders that hold some")->required();
@@ -287,8 +298,7 @@ int parse_and_do(int argc, char** argv) {
       test_verb->add_flag("--report", to_test.report, "make a page of all runs, the worst first");
   test_verb->add_option("-o,--out", to_test.out, "the page to write (default test-report.html)")
       ->needs(with_page);
-  takes(test_verb->add_option("--format", to_test.format, "human (default) or json: one object on stdout"),
-        formats);
+  add_format(*test_verb, to_test.format);
 
   CLI::App* run_verb = app.add_subcommand("run", "Run a task on the simulated robot");
   run_verb->add_option("file", to_run.file, "the task file; or a scenario file, of which one cell runs")
@@ -297,6 +307,8 @@ int parse_and_do(int argc, char** argv) {
   add_overrides(*run_verb, to_run.overrides);
   run_verb->add_option("--log", to_run.log,
                        "folder for the log (default runs/<task>-NNN); a log in it is written over");
+  run_verb->add_flag("--csv", to_run.csv, "log.csv beside log.mcap; `zwang log RUN` makes one later");
+  add_log_limits(*run_verb, to_run.log_rate, rotation_texts)->excludes("--csv");
   run_verb->add_option("--seed", seed_text, "seed of everything random in the run (default 0)");
   run_verb->add_option("--start-yaw", yaw_text,
                        "heading at the start, in the place of the scene's: `20 deg`");
@@ -309,6 +321,7 @@ int parse_and_do(int argc, char** argv) {
   CLI::Option* watch =
       run_verb->add_flag("--watch", to_run.watch,
                          "at the pace of real time; a task file that changes under way is loaded again");
+  watch->excludes("--log-rotate");
   bool is_live = false;
   int port = 0;
   CLI::Option* live = run_verb->add_flag(
@@ -317,14 +330,18 @@ int parse_and_do(int argc, char** argv) {
   run_verb->add_option("--port", port, "of that page on 127.0.0.1 (default any free one)")
       ->needs(live)
       ->check(CLI::Range(1, 65535));
-  takes(run_verb->add_option("--format", to_run.format, "human (default) or json: one object on stdout"),
-        formats);
+  add_format(*run_verb, to_run.format);
+
+  LogArguments to_write;
+  CLI::App* log_verb = app.add_subcommand("log", "Write the records of a log as CSV");
+  log_verb->add_option("run", to_write.run, "the folder of the run, or its .mcap file")->required();
+  log_verb->add_flag("--csv")->description("as it does anyway");
+  log_verb->add_option("-o,--out", to_write.out, "the file to write (default the standard output)");
 
   InfoArguments to_tell;
   CLI::App* info_verb = app.add_subcommand("info", "Tell what is in the log of a run");
-  info_verb->add_option("log", to_tell.file, "the .mcap file")->required();
-  takes(info_verb->add_option("--format", to_tell.format, "human (default) or json: one object on stdout"),
-        formats);
+  info_verb->add_option("log", to_tell.file, "the folder of the run, or its .mcap file")->required();
+  add_format(*info_verb, to_tell.format);
 
   ReportArguments to_report;
   CLI::App* report_verb =
@@ -338,10 +355,8 @@ int parse_and_do(int argc, char** argv) {
   ReplayArguments to_replay;
   CLI::App* replay_verb =
       app.add_subcommand("replay", "Compute the torques of a logged run again and compare");
-  replay_verb->add_option("log", to_replay.file, "the .mcap file")->required();
-  takes(
-      replay_verb->add_option("--format", to_replay.format, "human (default) or json: one object on stdout"),
-      formats);
+  replay_verb->add_option("log", to_replay.file, "the folder of the run, or its .mcap file")->required();
+  add_format(*replay_verb, to_replay.format);
 
   try {
     app.parse(argc, argv);
@@ -361,11 +376,13 @@ int parse_and_do(int argc, char** argv) {
   }
   if (chosen) return chosen();
   if (test_verb->parsed()) return test(to_test);
+  if (log_verb->parsed()) return zwang::cli::log(to_write);
   if (info_verb->parsed()) return info(to_tell);
   if (replay_verb->parsed()) return replay(to_replay);
   if (report_verb->parsed()) return report(to_report);
   to_run.file = file_or_shipped(to_run.file);
   if (is_live) to_run.live_port = port;
+  to_run.rotation = rotation(rotation_texts);
   if (seed_text) to_run.seed = seed(*seed_text);
   if (yaw_text) to_run.start_yaw = angle(*yaw_text);
   if (at_text) to_run.start_at = point(*at_text);

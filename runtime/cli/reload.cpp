@@ -143,9 +143,9 @@ void Reloads::look(runtime::Runner& runner, double time) {
   const std::string name = "log-reload-" + std::to_string(past_.size() + 1);
   runtime::LogContext context = context_of(arguments_, next->diagnostics);
   context.facts["continues"] = last_log_;
-  recorders_.push_back(record(runner, *next->program, folder_, name, std::move(context)));
+  recorders_.push_back(record(arguments_, runner, *next->program, folder_, name, std::move(context)));
   last_log_ = name + ".mcap";
-  logs_.push_back((folder_ / (name + ".csv")).string());
+  logs_.push_back((folder_ / (name + ".mcap")).string());
   next->at = time;
   past_.push_back(std::move(next));
   print_error("zwang: " + arguments_.file + " reloaded at " + with_unit(time, "s") + "; " + last_log_ +

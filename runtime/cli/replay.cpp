@@ -9,6 +9,7 @@
 #include "output.hpp"
 #include "run_log.hpp"
 #include "verbs.hpp"
+#include "zwang/runtime/log_parts.hpp"
 #include "zwang/version.hpp"
 
 namespace zwang::cli {
@@ -24,7 +25,7 @@ std::string exactly(double value) {
   return text;
 }
 
-constexpr std::size_t most_parts = 1000;
+constexpr std::size_t most_parts = 100'000;
 
 runtime::LogContents contents_of(const fs::path& log) {
   require_log(log.string());
@@ -44,7 +45,12 @@ lang::Program program_of(const runtime::LogContext& context) {
 std::optional<fs::path> log_before(const fs::path& log, const runtime::LogContext& context) {
   const auto before = context.facts.find("continues");
   if (before == context.facts.end()) return std::nullopt;
-  return log.parent_path() / fs::path(before->second).filename();
+  const fs::path path = log.parent_path() / fs::path(before->second).filename();
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw Impossible(log.string() + " goes on from " + path.string() +
+                     ", which is not there: a replay begins where the run began");
+  return path;
 }
 
 std::string fact(const runtime::LogContext& context, const char* name) {
@@ -91,9 +97,12 @@ int replay(const ReplayArguments& arguments) {
   const runtime::LogContents log = contents_of(file);
   std::vector<runtime::ReplayPart> parts{{file, program_of(log.context)}};
   // A log that goes on where another one ends, and so on back to the begin of the run.
+  bool is_part = log.context.facts.contains(runtime::part_fact);
   for (std::optional<fs::path> before = log_before(file, log.context); before;) {
     if (parts.size() > most_parts) throw Impossible("its logs go on from one another without a begin");
     const runtime::LogContext context = contents_of(*before).context;
+    parts.front().has_program_of_before = is_part;
+    is_part = context.facts.contains(runtime::part_fact);
     parts.insert(parts.begin(), {*before, program_of(context)});
     before = log_before(*before, context);
   }

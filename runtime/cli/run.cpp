@@ -3,6 +3,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -157,6 +158,13 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   report.base = plant.truth().base;
 }
 
+/// [s] of all threads.
+double processor_time_so_far() {
+  timespec taken{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &taken);
+  return static_cast<double>(taken.tv_sec) + 1e-9 * static_cast<double>(taken.tv_nsec);
+}
+
 std::string headline(const RunArguments& arguments, const lang::Program& program) {
   std::string line = fs::path(arguments.file).filename().string() + ": robot `" + program.robot.name + "`";
   for (const lang::Parameter& p : program.parameters) {
@@ -200,11 +208,11 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
 
   const fs::path folder = make_log_folder(arguments);
   Recorders recorders;
-  recorders.push_back(record(runner, *program, folder, "log", context_of(arguments, diagnostics),
+  recorders.push_back(record(arguments, runner, *program, folder, "log", context_of(arguments, diagnostics),
                              view != nullptr ? view->begin(*program, diagnostics, runner) : nullptr));
   for (std::size_t i = 0; i < plant->partners().size(); ++i) {
     const lang::SceneRobot& robot = program->scene->robots[i];
-    recorders.push_back(record(plant->partners()[i].runner, *plant->partners()[i].program, folder,
+    recorders.push_back(record(arguments, plant->partners()[i].runner, *plant->partners()[i].program, folder,
                                "log-" + robot.name,
                                context_of(arguments, *program->scene, robot, diagnostics)));
   }
@@ -219,9 +227,10 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
   Live live(talks);
   RunReport report;
   report.seed = arguments.seed;
-  report.logs.push_back((folder / "log.csv").string());
+  report.logs.push_back((folder / log_name(arguments, "log")).string());
   if (view != nullptr) view->wait_for_page(interrupted);
   const auto begin = Clock::now();
+  const double processor_time = processor_time_so_far();
   std::optional<Reloads> reloads;
   if (arguments.watch) reloads.emplace(arguments, folder, diagnostics, settings, recorders);
   const double time_limit =
@@ -243,6 +252,7 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
   const std::map<std::string, std::string> ending = conclusion(report, runner, of_files);
   (is_reloaded ? recorders.back() : recorders.front())->conclude(ending);
   for (const auto& recorder : recorders) recorder->close();
+  report.processor_time = processor_time_so_far() - processor_time;
   if (view != nullptr) view->end(ending.at("report"));
   live.end();
 
@@ -250,6 +260,7 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
     const runtime::RecorderStatus log = recorders[i]->status();
     // The first robot's stand before and behind the partners'.
     if (i == 0 || i > partner_logs) report.records += log.written;
+    report.log_processor_time += log.processor_time;
     if (report.log_error.empty()) report.log_error = log.error;
     if (report.log_error.empty() && !log.complete())
       report.log_error = std::to_string(log.dropped) + " records were dropped";

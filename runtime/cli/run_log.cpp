@@ -8,6 +8,7 @@
 
 #include "output.hpp"
 #include "zwang/runtime/log_channels.hpp"
+#include "zwang/runtime/log_parts.hpp"
 #include "zwang/runtime/log_reader.hpp"
 
 namespace zwang::cli {
@@ -30,8 +31,11 @@ std::filesystem::path make_log_folder(const RunArguments& arguments) {
     if (!fs::is_directory(*arguments.log))
       throw Impossible(*arguments.log + ": cannot make this folder: " + error.message());
     // A script that runs again with the same folder goes on; whom it surprises is told.
-    if (fs::exists(fs::path(*arguments.log) / "log.mcap", error))
-      print_error("zwang: " + *arguments.log + ": the log that was here is written over\n");
+    const fs::path folder = *arguments.log;
+    const bool has_one = fs::exists(folder / "log.mcap", error) || fs::exists(folder / "log_0.mcap", error);
+    if (has_one) print_error("zwang: " + *arguments.log + ": the log that was here is written over\n");
+    const std::string hindrance = has_one ? runtime::remove_log(folder, "log") : "";
+    if (!hindrance.empty()) throw Impossible(hindrance);
     return *arguments.log;
   }
   fs::create_directories("runs", error);
@@ -66,15 +70,40 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene&
   return context;
 }
 
-std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const lang::Program& program,
+std::string log_name(const RunArguments& arguments, const std::string& name) {
+  return name + (arguments.rotation.is_asked() ? "_0.mcap" : ".mcap");
+}
+
+namespace {
+
+std::unique_ptr<runtime::LogSink> mcap_of(const RunArguments& arguments, const lang::Program& program,
                                           const fs::path& folder, const std::string& name,
-                                          runtime::LogContext context,
+                                          const runtime::LogContext& context) {
+  if (!arguments.rotation.is_asked())
+    return runtime::mcap_sink(folder / (name + ".mcap"), context, runtime::scene_channels(program));
+  const auto make = [program, context](const fs::path& path,
+                                       const std::map<std::string, std::string>& facts) {
+    runtime::LogContext of_part = context;
+    of_part.facts.insert(facts.begin(), facts.end());
+    return runtime::mcap_sink(path, std::move(of_part), runtime::scene_channels(program));
+  };
+  return runtime::rotating_sink(folder, name, arguments.rotation, make);
+}
+
+}  // namespace
+
+std::unique_ptr<runtime::Recorder> record(const RunArguments& arguments, runtime::Runner& runner,
+                                          const lang::Program& program, const fs::path& folder,
+                                          const std::string& name, runtime::LogContext context,
                                           std::unique_ptr<runtime::LogSink> also) {
   context.facts.merge(runner.facts());
+  if (arguments.log_rate) context.facts[runtime::log_rate_fact] = exactly(*arguments.log_rate);
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
-  sinks.push_back(
-      runtime::mcap_sink(folder / (name + ".mcap"), std::move(context), runtime::scene_channels(program)));
-  sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
+  sinks.push_back(mcap_of(arguments, program, folder, name, context));
+  if (arguments.csv) sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
+  if (arguments.log_rate) {
+    for (auto& sink : sinks) sink = runtime::thinned_sink(std::move(sink), *arguments.log_rate);
+  }
   if (also) sinks.push_back(std::move(also));
   auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
   runner.record_to(recorder.get());

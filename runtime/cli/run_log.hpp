@@ -18,6 +18,9 @@ using Recorders = std::vector<std::unique_ptr<runtime::Recorder>>;
 /// A folder of its own for the run: the given one, else the first free `runs/<task>-NNN`.
 std::filesystem::path make_log_folder(const RunArguments& arguments);
 
+/// The name of a log's first file.
+std::string log_name(const RunArguments& arguments, const std::string& name);
+
 /// Throws Impossible unless it is a log that can be read: an .mcap file, or a folder that holds one.
 void require_log(const std::string& log);
 
@@ -27,11 +30,11 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Diagno
 runtime::LogContext context_of(const RunArguments& arguments, const lang::Scene& scene,
                                const lang::SceneRobot& robot, const lang::Diagnostics& diagnostics);
 
-/// A log of `runner`, which runs `program`, in the folder, as MCAP and as CSV, and in the form of `also`. Its
-/// status tells what cannot be opened.
-std::unique_ptr<runtime::Recorder> record(runtime::Runner& runner, const lang::Program& program,
-                                          const std::filesystem::path& folder, const std::string& name,
-                                          runtime::LogContext context,
+/// A log of `runner`, which runs `program`, in the folder, in the forms that the arguments ask for, and in
+/// that of `also`. Its status tells what cannot be opened.
+std::unique_ptr<runtime::Recorder> record(const RunArguments& arguments, runtime::Runner& runner,
+                                          const lang::Program& program, const std::filesystem::path& folder,
+                                          const std::string& name, runtime::LogContext context,
                                           std::unique_ptr<runtime::LogSink> also = nullptr);
 
 }  // namespace zwang::cli

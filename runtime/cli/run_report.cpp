@@ -251,6 +251,9 @@ std::string human_report(const RunReport& report, const runtime::Runner& runner,
   text += "log    ";
   for (const std::string& log : report.logs) text += log + ", ";
   text += std::to_string(report.records) + " records";
+  if (report.processor_time > 0.0)
+    text += ", " + with_unit(100.0 * report.log_processor_time / report.processor_time, "%", 2) +
+            " of the processor time";
   if (!report.log_error.empty()) text += ", INCOMPLETE: " + report.log_error;
   if (!report.page.empty()) text += "\npage   " + report.page;
   text += "\nspeed  " + with_unit(report.elapsed / std::max(report.wall_time, 1e-9), "x real time", 3) + "\n";
@@ -314,6 +317,8 @@ std::string json_report(const RunReport& report, const runtime::Runner& runner,
   whole["logs"] = report.logs;
   whole["log_complete"] = report.log_error.empty();
   whole["wall_time"] = report.wall_time;
+  whole["processor_time"] = report.processor_time;
+  whole["log_processor_time"] = report.log_processor_time;
   if (!report.page.empty()) whole["page"] = report.page;
   return text_of(whole, 2) + "\n";
 }

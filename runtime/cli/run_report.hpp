@@ -42,8 +42,10 @@ struct RunReport {
   std::vector<std::string> logs;  ///< of the first robot, one after the other
   std::vector<Chapter> before;
   std::uint64_t records = 0;
-  std::string log_error;  ///< empty when the log is complete
-  std::string page;       ///< path of the page of the run; empty: none was made
+  double processor_time = 0.0;      ///< [s] that the run took, with its log
+  double log_processor_time = 0.0;  ///< [s] of it, of the threads that write logs
+  std::string log_error;            ///< empty when the log is complete
+  std::string page;                 ///< path of the page of the run; empty: none was made
   std::vector<AskedForce> asked;
   std::vector<ObjectReport> objects;
   std::vector<PartnerReport> partners;

@@ -10,6 +10,7 @@
 
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/schema.hpp"
+#include "zwang/runtime/log_parts.hpp"
 
 namespace zwang::cli {
 
@@ -101,6 +102,9 @@ struct RunArguments {
   std::string file;
   TaskOverrides overrides;
   std::optional<std::string> log;
+  bool csv = false;                ///< log.csv beside it
+  std::optional<double> log_rate;  ///< [1/s] most records
+  runtime::LogRotation rotation;
   std::uint64_t seed = 0;
   bool quiet = false;
   bool watchdog = false;
@@ -121,6 +125,8 @@ struct ConnectArguments {
   std::string connection;  ///< the connection file
   TaskOverrides overrides;
   std::optional<std::string> log;     ///< an .mcap file
+  std::optional<double> log_rate;     ///< [1/s] most records
+  std::vector<std::string> rotation;  ///< `500 MB`, `1 h`
   std::optional<double> observe;      ///< [s] to look for, and send nothing
   std::optional<double> wait;         ///< [s] for the robot to be there
   std::optional<std::uint64_t> seed;  ///< of a simulated robot
@@ -173,8 +179,15 @@ struct ReportArguments {
 };
 int report(const ReportArguments& arguments);
 
+struct LogArguments {
+  std::string run;                 ///< the folder of a run, or its .mcap
+  std::optional<std::string> out;  ///< none: the standard output
+};
+/// Its records as CSV.
+int log(const LogArguments& arguments);
+
 struct InfoArguments {
-  std::string file;
+  std::string file;  ///< or the folder of a run
   Format format = Format::human;
 };
 int info(const InfoArguments& arguments);

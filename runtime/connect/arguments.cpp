@@ -35,6 +35,10 @@ Arguments parse_arguments(int argc, char** argv) {
       a.options.scene = value;
     else if (word == "--log")
       a.log = value;
+    else if (word == "--log-rate")
+      a.log_rate = std::stod(value);
+    else if (word == "--log-rotate" && runtime::read_rotation(value, a.rotation))
+      continue;
     else if (word == "--observe")
       a.observe = std::stod(value);
     else if (word == "--wait")

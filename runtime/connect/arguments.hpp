@@ -7,6 +7,7 @@
 
 #include "zwang/lang/connection.hpp"
 #include "zwang/lang/program.hpp"
+#include "zwang/runtime/log_parts.hpp"
 
 namespace zwang::connect {
 
@@ -16,12 +17,15 @@ struct Arguments {
   std::string task, connection;
   lang::LoadOptions options;
   std::optional<std::string> log;  ///< an .mcap file
-  std::optional<double> observe;   ///< [s]: only look, for so long
-  double wait = 10.0;              ///< [s] for the other side to be there
+  std::optional<double> log_rate;  ///< [1/s] most records
+  runtime::LogRotation rotation;
+  std::optional<double> observe;  ///< [s]: only look, for so long
+  double wait = 10.0;             ///< [s] for the other side to be there
   std::uint64_t seed = 0;
 };
 
-/// TASK --over CONNECTION [--robot F] [--scene F] [-p NAME=VALUE]... [--log F] [--observe S] [--wait S]
+/// TASK --over CONNECTION [--robot F] [--scene F] [-p NAME=VALUE]... [--log F] [--log-rate HZ]
+/// [--log-rotate LIMIT]... [--observe S] [--wait S]
 /// [--seed N]. Throws std::invalid_argument; people are answered by `zwang`, which calls this.
 Arguments parse_arguments(int argc, char** argv);
 

@@ -9,6 +9,7 @@
 #include "drive_loop.hpp"
 #include "observe.hpp"
 #include "zwang/runtime/log_channels.hpp"
+#include "zwang/runtime/log_parts.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace {
@@ -100,6 +101,21 @@ void print_report(const runtime::Runner& runner, const DriveReport& report, cons
   std::fflush(stdout);
 }
 
+std::unique_ptr<runtime::LogSink> log_sink(const Arguments& arguments, const runtime::LogContext& context,
+                                           const lang::Program& program) {
+  const auto make = [program, context](const std::filesystem::path& path,
+                                       const std::map<std::string, std::string>& facts) {
+    runtime::LogContext of_part = context;
+    of_part.facts.insert(facts.begin(), facts.end());
+    return runtime::mcap_sink(path, std::move(of_part), runtime::scene_channels(program));
+  };
+  const std::filesystem::path path = *arguments.log;
+  auto sink = arguments.rotation.is_asked()
+                  ? runtime::rotating_sink(path.parent_path(), path.stem().string(), arguments.rotation, make)
+                  : make(path, {});
+  return arguments.log_rate ? runtime::thinned_sink(std::move(sink), *arguments.log_rate) : std::move(sink);
+}
+
 std::unique_ptr<runtime::Recorder> recorder_for(const Arguments& arguments, runtime::Runner& runner,
                                                 const lang::Program& program,
                                                 const lang::Diagnostics& diagnostics) {
@@ -108,11 +124,19 @@ std::unique_ptr<runtime::Recorder> recorder_for(const Arguments& arguments, runt
   context.sources = diagnostics.sources();
   context.facts = runner.facts();
   if (arguments.options.robot) context.facts["robot"] = arguments.options.robot->string();
+  if (arguments.log_rate) context.facts[runtime::log_rate_fact] = std::to_string(*arguments.log_rate);
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
-  sinks.push_back(runtime::mcap_sink(*arguments.log, context, runtime::scene_channels(program)));
+  sinks.push_back(log_sink(arguments, context, program));
   auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
   runner.record_to(recorder.get());
   return recorder;
+}
+
+void tell_incomplete(const runtime::RecorderStatus& log) {
+  if (log.complete()) return;
+  const std::string why =
+      log.error.empty() ? std::to_string(log.dropped) + " records were dropped" : log.error;
+  std::fprintf(stderr, "zwang drive: the log is incomplete: %s\n", why.c_str());
 }
 
 int drive(const Arguments& arguments) {
@@ -144,6 +168,7 @@ int drive(const Arguments& arguments) {
   control.end(runtime::to_string(runner.state()), runner.because());
   if (recorder) recorder->close();
   print_report(runner, report, inbox);
+  if (recorder) tell_incomplete(recorder->status());
   if (participant.foreign() > 0)
     std::printf("%llu messages of other machines were not taken\n",
                 static_cast<unsigned long long>(participant.foreign()));

@@ -44,7 +44,7 @@ tasks:
     std::vector<std::string> words{"run",      (folder_ / "task.yaml").string(),
                                    "--robot",  specs + "robots/mecanum_base.yaml",
                                    "--scene",  (folder_ / "scene.yaml").string(),
-                                   "--log",    "log",
+                                   "--log",    "log",           "--csv",
                                    "--format", "json"};
     words.insert(words.end(), options.begin(), options.end());
     const pid_t child = start(words);
@@ -149,7 +149,7 @@ TEST_F(FromOutside, ATaskFileThatChangesIsReloadedAndReplays) {
   EXPECT_EQ(r.code, 0) << r.out << r.err;
   const json report = json::parse(r.out);
   EXPECT_EQ(report["outcome"], "done");
-  EXPECT_EQ(report["logs"], json({"log/log.csv", "log/log-reload-1.csv"}));
+  EXPECT_EQ(report["logs"], json({"log/log.mcap", "log/log-reload-1.mcap"}));
   ASSERT_EQ(report["before"].size(), 1u) << "what the first program did is told as well";
   EXPECT_EQ(report["before"][0]["transitions"][0]["to"], "go");
   EXPECT_EQ(report["transitions"].back()["to"], "done");

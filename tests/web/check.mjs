@@ -13,12 +13,13 @@ function makePage(name, task, ...more) {
   const run = spawnSync(zwang, ['run', task, '--log', `${folder}/${name}`, '--format', 'json', ...more], { encoding: 'utf8' });
   const report = JSON.parse(run.stdout);
   execFileSync(zwang, ['report', `${folder}/${name}`, '-o', `${folder}/${name}.html`]);
-  return { name, report, path: `${folder}/${name}.html`, csv: readCsv(`${folder}/${name}/log.csv`) };
+  return { name, report, path: `${folder}/${name}.html`, csv: readCsv(`${folder}/${name}`) };
 }
 
-/** The columns of a CSV log by their names without the unit. */
-function readCsv(path) {
-  const [head, ...lines] = readFileSync(path, 'utf8').trimEnd().split('\n').map((line) => line.split(','));
+/** The columns of a run's log by their names without the unit. */
+function readCsv(run) {
+  const csv = execFileSync(zwang, ['log', run], { encoding: 'utf8', maxBuffer: 2 ** 30 });
+  const [head, ...lines] = csv.trimEnd().split('\n').map((line) => line.split(','));
   const columns = new Map(head.map((name, i) => [name.replace(/ \[.*/, ''), i]));
   const column = (name) => lines.map((line) => (line[columns.get(name)] === '' ? NaN : Number(line[columns.get(name)])));
   return { column, has: (name) => columns.has(name), count: lines.length };

@@ -5,7 +5,7 @@
     run = zwang.run(program, log=True)
     print(run.outcome, run.truth["wall.peak_force"])
 
-Numbers are SI: m, rad, s, N, N m. Frames and columns have the names of the task file and of log.csv.
+Numbers are SI: m, rad, s, N, N m. Frames and columns have the names of the task file and of the log.
 """
 
 import concurrent.futures

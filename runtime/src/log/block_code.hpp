@@ -9,7 +9,7 @@
 
 namespace zwang::runtime {
 
-/// What a channel of such messages says of their encoding.
+/// The name of the encoding, as a channel of such messages has it.
 inline constexpr const char* block_encoding = "zwang.block";
 
 /// Takes records one by one and packs them together. Keeps its memory from block to block.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "log/log_file.hpp"
+#include "zwang/runtime/log_csv.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace zwang::runtime {
@@ -43,6 +44,24 @@ std::string header(const std::vector<Column>& columns) {
   return line + "\n";
 }
 
+void append_line(std::string& text, const std::vector<Column>& columns, std::span<const double> values) {
+  bool is_first = true;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].is_input) continue;
+    if (!is_first) text += ',';
+    is_first = false;
+    append_value(text, columns[i], values[i]);
+  }
+  text += '\n';
+}
+
+std::vector<Column> columns_of_log(const LogContents& log) {
+  std::vector<Column> columns;
+  for (const LoggedColumn& logged : log.columns)
+    columns.push_back({logged.name, logged.unit, logged.words, {}, logged.is_input()});
+  return columns;
+}
+
 class CsvSink : public LogSink {
  public:
   explicit CsvSink(const std::filesystem::path& path) : file_(path) {}
@@ -55,14 +74,7 @@ class CsvSink : public LogSink {
 
   std::string write(std::span<const double> values) override {
     line_.clear();
-    bool is_first = true;
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (columns_[i].is_input) continue;
-      if (!is_first) line_ += ',';
-      is_first = false;
-      append_value(line_, columns_[i], values[i]);
-    }
-    line_ += '\n';
+    append_line(line_, columns_, values);
     return file_.append(line_);
   }
 
@@ -80,6 +92,26 @@ class CsvSink : public LogSink {
 
 std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path) {
   return std::make_unique<CsvSink>(path);
+}
+
+LogContents log_as_csv(const std::filesystem::path& log, const std::function<void(std::string_view)>& put) {
+  constexpr std::size_t piece = std::size_t{1} << 16;  // [bytes]
+  std::vector<Column> columns;
+  std::string text;
+  LogContents contents = read_log(
+      log,
+      [&](double, std::span<const double> values) {
+        append_line(text, columns, values);
+        if (text.size() < piece) return;
+        put(text);
+        text.clear();
+      },
+      [&](const LogContents& head) {
+        columns = columns_of_log(head);
+        text = header(columns);
+      });
+  put(text);
+  return contents;
 }
 
 }  // namespace zwang::runtime

@@ -12,7 +12,7 @@ namespace zwang::runtime {
 std::string part_name(const std::string& stem, std::size_t part);
 /// Which one the file of this name is; none: it is no part of that log.
 std::optional<std::size_t> part_of(const std::string& file, const std::string& stem);
-/// Those that are in the folder, in their order.
+/// The parts that are in the folder, in their order.
 std::vector<std::filesystem::path> log_parts(const std::filesystem::path& folder, const std::string& stem);
 
 }  // namespace zwang::runtime

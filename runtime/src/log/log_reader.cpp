@@ -6,6 +6,7 @@
 
 #include "log/block_code.hpp"
 #include "log/compression.hpp"
+#include "log/log_files.hpp"
 #include "log/logged_columns.hpp"
 #include "log/mcap_format.hpp"
 #include "log/mcap_input.hpp"
@@ -266,6 +267,19 @@ class LogRecords::File {
   std::string said_in_;  // before what is damaged in it
 };
 
+namespace {
+
+/// Between two files of one log.
+void note_missing_parts(const std::filesystem::path& before, const std::filesystem::path& next,
+                        LogContents& contents) {
+  const auto last = part_of(before.filename().string(), "log"),
+             part = part_of(next.filename().string(), "log");
+  if (!last || !part || *part == *last + 1) return;
+  contents.damage.push_back(part_name("log", *last + 1) + " is missing");
+}
+
+}  // namespace
+
 LogRecords::LogRecords(const std::filesystem::path& log) : files_(log_files(log)) {
   open_next();
 }
@@ -274,6 +288,7 @@ LogRecords::~LogRecords() = default;
 bool LogRecords::open_next() {
   while (opened_ < files_.size()) {
     const std::filesystem::path& path = files_[opened_++];
+    if (opened_ > 1) note_missing_parts(files_[opened_ - 2], path, contents_);
     try {
       file_ = std::make_unique<File>(path, contents_, opened_ == 1);
       return true;

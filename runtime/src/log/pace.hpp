@@ -1,4 +1,4 @@
-/// What is done only so often in the time of a run.
+/// Tells when something is due that happens so often in the time of a run.
 #pragma once
 
 namespace zwang::runtime {

@@ -14,6 +14,7 @@
 #include "run/sensed_columns.hpp"
 #include "run/snapshot_signals.hpp"
 #include "zwang/lang/start.hpp"
+#include "zwang/runtime/log_parts.hpp"
 #include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
@@ -212,6 +213,9 @@ class PartReplay {
   void begin(const LogContents& head) {
     if (place_of(head.columns, "sensed.time") == head.columns.size())
       throw std::runtime_error("replay: the log does not hold what was sensed");
+    if (const auto rate = head.context.facts.find(log_rate_fact); rate != head.context.facts.end())
+      throw std::runtime_error("replay: the log was written with --log-rate " + rate->second +
+                               ", and a replay needs the record of each tick");
     record_.emplace(head.columns);
     check_.emplace(program_, *record_);
     for (const Column& column : inputs_.columns()) places_.push_back(record_->place(column.name));
@@ -263,6 +267,10 @@ ReplayResult replay(const std::vector<ReplayPart>& parts, const RunnerSettings& 
   ReplayResult result;
   std::optional<Runner> runner;
   for (const ReplayPart& part : parts) {
+    if (runner && part.has_program_of_before) {
+      replay_part(parts.front().program, part, *runner, result);
+      continue;
+    }
     Runner next(part.program, settings);
     if (!runner) {
       runner = std::move(next);

@@ -37,7 +37,7 @@ struct ReplayResult {
 
 /// Every torque that was sent, compared bit by bit. Stops that came from outside are taken from the log's
 /// events, what a host reset from where the stop ended, parameters that it set from their columns. Throws
-/// std::runtime_error when the log cannot be opened, or does not hold what was sensed.
+/// std::runtime_error when the log cannot be opened, or does not hold what was sensed in each tick.
 ReplayResult replay(const std::filesystem::path& log, const lang::Program& program,
                     const RunnerSettings& settings);
 
@@ -45,9 +45,11 @@ ReplayResult replay(const std::filesystem::path& log, const lang::Program& progr
 struct ReplayPart {
   std::filesystem::path log;
   lang::Program program;
+  bool has_program_of_before = false;  ///< the log was only cut into files
 };
-/// The same of a run whose program was swapped under way: each log begins where the last one ends. Throws
-/// std::runtime_error, too, when a program does not fit the robot of the one before.
+/// The same of a run whose log is in several files, or whose program was swapped under way: each log begins
+/// where the last one ends. Throws std::runtime_error, too, when a program does not fit the robot of the one
+/// before.
 ReplayResult replay(const std::vector<ReplayPart>& parts, const RunnerSettings& settings);
 
 }  // namespace zwang::runtime
