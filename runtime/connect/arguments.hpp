@@ -22,11 +22,13 @@ struct Arguments {
   std::optional<double> observe;  ///< [s]: only look, for so long
   double wait = 10.0;             ///< [s] for the other side to be there
   std::uint64_t seed = 0;
+  /// Of `simulate`, for tests: [s] of the world after which the odometry repeats its pose and twist.
+  std::optional<double> stuck_odometry;
 };
 
 /// TASK --over CONNECTION [--robot F] [--scene F] [-p NAME=VALUE]... [--log F] [--log-rate HZ]
-/// [--log-rotate LIMIT]... [--observe S] [--wait S]
-/// [--seed N]. Throws std::invalid_argument; people are answered by `zwang`, which calls this.
+/// [--log-rotate LIMIT]... [--observe S] [--wait S] [--seed N] [--stuck-odometry S]. Throws
+/// std::invalid_argument; people are answered by `zwang`, which calls this.
 Arguments parse_arguments(int argc, char** argv);
 
 struct Loaded {

@@ -7,6 +7,7 @@
 
 #include "../cli/interruption.hpp"
 #include "arguments.hpp"
+#include "frozen_base.hpp"
 #include "zwang/runtime/watchdog.hpp"
 
 namespace zwang::connect {
@@ -31,6 +32,7 @@ class Loop {
         runner_(runner),
         report_(report),
         sensed_(program),
+        frozen_base_(program.robot.model, connection.joints.stale_after),
         takes_velocity_(program.robot.drive.takes_velocity),
         period_(runner.period()),
         send_every_(1.0 / connection.command.rate.value_or(1.0 / period_)) {}
@@ -95,8 +97,20 @@ class Loop {
     if (late > too_late) stop(EventCode::watchdog);
   }
 
-  void stop(EventCode code) {
-    if (!runner_.guard().stopped()) runner_.guard().stop(code);
+  void stop(EventCode code, int signal = -1, double value = 0.0) {
+    if (!runner_.guard().stopped()) runner_.guard().stop(code, signal, value);
+  }
+
+  /// By a base that is stuck nobody can brake: the wheels tell from here on.
+  void judge_base() {
+    const BaseSample* base = inbox_.base();
+    if (base == nullptr) return;
+    const JointsSample& joints = inbox_.joints();
+    const auto contradiction = frozen_base_.look(*base, joints.q, joints.qd, now());
+    if (!contradiction) return;
+    inbox_.distrust_base();
+    sensed_.base_measured = false;
+    stop(EventCode::frozen_base, runtime::event_signal::base_pose, *contradiction);
   }
 
   /// The guard does not know this process's own clock, by which nothing may come any more. Nor does it know
@@ -104,6 +118,7 @@ class Loop {
   void judge() {
     const double silence = now() - inbox_.last_arrival();
     if (silence > connection_.joints.stale_after) stop(EventCode::lost_ticks);
+    judge_base();
     if ((cli::is_interrupted() || control_.wants_stop()) && !give_up_) {
       give_up_ = now() + longest_brake;
       stop(EventCode::requested);
@@ -131,6 +146,7 @@ class Loop {
   runtime::Runner& runner_;
   DriveReport& report_;
   runtime::Sensed sensed_;
+  FrozenBase frozen_base_;
   bool takes_velocity_;
   double period_, send_every_;
   double begin_ = 0.0, due_ = 0.0, send_at_ = 0.0;  // [s]

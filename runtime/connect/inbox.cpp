@@ -29,46 +29,57 @@ std::optional<solver::Pose> pose_of(const PoseFields& f) {
   return pose;
 }
 
-/// The signal's sample of a payload; nullopt for a bad one. `arrival` is the stamp of messages without one.
-std::optional<SignalSample> sample_of(const lang::SignalSource& source, std::span<const std::uint8_t> payload,
-                                      double arrival) {
+// The signal's sample of a message; nullopt for numbers that cannot be. `arrival` is the stamp of messages
+// without one.
+std::optional<SignalSample> sample_of(const Bool& message, const lang::SignalSource&, double arrival) {
   SignalSample sample;
-  sample.valid = true;
+  sample.type = lang::SignalType::boolean;
   sample.stamp = arrival;
-  if (source.type == MessageType::boolean) {
-    const auto message = decode<Bool>(payload);
-    if (!message) return std::nullopt;
-    sample.type = lang::SignalType::boolean;
-    sample.boolean = message->data;
-  } else if (source.type == MessageType::float64) {
-    const auto message = decode<Float64>(payload);
-    if (!message || !std::isfinite(message->data)) return std::nullopt;
-    sample.type = lang::SignalType::number;
-    sample.number = message->data;
-  } else if (source.type == MessageType::laser_scan) {
-    const auto message = decode<LaserScan>(payload);
-    if (!message) return std::nullopt;
-    const auto nearest = message->nearest((*source.nearest)[0], (*source.nearest)[1]);
-    sample.type = lang::SignalType::number;
-    sample.stamp = message->header.stamp();
-    sample.valid = nearest.has_value();
-    sample.number = nearest.value_or(0.0);
-  } else if (source.type == MessageType::pose_stamped) {
-    const auto message = decode<PoseStamped>(payload);
-    const auto pose = message ? pose_of(message->pose) : std::nullopt;
-    if (!pose) return std::nullopt;
-    sample.type = lang::SignalType::pose;
-    sample.stamp = message->header.stamp();
-    sample.pose = *pose;
-  } else {
-    const auto message = decode<WrenchStamped>(payload);
-    if (!message || !are_finite(message->wrench)) return std::nullopt;
-    const SixFields& w = message->wrench;
-    sample.type = lang::SignalType::wrench;
-    sample.stamp = message->header.stamp();
-    sample.wrench.linear = {w[0], w[1], w[2]};
-    sample.wrench.angular = {w[3], w[4], w[5]};
-  }
+  sample.valid = true;
+  sample.boolean = message.data;
+  return sample;
+}
+
+std::optional<SignalSample> sample_of(const Float64& message, const lang::SignalSource&, double arrival) {
+  if (!std::isfinite(message.data)) return std::nullopt;
+  SignalSample sample;
+  sample.type = lang::SignalType::number;
+  sample.stamp = arrival;
+  sample.valid = true;
+  sample.number = message.data;
+  return sample;
+}
+
+std::optional<SignalSample> sample_of(const LaserScan& message, const lang::SignalSource& source, double) {
+  const auto nearest = message.nearest((*source.nearest)[0], (*source.nearest)[1]);
+  SignalSample sample;
+  sample.type = lang::SignalType::number;
+  sample.stamp = message.header.stamp();
+  sample.valid = nearest.has_value();
+  sample.number = nearest.value_or(0.0);
+  return sample;
+}
+
+std::optional<SignalSample> sample_of(const PoseStamped& message, const lang::SignalSource&, double) {
+  const auto pose = pose_of(message.pose);
+  if (!pose) return std::nullopt;
+  SignalSample sample;
+  sample.type = lang::SignalType::pose;
+  sample.stamp = message.header.stamp();
+  sample.valid = true;
+  sample.pose = *pose;
+  return sample;
+}
+
+std::optional<SignalSample> sample_of(const WrenchStamped& message, const lang::SignalSource&, double) {
+  const SixFields& w = message.wrench;
+  if (!are_finite(w)) return std::nullopt;
+  SignalSample sample;
+  sample.type = lang::SignalType::wrench;
+  sample.stamp = message.header.stamp();
+  sample.valid = true;
+  sample.wrench.linear = {w[0], w[1], w[2]};
+  sample.wrench.angular = {w[3], w[4], w[5]};
   return sample;
 }
 
@@ -77,12 +88,6 @@ void count(TopicCounts& counts, double arrival, double stamp) {
   counts.last_arrival = arrival;
   counts.age_sum = counts.age_sum + (arrival - stamp);
   counts.most_age = std::max(counts.most_age.load(), arrival - stamp);
-}
-
-bool is_obeyed(const Payload& payload, double arrival, TopicCounts& counts) {
-  if (counts.publisher.admits(payload.sender, arrival)) return true;
-  ++counts.others;
-  return false;
 }
 
 /// Messages may hold a part of the joints each: the last of each joint is kept.
@@ -153,7 +158,7 @@ struct Inbox::Parts {
   std::vector<std::unique_ptr<SignalBox>> signals;
   std::vector<std::unique_ptr<TopicCounts>> counts;
   sem_t arrivals{};
-  bool has_joints = false, has_base = false, has_fix = false;
+  bool has_joints = false, has_base = false, trusts_base = true;
 
   Parts(const lang::Connection& c, const lang::Program& p)
       : connection(c),
@@ -164,95 +169,108 @@ struct Inbox::Parts {
   }
   ~Parts() { sem_destroy(&arrivals); }
 
-  TopicCounts& add_counts(const lang::Topic& topic, MessageType type) {
-    counts.push_back(std::make_unique<TopicCounts>());
-    counts.back()->topic = topic.name;
-    counts.back()->type = lang::to_string(type);
-    return *counts.back();
-  }
-
-  void subscribe_joints(Participant& participant) {
-    TopicCounts& of = add_counts(connection.joints.topic, MessageType::joint_state);
-    participant.subscribe(of.topic, MessageType::joint_state, [this, &of](const Payload& payload) {
+  /// Listens to a topic. `admits` says whether the publisher of a message is obeyed. `take` keeps the message
+  /// and gives its stamp [s], or nullopt for numbers that cannot be. Both are told the time of arrival [s].
+  template <typename Message, typename Admits, typename Take>
+  void listen(Participant& participant, const lang::Topic& topic, MessageType type, Admits admits,
+              Take take) {
+    TopicCounts& of = *counts.emplace_back(std::make_unique<TopicCounts>());
+    of.topic = topic.name;
+    of.type = lang::to_string(type);
+    participant.subscribe(topic.name, type, [&of, admits, take](const Payload& payload) {
       const double arrival = now();
-      const auto message = decode<JointState>(payload.bytes);
-      if (message && !merger.admits(*message, payload.sender, arrival)) {
+      const std::optional<Message> message = decode<Message>(payload.bytes);
+      if (!admits(of, message, payload.sender, arrival)) {
         ++of.others;
         return;
       }
-      if (!message || !merger.take(*message)) {
-        ++of.bad;
-        return;
-      }
-      count(of, arrival, message->header.stamp());
-      if (!merger.is_whole()) return;
-      JointsSample& draft = joints.draft();
-      draft.stamp = message->header.stamp();
-      draft.arrival = arrival;
-      draft.q = merger.q();
-      draft.qd = merger.qd();
-      joints.put();
-      sem_post(&arrivals);
+      const std::optional<double> stamp = message ? take(*message, arrival) : std::nullopt;
+      stamp ? count(of, arrival, *stamp) : void(++of.bad);
     });
   }
 
-  void subscribe_base(Participant& participant) {
-    TopicCounts& of = add_counts(*connection.base, MessageType::odometry);
-    participant.subscribe(of.topic, MessageType::odometry, [this, &of](const Payload& payload) {
-      const double arrival = now();
-      if (!is_obeyed(payload, arrival, of)) return;
-      const auto message = decode<Odometry>(payload.bytes);
-      const auto pose = message ? pose_of(message->pose) : std::nullopt;
-      if (!pose || !are_finite(message->twist)) {
-        ++of.bad;
-        return;
-      }
-      const SixFields& t = message->twist;
-      count(of, arrival, message->header.stamp());
-      BaseSample& draft = base.draft();
-      draft.stamp = message->header.stamp();
-      draft.arrival = arrival;
-      draft.pose = *pose;
-      draft.twist.linear = {t[0], t[1], t[2]};
-      draft.twist.angular = {t[3], t[4], t[5]};
-      base.put();
-    });
+  /// Listens to a topic that one publisher may fill.
+  template <typename Message, typename Take>
+  void listen_to_one(Participant& participant, const lang::Topic& topic, MessageType type, Take take) {
+    const auto admits = [](TopicCounts& of, const std::optional<Message>&, const Sender& sender,
+                           double arrival) { return of.publisher.admits(sender, arrival); };
+    listen<Message>(participant, topic, type, admits, take);
   }
 
-  void subscribe_fix(Participant& participant) {
-    TopicCounts& of = add_counts(*connection.fix, MessageType::pose_with_covariance_stamped);
-    participant.subscribe(of.topic, MessageType::pose_with_covariance_stamped,
-                          [this, &of](const Payload& payload) {
-                            if (!is_obeyed(payload, now(), of)) return;
-                            const auto message = decode<PoseWithCovarianceStamped>(payload.bytes);
-                            const auto pose = message ? pose_of(message->pose) : std::nullopt;
-                            if (!pose) {
-                              ++of.bad;
-                              return;
-                            }
-                            count(of, now(), message->header.stamp());
-                            fix.draft() = {message->header.stamp(), *pose};
-                            fix.put();
-                          });
+  void subscribe_joints(Participant& participant) {
+    const auto admits = [this](TopicCounts&, const std::optional<JointState>& message, const Sender& sender,
+                               double arrival) {
+      return !message || merger.admits(*message, sender, arrival);
+    };
+    listen<JointState>(
+        participant, connection.joints.topic, MessageType::joint_state, admits,
+        [this](const JointState& message, double arrival) { return take_joints(message, arrival); });
+  }
+
+  std::optional<double> take_joints(const JointState& message, double arrival) {
+    if (!merger.take(message)) return std::nullopt;
+    const double stamp = message.header.stamp();
+    if (!merger.is_whole()) return stamp;
+    JointsSample& draft = joints.draft();
+    draft.stamp = stamp;
+    draft.arrival = arrival;
+    draft.q = merger.q();
+    draft.qd = merger.qd();
+    joints.put();
+    sem_post(&arrivals);
+    return stamp;
+  }
+
+  std::optional<double> take_base(const Odometry& message, double arrival) {
+    const auto pose_there = pose_of(message.pose);
+    const SixFields& t = message.twist;
+    if (!pose_there || !are_finite(t)) return std::nullopt;
+    BaseSample& draft = base.draft();
+    draft.stamp = message.header.stamp();
+    draft.arrival = arrival;
+    draft.pose = *pose_there;
+    draft.twist.linear = {t[0], t[1], t[2]};
+    draft.twist.angular = {t[3], t[4], t[5]};
+    base.put();
+    return draft.stamp;
+  }
+
+  std::optional<double> take_fix(const PoseWithCovarianceStamped& message) {
+    const auto pose_there = pose_of(message.pose);
+    if (!pose_there) return std::nullopt;
+    const double stamp = message.header.stamp();
+    fix.draft() = {stamp, *pose_there};
+    fix.put();
+    return stamp;
   }
 
   void subscribe_signal(const lang::SignalSource& source, std::size_t index, Participant& participant) {
-    TopicCounts& of = add_counts(source.topic, source.type);
-    signals.push_back(std::make_unique<SignalBox>());
-    SignalBox& box = *signals.back();
+    switch (source.type) {
+      case MessageType::boolean:
+        return listen_for_signal<Bool>(source, index, participant);
+      case MessageType::float64:
+        return listen_for_signal<Float64>(source, index, participant);
+      case MessageType::laser_scan:
+        return listen_for_signal<LaserScan>(source, index, participant);
+      case MessageType::pose_stamped:
+        return listen_for_signal<PoseStamped>(source, index, participant);
+      default:
+        return listen_for_signal<WrenchStamped>(source, index, participant);
+    }
+  }
+
+  template <typename Message>
+  void listen_for_signal(const lang::SignalSource& source, std::size_t index, Participant& participant) {
+    SignalBox& box = *signals.emplace_back(std::make_unique<SignalBox>());
     box.index = index;
-    participant.subscribe(of.topic, source.type, [&of, &box, &source](const Payload& payload) {
-      const double arrival = now();
-      if (!is_obeyed(payload, arrival, of)) return;
-      const auto sample = sample_of(source, payload.bytes, arrival);
-      if (!sample) {
-        ++of.bad;
-        return;
-      }
-      count(of, arrival, sample->stamp);
-      box.mail.draft() = *sample;
-      box.mail.put();
-    });
+    listen_to_one<Message>(participant, source.topic, source.type,
+                           [&box, &source](const Message& message, double arrival) -> std::optional<double> {
+                             const auto sample = sample_of(message, source, arrival);
+                             if (!sample) return std::nullopt;
+                             box.mail.draft() = *sample;
+                             box.mail.put();
+                             return sample->stamp;
+                           });
   }
 
   /// The base goes on along its circle from its own stamp to that of the joints.
@@ -276,8 +294,14 @@ Inbox::~Inbox() = default;
 void Inbox::subscribe(Participant& participant) {
   Parts& p = *parts_;
   p.subscribe_joints(participant);
-  if (p.connection.base) p.subscribe_base(participant);
-  if (p.connection.fix) p.subscribe_fix(participant);
+  if (p.connection.base)
+    p.listen_to_one<Odometry>(
+        participant, *p.connection.base, MessageType::odometry,
+        [&p](const Odometry& message, double arrival) { return p.take_base(message, arrival); });
+  if (p.connection.fix)
+    p.listen_to_one<PoseWithCovarianceStamped>(
+        participant, *p.connection.fix, MessageType::pose_with_covariance_stamped,
+        [&p](const PoseWithCovarianceStamped& message, double) { return p.take_fix(message); });
   for (const lang::SignalSource& source : p.connection.signals) {
     for (std::size_t i = 0; i < p.program.signals.size(); ++i) {
       if (p.program.signals[i].name == source.name) p.subscribe_signal(source, i, participant);
@@ -305,7 +329,7 @@ void Inbox::fill(runtime::Sensed& sensed) noexcept {
   const JointsSample& joints = p.joints.value();
   sensed.state.q = joints.q;
   sensed.state.qd = joints.qd;
-  sensed.base_measured = p.connection.base.has_value() && p.has_base;
+  sensed.base_measured = p.has_base && p.trusts_base;
   if (sensed.base_measured) p.put_base(p.base.value(), joints.stamp, sensed.state);
   if (p.fix.take()) sensed.base_fix = p.fix.value();
   for (const auto& box : p.signals) {
@@ -315,6 +339,12 @@ void Inbox::fill(runtime::Sensed& sensed) noexcept {
 
 const JointsSample& Inbox::joints() const noexcept {
   return parts_->joints.value();
+}
+const BaseSample* Inbox::base() const noexcept {
+  return parts_->has_base && parts_->trusts_base ? &parts_->base.value() : nullptr;
+}
+void Inbox::distrust_base() noexcept {
+  parts_->trusts_base = false;
 }
 bool Inbox::has_joints() const noexcept {
   return parts_->has_joints;

@@ -11,6 +11,7 @@
 
 #include "clock.hpp"
 #include "dds.hpp"
+#include "frozen_base.hpp"
 #include "mailbox.hpp"
 #include "message.hpp"
 #include "zwang/lang/program.hpp"
@@ -36,12 +37,6 @@ struct JointsSample {
   Eigen::VectorXd q, qd;              ///< of every joint of the model; one that is never told stays at 0
 };
 
-struct BaseSample {
-  double stamp = 0.0, arrival = 0.0;  ///< [s]
-  solver::Pose pose;                  ///< in the axes of the odometry
-  solver::MotionVector twist;         ///< in the axes of the base
-};
-
 class Inbox {
  public:
   /// The program and the connection outlive it; `check_connection` has found them good.
@@ -59,6 +54,10 @@ class Inbox {
   void fill(runtime::Sensed& sensed) noexcept;
 
   const JointsSample& joints() const noexcept;  ///< as of the last `fill`
+  /// As of the last `fill`, not carried on; nullptr where none has come, or it is distrusted.
+  const BaseSample* base() const noexcept;
+  /// From now on the wheels tell how the base moves.
+  void distrust_base() noexcept;
   bool has_joints() const noexcept;  ///< every motor's joint has been told of; as of the last `fill`
   bool has_base() const noexcept;    ///< or needs none
   /// [s] when the newest sample of the joints has come, also of one that is not yet taken.

@@ -69,8 +69,10 @@ void RobotSide::publish(const runtime::Sensed& sensed, double stamp, double shif
   const solver::State& state = sensed.state;
   if (base_) {
     odometry_.header = header_at(stamp, "odom");
-    odometry_.pose = fields_of(state.base_pose);
-    odometry_.twist = six_of(state.base_twist);
+    if (!holds_odometry_) {
+      odometry_.pose = fields_of(state.base_pose);
+      odometry_.twist = six_of(state.base_twist);
+    }
     encode(odometry_, bytes_);
     base_->write(bytes_);
   }

@@ -29,6 +29,8 @@ class RobotSide {
   /// The joints, the base, a fix and the signals of a sample, which was measured at `stamp` [s] since 1970.
   /// `shift` is the same time less that of the sample's own clock.
   void publish(const runtime::Sensed& sensed, double stamp, double shift);
+  /// From now on the odometry tells the pose and the twist that it told last, under new stamps.
+  void hold_odometry() noexcept { holds_odometry_ = true; }
   /// The newest command, or zeros when it is older than the receiver's `timeout`.
   const runtime::Command& command(double time) noexcept;
   const CommandMail& newest() const noexcept { return mail_.value(); }
@@ -54,6 +56,7 @@ class RobotSide {
   std::vector<SignalWriter> signals_;
   JointState joint_state_;
   Odometry odometry_;
+  bool holds_odometry_ = false;
   double last_fix_ = -1.0;  // [s]
   Bytes bytes_;
 };

@@ -74,7 +74,7 @@ void wait_for_command(RobotSide& side, World& world, double period, Happenings& 
 }
 
 runtime::PlantStatus run(const lang::Connection& connection, RobotSide& side, World& world,
-                         Happenings& happenings) {
+                         const std::optional<double>& stuck_odometry, Happenings& happenings) {
   double shift = now() - world.plant.truth().time;
   for (double due = now(); !cli::is_interrupted(); due += world.steps.period()) {
     sleep_until(due);
@@ -87,6 +87,7 @@ runtime::PlantStatus run(const lang::Connection& connection, RobotSide& side, Wo
     if (status != runtime::PlantStatus::ok || world.plant.truth().base.fallen) return status;
     const solver::MotionVector& twist = world.plant.true_state().base_twist;
     const double time = world.plant.truth().time;
+    if (stuck_odometry && time >= *stuck_odometry) side.hold_odometry();
     if (std::hypot(twist.linear.x(), twist.linear.y()) > at_rest || std::abs(twist.angular.z()) > at_rest)
       happenings.moved_last = time;
     happenings.silent_since = side.newest().arrival - shift;
@@ -133,7 +134,9 @@ int simulate(const Arguments& arguments) {
                    drive.takes_velocity ? 1.0 / drive.rate : loaded->program.robot.control_period,
                    happenings);
   runtime::PlantStatus status = runtime::PlantStatus::ok;
-  if (!cli::is_interrupted()) status = run(loaded->connection, side, world, happenings);
+  if (!cli::is_interrupted()) {
+    status = run(loaded->connection, side, world, arguments.stuck_odometry, happenings);
+  }
   side.leave();
   participant.close();
   print_report(world, happenings);

@@ -35,17 +35,21 @@ TWIST = """command:
 class Pair:
     """Both processes of a task, each with its own file of output."""
 
-    def __init__(self, program, folder, task, command, options, number, ros2="reach: loopback", more=""):
+    def __init__(self, program, folder, task, command, options, number, ros2="reach: loopback", more="", base="",
+                 simulated=()):
         connection = folder / f"connection_{number}.yaml"
         self.domain = domain = 100 + (os.getpid() + number) % 100  # another one than that of a test beside this one
         connection.write_text(
             f"zwang_connection: 1\nros2: {{domain: {domain}, {ros2}}}\n{more}loop: {{priority: 40}}\n"
-            "state:\n  joints: {topic: /joint_states, stale_after: 100 ms}\n" + command)
+            f"state:\n  joints: {{topic: /joint_states, stale_after: 100 ms}}\n{base}" + command)
         arguments = [task, "--over", connection] + options
         self.files = {side: folder / f"{side}_{number}" for side in ("simulate", "drive")}
         for side in ("simulate", "drive"):
             with open(self.files[side], "w", encoding="utf-8") as out:
-                setattr(self, side, subprocess.Popen([program, side] + arguments, stdout=out, stderr=out))
+                # `--stuck-odometry` is for tests: the program behind `zwang simulate` takes it, `zwang` does not.
+                begin = [program, side] if side == "drive" else [program + "-simulate"]
+                words = arguments + (list(simulated) if side == "simulate" else [])
+                setattr(self, side, subprocess.Popen(begin + words, stdout=out, stderr=out))
 
     def end(self):
         """The exit code of `drive`, and what both have said."""
@@ -191,6 +195,16 @@ def this_machine_alone_is_enough(program, root, folder):
     expect(code == 0, "not done", drive, simulate)
 
 
+def a_stuck_odometry_stops(program, root, folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 8,
+                base="  base: {topic: /odom}\n", simulated=["--stuck-odometry", "0.6"])
+    code, drive, simulate = pair.end()
+    expect(code == 1 and "frozen_base" in drive, "it is not stopped", drive, simulate)
+    # 0.5 m/s^2 to 0.3 m/s in 9 cm. 2 cm and 0.1 s of patience at 0.4 m/s at most, then 8 cm of braking from there.
+    expect(number(r"base at (-?[0-9.]+) m", simulate) < 0.09 + 0.02 + 0.4 * (0.1 + SLACK) + 0.08, "it goes on", simulate)
+
+
 TRIGGER_CLIENT = ""
 
 
@@ -213,7 +227,7 @@ def main(program, root, trigger_client):
     # Mostly they wait: two at a time take a tenth of a processor.
     cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, silence_of_the_robot_stops,
              a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros, services_start_and_stop_it,
-             this_machine_alone_is_enough)
+             this_machine_alone_is_enough, a_stuck_odometry_stops)
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return 0 if all(list(pool.map(is_good, cases))) else 1
 

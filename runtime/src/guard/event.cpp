@@ -50,6 +50,8 @@ const char* to_string(EventCode code) noexcept {
       return "wrench_impossible";
     case EventCode::not_followed:
       return "not_followed";
+    case EventCode::frozen_base:
+      return "frozen_base";
     case EventCode::clock_drift:
       return "clock_drift";
     case EventCode::sensor_bias:
@@ -124,6 +126,8 @@ const char* describe(EventCode code) noexcept {
       return "a wrench from outside is larger than anything can press with; it counts as 0";
     case EventCode::not_followed:
       return "the base, or a wheel, does not move as the drive is told";
+    case EventCode::frozen_base:
+      return "the wheels roll, and the measured base stays as it was";
     case EventCode::clock_drift:
       return "the samples' clock and the control period differ by more than a tenth";
     case EventCode::clock_refused:

@@ -35,6 +35,7 @@ enum class EventCode {
                       ///< goes on
   not_followed,  ///< a wheel is faster than a drive that takes velocities was told, or turns against it, or
                  ///< stays behind where the drive has torque limits of its own; `value`: its rate
+  frozen_base,   ///< the wheels roll, and the measured base stays as it was; `value`: how far they say [m]
   // Those that are only told.
   clock_refused,  ///< time went backwards, or jumped
   clock_drift,    ///< the samples' clock is off by more than a tenth; `value`: its rate
