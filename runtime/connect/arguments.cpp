@@ -47,6 +47,8 @@ Arguments parse_arguments(int argc, char** argv) {
       a.seed = std::stoull(value);
     else if (word == "--stuck-odometry")
       a.stuck_odometry = std::stod(value);
+    else if (word == "--stamps-ahead")
+      a.stamps_ahead = std::stod(value);
     else if (word == "-p" && value.find('=') != std::string::npos)
       a.options.parameters[value.substr(0, value.find('='))] = value.substr(value.find('=') + 1);
     else

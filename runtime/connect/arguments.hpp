@@ -24,11 +24,12 @@ struct Arguments {
   std::uint64_t seed = 0;
   /// Of `simulate`, for tests: [s] of the world after which the odometry repeats its pose and twist.
   std::optional<double> stuck_odometry;
+  double stamps_ahead = 0.0;  ///< [s] of `simulate`, for tests: of all stamps before this computer's clock
 };
 
 /// TASK --over CONNECTION [--robot F] [--scene F] [-p NAME=VALUE]... [--log F] [--log-rate HZ]
-/// [--log-rotate LIMIT]... [--observe S] [--wait S] [--seed N] [--stuck-odometry S]. Throws
-/// std::invalid_argument; people are answered by `zwang`, which calls this.
+/// [--log-rotate LIMIT]... [--observe S] [--wait S] [--seed N] [--stuck-odometry S] [--stamps-ahead S].
+/// Throws std::invalid_argument; people are answered by `zwang`, which calls this.
 Arguments parse_arguments(int argc, char** argv);
 
 struct Loaded {

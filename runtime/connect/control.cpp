@@ -2,7 +2,7 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "message.hpp"
 
@@ -21,6 +21,8 @@ const char* word_of(Phase phase) {
       return "ready";
     case Phase::running:
       return "running";
+    case Phase::latched:
+      return "latched";
     case Phase::ended:
       break;
   }
@@ -29,32 +31,16 @@ const char* word_of(Phase phase) {
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
-  std::string json = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      json += {'\\', c};
-    } else if (byte < 0x20) {
-      char escaped[8];
-      std::snprintf(escaped, sizeof escaped, "\\u%04x", byte);
-      json += escaped;
-    } else {
-      json += c;
-    }
-  }
-  return json + "\"";
-}
-
 Control::Control(const lang::Connection& connection, const lang::Program& program, Participant& participant,
                  std::function<bool()> is_alive)
     : connection_(connection),
-      program_(program),
       participant_(participant),
       is_alive_(std::move(is_alive)),
-      writer_(participant.advertise_last(connection.name + "/state", "std_msgs/String")) {
-  participant.serve_trigger(connection.name + "/start", [this] { return start(); });
-  participant.serve_trigger(connection.name + "/stop", [this] { return stop(); });
+      writer_(participant.advertise(connection.name + "/state", "std_msgs/String", Late::gets_last)),
+      program_(&program) {
+  serve("/start", &Control::start);
+  serve("/stop", &Control::stop);
+  if (connection.begin == lang::Begin::goals) serve_goals();
   thread_ = std::thread([this] { tell_changes(); });
 }
 
@@ -64,8 +50,33 @@ Control::~Control() {
   thread_.join();
 }
 
+void Control::serve(const std::string& name, TriggerReply (Control::*answer)()) {
+  participant_.serve(connection_.name + name, "std_srvs/srv/Trigger",
+                     trigger_handler([this, answer] { return (this->*answer)(); }));
+}
+
+void Control::serve_goals() {
+  const std::string action = connection_.name + "/run/_action/";
+  status_writer_ = participant_.advertise(action + "status", goal_status_type, Late::gets_last);
+  feedback_writer_ = participant_.advertise(action + "feedback", run_task_feedback_type);
+  goals_ = std::make_unique<RunTaskServer>(
+      [this] { return phase_ == Phase::ready && !wants_stop_ && is_alive_(); },
+      [this](const Bytes& payload) { status_writer_->write(payload); },
+      [this](const Bytes& payload) { feedback_writer_->write(payload); });
+  for (const ActionService& service : run_task_services) {
+    participant_.serve(
+        action + service.name, service.type,
+        [this, handle = service.handle](std::span<const std::uint8_t> fields, const Reply& reply) {
+          (goals_.get()->*handle)(fields, reply);
+        });
+  }
+  serve("/reset", &Control::reset);
+}
+
 TriggerReply Control::start() {
-  if (!connection_.waits_for_start)
+  if (connection_.begin == lang::Begin::goals)
+    return {false, "tasks begin with goals of the action " + connection_.name + "/run"};
+  if (connection_.begin == lang::Begin::at_once)
     return {false, "the task begins at once: the connection file has no `start: wait`"};
   const Phase phase = phase_;
   if (phase == Phase::running) return {false, "the task runs already"};
@@ -80,27 +91,49 @@ TriggerReply Control::stop() {
   return {true, phase_ == Phase::running ? "it brakes, and the run ends" : "nothing moves"};
 }
 
+TriggerReply Control::reset() {
+  Phase phase = Phase::latched;
+  if (phase_.compare_exchange_strong(phase, Phase::ready)) return {true, "goals are taken again"};
+  return {phase == Phase::ready, phase == Phase::ready ? "nothing is latched" : "it is not at rest"};
+}
+
+void Control::speak_of(const lang::Program& program) {
+  const std::lock_guard lock(mutex_);
+  program_ = &program;
+  note(-1, 0.0, -1.0);
+  outcome_.clear();
+  reason_.clear();
+}
+
+/// Behind the program's tasks follow those that brake. `mutex_` is held.
+std::string Control::task_name() const {
+  const int task = task_;
+  const auto count = static_cast<int>(program_->tasks.size());
+  return task >= 0 && task < count ? program_->tasks[static_cast<std::size_t>(task)].name : "";
+}
+
 std::string Control::state() const {
   const std::lock_guard lock(mutex_);
-  const int task = task_;
   const Phase phase = phase_;
-  const std::string word = phase == Phase::ended && !outcome_.empty() ? outcome_ : word_of(phase);
-  char elapsed[32];
-  std::snprintf(elapsed, sizeof elapsed, "%.1f", elapsed_.load());
-  const bool has_task = task >= 0 && static_cast<std::size_t>(task) < program_.tasks.size();
-  return "{\"state\": " + quoted(word) +
-         ", \"task\": " + (has_task ? quoted(program_.tasks[static_cast<std::size_t>(task)].name) : "null") +
-         ", \"elapsed\": " + elapsed + ", \"reason\": " + quoted(reason_) + "}";
+  const std::string task = task_name();
+  nlohmann::ordered_json json;
+  json["state"] = phase == Phase::ended && !outcome_.empty() ? outcome_ : word_of(phase);
+  json["task"] = nullptr;
+  if (!task.empty()) json["task"] = task;
+  json["elapsed"] = std::round(10.0 * elapsed_) / 10.0;
+  json["reason"] = reason_;
+  // A name or a reason may hold any bytes: those that are no UTF-8 are replaced.
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void Control::end(const std::string& outcome, const std::string& reason) {
   const std::lock_guard lock(mutex_);
   outcome_ = outcome;
   reason_ = reason;
-  phase_ = Phase::ended;
 }
 
-/// The state goes out when the phase or the task is another one, and once a second.
+/// The state goes out when the phase or the task is another one, and once a second. While a goal is driven,
+/// its feedback goes out each time.
 void Control::tell_changes() {
   Bytes bytes;
   Phase last_phase = Phase::ended;
@@ -109,6 +142,14 @@ void Control::tell_changes() {
     is_last = is_over_;
     const Phase phase = phase_;
     const int task = task_;
+    if (goals_ && phase == Phase::running) {
+      RunTaskFeedback feedback{"", elapsed_, progress_};
+      {
+        const std::lock_guard lock(mutex_);
+        feedback.task = task_name();
+      }
+      goals_->tell(feedback);
+    }
     if (phase == last_phase && task == last_task && ++since < at_least_every && !is_last) continue;
     last_phase = phase, last_task = task, since = 0;
     encode(String{state()}, bytes);

@@ -1,22 +1,31 @@
-/// The services `~/start` and `~/stop` of `zwang drive`, and its topic `~/state`.
+/// How people and programs control `zwang drive`: the services `~/start`, `~/stop` and `~/reset`, the action
+/// `~/run`, and the topic `~/state`.
 #pragma once
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 
+#include "action.hpp"
 #include "dds.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::connect {
 
-enum class Phase { waiting, ready, running, ended };
+enum class Phase {
+  waiting,  ///< for the robot
+  ready,    ///< for a start or a goal
+  running,
+  latched,  ///< a goal ended with the protective stop: for `~/reset`
+  ended,
+};
 
 class Control {
  public:
-  /// `is_alive`: whether samples of the robot come; called on a thread of its own. All of them outlive it.
+  /// `is_alive`: whether samples of the robot come; called on threads of its own. All of them outlive it.
   Control(const lang::Connection& connection, const lang::Program& program, Participant& participant,
           std::function<bool()> is_alive);
   ~Control();
@@ -25,37 +34,48 @@ class Control {
 
   bool wants_start() const noexcept { return wants_start_; }
   bool wants_stop() const noexcept { return wants_stop_; }
+  /// Somebody has cancelled the goal that is driven.
+  bool wants_cancel() const noexcept { return goals_ != nullptr && goals_->wants_cancel(); }
 
   void enter(Phase phase) noexcept { phase_ = phase; }
-  /// Of the control thread: neither waits nor allocates.
-  void note(int task, double elapsed) noexcept {
+  /// The program that `note` speaks of from now on; it lives until the next one is named.
+  void speak_of(const lang::Program& program);
+  /// Of the control thread: neither waits nor allocates. `task` is an index of the program's tasks, beyond
+  /// them of those that brake; `elapsed` [s] since the run began, `progress` as in RunTaskFeedback.
+  void note(int task, double elapsed, double progress) noexcept {
     task_.store(task, std::memory_order_relaxed);
     elapsed_.store(elapsed, std::memory_order_relaxed);
+    progress_.store(progress, std::memory_order_relaxed);
   }
   /// The last word: `done`, `failed` or `stopped`, and why.
   void end(const std::string& outcome, const std::string& reason);
 
+  /// With `start: goals` only.
+  RunTaskServer& goals() noexcept { return *goals_; }
+
  private:
+  void serve(const std::string& name, TriggerReply (Control::*answer)());
+  void serve_goals();
   TriggerReply start();
   TriggerReply stop();
+  TriggerReply reset();
   void tell_changes();
+  std::string task_name() const;
   std::string state() const;
 
   const lang::Connection& connection_;
-  const lang::Program& program_;
   Participant& participant_;
   std::function<bool()> is_alive_;
-  std::unique_ptr<Writer> writer_;
+  std::unique_ptr<Writer> writer_, status_writer_, feedback_writer_;
+  std::unique_ptr<RunTaskServer> goals_;
   std::atomic<bool> wants_start_{false}, wants_stop_{false}, is_over_{false};
   std::atomic<Phase> phase_{Phase::waiting};
   std::atomic<int> task_{-1};
-  std::atomic<double> elapsed_{0.0};  ///< [s]
-  mutable std::mutex mutex_;
+  std::atomic<double> elapsed_{0.0}, progress_{-1.0};  ///< [s], share
+  mutable std::mutex mutex_;                           ///< of those below
+  const lang::Program* program_;
   std::string outcome_, reason_;
   std::thread thread_;
 };
-
-/// A text as JSON has it, with its quotes.
-std::string quoted(const std::string& text);
 
 }  // namespace zwang::connect

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstring>
-#include <deque>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
@@ -25,6 +24,7 @@
 #include <vector>
 
 #include "message.hpp"
+#include "work_queue.hpp"
 
 namespace zwang::connect {
 
@@ -208,13 +208,13 @@ class MatchListener : public dds::DataWriterListener {
   std::vector<rtps::GUID_t> readers_;
 };
 
-/// Threads of DDS queue requests, and a thread of its own answers them. A reply may wait until its reader is
-/// found, and threads of DDS also bring the robot's samples.
-class TriggerService : public dds::DataReaderListener {
+/// Threads of DDS queue requests, and a thread of its own handles and answers them. A reply may wait until
+/// its reader is found, and threads of DDS also bring the robot's samples.
+class Service : public dds::DataReaderListener {
  public:
-  TriggerService(std::function<TriggerReply()> answer, Neighbours& neighbours)
-      : answer_(std::move(answer)), neighbours_(neighbours) {}
-  ~TriggerService() override { stop(); }
+  Service(Handler handler, Neighbours& neighbours)
+      : handler_(std::move(handler)), neighbours_(neighbours), queue_(std::make_shared<WorkQueue<Item>>()) {}
+  ~Service() override { stop(); }
 
   void start(dds::Publisher& publisher, dds::Subscriber& subscriber, dds::Topic& request, dds::Topic& reply) {
     dds::DataWriterQos writing = dds::DATAWRITER_QOS_DEFAULT;
@@ -228,74 +228,62 @@ class TriggerService : public dds::DataReaderListener {
     if (!is_good) throw std::runtime_error("DDS gives no service " + request.get_name());
   }
   void stop() {
-    {
-      const std::lock_guard lock(mutex_);
-      is_over_ = true;
-    }
-    changed_.notify_all();
+    queue_->end();
     if (thread_.joinable()) thread_.join();
   }
 
   void on_data_available(dds::DataReader* reader) override {
-    Request request;
+    Bytes bytes;
     dds::SampleInfo info;
-    while (reader->take_next_sample(&request.bytes, &info) ==
-           eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
-      if (!info.valid_data || !neighbours_.admits(info.sample_identity.writer_guid().guidPrefix)) continue;
-      request.identity = info.sample_identity;
+    while (reader->take_next_sample(&bytes, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+      const rtps::GUID_t& client = info.sample_identity.writer_guid();
+      if (!info.valid_data || !neighbours_.admits(client.guidPrefix)) continue;
+      auto call = take_apart(bytes, sender_of(client));
+      if (!call) continue;
+      Request request{std::move(*call), client.guidPrefix, info.sample_identity};
       // rmw_fastrtps names the reader of the reply here.
       const rtps::GUID_t& reply_reader = info.related_sample_identity.writer_guid();
-      request.is_named = reply_reader != rtps::GUID_t::unknown();
-      if (request.is_named) request.reply_reader = reply_reader;
-      const std::lock_guard lock(mutex_);
-      if (waiting_.size() < most_waiting) waiting_.push_back(request);
-      changed_.notify_all();
+      if (reply_reader != rtps::GUID_t::unknown()) request.identity.writer_guid() = reply_reader;
+      queue_->put({std::move(request), {}}, most_requests);
     }
   }
 
  private:
-  static constexpr std::size_t most_waiting = 32;  // more are dropped: their clients time out
   struct Request {
-    Bytes bytes;
-    rtps::SampleIdentity identity;
-    rtps::GUID_t reply_reader;
-    bool is_named = false;
+    ServiceCall call;
+    rtps::GuidPrefix_t client;
+    rtps::SampleIdentity identity;  ///< that the reply repeats
+  };
+  struct Item {
+    Request request;
+    std::optional<Bytes> reply;  ///< none: to be handled
   };
 
+  static constexpr std::size_t most_requests = 32, most_items = 256;  // beyond them clients time out
+
   void serve() {
-    for (;;) {
-      std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return is_over_ || !waiting_.empty(); });
-      if (is_over_) return;
-      const Request request = std::move(waiting_.front());
-      waiting_.pop_front();
-      lock.unlock();
-      answer(request);
-    }
+    while (const std::optional<Item> item = queue_->take()) item->reply ? send(*item) : handle(item->request);
   }
 
-  void answer(const Request& request) {
-    const rtps::GUID_t& client = request.identity.writer_guid();
-    const Sender sender = sender_of(client);
-    // A damaged request is not done.
-    if (!trigger_reply(request.bytes, sender, {})) return;
-    const auto reply = trigger_reply(request.bytes, sender, answer_());
-    matches_.wait_for(client.guidPrefix, std::chrono::milliseconds(100));
+  void handle(const Request& request) {
+    handler_(request.call.fields, [queue = queue_, request](const Bytes& fields) {
+      queue->put({request, reply_payload(request.call, fields)}, most_items);
+    });
+  }
+
+  void send(const Item& item) {
+    matches_.wait_for(item.request.client, std::chrono::milliseconds(100));
     rtps::WriteParams parameters;
-    parameters.related_sample_identity(request.identity);
-    if (request.is_named) parameters.related_sample_identity().writer_guid() = request.reply_reader;
-    const std::span<const std::uint8_t> bytes(*reply);
+    parameters.related_sample_identity(item.request.identity);
+    const std::span<const std::uint8_t> bytes(*item.reply);
     writer_->write(const_cast<void*>(static_cast<const void*>(&bytes)), parameters);
   }
 
-  std::function<TriggerReply()> answer_;
+  Handler handler_;
   Neighbours& neighbours_;
   MatchListener matches_;
   dds::DataWriter* writer_ = nullptr;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::deque<Request> waiting_;
-  bool is_over_ = false;
+  std::shared_ptr<WorkQueue<Item>> queue_;  ///< whoever holds a reply holds it, too
   std::thread thread_;
 };
 
@@ -322,7 +310,7 @@ struct Participant::Parts {
   dds::Publisher* publisher = nullptr;
   dds::Subscriber* subscriber = nullptr;
   std::vector<std::unique_ptr<Listener>> listeners;
-  std::vector<std::unique_ptr<TriggerService>> services;
+  std::vector<std::unique_ptr<Service>> services;
 
   /// By the names that DDS has for them.
   dds::Topic& topic(const std::string& full, const std::string& type_name) {
@@ -362,11 +350,13 @@ void Participant::stop_serving() noexcept {
   for (const auto& service : parts_->services) service->stop();
 }
 
-void Participant::subscribe(const std::string& topic, lang::MessageType type,
-                            std::function<void(const Payload&)> on_payload) {
+void Participant::subscribe(const std::string& topic, const std::string& type,
+                            std::function<void(const Payload&)> on_payload, Late late) {
   dds::DataReaderQos qos = dds::DATAREADER_QOS_DEFAULT;
   // Best effort finds writers of either kind, and a lost sample is not waited for.
-  set_up(qos, dds::BEST_EFFORT_RELIABILITY_QOS, input_depth);
+  const bool wants_last = late == Late::gets_last;
+  set_up(qos, wants_last ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS, input_depth);
+  if (wants_last) qos.durability().kind = dds::TRANSIENT_LOCAL_DURABILITY_QOS;
   parts_->listeners.push_back(std::make_unique<Listener>(std::move(on_payload), parts_->neighbours));
   dds::Topic& of = parts_->topic(dds_topic(topic), dds_type(type));
   if (parts_->subscriber->create_datareader(&of, qos, parts_->listeners.back().get()) == nullptr)
@@ -377,22 +367,17 @@ std::uint64_t Participant::foreign() const noexcept {
   return parts_->neighbours.foreign;
 }
 
-std::unique_ptr<Writer> Participant::advertise(const std::string& topic, lang::MessageType type) {
+std::unique_ptr<Writer> Participant::advertise(const std::string& topic, const std::string& type, Late late) {
   return std::make_unique<DdsWriter>(*parts_->publisher, parts_->topic(dds_topic(topic), dds_type(type)),
-                                     false);
+                                     late == Late::gets_last);
 }
 
-std::unique_ptr<Writer> Participant::advertise_last(const std::string& topic, const std::string& type) {
-  return std::make_unique<DdsWriter>(*parts_->publisher, parts_->topic(dds_topic(topic), dds_type(type)),
-                                     true);
-}
-
-void Participant::serve_trigger(const std::string& service, std::function<TriggerReply()> answer) {
-  const std::string type = "std_srvs::srv::dds_::Trigger_";
-  parts_->services.push_back(std::make_unique<TriggerService>(std::move(answer), parts_->neighbours));
+void Participant::serve(const std::string& service, const std::string& type, Handler handler) {
+  const std::string dds_name = dds_type(type);
+  parts_->services.push_back(std::make_unique<Service>(std::move(handler), parts_->neighbours));
   parts_->services.back()->start(*parts_->publisher, *parts_->subscriber,
-                                 parts_->topic(dds_request(service), type + "Request_"),
-                                 parts_->topic(dds_reply(service), type + "Response_"));
+                                 parts_->topic(dds_request(service), dds_name + "Request_"),
+                                 parts_->topic(dds_reply(service), dds_name + "Response_"));
 }
 
 }  // namespace zwang::connect

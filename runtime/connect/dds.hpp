@@ -29,6 +29,9 @@ class Writer {
   virtual int readers() const noexcept = 0;  ///< that have found this topic
 };
 
+/// What a subscriber that comes late gets of a topic.
+enum class Late { gets_nothing, gets_last };
+
 class Participant {
  public:
   /// Throws std::runtime_error where DDS does not start.
@@ -37,18 +40,17 @@ class Participant {
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
-  /// `on_payload` is called on threads of DDS, for one topic one call at a time. It must not throw. With
-  /// `Reach::machine` it hears processes of this machine only.
-  void subscribe(const std::string& topic, lang::MessageType type,
-                 std::function<void(const Payload&)> on_payload);
+  /// Of a topic and its type, as `std_msgs/String`. `on_payload` is called on threads of DDS, for one topic
+  /// one call at a time. It must not throw. With `Reach::machine` it hears processes of this machine only.
+  void subscribe(const std::string& topic, const std::string& type,
+                 std::function<void(const Payload&)> on_payload, Late late = Late::gets_nothing);
   /// Messages that came from another machine, and were not taken.
   std::uint64_t foreign() const noexcept;
-  std::unique_ptr<Writer> advertise(const std::string& topic, lang::MessageType type);
-  /// Of a topic whose last message late subscribers get, too. `type`: as `std_msgs/String`.
-  std::unique_ptr<Writer> advertise_last(const std::string& topic, const std::string& type);
-  /// Answers a service of the type std_srvs/Trigger. `answer` is called on a thread of its own, one request
-  /// at a time. It must not throw.
-  void serve_trigger(const std::string& service, std::function<TriggerReply()> answer);
+  std::unique_ptr<Writer> advertise(const std::string& topic, const std::string& type,
+                                    Late late = Late::gets_nothing);
+  /// Answers a service. `type`: as `std_srvs/srv/Trigger`. `handler` is called on a thread of the service's
+  /// own, one request at a time.
+  void serve(const std::string& service, const std::string& type, Handler handler);
   /// No request is answered any more when this returns.
   void stop_serving() noexcept;
   /// No callback runs any more when this returns.

@@ -119,7 +119,7 @@ class Loop {
     const double silence = now() - inbox_.last_arrival();
     if (silence > connection_.joints.stale_after) stop(EventCode::lost_ticks);
     judge_base();
-    if ((cli::is_interrupted() || control_.wants_stop()) && !give_up_) {
+    if ((cli::is_interrupted() || control_.wants_stop() || control_.wants_cancel()) && !give_up_) {
       give_up_ = now() + longest_brake;
       stop(EventCode::requested);
     }
@@ -127,7 +127,7 @@ class Loop {
 
   void step() {
     runner_.step(sensed_);
-    control_.note(runner_.scheduler().task(), now() - begin_);
+    control_.note(runner_.scheduler().task(), now() - begin_, progress());
     has_stepped_ = true;
     const runtime::SafetyGuard& guard = runner_.guard();
     if (!report_.silence && guard.stopped() && guard.reason() == EventCode::lost_ticks)
@@ -137,6 +137,14 @@ class Loop {
     if (time < send_at_ - 0.3 * period_) return;
     send_at_ = std::max(send_at_ + send_every_, time);
     if (!outbox_.send(runner_.command(), now())) ++report_.unsent;
+  }
+
+  /// Of the active task's timeout; -1 without one.
+  double progress() const {
+    const runtime::Scheduler& scheduler = runner_.scheduler();
+    const auto& timeout = scheduler.tasks()[static_cast<std::size_t>(scheduler.task())].timeout;
+    const double after = timeout ? timeout->after.evaluate(scheduler.parameters()) : 0.0;
+    return after > 0.0 ? std::clamp(scheduler.elapsed() / after, 0.0, 1.0) : -1.0;
   }
 
   const lang::Connection& connection_;

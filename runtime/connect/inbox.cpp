@@ -142,15 +142,28 @@ class JointsMerger {
 };
 
 struct SignalBox {
-  std::size_t index = 0;  ///< in Program::signals
+  explicit SignalBox(const lang::SignalSource& from) : source(from) {}
+
+  const lang::SignalSource& source;
   Mailbox<SignalSample> mail;
+  // Of the control thread.
+  std::optional<std::size_t> index;  ///< in Program::signals; none: the program does not read it
+  bool is_told = false;              ///< a value has come
+  bool is_due = false;               ///< the snapshot has not got the newest one
 };
+
+std::optional<std::size_t> index_of(const std::string& signal, const lang::Program& program) {
+  for (std::size_t i = 0; i < program.signals.size(); ++i) {
+    if (program.signals[i].name == signal) return i;
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
 struct Inbox::Parts {
   const lang::Connection& connection;
-  const lang::Program& program;
+  const lang::Program* program;
   JointsMerger merger;
   Mailbox<JointsSample> joints;
   Mailbox<BaseSample> base;
@@ -158,11 +171,11 @@ struct Inbox::Parts {
   std::vector<std::unique_ptr<SignalBox>> signals;
   std::vector<std::unique_ptr<TopicCounts>> counts;
   sem_t arrivals{};
-  bool has_joints = false, has_base = false, trusts_base = true;
+  bool has_joints = false, has_base = false, has_fix = false, trusts_base = true;
 
   Parts(const lang::Connection& c, const lang::Program& p)
       : connection(c),
-        program(p),
+        program(&p),
         merger(c.joints, p.robot.model),
         joints(JointsSample{0.0, 0.0, merger.q(), merger.qd()}) {
     sem_init(&arrivals, 0, 0);
@@ -177,7 +190,7 @@ struct Inbox::Parts {
     TopicCounts& of = *counts.emplace_back(std::make_unique<TopicCounts>());
     of.topic = topic.name;
     of.type = lang::to_string(type);
-    participant.subscribe(topic.name, type, [&of, admits, take](const Payload& payload) {
+    participant.subscribe(topic.name, of.type, [&of, admits, take](const Payload& payload) {
       const double arrival = now();
       const std::optional<Message> message = decode<Message>(payload.bytes);
       if (!admits(of, message, payload.sender, arrival)) {
@@ -244,25 +257,24 @@ struct Inbox::Parts {
     return stamp;
   }
 
-  void subscribe_signal(const lang::SignalSource& source, std::size_t index, Participant& participant) {
+  void subscribe_signal(const lang::SignalSource& source, Participant& participant) {
     switch (source.type) {
       case MessageType::boolean:
-        return listen_for_signal<Bool>(source, index, participant);
+        return listen_for_signal<Bool>(source, participant);
       case MessageType::float64:
-        return listen_for_signal<Float64>(source, index, participant);
+        return listen_for_signal<Float64>(source, participant);
       case MessageType::laser_scan:
-        return listen_for_signal<LaserScan>(source, index, participant);
+        return listen_for_signal<LaserScan>(source, participant);
       case MessageType::pose_stamped:
-        return listen_for_signal<PoseStamped>(source, index, participant);
+        return listen_for_signal<PoseStamped>(source, participant);
       default:
-        return listen_for_signal<WrenchStamped>(source, index, participant);
+        return listen_for_signal<WrenchStamped>(source, participant);
     }
   }
 
   template <typename Message>
-  void listen_for_signal(const lang::SignalSource& source, std::size_t index, Participant& participant) {
-    SignalBox& box = *signals.emplace_back(std::make_unique<SignalBox>());
-    box.index = index;
+  void listen_for_signal(const lang::SignalSource& source, Participant& participant) {
+    SignalBox& box = *signals.emplace_back(std::make_unique<SignalBox>(source));
     listen_to_one<Message>(participant, source.topic, source.type,
                            [&box, &source](const Message& message, double arrival) -> std::optional<double> {
                              const auto sample = sample_of(message, source, arrival);
@@ -302,10 +314,21 @@ void Inbox::subscribe(Participant& participant) {
     p.listen_to_one<PoseWithCovarianceStamped>(
         participant, *p.connection.fix, MessageType::pose_with_covariance_stamped,
         [&p](const PoseWithCovarianceStamped& message, double) { return p.take_fix(message); });
+  // The task of a goal may read another one than the task before.
+  const bool wants_all = p.connection.begin == lang::Begin::goals;
   for (const lang::SignalSource& source : p.connection.signals) {
-    for (std::size_t i = 0; i < p.program.signals.size(); ++i) {
-      if (p.program.signals[i].name == source.name) p.subscribe_signal(source, i, participant);
-    }
+    if (wants_all || index_of(source.name, *p.program)) p.subscribe_signal(source, participant);
+  }
+  read_for(*p.program);
+}
+
+void Inbox::read_for(const lang::Program& program) {
+  Parts& p = *parts_;
+  p.program = &program;
+  p.trusts_base = true;
+  for (const auto& box : p.signals) {
+    box->index = index_of(box->source.name, program);
+    box->is_due = box->is_told;
   }
 }
 
@@ -331,9 +354,13 @@ void Inbox::fill(runtime::Sensed& sensed) noexcept {
   sensed.state.qd = joints.qd;
   sensed.base_measured = p.has_base && p.trusts_base;
   if (sensed.base_measured) p.put_base(p.base.value(), joints.stamp, sensed.state);
-  if (p.fix.take()) sensed.base_fix = p.fix.value();
+  p.has_fix = p.fix.take() || p.has_fix;
+  if (p.has_fix) sensed.base_fix = p.fix.value();
   for (const auto& box : p.signals) {
-    if (box->mail.take()) sensed.signals[box->index] = box->mail.value();
+    if (box->mail.take()) box->is_told = box->is_due = true;
+    if (!box->is_due || !box->index) continue;
+    sensed.signals[*box->index] = box->mail.value();
+    box->is_due = false;
   }
 }
 

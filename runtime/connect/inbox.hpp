@@ -46,6 +46,10 @@ class Inbox {
   /// From now on it is filled. The participant must be closed before the inbox ends.
   void subscribe(Participant& participant);
 
+  /// From now on `fill` serves snapshots of this program, which has the same joints and outlives it, too. The
+  /// newest sample of each signal counts for it as well. For the thread that calls `fill`.
+  void read_for(const lang::Program& program);
+
   /// Waits for a sample of the joints until a time [s] of `now`; whether one has come. One thread calls it,
   /// and `fill`.
   bool wait_for_joints(double until) noexcept;

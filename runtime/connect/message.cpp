@@ -120,13 +120,10 @@ std::optional<double> LaserScan::nearest(double low, double high) const {
   return nearest;
 }
 
-std::string dds_type(lang::MessageType type) {
-  return dds_type(lang::to_string(type));
-}
-
 std::string dds_type(const std::string& name) {
-  const std::size_t slash = name.find('/');
-  return name.substr(0, slash) + "::msg::dds_::" + name.substr(slash + 1) + "_";
+  const std::size_t first = name.find('/'), last = name.rfind('/');
+  const std::string kind = first == last ? "msg" : name.substr(first + 1, last - first - 1);
+  return name.substr(0, first) + "::" + kind + "::dds_::" + name.substr(last + 1) + "_";
 }
 
 std::string dds_topic(const std::string& topic) {

@@ -95,8 +95,8 @@ void encode(const Message& message, Bytes& bytes);
 template <typename Message>
 std::optional<Message> decode(std::span<const std::uint8_t> bytes);
 
-/// As DDS knows it: `geometry_msgs::msg::dds_::Twist_`. Of a name: as ROS 2 writes it, `std_msgs/String`.
-std::string dds_type(lang::MessageType type);
+/// As DDS knows it: `std_msgs::msg::dds_::String_` of `std_msgs/String`, `std_srvs::srv::dds_::Trigger_` of
+/// `std_srvs/srv/Trigger`.
 std::string dds_type(const std::string& name);
 /// As DDS knows it: `rt/cmd_vel`.
 std::string dds_topic(const std::string& topic);

@@ -25,8 +25,8 @@ std::vector<int> joints_in_order(const lang::CommandSink& sink, const solver::Mo
 Outbox::Outbox(const lang::Connection& connection, const lang::Program& program, Participant& participant)
     : sink_(connection.command),
       order_(joints_in_order(connection.command, program.robot.model)),
-      writer_(participant.advertise(sink_.topic.name, sink_.type)),
-      last_writer_(participant.advertise(sink_.topic.name, sink_.type)),
+      writer_(participant.advertise(sink_.topic.name, lang::to_string(sink_.type))),
+      last_writer_(participant.advertise(sink_.topic.name, lang::to_string(sink_.type))),
       zeros_(program.robot.model.joint_count()) {}
 
 bool Outbox::send_by(Writer& writer, const runtime::Command& command, double stamp, Bytes& bytes) const {

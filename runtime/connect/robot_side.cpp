@@ -23,12 +23,13 @@ SixFields six_of(const Motion& m) {
 
 }  // namespace
 
-RobotSide::RobotSide(const lang::Connection& connection, const lang::Program& program)
+RobotSide::RobotSide(const lang::Connection& connection, const lang::Program& program, double stamps_ahead)
     : connection_(connection),
       program_(program),
       order_(joints_in_order(connection.command, program.robot.model)),
       mail_(CommandMail{runtime::Command(program.robot.model.joint_count()), 0.0}),
-      zeros_(program.robot.model.joint_count()) {
+      zeros_(program.robot.model.joint_count()),
+      stamps_ahead_(stamps_ahead) {
   for (int j = 0; j < program.robot.model.joint_count(); ++j)
     joint_state_.names.push_back(connection.joints.name_of(program.robot.model.joint(j).name));
   odometry_.child_frame = program.robot.base_frame;
@@ -36,18 +37,22 @@ RobotSide::RobotSide(const lang::Connection& connection, const lang::Program& pr
 }
 
 void RobotSide::join(Participant& participant) {
-  joints_ = participant.advertise(connection_.joints.topic.name, lang::MessageType::joint_state);
-  if (connection_.base) base_ = participant.advertise(connection_.base->name, lang::MessageType::odometry);
+  joints_ =
+      participant.advertise(connection_.joints.topic.name, lang::to_string(lang::MessageType::joint_state));
+  if (connection_.base)
+    base_ = participant.advertise(connection_.base->name, lang::to_string(lang::MessageType::odometry));
   if (connection_.fix)
-    fix_ = participant.advertise(connection_.fix->name, lang::MessageType::pose_with_covariance_stamped);
+    fix_ = participant.advertise(connection_.fix->name,
+                                 lang::to_string(lang::MessageType::pose_with_covariance_stamped));
   for (const lang::SignalSource& source : connection_.signals) {
     for (std::size_t i = 0; i < program_.signals.size(); ++i) {
       if (program_.signals[i].name != source.name) continue;
-      signals_.push_back({i, &source, participant.advertise(source.topic.name, source.type)});
+      signals_.push_back(
+          {i, &source, participant.advertise(source.topic.name, lang::to_string(source.type))});
     }
   }
   const lang::CommandSink& sink = connection_.command;
-  participant.subscribe(sink.topic.name, sink.type, [this, &sink](const Payload& payload) {
+  participant.subscribe(sink.topic.name, lang::to_string(sink.type), [this, &sink](const Payload& payload) {
     const double arrival = now();
     // The last zeros of a drive come from a writer of their own, in the same process.
     Sender process = payload.sender;
@@ -67,6 +72,8 @@ void RobotSide::leave() noexcept {
 
 void RobotSide::publish(const runtime::Sensed& sensed, double stamp, double shift) {
   const solver::State& state = sensed.state;
+  stamp += stamps_ahead_;
+  shift += stamps_ahead_;
   if (base_) {
     odometry_.header = header_at(stamp, "odom");
     if (!holds_odometry_) {

@@ -21,7 +21,8 @@ struct CommandMail {
 class RobotSide {
  public:
   /// All of them outlive it, the participant excepted: that is closed before.
-  RobotSide(const lang::Connection& connection, const lang::Program& program);
+  /// `stamps_ahead` [s] is added to every stamp that goes out.
+  RobotSide(const lang::Connection& connection, const lang::Program& program, double stamps_ahead = 0.0);
 
   void join(Participant& participant);
   /// The writers go: before the participant does.
@@ -56,6 +57,7 @@ class RobotSide {
   std::vector<SignalWriter> signals_;
   JointState joint_state_;
   Odometry odometry_;
+  double stamps_ahead_;  // [s]
   bool holds_odometry_ = false;
   double last_fix_ = -1.0;  // [s]
   Bytes bytes_;

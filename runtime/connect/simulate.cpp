@@ -92,6 +92,8 @@ runtime::PlantStatus run(const lang::Connection& connection, RobotSide& side, Wo
       happenings.moved_last = time;
     happenings.silent_since = side.newest().arrival - shift;
     const double silence = time - happenings.silent_since;
+    // Between two goals nobody commands.
+    if (connection.begin == lang::Begin::goals) continue;
     if (silence > longest_silent || (silence > silent_for && time - happenings.moved_last > silent_for))
       break;
   }
@@ -125,7 +127,7 @@ int simulate(const Arguments& arguments) {
   cli::catch_interruption();
   become_punctual(loaded->connection.priority);
   World world(loaded->program, arguments.seed);
-  RobotSide side(loaded->connection, loaded->program);
+  RobotSide side(loaded->connection, loaded->program, arguments.stamps_ahead);
   Participant participant(loaded->connection.domain, loaded->connection.reach, "zwang_simulated_robot");
   side.join(participant);
   Happenings happenings;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <span>
 
 namespace zwang::connect {
 namespace {
@@ -16,6 +17,17 @@ Bytes request_of(const Sender& sender, std::uint64_t client, std::int64_t number
   if (is_cyclone(sender)) write(client), write(number);
   write(std::uint8_t{0});
   return bytes;
+}
+
+/// The payload that answers a request of Trigger; nullopt where none does.
+std::optional<Bytes> trigger_reply(std::span<const std::uint8_t> request, const Sender& sender,
+                                   const TriggerReply& told) {
+  const auto call = take_apart(request, sender);
+  if (!call) return std::nullopt;
+  std::optional<Bytes> payload;
+  trigger_handler([&] { return told; })(call->fields,
+                                        [&](const Bytes& fields) { payload = reply_payload(*call, fields); });
+  return payload;
 }
 
 TEST(Service, AReplyHasItsFields) {

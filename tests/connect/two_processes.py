@@ -1,6 +1,6 @@
 """`zwang drive` and `zwang simulate` as two processes, over DDS on this machine.
 
-    two_processes.py PROGRAM ROOT TRIGGER_CLIENT
+    two_processes.py PROGRAM ROOT TRIGGER_CLIENT ACTION_CLIENT
 
 A run ends as the same run inside one process does, with its peak force within 10 %. Either side may
 be killed or stopped: the other one brakes. Ends with 1 and says why when anything is otherwise.
@@ -70,9 +70,14 @@ class Pair:
         while words not in self.text("drive") and time.monotonic() < end:
             time.sleep(0.01)
 
-    def call(self, service):
-        return subprocess.run([TRIGGER_CLIENT, str(self.domain), service], capture_output=True, text=True, timeout=20,
-                              check=False).stdout
+    def call(self, service, calls=1):
+        return subprocess.run([TRIGGER_CLIENT, str(self.domain), service, str(calls)], capture_output=True, text=True,
+                              timeout=20 + calls // 100, check=False).stdout
+
+    def goal(self, task, *parameters, cancel_after=0.0):
+        """All that a client of the action hears of a goal."""
+        words = [ACTION_CLIENT, str(self.domain), str(cancel_after), task, *parameters]
+        return subprocess.run(words, capture_output=True, text=True, timeout=90, check=False).stdout
 
 
 def number(pattern, text):
@@ -205,12 +210,86 @@ def a_stuck_odometry_stops(program, root, folder):
     expect(number(r"base at (-?[0-9.]+) m", simulate) < 0.09 + 0.02 + 0.4 * (0.1 + SLACK) + 0.08, "it goes on", simulate)
 
 
-TRIGGER_CLIENT = ""
+ROLL = """zwang: 2
+robot: robot.yaml
+start: go
+params: {speed: {value: 0.02 m/s, range: [0.01 m/s, 0.3 m/s]}, until: {value: 60 s, range: [0.1 s, 60 s]}}
+tasks:
+  go:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: $speed}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: elapsed > $until, goto: done}
+    timeout: {after: 100 s, goto: failed}
+"""
 
 
-def main(program, root, trigger_client):
-    global TRIGGER_CLIENT
-    TRIGGER_CLIENT = trigger_client
+def goals_run_tasks(program, root, folder):
+    (folder / "roll.yaml").write_text(ROLL, encoding="utf-8")
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml", "--scene", root / "specs/scenes/open.yaml"]
+    pair = Pair(program, folder, folder / "roll.yaml", TWIST, options, 9, more="start: goals\ntasks: {roll: roll.yaml}\n")
+    pair.wait_for("waiting for goals")
+    said = pair.goal("dance")
+    expect("status 6, outcome 4: task `dance` is unknown: the connection file has `roll`" in said, "unknown", said)
+    said = pair.goal("roll", "speed=3 m/s")
+    expect("status 6, outcome 4" in said and "speed" in said, "a parameter out of its range", said)
+    said = pair.goal("roll", "speed=0.2 m/s", "until=1 s")
+    expect("topic says 4, feedback came" in said and "status 4, outcome 0: \n" in said, "not done", said)
+    said = pair.goal("roll", cancel_after=1.0)
+    expect("cancel says 0 of 1" in said and "status 5, outcome 3" in said, "not cancelled", said)
+    # 0.2 m/s for 1 s and 0.02 m/s for 1 s at most, and a brake from each.
+    pair.drive.send_signal(signal.SIGTERM)
+    code = pair.drive.wait(20)
+    pair.simulate.send_signal(signal.SIGTERM)
+    pair.simulate.wait(20)
+    expect(code == 0, "it has not ended well", pair.text("drive"))
+    way = number(r"base at (-?[0-9.]+) m", pair.text("simulate"))
+    expect(0.05 < way < 0.28, "another way", pair.text("simulate"), pair.text("drive"))
+
+
+def ten_thousand_calls_are_answered(program, root, folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 10, more="start: wait\n")
+    pair.wait_for("waiting for the service /zwang/start")
+    begin = resident(pair.drive.pid)
+    pair.simulate.kill()  # so that each call is refused
+    time.sleep(0.5)
+    said = pair.call("/zwang/start", 10_000)
+    expect(said == "refused: no samples come from the robot\n", "a call is not answered", said)
+    grown = resident(pair.drive.pid) - begin
+    pair.drive.kill()
+    expect(grown < 20e6, f"it has grown by {grown} bytes", "")
+
+
+def resident(pid):
+    """[bytes] that a process holds in memory."""
+    return int(pathlib.Path(f"/proc/{pid}/statm").read_text(encoding="utf-8").split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def a_robot_that_comes_back_is_not_driven_on(program, root, folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 11)
+    pair.wait_until_it_drives(0.5)
+    pair.simulate.kill()
+    pair.simulate.wait()
+    # The same robot, after its driver was started anew on a computer whose clock is an hour ahead.
+    again = folder / "again"
+    with open(again, "w", encoding="utf-8") as out:
+        words = [program + "-simulate", root / "specs/laws/speed_limit.yaml", "--over", folder / "connection_11.yaml",
+                 "--stamps-ahead", "3600"] + options
+        pair.simulate = subprocess.Popen(words, stdout=out, stderr=out)
+    code, drive, _ = pair.end()
+    simulate = again.read_text(encoding="utf-8")
+    expect(code == 1 and "stopped after" in drive, "it is not stopped", drive)
+    expect(abs(number(r"base at (-?[0-9.]+) m", simulate)) < 0.01, "it drives on", drive, simulate)
+
+
+TRIGGER_CLIENT = ACTION_CLIENT = ""
+
+
+def main(program, root, trigger_client, action_client):
+    global TRIGGER_CLIENT, ACTION_CLIENT
+    TRIGGER_CLIENT, ACTION_CLIENT = trigger_client, action_client
     root = pathlib.Path(root)
 
     def is_good(case):
@@ -227,7 +306,8 @@ def main(program, root, trigger_client):
     # Mostly they wait: two at a time take a tenth of a processor.
     cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, silence_of_the_robot_stops,
              a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros, services_start_and_stop_it,
-             this_machine_alone_is_enough, a_stuck_odometry_stops)
+             this_machine_alone_is_enough, a_stuck_odometry_stops, goals_run_tasks, ten_thousand_calls_are_answered,
+             a_robot_that_comes_back_is_not_driven_on)
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return 0 if all(list(pool.map(is_good, cases))) else 1
 

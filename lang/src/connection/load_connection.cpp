@@ -190,13 +190,31 @@ CommandSink parse_command(const Node& node, Diagnostics& diagnostics) {
   return command;
 }
 
-std::optional<Connection> parse_connection(const Document& document, Diagnostics& diagnostics) {
+/// `at_once`, `wait` or `goals`, and what goals can name.
+void parse_begin(MapReader& map, const std::filesystem::path& folder, Connection& connection,
+                 Diagnostics& diagnostics) {
+  if (const Node* start = map.optional("start")) {
+    const std::string word = parse_choice(*start, "`start`", {"at_once", "wait", "goals"}, diagnostics);
+    if (word == "wait") connection.begin = Begin::service;
+    if (word == "goals") connection.begin = Begin::goals;
+  }
+  const Node* tasks = map.optional("tasks");
+  if (tasks == nullptr || !require_mapping(*tasks, "`tasks`", diagnostics)) return;
+  for (const Entry& entry : tasks->entries) {
+    if (entry.key.is_bad) continue;
+    const Word file = parse_word(entry.value, "tasks." + entry.key.text, diagnostics);
+    if (file.exists()) connection.tasks.push_back({entry.key.text, folder / file.text, entry.key.span});
+  }
+  if (connection.begin != Begin::goals && !map.has_misspelt({"start"}))
+    diagnostics.add(wording::tasks_without_goals(tasks->span));
+}
+
+std::optional<Connection> parse_connection(const Document& document, const std::filesystem::path& folder,
+                                           Diagnostics& diagnostics) {
   MapReader map(document.root, "a connection file", diagnostics);
   if (!map.is_mapping() || !check_version(map, "zwang_connection", 1, diagnostics)) return std::nullopt;
   Connection connection;
   if (const Node* ros2 = map.optional("ros2")) parse_ros2(*ros2, connection, diagnostics);
-  if (const Node* start = map.optional("start"))
-    connection.waits_for_start = parse_choice(*start, "`start`", {"at_once", "wait"}, diagnostics) == "wait";
   if (const Node* loop = map.optional("loop")) {
     MapReader loop_map(*loop, "`loop`", diagnostics);
     if (const Node* priority = loop_map.optional("priority"))
@@ -213,6 +231,7 @@ std::optional<Connection> parse_connection(const Document& document, Diagnostics
   }
   if (const Node* command = map.required("command"))
     connection.command = parse_command(*command, diagnostics);
+  parse_begin(map, folder, connection, diagnostics);  // last: `state` is no misspelt `start`
   map.finish();
   return connection;
 }
@@ -267,7 +286,7 @@ std::optional<Connection> load_connection(const std::filesystem::path& path, Dia
   if (!source) return std::nullopt;
   const std::optional<Document> document = read(*source, diagnostics);
   std::optional<Connection> connection;
-  if (document) connection = parse_connection(*document, diagnostics);
+  if (document) connection = parse_connection(*document, path.parent_path(), diagnostics);
   diagnostics.settle();
   if (!connection || diagnostics.error_count() > errors_before) return std::nullopt;
   connection->path = path.string();

@@ -37,6 +37,12 @@ Diagnostic wrong_command(const Span& span, const std::string& what, const std::s
   return error("E923", span, what, help);
 }
 
+Diagnostic tasks_without_goals(const Span& span) {
+  return error("E924", span,
+               "goals name `tasks`, and this connection takes no goals: one task begins by itself",
+               "add `start: goals`, or delete `tasks`");
+}
+
 Diagnostic nothing_stops_it(const Span& span, const std::string& topic) {
   return warning(
       "W920", span,

@@ -38,6 +38,14 @@ wrench. Without it the signal would never be known.)~",
               R"~(The robot file says what the drive takes: torques, wheel velocities, or twists of the base. The
 connection has to send the same, to every motor.)~",
           .fix = "Change `command` of the connection, or `drive` of the robot file, to what the robot has."},
+      Explanation{
+          .code = "E924",
+          .title = "tasks that no goal can begin",
+          .why =
+              R"~(`tasks` are the names that a goal of the action `run` can have. `zwang drive` takes goals with
+`start: goals` only. Otherwise it runs the task of its command line once, and nobody could ever name
+another one.)~",
+          .fix = "Add `start: goals` to the connection file, or delete `tasks`."},
   };
   return entries;
 }

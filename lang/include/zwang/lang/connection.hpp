@@ -79,11 +79,25 @@ struct CommandSink {
   Span span;
 };
 
+/// What a goal of the action `run` can name.
+struct NamedTask {
+  std::string name;
+  std::filesystem::path file;  ///< from the folder of the connection file, where it is not absolute
+  Span span;
+};
+
+enum class Begin {
+  at_once,  ///< the task begins as soon as the robot is there
+  service,  ///< with the service `start`
+  goals,    ///< each goal of the action `run` begins a task
+};
+
 struct Connection {
-  std::string path;              ///< as it was opened
-  int domain = 0;                ///< ROS_DOMAIN_ID
-  std::string name = "/zwang";   ///< before the names of the own services and topics: `/zwang/start`
-  bool waits_for_start = false;  ///< the task begins with the service `start`; else at once
+  std::string path;             ///< as it was opened
+  int domain = 0;               ///< ROS_DOMAIN_ID
+  std::string name = "/zwang";  ///< before the names of the own services and topics: `/zwang/start`
+  Begin begin = Begin::at_once;
+  std::vector<NamedTask> tasks;  ///< with `Begin::goals`
   Reach reach = Reach::loopback;
   JointsSource joints;
   std::optional<Topic> base;  ///< nav_msgs/Odometry; none: the base is reckoned from its wheels

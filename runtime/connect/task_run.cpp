@@ -1,0 +1,139 @@
+#include "task_run.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "drive_loop.hpp"
+#include "observe.hpp"
+#include "zwang/runtime/log_channels.hpp"
+#include "zwang/runtime/recorder.hpp"
+
+namespace zwang::connect {
+
+namespace {
+
+constexpr std::uint64_t most_events = 20;  // that are printed
+
+/// Why it is not `done`; empty where it is.
+std::string reason_of(const runtime::Runner& runner) {
+  const auto why = runner.why();
+  const std::string because = runner.because();
+  if (!why) return because;
+  return because.empty() || runner.guard().stopped() ? why->sentence : why->sentence + "; " + because;
+}
+
+void print_report(const runtime::Runner& runner, const DriveReport& report, const Inbox& inbox) {
+  const std::string reason = reason_of(runner);
+  std::printf("%s after %.2f s%s%s\n", runtime::to_string(runner.state()), report.elapsed,
+              reason.empty() ? "" : ": ", reason.c_str());
+  const auto since_start = [&](double time) {
+    return time > 0.5 * report.first_sample ? time - report.first_sample : time;
+  };
+  for (const runtime::Transition& t : runner.transitions())
+    std::printf("  %8.2f s -> %s\n", since_start(t.time),
+                runner.scheduler().tasks()[static_cast<std::size_t>(t.to)].name.c_str());
+  std::uint64_t lost = 0, others = 0;
+  for (const runtime::Event& e : runner.events()) {
+    if (e.code == runtime::EventCode::sample_lost) {
+      ++lost;
+    } else if (++others <= most_events) {
+      std::printf("  %8.2f s %s %s %g\n", since_start(e.time), runtime::to_string(e.code),
+                  runner.event_signal(e).c_str(), e.value);
+    }
+  }
+  if (lost > 0) std::printf("  %llu ticks without a new sample\n", static_cast<unsigned long long>(lost));
+  if (others > most_events)
+    std::printf("  .. and %llu events more\n", static_cast<unsigned long long>(others - most_events));
+  if (report.silence) std::printf("stopped %.1f ms after the last sample\n", 1e3 * *report.silence);
+  const Lateness& l = report.lateness;
+  std::printf(
+      "ticks %llu: late by median %.2f, p99 %.2f, p99.9 %.2f, most %.2f ms; skipped %llu, without a new "
+      "sample %llu, unsent %llu\n",
+      static_cast<unsigned long long>(l.ticks()), 1e3 * l.quantile(0.5), 1e3 * l.quantile(0.99),
+      1e3 * l.quantile(0.999), 1e3 * l.most(), static_cast<unsigned long long>(report.skipped),
+      static_cast<unsigned long long>(report.without_new), static_cast<unsigned long long>(report.unsent));
+  print_topics(inbox);
+  std::fflush(stdout);
+}
+
+std::unique_ptr<runtime::LogSink> log_sink(const LogOrder& log, const runtime::LogContext& context,
+                                           const lang::Program& program) {
+  const auto make = [program, context](const std::filesystem::path& path,
+                                       const std::map<std::string, std::string>& facts) {
+    runtime::LogContext of_part = context;
+    of_part.facts.insert(facts.begin(), facts.end());
+    return runtime::mcap_sink(path, std::move(of_part), runtime::scene_channels(program));
+  };
+  const std::filesystem::path path = *log.file;
+  auto sink = log.rotation.is_asked()
+                  ? runtime::rotating_sink(path.parent_path(), path.stem().string(), log.rotation, make)
+                  : make(path, {});
+  return log.rate ? runtime::thinned_sink(std::move(sink), *log.rate) : std::move(sink);
+}
+
+std::unique_ptr<runtime::Recorder> recorder_for(const LogOrder& log,
+                                                const std::optional<std::string>& named_robot,
+                                                runtime::Runner& runner, const lang::Program& program,
+                                                const lang::Diagnostics& diagnostics) {
+  if (!log.file) return nullptr;
+  runtime::LogContext context;
+  context.sources = diagnostics.sources();
+  context.facts = runner.facts();
+  if (named_robot) context.facts["robot"] = *named_robot;
+  if (log.rate) context.facts[runtime::log_rate_fact] = std::to_string(*log.rate);
+  std::vector<std::unique_ptr<runtime::LogSink>> sinks;
+  sinks.push_back(log_sink(log, context, program));
+  auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
+  runner.record_to(recorder.get());
+  return recorder;
+}
+
+void tell_incomplete(const runtime::RecorderStatus& log) {
+  if (log.complete()) return;
+  const std::string why =
+      log.error.empty() ? std::to_string(log.dropped) + " records were dropped" : log.error;
+  std::fprintf(stderr, "zwang drive: the log is incomplete: %s\n", why.c_str());
+}
+
+GoalOutcome outcome_of(const runtime::Runner& runner, const Control& control) {
+  const bool is_requested = runner.guard().reason() == runtime::EventCode::requested;
+  switch (runner.state()) {
+    case runtime::RunState::done:
+      return GoalOutcome::done;
+    case runtime::RunState::stopped:
+      return is_requested && control.wants_cancel() ? GoalOutcome::canceled : GoalOutcome::stopped;
+    default:
+      return GoalOutcome::failed;
+  }
+}
+
+}  // namespace
+
+std::string clock_trouble(const lang::Connection& connection, const Inbox& inbox) {
+  const double age = inbox.joints().arrival - inbox.joints().stamp;
+  if (std::abs(age) <= connection.joints.stale_after) return "";
+  char text[64];
+  std::snprintf(text, sizeof text, " is stamped %.3f s before it comes", age);
+  return connection.joints.topic.name + text +
+         ", more than stale_after: set both clocks (chrony), or have the driver stamp its samples";
+}
+
+RunTaskResult run_task(const Robot& robot, const lang::Program& program, const lang::Diagnostics& diagnostics,
+                       const LogOrder& log) {
+  runtime::Runner runner(program);
+  const auto recorder = recorder_for(log, robot.named_robot, runner, program, diagnostics);
+  robot.control.enter(Phase::running);
+  std::printf("the robot is there: the task begins\n");
+  std::fflush(stdout);
+  DriveReport report;
+  drive(robot.connection, program, robot.inbox, robot.outbox, robot.control, runner, report);
+  if (recorder) recorder->close();
+  RunTaskResult result{outcome_of(runner, robot.control), reason_of(runner)};
+  if (result.outcome == GoalOutcome::canceled) result.reason = "cancelled by its client; the base has braked";
+  robot.control.end(runtime::to_string(runner.state()), result.reason);
+  print_report(runner, report, robot.inbox);
+  if (recorder) tell_incomplete(recorder->status());
+  return result;
+}
+
+}  // namespace zwang::connect
