@@ -144,6 +144,8 @@ TEST(Measures, HaveTheDerivativesThatTheirRowsSay) {
       if (own) continue;
       c.measure = Measure::distance;
       expect_derivatives(robot, c, where + "distance");
+      c.measure = Measure::bearing;
+      expect_derivatives(robot, c, where + "bearing");
       c.measure = Measure::angle;
       c.axis = Axis::z;
       c.other_axis = Axis::x;
@@ -192,7 +194,7 @@ TEST(Measures, WithoutADirectionStayFinite) {
   AxisConstraint c;
   c.move = robot.hand;
   c.in = robot.hand;
-  for (const Measure measure : {Measure::distance, Measure::angle, Measure::speed}) {
+  for (const Measure measure : {Measure::distance, Measure::angle, Measure::bearing, Measure::speed}) {
     c.measure = measure;
     const solver::Coordinate now = coordinate_of(c, robot.model, solver::State(robot.model));
     // A processor that fuses a product with a sum leaves the last bit of R'R.
@@ -200,6 +202,37 @@ TEST(Measures, WithoutADirectionStayFinite) {
     EXPECT_TRUE(std::isfinite(now.velocity));
     EXPECT_TRUE(std::isfinite(now.acceleration_bias));
   }
+}
+
+// Seen from F at (1, 1), turned by 30 deg, a mark at 2 m in the direction of 75 deg stands 45 deg to the
+// left.
+TEST(Measures, ABearingIsSignedFromTheXAxisAndWraps) {
+  const solver::Model model = solver::test::mecanum({});
+  const solver::State rest(model);
+  AxisConstraint c;
+  c.measure = Measure::bearing;
+  c.move = {0, {solver::rotation_from_rpy(0.0, 0.0, std::numbers::pi / 6.0), {1.0, 1.0, 0.0}}};
+  const auto mark_at = [&](double direction, double distance) {
+    c.in = {-1, {}};
+    c.in.pose.position = {1.0 + distance * std::cos(direction), 1.0 + distance * std::sin(direction), 0.4};
+    return coordinate_of(c, model, rest).position;
+  };
+  EXPECT_NEAR(mark_at(75.0 / 180.0 * std::numbers::pi, 2.0), std::numbers::pi / 4.0, 1e-12);
+  EXPECT_NEAR(mark_at(0.0, 2.0), -std::numbers::pi / 6.0, 1e-12);
+  // Behind, 179 deg to the right: the short way to 170 deg on the left is on to the right.
+  const double behind = mark_at(-149.0 / 180.0 * std::numbers::pi, 2.0);
+  EXPECT_NEAR(behind, -179.0 / 180.0 * std::numbers::pi, 1e-12);
+  c.driver = solver::Driver{.quantity = Quantity::position, .target = 170.0 / 180.0 * std::numbers::pi};
+  solver::ConstraintSet set(1, 2);
+  ASSERT_TRUE(set.add(c));
+  ASSERT_TRUE(set.fill(model, rest));
+  ASSERT_EQ(set.rows().size(), 1u);
+  EXPECT_NEAR(set.rows()[0].b, -11.0 / 180.0 * std::numbers::pi / (0.5 * 0.5), 1e-9);
+  // 4 cm from F's z axis it points nowhere.
+  mark_at(1.0, 0.04);
+  set[0].in = c.in;
+  ASSERT_TRUE(set.fill(model, rest));
+  EXPECT_TRUE(set.rows().empty());
 }
 
 class PlanarRows : public testing::Test {

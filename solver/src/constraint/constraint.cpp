@@ -23,7 +23,8 @@ ForceVector on_body(const Measurement& along, const Vector3& origin, const Pose&
 }
 
 double position_error(double target, const Coordinate& now, const AxisConstraint& constraint) {
-  const bool wraps = constraint.measure == Measure::axis && is_rotation(constraint.axis);
+  const bool wraps = constraint.measure == Measure::bearing ||
+                     (constraint.measure == Measure::axis && is_rotation(constraint.axis));
   return wraps ? wrap_to_pi(target - now.position) : target - now.position;
 }
 
@@ -266,7 +267,7 @@ bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
     const FrameMotion& f = motions.of(constraint.move, move);
     const Measurement measured = measure(constraint, f, motions.of(constraint.in, in));
     now = measured.now;
-    acts = put_force(constraint, measured, f.pose.position, motions, along);
+    acts = !measured.is_degenerate && put_force(constraint, measured, f.pose.position, motions, along);
   }
   if (is_slow(constraint, now)) return true;
   if (!acts) return true;

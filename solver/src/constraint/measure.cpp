@@ -102,6 +102,33 @@ Measurement along_angle(const FrameMotion& f, const FrameMotion& t, Axis axis, A
   return result;
 }
 
+/// s = atan2(y, x) of p_T in F, with d = p_T - p_F, r^2 = x^2 + y^2, and t the unit vector across d over r:
+///   t = (x e_y - y e_x)/r^2     ds = t.(v_T - v_F - w_F x d)
+/// What grows with the motion of T shrinks with that of F, so that a = (-d x t, -t). With the velocity
+/// u = v_T - v_F - w_F x d of T seen from F, points accelerate with A + w x v, and
+///   gamma = t.(w_T x v_T - w_F x v_F - w_F x (w_F x d) - 2 w_F x u) - 2 ds (x u_x + y u_y)/r^2
+/// On F's z axis it has no direction.
+Measurement along_bearing(const FrameMotion& f, const FrameMotion& t) {
+  const Vector3 d = t.pose.position - f.pose.position;
+  const Vector3 e_x = f.pose.rotation.col(0), e_y = f.pose.rotation.col(1);
+  const double x = e_x.dot(d), y = e_y.dot(d);
+  const double square = x * x + y * y;
+  Measurement result;
+  result.now.position = std::atan2(y, x);
+  result.is_degenerate = square < nearest_bearing * nearest_bearing;
+  if (result.is_degenerate) return result;
+  const Vector3 across = (x * e_y - y * e_x) / square;
+  const Vector3 seen = t.linear - f.linear - f.angular.cross(d);
+  result.force = -across;
+  result.moment = -d.cross(across);
+  result.now.velocity = across.dot(seen);
+  result.now.acceleration_bias =
+      across.dot(t.angular.cross(t.linear) - f.angular.cross(f.linear) - f.angular.cross(f.angular.cross(d)) -
+                 2.0 * f.angular.cross(seen)) -
+      2.0 * result.now.velocity * (x * e_x.dot(seen) + y * e_y.dot(seen)) / square;
+  return result;
+}
+
 /// ds = |v| in T's plane, and d|v|/dt = v.dv/dt / |v|: the direction of the present motion.
 Measurement along_motion(const FrameMotion& f, const FrameMotion& t) {
   const double vx = along_axis(f, t, Axis::x).now.velocity;
@@ -179,6 +206,8 @@ Measurement measure(const AxisConstraint& constraint, const FrameMotion& f, cons
       return along_distance(f, t);
     case Measure::angle:
       return along_angle(f, t, constraint.axis, constraint.other_axis);
+    case Measure::bearing:
+      return along_bearing(f, t);
     case Measure::speed:
       return along_motion(f, t);
     case Measure::turn:  // of carried axes alone

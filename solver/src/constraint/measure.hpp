@@ -20,6 +20,7 @@ struct Measurement {
   Coordinate now;
   Vector3 moment = Vector3::Zero();
   Vector3 force = Vector3::Zero();
+  bool is_degenerate = false;  ///< a bearing of what is too near: it makes no row
 };
 
 /// Frames on one body: `in` only orients and motion counts relative to the world.
@@ -31,7 +32,8 @@ inline bool only_orients(const AttachedFrame& move, const AttachedFrame& in) noe
 /// to the world, and the unit force a stays as it is in the body: ds = a . V and dds = a . A + gamma, gamma 0
 /// but for a `side`.
 inline bool is_carried(const AxisConstraint& constraint) noexcept {
-  const bool has_axes = constraint.measure != Measure::distance && constraint.measure != Measure::angle;
+  const bool has_axes = constraint.measure != Measure::distance && constraint.measure != Measure::angle &&
+                        constraint.measure != Measure::bearing;
   return has_axes && only_orients(constraint.move, constraint.in);
 }
 

@@ -33,12 +33,16 @@ enum class Measure {
   direction,  ///< a weighted sum of all six: a slanted axis, the normal of an edge, a coupling of two axes
   distance,   ///< from the origin of T to that of F
   angle,      ///< between one axis of F and one of T, 0 to pi
+  bearing,    ///< of T's origin, from F's x axis towards its y axis, in F's x-y plane; it wraps, and makes no
+              ///< row where T's origin is nearer to F's z axis than `nearest_bearing`
   speed,      ///< of F in the x-y plane of T; velocity ranges only, and no row below half of the highest
   side,  ///< a direction in the x-y plane of T whose acceleration is that of the point F, also where T turns
   turn,  ///< s = w v of axes that F's body carries: v along `coefficients`, w about z. With it a base that
          ///< cannot move sideways accelerates sideways. Ranges of s [m/s^2] are `velocity`, and make no row
          ///< while |s| is below half of the highest
 };
+
+inline constexpr double nearest_bearing = 0.05;  ///< [m]
 
 /// The value that drives an axis. [SI: m, rad, m/s, ..., N, N m]
 struct Driver {
