@@ -135,7 +135,8 @@ ordered_json regions_of(const Program& program) {
 /// A frame that a task sets moves when the run reaches the line, which the log does not hold.
 bool is_set(const Program& program, int frame) {
   const auto sets = [&](const std::vector<lang::SetAction>& actions) {
-    return std::ranges::any_of(actions, [&](const auto& a) { return a.sets_frame && a.index == frame; });
+    return std::ranges::any_of(
+        actions, [&](const auto& a) { return a.kind == lang::SetKind::frame && a.index == frame; });
   };
   const auto exit_sets = [&](const lang::Exit& exit) { return sets(exit.set); };
   return std::ranges::any_of(program.always.exits, exit_sets) ||

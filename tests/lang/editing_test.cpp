@@ -126,6 +126,53 @@ TEST(Editing, TheNamesOfAProgramAreGivenInItsText) {
   }
 }
 
+/// What a place of the text is completed with, by the names that the text itself gives.
+std::vector<std::string> completed(const std::string& text, const std::string& before) {
+  test::Folder folder;
+  Diagnostics diagnostics;
+  KnownNames known;
+  known.given = names_of(FileKind::task, folder.write("task.yaml", text), diagnostics);
+  std::vector<std::string> words;
+  for (const Proposal& proposal : proposals(FileKind::task, text, text.find(before) + before.size(), known))
+    words.push_back(proposal.text);
+  return words;
+}
+
+TEST(Editing, AFunctionIsOfferedWhatItTakes) {
+  const std::string text =
+      "signals: {latch: {type: bool, stale_after: 1 s}}\noutputs: {lamp: {type: bool, stop: keep}}\n"
+      "frames: {goal: {parent: world}}\nstart: a\n"
+      "tasks:\n  a:\n    exits: [{when: since(b) > 1 s and speed(goal) > 1 m/s and valid(latch), goto: b}]\n"
+      "  b: {enter: {set: {outputs.lamp: true}}}\n";
+  const auto has = [](const std::vector<std::string>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  const auto tasks = completed(text, "since("), frames = completed(text, "speed("),
+             signals = completed(text, "valid("), any = completed(text, "when: ");
+  EXPECT_EQ(tasks, (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(has(frames, "goal") && !has(frames, "a") && !has(frames, "latch"));
+  EXPECT_EQ(signals, (std::vector<std::string>{"latch"}));
+  for (const char* word : {"latch", "lamp", "since", "turned", "entries"})
+    EXPECT_TRUE(has(any, word)) << word;
+}
+
+// A task is renamed where conditions ask for it, an output where it is set.
+TEST(Editing, TasksOfConditionsAndOutputsAreNames) {
+  const std::string text =
+      "outputs: {lamp: {type: bool, stop: keep}}\nstart: a\n"
+      "tasks:\n  a:\n    enter: {set: {outputs.lamp: true}}\n"
+      "    exits: [{when: entries(a) > 1 and lamp, goto: done}]\n";
+  test::Folder folder;
+  Diagnostics diagnostics;
+  int tasks = 0, outputs = 0;
+  for (const NamePlace& place : names_of(FileKind::task, folder.write("task.yaml", text), diagnostics)) {
+    tasks += place.name == "a" && place.kinds.front() == NameKind::task ? 1 : 0;
+    outputs += place.name == "lamp" && place.kinds.front() == NameKind::output ? 1 : 0;
+  }
+  EXPECT_EQ(tasks, 3) << "given, `start`, `entries`";
+  EXPECT_EQ(outputs, 3) << "given, set, asked for";
+}
+
 TEST(Editing, AnOpenTextIsReadInThePlaceOfTheFile) {
   const test::Folder folder;
   const fs::path path = folder.write("a.yaml", "on the disk");

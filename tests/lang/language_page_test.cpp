@@ -8,9 +8,9 @@
 #include <set>
 
 #include "../page_blocks.hpp"
-#include "spec/expression.hpp"
 #include "spec/units.hpp"
 #include "support.hpp"
+#include "zwang/lang/condition_function.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/scenario.hpp"
@@ -98,7 +98,7 @@ class LanguagePage : public testing::Test {
 /// An excerpt may leave a name unused (W302), and is good otherwise.
 TEST_F(LanguagePage, each_block_is_good) {
   int tried = 0;
-  for (const std::string page : {"docs/language.md", "docs/concepts.md"}) {
+  for (const std::string page : {"docs/language.md", "docs/concepts.md", "docs/tutorial_4.md"}) {
     for (const PageBlock& block : blocks(page)) {
       if (!block.kind.starts_with("yaml") || block.kind.find("mistake") != std::string::npos) continue;
       const Diagnostics diagnostics = said_about(block, folder_);
@@ -157,8 +157,7 @@ std::set<std::string> words_of_code() {
 
 TEST(LanguageOfThePage, has_every_key_and_word_of_the_schemas) {
   const std::set<std::string> written = words_of_code();
-  for (const FileKind kind :
-       {FileKind::task, FileKind::robot, FileKind::scene, FileKind::scenario}) {
+  for (const FileKind kind : {FileKind::task, FileKind::robot, FileKind::scene, FileKind::scenario}) {
     std::set<std::string> keys;
     gather_keys(nlohmann::json::parse(json_schema(kind)), keys);
     EXPECT_GT(keys.size(), 10u);
@@ -166,10 +165,27 @@ TEST(LanguageOfThePage, has_every_key_and_word_of_the_schemas) {
   }
 }
 
-TEST(LanguageOfThePage, has_every_function_and_only_units_that_are_known) {
+/// The line of the page's table, as the table of the functions has it.
+std::string row_of(const ConditionFunction& function) {
+  static constexpr std::array arguments{"x", "signal", "frame", "task"};
+  const std::string argument = arguments[static_cast<std::size_t>(function.argument)];
+  const auto& p = function.powers;
+  const std::string what = describe(Dimension{p[0], p[1], p[2], p[3]});
+  std::string measures = what.substr(what.find(' ') + 1);
+  if (function.is_truth) measures = "true or false";
+  if (function.argument == FunctionArgument::number) measures = "as `x`";
+  return "| `" + std::string(function.name) + "(" + argument + ")` | " + measures + " | " +
+         std::string(function.of) + " |\n";
+}
+
+TEST(LanguageOfThePage, has_the_line_of_each_function) {
   const std::string page = test::slurp(test::source_dir / "docs/language.md");
-  for (const std::string& function : function_names())
-    EXPECT_NE(page.find("| `" + function + "("), std::string::npos) << function;
+  for (const ConditionFunction& function : condition_functions())
+    EXPECT_NE(page.find(row_of(function)), std::string::npos) << "the page lacks\n" << row_of(function);
+}
+
+TEST(LanguageOfThePage, has_only_units_that_are_known) {
+  const std::string page = test::slurp(test::source_dir / "docs/language.md");
   const std::string table = page.substr(page.find("| dimension | units |"));
   std::istringstream rows(table.substr(0, table.find("\n\n")));
   int units = 0;

@@ -26,8 +26,11 @@ class ProgramText {
       out_ << "signal " << s.name << ' ' << static_cast<int>(s.type) << ' ' << s.unit_scale << ' ' << s.in
            << ' ';
       add(s.stale_after);
-      out_ << '\n';
+      out_ << static_cast<int>(s.twist) << ' ' << s.twist_window << '\n';
     }
+    for (const Output& o : program.outputs)
+      out_ << "output " << o.name << ' ' << o.is_number << ' ' << o.start << ' ' << o.stop.value_or(-1.0)
+           << o.stop.has_value() << '\n';
     for (const Region& r : program.regions) {
       out_ << "region " << r.name << ' ' << r.parent << ' ' << r.centre[0] << ' ' << r.centre[1] << ' '
            << r.radius;
@@ -63,12 +66,13 @@ class ProgramText {
   void add(const Condition& c) {
     for (const ExpressionNode& n : c.nodes) {
       out_ << '(' << static_cast<int>(n.op) << ' ' << n.number << ' ' << n.index << ' ' << n.axis << ' '
-           << n.in_always << ' ' << static_cast<int>(n.what) << ' ' << n.left << ' ' << n.right << ')';
+           << n.function << ' ' << n.in_always << ' ' << static_cast<int>(n.what) << ' ' << n.left << ' '
+           << n.right << ')';
     }
   }
   void add(const std::vector<SetAction>& sets) {
     for (const SetAction& s : sets) {
-      out_ << "set " << s.sets_frame << ' ' << s.index << ' ' << s.source << ' ';
+      out_ << "set " << static_cast<int>(s.kind) << ' ' << s.index << ' ' << s.source << ' ';
       add(s.value);
     }
   }
@@ -83,7 +87,8 @@ class ProgramText {
         add(a.target);
         add(a.position), add(a.velocity), add(a.acceleration), add(a.force);
         add(a.time_constant);
-        add(a.stiffness), add(a.damping), add(a.weight);
+        add(a.stiffness), add(a.damping), add(a.weight), add(a.build_up);
+        if (a.yield) add(a.yield->force), add(a.yield->mass), add(a.yield->damping), add(a.yield->dead_band);
       }
       out_ << '\n';
     }

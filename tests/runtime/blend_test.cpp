@@ -447,7 +447,7 @@ TEST(Blend, WhatASwitchSetsOfAlwaysIsBlended) {
   rail.target.parameter = 0;
   p.always.groups = task("", {rail, drive("rail.rz", Axis::rz, Quantity::velocity, 0.0)}).groups;
   lang::SetAction set;
-  set.sets_frame = false;
+  set.kind = lang::SetKind::parameter;
   set.index = 0;
   set.value.constant = 0.2;
   p.tasks[0].exits[0].set = {set};

@@ -170,7 +170,7 @@ TEST(Always, AnExitRunsItsSet) {
   lang::Program p = interrupted_work();
   p.parameters.resize(1);
   p.parameters[0].value = 1.0;
-  p.always.exits[0].set = {{.sets_frame = false, .index = 0, .value = {.constant = 2.0}}};
+  p.always.exits[0].set = {{.kind = lang::SetKind::parameter, .index = 0, .value = {.constant = 2.0}}};
   Bench bench(p);
   bench.hear(0, 5.0);
   bench.ticks_more(2);
@@ -266,7 +266,7 @@ TEST(Back, IsNoEntryAttemptsRequireAndSetAreUntouched) {
   p.parameters.resize(1);
   p.parameters[0].value = 1.0;
   lang::SetAction set;
-  set.sets_frame = false;
+  set.kind = lang::SetKind::parameter;
   set.index = 0;
   set.value.constant = 2.0;
   p.tasks[0].set_on_entry = {set};
@@ -292,7 +292,7 @@ TEST(Back, IsNoEntryAttemptsRequireAndSetAreUntouched) {
 
 TEST(Back, MovedGoesOnFromWhereTheInterruptionCame) {
   lang::Program p = interrupted_work();
-  p.tasks[0].exits = {exit(when(apply(Op::greater, name(Op::moved, base_link), number(0.95))), to_done)};
+  p.tasks[0].exits = {exit(when(apply(Op::greater, call("moved", base_link), number(0.95))), to_done)};
   Bench bench(p);
   double& x = bench.sensed.state.base_pose.position.x();
   bench.hear(0, 5.0);
@@ -463,7 +463,7 @@ TEST(Require, FalseOrUnknownOnEntryFailsWithTheConditionsWords) {
     a.exits = {exit(after(0.002), to_task(1))};
     b.require = when(nodes, "the door is open");
     lang::SetAction set;
-    set.sets_frame = false;
+    set.kind = lang::SetKind::parameter;
     set.index = 0;
     b.set_on_entry = {set};
     lang::Program p = program({a, b});

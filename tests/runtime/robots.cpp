@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "zwang/lang/condition_function.hpp"
+
 namespace zwang::runtime::test {
 
 solver::Vector3 wheel_position(int i) {
@@ -111,6 +113,10 @@ Nodes name(Op op, int index) {
   n.op = op;
   n.index = index;
   return {n};
+}
+
+Nodes call(const char* function, int frame_or_task) {
+  return {lang::call_of(function, frame_or_task)};
 }
 
 Nodes coordinate(int group, int axis, CoordinateQuantity what) {

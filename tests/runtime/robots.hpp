@@ -59,6 +59,8 @@ using Nodes = std::vector<ExpressionNode>;
 
 Nodes number(double x);
 Nodes name(Op op, int index = -1);
+/// A function of a frame or a task, by its name in the language.
+Nodes call(const char* function, int frame_or_task);
 Nodes coordinate(int group, int axis, CoordinateQuantity what);
 Nodes apply(Op op, Nodes a);
 Nodes apply(Op op, const Nodes& a, const Nodes& b);

@@ -27,7 +27,7 @@ lang::Program errand() {
   go.groups[0].axes[0].time_constant.constant = 0.05;
   go.blend.constant = 0.1;
   go.exits = {
-      exit(when(apply(Op::greater, name(Op::moved, base_link), number(0.2)), "moved(base_link) > 20 cm"),
+      exit(when(apply(Op::greater, call("moved", base_link), number(0.2)), "moved(base_link) > 20 cm"),
            to_task(1), 0.01)};
   lang::Task push = task("push", {drive("go.x", Axis::x, Quantity::force, 10.0),
                                   drive("go.y", Axis::y, Quantity::velocity, 0.0)});

@@ -156,7 +156,7 @@ TEST(Tick, SpeedAndMovedFollowTheFrameAndMovedStartsAtEntry) {
   lang::Task a = task("a", forward), b = a;
   a.exits = {exit(after(0.010), to_task(1))};
   // A quarter circle of the bumper about the base, then the same way back: the path, not the distance.
-  b.exits = {exit(when(apply(Op::greater, name(Op::moved, bumper), number(0.4 * 3.1))), to_done)};
+  b.exits = {exit(when(apply(Op::greater, call("moved", bumper), number(0.4 * 3.1))), to_done)};
   Bench bench(program({a, b}));
   for (int i = 0; i <= 10; ++i) {
     bench.sensed.state.base_pose.position.x() += 1.0;  // does not count: it is before entry
@@ -174,7 +174,7 @@ TEST(Tick, SpeedAndMovedFollowTheFrameAndMovedStartsAtEntry) {
   EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
 
   lang::Task c = task("c", forward);
-  c.exits = {exit(when(apply(Op::greater, name(Op::speed, bumper), number(0.499))), to_done)};
+  c.exits = {exit(when(apply(Op::greater, call("speed", bumper), number(0.499))), to_done)};
   Bench turning(program({c}));
   turning.sensed.state.base_twist.linear = {0.3, 0, 0};
   turning.tick();
@@ -185,6 +185,48 @@ TEST(Tick, SpeedAndMovedFollowTheFrameAndMovedStartsAtEntry) {
   EXPECT_EQ(turning.scheduler.outcome(), Outcome::done);
 }
 
+// To and fro by a quarter turn each: half a turn in all.
+TEST(Tick, TurnedIsTheSumOfTheAnglesSinceEntry) {
+  lang::Task a = task("a", forward), b = a;
+  a.exits = {exit(after(0.010), to_task(1))};
+  b.exits = {
+      exit(when(apply(Op::greater, call("turned", bumper), number(0.9905 * std::numbers::pi))), to_done)};
+  Bench bench(program({a, b}));
+  for (int i = 0; i <= 10; ++i) {
+    bench.sensed.state.base_pose.rotation = solver::rotation_from_rpy(0, 0, 0.01 * i);  // before entry
+    bench.tick();
+  }
+  ASSERT_EQ(bench.scheduler.task(), 1);
+  const int steps = 500;
+  for (int i = 1; i <= 2 * steps && bench.scheduler.outcome() == Outcome::none; ++i) {
+    const double share = static_cast<double>(i <= steps ? i : 2 * steps - i) / steps;
+    bench.sensed.state.base_pose.rotation =
+        solver::rotation_from_rpy(0, 0, 0.1 + share * std::numbers::pi / 2);
+    bench.tick();
+    const double sum = std::numbers::pi / 2 * i / steps;
+    EXPECT_EQ(bench.scheduler.outcome() == Outcome::done, sum > 0.9905 * std::numbers::pi) << i;
+  }
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
+}
+
+// a and b take turns, 5 ms each; a task that was never entered is unknown, and decides nothing.
+TEST(Tick, EntriesAndSinceCountTheEntriesOfATask) {
+  lang::Task a = task("a", forward), b = a, never = a;
+  a.exits = {exit(when(apply(Op::greater, call("entries", 1), number(2.5))), to_done),
+             exit(when(apply(Op::greater, call("since", 2), number(-1.0))), to_failed),
+             exit(after(0.005), to_task(1))};
+  b.exits = {exit(when(apply(Op::greater_equal, call("since", 0), number(0.0099))), to_task(0))};
+  Bench bench(program({a, b, never}));
+  std::vector<int> switches;
+  for (int i = 0; i < 100 && bench.scheduler.outcome() == Outcome::none; ++i) {
+    bench.tick();
+    if (bench.scheduler.transition() && i > 0) switches.push_back(i);
+  }
+  EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
+  // b is left 10 ms after a was entered.
+  EXPECT_EQ(switches, (std::vector{5, 10, 15, 20, 25, 30, 31}));
+}
+
 TEST(Set, TheExitsSetRunsBeforeTheEntrys) {
   lang::Program p =
       program({task("a", forward), task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.0)})});
@@ -192,9 +234,10 @@ TEST(Set, TheExitsSetRunsBeforeTheEntrys) {
   p.parameters[0].name = "v";
   p.parameters[0].value = 1.0;
   p.tasks[0].exits = {exit(after(0.001), to_task(1))};
-  p.tasks[0].exits[0].set = {{.sets_frame = false, .index = 0, .value = {.constant = 2.0}}};
+  p.tasks[0].exits[0].set = {{.kind = lang::SetKind::parameter, .index = 0, .value = {.constant = 2.0}}};
   // On entry the parameter is set to minus what the exit made of it.
-  p.tasks[1].set_on_entry = {{.sets_frame = false, .index = 0, .value = {.parameter = 0, .sign = -1.0}}};
+  p.tasks[1].set_on_entry = {
+      {.kind = lang::SetKind::parameter, .index = 0, .value = {.parameter = 0, .sign = -1.0}}};
   p.tasks[1].groups[0].axes[0].target = {.parameter = 0};
   Bench bench(p);
   bench.tick();

@@ -313,7 +313,7 @@ TEST(PoseSignal, WhatConditionsAskOfItsFrameIsUnknownWhileItIsInvalid) {
   for (const bool by_feature : {false, true}) {
     lang::Program p = docking({to_socket()}, 0.010);
     const Nodes asked =
-        by_feature ? name(Op::speed, socket_frame) : coordinate(0, 0, CoordinateQuantity::position);
+        by_feature ? call("speed", socket_frame) : coordinate(0, 0, CoordinateQuantity::position);
     const Nodes anything = apply(Op::less, asked, number(1e9));
     p.tasks[0].exits = {exit(when(anything), to_done, 1e6)};
     Bench bench(p);

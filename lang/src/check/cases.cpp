@@ -111,7 +111,9 @@ class Splitter {
   /// A group's axis is the same in another task where frames and axis are.
   std::string key_of(const ExpressionNode& node) const {
     std::string key = std::to_string(static_cast<int>(node.op)) + " ";
-    if (node.op != Op::coordinate) return key + std::to_string(node.index) + " " + std::to_string(node.axis);
+    if (node.op != Op::coordinate)
+      return key + std::to_string(node.function) + " " + std::to_string(node.index) + " " +
+             std::to_string(node.axis);
     const auto& groups = node.in_always ? context_.file.always_groups : groups_;
     const GroupText& group = groups[static_cast<std::size_t>(node.index)];
     const std::string frames =
@@ -135,11 +137,13 @@ class Splitter {
     switch (node.op) {
       case Op::elapsed:
       case Op::coordinate:
-      case Op::speed:
-      case Op::moved:
+      case Op::of_frame:
+      case Op::of_task:
       case Op::signal:
+      case Op::output:
       case Op::feature:
       case Op::estimated_force:
+      case Op::estimated_wrench:
       case Op::abs:
         return Linear{1.0, 0.0, index};
       case Op::negate: {

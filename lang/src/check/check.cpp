@@ -34,13 +34,13 @@ namespace {
 /// Bool signals and `elapsed` do not flicker; everything that is measured as a number does.
 bool measures(const CheckContext& context, const Condition& condition) {
   for (const ExpressionNode& node : condition.nodes) {
-    if (node.op == Op::coordinate || node.op == Op::speed || node.op == Op::moved || node.op == Op::feature ||
-        node.op == Op::estimated_force) {
+    if (node.op == Op::coordinate || node.op == Op::of_frame || node.op == Op::feature ||
+        node.op == Op::estimated_force || node.op == Op::estimated_wrench) {
       return true;
     }
     const bool is_number =
         node.op == Op::signal &&
-        context.symbols.signals[static_cast<std::size_t>(node.index)].signal.type == SignalType::number;
+        context.symbols.signals[static_cast<std::size_t>(node.index)].signal.type != SignalType::boolean;
     if (is_number) return true;
   }
   return false;
@@ -264,12 +264,14 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   CheckedFile checked;
   checked.symbols.has_robot = robot.has_value();
   for (const TaskText& task : file.tasks) checked.symbols.tasks.push_back(task.name.text);
-  CheckContext context{file, robot, options, checked.symbols, diagnostics, with_notes};
+  CheckContext context{file, robot, options, checked.symbols, diagnostics, with_notes, &checked.yields};
   check_parameters(context);
   declare_signals(context);
   check_frames(context);
   check_world(context);
+  check_outputs(context);
   if (scene) check_scene_signals(context, *scene);
+  if (scene) check_held_docks(context, *scene);
   check_groups(context, file.always_groups);
   for (const ExitText& exit : file.always_exits) {
     checked.always_conditions.push_back(check_exit(context, exit, nullptr));

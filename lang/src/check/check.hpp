@@ -1,6 +1,7 @@
 /// Meaning: names, dimensions, clashes, physics. What passes here can be lowered without another question.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct CheckedFile {
   std::vector<std::vector<Condition>> conditions;
   std::vector<Condition> always_conditions;            ///< of each exit under `always`
   std::vector<std::optional<Condition>> requirements;  ///< `enter.require` of each task
+  std::map<const AxisText*, Condition> yields;         ///< what axes of `file` give way to
 };
 
 /// `robot` none: it could not be read, and was complained of; what does not need it is checked all the same.

@@ -79,6 +79,11 @@ void check_uses(CheckContext& context) {
       context.diagnostics.add(wording::unused(symbol.signal.span, "signal", symbol.signal.name));
     }
   }
+  for (const OutputSymbol& symbol : context.symbols.outputs) {
+    if (!symbol.is_used) {
+      context.diagnostics.add(wording::unused(symbol.output.span, "output", symbol.output.name));
+    }
+  }
   for (const RegionSymbol& symbol : context.symbols.regions) {
     if (!symbol.is_used) {
       context.diagnostics.add(wording::unused(symbol.region.span, "region", symbol.region.name));

@@ -5,6 +5,7 @@
 #include "check/context.hpp"
 #include "check/parameter_values.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_forces.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_standing.hpp"
 
@@ -17,11 +18,6 @@ using solver::Quantity;
 
 constexpr std::array quantities{Quantity::position, Quantity::velocity, Quantity::acceleration,
                                 Quantity::force};
-
-std::string written(const ValueText& value) {
-  if (value.kind == ValueKind::parameter) return (value.sign < 0 ? "-$" : "$") + value.name;
-  return value.quantity.number + " " + value.quantity.unit;
-}
 
 std::string axis_path(const GroupText& group, const AxisText& axis) {
   return group.kind == GroupKind::feature ? group.name.text : group.name.text + "." + axis.name.text;
@@ -52,16 +48,16 @@ void check_return(CheckContext& context, const AxisText& text, Axis axis, const 
 /// One axis of one group.
 class AxisCheck {
  public:
-  AxisCheck(CheckContext& context, const GroupText& group, const AxisText& text, std::optional<int> move,
-            std::optional<int> in)
+  /// `groups`: those of the task, which a `yield` may speak of.
+  AxisCheck(CheckContext& context, const std::vector<GroupText>& groups, const GroupText& group,
+            const AxisText& text)
       : context_(context),
+        groups_(groups),
         text_(text),
         path_(axis_path(group, text)),
         feature_(feature_of(context, group)),
         axis_(feature_ == nullptr ? axis_named(text.name.text).value_or(Axis::x)
                                   : (feature_->turns ? Axis::rz : Axis::x)),
-        move_(move),
-        in_(in),
         is_incomplete_(group.is_incomplete) {}
 
   void check() {
@@ -70,6 +66,8 @@ class AxisCheck {
     check_place_on_feature();
     check_force_range();
     if (text_.time_constant) check_time(context_, *text_.time_constant, path_ + ".time_constant", false);
+    check_yield();
+    check_build_up();
     check_compliance();
     check_norms();
     if (text_.weight) check_positive(*text_.weight, turns() ? dimension::inertia : dimension::mass, "weight");
@@ -106,9 +104,38 @@ class AxisCheck {
     }
   }
 
+  /// `yield` with `mass` and `damping`: moves like a body that the force pushes.
+  void check_yield() {
+    if (!text_.yield) return;
+    const std::string what = path_ + ".yield";
+    if (!text_.yield->is_bad) {
+      auto force =
+          check_expression(context_, *text_.yield, groups_, what, dimension_of(axis_, Quantity::force));
+      if (force && context_.yields != nullptr) (*context_.yields)[&text_] = std::move(*force);
+    }
+    if (text_.mass) check_positive(*text_.mass, turns() ? dimension::inertia : dimension::mass, "mass");
+    if (text_.damping)
+      check_positive(*text_.damping, turns() ? dimension::angular_damping : dimension::damping, "damping");
+    if (text_.dead_band &&
+        check_value(context_, *text_.dead_band, dimension_of(axis_, Quantity::force), path_ + ".dead_band"))
+      lang::check_positive(context_, *text_.dead_band, path_ + ".dead_band", true);
+    if (text_.time_constant)
+      context_.diagnostics.add(wording::yield_with_time_constant(text_.time_constant->span, path_));
+  }
+
+  /// `build_up` adds up the error of a driver of motion.
+  void check_build_up() {
+    if (!text_.build_up) return;
+    check_time(context_, *text_.build_up, path_ + ".build_up", false);
+    const auto drives = [&](Quantity quantity) { return text_[quantity] && !text_[quantity]->is_range; };
+    const bool has_error = (drives(Quantity::position) || drives(Quantity::velocity)) && !text_.stiffness;
+    if (!has_error && !is_incomplete_)
+      context_.diagnostics.add(wording::build_up_without_driver(text_.build_up->span, path_));
+  }
+
   /// `stiffness` and `damping` make a spring of a position driver, in the place of the time constant.
   void check_compliance() {
-    if (!text_.stiffness && !text_.damping) return;
+    if (text_.yield || (!text_.stiffness && !text_.damping)) return;
     const std::optional<StatementText>& position = text_[Quantity::position];
     const int errors_before = context_.diagnostics.error_count();
     if (text_.stiffness) {
@@ -140,7 +167,7 @@ class AxisCheck {
       if (!low || !high) return;
       if (present_value(context_, statement->low) > present_value(context_, statement->high)) {
         context_.diagnostics.add(
-            wording::empty_range(statement->span, written(statement->low), written(statement->high)));
+            wording::empty_range(statement->span, as_written(statement->low), as_written(statement->high)));
       } else {
         require_order(context_, statement->low, statement->high,
                       "the lower end of `" + what + "` cannot lie above its upper end");
@@ -155,7 +182,9 @@ class AxisCheck {
   /// A distance is never negative, an angle between two axes never more than half a turn.
   void check_place_on_feature() {
     const std::optional<StatementText>& position = text_[Quantity::position];
-    if (feature_ == nullptr || !position || feature_->kind == FeatureKind::direction) return;
+    if (feature_ == nullptr || !position || feature_->kind == FeatureKind::direction ||
+        feature_->kind == FeatureKind::bearing)
+      return;
     const bool is_distance = feature_->kind == FeatureKind::distance;
     const Dimension expected = is_distance ? dimension::length : dimension::angle;
     const ValueText& low = position->is_range ? position->low : position->value;
@@ -175,13 +204,18 @@ class AxisCheck {
                                          : wording::beyond_an_angle(position->span, path_));
   }
 
-  const FrameSymbol* symbol(const std::optional<int>& frame) const {
-    return frame ? &context_.symbols.frames[static_cast<std::size_t>(*frame)] : nullptr;
-  }
-
   void check_single_driver() {
     const StatementText* first = nullptr;
     std::string first_word;
+    if (text_.yield) {
+      for (const Quantity quantity : quantities) {
+        const std::optional<StatementText>& other = text_[quantity];
+        if (!other || other->is_range || other->value.kind == ValueKind::bad) continue;
+        context_.diagnostics.add(
+            wording::driven_twice(other->key_span, path_, "yield", word_of(quantity), text_.yield_span));
+        return;
+      }
+    }
     for (const Quantity quantity : quantities) {
       const std::optional<StatementText>& statement = text_[quantity];
       if (!statement || statement->is_range || statement->value.kind == ValueKind::bad) continue;
@@ -223,11 +257,11 @@ class AxisCheck {
   }
 
   CheckContext& context_;
+  const std::vector<GroupText>& groups_;
   const AxisText& text_;
   std::string path_;
   const Feature* feature_;  ///< nullptr: the axis is one of a frame
   Axis axis_;               ///< whose dimensions the statements have: of a feature any that measures alike
-  std::optional<int> move_, in_;
   bool is_incomplete_;
 };
 
@@ -251,7 +285,8 @@ void check_positions(CheckContext& context, const GroupText& group, const std::o
   }
 }
 
-void check_feature_group(CheckContext& context, const GroupText& group) {
+void check_feature_group(CheckContext& context, const std::vector<GroupText>& groups,
+                         const GroupText& group) {
   const std::optional<int> feature = context.symbols.find_feature(group.feature.text);
   if (!feature) {
     if (group.feature.exists()) {
@@ -261,7 +296,7 @@ void check_feature_group(CheckContext& context, const GroupText& group) {
     return;
   }
   context.symbols.features[static_cast<std::size_t>(*feature)].is_used = true;
-  for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, std::nullopt, std::nullopt).check();
+  for (const AxisText& axis : group.axes) AxisCheck(context, groups, group, axis).check();
   const FeatureSymbol& symbol = context.symbols.features[static_cast<std::size_t>(*feature)];
   // Of a distance and an angle E412 says so.
   if (!symbol.is_bad && symbol.feature.kind == FeatureKind::direction)
@@ -295,9 +330,9 @@ void check_group_return(CheckContext& context, const GroupText& group) {
     context.diagnostics.add(wording::return_without_range(group.return_speed->span, group.name.text));
 }
 
-void check_group(CheckContext& context, const GroupText& group) {
+void check_group(CheckContext& context, const std::vector<GroupText>& groups, const GroupText& group) {
   if (group.kind == GroupKind::inside) return check_inside(context, group);
-  if (group.kind == GroupKind::feature) return check_feature_group(context, group);
+  if (group.kind == GroupKind::feature) return check_feature_group(context, groups, group);
   std::optional<int> move = check_frame(context, group.move);
   const std::optional<int> in = check_frame(context, group.in);
   if (move && context.symbols.frames[static_cast<std::size_t>(*move)].body < 0) {
@@ -311,64 +346,14 @@ void check_group(CheckContext& context, const GroupText& group) {
   check_group_return(context, group);
   if (group.axes.empty() && !group.is_incomplete)
     context.diagnostics.add(wording::group_without_axes(group.name.span, group.name.text));
-  for (const AxisText& axis : group.axes) AxisCheck(context, group, axis, move, in).check();
+  for (const AxisText& axis : group.axes) AxisCheck(context, groups, group, axis).check();
   check_positions(context, group, move, in);
 }
 
 }  // namespace
 
 void check_groups(CheckContext& context, const std::vector<GroupText>& groups) {
-  for (const GroupText& group : groups) check_group(context, group);
-}
-
-namespace {
-
-/// The magnitude that a driver asks for, where it is known before the run.
-std::optional<double> asked(const CheckContext& context, const StatementText& statement) {
-  if (statement.is_range) return std::nullopt;
-  const bool is_known =
-      statement.value.kind == ValueKind::quantity || statement.value.kind == ValueKind::parameter;
-  if (!is_known) return std::nullopt;
-  return present_value(context, statement.value);
-}
-
-void compare_with_limit(CheckContext& context, const std::string& group, const AxisText& axis,
-                        Quantity quantity, const GroupText& limiting, const AxisText& limit) {
-  const std::optional<StatementText>& driver = axis[quantity];
-  const std::optional<StatementText>& range = limit[quantity];
-  if (!driver || !range || !range->is_range) return;
-  const std::optional<double> value = asked(context, *driver);
-  const double low = present_value(context, range->low);
-  const double high = present_value(context, range->high);
-  if (!value || (low <= *value && *value <= high) || low > high) return;
-  context.diagnostics.add(
-      wording::beyond_always(driver->span, group + "." + axis.name.text, written(driver->value),
-                             "always." + limiting.name.text + "." + limit.name.text,
-                             *value > high ? written(range->high) : written(range->low), range->span));
-}
-
-}  // namespace
-
-void check_against_always(CheckContext& context, const TaskText& task) {
-  if (context.diagnostics.has_errors()) return;
-  for (const GroupText& group : task.groups) {
-    for (const GroupText& limiting : context.file.always_groups) {
-      const bool is_same = group.kind == GroupKind::axes && limiting.kind == GroupKind::axes &&
-                           group.move.text == limiting.move.text && group.in.text == limiting.in.text;
-      if (!is_same) continue;
-      for (const AxisText& axis : group.axes) {
-        for (const AxisText& limit : limiting.axes) {
-          const bool is_limited = axis.name.text == limit.name.text ||
-                                  (limit.is_norm() && (axis.name.text == "x" || axis.name.text == "y"));
-          if (!is_limited) continue;
-          for (const solver::Quantity quantity :
-               {solver::Quantity::velocity, solver::Quantity::acceleration, solver::Quantity::force}) {
-            compare_with_limit(context, group.name.text, axis, quantity, limiting, limit);
-          }
-        }
-      }
-    }
-  }
+  for (const GroupText& group : groups) check_group(context, groups, group);
 }
 
 }  // namespace zwang::lang

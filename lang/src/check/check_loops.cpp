@@ -5,6 +5,7 @@
 
 #include "check/endings.hpp"
 #include "diagnostic/wordings_never.hpp"
+#include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
 
@@ -100,7 +101,8 @@ struct Way {
 bool outlasts_a_switch(const ExpressionNode& node) {
   const bool is_motion = node.op == Op::coordinate && (node.what == CoordinateQuantity::position ||
                                                        node.what == CoordinateQuantity::velocity);
-  return is_motion || node.op == Op::speed || node.op == Op::signal || node.op == Op::feature ||
+  const bool is_of_now = node.op == Op::of_frame && !function_of(node).adds_up;
+  return is_motion || is_of_now || node.op == Op::signal || node.op == Op::output || node.op == Op::feature ||
          node.op == Op::valid;
 }
 
@@ -204,8 +206,9 @@ class Flutter {
 
 /// What `back` does not set back: a path and a time only grow.
 bool is_resumed(const Demanded& demanded) {
-  const Op op = demanded.node->op;
-  return (op == Op::moved || op == Op::elapsed) && std::isinf(demanded.bounds.high);
+  const ExpressionNode& node = *demanded.node;
+  const bool adds_up = node.op == Op::elapsed || (node.op == Op::of_frame && function_of(node).adds_up);
+  return adds_up && std::isinf(demanded.bounds.high);
 }
 
 /// A `back` of the task, or of those that it leads to; may be nowhere. `task` takes the one that it stands

@@ -10,6 +10,7 @@
 #include "check/parameter_values.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_never.hpp"
+#include "diagnostic/wordings_outputs.hpp"
 
 namespace zwang::lang {
 
@@ -47,6 +48,26 @@ void check_set_frame(CheckContext& context, const SetText& set) {
                                   : wording::unknown_name(set.name.span, "frame", set.name.text, declared));
   }
   check_frame(context, set.source);
+}
+
+void check_set_output(CheckContext& context, const SetText& set) {
+  const std::optional<int> index = context.symbols.find_output(set.name.text);
+  if (!index) {
+    context.diagnostics.add(
+        wording::unknown_name(set.name.span, "output", set.name.text, context.symbols.output_names()));
+    return;
+  }
+  OutputSymbol& symbol = context.symbols.outputs[static_cast<std::size_t>(*index)];
+  symbol.is_used = true;
+  if (symbol.is_bad || set.value.kind == ValueKind::bad) return;
+  const std::string what = "outputs." + set.name.text;
+  if (symbol.output.is_number) {
+    check_value(context, set.value, symbol.dimension, what);
+    return;
+  }
+  const std::string& word = set.value.name;
+  const bool is_truth = set.value.kind == ValueKind::name && (word == "true" || word == "false");
+  if (!is_truth) context.diagnostics.add(wording::output_needs_truth(set.value.span, what));
 }
 
 /// What a node can be while the signal is not known. A number: known or not.
@@ -110,7 +131,7 @@ class WithoutSignal {
 
   bool needs_signal(const ExpressionNode& node) const {
     if (node.op == Op::signal) return node.index == signal_;
-    if (node.op == Op::speed || node.op == Op::moved) return hangs_on_it(node.index);
+    if (node.op == Op::of_frame || node.op == Op::estimated_wrench) return hangs_on_it(node.index);
     if (node.op == Op::feature) return feature_hangs_on_it(node.index);
     const bool is_place = node.op == Op::coordinate && (node.what == CoordinateQuantity::position ||
                                                         node.what == CoordinateQuantity::velocity);
@@ -237,10 +258,16 @@ class UnguardedSets {
 
 void check_sets(CheckContext& context, const std::vector<SetText>& sets) {
   for (const SetText& set : sets) {
-    if (set.kind == SetKind::parameter) {
-      check_set_parameter(context, set);
-    } else {
-      check_set_frame(context, set);
+    switch (set.kind) {
+      case SetKind::frame:
+        check_set_frame(context, set);
+        break;
+      case SetKind::parameter:
+        check_set_parameter(context, set);
+        break;
+      case SetKind::output:
+        check_set_output(context, set);
+        break;
     }
   }
 }

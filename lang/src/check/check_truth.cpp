@@ -6,6 +6,7 @@
 #include "check/context.hpp"
 #include "check/parameter_values.hpp"
 #include "diagnostic/wordings.hpp"
+#include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
 
@@ -44,7 +45,13 @@ Interval parameter_interval(const CheckContext& context, int index) {
 
 Interval feature_interval(const Feature& feature) {
   if (feature.kind == FeatureKind::direction) return {};
+  if (feature.kind == FeatureKind::bearing) return {-std::numbers::pi, std::numbers::pi};
   return {0.0, feature.kind == FeatureKind::distance ? infinity : std::numbers::pi};
+}
+
+/// A norm is never negative.
+Interval part_interval(const ExpressionNode& wrench) {
+  return wrench.axis == static_cast<int>(WrenchPart::plane) ? Interval{0.0, infinity} : Interval{};
 }
 
 Interval interval_of(const CheckContext& context, const ExpressionNode& node, const Interval& a,
@@ -55,17 +62,24 @@ Interval interval_of(const CheckContext& context, const ExpressionNode& node, co
     case Op::parameter:
       return parameter_interval(context, node.index);
     case Op::elapsed:
-    case Op::speed:
-    case Op::moved:
       return {0.0, infinity};
+    case Op::of_frame:
+    case Op::of_task:
+      return {function_of(node).values.low, function_of(node).values.high};
     case Op::coordinate:
       return node.what == CoordinateQuantity::saturated ? undecided : Interval{};
     case Op::signal:
+      if (node.axis >= 0) return part_interval(node);
       return context.symbols.signals[static_cast<std::size_t>(node.index)].signal.type == SignalType::boolean
                  ? undecided
                  : Interval{};
+    case Op::output:
+      return context.symbols.outputs[static_cast<std::size_t>(node.index)].output.is_number ? Interval{}
+                                                                                            : undecided;
     case Op::estimated_force:
       return {};
+    case Op::estimated_wrench:
+      return part_interval(node);
     case Op::valid:
       return undecided;
     case Op::feature:

@@ -1,6 +1,7 @@
 #include "check/context.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_forces.hpp"
 #include "diagnostic/wordings_slips.hpp"
 
 namespace zwang::lang {
@@ -43,6 +44,10 @@ void check_signal(CheckContext& context, const SignalText& text, SignalSymbol& s
     symbol.signal.in = in.value_or(0);
   }
   if (text.holds.exists()) check_latch(context, text, symbol);
+  symbol.signal.twist = text.twist;
+  symbol.signal.twist_window = text.twist_window;
+  if (text.twist_span.exists() && text.type.exists() && symbol.signal.type != SignalType::pose)
+    context.diagnostics.add(wording::twist_without_pose(text.twist_span, text.name.text));
   if (text.stale_after) {
     check_time(context, *text.stale_after, "signal `" + text.name.text + "`'s `stale_after`", false);
   }
@@ -74,7 +79,8 @@ void check_feature(CheckContext& context, const FeatureText& text) {
   const auto& d = text.direction;
   const bool shifts = d[0] != 0.0 || d[1] != 0.0 || d[2] != 0.0;
   const bool rotates = d[3] != 0.0 || d[4] != 0.0 || d[5] != 0.0;
-  symbol.feature.turns = text.kind == FeatureKind::angle || (rotates && !shifts);
+  symbol.feature.turns =
+      text.kind == FeatureKind::angle || text.kind == FeatureKind::bearing || (rotates && !shifts);
   const std::optional<int> first = check_frame(context, text.first);
   const std::optional<int> second = check_frame(context, text.second);
   symbol.is_bad = text.is_bad || !first || !second;

@@ -1,6 +1,7 @@
 /// What the checks share, and the questions that all of them ask.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "check/check.hpp"
@@ -14,6 +15,8 @@ struct CheckContext {
   Symbols& symbols;
   Diagnostics& diagnostics;
   bool with_notes = false;
+  /// Of axes that yield: what they give way to. None where nothing is lowered.
+  std::map<const AxisText*, Condition>* yields = nullptr;
   bool of_truth = false;  ///< an expectation of a scenario: what the robot believes does not count
 };
 
@@ -55,6 +58,10 @@ void check_unfed_signals(CheckContext& context, const Scene& scene);
 /// Names of signals; what they are seen from is asked in `check_world`, once the frames are known.
 void declare_signals(CheckContext& context);
 void check_frames(CheckContext& context);
+/// Outputs: what they are set to at the start and at a stop. Behind features: names are one room.
+void check_outputs(CheckContext& context);
+/// Docks of the scene that an output holds shut: E301.
+void check_held_docks(CheckContext& context, const Scene& scene);
 /// Signals, regions and features: what they refer to.
 void check_world(CheckContext& context);
 void check_groups(CheckContext& context, const std::vector<GroupText>& groups);
@@ -79,6 +86,10 @@ void check_sets(CheckContext& context, const std::vector<SetText>& sets);
 std::optional<Condition> check_condition(CheckContext& context, const ConditionText& text,
                                          const std::vector<GroupText>& groups, Dimension* compared = nullptr,
                                          std::vector<Dimension>* of_nodes = nullptr);
+/// The same of an expression that has a value of the dimension `expected`; `what` names it in messages.
+std::optional<Condition> check_expression(CheckContext& context, const ConditionText& text,
+                                          const std::vector<GroupText>& groups, const std::string& what,
+                                          const Dimension& expected);
 /// As `check_value`, where a number signal may drive as well.
 bool check_driver_value(CheckContext& context, const ValueText& value, const Dimension& expected,
                         const std::string& what);

@@ -181,4 +181,9 @@ void gather_set_values(CheckContext& context) {
   }
 }
 
+std::string as_written(const ValueText& value) {
+  if (value.kind == ValueKind::parameter) return (value.sign < 0 ? "-$" : "$") + value.name;
+  return value.quantity.number + " " + value.quantity.unit;
+}
+
 }  // namespace zwang::lang

@@ -34,4 +34,7 @@ void require_order(CheckContext& context, const ValueText& low, const ValueText&
 /// What `set` may make of parameters that have no range. Asked once all are declared.
 void gather_set_values(CheckContext& context);
 
+/// `0.2 m/s`, `-$pace`: as the author wrote a quantity or a parameter.
+std::string as_written(const ValueText& value);
+
 }  // namespace zwang::lang

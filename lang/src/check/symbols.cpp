@@ -22,6 +22,7 @@ std::vector<std::string> names_of(const Items& items, const Name& name_of) {
 }
 
 const auto signal_name = [](const SignalSymbol& s) { return s.signal.name; };
+const auto output_name = [](const OutputSymbol& s) { return s.output.name; };
 const auto feature_name = [](const FeatureSymbol& s) { return s.feature.name; };
 const auto region_name = [](const RegionSymbol& s) { return s.region.name; };
 
@@ -52,6 +53,10 @@ std::optional<int> Symbols::find_signal(const std::string& name) const {
   return index_of(signals, name, signal_name);
 }
 
+std::optional<int> Symbols::find_output(const std::string& name) const {
+  return index_of(outputs, name, output_name);
+}
+
 std::optional<int> Symbols::find_feature(const std::string& name) const {
   return index_of(features, name, feature_name);
 }
@@ -62,6 +67,10 @@ std::optional<int> Symbols::find_region(const std::string& name) const {
 
 std::vector<std::string> Symbols::signal_names() const {
   return names_of(signals, signal_name);
+}
+
+std::vector<std::string> Symbols::output_names() const {
+  return names_of(outputs, output_name);
 }
 
 std::vector<std::string> Symbols::feature_names() const {

@@ -34,6 +34,13 @@ struct SignalSymbol {
   bool is_used = false;
 };
 
+struct OutputSymbol {
+  Output output;
+  Dimension dimension;  ///< of a number
+  bool is_bad = false;
+  bool is_used = false;
+};
+
 struct FeatureSymbol {
   Feature feature;
   bool is_bad = false;
@@ -50,6 +57,7 @@ struct Symbols {
   std::vector<ParameterSymbol> parameters;
   std::vector<FrameSymbol> frames;  ///< in the order of Program::frames
   std::vector<SignalSymbol> signals;
+  std::vector<OutputSymbol> outputs;
   std::vector<FeatureSymbol> features;
   std::vector<RegionSymbol> regions;
   std::vector<std::string> tasks;
@@ -63,9 +71,11 @@ struct Symbols {
   int signal_of(int frame) const;
   std::optional<int> find_task(const std::string& name) const;
   std::optional<int> find_signal(const std::string& name) const;
+  std::optional<int> find_output(const std::string& name) const;
   std::optional<int> find_feature(const std::string& name) const;
   std::optional<int> find_region(const std::string& name) const;
   std::vector<std::string> signal_names() const;
+  std::vector<std::string> output_names() const;
   std::vector<std::string> feature_names() const;
   std::vector<std::string> region_names() const;
   std::vector<std::string> parameter_names() const;

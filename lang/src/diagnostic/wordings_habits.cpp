@@ -44,6 +44,18 @@ Diagnostic named_items(const Span& span, const std::string& what, const std::str
                "its items have no names: write `- ` in the place of " + in_ticks(name + ":"));
 }
 
+Diagnostic body_and_group(const Span& span, const std::string& name) {
+  return error("E104", span, "template " + in_ticks(name) + " has both a `body` and a `group`",
+               "keep `body` for a task, or `group` for one group of its constraints");
+}
+
+Diagnostic template_of_another_part(const Span& span, const std::string& name, bool is_group) {
+  return error(
+      "E303", span,
+      "template " + in_ticks(name) + " is a " + (is_group ? "group, not a task" : "task, not a group"),
+      is_group ? "use it under `constraints`, for a group" : "use it under `tasks`, for a task");
+}
+
 Diagnostic argument_without_kind(const Span& span, const std::string& name) {
   return error("E104", span, "argument " + in_ticks(name) + " does not say what kind it is of",
                "write for example " + in_ticks(name + ": velocity") + " or " + in_ticks(name + ": task"));

@@ -20,6 +20,10 @@ Diagnostic vector_by_example(const Span& span, const std::string& what, const st
 /// `left: {..}` in the place of `- {..}`.
 Diagnostic named_items(const Span& span, const std::string& what, const std::string& name);
 /// Of a template's `args`.
+/// A template is a task or a group.
+Diagnostic body_and_group(const Span& span, const std::string& name);
+/// `is_group`: the template's, used for a task; else the other way around.
+Diagnostic template_of_another_part(const Span& span, const std::string& name, bool is_group);
 Diagnostic argument_without_kind(const Span& span, const std::string& name);
 /// Of a frame that is nowhere declared, and that a `set` names.
 Diagnostic frame_only_set(const Span& span, const std::string& name);

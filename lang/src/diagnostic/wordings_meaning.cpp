@@ -217,10 +217,8 @@ Diagnostic not_a_pose_signal(const Span& span, const std::string& name, const Sp
 Diagnostic incomparable_signal(const Span& span, const std::string& name, bool is_pose) {
   return error("E205", span,
                "signal `" + name + "` is a " + (is_pose ? "pose" : "wrench") + ": it has no single value",
-               is_pose
-                   ? "hang a frame on it, and measure that"
-                   : "declare the part that is compared as a signal of its own: `push: {type: number, unit: "
-                     "N, stale_after: 100 ms}`");
+               is_pose ? "hang a frame on it, and measure that"
+                       : "compare one of its parts, for example `" + name + ".x`");
 }
 
 Diagnostic unit_without_number(const Span& span, const std::string& name) {
@@ -237,7 +235,7 @@ Diagnostic flat_region(const Span& span, const std::string& what) {
 }
 
 Diagnostic one_feature_kind(const Span& span, const std::string& what) {
-  return error("E104", span, what + " needs exactly one of `distance`, `angle`, `direction`");
+  return error("E104", span, what + " needs exactly one of `distance`, `angle`, `bearing`, `direction`");
 }
 
 Diagnostic not_an_axis_of_a_frame(const Span& span, const std::string& text) {

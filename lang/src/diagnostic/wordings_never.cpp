@@ -185,8 +185,13 @@ Diagnostic never_reached(const Span& span, const Unreached& u, const Span& limit
   std::string help = "`force: +-" + figure(u.pressed, unit.force) + "` says what it makes";
   if (u.enough > 0.0) help += ", `time_constant: " + figure(u.enough, "s") + "` makes more of it";
   if (u.velocity != 0.0 && !limit.exists()) {
-    help += "; to press harder write `force: " + figure(std::copysign(u.bound, u.velocity), unit.force) +
-            ", velocity: +-" + figure(std::abs(u.velocity), unit.speed) + "`";
+    // q grows with v/t, and a blocked driver presses with m (v + q)/T.
+    const double t = 4.0 * u.time_constant;
+    const double after = t * (u.bound / u.pressed - 1.0);
+    help += "; to press harder write `build_up: " + (t < 1.0 ? figure(t * 1e3, "ms") : figure(t, "s")) +
+            "` (" + figure(u.bound, unit.force) + " after " + figure(after, "s") +
+            "), or `force: " + figure(std::copysign(u.bound, u.velocity), unit.force) + ", velocity: +-" +
+            figure(std::abs(u.velocity), unit.speed) + "`";
   } else if (limit.exists()) {
     help +=
         "; to press harder allow an acceleration of `" + figure(u.bound / u.mass, unit.acceleration) + "`";

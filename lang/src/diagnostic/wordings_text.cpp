@@ -307,7 +307,7 @@ Diagnostic bare_timeout(const Span& span, const std::string& text) {
 
 Diagnostic bad_set(const Span& span, const std::string& key) {
   return error("E105", span, in_ticks(key) + " cannot be set",
-               "write `frames.NAME: frame` or `params.NAME: value`");
+               "write `frames.NAME: frame`, `params.NAME: value` or `outputs.NAME: value`");
 }
 
 Diagnostic yaw_and_rpy(const Span& span, const std::string& what, const Span& yaw) {

@@ -6,7 +6,7 @@
 
 #include "edit/schema_walk.hpp"
 #include "edit/units_that_fit.hpp"
-#include "spec/expression.hpp"
+#include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
 
@@ -71,7 +71,8 @@ class Proposer {
   bool is_behind_dollar() const { return before().ends_with('$'); }
 
   bool is_condition() const {
-    return is_one_of(key_, {"when", "require", "that"}) || (kind_ == FileKind::scenario && key_ == "always");
+    return is_one_of(key_, {"when", "require", "that", "yield"}) ||
+           (kind_ == FileKind::scenario && key_ == "always");
   }
 
   void add(const std::string& text, ProposalKind kind, const std::string& about) {
@@ -103,7 +104,7 @@ class Proposer {
   }
 
   void add_by_key() {
-    if (is_one_of(key_, {"move", "in", "parent", "holds", "distance", "angle"})) add_frames();
+    if (is_one_of(key_, {"move", "in", "parent", "holds", "distance", "angle", "bearing"})) add_frames();
     if (key_ == "parent") add_names(NameKind::signal);
     if (key_ == "move" && !place_.keys.empty()) add("footprint", ProposalKind::word, "with `inside`");
     if (is_one_of(key_, {"goto", "start"})) add_names(NameKind::task);
@@ -116,13 +117,31 @@ class Proposer {
     if (is_below("set")) add_frames();
     if (is_below("with")) {
       add_frames();
-      for (const NameKind kind : {NameKind::task, NameKind::region, NameKind::signal}) add_names(kind);
+      for (const NameKind kind : {NameKind::task, NameKind::region, NameKind::signal, NameKind::feature})
+        add_names(kind);
     }
     if (is_one_of(key_, {"pose_of", "distance_to", "force_on", "latch"})) add_names(NameKind::object);
   }
 
   bool is_below(const char* key) const {
     return place_.keys.size() > 1 && place_.keys[place_.keys.size() - 2] == key;
+  }
+
+  /// What the function in front of the parenthesis takes.
+  void add_argument_of(std::string_view text) {
+    text.remove_suffix(1);
+    std::size_t begin = text.size();
+    while (begin > 0 && std::isalpha(static_cast<unsigned char>(text[begin - 1])) != 0) --begin;
+    const ConditionFunction* function = find_function(text.substr(begin));
+    if (function == nullptr || function->argument == FunctionArgument::number) {
+      for (const NameKind kind : {NameKind::group, NameKind::signal, NameKind::feature}) add_names(kind);
+    } else if (function->argument == FunctionArgument::task) {
+      add_names(NameKind::task);
+    } else if (function->argument == FunctionArgument::signal) {
+      add_names(NameKind::signal);
+    } else {
+      add_frames();
+    }
   }
 
   /// `contact.x.velocity`: what can follow each point.
@@ -139,10 +158,12 @@ class Proposer {
         add(what, ProposalKind::word, "");
       return;
     }
-    for (const NameKind kind : {NameKind::group, NameKind::signal, NameKind::feature}) add_names(kind);
-    if (text.ends_with('(')) return add_frames();
+    if (text.ends_with('(')) return add_argument_of(text);
+    for (const NameKind kind : {NameKind::group, NameKind::signal, NameKind::output, NameKind::feature})
+      add_names(kind);
     add("elapsed", ProposalKind::word, "time since the task was entered");
-    for (const std::string& function : function_names()) add(function, ProposalKind::function, "");
+    for (const ConditionFunction& function : condition_functions())
+      add(std::string(function.name), ProposalKind::function, std::string(function.of));
     for (const char* word : {"and", "or", "not"}) add(word, ProposalKind::word, "");
   }
 

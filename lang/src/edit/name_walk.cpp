@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "zwang/lang/condition_function.hpp"
+
 namespace zwang::lang {
 
 namespace {
@@ -64,11 +66,21 @@ std::optional<Span> NameWalk::span_of(const Node& scalar, std::size_t begin, std
   return Span{document_.source, positions[begin], positions[end]};
 }
 
+/// What a word may name, in the parenthesis of a function or outside of any.
+std::vector<NameKind> kinds_in(const ConditionFunction* called) {
+  if (called != nullptr && called->argument == FunctionArgument::task) return {NameKind::task};
+  if (called != nullptr && called->argument == FunctionArgument::signal) return {NameKind::signal};
+  if (called != nullptr && called->argument == FunctionArgument::frame) return {NameKind::frame};
+  return {NameKind::group,   NameKind::signal, NameKind::output,
+          NameKind::feature, NameKind::frame,  NameKind::object};
+}
+
 /// The first word of each path of words, and what the functions take. A word behind a number is its unit.
 void NameWalk::mean_condition(const Node& scalar, const std::string& scope) {
   if (!scalar.is_scalar()) return;
   const std::string& text = scalar.text;
   bool is_behind_number = false;
+  const ConditionFunction* called = nullptr;  // in whose parenthesis the next word stands
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
     if (is_digit(c) || c == '.') {
@@ -80,10 +92,10 @@ void NameWalk::mean_condition(const Node& scalar, const std::string& scope) {
       at = std::max(end, at + 1);
     } else if (is_word_start(c)) {
       const std::size_t end = end_of_word(text, at);
-      if (!is_behind_number)
-        mean_part(scalar, at, end,
-                  {NameKind::group, NameKind::signal, NameKind::feature, NameKind::frame, NameKind::object},
-                  scope);
+      const ConditionFunction* call =
+          end < text.size() && text[end] == '(' ? find_function(text.substr(at, end - at)) : nullptr;
+      if (!is_behind_number && call == nullptr) mean_part(scalar, at, end, kinds_in(called), scope);
+      called = call;
       at = end;
       while (at < text.size() && (is_word_part(text[at]) || text[at] == '.')) ++at;  // `.x.velocity`
     } else {
@@ -145,8 +157,9 @@ void NameWalk::walk_task_file(const Node& root) {
 }
 
 void NameWalk::walk_declarations(const Node& root) {
-  constexpr std::array<std::pair<const char*, NameKind>, 7> sections = {
+  constexpr std::array<std::pair<const char*, NameKind>, 8> sections = {
       {{"params", NameKind::parameter},
+       {"outputs", NameKind::output},
        {"frames", NameKind::frame},
        {"regions", NameKind::region},
        {"signals", NameKind::signal},
@@ -171,7 +184,9 @@ void NameWalk::walk_frames(const Node& root) {
 
 void NameWalk::walk_features(const Node& features) {
   for (const Entry& feature : features.entries) {
-    for (const Node& frame : below(feature.value, "distance").items) mean(frame, {NameKind::frame});
+    for (const char* key : {"distance", "bearing"}) {
+      for (const Node& frame : below(feature.value, key).items) mean(frame, {NameKind::frame});
+    }
     for (const Node& axis : below(feature.value, "angle").items)
       mean_part(axis, 0, length_of_first(axis.text), {NameKind::frame});
     const Node& direction = below(feature.value, "direction");
@@ -185,6 +200,8 @@ void NameWalk::walk_templates(const Node& templates) {
     for (const Entry& argument : below(entry.value, "args").entries)
       give(argument.key, NameKind::argument, scope);
     walk_task(below(entry.value, "body"), scope);
+    mean_parameters(below(entry.value, "group"), scope);
+    walk_group(below(entry.value, "group"), scope);
   }
 }
 
@@ -219,10 +236,13 @@ void NameWalk::walk_groups(const Node& groups, const std::string& scope) {
 }
 
 void NameWalk::walk_group(const Node& group, const std::string& scope) {
+  walk_use(group);
   const Kinds frames{NameKind::frame, NameKind::signal};
   for (const char* key : {"move", "in"}) mean(below(group, key), frames);
   mean(below(group, "inside"), {NameKind::region});
   mean(below(group, "feature"), {NameKind::feature});
+  mean_condition(below(group, "yield"), scope);
+  for (const Entry& axis : group.entries) mean_condition(below(axis.value, "yield"), scope);
   for (const char* quantity : {"position", "velocity", "acceleration", "force"}) {
     mean(below(group, quantity), {NameKind::signal}, scope);
     for (const Entry& axis : group.entries) mean(below(axis.value, quantity), {NameKind::signal}, scope);
@@ -242,6 +262,7 @@ void NameWalk::walk_set(const Node& set, const std::string& scope) {
   for (const Entry& action : set.entries) {
     mean_key_part(action.key, "frames.", NameKind::frame);
     mean_key_part(action.key, "params.", NameKind::parameter);
+    mean_key_part(action.key, "outputs.", NameKind::output);
     mean(action.value, {NameKind::frame}, scope);
   }
 }

@@ -54,8 +54,8 @@ std::optional<Document> document_of(const fs::path& path, Diagnostics& diagnosti
 }  // namespace
 
 const char* word_of(NameKind kind) {
-  static constexpr std::array words{"task",   "template", "argument", "parameter", "frame",        "signal",
-                                    "region", "feature",  "group",    "object",    "set of faults"};
+  static constexpr std::array words{"task",   "template", "argument", "parameter", "frame",         "signal",
+                                    "region", "feature",  "group",    "object",    "set of faults", "output"};
   return words[static_cast<std::size_t>(kind)];
 }
 

@@ -254,6 +254,36 @@ a norm has no direction to drive in, and nothing keeps it up.)~",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.1 m/s}\nplane: {velocity: 0.5 m/s}",
           .instead = "x: {velocity: 0.1 m/s}\nplane: {velocity: [0 m/s, 0.5 m/s]}"},
+      Explanation{
+          .code = "E417",
+          .title = "a yield that rings in any hand",
+          .why =
+              R"~(The driver makes the robot feel like a much lighter body, and it knows the force late. Something that
+holds it with less than 1 kN/m already sets it swinging: a hand is stiffer than that.)~",
+          .fix = "Write the mass of the message. W618 is the same, of a yield that a soft hand holds.",
+          .part = ExcerptOf::group,
+          .example = "x: {yield: estimated.force.x, mass: 2 kg, damping: 5 N s/m}",
+          .instead = "x: {yield: estimated.force.x, mass: 60 kg, damping: 80 N s/m}"},
+      Explanation{
+          .code = "E418",
+          .title = "an output without a stop",
+          .why =
+              R"~(A robot that stops lets go of what it holds, or keeps it: nobody but you knows which is safe. A
+gripper with a load should stay shut, a magnet of a door should open.)~",
+          .fix = "Say `stop: keep`, or the value that is safe.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(outputs:
+  gripper: {type: bool}
+tasks:
+  go:
+    enter: {set: {outputs.gripper: true}}
+    timeout: {after: 1 s, goto: done})~",
+          .instead = R"~(outputs:
+  gripper: {type: bool, stop: keep}
+tasks:
+  go:
+    enter: {set: {outputs.gripper: true}}
+    timeout: {after: 1 s, goto: done})~"},
   };
   return entries;
 }

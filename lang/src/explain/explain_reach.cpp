@@ -147,6 +147,41 @@ that holds it up for ever.)~",
           .example = "x: {velocity: 0.05 m/s, force: +-20 N}",
           .instead = "x: {force: 20 N, velocity: +-0.05 m/s}"},
       Explanation{
+          .code = "N616",
+          .title = "a target that is trailed",
+          .why =
+              R"~(A pose signal is taken to stand between two samples, and a position driver damps its motion against
+axes that stand. So it follows a target that goes on at v by 2 T v late.)~",
+          .fix = "Give the signal a `twist`: then its frame goes on between two samples, and velocities count against it.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(signals:
+  guide: {type: pose, in: base_link, stale_after: 600 ms}
+frames: {person: {parent: guide}}
+tasks:
+  go:
+    constraints:
+      gap: {move: base_link, in: person, x: {position: -0.9 m, velocity: +-0.6 m/s}}
+    timeout: {after: 60 s, goto: done})~",
+          .instead = R"~(signals:
+  guide: {type: pose, in: base_link, stale_after: 600 ms, twist: 0.5 s}
+frames: {person: {parent: guide}}
+tasks:
+  go:
+    constraints:
+      gap: {move: base_link, in: person, x: {position: -0.9 m, velocity: +-0.6 m/s}}
+    timeout: {after: 60 s, goto: done})~"},
+      Explanation{
+          .code = "W618",
+          .title = "a yield that rings when it is held",
+          .why =
+              R"~(The driver makes the robot feel lighter than it is, and it knows the force late: by 20 ms if it is
+estimated. Something that holds it more stiffly than the message says makes the two swing against each
+other. A clamp has 100 kN/m.)~",
+          .fix = "Write the mass of the message: with that it holds still in any hand.",
+          .part = ExcerptOf::group,
+          .example = "x: {yield: estimated.force.x, mass: 8 kg, damping: 80 N s/m}",
+          .instead = "x: {yield: estimated.force.x, mass: 60 kg, damping: 80 N s/m}"},
+      Explanation{
           .code = "N619",
           .title = "what an acceleration limit leaves of a force range",
           .why =

@@ -27,6 +27,7 @@ class Lowering {
       const std::optional<ValueText>& age = checked_.file.signals[i].stale_after;
       if (age) program.signals[i].stale_after = value(*age);
     }
+    for (const OutputSymbol& symbol : checked_.symbols.outputs) program.outputs.push_back(symbol.output);
     for (const RegionSymbol& symbol : checked_.symbols.regions) program.regions.push_back(symbol.region);
     for (const FeatureSymbol& symbol : checked_.symbols.features) program.features.push_back(symbol.feature);
     for (const GroupText& group : checked_.file.always_groups) {
@@ -91,14 +92,27 @@ class Lowering {
     const std::optional<ValueText>& time_constant =
         text.time_constant ? text.time_constant : group.time_constant;
     if (time_constant) axis.time_constant = value(*time_constant);
-    if (text.stiffness) axis.stiffness = value(*text.stiffness);
-    if (text.damping) axis.damping = value(*text.damping);
+    if (text.yield) {
+      lower_yield(text, axis);
+    } else {
+      if (text.stiffness) axis.stiffness = value(*text.stiffness);
+      if (text.damping) axis.damping = value(*text.damping);
+    }
+    if (text.build_up) axis.build_up = value(*text.build_up);
     const std::optional<ValueText>& weight = text.weight ? text.weight : group.weight;
     if (weight) axis.weight = value(*weight);
     const std::optional<ValueText>& return_speed = text.return_speed ? text.return_speed : group.return_speed;
     if (return_speed) axis.return_speed = value(*return_speed);
     axis.level = text.level.value_or(group.level.value_or(level));
     return axis;
+  }
+
+  void lower_yield(const AxisText& text, AxisStatements& axis) {
+    Yield yield{checked_.yields.at(&text), value(*text.mass), value(*text.damping), {}};
+    if (text.dead_band) yield.dead_band = value(*text.dead_band);
+    axis.yield = std::move(yield);
+    axis.driver = Quantity::acceleration;
+    axis.statement_spans[static_cast<std::size_t>(Quantity::acceleration)] = text.yield_span;
   }
 
   /// `level` is where rows stand that say nothing of it.
@@ -134,14 +148,26 @@ class Lowering {
     for (const SetText& text : texts) {
       SetAction set;
       set.span = text.span;
-      set.sets_frame = text.kind == SetKind::frame;
-      if (set.sets_frame) {
-        set.index = *checked_.symbols.find_frame(text.name.text);
-        set.source = *checked_.symbols.find_frame(text.source.text);
-      } else {
-        const ParameterSymbol* symbol = checked_.symbols.find_parameter(text.name.text);
-        set.index = static_cast<int>(symbol - checked_.symbols.parameters.data());
-        set.value = value(text.value);
+      set.kind = text.kind;
+      switch (text.kind) {
+        case SetKind::frame:
+          set.index = *checked_.symbols.find_frame(text.name.text);
+          set.source = *checked_.symbols.find_frame(text.source.text);
+          break;
+        case SetKind::parameter: {
+          const ParameterSymbol* symbol = checked_.symbols.find_parameter(text.name.text);
+          set.index = static_cast<int>(symbol - checked_.symbols.parameters.data());
+          set.value = value(text.value);
+          break;
+        }
+        case SetKind::output: {
+          set.index = *checked_.symbols.find_output(text.name.text);
+          const bool is_number =
+              checked_.symbols.outputs[static_cast<std::size_t>(set.index)].output.is_number;
+          set.value =
+              is_number ? value(text.value) : Value{.constant = text.value.name == "true" ? 1.0 : 0.0};
+          break;
+        }
       }
       sets.push_back(set);
     }

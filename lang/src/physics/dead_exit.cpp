@@ -16,6 +16,7 @@
 #include "check/endings.hpp"
 #include "diagnostic/wordings_never.hpp"
 #include "physics/questions.hpp"
+#include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
 
@@ -101,10 +102,9 @@ class ExitQuestion {
     switch (node.op) {
       case Op::elapsed:
         return {{0.0, latest_.time}, latest_.by, latest_.span, true};
-      case Op::speed:
-        return known_speed(node);
-      case Op::moved:
-        return known_way(node);
+      case Op::of_frame:
+        if (calls(node, "speed")) return known_speed(node);
+        return calls(node, "moved") ? known_way(node) : Known{};
       case Op::coordinate:
         return known_coordinate(node);
       case Op::feature:
@@ -223,14 +223,10 @@ class ExitQuestion {
   }
 
   std::string name_of(const ExpressionNode& node) const {
-    const auto frame = [&] {
-      return context_.symbols.frames[static_cast<std::size_t>(node.index)].declaration.name;
-    };
     switch (node.op) {
-      case Op::speed:
-        return "speed(" + frame() + ")";
-      case Op::moved:
-        return "moved(" + frame() + ")";
+      case Op::of_frame:
+        return std::string(function_of(node).name) + "(" +
+               context_.symbols.frames[static_cast<std::size_t>(node.index)].declaration.name + ")";
       case Op::feature:
         return context_.symbols.features[static_cast<std::size_t>(node.index)].feature.name;
       case Op::coordinate:
@@ -249,8 +245,10 @@ class ExitQuestion {
 
   std::string unit_of(const ExpressionNode& node) const {
     if (node.op == Op::elapsed) return "s";
-    if (node.op == Op::moved) return "m";
-    if (node.op == Op::speed) return "m/s";
+    if (node.op == Op::of_frame) {
+      const auto& powers = function_of(node).powers;
+      return usual_unit({powers[0], powers[1], powers[2], powers[3]});
+    }
     if (node.op == Op::feature)
       return context_.symbols.features[static_cast<std::size_t>(node.index)].feature.turns ? "rad" : "m";
     const PlannedAxis* axis = axis_of(node);

@@ -128,8 +128,9 @@ void ask_without_range(const CheckContext& context, const PlannedTask& plan, con
 
 void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {
-    const bool is_asked =
-        axis.drives_motion() && axis.text != nullptr && !axis.is_soft && axis.time_constant > 0.0;
+    // What builds up reaches its range in time.
+    const bool is_asked = axis.drives_motion() && axis.text != nullptr && !axis.is_soft &&
+                          axis.time_constant > 0.0 && !axis.text->build_up;
     const std::optional<Demand> demand = is_asked ? demand_of(axis) : std::nullopt;
     const AxisFigures* figures = demand && demand->b != 0.0 ? probe.figures(axis) : nullptr;
     if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;

@@ -83,11 +83,13 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_springs(plan, probe, remarks);
   ask_dead_guard(context, plan, probe, remarks);
   ask_time_constant(plan, probe, remarks);
+  ask_yields(context, plan, asked.scene, probe, remarks);
   ask_wheel_torque(plan, probe, remarks);
   ask_boundary(context, plan, probe, remarks);
   ask_tipping(plan, asked.scene, probe, remarks);
   ask_traction(plan, asked.scene, probe, remarks);
   if (!context.with_notes) return;
+  ask_trailing(context, plan, remarks);
   ask_hit(plan, asked.scene, probe, remarks);
   ask_force_budget(plan, probe, remarks);
 }

@@ -65,7 +65,12 @@ bool read_statements(const CheckContext& context, const AxisText& text, PlannedA
     const bool is_open = statement->value.kind == ValueKind::here || statement->value.kind == ValueKind::name;
     if (!axis.target && !is_open) return false;
   }
-  return true;
+  if (!text.yield) return true;
+  if (axis.driver) return false;
+  axis.driver = Quantity::acceleration;
+  axis.is_yield = true;
+  axis.spans[static_cast<std::size_t>(Quantity::acceleration)] = text.yield_span;
+  return !text.yield->is_bad;
 }
 
 void stand_between(PlannedAxis& axis, const Place& move, const Place& in) {
@@ -97,7 +102,10 @@ bool measure_feature(const CheckContext& context, const GroupText& group, Planne
   const Feature& feature = context.symbols.features[static_cast<std::size_t>(*index)].feature;
   Place move = place_of(context, feature.first);
   Place in = place_of(context, feature.second);
-  if (feature.kind == FeatureKind::direction) {
+  if (feature.kind == FeatureKind::bearing) {
+    axis.axis = solver::Axis::rz;
+    axis.measure = solver::Measure::bearing;
+  } else if (feature.kind == FeatureKind::direction) {
     axis.axis = feature.turns ? solver::Axis::rz : solver::Axis::x;
     axis.measure = solver::Measure::direction;
     axis.coefficients = feature.direction;
@@ -141,9 +149,18 @@ std::optional<PlannedAxis> plan_axis(const CheckContext& context, const GroupTex
   axis.time_constant_span = tau ? tau->span : text.name.span;
   axis.level = text.level.value_or(group.level.value_or(in_always ? 0 : 1));
   axis.is_soft = text.weight || group.weight;
-  axis.is_spring = text.stiffness || text.damping;
+  const bool turns = axis.turns();
+  axis.is_spring = !axis.is_yield && (text.stiffness || text.damping);
+  if (text.build_up) {
+    axis.build_up = known(context, *text.build_up, dimension::time);
+    axis.build_up_span = text.build_up->span;
+  }
+  if (axis.is_yield && text.mass && text.damping) {
+    axis.yield_mass = known(context, *text.mass, turns ? dimension::inertia : dimension::mass);
+    axis.yield_mass_span = text.mass->span;
+    axis.damping = known(context, *text.damping, turns ? dimension::angular_damping : dimension::damping);
+  }
   if (text.stiffness && text.damping) {
-    const bool turns = axis.turns();
     axis.stiffness =
         known(context, *text.stiffness, turns ? dimension::angular_stiffness : dimension::stiffness);
     axis.damping = known(context, *text.damping, turns ? dimension::angular_damping : dimension::damping);

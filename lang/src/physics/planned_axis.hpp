@@ -45,6 +45,11 @@ struct PlannedAxis {
   bool is_spring = false;                    ///< has stiffness and damping: pushes, and holds no motion
   std::optional<double> stiffness, damping;  ///< of a spring, at the start
   Span stiffness_span, damping_span;
+  bool is_yield = false;             ///< gives way to a force; its driver is an acceleration
+  std::optional<double> yield_mass;  ///< M at the start
+  Span yield_mass_span;
+  std::optional<double> build_up;  ///< [s] at the start
+  Span build_up_span;
 
   const std::optional<solver::Range>& operator[](solver::Quantity q) const {
     return ranges[static_cast<std::size_t>(q)];
@@ -53,7 +58,9 @@ struct PlannedAxis {
   const Span& driver_span() const { return span(*driver); }
   bool drives_motion() const { return driver && *driver != solver::Quantity::force && !is_spring; }
   bool stands_still() const { return driver == solver::Quantity::velocity && target == 0.0; }
-  bool turns() const { return measure == solver::Measure::angle || is_rotation(axis); }
+  bool turns() const {
+    return measure == solver::Measure::angle || measure == solver::Measure::bearing || is_rotation(axis);
+  }
   bool is_feature() const { return measure != solver::Measure::axis; }
   /// A way of the base along axes that do not turn with it: nobody knows how it will head to them by then.
   bool is_headed_anyhow() const {

@@ -38,9 +38,15 @@ solver::AxisConstraint in_plane(solver::AxisConstraint constraint, double angle)
   return constraint;
 }
 
-/// Two points that coincide, and two axes that are parallel, have no direction between them.
+/// Two points that coincide, and two axes that are parallel, have no direction between them; nor has what
+/// stands on the axis of who looks.
 bool has_direction(const solver::AxisConstraint& constraint, const solver::Model& model,
                    const solver::State& state) {
+  if (constraint.measure == solver::Measure::bearing) {
+    const solver::Pose eye = solver::motion_of(constraint.move, model, state).pose;
+    const solver::Vector3 seen = solver::motion_of(constraint.in, model, state).pose.position;
+    return (eye.rotation.transpose() * (seen - eye.position)).head<2>().norm() >= solver::nearest_bearing;
+  }
   const double s = solver::coordinate_of(constraint, model, state).position;
   if (constraint.measure == solver::Measure::distance) return s > 1e-6;
   return constraint.measure != solver::Measure::angle || std::sin(s) > 1e-6;
@@ -193,7 +199,9 @@ bool Probe::look_around(const PlannedAxis& axis, const solver::State& state, std
 bool Probe::look_everywhere(const PlannedAxis& axis, Looks& looks) {
   const solver::AxisConstraint constraint = constraint_of(axis, 1.0);
   // Axes that a signal will turn are looked at as if they lay like the world's.
-  const bool is_known = axis.is_placed || !(axis.is_open() || axis.measure == solver::Measure::angle);
+  const bool hangs_on_place =
+      axis.is_open() || axis.measure == solver::Measure::angle || axis.measure == solver::Measure::bearing;
+  const bool is_known = axis.is_placed || !hangs_on_place;
   for (const solver::State& state : states_) {
     const bool has_one = is_known && has_direction(constraint, robot_.model, state);
     if (has_one && !look(constraint, state, looks.all)) return false;
@@ -207,6 +215,7 @@ bool Probe::look_everywhere(const PlannedAxis& axis, Looks& looks) {
   looks.figures = summary(axis, looks.all);
   std::vector<Look> elsewhere;
   for (std::size_t i = 0; axis.in_world && !looks.figures.is_reachable && i < general_.size(); ++i) {
+    if (!has_direction(constraint, robot_.model, general_[i])) continue;
     if (!look(constraint, general_[i], elsewhere)) return false;
     const solver::AxisAnalysis one = usable(elsewhere.back().analysis);
     looks.figures.is_reachable = one.reachable;

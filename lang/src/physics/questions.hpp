@@ -58,6 +58,11 @@ void ask_plane(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 void ask_springs(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W604: time constants too short for the braking, or for the tick.
 void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W618, E417: yields that ring when a hand holds them stiffly.
+void ask_yields(const CheckContext& context, const PlannedTask& plan, const std::optional<Scene>& scene,
+                Probe& probe, Remarks& remarks);
+/// N616: targets on a pose signal that are trailed.
+void ask_trailing(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
 /// N605: what other rows may add along a limited direction.
 void ask_force_budget(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W606: drivers beyond the motors.

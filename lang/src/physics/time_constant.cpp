@@ -21,6 +21,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "diagnostic/wordings_forces.hpp"
 #include "diagnostic/wordings_physics.hpp"
 #include "physics/questions.hpp"
 
@@ -34,6 +35,15 @@ void ask_tick(const PlannedAxis& axis, double dt, Remarks& remarks) {
   if (axis.time_constant >= least) return;
   remarks.add(
       wording::faster_than_the_tick(axis.time_constant_span, axis.path, axis.time_constant, dt, least));
+}
+
+/// With z = 1/T, s^2 + z s + z/t = 0 of a velocity has real roots from t = 4 T on, and
+/// s^3 + 2 z s^2 + z^2 s + z^2/t = 0 of a position from t = 6.75 T on.
+void ask_build_up(const PlannedAxis& axis, Remarks& remarks) {
+  if (!axis.build_up || !axis.driver) return;
+  const double least = (axis.driver == solver::Quantity::position ? 8.0 : 4.0) * axis.time_constant;
+  if (*axis.build_up < least)
+    remarks.add(wording::builds_up_too_fast(axis.build_up_span, axis.path, axis.time_constant, least));
 }
 
 void ask_braking(const PlannedTask& plan, const PlannedAxis& axis, Probe& probe, Remarks& remarks) {
@@ -80,6 +90,7 @@ void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks) 
   for (const PlannedAxis& axis : plan.axes) {
     if (axis.is_spring) ask_spring(axis, probe, remarks);
     if (!axis.drives_motion() || !(axis.time_constant > 0.0)) continue;
+    ask_build_up(axis, remarks);
     ask_tick(axis, probe.robot().control_period, remarks);
     ask_braking(plan, axis, probe, remarks);
   }

@@ -61,6 +61,12 @@ Symbols truth_symbols(const Program& program) {
     for (const TruthQuantity& quantity : of_object) declare(symbols, prefix, quantity);
     for (const TruthQuantity& quantity : of_robot) declare(symbols, prefix, quantity);
   }
+  for (const Output& output : program.outputs) {
+    std::string unknown;
+    const auto unit = parse_unit(output.unit, unknown);
+    declare(symbols, "truth.output.", {output.name.c_str(), unit ? unit->dimension : dimension::none});
+    if (!output.is_number) symbols.signals.back().signal.type = SignalType::boolean;
+  }
   for (const Region& region : program.regions)
     declare(symbols, "truth.base.inside.", {region.name.c_str(), dimension::length});
   for (const Task& task : program.tasks)
@@ -69,6 +75,7 @@ Symbols truth_symbols(const Program& program) {
 }
 
 void declare_program(const Program& program, Symbols& symbols) {
+  for (const Task& task : program.tasks) symbols.tasks.push_back(task.name);
   for (const Parameter& parameter : program.parameters) {
     ParameterSymbol symbol;
     symbol.parameter = parameter;

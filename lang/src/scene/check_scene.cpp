@@ -26,6 +26,17 @@ void check_hook(const std::optional<Dock>& dock, const Robot& robot, Diagnostics
   diagnostics.add(wording::unknown_hook(dock->hook_span, dock->hook, nearest(dock->hook, frames)));
 }
 
+/// A hand presses on the base alone.
+void check_push(const ScenePush& push, const Robot& robot, Diagnostics& diagnostics) {
+  if (push.frame.empty()) return;
+  std::vector<std::string> of_base;
+  for (const solver::Frame& frame : robot.model.frames()) {
+    if (frame.body == 0) of_base.push_back(frame.name);
+  }
+  if (std::find(of_base.begin(), of_base.end(), push.frame) != of_base.end()) return;
+  diagnostics.add(wording::unknown_name(push.frame_span, "frame of the base", push.frame, of_base));
+}
+
 /// Names of the joints that a motor turns.
 std::vector<std::string> motors_of(const solver::Model& model) {
   std::vector<std::string> names;
@@ -101,6 +112,7 @@ void check_scene_for(const Scene& scene, const Robot& robot, Diagnostics& diagno
   check_rollers(scene, robot, diagnostics);
   for (const SceneObject& object : scene.objects) check_hook(object.dock, robot, diagnostics);
   for (const SceneRobot& other : scene.robots) check_hook(other.dock, robot, diagnostics);
+  for (const ScenePush& push : scene.pushes) check_push(push, robot, diagnostics);
   check_faults_for(scene.faults, robot, diagnostics);
   check_start(scene, robot, diagnostics);
 }

@@ -64,9 +64,10 @@ class StartCheck {
       c.axis = feature.first_axis;
       c.other_axis = feature.second_axis;
       c.coefficients = feature.direction;
-      c.measure = feature.kind == FeatureKind::distance ? solver::Measure::distance
-                  : feature.kind == FeatureKind::angle  ? solver::Measure::angle
-                                                        : solver::Measure::direction;
+      c.measure = feature.kind == FeatureKind::distance  ? solver::Measure::distance
+                  : feature.kind == FeatureKind::angle   ? solver::Measure::angle
+                  : feature.kind == FeatureKind::bearing ? solver::Measure::bearing
+                                                         : solver::Measure::direction;
     }
     const auto moved = attached(move), axes = attached(in);
     if (!moved || !axes) return;

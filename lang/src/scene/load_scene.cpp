@@ -288,6 +288,7 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
   // The plant's truth only where the scene says so.
   scene.state.wheels_only = scene.state.wheels_only || state == nullptr;
   if (const Node* node = map.optional("faults")) scene.faults = parse_faults(*node, diagnostics);
+  if (const Node* node = map.optional("pushes")) scene.pushes = parse_pushes(*node, diagnostics);
   map.finish();
   return scene;
 }

@@ -223,6 +223,10 @@ std::optional<Dock> parse_dock(const Node& node, const std::string& what, Diagno
     dock.hook = parse_word(*hook, "`hook`", diagnostics).text;
     dock.hook_span = hook->span;
   }
+  if (const Node* held = map.optional("held_while")) {
+    dock.held_while = parse_word(*held, "`held_while`", diagnostics).text;
+    dock.held_while_span = held->span;
+  }
   map.finish();
   return dock;
 }

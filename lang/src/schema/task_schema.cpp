@@ -43,7 +43,14 @@ std::vector<Property> statements() {
       {"force", statement("a single value drives with this force; a range beside a driver of motion limits "
                           "the force that it spends")},
       {"stiffness", reference("value", "with `damping`: a position driver becomes a spring")},
-      {"damping", reference("value", "with `stiffness`")},
+      {"damping", reference("value", "with `stiffness` or `yield`")},
+      {"yield",
+       word("drives: gives way to this force like a mass with a damper; `felt.x`, `estimated.force.x`")},
+      {"mass", reference("value", "with `yield`: the mass that it feels like")},
+      {"dead_band", reference("value", "with `yield`: a force below moves nothing; default 0")},
+      {"build_up", reference("value",
+                             "of a position or a velocity: the time in which its error is added once "
+                             "more, until it is gone")},
       way_back()};
   for (Property& property : manner()) properties.push_back(std::move(property));
   return properties;
@@ -52,6 +59,15 @@ std::vector<Property> statements() {
 Json axis() {
   return any_of({one_of_words("no statement; conditions can measure the axis", {"free"}),
                  filled(object("a single value drives, a range limits", statements()))});
+}
+
+/// Its further keys replace those of the template: they may be those of any group.
+Json group_use() {
+  Json use = object("a template's group; further keys replace the template's",
+                    {{"use", word("the name of a template with a `group`"), true},
+                     {"with", named("its arguments", any_of({reference("value"), word("a name")}))}});
+  use.erase("additionalProperties");
+  return use;
 }
 
 Json group() {
@@ -77,13 +93,29 @@ Json group() {
                          {"margin", reference("value", "the distance kept from the border")},
                          way_back(),
                          {"level", Json{{"type", "integer"}, {"minimum", 0}, {"maximum", 9}}}}),
-                 object("statements about a feature", std::move(feature))});
+                 object("statements about a feature", std::move(feature)), group_use()});
+}
+
+/// A truth value is one of YAML's own.
+Json output_value() {
+  return any_of({Json{{"type", "boolean"}}, reference("value")});
+}
+
+Json outputs() {
+  return named(
+      "what tasks set beside motion: a gripper, a lamp",
+      object("", {{"type", one_of_words("", {"bool", "number"}), true},
+                  {"unit", word("of a number")},
+                  {"start", output_value()},
+                  {"stop", any_of({one_of_words("it stays what it is", {"keep"}), output_value()}), true}}));
 }
 
 Json set() {
-  Json schema = {{"type", "object"}, {"description", "frames.NAME: frame, params.NAME: value"}};
+  Json schema = {{"type", "object"},
+                 {"description", "frames.NAME: frame, params.NAME: value, outputs.NAME: value"}};
   schema["patternProperties"] = {{"^frames\\.[A-Za-z_]\\w*$", word("the frame whose pose it takes")},
-                                 {"^params\\.[A-Za-z_]\\w*$", reference("value")}};
+                                 {"^params\\.[A-Za-z_]\\w*$", reference("value")},
+                                 {"^outputs\\.[A-Za-z_]\\w*$", output_value()}};
   schema["additionalProperties"] = false;
   return schema;
 }
@@ -160,6 +192,10 @@ Json signals() {
                   {"unit", word("of a number")},
                   {"in", word("the frame that a pose or a wrench is seen from")},
                   {"stale_after", reference("value", "a sample that is older counts as unknown"), true},
+                  {"twist", any_of({one_of_words("the sample's own", {"measured"}),
+                                    reference("quantity",
+                                              "of a pose: it goes on along the line through the "
+                                              "samples of this time")})},
                   {"holds", word("of a bool: the frame of the base that a latch holds while it is true")}}));
 }
 
@@ -169,19 +205,23 @@ Json features() {
   for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) {
     direction.push_back({name, reference("quantity", "its coefficient")});
   }
-  return named("coordinates that are not one axis of a frame",
-               object("", {{"distance", tuple("between two frames", word("a frame"), 2, 2)},
-                           {"angle", tuple("between two axes, as `hook.x`", word("frame.axis"), 2, 2)},
-                           {"direction", object("a sum of axes", std::move(direction))}}));
+  return named(
+      "coordinates that are not one axis of a frame",
+      object("", {{"distance", tuple("between two frames", word("a frame"), 2, 2)},
+                  {"angle", tuple("between two axes, as `hook.x`", word("frame.axis"), 2, 2)},
+                  {"bearing", tuple("of the second frame from the first one's x axis, in its x-y plane",
+                                    word("a frame"), 2, 2)},
+                  {"direction", object("a sum of axes", std::move(direction))}}));
 }
 
 Json templates() {
-  const Json kinds =
-      one_of_words("", {"frame", "task", "number", "length", "angle", "time", "mass", "velocity",
-                        "acceleration", "force", "torque", "angular_velocity", "angular_acceleration"});
-  return named("tasks with arguments",
-               object("", {{"args", named("the arguments that a use must give, and their kinds", kinds)},
-                           {"body", reference("task"), true}}));
+  const Json kinds = one_of_words("", {"frame", "task", "feature", "signal", "region", "bool", "number",
+                                       "length", "angle", "time", "mass", "velocity", "acceleration", "force",
+                                       "torque", "angular_velocity", "angular_acceleration"});
+  const Json arguments = named("the arguments that a use must give, and their kinds", kinds);
+  return named("tasks and groups with arguments",
+               any_of({object("a task", {{"args", arguments}, {"body", reference("task"), true}}),
+                       object("a group", {{"args", arguments}, {"group", reference("group"), true}})}));
 }
 
 }  // namespace
@@ -197,6 +237,7 @@ Json task_file() {
        {"frames", frames()},
        {"regions", regions()},
        {"signals", signals()},
+       {"outputs", outputs()},
        {"features", features()},
        {"templates", templates()},
        {"always", object("constraints and exits that hold in every task",

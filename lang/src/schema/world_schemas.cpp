@@ -104,7 +104,9 @@ Json motion_point() {
 Json dock() {
   return object("a socket in which a hook latches", {{"at", reference("point", "in the object's axes"), true},
                                                      {"reach", reference("quantity")},
-                                                     {"hook", word("a frame of the robot"), true}});
+                                                     {"hook", word("a frame of the robot"), true},
+                                                     {"held_while", word("an output of the task file: it "
+                                                                         "holds while that is true")}});
 }
 
 Json scene_object() {
@@ -191,6 +193,15 @@ Json fault() {
        {"plant", one_of_words("", {"diverges"})}});
 }
 
+Json push() {
+  return object(
+      "a force for a while",
+      {{"at", reference("quantity", "when it begins"), true},
+       {"for", reference("quantity", "how long it lasts; default to the end")},
+       {"frame", word("of the base, at whose origin and in whose axes it presses; default the base's")},
+       {"force", tuple("along x and y of the frame", reference("quantity"), 2, 2), true}});
+}
+
 Json start_pose() {
   return object("where the robot starts", {{"at", reference("point")}, {"yaw", reference("quantity")}});
 }
@@ -258,7 +269,8 @@ Json scene_file() {
                  {"robots", named("other robots, with tasks of their own", scene_robot())},
                  {"signals", named("the sources of the task's signals", scene_signal())},
                  {"state", base_state()},
-                 {"faults", list("faults, and when they begin", fault())}});
+                 {"faults", list("faults, and when they begin", fault())},
+                 {"pushes", list("a person's hand on the first robot's base", push())}});
 }
 
 Json scenario_file() {

@@ -9,6 +9,7 @@
 #include "spec/value.hpp"
 #include "tree/read.hpp"
 #include "tree/text.hpp"
+#include "zwang/lang/condition_function.hpp"
 #include "zwang/lang/printable.hpp"
 
 namespace zwang::lang {
@@ -323,15 +324,15 @@ class ConditionParser {
   }
 
   int parse_call(const std::string& function, std::size_t begin, int depth) {
-    const auto& known = function_names();
-    if (std::find(known.begin(), known.end(), function) == known.end()) {
-      stop(wording::unknown_function(span(begin, at_), function, nearest(function, known)));
+    const ConditionFunction* known = find_function(function);
+    if (known == nullptr) {
+      stop(wording::unknown_function(span(begin, at_), function, nearest(function, function_names())));
     }
     const std::size_t opened = at_++;
     ExpressionText node;
     node.kind = ExpressionKind::call;
     node.word = function;
-    if (takes_a_name(function)) {
+    if (known->argument != FunctionArgument::number) {
       const std::size_t close = text_.find(')', at_);
       if (close == std::string::npos) stop(wording::missing_parenthesis(span(opened, opened + 1)));
       node.argument = trimmed(std::string_view(text_).substr(at_, close - at_));
@@ -356,23 +357,17 @@ class ConditionParser {
 
 }  // namespace
 
-bool takes_a_name(std::string_view function) {
-  return function == "speed" || function == "moved" || function == "valid";
-}
-
-const std::vector<std::string>& function_names() {
-  static const std::vector<std::string> names{"abs", "speed", "moved", "valid"};
+std::vector<std::string> function_names() {
+  std::vector<std::string> names;
+  for (const ConditionFunction& function : condition_functions()) names.emplace_back(function.name);
   return names;
 }
 
-ConditionText parse_condition(const Node& node, Diagnostics& diagnostics) {
+namespace {
+
+ConditionText parse_text(const Node& node, Diagnostics& diagnostics) {
   ConditionText condition;
   condition.span = node.span;
-  if (node.is_bad) return condition;
-  if (!node.is_scalar()) {
-    diagnostics.add(wording::expected_condition(node.span));
-    return condition;
-  }
   condition.text = node.text;
   try {
     condition.nodes = ConditionParser(node, diagnostics).parse();
@@ -380,6 +375,24 @@ ConditionText parse_condition(const Node& node, Diagnostics& diagnostics) {
   } catch (const Unreadable&) {
   }
   return condition;
+}
+
+}  // namespace
+
+ConditionText parse_condition(const Node& node, Diagnostics& diagnostics) {
+  if (node.is_scalar() && !node.is_bad) return parse_text(node, diagnostics);
+  if (!node.is_bad) diagnostics.add(wording::expected_condition(node.span));
+  ConditionText bad;
+  bad.span = node.span;
+  return bad;
+}
+
+ConditionText parse_expression(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  if (node.is_scalar() && !node.is_bad) return parse_text(node, diagnostics);
+  if (!node.is_bad) diagnostics.add(wording::expected_value(node.span, what, node.kind == NodeKind::null));
+  ConditionText bad;
+  bad.span = node.span;
+  return bad;
 }
 
 }  // namespace zwang::lang

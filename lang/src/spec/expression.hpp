@@ -25,7 +25,7 @@ enum class ExpressionKind { quantity, parameter, name, call, negate, logical_not
 struct ExpressionText {
   ExpressionKind kind = ExpressionKind::quantity;
   std::string word;      ///< of a parameter, a name, a function; the operator of `binary`
-  std::string argument;  ///< of speed(), moved(), valid(): a name
+  std::string argument;  ///< of a function that takes a name
   Quantity quantity;
   int left = -1;  ///< operand of negate, logical_not and abs()
   int right = -1;
@@ -40,10 +40,10 @@ struct ConditionText {
   bool is_bad = true;
 };
 
-/// Functions whose one argument is a name rather than an expression.
-bool takes_a_name(std::string_view function);
-const std::vector<std::string>& function_names();
+std::vector<std::string> function_names();
 
 ConditionText parse_condition(const Node& node, Diagnostics& diagnostics);
+/// A condition, or an expression that has a value: what it is shows when it is checked.
+ConditionText parse_expression(const Node& node, const std::string& what, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -63,7 +63,9 @@ void parse_tasks(const Node& node, Templates& templates, TaskFile& file, Diagnos
   }
 }
 
-void parse_always(const Node& node, TaskFile& file, Diagnostics& diagnostics) {
+void parse_always(const Node& written, Templates& templates, TaskFile& file, Diagnostics& diagnostics) {
+  Node node = written;
+  templates.expand_groups(node);
   MapReader map(node, "`always`", diagnostics, "{exits: [{when: elapsed > 60 s, goto: failed}]}");
   file.always_groups = parse_constraints(map, 0, diagnostics);
   if (const Node* exits = map.optional("exits")) file.always_exits = parse_exits(*exits, diagnostics);
@@ -192,15 +194,16 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   each("frames", [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
   if (const Node* node = map.optional("regions")) file.regions = parse_regions(*node, diagnostics);
   if (const Node* node = map.optional("signals")) file.signals = parse_signals(*node, diagnostics);
+  if (const Node* node = map.optional("outputs")) file.outputs = parse_outputs(*node, diagnostics);
   if (const Node* node = map.optional("features")) file.features = parse_features(*node, diagnostics);
   Templates templates(dimensions_of(file.parameters), diagnostics);
   if (const Node* node = map.optional("templates")) templates.declare(*node);
   if (map.has_misspelt({"templates", "params"})) templates.forgive_unknown();
-  if (const Node* node = map.optional("always")) parse_always(*node, file, diagnostics);
+  if (const Node* node = map.optional("always")) parse_always(*node, templates, file, diagnostics);
   if (const Node* start = map.required("start")) file.start = parse_word(*start, "`start`", diagnostics);
   if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, templates, file, diagnostics);
   for (const char* section :
-       {"params", "frames", "regions", "signals", "features", "templates", "always", "tasks"}) {
+       {"params", "frames", "regions", "signals", "outputs", "features", "templates", "always", "tasks"}) {
     const Entry* entry = document.root.find(section);
     file.is_incomplete = file.is_incomplete || (entry == nullptr && map.has_misspelt({section})) ||
                          (entry != nullptr && !entry->value.is_mapping());

@@ -45,6 +45,18 @@ void parse_manner(MapReader& map, const std::string& path, std::optional<ValueTe
   }
 }
 
+/// `yield: felt.x` moves like a mass with a damper.
+void parse_yield(MapReader& map, const std::string& path, AxisText& axis, Diagnostics& diagnostics) {
+  const Node* force = map.optional("yield");
+  if (force == nullptr) return;
+  axis.yield = parse_expression(*force, path + ".yield", diagnostics);
+  axis.yield_span = map.node().find("yield")->key.span;
+  if (const Node* node = map.required("mass")) axis.mass = parse_value(*node, path + ".mass", diagnostics);
+  map.required("damping");
+  if (const Node* node = map.optional("dead_band"))
+    axis.dead_band = parse_value(*node, path + ".dead_band", diagnostics);
+}
+
 void parse_statements(MapReader& map, const std::string& path, AxisText& axis, int lowest_level,
                       Diagnostics& diagnostics) {
   for (const Quantity quantity :
@@ -60,8 +72,12 @@ void parse_statements(MapReader& map, const std::string& path, AxisText& axis, i
   if (const Node* node = map.optional("stiffness")) {
     axis.stiffness = parse_value(*node, path + ".stiffness", diagnostics);
   }
+  parse_yield(map, path, axis, diagnostics);
   if (const Node* node = map.optional("damping")) {
     axis.damping = parse_value(*node, path + ".damping", diagnostics);
+  }
+  if (const Node* node = map.optional("build_up")) {
+    axis.build_up = parse_value(*node, path + ".build_up", diagnostics);
   }
   parse_return(map, path, axis.return_speed, diagnostics);
 }
@@ -237,12 +253,13 @@ std::vector<SetText> parse_sets(const Node& node, Diagnostics& diagnostics) {
     const std::size_t dot = key.find('.');
     const std::string kind = key.substr(0, dot);
     const std::string name = dot == std::string::npos ? std::string() : key.substr(dot + 1);
-    if ((kind != "frames" && kind != "params") || !is_identifier(name)) {
+    const bool is_kind = kind == "frames" || kind == "params" || kind == "outputs";
+    if (!is_kind || !is_identifier(name)) {
       diagnostics.add(wording::bad_set(entry.key.span, key));
       continue;
     }
     set.name = {name, entry.key.span};
-    set.kind = kind == "frames" ? SetKind::frame : SetKind::parameter;
+    set.kind = kind == "frames" ? SetKind::frame : kind == "params" ? SetKind::parameter : SetKind::output;
     if (set.kind == SetKind::frame) {
       set.source = parse_word(entry.value, "`" + key + "`", diagnostics);
     } else {
@@ -320,16 +337,18 @@ void parse_enter(const Node& node, TaskText& task, Diagnostics& diagnostics) {
 /// Whether the entry is a line of a group, rather than a group: `move: base_link`, `x: {velocity: ..}`.
 bool is_of_a_group(const Entry& entry) {
   static const std::vector<std::string> words{
-      "move",   "in",        "feature", "inside",   "margin",   "level",        "weight", "time_constant",
-      "return", "stiffness", "damping", "position", "velocity", "acceleration", "force",  "x",
-      "y",      "z",         "rx",      "ry",       "rz",       "speed",        "plane"};
+      "move",          "in",     "feature",   "inside",  "margin",    "level",    "weight",
+      "time_constant", "return", "stiffness", "damping", "position",  "velocity", "acceleration",
+      "force",         "x",      "y",         "z",       "rx",        "ry",       "rz",
+      "speed",         "plane",  "yield",     "mass",    "dead_band", "build_up"};
   const Node& value = entry.value;
   if (std::find(words.begin(), words.end(), entry.key.text) == words.end()) return false;
   if (!value.is_mapping()) return value.kind != NodeKind::null;
   const auto has = [&](std::initializer_list<const char*> keys) {
     return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return value.find(key) != nullptr; });
   };
-  return has({"position", "velocity", "acceleration", "force"}) && !has({"move", "in", "feature", "inside"});
+  return has({"position", "velocity", "acceleration", "force", "yield"}) &&
+         !has({"move", "in", "feature", "inside"});
 }
 
 /// In the place of groups that could not be read: one of them may be the one that a condition names.

@@ -13,6 +13,7 @@ std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnost
 /// `[exit, ..]`
 std::vector<ExitText> parse_exits(const Node& node, Diagnostics& diagnostics);
 std::vector<SignalText> parse_signals(const Node& node, Diagnostics& diagnostics);
+std::vector<OutputText> parse_outputs(const Node& node, Diagnostics& diagnostics);
 std::vector<RegionText> parse_regions(const Node& node, Diagnostics& diagnostics);
 std::vector<FeatureText> parse_features(const Node& node, Diagnostics& diagnostics);
 /// `at`, and `yaw` or `rpy`; empty where not given. [m, rad]

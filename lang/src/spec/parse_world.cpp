@@ -4,6 +4,7 @@
 
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_outputs.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/in_one_line.hpp"
 #include "spec/parse_task.hpp"
@@ -34,6 +35,19 @@ std::string type_meant(const std::string& written, const std::vector<std::string
   return nearest(written, types);
 }
 
+/// `twist: measured`, or the time over which it is fitted.
+void parse_twist(const Node& node, const std::string& what, SignalText& signal, Diagnostics& diagnostics) {
+  signal.twist_span = node.span;
+  if (node.is_scalar() && trimmed(node.text) == "measured") {
+    signal.twist = SignalTwist::measured;
+    return;
+  }
+  const auto window = parse_positive(node, dimension::time, what + "'s `twist`", false, diagnostics);
+  if (!window) return;
+  signal.twist = SignalTwist::fitted;
+  signal.twist_window = *window;
+}
+
 SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   SignalText signal;
   signal.name = parse_name(entry.key, "a signal's name", diagnostics);
@@ -58,6 +72,7 @@ SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   }
   if (map.has_misspelt({"unit"})) signal.is_bad = true;  // what it measures is not known
   if (const Node* in = map.optional("in")) signal.in = parse_word(*in, what + "'s `in`", diagnostics);
+  if (const Node* twist = map.optional("twist")) parse_twist(*twist, what, signal, diagnostics);
   if (const Node* holds = map.optional("holds"))
     signal.holds = parse_word(*holds, what + "'s `holds`", diagnostics);
   const Node* stale = map.optional("stale_after");
@@ -69,6 +84,47 @@ SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   signal.is_bad = signal.is_bad || !signal.type.exists();
   map.finish();
   return signal;
+}
+
+/// `true`, `false` or a number with its unit; a parameter or `here` is none.
+std::optional<ValueText> parse_output_value(const Node& node, const std::string& what,
+                                            Diagnostics& diagnostics) {
+  const ValueText value = parse_value(node, what, diagnostics);
+  if (value.kind == ValueKind::bad) return std::nullopt;
+  return value;
+}
+
+OutputText parse_output(const Entry& entry, Diagnostics& diagnostics) {
+  OutputText output;
+  output.name = parse_name(entry.key, "an output's name", diagnostics);
+  const std::string what = "output `" + entry.key.text + "`";
+  MapReader map(entry.value, what, diagnostics, "{type: bool, stop: keep}");
+  if (const Node* type = map.required("type")) {
+    const std::string word = parse_word(*type, what + "'s `type`", diagnostics).text;
+    output.is_number = word == "number";
+    output.is_bad = word != "number" && word != "bool";
+    if (output.is_bad && !word.empty())
+      diagnostics.add(wording::unknown_name(type->span, "type of output", word, {"bool", "number"}));
+  }
+  if (const Node* unit = map.optional("unit")) {
+    std::string unknown;
+    output.unit = parse_unit(unit->text, unknown);
+    output.is_bad = output.is_bad || !output.unit;
+    if (!output.unit && !unit->is_bad)
+      diagnostics.add(wording::unknown_unit(unit->span, unit->text, unknown, nearest_unit(unknown)));
+  }
+  if (const Node* start = map.optional("start"))
+    output.start = parse_output_value(*start, what + "'s `start`", diagnostics);
+  const Node* stop = map.optional("stop");
+  if (stop != nullptr) {
+    output.keeps = stop->is_scalar() && trimmed(stop->text) == "keep";
+    if (!output.keeps) output.stop = parse_output_value(*stop, what + "'s `stop`", diagnostics);
+  } else if (map.is_mapping() && !map.has_misspelt({"stop"})) {
+    diagnostics.add(wording::output_without_stop(entry.key.span, entry.key.text));
+  }
+  output.is_bad = output.is_bad || !map.is_mapping() || map.has_unread_keys();
+  map.finish();
+  return output;
 }
 
 RegionText parse_region(const Entry& entry, Diagnostics& diagnostics) {
@@ -150,8 +206,9 @@ FeatureText parse_feature(const Entry& entry, Diagnostics& diagnostics) {
   const Node* distance = map.optional("distance");
   const Node* angle = map.optional("angle");
   const Node* direction = map.optional("direction");
-  const int count =
-      (distance != nullptr ? 1 : 0) + (angle != nullptr ? 1 : 0) + (direction != nullptr ? 1 : 0);
+  const Node* bearing = map.optional("bearing");
+  const int count = (distance != nullptr ? 1 : 0) + (angle != nullptr ? 1 : 0) +
+                    (direction != nullptr ? 1 : 0) + (bearing != nullptr ? 1 : 0);
   if (map.is_mapping() && count != 1 && (count > 1 || !map.has_unread_keys())) {
     diagnostics.add(wording::one_feature_kind(entry.key.span, what));
     feature.is_bad = true;
@@ -172,8 +229,13 @@ FeatureText parse_feature(const Entry& entry, Diagnostics& diagnostics) {
     }
     if (is_zero) diagnostics.add(wording::feature_without_direction(direction->span, what));
     direction_map.finish();
-  } else if (const Node* ends = distance != nullptr ? distance : angle; ends != nullptr) {
-    feature.kind = distance != nullptr ? FeatureKind::distance : FeatureKind::angle;
+  } else if (const Node* ends = distance != nullptr  ? distance
+                                : bearing != nullptr ? bearing
+                                                     : angle;
+             ends != nullptr) {
+    feature.kind = distance != nullptr  ? FeatureKind::distance
+                   : bearing != nullptr ? FeatureKind::bearing
+                                        : FeatureKind::angle;
     const bool is_angle = feature.kind == FeatureKind::angle;
     if (require_sequence(*ends, what, diagnostics)) {
       if (ends->items.size() != 2) {
@@ -206,6 +268,10 @@ std::vector<Item> parse_each(const Node& node, const char* what, Item (*parse)(c
 
 std::vector<SignalText> parse_signals(const Node& node, Diagnostics& diagnostics) {
   return parse_each(node, "`signals`", parse_signal, diagnostics);
+}
+
+std::vector<OutputText> parse_outputs(const Node& node, Diagnostics& diagnostics) {
+  return parse_each(node, "`outputs`", parse_output, diagnostics);
 }
 
 std::vector<RegionText> parse_regions(const Node& node, Diagnostics& diagnostics) {

@@ -35,10 +35,22 @@ struct FrameText {
 struct SignalText {
   Word name;
   Word type;
+  SignalTwist twist = SignalTwist::none;
+  double twist_window = 0.0;  ///< [s]
+  Span twist_span{};
   std::optional<Unit> unit;  ///< of a number
   Word in;
   std::optional<ValueText> stale_after;
   Word holds;  ///< a frame of the base, of a bool
+  bool is_bad = false;
+};
+
+struct OutputText {
+  Word name;
+  bool is_number = false;
+  std::optional<Unit> unit;              ///< of a number
+  std::optional<ValueText> start, stop;  ///< true and false, too, are names here
+  bool keeps = false;                    ///< `stop: keep`
   bool is_bad = false;
 };
 
@@ -64,7 +76,10 @@ struct AxisText {
   Word name;  ///< x, y, z, rx, ry, rz, speed, plane; of a feature the group's name
   bool is_free = false;
   std::array<std::optional<StatementText>, 4> statements;  ///< by solver::Quantity
-  std::optional<ValueText> time_constant, stiffness, damping, weight, return_speed;
+  std::optional<ValueText> time_constant, stiffness, damping, weight, return_speed, build_up;
+  std::optional<ConditionText> yield;  ///< with `mass`, `damping` and perhaps `dead_band`
+  std::optional<ValueText> mass, dead_band;
+  Span yield_span{};  ///< its key
   std::optional<int> level;
 
   bool is_speed() const { return name.text == "speed"; }
@@ -89,13 +104,11 @@ struct GroupText {
   bool is_incomplete = false;  ///< a key could not be read: what the group lacks may have been there
 };
 
-enum class SetKind { frame, parameter };
-
 struct SetText {
   SetKind kind = SetKind::frame;
   Word name;
   Word source;      ///< of a frame
-  ValueText value;  ///< of a parameter
+  ValueText value;  ///< of a parameter or an output
   Span span;
 };
 
@@ -143,6 +156,7 @@ struct TaskFile {
   std::vector<ParameterText> parameters;
   std::vector<FrameText> frames;
   std::vector<SignalText> signals;
+  std::vector<OutputText> outputs;
   std::vector<RegionText> regions;
   std::vector<FeatureText> features;
   std::vector<GroupText> always_groups;

@@ -25,6 +25,10 @@ struct ArgumentKind {
 constexpr std::array argument_kinds{
     ArgumentKind{"frame", std::nullopt},
     ArgumentKind{"task", std::nullopt},
+    ArgumentKind{"feature", std::nullopt},
+    ArgumentKind{"signal", std::nullopt},
+    ArgumentKind{"region", std::nullopt},
+    ArgumentKind{"bool", std::nullopt},
     ArgumentKind{"number", dimension::none},
     ArgumentKind{"length", dimension::length},
     ArgumentKind{"angle", dimension::angle},
@@ -146,7 +150,13 @@ void Templates::declare(const Node& node) {
     declared.span = entry.key.span;
     bool has_names = parse_name(entry.key, "a template's name", diagnostics_).exists();
     MapReader map(entry.value, "template `" + entry.key.text + "`", diagnostics_);
-    declared.body = map.required("body");
+    const Node* group = map.optional("group");
+    declared.is_group = group != nullptr;
+    if (group != nullptr && entry.value.find("body") != nullptr) {
+      map.optional("body");
+      diagnostics_.add(wording::body_and_group(entry.key.span, entry.key.text));
+    }
+    declared.body = declared.is_group ? group : map.required("body");
     std::set<std::string> named;
     if (declared.body != nullptr) gather_names(*declared.body, named);
     const Node* arguments = map.optional("args");
@@ -176,10 +186,28 @@ void Templates::declare(const Node& node) {
 
 std::optional<Node> Templates::expand(const Node& task) {
   std::set<std::string> open;
-  return expand_from(task, open);
+  std::optional<Node> expanded = expand_from(task, false, open);
+  if (expanded) expand_groups(*expanded);
+  return expanded;
 }
 
-std::optional<Node> Templates::expand_from(const Node& task, std::set<std::string>& open) {
+void Templates::expand_groups(Node& owner) {
+  const auto constraints = std::find_if(owner.entries.begin(), owner.entries.end(),
+                                        [](const Entry& entry) { return entry.key.text == "constraints"; });
+  if (constraints == owner.entries.end()) return;
+  for (Entry& group : constraints->value.entries) {
+    if (!group.value.is_mapping() || group.value.find("use") == nullptr) continue;
+    std::set<std::string> open;
+    std::optional<Node> expanded = expand_from(group.value, true, open);
+    if (expanded) {
+      group.value = std::move(*expanded);
+    } else {
+      group.value.is_bad = true;
+    }
+  }
+}
+
+std::optional<Node> Templates::expand_from(const Node& task, bool is_group, std::set<std::string>& open) {
   const Entry* use = task.is_mapping() ? task.find("use") : nullptr;
   if (use == nullptr) return task;
   const Word name = parse_word(use->value, "`use`", diagnostics_);
@@ -188,12 +216,18 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
   if (found == templates_.end() && forgives_unknown_) return std::nullopt;
   if (found == templates_.end()) {
     std::vector<std::string> known;
-    for (const auto& [other, declared] : templates_) known.push_back(other);
+    for (const auto& [other, declared] : templates_) {
+      if (declared.is_group == is_group) known.push_back(other);
+    }
     diagnostics_.add(wording::unknown_name(name.span, "template", name.text, known));
     return std::nullopt;
   }
   Template& used = found->second;
   used.is_used = true;
+  if (!used.is_bad && used.is_group != is_group) {
+    diagnostics_.add(wording::template_of_another_part(name.span, name.text, used.is_group));
+    return std::nullopt;
+  }
   if (!open.insert(name.text).second) {
     diagnostics_.add(wording::template_recursion(name.span, name.text));
     return std::nullopt;
@@ -205,16 +239,18 @@ std::optional<Node> Templates::expand_from(const Node& task, std::set<std::strin
     return std::nullopt;
   }
   if (const Entry* with = misspelt_with(task)) {
-    diagnostics_.add(
-        wording::unknown_key(with->key.span, with->key.text, "a task that uses a template", "with", {}, {}));
+    const std::string what = std::string(is_group ? "a group" : "a task") + " that uses a template";
+    diagnostics_.add(wording::unknown_key(with->key.span, with->key.text, what, "with", {}, {}));
     return std::nullopt;
   }
   std::map<std::string, Node> values;
   if (used.is_bad || !fill_arguments(used, task, name.text, values)) return std::nullopt;
   Node body = *used.body;
   Substitution(values, diagnostics_).put_into(body);
-  std::optional<Node> expanded = expand_from(body, open);
-  if (!expanded || !require_mapping(*expanded, "the body of template `" + name.text + "`", diagnostics_)) {
+  std::optional<Node> expanded = expand_from(body, is_group, open);
+  const std::string what =
+      std::string("the ") + (is_group ? "group" : "body") + " of template `" + name.text + "`";
+  if (!expanded || !require_mapping(*expanded, what, diagnostics_)) {
     return std::nullopt;
   }
   for (const Entry& entry : task.entries) {
@@ -261,6 +297,12 @@ bool Templates::fill_arguments(const Template& used, const Node& task, const std
 bool Templates::check_argument(const std::string& name, const std::string& kind, const Node& value) {
   const ArgumentKind* expected = find_kind(kind);
   if (expected == nullptr || value.is_bad) return false;
+  if (expected->word == "bool") {
+    const std::string text = value.is_scalar() ? trimmed(value.text) : std::string();
+    if (text == "true" || text == "false") return true;
+    diagnostics_.add(wording::wrong_argument(value.span, name, "`true` or `false`"));
+    return false;
+  }
   if (!expected->dimension) {
     if (value.is_scalar() && !value.text.empty() && value.text[0] != '$' && number_length(value.text) == 0) {
       return true;

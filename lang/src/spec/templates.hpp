@@ -27,6 +27,8 @@ class Templates {
   /// What the task `task` says: itself, or the body of the template that it uses, with its own keys in the
   /// place of the body's. nullopt when it cannot be told, and was complained of.
   std::optional<Node> expand(const Node& task);
+  /// The same of the groups under the `constraints` of a task or of `always`: those that use a template.
+  void expand_groups(Node& owner);
   /// W302 for templates that no task uses, and for arguments that their body does not.
   void report_unused() const;
 
@@ -34,7 +36,8 @@ class Templates {
   struct Template {
     std::map<std::string, std::string> arguments;      ///< name -> kind
     std::vector<std::pair<std::string, Span>> unused;  ///< arguments that the body does not name
-    const Node* body = nullptr;
+    const Node* body = nullptr;  ///< or the group
+    bool is_group = false;
     int nodes = 0;  ///< of the body
     Span span;
     bool is_bad = false;
@@ -42,7 +45,8 @@ class Templates {
   };
 
   bool has_unknown_name(const Node& node, const Template& declared) const;
-  std::optional<Node> expand_from(const Node& task, std::set<std::string>& open);
+  /// `is_group`: of a group rather than of a task.
+  std::optional<Node> expand_from(const Node& user, bool is_group, std::set<std::string>& open);
   bool fill_arguments(const Template& used, const Node& task, const std::string& name,
                       std::map<std::string, Node>& values);
   bool check_argument(const std::string& name, const std::string& kind, const Node& value);

@@ -12,7 +12,7 @@ namespace {
 using solver::AxisConstraint;
 
 bool is_turn(const AxisConstraint& c) noexcept {
-  return c.measure == solver::Measure::angle ||
+  return c.measure == solver::Measure::angle || c.measure == solver::Measure::bearing ||
          (c.measure == solver::Measure::axis && c.axis >= solver::Axis::rx);
 }
 

@@ -115,6 +115,11 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
     for (const auto& [name, unit] : twist_columns) add(name, unit);
   }
   for (const lang::Signal& signal : program.signals) add_signal(signal);
+  first_output_ = static_cast<int>(columns_.size());
+  for (const lang::Output& output : program.outputs) {
+    add("output." + output.name, "");
+    columns_.back().span = output.span;
+  }
   for (const Statement& s : statements.all()) add_statement(s);
   for (const lang::Task& t : scheduler.tasks()) {
     guards_.emplace_back();
@@ -225,6 +230,7 @@ std::span<const double> LogLayout::fill(const StatementTable& statements, const 
     put(first_joint_ + 3 * j + 2, tick.tau(j));
   }
   if (first_command_ >= 0) put_command(tick.command);
+  put_outputs(tick.command.outputs);
   if (tick.solved) {
     put(solver, static_cast<double>(tick.solver_status));
     put(iterations, tick.solution.iterations);
@@ -362,6 +368,10 @@ void LogLayout::put_command(const Command& command) noexcept {
   }
   if (first_twist_ < 0) return;
   for (int k = 0; k < 3; ++k) put(first_twist_ + k, command.twist(k));
+}
+
+void LogLayout::put_outputs(std::span<const double> outputs) noexcept {
+  for (std::size_t i = 0; i < outputs.size(); ++i) put(first_output_ + static_cast<int>(i), outputs[i]);
 }
 
 void LogLayout::put_transition(const Scheduler& scheduler) noexcept {

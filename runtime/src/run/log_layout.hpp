@@ -62,6 +62,7 @@ class LogLayout {
   void add_signal(const lang::Signal& signal);
   void put_command(const Command& command) noexcept;
   void put_signals(const Scheduler& scheduler) noexcept;
+  void put_outputs(std::span<const double> outputs) noexcept;
   void put_transition(const Scheduler& scheduler) noexcept;
   void put_statements(const StatementTable& statements, const Tick& tick) noexcept;
   void put_coordinates(const StatementTable& statements, const Scheduler& scheduler, int set) noexcept;
@@ -80,6 +81,7 @@ class LogLayout {
   int first_joint_ = 0;
   int first_command_ = -1;  ///< of a drive that takes velocities
   int first_twist_ = -1;    ///< of a drive that takes the twist of the base
+  int first_output_ = 0;
   int first_extra_ = 0;
 };
 

@@ -139,6 +139,8 @@ struct Runner::Parts {
         compensation(tau),
         command(model.joint_count()) {
     if (program.robot.drive.takes_velocity) drive.emplace(program.robot, period, scheduler.row_capacity());
+    for (const lang::Output& output : program.outputs) output_names.push_back(output.name);
+    command.outputs.assign(scheduler.outputs().begin(), scheduler.outputs().end());
     transitions.reserve(kept_transitions);
     events.reserve(kept_events);
     is_judged.resize(program.signals.size(), false);
@@ -173,6 +175,8 @@ struct Runner::Parts {
   void hand_over() noexcept;
   bool has_the_joints_of(const Parts& other) const noexcept;
   void take_events_of(Parts& before) noexcept;
+  void take_outputs_of(const Parts& before) noexcept;
+  void take_motion_of(const Command& before) noexcept;
   void judge_sensors() noexcept;
   void judge_wrenches() noexcept;
   bool blends() const noexcept { return scheduler.set_count() > 1; }
@@ -193,6 +197,7 @@ struct Runner::Parts {
 
   const solver::Model model;
   std::vector<std::string> parameter_names;
+  std::vector<std::string> output_names;
   double period;
   RunFacts facts;  ///< but for the parameters
   Scheduler scheduler;
@@ -433,6 +438,7 @@ bool Runner::Parts::solve() noexcept {
     scheduler.observe(solution);
     if (round == most_rounds || !scheduler.pose_broken_sides(solver, solution)) break;
   }
+  scheduler.follow_up(solver);
   is_solution_of_rows = true;
   return true;
 }
@@ -495,6 +501,7 @@ void Runner::Parts::compare(const solver::State& measured) noexcept {
     return;
   }
   scheduler.estimate_force(disturbance.base_force());
+  scheduler.estimate_wrenches(disturbance.motions(), disturbance.force(), period);
   // A wheel that slides gives the ground less than its motor gives the wheel; what no encoder tells, tells
   // nothing of a motor.
   if (slip.doubtful() || blind_budget.takes_over()) {
@@ -558,6 +565,8 @@ void Runner::Parts::tell_doubt() noexcept {
 
 /// A sample that was refused leaves a drive's velocities and bounds as they are.
 void Runner::Parts::put_command(bool good, bool solved) noexcept {
+  if (guard.stopped()) scheduler.stop_outputs();
+  std::ranges::copy(scheduler.outputs(), command.outputs.begin());
   if (!drive) {
     command.torque = command.lower = command.upper = tau;
     return;
@@ -652,6 +661,25 @@ void Runner::Parts::take_events_of(Parts& before) noexcept {
   }
 }
 
+/// What motors were told last; outputs are each program's own.
+void Runner::Parts::take_motion_of(const Command& before) noexcept {
+  command.torque = before.torque;
+  command.velocity = before.velocity;
+  command.lower = before.lower;
+  command.upper = before.upper;
+  command.twist = before.twist;
+}
+
+/// Those of the same name stay as they are: a gripper does not open because a file was saved.
+void Runner::Parts::take_outputs_of(const Parts& before) noexcept {
+  for (std::size_t i = 0; i < output_names.size(); ++i) {
+    const auto was = std::ranges::find(before.output_names, output_names[i]);
+    if (was == before.output_names.end()) continue;
+    const auto k = static_cast<std::size_t>(was - before.output_names.begin());
+    scheduler.set_output(static_cast<int>(i), before.scheduler.outputs()[k]);
+  }
+}
+
 SwapResult Runner::swap_program(Runner& next) noexcept {
   if (parts_->guard.stopped()) return {SwapRefusal::stopped};
   if (next.parts_->scheduler.task() >= 0) return {SwapRefusal::has_run};
@@ -678,10 +706,11 @@ SwapResult Runner::swap_program(Runner& next) noexcept {
   now.wrench_bound.go_on_from(before.wrench_bound);
   now.snapshot.go_on_from(before.snapshot);
   now.layout.signals_at(now.snapshot.places());
+  now.take_outputs_of(before);
   now.disturbance.pause();
   now.motors.reset();
   now.tau = before.tau;
-  now.command = before.command;
+  now.take_motion_of(before.command);
   if (now.drive) now.drive->go_on_from(*before.drive);
   now.handed_over_for = 0.0;
   now.recorder = nullptr;
@@ -690,6 +719,10 @@ SwapResult Runner::swap_program(Runner& next) noexcept {
 
 const Command& Runner::command() const noexcept {
   return parts_->command;
+}
+
+std::span<const double> Runner::outputs() const noexcept {
+  return parts_->command.outputs;
 }
 
 double Runner::period() const noexcept {

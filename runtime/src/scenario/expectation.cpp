@@ -98,6 +98,9 @@ Reading read_node(const lang::ExpressionNode& node, int number, const Reading& a
       break;
     default:
       out.value = facts.look_up(node);
+      out.margin =
+          out.value > 0.5 ? std::numeric_limits<double>::infinity() : not_at_all;  // of a truth value
+      out.decisive = -1;
       out.is_fixed = node.op == Op::parameter;
       out.is_of_time = node.op == Op::elapsed || out.is_fixed;
       break;

@@ -76,7 +76,8 @@ const Eigen::VectorXd& step(Runner& runner, const Sensed& sensed, double time, T
   }
   const std::optional<Transition>& transition = runner.scheduler().transition();
   const bool enters = transition && transition->to < runner.scheduler().program_task_count();
-  if (enters) facts.note_entry(transition->to, time);
+  if (enters && !transition->resumes) facts.note_entry(transition->to, time);
+  facts.note_outputs(runner.outputs());
   facts.note_torque(tau, enters && transition->from >= 0);
   return tau;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "zwang/lang/condition_function.hpp"
+
 namespace zwang::runtime {
 
 namespace {
@@ -19,12 +21,17 @@ TrueFacts::TrueFacts(const lang::Program& program)
   values_[lang::truth_switch] = 0.0;
   if (program.scene) steady_.resize(program.scene->objects.size() + program.scene->robots.size());
   for (const lang::Region& region : program.regions) regions_.emplace_back(region, program.robot.footprint);
-  for (std::size_t i = 0; i < program.frames.size(); ++i) frames_.follow(static_cast<int>(i));
+  for (const lang::ConditionFunction& function : lang::condition_functions()) {
+    if (function.argument != lang::FunctionArgument::frame) continue;
+    for (std::size_t i = 0; i < program.frames.size(); ++i)
+      frames_.follow(lang::call_of(function.name, static_cast<int>(i)));
+  }
+  entries_.resize(program.tasks.size());
 }
 
 void TrueFacts::update(const Truth& truth, const solver::State& state, double torque_share) noexcept {
-  frames_.update(program_.robot.model, state);
-  if (time_ == 0.0) frames_.start_paths();
+  frames_.update(program_.robot.model, state, truth.time - time_);
+  if (time_ == 0.0) frames_.start_sums();
   time_ = truth.time;
   values_[lang::truth_x] = truth.x;
   values_[lang::truth_y] = truth.y;
@@ -96,6 +103,12 @@ void TrueFacts::note_partner_stop(std::size_t number, double time) noexcept {
   of_partner(number)[lang::truth_robot_stopped] = time;
 }
 
+/// They stand before the regions and the tasks.
+void TrueFacts::note_outputs(std::span<const double> outputs) noexcept {
+  std::ranges::copy(outputs, values_.end() - static_cast<std::ptrdiff_t>(program_.tasks.size() +
+                                                                         regions_.size() + outputs.size()));
+}
+
 void TrueFacts::note_stop(double time) noexcept {
   values_[lang::run_stopped] = time;
 }
@@ -114,6 +127,9 @@ void TrueFacts::note_torque(const Eigen::VectorXd& tau, bool is_switch) noexcept
 }
 
 void TrueFacts::note_entry(int task, double time) noexcept {
+  TaskEntries& of = entries_[static_cast<std::size_t>(task)];
+  ++of.count;
+  of.last = time;
   double& entered = values_[values_.size() - program_.tasks.size() + static_cast<std::size_t>(task)];
   if (std::isnan(entered)) entered = time;
 }
@@ -127,10 +143,14 @@ double TrueFacts::look_up(const lang::ExpressionNode& node) const noexcept {
       return time_;
     case lang::Op::signal:
       return values_[index];
-    case lang::Op::speed:
-      return frames_.signal_of(node.index) >= 0 ? unknown : frames_.speed(node.index);
-    case lang::Op::moved:
-      return frames_.signal_of(node.index) >= 0 ? unknown : frames_.moved(node.index);
+    case lang::Op::of_frame:
+      return frames_.signal_of(node.index) >= 0 ? unknown : frames_.measured(node);
+    case lang::Op::of_task: {
+      const TaskEntries& of = entries_[index];
+      lang::TaskEntries entries{of.count, std::nullopt};
+      if (of.count > 0) entries.since_last = time_ - of.last;
+      return lang::function_of(node).count(entries);
+    }
     default:
       return unknown;
   }

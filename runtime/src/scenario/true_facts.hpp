@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "scenario/steady_force.hpp"
@@ -26,13 +27,19 @@ class TrueFacts {
   void note_slip(double time) noexcept;
   /// The torques that a tick gives, of which `is_switch` says that it went from one task to another.
   void note_torque(const Eigen::VectorXd& tau, bool is_switch) noexcept;
-  /// `task` is one of the program's.
+  /// What the task file's outputs are set to.
+  void note_outputs(std::span<const double> outputs) noexcept;
+  /// `task` is one of the program's; `back` is no entry.
   void note_entry(int task, double time) noexcept;
   /// NaN where nobody knows: an object that was never touched, a frame that hangs on a signal.
   double look_up(const lang::ExpressionNode& node) const noexcept;
   double quantity(int index) const noexcept { return values_[static_cast<std::size_t>(index)]; }
 
  private:
+  struct TaskEntries {
+    int count = 0;
+    double last = 0.0;  ///< [s]
+  };
   double* of_partner(std::size_t number) noexcept;
   void put_object(std::size_t object, const Truth& truth, double* values) noexcept;
   void look_at_regions() noexcept;
@@ -42,8 +49,9 @@ class TrueFacts {
   std::vector<RegionFence> regions_;  ///< about the footprint
   std::vector<SteadyForce> steady_;   ///< of each object, then of each robot of the scene
   std::optional<Eigen::VectorXd> last_torque_;
-  bool was_switch_ = false;     ///< in the tick that it is of
-  std::vector<double> values_;  ///< in the order of lang::truth_names
+  bool was_switch_ = false;           ///< in the tick that it is of
+  std::vector<double> values_;        ///< in the order of lang::truth_names
+  std::vector<TaskEntries> entries_;  ///< of each of the program's tasks
   double time_ = 0.0;
 };
 

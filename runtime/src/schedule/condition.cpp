@@ -31,7 +31,7 @@ double either(double a, double b) {
 }
 
 bool is_name(Op op) {
-  return op >= Op::parameter && op <= Op::estimated_force;
+  return op >= Op::parameter && op <= Op::estimated_wrench;
 }
 
 double apply(Op op, double a, double b) {

@@ -1,6 +1,10 @@
 #include "schedule/frame_table.hpp"
 
+#include <algorithm>
+#include <limits>
 #include <stdexcept>
+
+#include "zwang/lang/condition_function.hpp"
 
 namespace zwang::runtime {
 
@@ -49,23 +53,47 @@ void FrameTable::attach(Entry& entry) const noexcept {
   }
 }
 
-void FrameTable::update(const solver::Model& model, const solver::State& state) noexcept {
+void FrameTable::follow(const lang::ExpressionNode& call) {
+  const auto is_it = [&](const Followed& f) { return f.frame == call.index && f.function == call.function; };
+  if (std::ranges::any_of(followed_, is_it)) return;
+  followed_.push_back({call.index, call.function, {}, {}});
+}
+
+void FrameTable::update(const solver::Model& model, const solver::State& state, double dt) noexcept {
   motions_.start(model, state);
-  for (Entry& entry : entries_) {
-    if (!entry.is_followed) continue;
-    const solver::Vector3 place = motions_.of(entry.attached).pose.position;
-    entry.path += (place - entry.path_end).norm();
-    entry.path_end = place;
+  dt_ = dt;
+  for (Followed& f : followed_) {
+    const lang::ConditionFunction& function =
+        lang::condition_functions()[static_cast<std::size_t>(f.function)];
+    f.before = f.now;
+    f.now = motions_.of(attached(f.frame));
+    if (function.adds_up) f.sum = function.measure(f.sum, f.before, f.now, dt);
   }
 }
 
-/// A jump that is no motion adds nothing to the path.
-void FrameTable::feed(int signal, const solver::AttachedFrame& seen) noexcept {
+double FrameTable::measured(const lang::ExpressionNode& call) const noexcept {
+  for (const Followed& f : followed_) {
+    if (f.frame != call.index || f.function != call.function) continue;
+    const lang::ConditionFunction& function = lang::function_of(call);
+    if (function.adds_up) return f.sum;
+    // The frame of a pose signal has moved since `update`.
+    return function.measure(0.0, f.before, motions_.of(attached(f.frame)), dt_);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+void FrameTable::carry_on(int signal, const solver::AttachedFrame& seen) noexcept {
   signals_[static_cast<std::size_t>(signal)] = seen;
   for (Entry& entry : entries_) {
-    if (entry.signal != signal) continue;
-    attach(entry);
-    entry.path_end = entry.attached.pose.position;
+    if (entry.signal == signal) attach(entry);
+  }
+}
+
+/// A jump that is no motion adds nothing up.
+void FrameTable::feed(int signal, const solver::AttachedFrame& seen) noexcept {
+  carry_on(signal, seen);
+  for (Followed& f : followed_) {
+    if (signal_of(f.frame) == signal) f.now = motions_.of(attached(f.frame));
   }
 }
 
@@ -89,20 +117,22 @@ void FrameTable::set(int frame, int source) noexcept {
       entry.settings_above = above;
     }
     attach(entry);
-    entry.path_end = motions_.of(entry.attached).pose.position;
+  }
+  for (Followed& f : followed_) {
+    if (f.frame >= frame) f.now = motions_.of(attached(f.frame));
   }
 }
 
-void FrameTable::start_paths() noexcept {
-  for (Entry& entry : entries_) entry.path = 0.0;
+void FrameTable::start_sums() noexcept {
+  for (Followed& f : followed_) f.sum = 0.0;
 }
 
-void FrameTable::keep_paths() noexcept {
-  for (Entry& entry : entries_) entry.kept_path = entry.path;
+void FrameTable::keep_sums() noexcept {
+  for (Followed& f : followed_) f.kept_sum = f.sum;
 }
 
-void FrameTable::resume_paths() noexcept {
-  for (Entry& entry : entries_) entry.path = entry.kept_path;
+void FrameTable::resume_sums() noexcept {
+  for (Followed& f : followed_) f.sum = f.kept_sum;
 }
 
 }  // namespace zwang::runtime

@@ -11,6 +11,7 @@
 #include "schedule/at_rest.hpp"
 #include "schedule/blend.hpp"
 #include "schedule/condition.hpp"
+#include "schedule/estimated_wrenches.hpp"
 #include "schedule/frame_table.hpp"
 #include "schedule/guards.hpp"
 #include "schedule/plane_norm.hpp"
@@ -18,6 +19,7 @@
 #include "schedule/signal_table.hpp"
 #include "schedule/task_list.hpp"
 #include "schedule/task_snapshot.hpp"
+#include "zwang/lang/condition_function.hpp"
 #include "zwang/runtime/scheduler.hpp"
 
 namespace zwang::runtime {
@@ -42,7 +44,11 @@ struct ActiveAxis {
   std::size_t wanted = 0;  ///< index in `wanted` of its constraint, or of its first one
   bool lost = false;  ///< its axes hang on a pose signal that is not known now, or its value on such a signal
   AxisReading reading;
-  bool is_outside = false;  ///< of its position range or its region, by more than what a brake leaves
+  bool is_outside = false;    ///< of its position range or its region, by more than what a brake leaves
+  int row = -1;               ///< of its driver in the set of the active task; -1: not in force
+  bool is_met = false;        ///< that row gets what it asks
+  double built_up = 0.0;      ///< what `build_up` has added to the target: q [m], [m/s], [rad] or [rad/s]
+  double inverse_mass = 0.0;  ///< of one that yields: of the robot along it, 1/Lambda [1/kg] or [1/kg m^2]
 };
 
 /// The pairs of features of a fence that are in force, by their indices.
@@ -74,16 +80,18 @@ struct Interruption {
 
 struct Scheduler::Parts final : Facts {
   Parts(const lang::Program& given, double control_period);
-  void follow_paths(const lang::Condition& condition) noexcept;
+  void follow(const lang::Condition& condition);
 
   // Steps 1 to 3: the snapshot, stale signals, frames, and what conditions ask about.
   void sense(const Sensed& sensed) noexcept;
   Fact look_up(const lang::ExpressionNode& node, int owner) const noexcept override;
   Fact coordinate(const lang::ExpressionNode& node, int owner) const noexcept;
   Fact of_frame(int frame, double value) const noexcept;
+  bool is_bearing_of_the_robot(const lang::Group& g) const noexcept;
   bool is_known(int frame) const noexcept;
   bool was_seen(int frame) const noexcept;
   Fact feature(const lang::Feature& feature) const noexcept;
+  lang::TaskEntries entries_of(int of_task) const noexcept;
   solver::AxisConstraint measured(const lang::Group& group, const lang::AxisStatements& axis,
                                   const ActiveAxis* active_axis) const noexcept;
   solver::Coordinate coordinate_of(const lang::Group& group, const lang::AxisStatements& axis,
@@ -117,6 +125,7 @@ struct Scheduler::Parts final : Facts {
   const std::vector<lang::SetAction>* exit_sets(const Transition& transition) const noexcept;
   void interrupt(const Transition& transition) noexcept;
   void enter() noexcept;
+  void stop_outputs() noexcept;
   void resume() noexcept;
   void apply(const std::vector<lang::SetAction>& actions) noexcept;
   void list_axes() noexcept;
@@ -138,6 +147,11 @@ struct Scheduler::Parts final : Facts {
   void want_motion_ranges(const ActiveAxis& a, solver::AxisConstraint& c) const noexcept;
   bool is_left_to_the_end(const ActiveAxis& a) const noexcept;
   solver::Driver driver_of(const ActiveAxis& a) const noexcept;
+  void yield(const ActiveAxis& a, solver::Driver& driver) const noexcept;
+  double pushed_with(const ActiveAxis& a) const noexcept;
+  void build_up(ActiveAxis& a) noexcept;
+  double error_of(const ActiveAxis& a, const solver::Driver& driver,
+                  const solver::Coordinate& now) const noexcept;
   bool is_lost(const ActiveAxis& a) const noexcept;
   void want_fence(const ActiveAxis& a, RegionFence& fence) noexcept;
   void want_standstill(const ActiveAxis& a) noexcept;
@@ -193,6 +207,11 @@ struct Scheduler::Parts final : Facts {
   const TaskList tasks;
   FrameTable frames;
   SignalTable signals;
+  EstimatedWrenches wrenches;
+  const std::vector<lang::Output> declared_outputs;
+  std::vector<double> outputs;          ///< of each what it is set to
+  mutable std::vector<double> pushing;  ///< of each node of what a driver yields to
+  const bool feels_pushes;              ///< what pushes the robot moves what the rows move, too
   const double period;
   const double horizon;            ///< [s] within which limits act
   const bool keeps_all_sides;      ///< of planes in force
@@ -204,6 +223,7 @@ struct Scheduler::Parts final : Facts {
   std::vector<PlaneNorm> planes;
   std::vector<PlaneReading> plane_readings;  ///< of each
   Eigen::VectorXd press_x, press_y;          ///< a unit force along its sides, as FreeMotions has it
+  int mobility = 0;                          ///< of the last solution
   // By task and group.
   std::vector<std::vector<int>> fence_of;               ///< -1: not `inside`
   std::vector<std::vector<int>> plane_of;               ///< -1: no norm of accelerations or forces
@@ -221,7 +241,8 @@ struct Scheduler::Parts final : Facts {
   RestWatch rest;              ///< in an end
   bool has_stood = false;
   std::optional<Excursion> excursion;
-  std::vector<int> entries;  ///< of each task, since the start
+  std::vector<int> entries;          ///< of each task, since the start
+  std::vector<double> entered_last;  ///< of each task [s]
   Interruption interruption;
   const solver::State* state = nullptr;  ///< of the present tick
   /// x, y [N], rz [N m]; NaN: unknown.

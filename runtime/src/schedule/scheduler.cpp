@@ -79,6 +79,9 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       tasks(given, declarations, base, held_joints),
       frames(declarations, given.robot.model, given.signals.size()),
       signals(given, positive(control_period)),
+      wrenches(model),
+      declared_outputs(given.outputs),
+      feels_pushes(!given.robot.drive.takes_velocity),
       period(control_period),
       horizon(given.robot.drive.horizon()),
       keeps_all_sides(given.robot.drive.takes_velocity && !given.robot.drive.has_virtual_robot()),
@@ -87,18 +90,24 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       braking(solver::Vector3::Zero()),
       start(given.start),
       entries(tasks.tasks.size(), 0),
+      entered_last(tasks.tasks.size(), 0.0),
       guards(tasks.most_exits, tasks.most_nodes, control_period, Unknown::does_not_fire),
       always_guards(tasks.most_exits, tasks.most_nodes, control_period, Unknown::fires_when_stale) {
+  for (const lang::Output& output : declared_outputs) outputs.push_back(output.start);
+  pushing.resize(tasks.most_nodes);
   std::size_t most_pairs = 0;
   for (const lang::Task& t : tasks.tasks) {
-    if (t.require) follow_paths(*t.require);
-    for (const lang::Exit& exit : t.exits) follow_paths(exit.when);
+    if (t.require) follow(*t.require);
+    for (const lang::Exit& exit : t.exits) follow(exit.when);
     fence_of.emplace_back();
     plane_of.emplace_back();
     first_axis_of.emplace_back();
     std::size_t axes_before = 0;
     for (const lang::Group& g : t.groups) {
-      const bool can_move = frames.attached(g.move).body >= 0;
+      for (const lang::AxisStatements& axis : g.axes) {
+        if (axis.yield) follow(axis.yield->force);
+      }
+      const bool can_move = frames.attached(g.move).body >= 0 || is_bearing_of_the_robot(g);
       if (!can_move) throw std::invalid_argument("scheduler: `" + g.name + "` moves a frame of the world");
       fence_of.back().push_back(-1);
       first_axis_of.back().push_back(axes_before);
@@ -133,10 +142,18 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   sources.reserve(Blend::most_sets * blend->capacity());
 }
 
-void Scheduler::Parts::follow_paths(const lang::Condition& condition) noexcept {
+void Scheduler::Parts::follow(const lang::Condition& condition) {
   for (const lang::ExpressionNode& node : condition.nodes) {
-    if (node.op == lang::Op::moved) frames.follow(node.index);
+    if (node.op == lang::Op::of_frame) frames.follow(node);
+    if (node.op == lang::Op::estimated_wrench) wrenches.ask(node.index);
   }
+}
+
+/// Who looks may stand in the world: what it looks at moves.
+bool Scheduler::Parts::is_bearing_of_the_robot(const lang::Group& g) const noexcept {
+  return g.kind == lang::GroupKind::feature &&
+         features[static_cast<std::size_t>(g.feature)].kind == lang::FeatureKind::bearing &&
+         frames.attached(g.in).body >= 0;
 }
 
 Scheduler::Scheduler(const lang::Program& program, double period) {
@@ -218,6 +235,29 @@ int Scheduler::task() const noexcept {
 }
 void Scheduler::estimate_force(const solver::Vector3& force) noexcept {
   parts_->estimated_force = force;
+  parts_->wrenches.take_base_force(force, parts_->frames);
+}
+void Scheduler::estimate_wrenches(const solver::FreeMotions& motions, const Eigen::VectorXd& p,
+                                  double dt) noexcept {
+  if (parts_->state != nullptr) parts_->wrenches.estimate(motions, p, *parts_->state, parts_->frames, dt);
+}
+void Scheduler::follow_up(const solver::Solver& solver) noexcept {
+  Parts& p = *parts_;
+  for (ActiveAxis& a : p.axes) {
+    if (a.says->build_up) p.build_up(a);
+    if (!a.says->yield || a.row < 0) continue;
+    solver.force_on_motions(a.row, p.press_x);
+    a.inverse_mass = p.press_x.head(p.mobility).squaredNorm();
+  }
+}
+std::span<const double> Scheduler::outputs() const noexcept {
+  return parts_->outputs;
+}
+void Scheduler::stop_outputs() noexcept {
+  parts_->stop_outputs();
+}
+void Scheduler::set_output(int index, double value) noexcept {
+  parts_->outputs[static_cast<std::size_t>(index)] = value;
 }
 
 double Scheduler::elapsed() const noexcept {

@@ -31,6 +31,22 @@ solver::Pose between(const solver::Pose& a, const solver::Pose& b, double part) 
 
 }  // namespace
 
+double part_of(const solver::ForceVector& wrench, lang::WrenchPart part) noexcept {
+  switch (part) {
+    case lang::WrenchPart::x:
+    case lang::WrenchPart::y:
+    case lang::WrenchPart::z:
+      return wrench.linear(static_cast<int>(part));
+    case lang::WrenchPart::rx:
+    case lang::WrenchPart::ry:
+    case lang::WrenchPart::rz:
+      return wrench.angular(static_cast<int>(part) - 3);
+    case lang::WrenchPart::plane:
+      break;
+  }
+  return wrench.linear.head<2>().norm();
+}
+
 bool is_sound(const SignalSample& sample, lang::SignalType type) noexcept {
   if (sample.type && *sample.type != type) return false;
   switch (type) {
@@ -51,6 +67,7 @@ SignalTable::SignalTable(const lang::Program& program, double period) : period_(
   for (const lang::Signal& signal : program.signals) {
     Entry entry;
     entry.declared = signal;
+    entry.line = PoseLine(signal.twist_window);
     if (signal.type == lang::SignalType::pose) {
       entry.past.resize(static_cast<std::size_t>(oldest(signal, program) / period) + 2);
     }
@@ -63,6 +80,11 @@ double SignalTable::value(int signal) const noexcept {
   const Entry& entry = at(signal);
   if (entry.declared.type == lang::SignalType::boolean) return entry.last.boolean ? 1.0 : 0.0;
   return entry.last.number;
+}
+
+double SignalTable::part(int signal, lang::WrenchPart part) const noexcept {
+  if (!known(signal)) return std::numeric_limits<double>::quiet_NaN();
+  return part_of(at(signal).last.wrench, part);
 }
 
 void SignalTable::remember(Entry& entry, double time, const solver::Pose& pose) noexcept {
@@ -97,6 +119,7 @@ void SignalTable::take(int index, const SignalSample& sample, FrameTable& frames
   entry.received = true;
   if (entry.declared.type != lang::SignalType::pose) return;
   const solver::Pose seen_from = pose_then(entry, sample.stamp);
+  if (entry.declared.twist != lang::SignalTwist::none) return take_course(entry, seen_from);
   solver::AttachedFrame seen{-1, seen_from * sample.pose, {}};
   if (sample.twist) {
     // From the axes it is seen in to its own, both at its origin.
@@ -104,6 +127,44 @@ void SignalTable::take(int index, const SignalSample& sample, FrameTable& frames
     seen.twist = {R * sample.twist->angular, R * sample.twist->linear};
   }
   frames.feed(index, seen);
+}
+
+/// How what is seen moves in the world at the sample's stamp.
+void SignalTable::take_course(Entry& entry, const solver::Pose& seen_from) noexcept {
+  const SignalSample& sample = entry.last;
+  const solver::Pose seen = seen_from * sample.pose;
+  if (entry.declared.twist == lang::SignalTwist::fitted) {
+    entry.line.add(sample.stamp, seen);
+    entry.course = entry.line.at_newest();
+  } else {
+    const solver::MotionVector twist = sample.twist.value_or(solver::MotionVector{});
+    entry.course = {seen, seen_from.rotation * twist.angular, seen_from.rotation * twist.linear};
+  }
+  entry.moves = false;  // the sample is a jump
+}
+
+/// The frame of a pose signal with a twist: while the signal is known it goes on, else it stands.
+void SignalTable::go_on(int index, double time, FrameTable& frames) noexcept {
+  Entry& entry = entries_[static_cast<std::size_t>(index)];
+  const bool is_jump = !entry.moves;
+  if (entry.stale) {
+    if (is_jump) return;
+    entry.moves = false;
+    entry.line.clear();
+    entry.course.pose = carried_on(entry.course, time - entry.last.stamp).pose;
+    entry.course.angular.setZero();
+    entry.course.linear.setZero();
+    frames.feed(index, {-1, entry.course.pose, {}});
+    return;
+  }
+  const solver::FrameMotion now = carried_on(entry.course, time - entry.last.stamp);
+  const solver::AttachedFrame seen{-1, now.pose, now.own_twist()};
+  entry.moves = true;
+  if (is_jump) {
+    frames.feed(index, seen);
+  } else {
+    frames.carry_on(index, seen);
+  }
 }
 
 void SignalTable::update(const Sensed& sensed, const std::vector<double>& parameters,
@@ -127,6 +188,8 @@ void SignalTable::update(const Sensed& sensed, const std::vector<double>& parame
     }
     entry.age = sensed.time - (entry.received ? entry.last.stamp : start_);
     entry.stale = entry.age > entry.declared.stale_after.evaluate(parameters) + clock_rounding * period_;
+    const bool has_course = entry.declared.twist != lang::SignalTwist::none && entry.received;
+    if (is_pose && has_course) go_on(static_cast<int>(i), sensed.time, frames);
   }
   started_ = true;
 }

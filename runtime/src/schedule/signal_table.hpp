@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "schedule/frame_table.hpp"
+#include "schedule/pose_line.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/plant.hpp"
 
@@ -12,6 +13,9 @@ namespace zwang::runtime {
 
 /// It is of the signal's type, its numbers are finite, and what turns something is a rotation.
 bool is_sound(const SignalSample& sample, lang::SignalType type) noexcept;
+
+/// [N] or [N m]
+double part_of(const solver::ForceVector& wrench, lang::WrenchPart part) noexcept;
 
 /// How a signal stands.
 struct SignalState {
@@ -37,6 +41,8 @@ class SignalTable {
   SignalState state(int signal) const noexcept { return {at(signal).received, known(signal), age(signal)}; }
   /// Of a number [SI] or a boolean (0, 1); not a number while the signal is not known.
   double value(int signal) const noexcept;
+  /// A number of a wrench [N] or [N m], likewise.
+  double part(int signal, lang::WrenchPart part) const noexcept;
   /// The latest valid sample, whether it is stale or not.
   const SignalSample& sample(int signal) const noexcept { return at(signal).last; }
 
@@ -55,12 +61,17 @@ class SignalTable {
     std::vector<Past> past;  // a ring
     std::size_t newest = 0;
     std::size_t past_count = 0;
+    PoseLine line;               // of a twist that is fitted
+    solver::FrameMotion course;  // at the last sample, of a signal with a twist
+    bool moves = false;          // its frame goes on along the course
   };
   const Entry& at(int signal) const noexcept { return entries_[static_cast<std::size_t>(signal)]; }
   static void remember(Entry& entry, double time, const solver::Pose& pose) noexcept;
   static solver::Pose pose_then(const Entry& entry, double time) noexcept;
   static bool is_new(const Entry& entry, const SignalSample& sample, double latest) noexcept;
   void take(int index, const SignalSample& sample, FrameTable& frames) noexcept;
+  void take_course(Entry& entry, const solver::Pose& seen_from) noexcept;
+  void go_on(int index, double time, FrameTable& frames) noexcept;
 
   std::vector<Entry> entries_;
   double period_;

@@ -8,6 +8,7 @@
 #include "schedule/braking.hpp"
 #include "schedule/plane_norm.hpp"
 #include "schedule/region_fence.hpp"
+#include "zwang/lang/condition_function.hpp"
 
 namespace zwang::runtime {
 
@@ -43,8 +44,9 @@ class TaskCheck {
     require_index(group.move, frames_, "a moved frame");
     require_index(group.in, frames_, "an axes frame");
     for (const lang::AxisStatements& axis : group.axes) {
-      if (axis.target.signal < 0) continue;
-      require_index(axis.target.signal, program_.signals.size(), "a value's signal");
+      if (axis.target.signal >= 0)
+        require_index(axis.target.signal, program_.signals.size(), "a value's signal");
+      if (axis.yield) check_condition(axis.yield->force);
     }
   }
 
@@ -55,11 +57,15 @@ class TaskCheck {
   }
 
   void check_set(const lang::SetAction& action) const {
-    if (action.sets_frame) {
-      require_index(action.index, frames_, "a frame to set");
-      require_index(action.source, frames_, "a frame to copy");
-    } else {
-      require_index(action.index, program_.parameters.size(), "a parameter to set");
+    switch (action.kind) {
+      case lang::SetKind::frame:
+        require_index(action.index, frames_, "a frame to set");
+        require_index(action.source, frames_, "a frame to copy");
+        return;
+      case lang::SetKind::parameter:
+        return require_index(action.index, program_.parameters.size(), "a parameter to set");
+      case lang::SetKind::output:
+        return require_index(action.index, program_.outputs.size(), "an output to set");
     }
   }
 
@@ -77,8 +83,15 @@ class TaskCheck {
     switch (node.op) {
       case lang::Op::parameter:
         return require_index(node.index, program_.parameters.size(), "a condition's parameter");
-      case lang::Op::speed:
-      case lang::Op::moved:
+      case lang::Op::of_frame:
+        require_index(node.function, lang::condition_functions().size(), "a condition's function");
+        return require_index(node.index, frames_, "a condition's frame");
+      case lang::Op::of_task:
+        require_index(node.function, lang::condition_functions().size(), "a condition's function");
+        return require_index(node.index, program_.tasks.size(), "a condition's task");
+      case lang::Op::output:
+        return require_index(node.index, program_.outputs.size(), "a condition's output");
+      case lang::Op::estimated_wrench:
         return require_index(node.index, frames_, "a condition's frame");
       case lang::Op::signal:
       case lang::Op::valid:
@@ -153,7 +166,8 @@ void shape(lang::Group& group, const lang::Program& program,
     group.move = feature.first;
     group.in = feature.second;
     // What two frames measure between them they measure either way.
-    const bool both_ways = feature.kind != lang::FeatureKind::direction;
+    const bool both_ways =
+        feature.kind == lang::FeatureKind::distance || feature.kind == lang::FeatureKind::angle;
     if (both_ways && !is_on_robot(frames, group.move)) std::swap(group.move, group.in);
     for (lang::AxisStatements& axis : group.axes) {
       axis.axis = feature.turns ? solver::Axis::rz : solver::Axis::x;
@@ -164,6 +178,10 @@ void shape(lang::Group& group, const lang::Program& program,
 std::size_t longest_condition(const lang::Task& task) {
   std::size_t nodes = task.require ? task.require->nodes.size() : 0;
   for (const lang::Exit& exit : task.exits) nodes = std::max(nodes, exit.when.nodes.size());
+  for (const lang::Group& group : task.groups) {
+    for (const lang::AxisStatements& axis : group.axes)
+      nodes = std::max(nodes, axis.yield ? axis.yield->force.nodes.size() : 0);
+  }
   return nodes;
 }
 

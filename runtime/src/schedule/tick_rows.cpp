@@ -101,30 +101,6 @@ double Scheduler::Parts::braking_of(const solver::AxisConstraint& c, const AxisS
   return std::max(most, least_braking);
 }
 
-/// The driver as the task has it; where its axes or its value are not known, one that stands still with the
-/// same force, or one that lets go.
-solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
-  const AxisStatements& s = *a.says;
-  solver::Driver driver;
-  driver.quantity = *s.driver;
-  driver.time_constant = s.time_constant.evaluate(parameters);
-  if (s.stiffness) driver.stiffness = s.stiffness->evaluate(parameters);
-  if (s.damping) driver.damping = s.damping->evaluate(parameters);
-  if (s.force) driver.force = value(*s.force);
-  const bool pushes = driver.quantity == Quantity::force;
-  const bool has_axis = was_seen(a.group->in) && was_seen(a.group->move);
-  if (a.lost && !(pushes && has_axis && s.target.signal < 0)) {
-    if (!pushes) driver.quantity = Quantity::velocity;
-    driver.stiffness = driver.damping = 0.0;
-    driver.target = 0.0;
-    return driver;
-  }
-  driver.target = s.target.evaluate(parameters);
-  if (s.target.signal >= 0) driver.target = signals.value(s.target.signal);
-  if (s.here) driver.target = a.here;
-  return driver;
-}
-
 /// What does not change of the axis's constraint until the next switch.
 void Scheduler::Parts::list_axis(const ActiveAxis& a) noexcept {
   const lang::Group& g = *a.group;
@@ -233,8 +209,7 @@ InReach Scheduler::Parts::find_nearest(const ActiveAxis& a, RegionFence& fence) 
   const double weakest_brake = fence.weakest_braking(box);
   const solver::Matrix3 to_base = state->base_pose.rotation.transpose();
   const double turning = state->base_twist.angular.z();
-  const double out_of_reach =
-      solver::braking_distance(fence.fastest() + near_speed, weakest_brake, horizon);
+  const double out_of_reach = solver::braking_distance(fence.fastest() + near_speed, weakest_brake, horizon);
   InReach nearest;
   for (std::size_t i = 0; i < fence.pair_count(); ++i) {
     const RegionFence::Approach& approach = fence.approach(i);
@@ -309,7 +284,9 @@ void Scheduler::Parts::want() noexcept {
 bool Scheduler::Parts::is_lost(const ActiveAxis& a) const noexcept {
   const lang::Group& g = *a.group;
   const int value_signal = a.says->target.signal;
-  return !is_known(g.in) || !is_known(g.move) || (value_signal >= 0 && !signals.known(value_signal));
+  if (!is_known(g.in) || !is_known(g.move)) return true;
+  if (a.says->yield) return std::isnan(pushed_with(a));
+  return value_signal >= 0 && !signals.known(value_signal);
 }
 
 void Scheduler::Parts::start_blend() noexcept {
@@ -359,16 +336,24 @@ void Scheduler::Parts::put() noexcept {
 
 /// What the solver made of the rows, for the guards of the next tick.
 void Scheduler::Parts::read(const solver::Solution& solution) noexcept {
+  mobility = solution.mobility;
   for (ActiveAxis& a : axes) {
+    a.row = -1;
     if (!a.says->driver) a.reading = {};
   }
   std::size_t row = 0, first_source = 0;
   for (std::size_t set = 0; set < blend->sets().size(); ++set) {
     for (const solver::Row& asked : blend->sets()[set].constraints.rows()) {
       if (row == solution.rows.size()) return;
-      const solver::RowSolution& answer = solution.rows[row++];
+      const solver::RowSolution& answer = solution.rows[row];
       ActiveAxis* axis = sources[first_source + static_cast<std::size_t>(asked.constraint)];
       if (axis != nullptr) read_row(set, asked, answer, *axis);
+      const bool drives = asked.kind == solver::RowKind::driver && set == 0;
+      if (axis != nullptr && drives) {
+        axis->row = static_cast<int>(row);
+        axis->is_met = answer.status == solver::RowStatus::held && !answer.saturated;
+      }
+      ++row;
     }
     first_source += blend->sets()[set].in_force.size();
   }

@@ -11,7 +11,7 @@ void Scheduler::Parts::sense(const Sensed& sensed) noexcept {
   now = sensed.time;
   transition.reset();
   excursion.reset();
-  frames.update(model, sensed.state);
+  frames.update(model, sensed.state, period);
   signals.update(sensed, parameters, frames);
 }
 
@@ -39,16 +39,23 @@ Fact Scheduler::Parts::look_up(const lang::ExpressionNode& node, int owner) cons
     case lang::Op::elapsed:
       // A task that is not entered yet asks in its `require`.
       return {owner == task || owner == tasks.always() ? elapsed() : 0.0};
-    case lang::Op::speed:
-      return of_frame(node.index, frames.speed(node.index));
-    case lang::Op::moved:
-      return of_frame(node.index, frames.moved(node.index));
+    case lang::Op::of_frame:
+      return of_frame(node.index, frames.measured(node));
+    case lang::Op::of_task:
+      return {lang::function_of(node).count(entries_of(node.index))};
     case lang::Op::signal:
+      if (node.axis >= 0)
+        return {signals.part(node.index, static_cast<lang::WrenchPart>(node.axis)),
+                signals.stale(node.index)};
       return {signals.value(node.index), signals.stale(node.index)};
+    case lang::Op::output:
+      return {outputs[static_cast<std::size_t>(node.index)]};
     case lang::Op::valid:
       return {signals.known(node.index) ? 1.0 : 0.0};
     case lang::Op::estimated_force:
       return {estimated_force(node.axis)};
+    case lang::Op::estimated_wrench:
+      return {wrenches.part(node.index, static_cast<lang::WrenchPart>(node.axis))};
     case lang::Op::coordinate:
       return coordinate(node, owner);
     case lang::Op::feature:
@@ -56,6 +63,13 @@ Fact Scheduler::Parts::look_up(const lang::ExpressionNode& node, int owner) cons
     default:
       return {};
   }
+}
+
+lang::TaskEntries Scheduler::Parts::entries_of(int of_task) const noexcept {
+  const auto i = static_cast<std::size_t>(of_task);
+  lang::TaskEntries of{entries[i], std::nullopt};
+  if (of.count > 0) of.since_last = now - entered_last[i];
+  return of;
 }
 
 Fact Scheduler::Parts::coordinate(const lang::ExpressionNode& node, int owner) const noexcept {
@@ -91,6 +105,9 @@ void set_measure(solver::AxisConstraint& c, const lang::Feature& feature) {
       c.measure = solver::Measure::angle;
       c.axis = feature.first_axis;
       c.other_axis = feature.second_axis;
+      return;
+    case lang::FeatureKind::bearing:
+      c.measure = solver::Measure::bearing;
       return;
     case lang::FeatureKind::direction:
       c.measure = solver::Measure::direction;

@@ -6,8 +6,8 @@
 //   a_n = c a_x + s a_y        S_n = (c S_x W_xx + s S_y W_yy) / (c^2 W_xx + 2 c s W_xy + s^2 W_yy)
 //
 // A side that this breaks comes into force, and the rows are solved again. A limit that is not met does not
-// change a solution: so it is the one with all sides. But a drive that takes velocities chooses among torques:
-// for it all sides are in force.
+// change a solution: so it is the one with all sides. But a drive that takes velocities chooses among
+// torques: for it all sides are in force.
 #include <algorithm>
 #include <cmath>
 

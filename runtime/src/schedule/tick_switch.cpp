@@ -9,10 +9,17 @@ namespace zwang::runtime {
 
 void Scheduler::Parts::apply(const std::vector<lang::SetAction>& actions) noexcept {
   for (const lang::SetAction& action : actions) {
-    if (action.sets_frame) {
-      frames.set(action.index, action.source);
-    } else {
-      parameters[static_cast<std::size_t>(action.index)] = action.value.evaluate(parameters);
+    const auto i = static_cast<std::size_t>(action.index);
+    switch (action.kind) {
+      case lang::SetKind::frame:
+        frames.set(action.index, action.source);
+        break;
+      case lang::SetKind::parameter:
+        parameters[i] = action.value.evaluate(parameters);
+        break;
+      case lang::SetKind::output:
+        outputs[i] = action.value.evaluate(parameters);
+        break;
     }
   }
 }
@@ -21,7 +28,7 @@ void Scheduler::Parts::apply(const std::vector<lang::SetAction>& actions) noexce
 /// is set from it, or hangs on it, would be at a false place.
 int Scheduler::Parts::unknown_frame_of(const std::vector<lang::SetAction>& actions) const noexcept {
   for (const lang::SetAction& action : actions) {
-    if (!action.sets_frame) continue;
+    if (action.kind != lang::SetKind::frame) continue;
     if (!is_known(action.source)) return action.source;
     if (!is_known(action.index)) return action.index;
   }
@@ -49,7 +56,8 @@ lang::Span Scheduler::Parts::refused_set(const Transition& t) const noexcept {
   for (const std::vector<lang::SetAction>* sets : {exit_sets(t), &tasks[t.refused].set_on_entry}) {
     if (sets == nullptr) continue;
     for (const lang::SetAction& action : *sets) {
-      if (action.sets_frame && (action.source == t.unknown_frame || action.index == t.unknown_frame))
+      const bool sets_frame = action.kind == lang::SetKind::frame;
+      if (sets_frame && (action.source == t.unknown_frame || action.index == t.unknown_frame))
         return action.span;
     }
   }
@@ -111,14 +119,15 @@ void Scheduler::Parts::turn_away(Transition& t) noexcept {
 void Scheduler::Parts::interrupt(const Transition& t) noexcept {
   if (t.cause != Cause::always || interruption.task >= 0 || tasks.ends(task)) return;
   interruption = {task, elapsed()};
-  frames.keep_paths();
+  frames.keep_sums();
 }
 
 void Scheduler::Parts::enter() noexcept {
   ++entries[static_cast<std::size_t>(task)];
   apply(active().set_on_entry);
   entered = now;
-  frames.start_paths();
+  entered_last[static_cast<std::size_t>(task)] = now;
+  frames.start_sums();
   // It is over where no `back` can follow.
   if (!tasks.leads_back[static_cast<std::size_t>(task)]) interruption = {};
   if (is_at_end()) {
@@ -126,13 +135,18 @@ void Scheduler::Parts::enter() noexcept {
     energy_at_end = kinetic_energy(model, *state, frames.motions());
     rest.begin();
     outcome = task == tasks.done() ? Outcome::done : Outcome::failed;
+    stop_outputs();
   }
+}
+
+void Scheduler::Parts::stop_outputs() noexcept {
+  for (std::size_t i = 0; i < outputs.size(); ++i) outputs[i] = declared_outputs[i].stop.value_or(outputs[i]);
 }
 
 /// No entry: neither counted nor asked what it requires, nothing is set, and the time goes on where it was.
 void Scheduler::Parts::resume() noexcept {
   entered = now - interruption.spent;
-  frames.resume_paths();
+  frames.resume_sums();
   interruption = {};
 }
 
@@ -206,11 +220,11 @@ ActiveAxis Scheduler::Parts::active_axis(const Origin& origin) noexcept {
     a.plane = plane_of[static_cast<std::size_t>(origin.task)][static_cast<std::size_t>(origin.group)];
   a.brakes = braking_direction(*a.group, *a.says);
   a.hangs_on_signal = frames.signal_of(a.group->in) >= 0 || frames.signal_of(a.group->move) >= 0 ||
-                      a.says->target.signal >= 0;
+                      a.says->target.signal >= 0 || a.says->yield;
   // How hard a range of places may brake hangs on where the base points, and how hard a base that rolls may
   // accelerate on how it turns.
   const bool rolls = a.plane >= 0 && planes[static_cast<std::size_t>(a.plane)].rolls;
-  a.varies = a.hangs_on_signal || a.says->position || rolls;
+  a.varies = a.hangs_on_signal || a.says->position || a.says->build_up || rolls;
   return a;
 }
 

@@ -61,7 +61,7 @@ void find_holders(const Evaluated& of, int node, bool wanted, std::vector<int>& 
 /// The names in an expression that are not known.
 void find_unknown_names(const Evaluated& of, int node, std::vector<int>& names) {
   const lang::ExpressionNode& n = of.node(node);
-  if (n.op >= Op::parameter && n.op <= Op::estimated_force) {
+  if (n.op >= Op::parameter && n.op <= Op::estimated_wrench) {
     const bool is_lost_signal = n.op == Op::valid && of.value(node) == 0.0;
     if (std::isnan(of.value(node)) || is_lost_signal) names.push_back(node);
     return;
@@ -90,7 +90,10 @@ const char* reason_of(Op op) {
   switch (op) {
     case Op::coordinate:
       return "the row is not in force";
+    case Op::of_task:
+      return "the task was never entered";
     case Op::estimated_force:
+    case Op::estimated_wrench:
       return "the contact force is not estimated";
     default:
       return "it is no finite number";
@@ -110,8 +113,7 @@ std::vector<int> Scheduler::Parts::signals_of(const lang::ExpressionNode& name, 
     case Op::valid:
       found.push_back(name.index);
       break;
-    case Op::speed:
-    case Op::moved:
+    case Op::of_frame:
       add_frame(name.index);
       break;
     case Op::feature:

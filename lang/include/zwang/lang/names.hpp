@@ -22,7 +22,8 @@ enum class NameKind {
   feature,
   group,
   object,
-  fault_set
+  fault_set,
+  output
 };
 
 /// `task`, `template`, ...: for people.

@@ -57,6 +57,16 @@ struct FrameDeclaration {
 
 enum class SignalType { boolean, number, pose, wrench };
 
+/// One number of a wrench: a force along an axis, a torque about it, or the norm of x and y.
+enum class WrenchPart { x, y, z, rx, ry, rz, plane };
+
+/// How what a pose signal sees goes on between two samples.
+enum class SignalTwist {
+  none,      ///< it stands where it was seen; a sample's own twist counts as its velocity
+  measured,  ///< with the twist of its last sample
+  fitted,    ///< along the line through the samples of the last `twist_window`
+};
+
 /// A value that is measured outside of zwang.
 struct Signal {
   std::string name;
@@ -65,8 +75,21 @@ struct Signal {
   bool measures_force = false;  ///< a number signal whose unit is that of a force
   int in = 0;                   ///< frame that a pose or a wrench is seen from
   Value stale_after;            ///< [s] the age at which it counts as invalid
+  SignalTwist twist = SignalTwist::none;
+  double twist_window = 0.0;  ///< [s] of a twist that is fitted
   /// Of a latch: while it is true, the frame of the base that does not move in the world. -1: none.
   int holds = -1;
+  Span span;
+};
+
+/// What the robot does beside its motion: a gripper, a lamp. Tasks set it, and the host carries it out.
+struct Output {
+  std::string name;
+  bool is_number = false;      ///< else true or false: 1 or 0
+  double unit_scale = 1.0;     ///< SI value of one unit of a number
+  std::string unit;            ///< as the author wrote it
+  double start = 0.0;          ///< SI
+  std::optional<double> stop;  ///< SI, from the end of the run or a stop on; none: what it was
   Span span;
 };
 
@@ -80,21 +103,89 @@ struct Region {
   Span span;
 };
 
-enum class FeatureKind { distance, angle, direction };
+enum class FeatureKind { distance, angle, direction, bearing };
 
 /// A coordinate that is not an axis of one frame.
 struct Feature {
   std::string name;
   FeatureKind kind = FeatureKind::distance;
-  int first = 0, second = 0;  ///< frames: the two ends, the two owners of the axes, or `move` and `in`
+  /// Frames: the two ends, the two owners of the axes, `move` and `in`, or who looks and what is looked at.
+  int first = 0, second = 0;
   solver::Axis first_axis = solver::Axis::x, second_axis = solver::Axis::x;  ///< of an angle: x, y or z
   std::array<double, 6> direction{};  ///< coefficients of x, y, z, rx, ry, rz, as written
   bool turns = false;                 ///< measured in rad rather than in m
   Span span;
 };
 
+enum class Op {
+  constant,          ///< `number`
+  parameter,         ///< `index`
+  elapsed,           ///< [s] since the task was entered
+  coordinate,        ///< `index` group, `axis` index into Group::axes, `what`
+  of_frame,          ///< `function` of the frame `index`
+  of_task,           ///< `function` of the task `index`
+  signal,            ///< `index`: a number in SI, or true and false; of a wrench its part `axis`
+  valid,             ///< whether the signal `index` is fresh
+  output,            ///< `index`: a number in SI, or true and false
+  feature,           ///< `index`
+  estimated_force,   ///< on the base at its origin along its axis `axis`: 0 x, 1 y [N], 2 rz [N m]
+  estimated_wrench,  ///< on the frame `index` at its origin, in its axes: the part `axis`
+  abs,
+  negate,
+  add,
+  subtract,
+  multiply,
+  divide,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  logical_and,
+  logical_or,
+  logical_not,
+};
+
+enum class CoordinateQuantity { position, velocity, force, residual, saturated };
+
+/// A node of an expression tree. Operands stand before it in the list: `left`, `right` are their indices.
+struct ExpressionNode {
+  Op op = Op::constant;
+  double number = 0.0;
+  int index = -1;
+  int axis = -1;           ///< of a wrench a WrenchPart
+  int function = -1;       ///< index into `condition_functions()`
+  bool in_always = false;  ///< the group `index` is one of Program::always, not of the task
+  CoordinateQuantity what = CoordinateQuantity::position;
+  int left = -1;
+  int right = -1;
+};
+
+/// What `and`, `or` and `not` join: a comparison, or a name that is true or false.
+struct ConditionTerm {
+  int node = -1;     ///< index into Condition::nodes
+  std::string text;  ///< as written, in one line
+  std::string unit;  ///< SI, of what it compares; empty of a pure number and of a name
+};
+
+/// A dimension-checked condition, or an expression that has a value; the last node is its root.
+struct Condition {
+  std::vector<ExpressionNode> nodes;
+  std::vector<ConditionTerm> terms;  ///< in the order of the text
+  std::string text;                  ///< as written
+  Span span;
+};
+
 /// Where a position range or a region gives no `return`. [m/s] or [rad/s]
 inline constexpr double default_return_speed = 0.1;
+
+/// A driver that gives way to a force like a mass with a damper: dds = (F~ - D ds)/M, where F~ is what F has
+/// beyond the dead band.
+struct Yield {
+  Condition force;  ///< F, an expression [N] or [N m]
+  Value mass;       ///< M [kg] or [kg m^2]
+  Value damping;    ///< D [N s/m] or [N m s/rad]
+  Value dead_band;  ///< [N] or [N m]
+};
 
 /// The statements about one axis of a group.
 struct AxisStatements {
@@ -107,7 +198,10 @@ struct AxisStatements {
   Value time_constant{.constant = 0.5};
   std::optional<Value> stiffness;  ///< of a position driver with `damping` [N/m] or [N m/rad]
   std::optional<Value> damping;    ///< [N s/m] or [N m s/rad]
-  std::optional<Value> weight;     ///< of a soft row [kg] or [kg m^2]; none: as strict as the others
+  std::optional<Yield> yield;      ///< its `driver` is an acceleration, without `target`
+  /// Of a driver of position or velocity: the time in which it adds its error once more to its target. [s]
+  std::optional<Value> build_up;
+  std::optional<Value> weight;  ///< of a soft row [kg] or [kg m^2]; none: as strict as the others
   /// Of a position range: how fast the axis comes back from outside of it [m/s] or [rad/s].
   Value return_speed{.constant = default_return_speed};
   int level = 1;
@@ -137,61 +231,6 @@ struct Group {
   Span span;
 };
 
-enum class Op {
-  constant,         ///< `number`
-  parameter,        ///< `index`
-  elapsed,          ///< [s] since the task was entered
-  coordinate,       ///< `index` group, `axis` index into Group::axes, `what`
-  speed,            ///< of the frame `index` [m/s]
-  moved,            ///< length of the path of the frame `index` since the task was entered [m]
-  signal,           ///< `index`: a number in SI, or true and false
-  valid,            ///< whether the signal `index` is fresh
-  feature,          ///< `index`
-  estimated_force,  ///< on the base at its origin along its axis `axis`: 0 x, 1 y [N], 2 rz [N m]
-  abs,
-  negate,
-  add,
-  subtract,
-  multiply,
-  divide,
-  less,
-  less_equal,
-  greater,
-  greater_equal,
-  logical_and,
-  logical_or,
-  logical_not,
-};
-
-enum class CoordinateQuantity { position, velocity, force, residual, saturated };
-
-/// A node of an expression tree. Operands stand before it in the list: `left`, `right` are their indices.
-struct ExpressionNode {
-  Op op = Op::constant;
-  double number = 0.0;
-  int index = -1;
-  int axis = -1;
-  bool in_always = false;  ///< the group `index` is one of Program::always, not of the task
-  CoordinateQuantity what = CoordinateQuantity::position;
-  int left = -1;
-  int right = -1;
-};
-
-/// What `and`, `or` and `not` join: a comparison, or a name that is true or false.
-struct ConditionTerm {
-  int node = -1;     ///< index into Condition::nodes
-  std::string text;  ///< as written, in one line
-  std::string unit;  ///< SI, of what it compares; empty of a pure number and of a name
-};
-
-/// A dimension-checked condition; the last node is its root.
-struct Condition {
-  std::vector<ExpressionNode> nodes;
-  std::vector<ConditionTerm> terms;  ///< in the order of the text
-  std::string text;                  ///< as written
-  Span span;
-};
-
 enum class TargetKind { task, back, done, failed };
 
 struct Target {
@@ -199,11 +238,13 @@ struct Target {
   int task = -1;
 };
 
+enum class SetKind { frame, parameter, output };
+
 /// `set: {frames.touch: base_link}` gives the frame the pose that `source` has now; `set: {params.push: 10
-/// N}`.
+/// N}` and `set: {outputs.gripper: true}` give a value.
 struct SetAction {
-  bool sets_frame = true;
-  int index = -1;   ///< frame or parameter to set
+  SetKind kind = SetKind::frame;
+  int index = -1;   ///< what is set
   int source = -1;  ///< frame
   Value value;
   Span span;
@@ -259,6 +300,7 @@ struct Program {
   std::vector<Parameter> parameters;
   std::vector<FrameDeclaration> frames;
   std::vector<Signal> signals;
+  std::vector<Output> outputs;
   std::vector<Region> regions;
   std::vector<Feature> features;
   Always always;

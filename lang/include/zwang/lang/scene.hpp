@@ -28,6 +28,9 @@ struct Dock {
   double reach = 0.02;         ///< [m] the hook latches when its frame is as near as this
   std::string hook;            ///< a frame of the first robot
   Span hook_span{};
+  /// An output of the first robot's task file: the dock catches and holds while it is true. Empty: for good.
+  std::string held_while;
+  Span held_while_span{};
 };
 
 enum class ShapeKind { box, cylinder, wall };
@@ -132,6 +135,15 @@ struct Fault {
   Span span;
 };
 
+/// A person's hand on the first robot's base.
+struct ScenePush {
+  double at = 0.0;                                            ///< [s]
+  double duration = std::numeric_limits<double>::infinity();  ///< [s]
+  std::string frame;              ///< of the base, at whose origin it presses; empty: the base's own
+  std::array<double, 2> force{};  ///< [N] in the frame's axes
+  Span frame_span{};
+};
+
 /// A parameter's value as a scene writes it.
 struct GivenParameter {
   std::string name, value;  ///< `push`, `20 N`
@@ -174,6 +186,7 @@ struct Scene {
   std::vector<SceneSignal> signals;
   StateNoise state;
   std::vector<Fault> faults;
+  std::vector<ScenePush> pushes;
 
   /// How SceneSignal::object calls a robot: -1 the first one, which scenes call `base`, else an index into
   /// `robots`.

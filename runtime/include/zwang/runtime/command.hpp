@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace zwang::runtime {
 
@@ -19,6 +20,8 @@ struct Command {
   /// The base's velocity that `velocity` stands for: x, y [m/s] and rz [rad/s], in its axes. 0 of a drive
   /// that takes no twist.
   Eigen::Vector3d twist = Eigen::Vector3d::Zero();
+  /// What the task file's outputs are set to, in the order of Program::outputs: SI, or 0 and 1.
+  std::vector<double> outputs;
 };
 
 }  // namespace zwang::runtime

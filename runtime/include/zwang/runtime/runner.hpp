@@ -98,6 +98,9 @@ class Runner {
   const Eigen::VectorXd& step(const Sensed& sensed, std::span<const double> extra = {}) noexcept;
   /// What that step is to a drive of any kind, for Plant::follow. A drive that takes velocities needs it.
   const Command& command() const noexcept;
+  /// What the task file's outputs are set to after that step, in the order of Program::outputs: SI, or 0 and
+  /// 1. From the end of the run or a stop on what their `stop` says.
+  std::span<const double> outputs() const noexcept;
 
   double period() const noexcept;  ///< [s] of its steps
   /// For LogContext::facts: the task, its parameters as they stand, the settings, and by what it is computed.

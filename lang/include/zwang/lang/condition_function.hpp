@@ -1,0 +1,48 @@
+/// The functions that conditions may call, in one table: whoever adds one writes a line of it, and what the
+/// function measures.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "zwang/lang/program.hpp"
+#include "zwang/solver/frame.hpp"
+
+namespace zwang::lang {
+
+enum class FunctionArgument { number, signal, frame, task };
+
+/// How often a task was entered, and when.
+struct TaskEntries {
+  int count = 0;                       ///< since the start of the run
+  std::optional<double> since_last{};  ///< [s]; none: never entered
+};
+
+struct ConditionFunction {
+  std::string_view name;
+  FunctionArgument argument = FunctionArgument::frame;
+  std::array<int, 4> powers{};                  ///< of length, mass, time and angle, in what it measures
+  bool is_truth = false;                        ///< true or false, and no number
+  solver::Range values{0.0, solver::infinity};  ///< that it may take
+  /// It adds up from the entry of the task on, over an interruption, too. Of a frame: `measure` is given
+  /// what it was.
+  bool adds_up = false;
+  /// Of a frame in one period dt [s], from how it moved before to how it moves now. SI
+  double (*measure)(double so_far, const solver::FrameMotion& before, const solver::FrameMotion& now,
+                    double dt) = nullptr;
+  double (*count)(const TaskEntries& entries) = nullptr;  ///< of a task; NaN: unknown
+  std::string_view of;                                    ///< the page's words: "of the frame's origin"
+};
+
+std::span<const ConditionFunction> condition_functions();
+const ConditionFunction* find_function(std::string_view name);
+/// Of a node of the kinds Op::of_frame and Op::of_task.
+const ConditionFunction& function_of(const ExpressionNode& node);
+/// Whether the node calls the function of this name.
+bool calls(const ExpressionNode& node, std::string_view name);
+/// Such a call. std::invalid_argument for a function that is none, or takes neither frame nor task.
+ExpressionNode call_of(std::string_view name, int frame_or_task);
+
+}  // namespace zwang::lang

@@ -1,0 +1,81 @@
+#include "diagnostic/wordings_forces.hpp"
+
+#include <cmath>
+
+#include "diagnostic/make.hpp"
+#include "diagnostic/wordings_physics.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang::wording {
+
+namespace {
+
+/// Three digits, not below the value.
+std::string at_least_in(double value, const std::string& unit) {
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return figure(std::ceil(value / step - 1e-9) * step, unit);
+}
+
+std::string in_time(double seconds) {
+  return seconds < 1.0 ? figure(seconds * 1e3, "ms") : figure(seconds, "s");
+}
+
+}  // namespace
+
+Diagnostic wrench_on_the_world(const Span& span, const std::string& frame) {
+  return error("E409", span,
+               "`" + frame + "` stands in the world: no motor of the robot feels what presses on it",
+               "ask about a frame of the robot");
+}
+
+Diagnostic wrench_that_the_floor_bears(const Span& span, const std::string& name) {
+  return error("E409", span, "the floor bears " + in_ticks(name) + ": no motor of a base on wheels feels it",
+               "a base feels `x`, `y`, `rz` and `plane`; measure the rest with a wrench signal");
+}
+
+Diagnostic yield_with_time_constant(const Span& span, const std::string& axis) {
+  return error("E104", span, "`" + axis + "` gives a time constant beside `yield`",
+               "`mass` and `damping` say how fast it gets there: mass / damping");
+}
+
+Diagnostic build_up_without_driver(const Span& span, const std::string& axis) {
+  return error(
+      "E104", span,
+      "`build_up` adds up the error of a `position` or a `velocity`, and `" + axis + "` drives neither",
+      "leave it out, or drive a `position` or a `velocity`");
+}
+
+Diagnostic builds_up_too_fast(const Span& span, const std::string& axis, double time_constant, double least) {
+  return with_replacement(warning("W604", span,
+                                  "`" + axis + "` swings: it builds up faster than its time constant of " +
+                                      in_time(time_constant) + " can follow",
+                                  "`build_up: " + in_time(least) + "` or longer"),
+                          in_time(least));
+}
+
+Diagnostic rings_when_held(const Span& span, const std::string& axis, const Ringing& ringing, bool is_error) {
+  const std::string enough = at_least_in(ringing.enough, "kg");
+  const std::string message = "`" + axis + "` rings when held by more than " +
+                              figure(ringing.stiffest * 1e-3, "kN/m") + ": the robot weighs " +
+                              figure(ringing.mass, "kg") + " along it, and the force is known " +
+                              in_time(ringing.lag) + " late";
+  const std::string help = "write `mass: " + enough + "`";
+  return with_replacement(
+      is_error ? error("E417", span, message, help) : warning("W618", span, message, help), enough);
+}
+
+Diagnostic trails_its_target(const Span& span, const std::string& axis, double speed, double distance,
+                             const std::string& signal, const Span& declared) {
+  return with_related(make("N616", Severity::note, span,
+                           "a target at " + figure(speed, "m/s") + " is trailed by `" + axis + "` by " +
+                               figure(distance, "m") + " (2 T v)",
+                           "write `twist: 0.5 s` at the signal `" + signal + "`"),
+                      declared, "`" + signal + "` is taken to stand between two samples");
+}
+
+Diagnostic twist_without_pose(const Span& span, const std::string& signal) {
+  return error("E104", span, "signal `" + signal + "` has a twist, but is no pose",
+               "leave `twist` out, or write `type: pose`");
+}
+
+}  // namespace zwang::lang::wording

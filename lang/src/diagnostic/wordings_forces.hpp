@@ -1,0 +1,36 @@
+/// What is said about forces that are measured or estimated, and about the drivers that follow them.
+#pragma once
+
+#include <string>
+
+#include "zwang/lang/diagnostic.hpp"
+
+namespace zwang::lang::wording {
+
+/// `estimated.goal.x` of a frame that no link carries.
+Diagnostic wrench_on_the_world(const Span& span, const std::string& frame);
+/// `estimated.base.z`: the floor bears it, and no motor feels it.
+Diagnostic wrench_that_the_floor_bears(const Span& span, const std::string& name);
+
+Diagnostic yield_with_time_constant(const Span& span, const std::string& axis);
+/// `build_up` beside a driver that has no error to add up, or beside none.
+Diagnostic build_up_without_driver(const Span& span, const std::string& axis);
+Diagnostic builds_up_too_fast(const Span& span, const std::string& axis, double time_constant, double least);
+
+/// A yield, held by something stiff.
+struct Ringing {
+  double stiffest = 0.0;  ///< [N/m] of what it still holds
+  double mass = 0.0;      ///< [kg] effective
+  double lag = 0.0;       ///< [s] of the force
+  double enough = 0.0;    ///< [kg] that holds anything
+};
+Diagnostic rings_when_held(const Span& span, const std::string& axis, const Ringing& ringing, bool is_error);
+
+/// `speed` [m/s] of a target, `distance` [m] that it is trailed by.
+Diagnostic trails_its_target(const Span& span, const std::string& axis, double speed, double distance,
+                             const std::string& signal, const Span& declared);
+
+/// `twist` of a signal that is no pose.
+Diagnostic twist_without_pose(const Span& span, const std::string& signal);
+
+}  // namespace zwang::lang::wording

@@ -1,0 +1,116 @@
+// Step 7 of the tick: drivers; among them those that give way to a force, and those that add up their error.
+//
+// A driver that yields asks for
+//
+//   dds = (F~ - D ds)/M - F/Lambda,        F~: what F has beyond the dead band
+//
+// F itself moves the robot by F/Lambda, so that (F~ - D ds)/M is what comes of both. Lambda is the effective
+// mass along the axis, of the last tick. The virtual robot of a drive that takes velocities feels no F.
+//
+// A driver with `build_up: t` adds q to its target: dq = (v - ds)/t, of a position (p - s)/t. While its row
+// does not get what it asks, or a range holds it, q goes nowhere but back.
+#include <cmath>
+#include <numbers>
+
+#include "schedule/parts.hpp"
+
+namespace zwang::runtime {
+
+namespace {
+
+using solver::Quantity;
+
+/// What `force` has beyond the dead band around 0.
+double beyond(double force, double dead_band) {
+  return std::copysign(std::max(0.0, std::abs(force) - dead_band), force);
+}
+
+bool wraps(const solver::AxisConstraint& c) {
+  return c.measure == solver::Measure::bearing ||
+         (c.measure == solver::Measure::axis && c.axis >= solver::Axis::rx);
+}
+
+/// What the driver asks for without any range.
+double asked_by(const solver::Driver& driver, double error, const solver::Coordinate& now) {
+  const double w = 1.0 / driver.time_constant;
+  return driver.quantity == Quantity::velocity ? w * error : w * w * error - 2.0 * w * now.velocity;
+}
+
+}  // namespace
+
+/// The driver as the task has it; where its axes or its value are not known, one that stands still with the
+/// same force, or one that lets go.
+solver::Driver Scheduler::Parts::driver_of(const ActiveAxis& a) const noexcept {
+  const lang::AxisStatements& s = *a.says;
+  solver::Driver driver;
+  driver.quantity = *s.driver;
+  driver.time_constant = s.time_constant.evaluate(parameters);
+  if (s.stiffness) driver.stiffness = s.stiffness->evaluate(parameters);
+  if (s.damping) driver.damping = s.damping->evaluate(parameters);
+  if (s.force) driver.force = value(*s.force);
+  if (s.yield && !a.lost) {
+    yield(a, driver);
+    return driver;
+  }
+  const bool pushes = driver.quantity == Quantity::force;
+  const bool has_axis = was_seen(a.group->in) && was_seen(a.group->move);
+  if (a.lost && !(pushes && has_axis && s.target.signal < 0)) {
+    if (!pushes) driver.quantity = Quantity::velocity;
+    driver.stiffness = driver.damping = 0.0;
+    driver.target = 0.0;
+    return driver;
+  }
+  driver.target = s.target.evaluate(parameters);
+  if (s.target.signal >= 0) driver.target = signals.value(s.target.signal);
+  if (s.here) driver.target = a.here;
+  driver.target += a.built_up;
+  return driver;
+}
+
+/// F [N] or [N m]; NaN: not known.
+double Scheduler::Parts::pushed_with(const ActiveAxis& a) const noexcept {
+  const lang::Condition& force = a.says->yield->force;
+  evaluate(force, a.origin.task, *this, pushing);
+  return pushing[force.nodes.size() - 1];
+}
+
+void Scheduler::Parts::yield(const ActiveAxis& a, solver::Driver& driver) const noexcept {
+  const lang::Yield& says = *a.says->yield;
+  const double force = pushed_with(a);
+  if (std::isnan(force)) {
+    driver.quantity = Quantity::velocity;
+    driver.target = 0.0;
+    return;
+  }
+  const double speed = coordinate_of(*a.group, *a.says, &a).velocity;
+  const double mass = says.mass.evaluate(parameters);
+  const double damping = says.damping.evaluate(parameters);
+  driver.target = (beyond(force, says.dead_band.evaluate(parameters)) - damping * speed) / mass;
+  if (feels_pushes) driver.target -= force * a.inverse_mass;
+}
+
+/// The driver's error with what was built up: v + q - ds, or p + q - s.
+double Scheduler::Parts::error_of(const ActiveAxis& a, const solver::Driver& driver,
+                                  const solver::Coordinate& now) const noexcept {
+  if (driver.quantity == Quantity::velocity) return driver.target - now.velocity;
+  const double error = driver.target - now.position;
+  return wraps(wanted[a.wanted].constraint) ? std::remainder(error, 2.0 * std::numbers::pi) : error;
+}
+
+void Scheduler::Parts::build_up(ActiveAxis& a) noexcept {
+  constexpr double same = 1e-9;
+  const auto& constraint = wanted[a.wanted].constraint;
+  if (a.row < 0 || a.lost || !constraint.driver) return;
+  const solver::Driver& driver = *constraint.driver;
+  const solver::ConstraintSet& set = blend->sets()[0].constraints;
+  const solver::Row& row = set.rows()[static_cast<std::size_t>(a.row)];
+  const solver::Coordinate& now = set.coordinates()[static_cast<std::size_t>(row.constraint)];
+  const double whole = error_of(a, driver, now);
+  const double asked = asked_by(driver, whole, now);
+  const bool is_held = std::abs(row.b + now.acceleration_bias - asked) > same * (1.0 + std::abs(asked));
+  const double error = whole - a.built_up;
+  if ((is_held || !a.is_met) && error * a.built_up >= 0.0) return;
+  a.built_up += error * period / a.says->build_up->evaluate(parameters);
+}
+
+}  // namespace zwang::runtime
