@@ -25,7 +25,7 @@ double yaw_of(const Matrix3& rotation) {
 
 void MujocoPlant::Simulation::latch_hooks() noexcept {
   for (const SimulatedDock& dock : docks) {
-    if (truth.objects[dock.owner].latched) continue;
+    if (truth.objects[dock.owner].latched || !dock.holds) continue;
     const Vector3 hook =
         vector_of(data->xpos + 3 * dock.hook_body) + matrix_of(data->xquat + 4 * dock.hook_body) * dock.hook;
     if (!is_in_reach(dock.dock, truth.objects[dock.owner], hook)) continue;
@@ -35,6 +35,17 @@ void MujocoPlant::Simulation::latch_hooks() noexcept {
     model->eq_active[dock.equality] = 1;
     truth.objects[dock.owner].latched = time();
     contacts.note_catch(0, time());
+  }
+}
+
+void MujocoPlant::Simulation::set_dock(std::size_t owner, bool holds) noexcept {
+  for (SimulatedDock& dock : docks) {
+    if (dock.owner != owner) continue;
+    dock.holds = holds;
+    if (holds || !truth.objects[owner].latched) continue;
+    model->eq_active[dock.equality] = 0;
+    truth.objects[owner].latched.reset();
+    truth.objects[owner].pull = 0.0;
   }
 }
 
@@ -205,12 +216,16 @@ PlantStatus MujocoPlant::Simulation::sense(std::size_t robot, Sensed& sensed) co
 
 void MujocoPlant::Simulation::press_by_hand() noexcept {
   if (!push.force.isZero(0.0)) first().press(*model, *data, push.at, push.force);
+  for (const Push& more : more_pushes) first().press(*model, *data, more.at, more.force);
 }
 
 void MujocoPlant::Simulation::feel_hand() noexcept {
-  if (push.force.isZero(0.0)) return;
-  const Vector3 at = first().in_world(*model, *data, push.at);
-  contacts.add_push(0, push.force, at.head<2>());
+  const auto feel = [this](const Push& one) {
+    const Vector3 at = first().in_world(*model, *data, one.at);
+    contacts.add_push(0, one.force, at.head<2>());
+  };
+  if (!push.force.isZero(0.0)) feel(push);
+  for (const Push& more : more_pushes) feel(more);
 }
 MujocoPlant::MujocoPlant(const lang::Robot& robot, const lang::Scene& scene,
                          const MujocoPlantOptions& options)
@@ -250,6 +265,10 @@ void MujocoPlant::set_push(const Push& push) noexcept {
   simulation_->push = push;
 }
 
+void MujocoPlant::set_more_pushes(std::span<const Push> pushes) noexcept {
+  simulation_->more_pushes.assign(pushes.begin(), pushes.end());
+}
+
 void MujocoPlant::set_floor_friction(double coefficient) noexcept {
   simulation_->set_floor_friction(coefficient);
 }
@@ -275,6 +294,10 @@ void MujocoPlant::shift_centre_of_mass(std::size_t robot, double ahead) noexcept
 void MujocoPlant::scale_inertia(std::size_t robot, double factor) noexcept {
   if (robot < simulation_->robots.size())
     simulation_->robots[robot].scale_inertia(*simulation_->model, factor);
+}
+
+void MujocoPlant::set_dock(std::size_t owner, bool holds) noexcept {
+  simulation_->set_dock(owner, holds);
 }
 
 void MujocoPlant::diverge() noexcept {

@@ -34,6 +34,7 @@ struct MujocoPlant::Simulation {
     int equality = -1;
     int hook_body = 0;
     solver::Vector3 hook = solver::Vector3::Zero();  ///< [m] in that body
+    bool holds = true;
   };
 
   // Set up, in plant_start.cpp.
@@ -58,6 +59,7 @@ struct MujocoPlant::Simulation {
   }
   /// A hook that is near enough to its socket is tied to the object where it is.
   void latch_hooks() noexcept;
+  void set_dock(std::size_t owner, bool holds) noexcept;
   /// MuJoCo's tie pushes the hook with `f`, and so the dock with -f: pull = -f . n, n outwards.
   void read_pulls() noexcept;
   void read_objects() noexcept;
@@ -99,6 +101,7 @@ struct MujocoPlant::Simulation {
   std::vector<SimulatedDock> docks;
   solver::Vector3 velocity = solver::Vector3::Zero();
   Push push;
+  std::vector<Push> more_pushes;
   Truth truth;
   std::int64_t steps_since_start = 0;
   bool diverged = false;

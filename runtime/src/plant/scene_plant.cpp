@@ -204,6 +204,50 @@ struct ScenePlant::Parts {
     static_cast<void>(simulation.give_partner(i, of.torque));
   }
 
+  /// Docks that an output of the task file holds shut.
+  void find_held_docks(const lang::Program& program) {
+    const auto add = [&](std::size_t owner, const std::optional<lang::Dock>& dock) {
+      if (!dock || dock->held_while.empty()) return;
+      const auto output = std::ranges::find(program.outputs, dock->held_while, &lang::Output::name);
+      if (output == program.outputs.end()) return;
+      held_docks.push_back({owner, static_cast<std::size_t>(output - program.outputs.begin())});
+      simulation.set_dock(owner, output->start > 0.5);
+    };
+    for (std::size_t k = 0; k < scene.objects.size(); ++k) add(k, scene.objects[k].dock);
+    for (std::size_t r = 0; r < scene.robots.size(); ++r) add(scene.objects.size() + r, scene.robots[r].dock);
+  }
+
+  /// Where the hands of the scene press, in the base's axes.
+  void find_hands(const solver::Model& model) {
+    for (const lang::ScenePush& push : scene.pushes) {
+      const auto frame = model.find_frame(push.frame);
+      hands.push_back(
+          {push, frame ? model.frames()[static_cast<std::size_t>(*frame)].pose_in_body : solver::Pose{}});
+    }
+    pressing.reserve(hands.size());
+    simulation.set_more_pushes(std::vector<Push>(hands.size()));
+    simulation.set_more_pushes({});
+  }
+
+  void press_by_hands(double time) noexcept {
+    if (hands.empty()) return;
+    pressing.clear();
+    const double yaw = simulation.truth().yaw;
+    for (const Hand& hand : hands) {
+      if (time < hand.says.at || time >= hand.says.at + hand.says.duration) continue;
+      const solver::Vector3 force =
+          hand.pose.rotation * solver::Vector3{hand.says.force[0], hand.says.force[1], 0.0};
+      pressing.push_back({hand.pose.position.head<2>(), Eigen::Rotation2Dd(yaw) * force.head<2>()});
+    }
+    simulation.set_more_pushes(pressing);
+  }
+
+  void hold_docks(const std::vector<double>& outputs) noexcept {
+    for (const HeldDock& dock : held_docks) {
+      if (dock.output < outputs.size()) simulation.set_dock(dock.owner, outputs[dock.output] > 0.5);
+    }
+  }
+
   /// With the first robot's torques as they stand.
   PlantStatus step() noexcept;
 
@@ -226,10 +270,24 @@ struct ScenePlant::Parts {
   Eigen::VectorXd torque;  ///< what the motors make of the command
   std::vector<ScenePartner> partners;
   std::vector<Told> told;  ///< parallel to `partners`
+  struct HeldDock {
+    std::size_t owner;   ///< in Truth::objects
+    std::size_t output;  ///< of the program
+  };
+  std::vector<HeldDock> held_docks;
+  struct Hand {
+    lang::ScenePush says;
+    solver::Pose pose;  ///< in the base
+  };
+  std::vector<Hand> hands;
+  std::vector<Push> pressing;  ///< now
 };
 
 ScenePlant::ScenePlant(const lang::Program& program, const ScenePlantOptions& options)
-    : parts_(std::make_unique<Parts>(program, options)) {}
+    : parts_(std::make_unique<Parts>(program, options)) {
+  parts_->find_held_docks(program);
+  parts_->find_hands(program.robot.model);
+}
 
 ScenePlant::~ScenePlant() = default;
 
@@ -255,6 +313,7 @@ PlantStatus ScenePlant::apply(const Eigen::VectorXd& tau) noexcept {
 PlantStatus ScenePlant::follow(const Command& command) noexcept {
   Parts& p = *parts_;
   if (command.torque.size() != p.torque.size()) return PlantStatus::unreachable;
+  p.hold_docks(command.outputs);
   if (p.motors.takes_velocity()) {
     const PlantStatus status = p.simulation.sense(p.actual);
     if (status != PlantStatus::ok) return status;
@@ -267,6 +326,7 @@ PlantStatus ScenePlant::Parts::step() noexcept {
   const double time = simulation.truth().time;
   faults.spoil(torque, time);
   change_world(time);
+  press_by_hands(time);
   for (std::size_t i = 0; i < partners.size(); ++i) step_partner(i);
   return simulation.apply(torque);
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -130,6 +131,11 @@ class MujocoPlant : public Plant {
   void scale_inertia(std::size_t robot, double factor) noexcept;
   /// From the next step on, until another one; finite.
   void set_push(const Push& push) noexcept;
+  /// Beside that one; as many as there ever were do not allocate.
+  void set_more_pushes(std::span<const Push> pushes) noexcept;
+  /// Whether the dock of an object or robot, by its number in `Truth::objects`, catches and holds; at first
+  /// each does. One that lets go has not latched.
+  void set_dock(std::size_t owner, bool holds) noexcept;
   /// As if the simulation had failed.
   void diverge() noexcept;
   /// The MJCF that was compiled, for inspection.
