@@ -40,6 +40,14 @@ Control::Control(const lang::Connection& connection, const lang::Program& progra
       program_(&program) {
   serve("/start", &Control::start);
   serve("/stop", &Control::stop);
+  parameters_.serve_for(program);
+  for (const ParameterService& service : parameter_services) {
+    participant.serve(
+        connection.name + "/" + service.name, service.type,
+        [this, handle = service.handle](std::span<const std::uint8_t> fields, const Reply& reply) {
+          (parameters_.*handle)(fields, reply);
+        });
+  }
   if (connection.begin == lang::Begin::goals) serve_goals();
   thread_ = std::thread([this] { tell_changes(); });
 }
@@ -98,6 +106,7 @@ TriggerReply Control::reset() {
 }
 
 void Control::speak_of(const lang::Program& program) {
+  parameters_.serve_for(program);
   const std::lock_guard lock(mutex_);
   program_ = &program;
   note(-1, 0.0, -1.0);

@@ -1,5 +1,5 @@
 /// How people and programs control `zwang drive`: the services `~/start`, `~/stop` and `~/reset`, the action
-/// `~/run`, and the topic `~/state`.
+/// `~/run`, the parameter services, and the topic `~/state`.
 #pragma once
 
 #include <atomic>
@@ -11,6 +11,7 @@
 
 #include "action.hpp"
 #include "dds.hpp"
+#include "parameters.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::connect {
@@ -50,6 +51,9 @@ class Control {
   /// The last word: `done`, `failed` or `stopped`, and why.
   void end(const std::string& outcome, const std::string& reason);
 
+  /// Of the task file's parameters, those that somebody has set; see ParameterServer.
+  std::optional<ParameterServer::Change> take_change() noexcept { return parameters_.take_change(); }
+
   /// With `start: goals` only.
   RunTaskServer& goals() noexcept { return *goals_; }
 
@@ -68,6 +72,7 @@ class Control {
   std::function<bool()> is_alive_;
   std::unique_ptr<Writer> writer_, status_writer_, feedback_writer_;
   std::unique_ptr<RunTaskServer> goals_;
+  ParameterServer parameters_;
   std::atomic<bool> wants_start_{false}, wants_stop_{false}, is_over_{false};
   std::atomic<Phase> phase_{Phase::waiting};
   std::atomic<int> task_{-1};

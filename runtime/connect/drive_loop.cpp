@@ -26,6 +26,7 @@ class Loop {
   Loop(const lang::Connection& connection, const lang::Program& program, Inbox& inbox, Outbox& outbox,
        Control& control, runtime::Runner& runner, DriveReport& report)
       : connection_(connection),
+        program_(program),
         inbox_(inbox),
         outbox_(outbox),
         control_(control),
@@ -126,6 +127,8 @@ class Loop {
   }
 
   void step() {
+    if (const auto change = control_.take_change())
+      runner_.set_parameter(program_.parameters[change->parameter].name, change->value);
     runner_.step(sensed_);
     control_.note(runner_.scheduler().task(), now() - begin_, progress());
     has_stepped_ = true;
@@ -148,6 +151,7 @@ class Loop {
   }
 
   const lang::Connection& connection_;
+  const lang::Program& program_;
   Inbox& inbox_;
   Outbox& outbox_;
   Control& control_;

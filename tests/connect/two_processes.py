@@ -1,6 +1,6 @@
 """`zwang drive` and `zwang simulate` as two processes, over DDS on this machine.
 
-    two_processes.py PROGRAM ROOT TRIGGER_CLIENT ACTION_CLIENT
+    two_processes.py PROGRAM ROOT FOLDER_OF_CLIENTS
 
 A run ends as the same run inside one process does, with its peak force within 10 %. Either side may
 be killed or stopped: the other one brakes. Ends with 1 and says why when anything is otherwise.
@@ -71,13 +71,15 @@ class Pair:
             time.sleep(0.01)
 
     def call(self, service, calls=1):
-        return subprocess.run([TRIGGER_CLIENT, str(self.domain), service, str(calls)], capture_output=True, text=True,
-                              timeout=20 + calls // 100, check=False).stdout
+        return self.client("trigger_client", service, str(calls))
 
     def goal(self, task, *parameters, cancel_after=0.0):
         """All that a client of the action hears of a goal."""
-        words = [ACTION_CLIENT, str(self.domain), str(cancel_after), task, *parameters]
-        return subprocess.run(words, capture_output=True, text=True, timeout=90, check=False).stdout
+        return self.client("action_client", str(cancel_after), task, *parameters)
+
+    def client(self, name, *words):
+        return subprocess.run([CLIENTS / name, str(self.domain), *words], capture_output=True, text=True, timeout=120,
+                              check=False).stdout
 
 
 def number(pattern, text):
@@ -247,6 +249,18 @@ def goals_run_tasks(program, root, folder):
     expect(0.05 < way < 0.28, "another way", pair.text("simulate"), pair.text("drive"))
 
 
+def a_parameter_is_set_while_it_drives(program, root, folder):
+    (folder / "roll.yaml").write_text(ROLL, encoding="utf-8")
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml", "--scene", root / "specs/scenes/open.yaml"]
+    pair = Pair(program, folder, folder / "roll.yaml", TWIST, options, 12)
+    pair.wait_until_it_drives(0.1)
+    expect(pair.client("parameter_client", "speed", "3") == "`speed` is from 0.01 to 0.3, in SI, now 0.02\n", "out of range")
+    expect(pair.client("parameter_client", "pull", "3").startswith("the task has no parameter `pull`"), "unknown")
+    expect(pair.client("parameter_client", "until", "0.2") == "set, now 0.2\n", "not set")
+    code, drive, _ = pair.end()  # else it would drive for 60 s
+    expect(code == 0 and "done after" in drive, "not done", drive)
+
+
 def ten_thousand_calls_are_answered(program, root, folder):
     options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
     pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 10, more="start: wait\n")
@@ -259,6 +273,22 @@ def ten_thousand_calls_are_answered(program, root, folder):
     grown = resident(pair.drive.pid) - begin
     pair.drive.kill()
     expect(grown < 20e6, f"it has grown by {grown} bytes", "")
+
+
+def cyclone_is_answered(program, root, folder):
+    if not (CLIENTS / "cyclone_client").exists():
+        print("skipped: Cyclone DDS is not installed (cyclonedds-dev, cyclonedds-tools)", flush=True)
+        return
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 13, ros2="reach: machine",
+                more="start: wait\n")
+    pair.wait_for("waiting for the service /zwang/start")
+    said = pair.client("cyclone_client", "/zwang/start", "0")
+    expect('state {"state":"ready"' in said, "the state does not reach a late subscriber", said)
+    said = pair.client("cyclone_client", "/zwang/start", "50")
+    code, drive, _ = pair.end()
+    expect("50 of 50 answered: the task" in said, "a call is not answered", said)
+    expect(code == 0 and "done after" in drive, "the first call has not started it", drive)
 
 
 def resident(pid):
@@ -284,12 +314,12 @@ def a_robot_that_comes_back_is_not_driven_on(program, root, folder):
     expect(abs(number(r"base at (-?[0-9.]+) m", simulate)) < 0.01, "it drives on", drive, simulate)
 
 
-TRIGGER_CLIENT = ACTION_CLIENT = ""
+CLIENTS = pathlib.Path()
 
 
-def main(program, root, trigger_client, action_client):
-    global TRIGGER_CLIENT, ACTION_CLIENT
-    TRIGGER_CLIENT, ACTION_CLIENT = trigger_client, action_client
+def main(program, root, clients):
+    global CLIENTS
+    CLIENTS = pathlib.Path(clients)
     root = pathlib.Path(root)
 
     def is_good(case):
@@ -307,7 +337,7 @@ def main(program, root, trigger_client, action_client):
     cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, silence_of_the_robot_stops,
              a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros, services_start_and_stop_it,
              this_machine_alone_is_enough, a_stuck_odometry_stops, goals_run_tasks, ten_thousand_calls_are_answered,
-             a_robot_that_comes_back_is_not_driven_on)
+             a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered)
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return 0 if all(list(pool.map(is_good, cases))) else 1
 
