@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 
 #include "robots.hpp"
 #include "schedule/estimated_wrenches.hpp"
 #include "scheduler_bench.hpp"
 #include "zwang/lang/condition_function.hpp"
+#include "zwang/lang/robot.hpp"
 #include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
@@ -250,6 +252,47 @@ TEST(EstimatedWrench, OnAFrameOfTheBaseIsThatOnTheBase) {
   EXPECT_EQ(bench.scheduler.outcome(), Outcome::none) << "it is not known yet";
   bench.scheduler.estimate_force({0.0, 2.0, 0.8});
   EXPECT_EQ(bench.ticks_to_switch(3), 1);
+}
+
+// A unit force or torque at the tip of an arm of seven joints, as the solver has it along the free motions.
+TEST(EstimatedWrench, AtTheTipOfAnArmIsWhatPressesThere) {
+  lang::Diagnostics diagnostics;
+  const auto robot = lang::load_robot(
+      std::filesystem::path(ZWANG_SOURCE_DIR) / "specs/robots/mecanum_arm_base.yaml", diagnostics);
+  ASSERT_TRUE(robot);
+  const solver::Model& model = robot->model;
+  const solver::State state = lang::start_state(*robot, std::nullopt);
+  lang::FrameDeclaration tip;
+  tip.parent = lang::FrameParent::body;
+  tip.parent_index = model.body_count() - 1;
+  tip.pose = {solver::rotation_from_rpy(0.3, -0.2, 0.5), {0.02, 0.03, 0.1}};
+  FrameTable frames({{}, tip}, model, 0);
+  frames.update(model, state, period);
+  solver::ConstraintSet set(6, 6);
+  for (int axis = 0; axis < 6; ++axis) {
+    solver::AxisConstraint c;
+    c.move = c.in = frames.attached(1);
+    c.axis = static_cast<Axis>(axis);
+    c.driver = solver::Driver{.quantity = Quantity::force, .target = 1.0};
+    ASSERT_TRUE(set.add(c));
+  }
+  ASSERT_TRUE(set.fill(model, state));
+  solver::Solver solver(model, {.base_motion = true});
+  solver::Solution solution(model);
+  ASSERT_EQ(solver.solve(state, set.rows(), solution), solver::Status::ok);
+  solver::FreeMotions motions(model);
+  ASSERT_TRUE(solver.free_motions(motions));
+  for (int row = 0; row < 6; ++row) {
+    Eigen::VectorXd p = Eigen::VectorXd::Zero(6 + model.joint_count());
+    solver.force_on_motions(row, p);
+    EstimatedWrenches wrenches(model);
+    wrenches.ask(1);
+    EXPECT_TRUE(std::isnan(wrenches.part(1, lang::WrenchPart::x)));
+    wrenches.estimate(motions, p, state, frames, 1.0);  // far longer than its low pass
+    for (int part = 0; part < 6; ++part)
+      EXPECT_NEAR(wrenches.part(1, static_cast<lang::WrenchPart>(part)), part == row ? 1.0 : 0.0, 1e-4)
+          << row << " " << part;
+  }
 }
 
 }  // namespace

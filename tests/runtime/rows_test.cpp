@@ -404,7 +404,7 @@ TEST(Blending, AFrameThatWasSetInBetweenIsNotTheSameAxes) {
     lang::FrameDeclaration touch;
     touch.name = "touch";
     p.frames.push_back(touch);
-    if (is_set) p.tasks[0].exits[0].set = {{true, 3, base_link, {}, {}}};
+    if (is_set) p.tasks[0].exits[0].set = {{.index = 3, .source = base_link}};
     Bench bench(p);
     bench.sensed.state.base_pose.position.x() = 0.2;
     bench.ticks_more(5);

@@ -9,6 +9,7 @@
 //
 // A driver with `build_up: t` adds q to its target: dq = (v - ds)/t, of a position (p - s)/t. While its row
 // does not get what it asks, or a range holds it, q goes nowhere but back.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
