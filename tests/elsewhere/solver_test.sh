@@ -34,7 +34,9 @@ build() {  # FOLDER TARGET... -- OPTIONS
 build "$place/there" solver_test solver_digits -- "${options[@]}"
 build "$place/here" solver_digits --
 
-ZWANG_ORACLE_PROBLEMS=${ZWANG_ORACLE_PROBLEMS:-20} "${emulator[@]}" "$place/there/solver_test" --gtest_brief=1
+# The oracle counts in long double, which 64-bit ARM has in software alone, and QEMU slower still.
+ZWANG_ORACLE_PROBLEMS=${ZWANG_ORACLE_PROBLEMS:-2} "${emulator[@]}" "$place/there/solver_test" --gtest_brief=1 \
+  --gtest_filter=-Acceptance.*
 "$place/here/solver_digits" >"$place/here.txt"
 "${emulator[@]}" "$place/there/solver_digits" >"$place/there.txt"
 paste -d '|' "$place/here.txt" "$place/there.txt" | awk -F '|' '
