@@ -92,9 +92,9 @@ void Scheduler::Parts::yield(const ActiveAxis& a, solver::Driver& driver) const 
 
 /// The driver's error with what was built up: v + q - ds, or p + q - s.
 double Scheduler::Parts::error_of(const ActiveAxis& a, const solver::Driver& driver,
-                                  const solver::Coordinate& now) const noexcept {
-  if (driver.quantity == Quantity::velocity) return driver.target - now.velocity;
-  const double error = driver.target - now.position;
+                                  const solver::Coordinate& motion) const noexcept {
+  if (driver.quantity == Quantity::velocity) return driver.target - motion.velocity;
+  const double error = driver.target - motion.position;
   return wraps(wanted[a.wanted].constraint) ? std::remainder(error, 2.0 * std::numbers::pi) : error;
 }
 
@@ -105,10 +105,10 @@ void Scheduler::Parts::build_up(ActiveAxis& a) noexcept {
   const solver::Driver& driver = *constraint.driver;
   const solver::ConstraintSet& set = blend->sets()[0].constraints;
   const solver::Row& row = set.rows()[static_cast<std::size_t>(a.row)];
-  const solver::Coordinate& now = set.coordinates()[static_cast<std::size_t>(row.constraint)];
-  const double whole = error_of(a, driver, now);
-  const double asked = asked_by(driver, whole, now);
-  const bool is_held = std::abs(row.b + now.acceleration_bias - asked) > same * (1.0 + std::abs(asked));
+  const solver::Coordinate& motion = set.coordinates()[static_cast<std::size_t>(row.constraint)];
+  const double whole = error_of(a, driver, motion);
+  const double asked = asked_by(driver, whole, motion);
+  const bool is_held = std::abs(row.b + motion.acceleration_bias - asked) > same * (1.0 + std::abs(asked));
   const double error = whole - a.built_up;
   if ((is_held || !a.is_met) && error * a.built_up >= 0.0) return;
   a.built_up += error * period / a.says->build_up->evaluate(parameters);
