@@ -105,7 +105,9 @@ std::unique_ptr<runtime::Recorder> record(const RunArguments& arguments, runtime
     for (auto& sink : sinks) sink = runtime::thinned_sink(std::move(sink), *arguments.log_rate);
   }
   if (also) sinks.push_back(std::move(also));
-  auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
+  // Small enough for a cache. A simulation waits for room, so that a slow disk loses nothing.
+  constexpr std::size_t records = 1024;
+  auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns(), records);
   runner.record_to(recorder.get());
   return recorder;
 }

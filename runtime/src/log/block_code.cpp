@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "log/mcap_format.hpp"
@@ -23,6 +22,10 @@ constexpr std::size_t most_orders = 3;  // a fourth saves 6 % of the hospital's 
 constexpr std::uint64_t blank_bits = std::bit_cast<std::uint64_t>(std::numeric_limits<double>::quiet_NaN());
 constexpr std::size_t most_numbers = std::size_t{1} << 23;  // of a block that is read; ours have 100 records
 constexpr unsigned byte_bits = 8;
+
+std::uint64_t bits_of(double number) {
+  return std::bit_cast<std::uint64_t>(number);
+}
 
 /// Small numbers of either sign become small ones without a sign.
 std::uint64_t folded(std::uint64_t difference) {
@@ -60,12 +63,16 @@ std::uint64_t bits_of_all(const std::vector<std::uint64_t>& numbers, std::size_t
 BlockWriter::BlockWriter(std::size_t columns) : columns_(columns), changed_(columns) {}
 
 void BlockWriter::add(const double* record) {
-  const std::size_t begin = rows_.size();
-  rows_.resize(begin + columns_);
-  if (columns_ > 0) std::memcpy(&rows_[begin], record, columns_ * sizeof(double));
-  const std::uint64_t* const first = rows_.data();
-  const std::uint64_t* const last = first + begin;
-  for (std::size_t i = 0; i < columns_; ++i) changed_[i] |= first[i] ^ last[i];
+  const std::size_t begin = records_ * columns_;
+  if (rows_.size() < begin + columns_) rows_.resize(begin + columns_);
+  // One pass: a record comes from memory that no cache holds.
+  const double* const first = rows_.data();
+  double* const row = rows_.data() + begin;
+  std::uint64_t* const changed = changed_.data();
+  for (std::size_t i = 0; i < columns_; ++i) {
+    row[i] = record[i];
+    changed[i] |= bits_of(first[i]) ^ bits_of(record[i]);
+  }
   ++records_;
 }
 
@@ -75,7 +82,6 @@ const std::string& BlockWriter::take() {
   append_number(bytes_, columns_, sizeof(std::uint32_t));
   packed_.clear();
   for (std::size_t i = 0; i < columns_; ++i) append_column(i);
-  rows_.clear();
   std::ranges::fill(changed_, 0);
   records_ = 0;
   return bytes_;
@@ -83,13 +89,14 @@ const std::string& BlockWriter::take() {
 
 void BlockWriter::append_column(std::size_t column) {
   if (changed_[column] == 0) {
-    const bool is_blank = rows_[column] == blank_bits;
+    const std::uint64_t bits = bits_of(rows_[column]);
+    const bool is_blank = bits == blank_bits;
     bytes_ += static_cast<char>(is_blank ? blank : constant);
-    if (!is_blank) append_number(bytes_, rows_[column], sizeof(double));
+    if (!is_blank) append_number(bytes_, bits, sizeof(double));
     return;
   }
   column_.resize(records_);
-  for (std::size_t i = 0; i < records_; ++i) column_[i] = rows_[i * columns_ + column];
+  for (std::size_t i = 0; i < records_; ++i) column_[i] = bits_of(rows_[i * columns_ + column]);
   if (append_copy(column)) return;
   packed_.push_back(column);
   append_differences();
@@ -100,7 +107,7 @@ bool BlockWriter::append_copy(std::size_t column) {
     // Unlike columns part soon, and most of them where they change first and last.
     if (changed_[other] != changed_[column]) return false;
     for (std::size_t i = records_; i-- > 0;) {
-      if (rows_[i * columns_ + other] != column_[i]) return false;
+      if (bits_of(rows_[i * columns_ + other]) != column_[i]) return false;
     }
     return true;
   };

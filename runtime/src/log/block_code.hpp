@@ -28,7 +28,7 @@ class BlockWriter {
   void append_differences();
 
   std::size_t columns_, records_ = 0;
-  std::vector<std::uint64_t> rows_;     ///< the bits of the records, one behind the other
+  std::vector<double> rows_;            ///< the records, one behind the other; those of before behind them
   std::vector<std::uint64_t> changed_;  ///< by column: bits that are unlike those of the first record
   std::vector<std::uint64_t> column_;   ///< the one that is packed now
   std::vector<std::uint64_t> differences_, best_;

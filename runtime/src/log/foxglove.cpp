@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numbers>
 
@@ -203,13 +204,53 @@ ordered_json stamp(double time) {
   return {{"sec", nanoseconds / 1'000'000'000}, {"nsec", nanoseconds % 1'000'000'000}};
 }
 
-ordered_json transform(double time, const std::string& parent, const std::string& child,
-                       const solver::Pose& pose) {
-  return {{"timestamp", stamp(time)},
-          {"parent_frame_id", parent},
-          {"child_frame_id", child},
-          {"translation", xyz(pose.position)},
-          {"rotation", quaternion(pose.rotation)}};
+namespace {
+
+void append_quoted(std::string& text, std::string_view name) {
+  const bool is_plain =
+      std::ranges::all_of(name, [](char c) { return c >= ' ' && c <= '~' && c != '"' && c != '\\'; });
+  if (is_plain) {
+    text.append(1, '"').append(name).append(1, '"');
+  } else {
+    text += ordered_json(name).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  }
+}
+
+void append_numbers(std::string& text, std::string_view names, std::initializer_list<double> values) {
+  text += '{';
+  std::size_t i = 0;
+  for (const double value : values) {
+    if (i > 0) text += ',';
+    text.append(1, '"').append(1, names[i++]).append("\":");
+    char digits[32];
+    text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+  }
+  text += '}';
+}
+
+}  // namespace
+
+void TransformsText::begin(double time) {
+  text_ = R"({"transforms":[)";
+  stamp_ = stamp(time).dump();
+}
+
+void TransformsText::add(std::string_view parent, std::string_view child, const solver::Pose& pose) {
+  if (text_.back() == '}') text_ += ',';
+  text_.append(R"({"timestamp":)").append(stamp_).append(R"(,"parent_frame_id":)");
+  append_quoted(text_, parent);
+  text_ += R"(,"child_frame_id":)";
+  append_quoted(text_, child);
+  text_ += R"(,"translation":)";
+  append_numbers(text_, "xyz", {pose.position.x(), pose.position.y(), pose.position.z()});
+  text_ += R"(,"rotation":)";
+  const Eigen::Quaterniond q(pose.rotation);
+  append_numbers(text_, "xyzw", {q.x(), q.y(), q.z(), q.w()});
+  text_ += '}';
+}
+
+const std::string& TransformsText::end() {
+  return text_.append("]}");
 }
 
 ordered_json log_message(double time, Level level, const std::string& message, const std::string& name) {

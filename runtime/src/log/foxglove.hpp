@@ -19,8 +19,17 @@ std::vector<LogChannel> channels();
 
 /// `time` [s] since the begin of the clock that the run accepts.
 nlohmann::ordered_json stamp(double time);
-nlohmann::ordered_json transform(double time, const std::string& parent, const std::string& child,
-                                 const solver::Pose& pose);
+/// Puts transforms together, as text: 50 messages a second through objects of JSON took a quarter of the
+/// log's processor time. Keeps its memory from message to message.
+class TransformsText {
+ public:
+  void begin(double time);
+  void add(std::string_view parent, std::string_view child, const solver::Pose& pose);
+  const std::string& end();
+
+ private:
+  std::string text_, stamp_;
+};
 nlohmann::ordered_json log_message(double time, Level level, const std::string& message,
                                    const std::string& name);
 

@@ -24,7 +24,7 @@ constexpr std::size_t chunk_room = std::size_t{1} << 20;  // [bytes]
 // Where time stands still, because no samples arrive, its records have to be on disk all the same.
 constexpr std::size_t chunk_records = 100;
 constexpr std::uint16_t records_id = mcap::records_channel;  // of the schema, too; other channels follow
-constexpr double shown_every = 0.02;                         // [s]: a record in the form that viewers read
+constexpr double shown_every = 0.1;                          // [s]: a record in the form that viewers read
 
 std::uint64_t nanoseconds(double seconds) {
   return seconds > 0.0 ? static_cast<std::uint64_t>(std::llround(seconds * 1e9)) : 0;
@@ -164,9 +164,11 @@ class McapSink : public LogSink {
   void add_message(Channel& channel, std::uint64_t time, std::string_view message) {
     begin_chunk();
     channel.in_chunk.push_back({time, chunk_.size()});
-    Content content;
-    content.u16(channel.id).u32(channel.sequence++).u64(time).u64(time).raw(message);
-    chunk_ += mcap::record(Opcode::message, content.bytes());
+    constexpr std::size_t fields = 2 + 4 + 8 + 8;
+    Content head;
+    head.raw(std::string(1, static_cast<char>(Opcode::message))).u64(fields + message.size());
+    head.u16(channel.id).u32(channel.sequence++).u64(time).u64(time);
+    chunk_.append(head.bytes()).append(message);
     ++channel.messages;
     ++messages_;
   }

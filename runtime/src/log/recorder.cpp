@@ -14,7 +14,7 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr auto idle = std::chrono::milliseconds(5);  // between two looks at an empty ring
+constexpr auto idle = std::chrono::milliseconds(10);  // between two looks at an empty ring
 
 /// What a sink says, thrown or returned.
 template <typename Call>

@@ -68,11 +68,11 @@ class SceneChannels : public LogChannels {
   void take(std::span<const double> values, const Put& put) override {
     time_ = values.front();
     if (!has_begun_) {
-      put(foxglove::fixed_transforms, text_of({{"transforms", fixed_transforms()}}));
+      put(foxglove::fixed_transforms, fixed_transforms());
       put(foxglove::scene, text_of(foxglove::scene_update(time_, program_)));
     }
     has_begun_ = true;
-    if (pace_.is_due(time_)) put(foxglove::transforms, text_of({{"transforms", moving_transforms(values)}}));
+    if (pace_.is_due(time_)) put(foxglove::transforms, moving_transforms(values));
     tell_task(values, put);
     tell_event(values, put);
   }
@@ -118,13 +118,13 @@ class SceneChannels : public LogChannels {
     return index < columns_[place].words.size() ? columns_[place].words[index] : "";
   }
 
-  ordered_json moving_transforms(std::span<const double> values) const {
-    ordered_json list = ordered_json::array();
+  const std::string& moving_transforms(std::span<const double> values) {
+    transforms_.begin(time_);
     const std::vector<solver::Body>& bodies = program_.robot.model.bodies();
     Pose base;
     base.position = {value(values, base_[0]), value(values, base_[1]), height_};
     base.rotation = turned(value(values, lean_[0]), value(values, lean_[1]), value(values, base_[2]));
-    list.push_back(foxglove::transform(time_, world, bodies[0].name, base));
+    transforms_.add(world, bodies[0].name, base);
     for (std::size_t b = 1; b < bodies.size(); ++b) {
       const solver::Body& body = bodies[b];
       const double q = value(values, joints_[b - 1]);
@@ -134,15 +134,14 @@ class SceneChannels : public LogChannels {
       } else {
         pose.rotation = pose.rotation * Eigen::AngleAxisd(q, body.joint.axis).toRotationMatrix();
       }
-      list.push_back(
-          foxglove::transform(time_, bodies[static_cast<std::size_t>(body.parent)].name, body.name, pose));
+      transforms_.add(bodies[static_cast<std::size_t>(body.parent)].name, body.name, pose);
     }
     for (const Mover& mover : movers_) {
       const auto [x, y, yaw] = mover.places;
-      list.push_back(foxglove::transform(time_, world, foxglove::frame_of(mover.name),
-                                         planar(value(values, x), value(values, y), value(values, yaw))));
+      transforms_.add(world, foxglove::frame_of(mover.name),
+                      planar(value(values, x), value(values, y), value(values, yaw)));
     }
-    return list;
+    return transforms_.end();
   }
 
   static Pose planar(double x, double y, double yaw) {
@@ -154,11 +153,11 @@ class SceneChannels : public LogChannels {
 
   /// Of the robot's frames, of the task's own, and of objects that stay. A frame that a signal carries is in
   /// no record; one that a task sets is where the file has it.
-  ordered_json fixed_transforms() const {
-    ordered_json list = ordered_json::array();
+  const std::string& fixed_transforms() {
+    transforms_.begin(time_);
     std::set<std::string> known{world};
     const auto add = [&](const std::string& parent, const std::string& child, const Pose& pose) {
-      if (known.insert(child).second) list.push_back(foxglove::transform(time_, parent, child, pose));
+      if (known.insert(child).second) transforms_.add(parent, child, pose);
     };
     const std::vector<solver::Body>& bodies = program_.robot.model.bodies();
     for (const solver::Body& body : bodies) known.insert(body.name);
@@ -168,7 +167,7 @@ class SceneChannels : public LogChannels {
       if (frame.parent == lang::FrameParent::body) add(bodies[index].name, frame.name, frame.pose);
       if (frame.parent == lang::FrameParent::frame) add(program_.frames[index].name, frame.name, frame.pose);
     }
-    if (!program_.scene) return list;
+    if (!program_.scene) return transforms_.end();
     const auto moves = [&](const std::string& name) {
       return std::ranges::any_of(movers_, [&](const Mover& mover) { return mover.name == name; });
     };
@@ -180,7 +179,7 @@ class SceneChannels : public LogChannels {
       if (!moves(robot.name))
         add(world, foxglove::frame_of(robot.name), planar(robot.at[0], robot.at[1], robot.yaw));
     }
-    return list;
+    return transforms_.end();
   }
 
   void tell(Level level, const std::string& message, const std::string& name, const Put& put) const {
@@ -216,6 +215,7 @@ class SceneChannels : public LogChannels {
   bool has_begun_ = false;
   double time_ = 0.0;  ///< [s]
   Pace pace_{transforms_every};
+  foxglove::TransformsText transforms_;
   std::string task_;
 };
 

@@ -110,16 +110,17 @@ const messages = records.length;
 assert.ok(messages > 1000, `${messages} records`);
 const byTime = new Map(records.map((record) => [record[0], record]));
 const last = records.at(-1)[0];
-assert.ok(ticks.size > 40 * last && ticks.size < 60 * last, `${ticks.size} records shown in ${last} s`);
+assert.ok(ticks.size > 8 * last && ticks.size < 12 * last, `${ticks.size} records shown in ${last} s`);
 for (const tick of ticks.values()) assert.deepEqual(tick, shownOf(byTime.get(tick.time)));
-for (const list of shown.values()) for (const one of list) one.tick = ticks.get(one.time);
+const byStamp = new Map(records.map((record) => [BigInt(Math.round(record[0] * 1e9)), record]));
+for (const list of shown.values()) for (const one of list) one.tick = shownOf(byStamp.get(one.time));
 const others = [...shown.values()].reduce((sum, list) => sum + list.length, blocks + ticks.size);
 assert.equal(BigInt(others), reader.statistics.messageCount);
 assert.equal(messages, info.records);
 
 // Where the robot is, as the records have it, stamped with the time of the run.
 const moves = shown.get('/tf');
-assert.equal(moves.length, ticks.size);
+assert.ok(moves.length > 40 * last && moves.length < 60 * last, `${moves.length} transforms in ${last} s`);
 for (const {content, time, tick} of moves) {
   const [base] = content.transforms;
   assert.equal(base.parent_frame_id, 'world');

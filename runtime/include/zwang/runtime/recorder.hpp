@@ -51,7 +51,7 @@ class LogSink {
 std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path);
 
 /// MCAP (https://mcap.dev): every bit of each record in the channel `/records`, in blocks and compressed
-/// chunks of at most 50 ms (docs/logs.md has the format); 50 records a second as JSON in `/tick`, for
+/// chunks of at most 50 ms (docs/logs.md has the format); 10 records a second as JSON in `/tick`, for
 /// viewers. The context's sources are its attachments. Cut anywhere, all whole chunks before the cut can be
 /// read. Dropped records are missing among the sequence numbers, and `read_log` tells so. Wants a first
 /// column `time` in seconds.
