@@ -5,6 +5,9 @@
 #include <cmath>
 #include <ctime>
 
+#include "joints_merger.hpp"
+#include "transforms.hpp"
+
 namespace zwang::connect {
 
 namespace {
@@ -12,21 +15,9 @@ namespace {
 using lang::MessageType;
 using runtime::SignalSample;
 
-constexpr double least_rotation = 0.5;  // the norm of a quaternion that was filled in
-
 template <typename Numbers>
 bool are_finite(const Numbers& numbers) {
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
-}
-
-/// nullopt for a rotation that is none.
-std::optional<solver::Pose> pose_of(const PoseFields& f) {
-  Eigen::Quaterniond rotation(f[6], f[3], f[4], f[5]);
-  if (!are_finite(f) || !(rotation.norm() > least_rotation)) return std::nullopt;
-  solver::Pose pose;
-  pose.position = {f[0], f[1], f[2]};
-  pose.rotation = rotation.normalized().toRotationMatrix();
-  return pose;
 }
 
 // The signal's sample of a message; nullopt for numbers that cannot be. `arrival` is the stamp of messages
@@ -90,57 +81,6 @@ void count(TopicCounts& counts, double arrival, double stamp) {
   counts.most_age = std::max(counts.most_age.load(), arrival - stamp);
 }
 
-/// Messages may hold a part of the joints each: the last of each joint is kept.
-class JointsMerger {
- public:
-  JointsMerger(const lang::JointsSource& source, const solver::Model& model) : model_(model) {
-    const int n = model.joint_count();
-    for (int j = 0; j < n; ++j) index_[source.name_of(model.joint(j).name)] = j;
-    is_told_.assign(static_cast<std::size_t>(n), false);
-    publishers_.resize(static_cast<std::size_t>(n));
-    q_ = qd_ = Eigen::VectorXd::Zero(n);
-  }
-
-  /// Whether it comes from the publisher that has told of these joints before.
-  bool admits(const JointState& message, const Sender& sender, double arrival) {
-    return std::all_of(message.names.begin(), message.names.end(), [&](const std::string& name) {
-      const auto joint = index_.find(name);
-      return joint == index_.end() ||
-             publishers_[static_cast<std::size_t>(joint->second)].admits(sender, arrival);
-    });
-  }
-
-  /// False: the message is no good, and nothing is taken.
-  bool take(const JointState& message) {
-    const std::size_t n = message.names.size();
-    const bool fits = message.positions.size() == n && message.velocities.size() == n;
-    if (!fits || !are_finite(message.positions) || !are_finite(message.velocities)) return false;
-    for (std::size_t i = 0; i < n; ++i) {
-      const auto joint = index_.find(message.names[i]);
-      if (joint == index_.end()) continue;
-      is_told_[static_cast<std::size_t>(joint->second)] = true;
-      q_(joint->second) = message.positions[i];
-      qd_(joint->second) = message.velocities[i];
-    }
-    return true;
-  }
-  bool is_whole() const {
-    for (int j = 0; j < model_.joint_count(); ++j) {
-      if (model_.joint(j).actuated && !is_told_[static_cast<std::size_t>(j)]) return false;
-    }
-    return true;
-  }
-  const Eigen::VectorXd& q() const { return q_; }
-  const Eigen::VectorXd& qd() const { return qd_; }
-
- private:
-  const solver::Model& model_;
-  std::map<std::string, int> index_;
-  std::vector<bool> is_told_;
-  std::vector<OnePublisher> publishers_;  // of each joint
-  Eigen::VectorXd q_, qd_;
-};
-
 struct SignalBox {
   explicit SignalBox(const lang::SignalSource& from) : source(from) {}
 
@@ -168,6 +108,8 @@ struct Inbox::Parts {
   Mailbox<JointsSample> joints;
   Mailbox<BaseSample> base;
   Mailbox<runtime::MeasuredPose> fix;
+  std::optional<TransformChain> transforms;  ///< that give the fix
+  std::mutex fix_mutex;                      ///< of the threads of DDS: /tf and /tf_static have one each
   std::vector<std::unique_ptr<SignalBox>> signals;
   std::vector<std::unique_ptr<TopicCounts>> counts;
   sem_t arrivals{};
@@ -179,6 +121,7 @@ struct Inbox::Parts {
         merger(c.joints, p.robot.model),
         joints(JointsSample{0.0, 0.0, merger.q(), merger.qd()}) {
     sem_init(&arrivals, 0, 0);
+    if (c.fix_frames) transforms.emplace(c.fix_frames->parent, c.fix_frames->child);
   }
   ~Parts() { sem_destroy(&arrivals); }
 
@@ -257,6 +200,39 @@ struct Inbox::Parts {
     return stamp;
   }
 
+  void subscribe_transforms(Participant& participant, const std::string& topic, bool is_static) {
+    TopicCounts& of = *counts.emplace_back(std::make_unique<TopicCounts>());
+    of.topic = topic;
+    of.type = lang::to_string(MessageType::tf_message);
+    of.may_be_silent = is_static;
+    participant.subscribe(
+        topic, of.type,
+        [this, &of, is_static](const Payload& payload) { take_transforms(of, payload, is_static); },
+        is_static ? Late::gets_last : Late::gets_nothing);
+  }
+
+  /// A message may hold frames of the whole robot: one that is bad or of another publisher spoils no other.
+  void take_transforms(TopicCounts& of, const Payload& payload, bool is_static) {
+    using Verdict = TransformChain::Verdict;
+    const double arrival = now();
+    const auto message = decode<TransformsMessage>(payload.bytes);
+    if (!message) {
+      ++of.bad;
+      return;
+    }
+    for (const TransformStamped& transform : message->transforms) {
+      const Verdict verdict = transforms->take(transform, is_static, payload.sender, arrival);
+      if (verdict == Verdict::bad) ++of.bad;
+      if (verdict == Verdict::of_another) ++of.others;
+      if (verdict == Verdict::taken) count(of, arrival, is_static ? arrival : transform.header.stamp());
+    }
+    const std::lock_guard lock(fix_mutex);
+    if (const auto found = transforms->find()) {
+      fix.draft() = {found->stamp, found->pose};
+      fix.put();
+    }
+  }
+
   void subscribe_signal(const lang::SignalSource& source, Participant& participant) {
     switch (source.type) {
       case MessageType::boolean:
@@ -314,6 +290,10 @@ void Inbox::subscribe(Participant& participant) {
     p.listen_to_one<PoseWithCovarianceStamped>(
         participant, *p.connection.fix, MessageType::pose_with_covariance_stamped,
         [&p](const PoseWithCovarianceStamped& message, double) { return p.take_fix(message); });
+  if (p.transforms) {
+    p.subscribe_transforms(participant, "/tf", false);
+    p.subscribe_transforms(participant, "/tf_static", true);
+  }
   // The task of a goal may read another one than the task before.
   const bool wants_all = p.connection.begin == lang::Begin::goals;
   for (const lang::SignalSource& source : p.connection.signals) {

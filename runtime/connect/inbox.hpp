@@ -23,6 +23,7 @@ namespace zwang::connect {
 struct TopicCounts {
   std::string topic;
   const char* type = "";
+  bool may_be_silent = false;  ///< nothing has to come on it
   std::atomic<std::uint64_t> received{0};
   std::atomic<std::uint64_t> others{0};    ///< of another publisher than the one that is obeyed
   std::atomic<std::uint64_t> bad{0};       ///< not this message, or not whole, or numbers that cannot be

@@ -67,6 +67,20 @@ void describe(CdrReader& way, Float64MultiArray& m) {
   pass(way, m.offset, m.data);
 }
 
+void describe(CdrWriter& way, const TransformsMessage& m) {
+  way(static_cast<std::uint32_t>(m.transforms.size()));
+  for (const TransformStamped& t : m.transforms) pass(way, t.header, t.child_frame, t.transform);
+}
+
+void describe(CdrReader& way, TransformsMessage& m) {
+  std::uint32_t count = 0;
+  way(count);
+  for (std::uint32_t i = 0; i < count && way.is_good(); ++i) {
+    TransformStamped& t = m.transforms.emplace_back();
+    pass(way, t.header, t.child_frame, t.transform);
+  }
+}
+
 }  // namespace
 
 template <typename Message>
@@ -99,6 +113,7 @@ ZWANG_BOTH_WAYS(Bool);
 ZWANG_BOTH_WAYS(Float64);
 ZWANG_BOTH_WAYS(Float64MultiArray);
 ZWANG_BOTH_WAYS(LaserScan);
+ZWANG_BOTH_WAYS(TransformsMessage);
 #undef ZWANG_BOTH_WAYS
 
 Header header_at(double stamp, const std::string& frame) {

@@ -60,6 +60,14 @@ struct WrenchStamped {
   Header header;
   SixFields wrench{};
 };
+struct TransformStamped {
+  Header header;
+  std::string child_frame;
+  PoseFields transform{0, 0, 0, 0, 0, 0, 1};
+};
+struct TransformsMessage {
+  std::vector<TransformStamped> transforms;
+};
 struct String {
   std::string data;
 };

@@ -44,6 +44,8 @@ void RobotSide::join(Participant& participant) {
   if (connection_.fix)
     fix_ = participant.advertise(connection_.fix->name,
                                  lang::to_string(lang::MessageType::pose_with_covariance_stamped));
+  if (connection_.fix_frames)
+    fix_ = participant.advertise("/tf", lang::to_string(lang::MessageType::tf_message));
   for (const lang::SignalSource& source : connection_.signals) {
     for (std::size_t i = 0; i < program_.signals.size(); ++i) {
       if (program_.signals[i].name != source.name) continue;
@@ -83,13 +85,7 @@ void RobotSide::publish(const runtime::Sensed& sensed, double stamp, double shif
     encode(odometry_, bytes_);
     base_->write(bytes_);
   }
-  if (fix_ && sensed.base_fix && sensed.base_fix->stamp != last_fix_) {
-    last_fix_ = sensed.base_fix->stamp;
-    encode(
-        PoseWithCovarianceStamped{header_at(last_fix_ + shift, "map"), fields_of(sensed.base_fix->pose), {}},
-        bytes_);
-    fix_->write(bytes_);
-  }
+  if (fix_ && sensed.base_fix && sensed.base_fix->stamp != last_fix_) publish_fix(*sensed.base_fix, shift);
   for (SignalWriter& signal : signals_) {
     const runtime::SignalSample& sample = sensed.signals[signal.index];
     if (!sample.valid || sample.stamp == signal.last_stamp) continue;
@@ -102,6 +98,18 @@ void RobotSide::publish(const runtime::Sensed& sensed, double stamp, double shif
   joint_state_.velocities.assign(state.qd.begin(), state.qd.end());
   encode(joint_state_, bytes_);
   joints_->write(bytes_);
+}
+
+void RobotSide::publish_fix(const runtime::MeasuredPose& fix, double shift) {
+  last_fix_ = fix.stamp;
+  const double stamp = fix.stamp + shift;
+  if (const auto& frames = connection_.fix_frames) {
+    encode(TransformsMessage{{{header_at(stamp, frames->parent), frames->child, fields_of(fix.pose)}}},
+           bytes_);
+  } else {
+    encode(PoseWithCovarianceStamped{header_at(stamp, "map"), fields_of(fix.pose), {}}, bytes_);
+  }
+  fix_->write(bytes_);
 }
 
 void RobotSide::publish_signal(const lang::SignalSource& source, const runtime::SignalSample& sample,

@@ -37,6 +37,7 @@ class RobotSide {
   const CommandMail& newest() const noexcept { return mail_.value(); }
 
  private:
+  void publish_fix(const runtime::MeasuredPose& fix, double shift);
   void publish_signal(const lang::SignalSource& source, const runtime::SignalSample& sample, double shift,
                       Writer& writer);
 

@@ -50,6 +50,8 @@ TEST(Message, ComesBackAsItWas) {
   expect_same_again(PoseStamped{{1, 2, "map"}, {1, 2, 3, 0, 0, 0, 1}});
   expect_same_again(PoseWithCovarianceStamped{{1, 2, "map"}, {1, 2, 3, 0, 0, 0, 1}, {}});
   expect_same_again(WrenchStamped{{1, 2, "bumper"}, {1, 2, 3, 4, 5, 6}});
+  expect_same_again(
+      TransformsMessage{{{{1, 2, "map"}, "odom", {1, 2, 3, 0, 0, 0, 1}}, {{}, "base_link", {}}}});
   expect_same_again(Float64{1.25});
   expect_same_again(Float64MultiArray{{{"rows", 2, 2}}, 0, {1, 2}});
   expect_same_again(scan());

@@ -261,6 +261,18 @@ def a_parameter_is_set_while_it_drives(program, root, folder):
     expect(code == 0 and "done after" in drive, "not done", drive)
 
 
+def transforms_tell_where_it_is(program, root, folder):
+    scene = folder / "measured.yaml"
+    scene.write_text("zwang_scene: 1\nstart: {at: [0 m, 0 m], yaw: 0 deg}\nfloor: {friction: 0.9}\nstate: {fix: {rate: 20 Hz}}\n", encoding="utf-8")
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml", "--scene", scene]
+    pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 14,
+                base="  fix: {tf: {parent: map, child: base_link}}\n")
+    code, drive, simulate = pair.end()
+    expect(code == 0 and "done after" in drive, "not done", drive, simulate)
+    # 2 s at 20 Hz, and the same before; a message that is late or lost is none of this law.
+    expect(number(r"/tf \(tf2_msgs/TFMessage\): ([0-9]+) received, 0 bad", drive) > 20, "they do not come", drive)
+
+
 def ten_thousand_calls_are_answered(program, root, folder):
     options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
     pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 10, more="start: wait\n")
@@ -337,7 +349,7 @@ def main(program, root, clients):
     cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, silence_of_the_robot_stops,
              a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros, services_start_and_stop_it,
              this_machine_alone_is_enough, a_stuck_odometry_stops, goals_run_tasks, ten_thousand_calls_are_answered,
-             a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered)
+             a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered, transforms_tell_where_it_is)
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return 0 if all(list(pool.map(is_good, cases))) else 1
 

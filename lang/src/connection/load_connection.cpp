@@ -102,12 +102,32 @@ JointsSource parse_joints(const Node& node, Diagnostics& diagnostics) {
   return joints;
 }
 
+/// `{topic: /amcl_pose}` or `{tf: {parent: map, child: base_link}}`.
+void parse_fix(const Node& node, Connection& connection, Diagnostics& diagnostics) {
+  MapReader map(node, "`fix`", diagnostics, "{topic: " + (node.is_scalar() ? node.text : "/amcl_pose") + "}");
+  const Node* tf = map.optional("tf");
+  if (tf == nullptr) {
+    connection.fix = parse_topic(map, diagnostics);
+  } else {
+    if (map.optional("topic") != nullptr) diagnostics.add(wording::two_fixes(node.span));
+    FramePair frames{"", "", tf->span};
+    MapReader tf_map(*tf, "`tf`", diagnostics, "{parent: map, child: base_link}");
+    if (const Node* parent = tf_map.required("parent"))
+      frames.parent = parse_word(*parent, "`parent`", diagnostics).text;
+    if (const Node* child = tf_map.required("child"))
+      frames.child = parse_word(*child, "`child`", diagnostics).text;
+    tf_map.finish();
+    connection.fix_frames = frames;
+  }
+  map.finish();
+}
+
 void parse_state(const Node& node, Connection& connection, Diagnostics& diagnostics) {
   MapReader map(node, "`state`", diagnostics, "{joints: {topic: /joint_states}}");
   if (const Node* joints = map.required("joints")) connection.joints = parse_joints(*joints, diagnostics);
   if (const Node* base = map.optional("base"))
     connection.base = parse_topic_alone(*base, "`base`", diagnostics);
-  if (const Node* fix = map.optional("fix")) connection.fix = parse_topic_alone(*fix, "`fix`", diagnostics);
+  if (const Node* fix = map.optional("fix")) parse_fix(*fix, connection, diagnostics);
   map.finish();
 }
 
@@ -260,6 +280,8 @@ const char* to_string(MessageType type) noexcept {
       return "std_msgs/Float64";
     case MessageType::float64_multi_array:
       return "std_msgs/Float64MultiArray";
+    case MessageType::tf_message:
+      return "tf2_msgs/TFMessage";
     case MessageType::laser_scan:
       break;
   }

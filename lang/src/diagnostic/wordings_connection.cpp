@@ -37,6 +37,11 @@ Diagnostic wrong_command(const Span& span, const std::string& what, const std::s
   return error("E923", span, what, help);
 }
 
+Diagnostic two_fixes(const Span& span) {
+  return error("E925", span, "`fix` has two sources: the base cannot be in two places",
+               "keep `topic` or `tf`");
+}
+
 Diagnostic tasks_without_goals(const Span& span) {
   return error("E924", span,
                "goals name `tasks`, and this connection takes no goals: one task begins by itself",

@@ -15,6 +15,7 @@ Diagnostic signal_of_another_type(const Span& span, const std::string& name, con
                                   const Span& declared);
 Diagnostic one_command(const Span& span);
 Diagnostic wrong_command(const Span& span, const std::string& what, const std::string& help);
+Diagnostic two_fixes(const Span& span);
 Diagnostic tasks_without_goals(const Span& span);
 Diagnostic nothing_stops_it(const Span& span, const std::string& topic);
 

@@ -46,6 +46,13 @@ connection has to send the same, to every motor.)~",
 `start: goals` only. Otherwise it runs the task of its command line once, and nobody could ever name
 another one.)~",
           .fix = "Add `start: goals` to the connection file, or delete `tasks`."},
+      Explanation{
+          .code = "E925",
+          .title = "a fix with two sources",
+          .why =
+              R"~(`fix` tells where the base is in the world, now and then. A localisation tells it on a topic of its own
+or by transforms, mostly by both. They differ by their delays, so zwang takes one of them.)~",
+          .fix = "Keep `topic: /amcl_pose`, or `tf: {parent: map, child: base_link}`."},
   };
   return entries;
 }

@@ -24,6 +24,13 @@ Json joints_source() {
        {"names", named("the URDF's joints that have other names in the messages", word("the name there"))}});
 }
 
+Json fix() {
+  const Json frames = object("of transforms on /tf and /tf_static",
+                             {{"parent", word("as map"), true}, {"child", word("as base_link"), true}});
+  return object("the base's pose, now and then: one of the two",
+                {{"topic", word("a topic of geometry_msgs/PoseWithCovarianceStamped")}, {"tf", frames}});
+}
+
 Json signal() {
   return object(
       "", {{"topic", word("a ROS 2 topic, with its namespace"), true},
@@ -62,10 +69,9 @@ Json connection_file() {
        {"loop",
         object("", {{"priority", whole_number(0, 98, "of SCHED_FIFO; default 0, the usual scheduler")}})},
        {"state",
-        object("",
-               {{"joints", joints_source(), true},
-                {"base", topic("nav_msgs/Odometry; without it the wheels tell how the base moves")},
-                {"fix", topic("geometry_msgs/PoseWithCovarianceStamped: the base's pose, now and then")}}),
+        object("", {{"joints", joints_source(), true},
+                    {"base", topic("nav_msgs/Odometry; without it the wheels tell how the base moves")},
+                    {"fix", fix()}}),
         true},
        {"signals", named("the sources of the task's signals", signal())},
        {"command", command(), true}});

@@ -28,6 +28,7 @@ enum class MessageType {
   float64,
   float64_multi_array,
   laser_scan,
+  tf_message,
 };
 /// As ROS 2 writes it: `geometry_msgs/Twist`.
 const char* to_string(MessageType type) noexcept;
@@ -55,6 +56,12 @@ struct JointsSource {
     const auto renamed = names.find(joint);
     return renamed == names.end() ? joint : renamed->second;
   }
+};
+
+/// The pose of `child` in `parent`, from the transforms on /tf and /tf_static.
+struct FramePair {
+  std::string parent, child;
+  Span span;
 };
 
 struct SignalSource {
@@ -101,7 +108,9 @@ struct Connection {
   Reach reach = Reach::loopback;
   JointsSource joints;
   std::optional<Topic> base;  ///< nav_msgs/Odometry; none: the base is reckoned from its wheels
-  std::optional<Topic> fix;   ///< geometry_msgs/PoseWithCovarianceStamped in the world
+  /// The base's pose in the world, now and then: geometry_msgs/PoseWithCovarianceStamped, or by transforms.
+  std::optional<Topic> fix;
+  std::optional<FramePair> fix_frames;  ///< instead of `fix`
   std::vector<SignalSource> signals;
   CommandSink command;
   int priority = 0;  ///< of SCHED_FIFO; 0: the usual scheduler

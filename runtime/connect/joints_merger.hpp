@@ -1,0 +1,72 @@
+/// The state of all joints, from messages that hold a part of them each.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "message.hpp"
+#include "sender.hpp"
+#include "zwang/solver/model.hpp"
+
+namespace zwang::connect {
+
+/// The last position and rate of each joint are kept.
+class JointsMerger {
+ public:
+  JointsMerger(const lang::JointsSource& source, const solver::Model& model) : model_(model) {
+    const int n = model.joint_count();
+    for (int j = 0; j < n; ++j) index_[source.name_of(model.joint(j).name)] = j;
+    is_told_.assign(static_cast<std::size_t>(n), false);
+    publishers_.resize(static_cast<std::size_t>(n));
+    q_ = qd_ = Eigen::VectorXd::Zero(n);
+  }
+
+  /// Whether it comes from the publisher that has told of these joints before.
+  bool admits(const JointState& message, const Sender& sender, double arrival) {
+    return std::all_of(message.names.begin(), message.names.end(), [&](const std::string& name) {
+      const auto joint = index_.find(name);
+      return joint == index_.end() ||
+             publishers_[static_cast<std::size_t>(joint->second)].admits(sender, arrival);
+    });
+  }
+
+  /// False: the message is no good, and nothing is taken.
+  bool take(const JointState& message) {
+    const std::size_t n = message.names.size();
+    const bool fits = message.positions.size() == n && message.velocities.size() == n;
+    if (!fits || !are_finite(message.positions) || !are_finite(message.velocities)) return false;
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto joint = index_.find(message.names[i]);
+      if (joint == index_.end()) continue;
+      is_told_[static_cast<std::size_t>(joint->second)] = true;
+      q_(joint->second) = message.positions[i];
+      qd_(joint->second) = message.velocities[i];
+    }
+    return true;
+  }
+  bool is_whole() const {
+    for (int j = 0; j < model_.joint_count(); ++j) {
+      if (model_.joint(j).actuated && !is_told_[static_cast<std::size_t>(j)]) return false;
+    }
+    return true;
+  }
+  const Eigen::VectorXd& q() const { return q_; }
+  const Eigen::VectorXd& qd() const { return qd_; }
+
+ private:
+  static bool are_finite(const std::vector<double>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+  }
+
+  const solver::Model& model_;
+  std::map<std::string, int> index_;
+  std::vector<bool> is_told_;
+  std::vector<OnePublisher> publishers_;  // of each joint
+  Eigen::VectorXd q_, qd_;
+};
+
+}  // namespace zwang::connect
