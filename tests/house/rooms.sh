@@ -78,7 +78,7 @@ keep_library 'urdf_|urdf/|console_bridge/|tinyxml' 'lang/src/robot/.*\.cpp' 1
 keep_library 'CLI/' 'runtime/cli/.*\.cpp' 1
 keep_library '(eprosima|fastdds|fastrtps|fastcdr)/' 'runtime/connect/.*\.cpp' 1
 keep_library 'libwebsockets' 'runtime/cli/.*\.cpp' 1
-keep_library 'mujoco/' 'runtime/src/plant/.*\.cpp' 5
+keep_library 'mujoco/' 'runtime/src/plant/.*\.cpp' 6
 keep_library 'nlohmann/' '(lang|runtime)/.*\.cpp|lang/src/schema/parts\.hpp|runtime/(cli/json_parts|lsp/json|src/log/foxglove)\.hpp' 20
 keep_library 'pybind11/' 'runtime/python/.*\.[ch]pp' 5
 keep_library 'zstd|zlib' 'runtime/src/log/.*\.cpp' 1

@@ -112,7 +112,19 @@ void expect_derivatives(const Moving& robot, AxisConstraint c, const std::string
   EXPECT_NEAR(dds, spatial_acceleration_along(robot, set.rows()[0]) + now.acceleration_bias, 1e-7) << what;
 }
 
+/// [m] Of the origin of `in` from the z axis of `move`.
+double beside_the_z_axis(const Moving& robot, const AttachedFrame& move, const AttachedFrame& in) {
+  AxisConstraint c;
+  c.move = in;
+  c.in = move;
+  c.axis = Axis::x;
+  const double x = robot.coordinate(c, 0.0).position;
+  c.axis = Axis::y;
+  return std::hypot(x, robot.coordinate(c, 0.0).position);
+}
+
 TEST(Measures, HaveTheDerivativesThatTheirRowsSay) {
+  int bearings = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Moving robot(seed);
     const struct {
@@ -145,13 +157,17 @@ TEST(Measures, HaveTheDerivativesThatTheirRowsSay) {
       c.measure = Measure::distance;
       expect_derivatives(robot, c, where + "distance");
       c.measure = Measure::bearing;
-      expect_derivatives(robot, c, where + "bearing");
+      if (beside_the_z_axis(robot, pair.move, pair.in) > solver::nearest_bearing) {
+        expect_derivatives(robot, c, where + "bearing");
+        ++bearings;
+      }
       c.measure = Measure::angle;
       c.axis = Axis::z;
       c.other_axis = Axis::x;
       expect_derivatives(robot, c, where + "angle");
     }
   }
+  EXPECT_GT(bearings, 40);  // of 80: few stand on the other's z axis
 }
 
 // Axes that the body carries move as fixed ones do that coincide with them now; where they are counts for

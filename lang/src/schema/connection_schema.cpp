@@ -24,7 +24,7 @@ Json joints_source() {
        {"names", named("the URDF's joints that have other names in the messages", word("the name there"))}});
 }
 
-Json fix() {
+Json fix_source() {
   const Json frames = object("of transforms on /tf and /tf_static",
                              {{"parent", word("as map"), true}, {"child", word("as base_link"), true}});
   return object("the base's pose, now and then: one of the two",
@@ -71,7 +71,7 @@ Json connection_file() {
        {"state",
         object("", {{"joints", joints_source(), true},
                     {"base", topic("nav_msgs/Odometry; without it the wheels tell how the base moves")},
-                    {"fix", fix()}}),
+                    {"fix", fix_source()}}),
         true},
        {"signals", named("the sources of the task's signals", signal())},
        {"command", command(), true}});

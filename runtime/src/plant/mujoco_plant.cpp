@@ -1,5 +1,7 @@
 #include "zwang/runtime/mujoco_plant.hpp"
 
+#include <mujoco/mujoco.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
@@ -175,6 +177,10 @@ void MujocoPlant::Simulation::look_for_falls() noexcept {
 void MujocoPlant::Simulation::add_push(const GeomOwner& owner, const Vector3& force,
                                        const Vector3& at) noexcept {
   contacts.add_push(static_cast<std::size_t>(owner.robot), force.head<2>(), at.head<2>());
+}
+
+double MujocoPlant::Simulation::time() const noexcept {
+  return static_cast<double>(steps_since_start) * model->opt.timestep;
 }
 
 PlantStatus MujocoPlant::Simulation::give(std::size_t robot, const Eigen::VectorXd& tau) noexcept {

@@ -2,8 +2,6 @@
 /// of them. It is set up in plant_start.cpp, and stepped and read in mujoco_plant.cpp.
 #pragma once
 
-#include <mujoco/mujoco.h>
-
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -54,9 +52,7 @@ struct MujocoPlant::Simulation {
   // Step by step.
   MovingRobot& first() noexcept { return robots.front(); }
   const MovingRobot& first() const noexcept { return robots.front(); }
-  int id_of(mjtObj type, const std::string& name) const {
-    return mj_name2id(model.get(), type, name.c_str());
-  }
+  int id_of(int type, const std::string& name) const;
   /// A hook that is near enough to its socket is tied to the object where it is.
   void latch_hooks() noexcept;
   void set_dock(std::size_t owner, bool holds) noexcept;
@@ -81,7 +77,7 @@ struct MujocoPlant::Simulation {
   void look_for_falls() noexcept;
   void add_push(const GeomOwner& owner, const solver::Vector3& force, const solver::Vector3& at) noexcept;
   /// Counted: MuJoCo's own clock adds up its steps and with them their rounding.
-  double time() const { return static_cast<double>(steps_since_start) * model->opt.timestep; }
+  double time() const noexcept;
   PlantStatus give(std::size_t robot, const Eigen::VectorXd& tau) noexcept;
   PlantStatus apply(const Eigen::VectorXd& tau) noexcept;
   PlantStatus sense(std::size_t robot, Sensed& sensed) const noexcept;

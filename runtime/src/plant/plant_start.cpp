@@ -1,5 +1,7 @@
 // How the simulation comes to stand where the scene says: MuJoCo's model is written and read, the parts are
 // found in it, the robots settle on the floor.
+#include <mujoco/mujoco.h>
+
 #include <cstdio>
 #include <cstring>
 #include <utility>
@@ -65,6 +67,10 @@ std::vector<SimulatedRobot> MujocoPlant::Simulation::describe_robots(const lang:
     described.push_back(prepare_robot(program->robot, real_rollers, static_cast<int>(r) + 1));
   }
   return described;
+}
+
+int MujocoPlant::Simulation::id_of(int type, const std::string& name) const {
+  return mj_name2id(model.get(), type, name.c_str());
 }
 
 void MujocoPlant::Simulation::find_addresses() {
