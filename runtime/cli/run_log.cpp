@@ -1,6 +1,5 @@
 #include "run_log.hpp"
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
@@ -10,17 +9,13 @@
 #include "zwang/runtime/log_channels.hpp"
 #include "zwang/runtime/log_parts.hpp"
 #include "zwang/runtime/log_reader.hpp"
+#include "zwang/runtime/with_unit.hpp"
 
 namespace zwang::cli {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string exactly(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
 
 }  // namespace
 
@@ -74,32 +69,14 @@ std::string log_name(const RunArguments& arguments, const std::string& name) {
   return name + (arguments.rotation.is_asked() ? "_0.mcap" : ".mcap");
 }
 
-namespace {
-
-std::unique_ptr<runtime::LogSink> mcap_of(const RunArguments& arguments, const lang::Program& program,
-                                          const fs::path& folder, const std::string& name,
-                                          const runtime::LogContext& context) {
-  if (!arguments.rotation.is_asked())
-    return runtime::mcap_sink(folder / (name + ".mcap"), context, runtime::scene_channels(program));
-  const auto make = [program, context](const fs::path& path,
-                                       const std::map<std::string, std::string>& facts) {
-    runtime::LogContext of_part = context;
-    of_part.facts.insert(facts.begin(), facts.end());
-    return runtime::mcap_sink(path, std::move(of_part), runtime::scene_channels(program));
-  };
-  return runtime::rotating_sink(folder, name, arguments.rotation, make);
-}
-
-}  // namespace
-
 std::unique_ptr<runtime::Recorder> record(const RunArguments& arguments, runtime::Runner& runner,
                                           const lang::Program& program, const fs::path& folder,
                                           const std::string& name, runtime::LogContext context,
                                           std::unique_ptr<runtime::LogSink> also) {
   context.facts.merge(runner.facts());
-  if (arguments.log_rate) context.facts[runtime::log_rate_fact] = exactly(*arguments.log_rate);
+  if (arguments.log_rate) context.facts[runtime::log_rate_fact] = runtime::exactly(*arguments.log_rate);
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
-  sinks.push_back(mcap_of(arguments, program, folder, name, context));
+  sinks.push_back(runtime::program_log(folder / (name + ".mcap"), arguments.rotation, context, program));
   if (arguments.csv) sinks.push_back(runtime::csv_sink(folder / (name + ".csv")));
   if (arguments.log_rate) {
     for (auto& sink : sinks) sink = runtime::thinned_sink(std::move(sink), *arguments.log_rate);
@@ -122,11 +99,12 @@ runtime::LogContext context_of(const RunArguments& arguments, const lang::Diagno
   if (arguments.choice) {
     facts["scenario"] = arguments.choice->scenario;
     facts["cell"] = arguments.cell.value_or("as written");
-    if (arguments.choice->blend) facts["blend [s]"] = exactly(*arguments.choice->blend);
+    if (arguments.choice->blend) facts["blend [s]"] = runtime::exactly(*arguments.choice->blend);
   }
-  if (arguments.start_yaw) facts["start_yaw [rad]"] = exactly(*arguments.start_yaw);
+  if (arguments.start_yaw) facts["start_yaw [rad]"] = runtime::exactly(*arguments.start_yaw);
   if (arguments.start_at) {
-    facts["start_at [m]"] = exactly((*arguments.start_at)[0]) + ", " + exactly((*arguments.start_at)[1]);
+    facts["start_at [m]"] =
+        runtime::exactly((*arguments.start_at)[0]) + ", " + runtime::exactly((*arguments.start_at)[1]);
   }
   return context;
 }

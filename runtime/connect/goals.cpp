@@ -33,23 +33,13 @@ std::string known_tasks(const lang::Connection& connection) {
   return names.empty() ? "the connection file names no `tasks`" : "the connection file has " + names;
 }
 
-bool has_same_joints(const solver::Model& a, const solver::Model& b) {
-  if (a.joint_count() != b.joint_count()) return false;
-  for (int j = 0; j < a.joint_count(); ++j) {
-    if (a.joint(j).name != b.joint(j).name) return false;
-  }
-  return true;
-}
-
 /// The first error, in one line.
 std::string first_error(const lang::Diagnostics& diagnostics) {
-  for (const lang::Diagnostic& d : diagnostics.sorted()) {
-    if (d.severity != lang::Severity::error) continue;
-    if (!d.span.exists()) return d.code + ": " + d.message;
-    return diagnostics.source(d.span.source).path + ":" + std::to_string(d.span.begin.line) + ": " + d.code +
-           ": " + d.message;
-  }
-  return "it cannot be loaded";
+  const auto d = diagnostics.first_error();
+  if (!d) return "it cannot be loaded";
+  if (!d->span.exists()) return d->code + ": " + d->message;
+  return diagnostics.source(d->span.source).path + ":" + std::to_string(d->span.begin.line) + ": " + d->code +
+         ": " + d->message;
 }
 
 /// A task for the joints of `first`; else a reason, and what is wrong with the files is printed.
@@ -63,7 +53,7 @@ std::optional<lang::Program> load_for(const std::filesystem::path& file, const l
     reason = first_error(diagnostics);
     return std::nullopt;
   }
-  if (!has_same_joints(program->robot.model, first.robot.model)) {
+  if (!program->robot.model.has_joints_of(first.robot.model)) {
     reason = file.string() + " is for a robot with other joints than " + first.path;
     return std::nullopt;
   }

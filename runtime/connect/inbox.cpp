@@ -15,37 +15,32 @@ namespace {
 using lang::MessageType;
 using runtime::SignalSample;
 
-template <typename Numbers>
-bool are_finite(const Numbers& numbers) {
-  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+SignalSample valid_sample(lang::SignalType type, double stamp) {
+  SignalSample sample;
+  sample.type = type;
+  sample.stamp = stamp;
+  sample.valid = true;
+  return sample;
 }
 
 // The signal's sample of a message; nullopt for numbers that cannot be. `arrival` is the stamp of messages
 // without one.
 std::optional<SignalSample> sample_of(const Bool& message, const lang::SignalSource&, double arrival) {
-  SignalSample sample;
-  sample.type = lang::SignalType::boolean;
-  sample.stamp = arrival;
-  sample.valid = true;
+  SignalSample sample = valid_sample(lang::SignalType::boolean, arrival);
   sample.boolean = message.data;
   return sample;
 }
 
 std::optional<SignalSample> sample_of(const Float64& message, const lang::SignalSource&, double arrival) {
   if (!std::isfinite(message.data)) return std::nullopt;
-  SignalSample sample;
-  sample.type = lang::SignalType::number;
-  sample.stamp = arrival;
-  sample.valid = true;
+  SignalSample sample = valid_sample(lang::SignalType::number, arrival);
   sample.number = message.data;
   return sample;
 }
 
 std::optional<SignalSample> sample_of(const LaserScan& message, const lang::SignalSource& source, double) {
   const auto nearest = message.nearest((*source.nearest)[0], (*source.nearest)[1]);
-  SignalSample sample;
-  sample.type = lang::SignalType::number;
-  sample.stamp = message.header.stamp();
+  SignalSample sample = valid_sample(lang::SignalType::number, message.header.stamp());
   sample.valid = nearest.has_value();
   sample.number = nearest.value_or(0.0);
   return sample;
@@ -54,10 +49,7 @@ std::optional<SignalSample> sample_of(const LaserScan& message, const lang::Sign
 std::optional<SignalSample> sample_of(const PoseStamped& message, const lang::SignalSource&, double) {
   const auto pose = pose_of(message.pose);
   if (!pose) return std::nullopt;
-  SignalSample sample;
-  sample.type = lang::SignalType::pose;
-  sample.stamp = message.header.stamp();
-  sample.valid = true;
+  SignalSample sample = valid_sample(lang::SignalType::pose, message.header.stamp());
   sample.pose = *pose;
   return sample;
 }
@@ -65,10 +57,7 @@ std::optional<SignalSample> sample_of(const PoseStamped& message, const lang::Si
 std::optional<SignalSample> sample_of(const WrenchStamped& message, const lang::SignalSource&, double) {
   const SixFields& w = message.wrench;
   if (!are_finite(w)) return std::nullopt;
-  SignalSample sample;
-  sample.type = lang::SignalType::wrench;
-  sample.stamp = message.header.stamp();
-  sample.valid = true;
+  SignalSample sample = valid_sample(lang::SignalType::wrench, message.header.stamp());
   sample.wrench.linear = {w[0], w[1], w[2]};
   sample.wrench.angular = {w[3], w[4], w[5]};
   return sample;

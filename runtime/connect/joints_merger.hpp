@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -58,10 +57,6 @@ class JointsMerger {
   const Eigen::VectorXd& qd() const { return qd_; }
 
  private:
-  static bool are_finite(const std::vector<double>& numbers) {
-    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
-  }
-
   const solver::Model& model_;
   std::map<std::string, int> index_;
   std::vector<bool> is_told_;

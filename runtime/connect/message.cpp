@@ -135,6 +135,10 @@ std::optional<double> LaserScan::nearest(double low, double high) const {
   return nearest;
 }
 
+bool are_finite(std::span<const double> numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
 std::string dds_type(const std::string& name) {
   const std::size_t first = name.find('/'), last = name.rfind('/');
   const std::string kind = first == last ? "msg" : name.substr(first + 1, last - first - 1);

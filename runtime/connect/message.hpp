@@ -103,6 +103,9 @@ void encode(const Message& message, Bytes& bytes);
 template <typename Message>
 std::optional<Message> decode(std::span<const std::uint8_t> bytes);
 
+/// None of them is NaN or infinite.
+bool are_finite(std::span<const double> numbers);
+
 /// As DDS knows it: `std_msgs::msg::dds_::String_` of `std_msgs/String`, `std_srvs::srv::dds_::Trigger_` of
 /// `std_srvs/srv/Trigger`.
 std::string dds_type(const std::string& name);

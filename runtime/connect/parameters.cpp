@@ -30,14 +30,6 @@ void pass_value(Way& way, Value& v) {
   way(v.octets), way(v.booleans), way(v.integers), way(v.numbers), way(v.texts);
 }
 
-std::optional<std::vector<std::string>> read_names(std::span<const std::uint8_t> fields) {
-  CdrReader read(fields);
-  std::vector<std::string> names;
-  read(names);
-  if (!read.is_at_end()) return std::nullopt;
-  return names;
-}
-
 std::string short_number(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);
@@ -45,6 +37,10 @@ std::string short_number(double value) {
 }
 
 }  // namespace
+
+std::uint8_t ParameterServer::type_of(const Known* known) {
+  return known != nullptr ? type_double : type_not_set;
+}
 
 void ParameterServer::serve_for(const lang::Program& program) {
   const std::lock_guard lock(mutex_);
@@ -91,65 +87,49 @@ void ParameterServer::list(std::span<const std::uint8_t> fields, const Reply& re
   reply(answer);
 }
 
-void ParameterServer::get(std::span<const std::uint8_t> fields, const Reply& reply) {
-  const auto names = read_names(fields);
-  if (!names) return;
+/// A sequence: of each name that is asked for, what `tell` writes of it.
+template <typename Tell>
+void ParameterServer::answer_each(std::span<const std::uint8_t> fields, const Reply& reply, Tell tell) {
+  CdrReader read(fields);
+  std::vector<std::string> names;
+  read(names);
+  if (!read.is_at_end()) return;
   Bytes answer;
   CdrWriter write(answer);
-  write(static_cast<std::uint32_t>(names->size()));
+  write(static_cast<std::uint32_t>(names.size()));
   {
     const std::lock_guard lock(mutex_);
-    for (const std::string& name : *names) {
-      ParameterValue value;
-      if (const Known* known = find(name)) {
-        value.type = type_double;
-        value.number = known->parameter.value;
-      }
-      pass_value(write, value);
-    }
+    for (const std::string& name : names) tell(write, name, find(name));
   }
   reply(answer);
 }
 
+void ParameterServer::get(std::span<const std::uint8_t> fields, const Reply& reply) {
+  answer_each(fields, reply, [](CdrWriter& write, const std::string&, const Known* known) {
+    ParameterValue value;
+    value.type = type_of(known);
+    if (known != nullptr) value.number = known->parameter.value;
+    pass_value(write, value);
+  });
+}
+
 void ParameterServer::get_types(std::span<const std::uint8_t> fields, const Reply& reply) {
-  const auto names = read_names(fields);
-  if (!names) return;
-  std::vector<std::uint8_t> types;
-  {
-    const std::lock_guard lock(mutex_);
-    for (const std::string& name : *names)
-      types.push_back(find(name) != nullptr ? type_double : type_not_set);
-  }
-  Bytes answer;
-  CdrWriter write(answer);
-  write(types);
-  reply(answer);
+  answer_each(fields, reply,
+              [](CdrWriter& write, const std::string&, const Known* known) { write(type_of(known)); });
 }
 
 /// rcl_interfaces/ParameterDescriptor of each name.
 void ParameterServer::describe(std::span<const std::uint8_t> fields, const Reply& reply) {
-  const auto names = read_names(fields);
-  if (!names) return;
-  Bytes answer;
-  CdrWriter write(answer);
-  write(static_cast<std::uint32_t>(names->size()));
-  {
-    const std::lock_guard lock(mutex_);
-    for (const std::string& name : *names) {
-      const Known* known = find(name);
-      write(name);
-      write(static_cast<std::uint8_t>(known != nullptr ? type_double : type_not_set));
-      write(known != nullptr ? known->parameter.help : std::string());
-      write(
-          std::string(known != nullptr ? "in SI; the task file writes it in " + known->parameter.unit : ""));
-      write(false), write(false);  // neither read only nor of a type that changes
-      const bool has_range = known != nullptr && known->parameter.range;
-      write(std::uint32_t{has_range ? 1U : 0U});
-      if (has_range) write(known->parameter.range->low), write(known->parameter.range->high), write(0.0);
-      write(std::uint32_t{0});  // ranges of integers
-    }
-  }
-  reply(answer);
+  answer_each(fields, reply, [](CdrWriter& write, const std::string& name, const Known* known) {
+    write(name), write(type_of(known));
+    write(known != nullptr ? known->parameter.help : std::string());
+    write(std::string(known != nullptr ? "in SI; the task file writes it in " + known->parameter.unit : ""));
+    write(false), write(false);  // neither read only nor of a type that changes
+    const bool has_range = known != nullptr && known->parameter.range;
+    write(std::uint32_t{has_range ? 1U : 0U});
+    if (has_range) write(known->parameter.range->low), write(known->parameter.range->high), write(0.0);
+    write(std::uint32_t{0});  // ranges of integers
+  });
 }
 
 std::optional<std::vector<ParameterServer::Wanted>> ParameterServer::read_wanted(

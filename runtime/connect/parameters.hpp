@@ -49,7 +49,10 @@ class ParameterServer {
   };
 
   static std::optional<std::vector<Wanted>> read_wanted(std::span<const std::uint8_t> fields);
+  static std::uint8_t type_of(const Known* known);
   Known* find(const std::string& name);
+  template <typename Tell>
+  void answer_each(std::span<const std::uint8_t> fields, const Reply& reply, Tell tell);
   Verdict judge(const Wanted& wanted);
   void take(const Wanted& wanted);
 

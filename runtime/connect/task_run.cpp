@@ -7,6 +7,7 @@
 #include "observe.hpp"
 #include "zwang/runtime/log_channels.hpp"
 #include "zwang/runtime/recorder.hpp"
+#include "zwang/runtime/with_unit.hpp"
 
 namespace zwang::connect {
 
@@ -56,21 +57,6 @@ void print_report(const runtime::Runner& runner, const DriveReport& report, cons
   std::fflush(stdout);
 }
 
-std::unique_ptr<runtime::LogSink> log_sink(const LogOrder& log, const runtime::LogContext& context,
-                                           const lang::Program& program) {
-  const auto make = [program, context](const std::filesystem::path& path,
-                                       const std::map<std::string, std::string>& facts) {
-    runtime::LogContext of_part = context;
-    of_part.facts.insert(facts.begin(), facts.end());
-    return runtime::mcap_sink(path, std::move(of_part), runtime::scene_channels(program));
-  };
-  const std::filesystem::path path = *log.file;
-  auto sink = log.rotation.is_asked()
-                  ? runtime::rotating_sink(path.parent_path(), path.stem().string(), log.rotation, make)
-                  : make(path, {});
-  return log.rate ? runtime::thinned_sink(std::move(sink), *log.rate) : std::move(sink);
-}
-
 std::unique_ptr<runtime::Recorder> recorder_for(const LogOrder& log,
                                                 const std::optional<std::string>& named_robot,
                                                 runtime::Runner& runner, const lang::Program& program,
@@ -80,9 +66,10 @@ std::unique_ptr<runtime::Recorder> recorder_for(const LogOrder& log,
   context.sources = diagnostics.sources();
   context.facts = runner.facts();
   if (named_robot) context.facts["robot"] = *named_robot;
-  if (log.rate) context.facts[runtime::log_rate_fact] = std::to_string(*log.rate);
+  if (log.rate) context.facts[runtime::log_rate_fact] = runtime::exactly(*log.rate);
   std::vector<std::unique_ptr<runtime::LogSink>> sinks;
-  sinks.push_back(log_sink(log, context, program));
+  sinks.push_back(runtime::program_log(*log.file, log.rotation, context, program));
+  if (log.rate) sinks.back() = runtime::thinned_sink(std::move(sinks.back()), *log.rate);
   auto recorder = std::make_unique<runtime::Recorder>(std::move(sinks), runner.columns());
   runner.record_to(recorder.get());
   return recorder;

@@ -20,9 +20,8 @@ std::string without_slash(const std::string& frame) {
 }  // namespace
 
 std::optional<solver::Pose> pose_of(const PoseFields& f) {
-  const bool is_finite = std::all_of(f.begin(), f.end(), [](double x) { return std::isfinite(x); });
   Eigen::Quaterniond rotation(f[6], f[3], f[4], f[5]);
-  if (!is_finite || !(rotation.norm() > least_rotation)) return std::nullopt;
+  if (!are_finite(f) || !(rotation.norm() > least_rotation)) return std::nullopt;
   solver::Pose pose;
   pose.position = {f[0], f[1], f[2]};
   pose.rotation = rotation.normalized().toRotationMatrix();

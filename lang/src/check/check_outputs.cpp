@@ -12,8 +12,7 @@ namespace {
 std::optional<double> plain_value(CheckContext& context, const ValueText& value, const OutputSymbol& symbol,
                                   const std::string& what) {
   if (!symbol.output.is_number) {
-    const bool is_truth = value.kind == ValueKind::name && (value.name == "true" || value.name == "false");
-    if (is_truth) return value.name == "true" ? 1.0 : 0.0;
+    if (const auto truth = truth_of(value)) return *truth ? 1.0 : 0.0;
     context.diagnostics.add(wording::output_needs_truth(value.span, what));
     return std::nullopt;
   }

@@ -56,6 +56,16 @@ std::vector<std::string> split(const std::string& path) {
   return parts;
 }
 
+/// The symbol that a name stands for. It counts as used, and the node refers to it.
+template <typename Symbol>
+const Symbol& referred(std::vector<Symbol>& symbols, Op op, int index, ExpressionNode& lowered) {
+  Symbol& symbol = symbols[static_cast<std::size_t>(index)];
+  symbol.is_used = true;
+  lowered.op = op;
+  lowered.index = index;
+  return symbol;
+}
+
 }  // namespace
 
 Type ConditionNames::complain(Diagnostic diagnostic) {
@@ -161,10 +171,7 @@ std::optional<Diagnostic> ConditionNames::slip_of_a_name(const ExpressionText& n
 }
 
 Type ConditionNames::check_signal(const ExpressionText& node, int index, ExpressionNode& lowered) {
-  SignalSymbol& symbol = context_.symbols.signals[static_cast<std::size_t>(index)];
-  symbol.is_used = true;
-  lowered.op = Op::signal;
-  lowered.index = index;
+  const SignalSymbol& symbol = referred(context_.symbols.signals, Op::signal, index, lowered);
   if (symbol.is_bad) return bad_type;
   switch (symbol.signal.type) {
     case SignalType::boolean:
@@ -179,19 +186,13 @@ Type ConditionNames::check_signal(const ExpressionText& node, int index, Express
 }
 
 Type ConditionNames::check_output(int index, ExpressionNode& lowered) {
-  OutputSymbol& symbol = context_.symbols.outputs[static_cast<std::size_t>(index)];
-  symbol.is_used = true;
-  lowered.op = Op::output;
-  lowered.index = index;
+  const OutputSymbol& symbol = referred(context_.symbols.outputs, Op::output, index, lowered);
   if (symbol.is_bad) return bad_type;
   return symbol.output.is_number ? quantity_type(symbol.dimension) : boolean_type;
 }
 
 Type ConditionNames::check_feature(int index, ExpressionNode& lowered) {
-  FeatureSymbol& symbol = context_.symbols.features[static_cast<std::size_t>(index)];
-  symbol.is_used = true;
-  lowered.op = Op::feature;
-  lowered.index = index;
+  const FeatureSymbol& symbol = referred(context_.symbols.features, Op::feature, index, lowered);
   if (symbol.is_bad) return bad_type;
   return quantity_type(symbol.feature.turns ? dimension::angle : dimension::length);
 }

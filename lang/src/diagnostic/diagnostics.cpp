@@ -152,4 +152,11 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
   return result;
 }
 
+std::optional<Diagnostic> Diagnostics::first_error() const {
+  for (const Diagnostic& d : sorted()) {
+    if (d.severity == Severity::error) return d;
+  }
+  return std::nullopt;
+}
+
 }  // namespace zwang::lang

@@ -165,7 +165,7 @@ class Lowering {
           const bool is_number =
               checked_.symbols.outputs[static_cast<std::size_t>(set.index)].output.is_number;
           set.value =
-              is_number ? value(text.value) : Value{.constant = text.value.name == "true" ? 1.0 : 0.0};
+              is_number ? value(text.value) : Value{.constant = truth_of(text.value) == true ? 1.0 : 0.0};
           break;
         }
       }

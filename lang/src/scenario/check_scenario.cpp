@@ -149,12 +149,10 @@ class CellChecker {
   }
 
   void note_refusal(const ScenarioCell& cell, const Diagnostics& of_task) {
-    for (const Diagnostic& d : of_task.sorted()) {
-      if (d.severity != Severity::error) continue;
-      const std::string place = d.span.exists() ? of_task.source(d.span.source).path : std::string();
-      refusals_.push_back({&cell, d, place + ":" + std::to_string(d.span.begin.line)});
-      return;
-    }
+    const auto d = of_task.first_error();
+    if (!d) return;
+    const std::string place = d->span.exists() ? of_task.source(d->span.source).path : std::string();
+    refusals_.push_back({&cell, *d, place + ":" + std::to_string(d->span.begin.line)});
   }
 
   /// What is wrong in any case is the task file's own matter.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "diagnostic/wordings_standing.hpp"
+#include "zwang/lang/feature_measure.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
@@ -61,13 +62,7 @@ class StartCheck {
       const Feature& feature = program_.features[static_cast<std::size_t>(group.feature)];
       move = feature.first;
       in = feature.second;
-      c.axis = feature.first_axis;
-      c.other_axis = feature.second_axis;
-      c.coefficients = feature.direction;
-      c.measure = feature.kind == FeatureKind::distance  ? solver::Measure::distance
-                  : feature.kind == FeatureKind::angle   ? solver::Measure::angle
-                  : feature.kind == FeatureKind::bearing ? solver::Measure::bearing
-                                                         : solver::Measure::direction;
+      set_measure(c, feature);
     }
     const auto moved = attached(move), axes = attached(in);
     if (!moved || !axes) return;

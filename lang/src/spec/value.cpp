@@ -234,6 +234,11 @@ StatementText parse_range(const Node& node, const std::string& what, Diagnostics
   return statement;
 }
 
+std::optional<bool> truth_of(const ValueText& value) {
+  const bool is_truth = value.kind == ValueKind::name && (value.name == "true" || value.name == "false");
+  return is_truth ? std::optional(value.name == "true") : std::nullopt;
+}
+
 bool require_quantity(const ValueText& value, const Dimension& expected, const std::string& what,
                       Diagnostics& diagnostics) {
   if (value.kind == ValueKind::bad) return false;

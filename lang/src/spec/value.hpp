@@ -47,6 +47,9 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
 /// `[low, high]` or `+-value` only.
 StatementText parse_range(const Node& node, const std::string& what, Diagnostics& diagnostics);
 
+/// Of `true` and `false`; nullopt for anything else.
+std::optional<bool> truth_of(const ValueText& value);
+
 /// Whether the value is a plain quantity of the dimension; writes E201, E202, and E105 for anything but a
 /// quantity. False for bad values, silently.
 bool require_quantity(const ValueText& value, const Dimension& expected, const std::string& what,

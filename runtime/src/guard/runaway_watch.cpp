@@ -11,11 +11,6 @@ namespace {
 
 using solver::AxisConstraint;
 
-bool is_turn(const AxisConstraint& c) noexcept {
-  return c.measure == solver::Measure::angle || c.measure == solver::Measure::bearing ||
-         (c.measure == solver::Measure::axis && c.axis >= solver::Axis::rx);
-}
-
 /// How far a velocity lies outside of [low, high].
 double outside(double velocity, double low, double high) noexcept {
   return std::max(low - velocity, velocity - high);
@@ -41,7 +36,7 @@ double excess(const AxisConstraint& c, double velocity, const Margin& margin) no
   }
   const double bound = velocity < 0.0 ? low : high;
   if (std::isinf(bound)) return -solver::infinity;
-  const double least = is_turn(c) ? margin.turn : margin.speed;
+  const double least = c.is_angle() ? margin.turn : margin.speed;
   return outside(velocity, low, high) / std::max(least, margin.share * std::abs(bound));
 }
 

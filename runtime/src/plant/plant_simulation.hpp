@@ -42,8 +42,8 @@ struct MujocoPlant::Simulation {
   void find_addresses();
   void find_objects(const lang::Scene& scene);
   void find_docks(const lang::Scene& scene);
-  /// Lets the robots sink into their wheels' contacts, then puts them exactly where they start, at rest, at
-  /// t = 0: of the settled pose, height and tilt of the base are kept.
+  /// Lets the robots sink into their wheels' contacts. Then puts them exactly where they start, at rest, at
+  /// t = 0. Height and tilt of the settled base are kept.
   void start(const std::vector<Start>& starts);
   void settle(const std::vector<Start>& starts);
   void refuse_overlap() const;

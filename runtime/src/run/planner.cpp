@@ -38,8 +38,7 @@ const lang::Span& span_of(const lang::AxisStatements& axis, solver::Quantity qua
 }
 
 bool turns(const solver::AxisConstraint& constraint) {
-  return constraint.measure == solver::Measure::angle || constraint.measure == solver::Measure::bearing ||
-         constraint.axis >= solver::Axis::rx;
+  return constraint.is_angle() || constraint.axis >= solver::Axis::rx;
 }
 
 /// Of the frame and those it hangs on: the name of the pose signal among them.

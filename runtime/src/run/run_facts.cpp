@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "zwang/runtime/with_unit.hpp"
 #include "zwang/version.hpp"
 
 namespace zwang::runtime {
@@ -25,11 +26,6 @@ std::string eigen_version() {
 }
 
 }  // namespace
-
-std::string exactly(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
 
 std::optional<double> number_in(const std::string& text) {
   double value = 0.0;

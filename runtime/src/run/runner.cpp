@@ -450,13 +450,9 @@ void Runner::Parts::hand_over() noexcept {
 }
 
 bool Runner::Parts::has_the_joints_of(const Parts& other) const noexcept {
-  if (model.joint_count() != other.model.joint_count()) return false;
+  if (!model.has_joints_of(other.model)) return false;
   if (drive.has_value() != other.drive.has_value()) return false;
-  if (drive && drive->has_virtual_robot() != other.drive->has_virtual_robot()) return false;
-  for (int j = 0; j < model.joint_count(); ++j) {
-    if (model.joint(j).name != other.model.joint(j).name) return false;
-  }
-  return true;
+  return !drive || drive->has_virtual_robot() == other.drive->has_virtual_robot();
 }
 
 void Runner::Parts::tell(const Event& told) noexcept {

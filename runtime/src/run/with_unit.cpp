@@ -1,10 +1,16 @@
 #include "zwang/runtime/with_unit.hpp"
 
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 namespace zwang::runtime {
+
+std::string exactly(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
 
 std::string with_unit(double value, std::string_view si_unit, int digits) {
   std::string unit(si_unit);

@@ -26,11 +26,6 @@ double beyond(double force, double dead_band) {
   return std::copysign(std::max(0.0, std::abs(force) - dead_band), force);
 }
 
-bool wraps(const solver::AxisConstraint& c) {
-  return c.measure == solver::Measure::bearing ||
-         (c.measure == solver::Measure::axis && c.axis >= solver::Axis::rx);
-}
-
 /// What the driver asks for without any range.
 double asked_by(const solver::Driver& driver, double error, const solver::Coordinate& now) {
   const double w = 1.0 / driver.time_constant;
@@ -95,7 +90,7 @@ double Scheduler::Parts::error_of(const ActiveAxis& a, const solver::Driver& dri
                                   const solver::Coordinate& motion) const noexcept {
   if (driver.quantity == Quantity::velocity) return driver.target - motion.velocity;
   const double error = driver.target - motion.position;
-  return wraps(wanted[a.wanted].constraint) ? std::remainder(error, 2.0 * std::numbers::pi) : error;
+  return wanted[a.wanted].constraint.wraps() ? std::remainder(error, 2.0 * std::numbers::pi) : error;
 }
 
 void Scheduler::Parts::build_up(ActiveAxis& a) noexcept {

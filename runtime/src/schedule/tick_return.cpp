@@ -101,10 +101,7 @@ void Scheduler::Parts::find_way_back(ActiveAxis& a) noexcept {
 }
 
 void Scheduler::Parts::note_excursion(ActiveAxis& a, double outside) noexcept {
-  const solver::AxisConstraint& c = wanted[a.wanted].constraint;
-  const bool turns =
-      a.fence < 0 && (c.measure == solver::Measure::angle || c.measure == solver::Measure::bearing ||
-                      (c.measure == solver::Measure::axis && a.says->axis >= solver::Axis::rx));
+  const bool turns = a.fence < 0 && wanted[a.wanted].constraint.is_angle();
   if (outside <= 0.0) a.is_outside = false;
   if (a.is_outside || outside < (turns ? told_angle : told_distance)) return;
   a.is_outside = true;

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "schedule/parts.hpp"
+#include "zwang/lang/feature_measure.hpp"
 
 namespace zwang::runtime {
 
@@ -94,30 +95,6 @@ Fact Scheduler::Parts::coordinate(const lang::ExpressionNode& node, int owner) c
   return of_frame(g.in, position_of(g, axis, a));
 }
 
-namespace {
-
-void set_measure(solver::AxisConstraint& c, const lang::Feature& feature) {
-  switch (feature.kind) {
-    case lang::FeatureKind::distance:
-      c.measure = solver::Measure::distance;
-      return;
-    case lang::FeatureKind::angle:
-      c.measure = solver::Measure::angle;
-      c.axis = feature.first_axis;
-      c.other_axis = feature.second_axis;
-      return;
-    case lang::FeatureKind::bearing:
-      c.measure = solver::Measure::bearing;
-      return;
-    case lang::FeatureKind::direction:
-      c.measure = solver::Measure::direction;
-      c.coefficients = feature.direction;
-      return;
-  }
-}
-
-}  // namespace
-
 Fact Scheduler::Parts::feature(const lang::Feature& feature) const noexcept {
   for (const int frame : {feature.first, feature.second}) {
     if (!is_known(frame)) return of_frame(frame, 0.0);
@@ -125,7 +102,7 @@ Fact Scheduler::Parts::feature(const lang::Feature& feature) const noexcept {
   solver::AxisConstraint c;
   c.move = frames.attached(feature.first);
   c.in = frames.attached(feature.second);
-  set_measure(c, feature);
+  lang::set_measure(c, feature);
   return {solver::coordinate_of(c, frames.motions()).position};
 }
 
@@ -139,7 +116,7 @@ solver::AxisConstraint Scheduler::Parts::measured(const lang::Group& group, cons
   if (axis.is_planar) c.measure = solver::Measure::speed;
   if (group.kind == lang::GroupKind::feature) {
     const lang::Feature& feature = features[static_cast<std::size_t>(group.feature)];
-    set_measure(c, feature);
+    lang::set_measure(c, feature);
     // The frames may stand in the other order here.
     if (feature.kind == lang::FeatureKind::angle && group.move != feature.first) {
       std::swap(c.axis, c.other_axis);

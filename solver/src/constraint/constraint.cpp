@@ -23,9 +23,7 @@ ForceVector on_body(const Measurement& along, const Vector3& origin, const Pose&
 }
 
 double position_error(double target, const Coordinate& now, const AxisConstraint& constraint) {
-  const bool wraps = constraint.measure == Measure::bearing ||
-                     (constraint.measure == Measure::axis && is_rotation(constraint.axis));
-  return wraps ? wrap_to_pi(target - now.position) : target - now.position;
+  return constraint.wraps() ? wrap_to_pi(target - now.position) : target - now.position;
 }
 
 double driver_acceleration(const Driver& driver, const Coordinate& now, const AxisConstraint& constraint) {

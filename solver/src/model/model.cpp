@@ -45,6 +45,14 @@ double Model::total_mass() const {
   return mass;
 }
 
+bool Model::has_joints_of(const Model& other) const {
+  if (joint_count() != other.joint_count()) return false;
+  for (int j = 0; j < joint_count(); ++j) {
+    if (joint(j).name != other.joint(j).name) return false;
+  }
+  return true;
+}
+
 std::optional<int> Model::find_frame(std::string_view name) const {
   const auto it = find_by_name(frames_, name);
   if (it == frames_.end()) return std::nullopt;

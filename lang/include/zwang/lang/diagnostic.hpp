@@ -57,6 +57,7 @@ class Diagnostics {
   int error_count() const;
   /// In the order of the text: by source, then position.
   std::vector<Diagnostic> sorted() const;
+  std::optional<Diagnostic> first_error() const;  ///< in that order
   const std::vector<Diagnostic>& all() const { return diagnostics_; }
   int count(Severity severity) const;
 

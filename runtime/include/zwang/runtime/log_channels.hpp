@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "zwang/lang/program.hpp"
+#include "zwang/runtime/log_parts.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace zwang::runtime {
@@ -40,5 +41,10 @@ std::unique_ptr<LogChannels> scene_channels(const lang::Program& program);
 /// As `mcap_sink` without channels; replays and readers of the records see no difference.
 std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context,
                                    std::unique_ptr<LogChannels> channels);
+
+/// The log of a run of the program, with `scene_channels`: `file`, or its parts `STEM_0.mcap` and so on
+/// beside it where a rotation is asked for.
+std::unique_ptr<LogSink> program_log(const std::filesystem::path& file, const LogRotation& rotation,
+                                     const LogContext& context, const lang::Program& program);
 
 }  // namespace zwang::runtime

@@ -75,10 +75,10 @@ class LogRecords {
   std::unique_ptr<File> file_;
 };
 
-/// Calls `record` with the time [s] and the values of every record that can be read, in their order, and
-/// before the first one `before`, with the files, the facts and the columns. A cut or changed file is read as
-/// far as it is whole, and `damage` tells the rest. What is in the file never makes it throw, and it needs no
-/// more memory than a chunk. Throws as LogRecords.
+/// Calls `record` with the time [s] and the values of every record that can be read, in their order. Calls
+/// `before` ahead of the first one, with the files, the facts and the columns. A cut or changed file is read
+/// as far as it is whole, and `damage` tells the rest. No content of a file makes it throw, or take more
+/// memory than a chunk. Throws as LogRecords.
 LogContents read_log(const std::filesystem::path& log,
                      const std::function<void(double time, std::span<const double> values)>& record,
                      const std::function<void(const LogContents& head)>& before = {});

@@ -112,17 +112,17 @@ class Scheduler {
   /// What the world presses on the base with, as the conditions of the next tick know it: x, y [N] and rz [N
   /// m] at its origin and in its axes. NaN: unknown.
   void estimate_force(const solver::Vector3& force) noexcept;
-  /// The same of the frames that conditions and drivers ask for: from what pushes the robot along its free
-  /// motions, `p` as those of `motions`, at the state of the last tick. `dt` [s] since the last one.
+  /// The wrenches on the frames that conditions and drivers ask for. `p` is what pushes the robot along its
+  /// free motions, in the order of `motions`, at the state of the last tick. `dt` [s] since the last one.
   void estimate_wrenches(const solver::FreeMotions& motions, const Eigen::VectorXd& p, double dt) noexcept;
   /// Once a tick, behind the last `observe`: what drivers build up, and how heavy the robot is along those
   /// that yield.
   void follow_up(const solver::Solver& solver) noexcept;
-  /// What the outputs are set to, in the order of Program::outputs: SI, or 0 and 1.
+  /// The values that the outputs are set to, in the order of Program::outputs: SI, or 0 and 1.
   std::span<const double> outputs() const noexcept;
   /// The protective stop has latched: outputs are what their `stop` says.
   void stop_outputs() noexcept;
-  /// What an output is set to from now on, until a task sets it.
+  /// An output has this value from now on, until a task sets it.
   void set_output(int index, double value) noexcept;
   /// What the solver made of the rows of `row_sets()`: the guards of the next tick read it.
   void observe(const solver::Solution& solution) noexcept;

@@ -90,6 +90,11 @@ struct AxisConstraint {
   /// that is new has a longer one: what is beyond it then has time to stop.
   double position_horizon = limit_horizon;
   double velocity_horizon = limit_horizon;
+
+  /// Whether the measure is in radians by its kind: a direction may be, and does not know.
+  bool is_angle() const { return measure == Measure::angle || wraps(); }
+  /// An angle that starts anew at pi.
+  bool wraps() const { return measure == Measure::bearing || (measure == Measure::axis && axis >= Axis::rx); }
 };
 
 /// The present motion along a measure. [m, m/s] or [rad, rad/s]

@@ -80,6 +80,8 @@ class Model {
   int joint_count() const { return static_cast<int>(bodies_.size()) - 1; }
   int body_count() const { return static_cast<int>(bodies_.size()); }
   const Joint& joint(int j) const { return bodies_[static_cast<std::size_t>(j) + 1].joint; }
+  /// Whether the joints of the other model have the same names in the same order.
+  bool has_joints_of(const Model& other) const;
   double total_mass() const;  ///< [kg], moving bodies
 
   std::optional<int> find_frame(std::string_view name) const;
