@@ -6,6 +6,9 @@ target_compile_options(zwang_flags INTERFACE
   -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:${ZWANG_UNITY}>>:-Wshadow> -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
   -Woverloaded-virtual -Wnull-dereference $<$<CXX_COMPILER_ID:GNU>:-Wdouble-promotion> -Wformat=2
   $<$<BOOL:${ZWANG_WARNINGS_AS_ERRORS}>:-Werror>)
+if(ZWANG_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  target_compile_options(zwang_flags INTERFACE -Wno-subobject-linkage)
+endif()
 # Designated initializers leave fields at their defaults on purpose.
 target_compile_options(zwang_flags INTERFACE -Wno-missing-field-initializers)
 # Eigen trips GCC's flow analysis in optimised builds; the diagnostics point into Eigen, not into this code.
@@ -35,7 +38,8 @@ endfunction()
 
 # zwang_together(<target>): ZWANG_UNITY compiles the files of a folder together, eight at most, which takes a third of the time:
 # their headers are read, and what these instantiate is compiled, once. The files' anonymous namespaces meet then, so that
-# -Wshadow would compare the names of one file with those of another; a build without it does.
+# -Wshadow would compare the names of one file with those of another, and GCC takes a class of a file for one of a header
+# (-Wsubobject-linkage); a build without it does.
 function(zwang_together target)
   if(NOT ZWANG_UNITY)
     return()

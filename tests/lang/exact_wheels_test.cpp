@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Drives, NearlyExact,
                                          Drive{"tricycle_base", 0.2}, Drive{"car_base", 0.1},
                                          Drive{"swerve_base", 0.25}, Drive{"mecanum_arm_base", 0.2}));
 
-std::string mini(const std::string& left, const std::string& right) {
+std::string mini_with_wheels(const std::string& left, const std::string& right) {
   std::string text = test::slurp(test::source_dir / "tests/conformance/robots/mini.urdf");
   text = test::replaced(text, "<origin xyz=\"0 0.2 0.1\"/>", left);
   return test::replaced(text, "<origin xyz=\"0 -0.2 0.1\"/>", right);
@@ -127,7 +127,7 @@ std::string mini(const std::string& left, const std::string& right) {
 
 Loaded load_mini(const std::string& left, const std::string& right) {
   const test::Folder folder;
-  folder.write("mini.urdf", mini(left, right));
+  folder.write("mini.urdf", mini_with_wheels(left, right));
   return load_file(
       folder.write("mini.yaml", test::slurp(test::source_dir / "tests/conformance/robots/mini.yaml")));
 }

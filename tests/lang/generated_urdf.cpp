@@ -11,8 +11,6 @@ namespace zwang::lang::test {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 enum class Drive { differential, four, six, omni, steered, twin, car, tricycle };
 constexpr const char* drive_names[] = {"differential", "four wheels", "six wheels", "omni",
                                        "steered",      "twin wheels", "car",        "tricycle"};
@@ -90,11 +88,12 @@ class Drawing : private UrdfDrawing {
   }
 
   void draw_omni(int count) {
-    const double first = pi / 6.0 * dice_.below(3);
+    const double first = std::numbers::pi / 6.0 * dice_.below(3);
     for (int i = 0; i < count; ++i) {
-      const double angle = first + 2.0 * pi * i / count;
+      const double angle = first + 2.0 * std::numbers::pi * i / count;
       put_on_body(std::to_string(i + 1),
-                  {length_ * std::cos(angle), length_ * std::sin(angle), angle - pi / 2.0}, true);
+                  {length_ * std::cos(angle), length_ * std::sin(angle), angle - std::numbers::pi / 2.0},
+                  true);
     }
   }
 

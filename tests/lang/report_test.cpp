@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-Diagnostics said_about(const std::string& name) {
+Diagnostics said_about_file(const std::string& name) {
   std::filesystem::current_path(test::source_dir);
   Diagnostics diagnostics;
   load("tests/conformance/" + name, {}, diagnostics);
@@ -30,7 +30,7 @@ Diagnostics with_note() {
 
 TEST(ShortReport, has_one_line_for_each) {
   std::ostringstream out;
-  render_short(said_about("E101_misspelt_quantity.yaml"), out);
+  render_short(said_about_file("E101_misspelt_quantity.yaml"), out);
   EXPECT_EQ(out.str(),
             "tests/conformance/E101_misspelt_quantity.yaml:10:13: error E101: unknown key `velcity` in axis "
             "`contact.x`\n");
@@ -68,7 +68,7 @@ TEST(JsonReport, has_edits_that_mend_the_file) {
   for (const char* name : {"E101_misspelt_quantity", "E201_no_unit", "E201_units_of_a_group",
                            "E203_newton_metre", "E105_symbols"}) {
     const std::string file = std::string(name) + ".yaml";
-    const json all = json::parse(render_json(said_about(file)));
+    const json all = json::parse(render_json(said_about_file(file)));
     ASSERT_EQ(all.size(), 1u) << name;
     ASSERT_FALSE(all[0]["edits"].empty()) << name;
     const test::Folder folder;
@@ -85,7 +85,7 @@ TEST(JsonReport, has_edits_that_mend_the_file) {
 }
 
 TEST(SarifReport, names_rule_place_and_fix) {
-  const Diagnostics diagnostics = said_about("E101_misspelt_quantity.yaml");
+  const Diagnostics diagnostics = said_about_file("E101_misspelt_quantity.yaml");
   const json log = json::parse(render_sarif({&diagnostics}, "1.2.3"));
   EXPECT_EQ(log["version"], "2.1.0");
   const json& run = log["runs"][0];
@@ -103,7 +103,7 @@ TEST(SarifReport, names_rule_place_and_fix) {
 }
 
 TEST(SarifReport, has_one_fix_for_all_units_of_a_mapping) {
-  const Diagnostics diagnostics = said_about("E201_units_of_a_group.yaml");
+  const Diagnostics diagnostics = said_about_file("E201_units_of_a_group.yaml");
   const json log = json::parse(render_sarif({&diagnostics}, "1.2.3"));
   std::vector<std::string> written;
   for (const json& replacement :
@@ -113,7 +113,7 @@ TEST(SarifReport, has_one_fix_for_all_units_of_a_mapping) {
 }
 
 TEST(SarifReport, keeps_what_was_silenced_and_why) {
-  const Diagnostics diagnostics = said_about("ok_allowed.yaml");
+  const Diagnostics diagnostics = said_about_file("ok_allowed.yaml");
   EXPECT_TRUE(diagnostics.all().empty());
   const json log = json::parse(render_sarif({&diagnostics}, "1"));
   const json& result = log["runs"][0]["results"][0];

@@ -8,13 +8,13 @@
 namespace zwang::lang {
 namespace {
 
-struct Reading {
+struct Measure {
   const char* text;
   double value;  ///< SI, from the definition of the unit
   Dimension dimension;
 };
 
-class Quantities : public testing::TestWithParam<Reading> {};
+class Quantities : public testing::TestWithParam<Measure> {};
 
 TEST_P(Quantities, have_the_si_value_of_their_definition) {
   const QuantityResult result = parse_quantity(GetParam().text);
@@ -27,21 +27,21 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 INSTANTIATE_TEST_SUITE_P(
     Known, Quantities,
-    testing::Values(Reading{"0.08 m/s", 0.08, dimension::velocity},
-                    Reading{"36 km/h", 10.0, dimension::velocity}, Reading{"-5 cm", -0.05, dimension::length},
-                    Reading{"+2.5 mm", 0.0025, dimension::length},
-                    Reading{"90 deg", 90 * degree, dimension::angle},
-                    Reading{"0.5 deg/s", 0.5 * degree, dimension::angular_velocity},
-                    Reading{"2 kN", 2000.0, dimension::force}, Reading{"20 N m", 20.0, dimension::torque},
-                    Reading{"3 N*m", 3.0, dimension::torque}, Reading{"100 kN/m", 1e5, dimension::stiffness},
-                    Reading{"13.5 kg mm^2", 13.5e-6, dimension::inertia},
-                    Reading{"4 Hz", 4.0, dimension::frequency}, Reading{"4 1/s", 4.0, dimension::frequency},
-                    Reading{"2 s^-1", 2.0, dimension::frequency}, Reading{"20 ms", 0.02, dimension::time},
-                    Reading{"5 min", 300.0, dimension::time}, Reading{"250 g", 0.25, dimension::mass},
-                    Reading{"80 %", 0.8, dimension::none}, Reading{"26", 26.0, dimension::none},
-                    Reading{"1e-3 m", 1e-3, dimension::length}, Reading{"200N", 200.0, dimension::force},
-                    Reading{"1 m/s/s", 1.0, dimension::acceleration},
-                    Reading{"0.01 N m s/rad", 0.01, dimension::angular_damping}),
+    testing::Values(Measure{"0.08 m/s", 0.08, dimension::velocity},
+                    Measure{"36 km/h", 10.0, dimension::velocity}, Measure{"-5 cm", -0.05, dimension::length},
+                    Measure{"+2.5 mm", 0.0025, dimension::length},
+                    Measure{"90 deg", 90 * degree, dimension::angle},
+                    Measure{"0.5 deg/s", 0.5 * degree, dimension::angular_velocity},
+                    Measure{"2 kN", 2000.0, dimension::force}, Measure{"20 N m", 20.0, dimension::torque},
+                    Measure{"3 N*m", 3.0, dimension::torque}, Measure{"100 kN/m", 1e5, dimension::stiffness},
+                    Measure{"13.5 kg mm^2", 13.5e-6, dimension::inertia},
+                    Measure{"4 Hz", 4.0, dimension::frequency}, Measure{"4 1/s", 4.0, dimension::frequency},
+                    Measure{"2 s^-1", 2.0, dimension::frequency}, Measure{"20 ms", 0.02, dimension::time},
+                    Measure{"5 min", 300.0, dimension::time}, Measure{"250 g", 0.25, dimension::mass},
+                    Measure{"80 %", 0.8, dimension::none}, Measure{"26", 26.0, dimension::none},
+                    Measure{"1e-3 m", 1e-3, dimension::length}, Measure{"200N", 200.0, dimension::force},
+                    Measure{"1 m/s/s", 1.0, dimension::acceleration},
+                    Measure{"0.01 N m s/rad", 0.01, dimension::angular_damping}),
     [](const auto& test_case) { return "case_" + std::to_string(test_case.index); });
 
 TEST(Quantity, refuses_what_is_no_decimal_number_with_a_unit) {

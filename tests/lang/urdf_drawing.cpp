@@ -9,8 +9,6 @@ namespace zwang::lang::test {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-
 constexpr Language languages[] = {
     {"English", "wheel", "caster", "caster_fork", "caster_ball", "suspension", "steering"},
     {"German", "antriebsrad", "lenkrolle", "lenkgabel", "stuetzkugel", "federbein", "lenkung"},
@@ -161,11 +159,11 @@ std::string UrdfDrawing::put_spring(const std::string& number, const Place& plac
 void UrdfDrawing::turn(const Place& place, JointShape& joint) const {
   const bool is_right = place.is_right || place.y < 0.0;
   const double side = is_right && mirror_ == 1 ? -1.0 : 1.0;
-  const double yaw = place.heading + (is_right && mirror_ == 2 ? pi : 0.0);
+  const double yaw = place.heading + (is_right && mirror_ == 2 ? std::numbers::pi : 0.0);
   if (frame_ == 0) joint.rpy = {0.0, 0.0, yaw};
-  if (frame_ == 1) joint.rpy = {-pi / 2.0, 0.0, yaw};
-  if (frame_ == 2) joint.rpy = {pi / 2.0, 0.0, yaw};
-  if (frame_ == 3) joint.rpy = {0.0, 0.0, yaw + pi / 2.0};
+  if (frame_ == 1) joint.rpy = {-std::numbers::pi / 2.0, 0.0, yaw};
+  if (frame_ == 2) joint.rpy = {std::numbers::pi / 2.0, 0.0, yaw};
+  if (frame_ == 3) joint.rpy = {0.0, 0.0, yaw + std::numbers::pi / 2.0};
   if (frame_ == 0) joint.axis = {0.0, side, 0.0};
   if (frame_ == 1) joint.axis = {0.0, 0.0, side};
   if (frame_ == 2) joint.axis = {0.0, 0.0, -side};
@@ -178,8 +176,8 @@ LinkShape UrdfDrawing::disc(const std::string& name, double mass, double radius)
   if (frame_ == 1 || frame_ == 2) link.inertia = {across, across, along};
   if (frame_ == 3) link.inertia = {along, across, across};
   std::array<double, 3> rpy{};
-  if (frame_ == 0) rpy = {pi / 2.0, 0.0, 0.0};
-  if (frame_ == 3) rpy = {0.0, pi / 2.0, 0.0};
+  if (frame_ == 0) rpy = {std::numbers::pi / 2.0, 0.0, 0.0};
+  if (frame_ == 3) rpy = {0.0, std::numbers::pi / 2.0, 0.0};
   link.geometry = shape_ == 2   ? text_.sphere(radius)
                   : shape_ == 3 ? UrdfText::mesh("round")
                                 : text_.cylinder(radius, 0.4 * radius, rpy);

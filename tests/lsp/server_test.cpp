@@ -19,12 +19,12 @@ using test::slurp;
 using Codes = std::vector<std::string>;
 
 const fs::path source = ZWANG_SOURCE_DIR;
-const fs::path specs = source / "specs";
+const fs::path specs_folder = source / "specs";
 const fs::path conformance = source / "tests/conformance";
 
 TEST(LanguageServer, TellsOfTextThatIsNotSaved) {
   Editor editor;
-  const fs::path task = specs / "wall_align.yaml";
+  const fs::path task = specs_folder / "wall_align.yaml";
   const std::string good = slurp(task);
   editor.open(task, good);
   EXPECT_EQ(editor.codes(task), Codes{});
@@ -39,17 +39,17 @@ TEST(LanguageServer, TellsOfTextThatIsNotSaved) {
 
 TEST(LanguageServer, RobotSceneAndUrdfActBeforeTheyAreSaved) {
   Editor editor;
-  const fs::path task = specs / "wall_align.yaml";
+  const fs::path task = specs_folder / "wall_align.yaml";
   editor.open(task, slurp(task));
   // Of each file that the task leads to: a text, and what is wrong with it. Told at that file's own address.
-  const fs::path robot = specs / "robots/mecanum_base.yaml", scene = specs / "scenes/wall.yaml";
+  const fs::path robot = specs_folder / "robots/mecanum_base.yaml", scene = specs_folder / "scenes/wall.yaml";
   for (const fs::path& file : {robot, scene}) {
     editor.open(file, slurp(file) + "colour: red\n");
     EXPECT_EQ(editor.codes(file), Codes{"E101"}) << file;
     editor.close(file);
     EXPECT_EQ(editor.codes(file), Codes{}) << file;
   }
-  const fs::path urdf = specs / "robots/mecanum_base.urdf";
+  const fs::path urdf = specs_folder / "robots/mecanum_base.urdf";
   editor.open(urdf, replaced(slurp(urdf), "</robot>", ""));
   EXPECT_EQ(editor.codes(urdf), Codes{"E854"});
   editor.change(urdf, slurp(urdf));
@@ -58,7 +58,7 @@ TEST(LanguageServer, RobotSceneAndUrdfActBeforeTheyAreSaved) {
 
 TEST(LanguageServer, PlacesAreThoseOfUtf16) {
   Editor editor;
-  const fs::path task = specs / "wall_align.yaml";
+  const fs::path task = specs_folder / "wall_align.yaml";
   editor.open(task, replaced(slurp(task), "help: how", "help: \xF0\x9F\xA4\x96 how"));
   EXPECT_EQ(editor.codes(task), Codes{});
   const std::string text = replaced(slurp(task), "range: [5 N, 40 N], help: how hard",
@@ -73,7 +73,7 @@ TEST(LanguageServer, PlacesAreThoseOfUtf16) {
 
 TEST(LanguageServer, FormatsAsFmtDoes) {
   Editor editor;
-  const fs::path task = specs / "wall_align.yaml";
+  const fs::path task = specs_folder / "wall_align.yaml";
   const std::string good = slurp(task);
   editor.open(task, replaced(good, "tasks:", "tasks:   # all"));
   const json edits = editor.ask("textDocument/formatting", {{"textDocument", {{"uri", uri_of(task)}}}});
@@ -122,7 +122,7 @@ TEST(LanguageServer, EveryQuickFixLeadsToABetterFile) {
 
 TEST(LanguageServer, AnyContentIsAnsweredAndTheNextOneIsServed) {
   Editor editor;
-  const fs::path task = specs / "wall_align.yaml";
+  const fs::path task = specs_folder / "wall_align.yaml";
   editor.open(task, slurp(task));
   for (const std::string& content :
        {std::string("rubbish"), std::string("\xFF\xFE"), std::string(100000, '['), std::string("[]"),
@@ -199,7 +199,7 @@ std::string in_utf8(const std::string& text) {
 
 TEST(LanguageServer, AfterAnyEditsItSaysWhatItWouldSayOfTheTextAlone) {
   const int edits = zwang::test::is_long() ? 10000 : 200;
-  const fs::path task = specs / "hospital.yaml";
+  const fs::path task = specs_folder / "hospital.yaml";
   const std::string good = slurp(task);
   std::mt19937 random(2411);
   Editor editor;

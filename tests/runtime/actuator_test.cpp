@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "constants.hpp"
 #include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -19,10 +20,8 @@ namespace zwang::runtime {
 namespace {
 
 using lang::FaultKind;
-using test::shipped_program;
-using test::specs;
-
-constexpr double period = 1e-3;
+using zwang::test::shipped_program;
+using zwang::test::specs;
 
 struct Broken {
   const char* robot;

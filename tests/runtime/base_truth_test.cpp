@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "constants.hpp"
 #include "plant/quiet_means.hpp"
 #include "plant_robots.hpp"
 
@@ -11,8 +12,6 @@ namespace {
 
 using namespace testing;
 using Eigen::Vector2d;
-
-constexpr double period = 1e-3;
 
 // On a circle at v and w the chord of the velocity over T is 2 v sin(w T/2): a = v w, less a hair.
 TEST(QuietMeans, ABaseThatTurnsIsAcceleratedTowardsTheMiddle) {

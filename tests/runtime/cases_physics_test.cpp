@@ -13,6 +13,7 @@
 
 #include "../is_long.hpp"
 #include "../temporary_folder.hpp"
+#include "constants.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -22,8 +23,6 @@ namespace zwang::runtime {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double period = 1e-3;
-constexpr double degree = std::numbers::pi / 180.0;
 const fs::path specs = ZWANG_SOURCE_DIR "/specs";
 
 lang::Program load(const fs::path& task, lang::LoadOptions options = {}) {
@@ -39,7 +38,7 @@ lang::Program load(const fs::path& task, lang::LoadOptions options = {}) {
 /// A task file of the test's own.
 lang::Program write(const std::string& text, const fs::path& scene,
                     const std::string& robot = "mecanum_base") {
-  const test::TemporaryFolder folder;
+  const zwang::test::TemporaryFolder folder;
   const fs::path file = folder.path() / "task.yaml";
   std::ofstream(file) << "zwang: 1\nrobot: " << (specs / "robots" / (robot + ".yaml")).string() << "\n"
                       << text;
@@ -353,7 +352,7 @@ const Rubbing rubbing_drives[] = {{"mecanum_base", 4.0 / 0.0759},
 TEST(Push, AgainstStictionHoldsTenPercentWithoutASensorAndOneWithForceFeedback) {
   for (const auto& [robot, turns] : rubbing_drives) {
     const lang::Program program = rubbing(write(pressing, specs / "scenes/wall_far.yaml", robot), rough);
-    const bool every_wall = test::is_long() || robot == rubbing_drives[0].robot;
+    const bool every_wall = zwang::test::is_long() || robot == rubbing_drives[0].robot;
     for (const double stiffness : every_wall ? std::vector{1e4, 1e5, 1e6} : std::vector{1e5}) {
       lang::Program walled = program;
       walled.scene->objects.at(0).stiffness = stiffness;
@@ -500,7 +499,7 @@ TEST(Switches, OfTheFourCasesStepByTheBlendsShareOnThePlantAndHarderWithoutIt) {
        {Case{"obstacle.yaml", {}, 40.0, 0.2, 0.0}, Case{"wall_align.yaml", {}, 20.0, 0.3, 0.0},
         Case{"docking.yaml", {{"seat_force", "10 N"}}, 80.0, 0.2, mass * (0.08 - 0.05) / 0.2},
         Case{"hospital.yaml", {}, 60.0, 0.2, 0.0}}) {
-    if (std::string(c.file) == "hospital.yaml" && !test::is_long()) continue;  // 70 s, three times
+    if (std::string(c.file) == "hospital.yaml" && !zwang::test::is_long()) continue;  // 70 s, three times
     lang::LoadOptions options;
     options.parameters = c.parameters;
     const lang::Program program = load(specs / c.file, options);

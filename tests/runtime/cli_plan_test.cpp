@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-const fs::path specs = fs::path(ZWANG_SOURCE_DIR) / "specs";
+const fs::path shipped = fs::path(ZWANG_SOURCE_DIR) / "specs";
 
 using test::read;
 using test::Result;
@@ -21,7 +21,7 @@ using test::Result;
 /// A folder with the shipped specs; arguments in one line, both streams in `out`.
 class CliPlan : public test::Program {
  protected:
-  void SetUp() override { fs::copy(specs, folder_, fs::copy_options::recursive); }
+  void SetUp() override { fs::copy(shipped, folder_, fs::copy_options::recursive); }
 
   Result zwang(const std::string& line) {
     std::istringstream in(line);

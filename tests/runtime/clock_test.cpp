@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <functional>
 
+#include "constants.hpp"
 #include "guard/clock_rate.hpp"
 #include "shipped_program.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -16,7 +17,6 @@ namespace {
 
 using zwang::test::shipped_program;
 
-constexpr double period = 1e-3;
 constexpr double begin = 1.5;  // [s] at 0.5 m/s
 constexpr int calls = 1000;    // from then on
 

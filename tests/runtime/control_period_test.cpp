@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "constants.hpp"
 #include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
@@ -19,10 +20,8 @@ namespace zwang::runtime {
 namespace {
 
 using lang::FaultKind;
-using test::shipped_program;
-using test::specs;
-
-constexpr double ms = 1e-3;
+using zwang::test::shipped_program;
+using zwang::test::specs;
 
 /// Takes the plant through one control period.
 void hold(ScenePlant& plant, const SimulationSteps& steps, const Eigen::VectorXd& tau) {

@@ -9,6 +9,7 @@
 #include "../deviating_robot.hpp"
 #include "../is_long.hpp"
 #include "../temporary_folder.hpp"
+#include "constants.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -16,7 +17,6 @@
 namespace zwang::runtime {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 constexpr test::DrawnDeviation most{1e-3, 0.5 * degree};
 
 struct Ran {

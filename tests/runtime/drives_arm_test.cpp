@@ -8,6 +8,8 @@
 #include <numbers>
 
 #include "../temporary_folder.hpp"
+#include "constants.hpp"
+#include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -16,13 +18,11 @@ namespace zwang::runtime {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double degree = std::numbers::pi / 180.0;
-const fs::path specs = ZWANG_SOURCE_DIR "/specs";
 
 lang::Program load(const fs::path& task, const fs::path& scene) {
   lang::Diagnostics diagnostics;
   lang::LoadOptions options;
-  options.robot = specs / "robots/mecanum_arm_base.yaml";
+  options.robot = zwang::test::specs("robots/mecanum_arm_base.yaml");
   options.scene = scene;
   options.root = "/";
   const auto program = lang::load(task, options, diagnostics);
@@ -36,7 +36,7 @@ lang::Program load(const fs::path& task, const fs::path& scene) {
 lang::Program load_text(std::string text, const fs::path& scene) {
   const test::TemporaryFolder folder;
   const fs::path file = folder.path() / "task.yaml";
-  text.replace(text.find("robots/"), 7, (specs / "robots/").string());
+  text.replace(text.find("robots/"), 7, zwang::test::specs("robots/"));
   std::ofstream(file) << text;
   return load(file, scene);
 }
@@ -67,7 +67,8 @@ class ArmWatch {
 // over a link's pendulum length of 0.1 m or more, 0.0025 s^2 x 3.7 rad/s^2 = 0.53 deg. The base presses with
 // all 20 N: worked out for an arm that hangs loose, and falls, it would be 12 N.
 TEST(UnusedArm, StaysWhereItIsAndTheBaseKeepsItsNewtons) {
-  lang::Program program = load(specs / "wall_align.yaml", specs / "scenes/wall_far.yaml");
+  lang::Program program =
+      load(zwang::test::specs("wall_align.yaml"), zwang::test::specs("scenes/wall_far.yaml"));
   program.robot.posture.setZero();  // the arm points straight up, and would fall to any side
   ScenePlant plant(program);
   Runner runner(program);
@@ -111,7 +112,7 @@ tasks:
 // Let go of while it moves at 0.1 m/s, the arm comes back to where it was then, and stays; it does not drop.
 // A position reaches 2 % of its way after 5.8 time constants.
 TEST(UnusedArm, IsTakenOverWhenATaskLetsGoOfIt) {
-  const lang::Program program = load_text(reach_text, specs / "scenes/wall_far.yaml");
+  const lang::Program program = load_text(reach_text, zwang::test::specs("scenes/wall_far.yaml"));
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program.robot.model, program.signals.size());
@@ -161,7 +162,7 @@ tasks:
 
 // The arm gives way by its own rows, as a soft spring does, and gives back what was pressed into it.
 TEST(HeldArm, ThatIsPressedIntoABoardIsNoRunaway) {
-  const lang::Program program = load_text(press_text, specs / "scenes/board.yaml");
+  const lang::Program program = load_text(press_text, zwang::test::specs("scenes/board.yaml"));
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program.robot.model, program.signals.size());

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "../temporary_folder.hpp"
+#include "constants.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/robot_draft.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
@@ -24,7 +25,6 @@ namespace fs = std::filesystem;
 using solver::Axis;
 using solver::AxisConstraint;
 
-constexpr double period = 1e-3;
 constexpr double frequency = 1.0;  // [Hz]
 const fs::path robots = ZWANG_SOURCE_DIR "/specs/robots";
 
@@ -76,14 +76,14 @@ AxisConstraint hold(const solver::Model& model, int joint) {
   return accelerate(joint + 1, body.parent, body.pose_in_parent, Axis::rz, 0.0);
 }
 
-struct Drive {
+struct OpenLoopCase {
   const char* name;
   double bound;  ///< of the relative rms error
   std::vector<Eigen::Vector3d> amplitudes;
   double swivel = 0.0;  ///< where unpowered swivels and steerings start [rad]
 };
 
-void PrintTo(const Drive& drive, std::ostream* out) {
+void PrintTo(const OpenLoopCase& drive, std::ostream* out) {
   *out << drive.name;
 }
 
@@ -127,10 +127,10 @@ double relative_error(const lang::Robot& robot, const Eigen::Vector3d& amplitude
   return std::sqrt(error / demand);
 }
 
-class OpenLoopDrive : public testing::TestWithParam<Drive> {};
+class OpenLoopDrive : public testing::TestWithParam<OpenLoopCase> {};
 
 TEST_P(OpenLoopDrive, AcceleratesAsDemanded) {
-  const Drive& drive = GetParam();
+  const OpenLoopCase& drive = GetParam();
   const std::string name = drive.name;
   lang::Robot robot = name == "kelo30" ? kelo_with_long_casters() : load(robots / (name + ".yaml"));
   for (int j = 0; j < robot.model.joint_count(); ++j) {
@@ -149,16 +149,17 @@ TEST_P(OpenLoopDrive, AcceleratesAsDemanded) {
 const Eigen::Vector3d x{0.5, 0.0, 0.0}, y{0.0, 0.5, 0.0}, turn{0.0, 0.0, 1.0};
 
 INSTANTIATE_TEST_SUITE_P(Shipped, OpenLoopDrive,
-                         testing::Values(Drive{"mecanum_base", 0.002, {x, y, turn, x + y + turn}},
-                                         Drive{"omni_base", 0.002, {x, y, turn, x + y + turn}},
-                                         Drive{"diff_base", 0.005, {x, turn, x + turn}},
-                                         Drive{"kelo_base", 0.02, {x, y, turn, x + y + turn}, 0.6},
-                                         Drive{"kelo30", 0.01, {x, y, turn, x + y + turn}, 0.6},
-                                         Drive{"kelo_two_base", 0.02, {x, y, turn}, 0.6},
-                                         Drive{"skid_base", 0.005, {x}},
-                                         Drive{"tricycle_base", 0.005, {x}, 0.3},
-                                         Drive{"car_base", 0.005, {x}, 0.3}, Drive{"swerve_base", 0.005, {x}},
-                                         Drive{"mecanum_arm_base", 0.005, {x, y, turn}}));
+                         testing::Values(OpenLoopCase{"mecanum_base", 0.002, {x, y, turn, x + y + turn}},
+                                         OpenLoopCase{"omni_base", 0.002, {x, y, turn, x + y + turn}},
+                                         OpenLoopCase{"diff_base", 0.005, {x, turn, x + turn}},
+                                         OpenLoopCase{"kelo_base", 0.02, {x, y, turn, x + y + turn}, 0.6},
+                                         OpenLoopCase{"kelo30", 0.01, {x, y, turn, x + y + turn}, 0.6},
+                                         OpenLoopCase{"kelo_two_base", 0.02, {x, y, turn}, 0.6},
+                                         OpenLoopCase{"skid_base", 0.005, {x}},
+                                         OpenLoopCase{"tricycle_base", 0.005, {x}, 0.3},
+                                         OpenLoopCase{"car_base", 0.005, {x}, 0.3},
+                                         OpenLoopCase{"swerve_base", 0.005, {x}},
+                                         OpenLoopCase{"mecanum_arm_base", 0.005, {x, y, turn}}));
 
 // A skidding base turns when the wheels' push about its middle exceeds the floor's: sum of mu N times the
 // distance ahead or behind. 50 kg on four equal wheels 0.256 m ahead and behind: mu m g 0.256 m.

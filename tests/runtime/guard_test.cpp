@@ -13,8 +13,8 @@ using namespace test;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-struct Bench {
-  explicit Bench(const GuardSettings& settings = {}) : guard(robot, settings), sensed(robot.model) {
+struct GuardBench {
+  explicit GuardBench(const GuardSettings& settings = {}) : guard(robot, settings), sensed(robot.model) {
     tau = wanted = Eigen::VectorXd::Zero(4);
   }
   SampleStatus admit_after(double dt) {
@@ -49,7 +49,7 @@ TEST(Guard, RefusesEveryNumberThatIsNotFiniteAndStopsInTheSameTick) {
   }
   for (const double bad : {nan, inf, -inf, 1e300, -1e300}) {
     for (std::size_t e = 0; e < entries.size(); ++e) {
-      Bench bench;
+      GuardBench bench;
       ASSERT_EQ(bench.guard.admit(bench.sensed), SampleStatus::good);
       bench.wanted.setConstant(5.0);
       bench.guard.output(bench.sensed, bench.wanted, bench.tau);
@@ -69,7 +69,7 @@ TEST(Guard, RefusesEveryNumberThatIsNotFiniteAndStopsInTheSameTick) {
 TEST(Guard, ATorqueThatIsNotFiniteStopsAndIsNeverClampedIntoFullTorque) {
   for (const double bad : {nan, inf, -inf}) {
     for (int j = 0; j < 4; ++j) {
-      Bench bench;
+      GuardBench bench;
       ASSERT_EQ(bench.guard.admit(bench.sensed), SampleStatus::good);
       bench.wanted(j) = bad;
       EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::stopped);
@@ -80,7 +80,7 @@ TEST(Guard, ATorqueThatIsNotFiniteStopsAndIsNeverClampedIntoFullTorque) {
 }
 
 TEST(Guard, RefusesAStateOfTheWrongSize) {
-  Bench rates, wrenches;
+  GuardBench rates, wrenches;
   rates.sensed.state.qd.resize(3);
   EXPECT_EQ(rates.guard.admit(rates.sensed), SampleStatus::not_finite);
   wrenches.sensed.state.f_ext.resize(2);
@@ -95,7 +95,7 @@ TEST(Guard, RefusesAPoseWhoseRotationIsNone) {
         std::pair{solver::Matrix3(Eigen::Vector3d(1, -1, 1).asDiagonal()), SampleStatus::not_finite},
         std::pair{Eigen::Quaterniond(0.7071, 0.0, 0.0, 0.7071).toRotationMatrix().eval(), SampleStatus::good},
         std::pair{Eigen::Quaterniond(-quarter.coeffs()).toRotationMatrix().eval(), SampleStatus::good}}) {
-    Bench bench;
+    GuardBench bench;
     bench.sensed.state.base_pose.rotation = rotation;
     EXPECT_EQ(bench.guard.admit(bench.sensed), status) << rotation;
     if (status == SampleStatus::good) continue;
@@ -104,7 +104,7 @@ TEST(Guard, RefusesAPoseWhoseRotationIsNone) {
 }
 
 TEST(Guard, CutsTorquesToTheJointsLimits) {
-  Bench bench;
+  GuardBench bench;
   ASSERT_EQ(bench.guard.admit(bench.sensed), SampleStatus::good);
   bench.wanted << effort, -effort, 1.01 * effort, -1e6;
   EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::limited);
@@ -115,7 +115,7 @@ TEST(Guard, CutsTorquesToTheJointsLimits) {
 }
 
 TEST(Guard, BoundsTheSlewOfEveryTorqueIncludingTheStops) {
-  Bench bench({.max_slew = 1000.0});  // 1 N m a tick
+  GuardBench bench({.max_slew = 1000.0});  // 1 N m a tick
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);
   bench.wanted << 3, -3, 0.5, 0;
   EXPECT_EQ(bench.guard.output(bench.sensed, bench.wanted, bench.tau), GuardStatus::slewed);
@@ -152,19 +152,19 @@ TEST(Guard, KeepsToTheSlewOfTheRobotFile) {
 }
 
 TEST(Guard, EventsHaveTheTimeOfTheirSample) {
-  Bench nan_at;
+  GuardBench nan_at;
   ASSERT_EQ(nan_at.admit_after(2.0), SampleStatus::good);
   nan_at.sensed.state.qd(1) = nan;
   EXPECT_EQ(nan_at.admit_after(period), SampleStatus::not_finite);
   EXPECT_EQ(nan_at.guard.stop_event().time, nan_at.sensed.time);
 
-  Bench no_time;
+  GuardBench no_time;
   ASSERT_EQ(no_time.admit_after(2.0), SampleStatus::good);
   no_time.sensed.time = nan;
   EXPECT_EQ(no_time.guard.admit(no_time.sensed), SampleStatus::not_finite);
   EXPECT_NEAR(no_time.guard.stop_event().time, 2.0 + period, 1e-9) << "when it was due";
 
-  Bench lost;
+  GuardBench lost;
   ASSERT_EQ(lost.admit_after(2.0), SampleStatus::good);
   for (int i = 1; i <= 3; ++i) {
     EXPECT_EQ(lost.admit_after(0.0), SampleStatus::bad_clock);
@@ -176,7 +176,7 @@ TEST(Guard, EventsHaveTheTimeOfTheirSample) {
 }
 
 TEST(Guard, AClockThatStandsGoesBackOrJumpsIsRefusedAndCounted) {
-  Bench bench;
+  GuardBench bench;
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);
   ASSERT_EQ(bench.admit_after(period), SampleStatus::good);
   EXPECT_EQ(bench.admit_after(0.0), SampleStatus::bad_clock);
@@ -193,7 +193,7 @@ TEST(Guard, AClockThatStandsGoesBackOrJumpsIsRefusedAndCounted) {
 
 /// Values and stamp are judged apart: once the stop is latched it brakes by the values, whatever the stamp.
 TEST(Guard, AStopBrakesByGoodValuesWhateverTheirStamp) {
-  Bench bench;
+  GuardBench bench;
   ASSERT_EQ(bench.admit_after(3.0), SampleStatus::good);
   bench.sensed.time = 1.0;
   for (int i = 0; i < 20; ++i) {
@@ -233,8 +233,8 @@ TEST(Guard, AStopBrakesByGoodValuesWhateverTheirStamp) {
 
 /// Under one stamp: other values are samples of a clock that stands, the same ones are no sample.
 TEST(Guard, AClockThatStandsIsToldFromSamplesThatStayAway) {
-  Bench stands, silent;
-  for (Bench* bench : {&stands, &silent}) {
+  GuardBench stands, silent;
+  for (GuardBench* bench : {&stands, &silent}) {
     ASSERT_EQ(bench->admit_after(0.0), SampleStatus::good);
     for (int i = 0; i < 20; ++i) {
       if (bench == &stands) bench->sensed.state.q.array() += 1e-3;
@@ -253,7 +253,7 @@ TEST(Guard, AClockThatStandsIsToldFromSamplesThatStayAway) {
 }
 
 TEST(Guard, ARefusedSampleHoldsTheLastTorques) {
-  Bench bench;
+  GuardBench bench;
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);
   bench.wanted << 1, 2, 3, 4;
   bench.guard.output(bench.sensed, bench.wanted, bench.tau);
@@ -264,7 +264,7 @@ TEST(Guard, ARefusedSampleHoldsTheLastTorques) {
 }
 
 TEST(Guard, AFewLostTicksGoOnTwentyStop) {
-  Bench few;
+  GuardBench few;
   ASSERT_EQ(few.admit_after(0.0), SampleStatus::good);
   EXPECT_EQ(few.admit_after(5 * period), SampleStatus::good);
   EXPECT_EQ(few.admit_after(20 * period), SampleStatus::good);
@@ -272,7 +272,7 @@ TEST(Guard, AFewLostTicksGoOnTwentyStop) {
   EXPECT_EQ(few.admit_after(21 * period), SampleStatus::good);
   EXPECT_EQ(few.guard.reason(), EventCode::lost_ticks);
 
-  Bench frozen;
+  GuardBench frozen;
   ASSERT_EQ(frozen.admit_after(0.0), SampleStatus::good);
   for (int i = 1; i <= 20; ++i) {
     EXPECT_FALSE(frozen.guard.stopped()) << i;
@@ -284,7 +284,7 @@ TEST(Guard, AFewLostTicksGoOnTwentyStop) {
 /// What a driver does that hears nothing any more: the last positions, and rates computed from them.
 TEST(Guard, PositionsThatStopFromOneSampleToTheNextAreFrozen) {
   // Speeds up to 1 rad/s, rolls evenly, stands after so many ticks; how long until the stop.
-  const auto roll_and_stand = [](Bench& bench, double encoder_step, int braking_ticks) {
+  const auto roll_and_stand = [](GuardBench& bench, double encoder_step, int braking_ticks) {
     bench.wanted.setConstant(1.0);
     double q = 0.0;
     const auto tick = [&](double rate) {
@@ -301,7 +301,7 @@ TEST(Guard, PositionsThatStopFromOneSampleToTheNextAreFrozen) {
     for (; !bench.guard.stopped() && ticks < 200; ++ticks) tick(0.0);
     return ticks;
   };
-  Bench dies, hits, coarse, fine;
+  GuardBench dies, hits, coarse, fine;
   EXPECT_EQ(roll_and_stand(dies, 0.0, 0), 20);
   EXPECT_EQ(dies.guard.reason(), EventCode::frozen);
   EXPECT_NEAR(dies.guard.stop_event().value, 1.0, 0.01);
@@ -312,7 +312,7 @@ TEST(Guard, PositionsThatStopFromOneSampleToTheNextAreFrozen) {
 }
 
 TEST(Guard, TheStopIsLatchedUntilAnExplicitReset) {
-  Bench bench;
+  GuardBench bench;
   ASSERT_EQ(bench.admit_after(0.0), SampleStatus::good);
   bench.guard.stop(EventCode::requested);
   bench.guard.stop(EventCode::plant);
@@ -329,7 +329,7 @@ TEST(Guard, TheStopIsLatchedUntilAnExplicitReset) {
 }
 
 TEST(Guard, TheStopBrakesAMovingBaseWithinItsForceToRest) {
-  Bench bench;
+  GuardBench bench;
   PlanarBase base;
   base.V = {0.5, 0.2, 0.0};
   bench.guard.stop(EventCode::requested);

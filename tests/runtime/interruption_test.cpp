@@ -9,7 +9,7 @@ using namespace test;
 using lang::SignalType;
 
 const std::vector<AxisStatements> forward = {drive("go.x", Axis::x, Quantity::velocity, 0.1)};
-const std::vector<AxisStatements> still = {drive("go.x", Axis::x, Quantity::velocity, 0.0)};
+const std::vector<AxisStatements> standing = {drive("go.x", Axis::x, Quantity::velocity, 0.0)};
 
 Nodes heard(int signal) {
   return name(Op::signal, signal);
@@ -23,7 +23,7 @@ Nodes above(int signal, double threshold) {
 
 /// `work` is interrupted by `pause` while the signal 0 is below 1; `pause` leads back when it is above 2.
 lang::Program interrupted_work() {
-  lang::Task work = task("work", forward), pause = task("pause", still);
+  lang::Task work = task("work", forward), pause = task("pause", standing);
   work.exits = {exit(after(1e6), to_done)};
   pause.exits = {exit(when(above(0, 2.0)), back)};
   lang::Program p = program({work, pause});
@@ -34,7 +34,7 @@ lang::Program interrupted_work() {
 constexpr int work = 0, pause = 1;
 
 TEST(Always, ConstraintsAreInForceInEveryTaskAndWhileTheBaseBrakes) {
-  lang::Task a = task("a", forward), b = task("b", still);
+  lang::Task a = task("a", forward), b = task("b", standing);
   a.exits = {exit(after(0.002), to_task(1))};
   b.exits = {exit(after(0.002), to_done)};
   lang::Program p = program({a, b});
@@ -316,7 +316,7 @@ TEST(Back, MovedGoesOnFromWhereTheInterruptionCame) {
 
 TEST(Back, AnInterruptionOfAnInterruptionDoesNotOverwriteWhereItLeads) {
   lang::Program p = interrupted_work();
-  lang::Task wait = task("wait", still);
+  lang::Task wait = task("wait", standing);
   wait.exits = {exit(when(above(1, 2.0)), back)};
   p.tasks.push_back(wait);
   p.always.exits.push_back(exit(when(below(1, 1.0)), to_task(2)));
@@ -341,7 +341,7 @@ TEST(Back, UnderAlwaysLeadsThereFromAnyTaskAndIsIgnoredWhereNothingWasInterrupte
   lang::Program p = interrupted_work();
   p.always.exits.push_back(exit(when(above(0, 2.0)), back));
   p.tasks[1].exits = {exit(after(0.005), to_task(2))};
-  p.tasks.push_back(task("wait", still));
+  p.tasks.push_back(task("wait", standing));
   p.tasks[2].exits = {exit(after(1e6), to_done)};
   Bench bench(p);
   bench.hear(0, 5.0);
@@ -384,7 +384,7 @@ TEST(Back, AnInterruptionIsOverInATaskFromWhichNoBackCanFollow) {
 }
 
 TEST(Attempts, EntryNPlusOneSinceTheStartGoesToItsGoto) {
-  lang::Task a = task("a", forward), b = task("b", still), c = task("c", still);
+  lang::Task a = task("a", forward), b = task("b", standing), c = task("c", standing);
   a.exits = {exit(after(0.002), to_task(1))};
   b.exits = {exit(after(0.002), to_task(0))};
   b.attempts = lang::Attempts{3, to_task(2), {}};
@@ -445,7 +445,7 @@ TEST(Attempts, ThatLeadBackLetTheTaskGoOn) {
 }
 
 TEST(Attempts, ThatLeadToOneAnotherInACircleFail) {
-  lang::Task a = task("a", forward), b = task("b", still);
+  lang::Task a = task("a", forward), b = task("b", standing);
   a.attempts = lang::Attempts{1, to_task(1), {}};
   b.attempts = lang::Attempts{1, to_task(0), {}};
   a.exits = {exit(after(0.001), to_task(1))};
@@ -459,7 +459,7 @@ TEST(Require, FalseOrUnknownOnEntryFailsWithTheConditionsWords) {
   const Nodes no = apply(Op::less, number(1), number(0));
   const Nodes maybe = apply(Op::less, unknown(), number(1));
   for (const Nodes& nodes : {no, maybe}) {
-    lang::Task a = task("a", forward), b = task("b", still);
+    lang::Task a = task("a", forward), b = task("b", standing);
     a.exits = {exit(after(0.002), to_task(1))};
     b.require = when(nodes, "the door is open");
     lang::SetAction set;
@@ -490,7 +490,7 @@ TEST(Require, IsAskedOfEveryEntry) {
   EXPECT_EQ(by_always.transitions.back().refusal, Refusal::require);
   EXPECT_EQ(by_always.scheduler.outcome(), Outcome::failed);
 
-  lang::Task a = task("a", forward), b = task("b", still), c = task("c", still);
+  lang::Task a = task("a", forward), b = task("b", standing), c = task("c", standing);
   c.exits = {exit(after(1e6), to_done)};
   c.require = no;
   a.timeout = lang::Timeout{{.constant = 0.002}, to_task(2), {}};
@@ -513,7 +513,7 @@ TEST(Require, IsAskedOfEveryEntry) {
 
 /// Of the task that asks: not what the last one has lived.
 TEST(Require, SeesNoTimeElapsedOnEntry) {
-  lang::Task a = task("a", forward), b = task("b", still);
+  lang::Task a = task("a", forward), b = task("b", standing);
   a.exits = {exit(after(0.010), to_task(1))};
   b.require = when(apply(Op::less, name(Op::elapsed), number(0.5 * period)));
   Bench bench(program({a, b}));
@@ -595,7 +595,7 @@ TEST(Release, WhatIsUnknownHasNotPassedIt) {
 }
 
 TEST(Order, ExitsOfAlwaysGoBeforeTheTimeoutAndTheTasksExitsAndTheOthersAreAlsoTrue) {
-  lang::Task a = task("a", forward), b = task("b", still);
+  lang::Task a = task("a", forward), b = task("b", standing);
   a.exits = {exit(after(0.003), to_done), exit(after(0.003), to_failed)};
   a.timeout = lang::Timeout{{.constant = 0.003}, to_failed, {}};
   lang::Program p = program({a, b});
@@ -616,7 +616,7 @@ TEST(Order, ExitsOfAlwaysGoBeforeTheTimeoutAndTheTasksExitsAndTheOthersAreAlsoTr
 TEST(End, AnExitOfAlwaysToFailedStillCountsWhileTheBaseBrakesForDone) {
   lang::Task a = task("a", forward);
   a.exits = {exit(after(0.001), to_done)};
-  lang::Program p = program({a, task("pause", still)});
+  lang::Program p = program({a, task("pause", standing)});
   p.signals = {signal("stop", SignalType::boolean, 1e9), signal("near", SignalType::boolean, 1e9)};
   p.always.exits = {exit(when(heard(1)), to_task(1)), exit(when(heard(0)), to_failed)};
   Bench bench(p);

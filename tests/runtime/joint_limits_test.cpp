@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "../temporary_folder.hpp"
+#include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -18,7 +19,6 @@ namespace zwang::runtime {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path specs = ZWANG_SOURCE_DIR "/specs";
 constexpr double joint_speed = 0.8727;  // [rad/s] of every joint of the arm
 constexpr double resolution = 2e-3;     // [rad] as docs/language.md says
 constexpr double turn_around = 0.011;   // [s] of a motor's torque from one limit to the other, and a tick
@@ -60,8 +60,8 @@ struct JointRun {
            "{velocity: 0 rad/s}}\n"
         << "      turn: {move: " << what.child << ", in: axle, rz: {" << statements << "}}\n"
         << "    exits: [{when: elapsed > 12 s, goto: done}]\n";
-    std::ofstream(folder / "robot.yaml") << read(specs / "robots/mecanum_arm_base.yaml");
-    const std::string urdf = read(specs / "robots/mecanum_arm_base.urdf");
+    std::ofstream(folder / "robot.yaml") << read(zwang::test::specs("robots/mecanum_arm_base.yaml"));
+    const std::string urdf = read(zwang::test::specs("robots/mecanum_arm_base.urdf"));
     std::string endless = urdf;
     for (const char* end : {"2.41", "2.66", "2.23"})
       replace_all(endless, std::string("lower=\"-") + end + "\" upper=\"" + end, "lower=\"-9\" upper=\"9");
@@ -76,7 +76,7 @@ struct JointRun {
     std::ofstream(folder / "mecanum_arm_base.urdf") << urdf;
     lang::Diagnostics diagnostics;
     lang::LoadOptions options;
-    options.scene = specs / "scenes/wall_far.yaml";
+    options.scene = zwang::test::specs("scenes/wall_far.yaml");
     options.root = "/";
     const auto program = lang::load(folder / "task.yaml", options, diagnostics);
     std::ostringstream words;

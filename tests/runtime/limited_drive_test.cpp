@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "constants.hpp"
 #include "plant/velocity_loop.hpp"
 #include "recorded_run.hpp"
+#include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -15,17 +17,8 @@
 namespace zwang::runtime {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
-
-lang::Program shipped(const std::string& task, const std::string& robot, const std::string& scene) {
-  lang::Diagnostics diagnostics;
-  lang::LoadOptions options;
-  options.root = "/";
-  options.robot = ZWANG_SOURCE_DIR "/specs/robots/" + robot + ".yaml";
-  options.scene = ZWANG_SOURCE_DIR "/specs/scenes/" + scene + ".yaml";
-  auto program = lang::load(ZWANG_SOURCE_DIR "/specs/" + task + ".yaml", options, diagnostics);
-  if (!program) throw std::runtime_error(task + " does not load");
-  return *program;
+lang::Program in_scene(const std::string& task, const std::string& robot, const std::string& scene) {
+  return zwang::test::shipped_files(task + ".yaml", "robots/" + robot + ".yaml", "scenes/" + scene + ".yaml");
 }
 
 struct Alignment {
@@ -36,7 +29,7 @@ struct Alignment {
 };
 
 Alignment align(const std::string& robot) {
-  const lang::Program program = shipped("wall_align", robot, "wall_far");
+  const lang::Program program = in_scene("wall_align", robot, "wall_far");
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program);
@@ -76,7 +69,7 @@ TEST(LimitedDrive, AMotorThatIsBrokenIsStoppedOrStaysInItsBounds) {
   constexpr double cruise = 0.15, push = 40.0;  // [m/s], [N] of obstacle.yaml
   for (const lang::FaultKind kind :
        {lang::FaultKind::torque_flipped, lang::FaultKind::torque_stuck, lang::FaultKind::torque_lost}) {
-    const lang::Program program = shipped("obstacle", "limited/mecanum_50_hz", "obstacle");
+    const lang::Program program = in_scene("obstacle", "limited/mecanum_50_hz", "obstacle");
     ScenePlantOptions options;
     options.faults.push_back({.kind = kind, .at = 1.0, .joint = "front_left_wheel"});
     ScenePlant plant(program, options);
@@ -108,7 +101,7 @@ TEST(LimitedDrive, AMotorThatIsBrokenIsStoppedOrStaysInItsBounds) {
 /// v^2/2a and what it rolls on until the drive's loop is told and follows: v (delay + 2/rate + T_c).
 TEST(LimitedDrive, TheProtectiveStopRampsTheVelocityDown) {
   for (const char* robot : {"limited/mecanum_1_khz", "limited/mecanum_20_hz"}) {
-    const lang::Program program = shipped("obstacle", robot, "obstacle");
+    const lang::Program program = in_scene("obstacle", robot, "obstacle");
     ScenePlant plant(program);
     Runner runner(program);
     Sensed sensed(program);
@@ -134,7 +127,7 @@ TEST(LimitedDrive, TheProtectiveStopRampsTheVelocityDown) {
 
 /// In the stop torques may only take energy: a base that stands at a wall is let go of.
 TEST(LimitedDrive, AProtectiveStopAtAWallPressesNoMore) {
-  const lang::Program program = shipped("wall_align", "limited/mecanum_50_hz", "wall_far");
+  const lang::Program program = in_scene("wall_align", "limited/mecanum_50_hz", "wall_far");
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program);
@@ -155,7 +148,7 @@ TEST(LimitedDrive, AProtectiveStopAtAWallPressesNoMore) {
 }
 
 TEST(LimitedDrive, StopsWhenItsSamplesStayAway) {
-  const lang::Program program = shipped("wall_align", "limited/mecanum_50_hz", "wall_far");
+  const lang::Program program = in_scene("wall_align", "limited/mecanum_50_hz", "wall_far");
   Runner runner(program);
   Sensed sensed(program);
   sensed.measured_at = 0.0;
@@ -170,7 +163,7 @@ TEST(LimitedDrive, StopsWhenItsSamplesStayAway) {
 }
 
 TEST(LimitedDrive, ReplaysBitByBitAndAllocatesNothing) {
-  test::expect_replay_without_heap_calls(shipped("wall_align", "limited/mecanum_50_hz", "wall_far"), 2000);
+  test::expect_replay_without_heap_calls(in_scene("wall_align", "limited/mecanum_50_hz", "wall_far"), 2000);
 }
 
 }  // namespace

@@ -8,14 +8,13 @@
 #include <functional>
 
 #include "../temporary_folder.hpp"
+#include "blank.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace zwang::runtime {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double blank = std::numeric_limits<double>::quiet_NaN();
 
 /// What a log holds at the time `t` [s] of its run.
 struct Values {

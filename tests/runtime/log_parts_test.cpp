@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "../temporary_folder.hpp"
+#include "blank.hpp"
 #include "zwang/runtime/log_reader.hpp"
 
 namespace zwang::runtime {
@@ -15,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double blank = std::numeric_limits<double>::quiet_NaN();
 const std::vector<Column> columns_with_events = {
     {"time", "s", {}}, {"task", "", {"go", "stay"}}, {"event", "", {"none", "slip"}}, {"noise", "", {}}};
 

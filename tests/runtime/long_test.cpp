@@ -10,14 +10,13 @@
 #include "../is_long.hpp"
 #include "../solver/malloc_counter.hpp"
 #include "../temporary_folder.hpp"
+#include "constants.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::runtime {
 namespace {
-
-constexpr double period = 1e-3;
 
 lang::Program patrol() {
   lang::Diagnostics diagnostics;

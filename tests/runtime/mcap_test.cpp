@@ -16,6 +16,7 @@
 
 #include "../is_long.hpp"
 #include "../temporary_folder.hpp"
+#include "constants.hpp"
 #include "zwang/runtime/log_reader.hpp"
 #include "zwang/runtime/recorder.hpp"
 
@@ -26,7 +27,6 @@
 namespace zwang::runtime {
 namespace {
 
-constexpr double period = 1e-3;
 constexpr std::size_t stride = 7;                 // [bytes], prime to the lengths of fields
 constexpr std::uint64_t records_in_a_chunk = 50;  // 50 ms
 

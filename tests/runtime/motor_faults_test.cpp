@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "../is_long.hpp"
+#include "constants.hpp"
 #include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -20,16 +21,14 @@ namespace {
 
 using lang::FaultKind;
 
-constexpr double period = 1e-3;
 constexpr double deadline = 0.1;        // [s]
 constexpr double push = 20.0;           // [N] that the task asks for
 constexpr double allowed_speed = 0.08;  // [m/s] by the task
 constexpr double beyond = 1.1;          // of every bound
 constexpr double stiffness = 100e3;     // [N/m] the wall's
 constexpr double wall_at = 1.2;         // [m] its face
-const int moments_between_hits = test::is_long() ? 6 : 2;
+const int moments_between_hits = zwang::test::is_long() ? 6 : 2;
 constexpr double gap = 0.08;  // [m] to it, at the start
-constexpr double degree = M_PI / 180.0;
 
 /// What is met, and how.
 struct Wall {
@@ -39,7 +38,7 @@ struct Wall {
 };
 
 lang::Program load(const std::string& robot, const Wall& wall) {
-  lang::Program program = test::shipped_program("wall_align.yaml", robot, "wall_far");
+  lang::Program program = zwang::test::shipped_program("wall_align.yaml", robot, "wall_far");
   program.scene->objects[0].stiffness = wall.stiffness;
   program.scene->objects[0].friction = wall.friction;
   return program;
@@ -290,7 +289,7 @@ TEST_P(MotorFaults, BoundForceAndSpeedWhereverBetweenHitsTheyBegin) {
 /// has failed, as far out as a wheel, and answered by a command of its size. It pressed before it was
 /// answered, and 1 mm more is little of what it was pressed in by.
 TEST(SoftWall, IsNoFaultOfADifferentialBasesMotors) {
-  const bool is_long = test::is_long();
+  const bool is_long = zwang::test::is_long();
   for (const double soft : is_long ? std::vector{1e3, 2e3, 5e3, 10e3} : std::vector{1e3, 5e3}) {
     for (const double yaw :
          is_long ? std::vector{-20.0, -12.0, -5.0, 5.0, 12.0, 20.0} : std::vector{-12.0, 5.0, 20.0}) {

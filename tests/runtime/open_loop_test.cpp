@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "constants.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/solver/solver.hpp"
@@ -13,7 +14,6 @@
 namespace zwang::runtime {
 namespace {
 
-constexpr double period = 1e-3;
 constexpr double frequency = 1.0;  // [Hz]
 
 /// Error and demand over two periods of a sine along the axes of `amplitude`, as root mean squares of their

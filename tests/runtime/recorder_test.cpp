@@ -11,44 +11,43 @@
 #include <thread>
 
 #include "../temporary_folder.hpp"
+#include "blank.hpp"
 
 namespace zwang::runtime {
 namespace {
 
-constexpr double blank = std::numeric_limits<double>::quiet_NaN();
-
-std::string read(const std::filesystem::path& path) {
+std::string text_of(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   std::stringstream text;
   text << in.rdbuf();
   return text.str();
 }
 
-struct Folder {
+struct EmptyFolder {
   zwang::test::TemporaryFolder temporary;
   std::filesystem::path path = temporary.path();
 };
 
-const std::vector<Column> columns = {
+const std::vector<Column> task_columns = {
     {"time", "s", {}}, {"task", "", {"press", "hold"}}, {"go.x.nu", "N", {}}};
 
 TEST(Recorder, WritesNamesUnitsNumbersWordsAndBlanks) {
-  Folder folder;
-  Recorder recorder(folder.path / "log.csv", columns);
+  EmptyFolder folder;
+  Recorder recorder(folder.path / "log.csv", task_columns);
   EXPECT_TRUE(recorder.record(std::vector{0.001, 0.0, blank}));
   EXPECT_TRUE(recorder.record(std::vector{1.0 / 3.0, 1.0, -20.0}));
   EXPECT_TRUE(
       recorder.record(std::vector{-0.0, 7.0, 1.23456789012e-7}));  // a word that is not there is blank
   recorder.close();
-  EXPECT_EQ(read(folder.path / "log.csv"),
+  EXPECT_EQ(text_of(folder.path / "log.csv"),
             "time [s],task,go.x.nu [N]\n0.001,press,\n0.333333333,hold,-20\n0,,1.23456789e-07\n");
   EXPECT_TRUE(recorder.status().complete());
   EXPECT_EQ(recorder.status().written, 3u);
 }
 
 TEST(Recorder, KeepsEveryRecordWhenTheProducerWaits) {
-  Folder folder;
-  Recorder recorder(folder.path / "log.csv", columns, 16);
+  EmptyFolder folder;
+  Recorder recorder(folder.path / "log.csv", task_columns, 16);
   const int count = 500;
   for (int i = 0; i < count; ++i) {
     recorder.wait_for_room();
@@ -56,7 +55,7 @@ TEST(Recorder, KeepsEveryRecordWhenTheProducerWaits) {
   }
   recorder.close();
   EXPECT_TRUE(recorder.status().complete());
-  std::istringstream lines(read(folder.path / "log.csv"));
+  std::istringstream lines(text_of(folder.path / "log.csv"));
   std::string line;
   std::getline(lines, line);
   for (int i = 0; i < count; ++i) {
@@ -67,36 +66,36 @@ TEST(Recorder, KeepsEveryRecordWhenTheProducerWaits) {
 }
 
 std::string complaint_of(const std::filesystem::path& path) {
-  Recorder recorder(path, columns);
+  Recorder recorder(path, task_columns);
   return recorder.status().error;
 }
 
 TEST(Recorder, WritesThroughNoLinkAndIntoNoPipe) {
-  Folder folder;
+  EmptyFolder folder;
   std::ofstream(folder.path / "kept") << "precious";
   std::filesystem::create_symlink(folder.path / "kept", folder.path / "link.csv");
   EXPECT_NE(complaint_of(folder.path / "link.csv").find("is a symbolic link"), std::string::npos);
-  EXPECT_EQ(read(folder.path / "kept"), "precious");
+  EXPECT_EQ(text_of(folder.path / "kept"), "precious");
   ASSERT_EQ(mkfifo((folder.path / "pipe.csv").c_str(), 0600), 0);
   EXPECT_NE(complaint_of(folder.path / "pipe.csv").find("is a pipe"), std::string::npos);
 }
 
 TEST(Recorder, LeavesALogToTheRunThatWritesIt) {
-  Folder folder;
+  EmptyFolder folder;
   {
-    Recorder first(folder.path / "log.csv", columns);
+    Recorder first(folder.path / "log.csv", task_columns);
     EXPECT_TRUE(first.record(std::vector{0.001, 0.0, 1.0}));
     EXPECT_NE(complaint_of(folder.path / "log.csv").find("another run writes this log"), std::string::npos);
     first.close();
     EXPECT_TRUE(first.status().complete());
   }
-  EXPECT_NE(read(folder.path / "log.csv").find("0.001,press,1"), std::string::npos);
+  EXPECT_NE(text_of(folder.path / "log.csv").find("0.001,press,1"), std::string::npos);
   EXPECT_EQ(complaint_of(folder.path / "log.csv"), "") << "a run that is over leaves it";
 }
 
 TEST(Recorder, AnOverflowDropsAndCountsAndNeverWaits) {
-  Folder folder;
-  Recorder recorder(folder.path / "log.csv", columns, 4);
+  EmptyFolder folder;
+  Recorder recorder(folder.path / "log.csv", task_columns, 4);
   int accepted = 0;
   const int count = 100'000;
   for (int i = 0; i < count; ++i) {
@@ -113,7 +112,7 @@ TEST(Recorder, AnOverflowDropsAndCountsAndNeverWaits) {
 }
 
 TEST(Recorder, AFolderThatIsNotThereIsReportedAndStopsNothing) {
-  Recorder recorder("/nonexistent/folder/log.csv", columns, 4);
+  Recorder recorder("/nonexistent/folder/log.csv", task_columns, 4);
   for (int i = 0; i < 100; ++i) {
     recorder.wait_for_room();
     EXPECT_TRUE(recorder.record(std::vector{0.0, 0.0, 0.0}));
@@ -126,7 +125,7 @@ TEST(Recorder, AFolderThatIsNotThereIsReportedAndStopsNothing) {
 
 TEST(Recorder, AFullDiskIsReportedAndStopsNothing) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  Recorder recorder("/dev/full", columns, 4);
+  Recorder recorder("/dev/full", task_columns, 4);
   for (int i = 0; i < 100; ++i) {
     recorder.wait_for_room();
     EXPECT_TRUE(recorder.record(std::vector{0.0, 0.0, 0.0}));
@@ -137,21 +136,21 @@ TEST(Recorder, AFullDiskIsReportedAndStopsNothing) {
 }
 
 TEST(Recorder, RefusesRecordsThatDoNotFitTheColumns) {
-  Folder folder;
-  Recorder recorder(folder.path / "log.csv", columns);
+  EmptyFolder folder;
+  Recorder recorder(folder.path / "log.csv", task_columns);
   EXPECT_FALSE(recorder.record(std::vector{1.0, 2.0}));
   EXPECT_EQ(recorder.status().dropped, 1u);
   EXPECT_THROW(Recorder(folder.path / "other.csv", {}), std::invalid_argument);
 }
 
 TEST(Recorder, RecordsAreOnDiskSoonSoThatAKilledRunKeepsThem) {
-  Folder folder;
-  Recorder recorder(folder.path / "log.csv", columns);
+  EmptyFolder folder;
+  Recorder recorder(folder.path / "log.csv", task_columns);
   recorder.record(std::vector{1.0, 0.0, 0.0});
-  for (int i = 0; i < 200 && read(folder.path / "log.csv").find("1,press,0") == std::string::npos; ++i) {
+  for (int i = 0; i < 200 && text_of(folder.path / "log.csv").find("1,press,0") == std::string::npos; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  EXPECT_NE(read(folder.path / "log.csv").find("1,press,0\n"), std::string::npos) << "before close";
+  EXPECT_NE(text_of(folder.path / "log.csv").find("1,press,0\n"), std::string::npos) << "before close";
 }
 
 }  // namespace

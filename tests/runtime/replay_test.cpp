@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "../temporary_folder.hpp"
+#include "constants.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/recorder.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -14,7 +15,6 @@
 namespace zwang::runtime {
 namespace {
 
-constexpr double period = 1e-3;
 constexpr int ticks = 3000;
 constexpr int change_at = 10;  // tick, long before the cruising speed hides how hard it is pushed
 

@@ -28,7 +28,7 @@ struct Rim {
 class Wheels {
  public:
   explicit Wheels(const char* robot = "diff")
-      : robot_(test::shipped_program("wall_align.yaml", robot, "wall_far").robot),
+      : robot_(zwang::test::shipped_program("wall_align.yaml", robot, "wall_far").robot),
         watch_(robot_, look),
         contact_(robot_, look),
         motions_(robot_.model) {

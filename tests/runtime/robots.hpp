@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "constants.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/plant.hpp"
 
@@ -16,7 +17,6 @@ using lang::Op;
 using solver::Axis;
 using solver::Quantity;
 
-constexpr double period = 1e-3;       // [s]
 constexpr double body_mass = 40.0;    // [kg]
 constexpr double body_yaw = 3.0;      // [kg m^2]
 constexpr double wheel_mass = 1.5;    // [kg]

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "constants.hpp"
 #include "guard/contact_depth.hpp"
 #include "guard/runaway_watch.hpp"
 #include "shipped_program.hpp"
@@ -15,10 +16,8 @@
 namespace zwang::runtime {
 namespace {
 
-constexpr double period = 1e-3;
-
 lang::Program load(const std::string& robot) {
-  return test::shipped_program("wall_align.yaml", robot, "wall_far");
+  return zwang::test::shipped_program("wall_align.yaml", robot, "wall_far");
 }
 
 /// One mass on one wheel, told to stay between two speeds: v(t) and the force that it is told are given. What

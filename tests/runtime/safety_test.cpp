@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "constants.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -21,7 +22,6 @@ namespace {
 
 using lang::FaultKind;
 
-constexpr double period = 1e-3;
 constexpr double begin = 2.0;  // [s] under way to the wall, at 0.08 m/s
 
 struct Injected {

@@ -7,13 +7,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "constants.hpp"
 #include "scene_program.hpp"
 
 namespace zwang::runtime {
 namespace {
-
-constexpr double period = 1e-3;
-constexpr double degree = std::numbers::pi / 180.0;
 
 const char* const task_text = R"(zwang: 1
 robot: robots/mecanum_base.yaml

@@ -9,13 +9,12 @@
 #include <random>
 
 #include "../temporary_folder.hpp"
+#include "blank.hpp"
 #include "log/extremes.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace zwang::runtime {
 namespace {
-
-constexpr double blank = std::numeric_limits<double>::quiet_NaN();
 
 TEST(Extremes, OfMergedBucketsAreThoseOfAllValuesInTheirOrder) {
   std::mt19937 random(1);

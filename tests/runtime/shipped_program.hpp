@@ -12,17 +12,24 @@ inline std::string specs(const std::string& name) {
   return ZWANG_SOURCE_DIR "/specs/" + name;
 }
 
+/// Files of specs, by their paths below it. In the task's own scene where none is named.
+inline lang::Program shipped_files(const std::string& task, const std::string& robot,
+                                   const std::string& scene = "") {
+  lang::Diagnostics diagnostics;
+  lang::LoadOptions options;
+  options.robot = specs(robot);
+  if (!scene.empty()) options.scene = specs(scene);
+  auto program = lang::load(specs(task), options, diagnostics);
+  if (!program) throw std::runtime_error(task + " does not load with " + robot);
+  return *program;
+}
+
 /// A shipped task on a shipped base: `mecanum` is robots/mecanum_base.yaml. In the task's own scene where
 /// none is named.
 inline lang::Program shipped_program(const std::string& task, const std::string& robot,
                                      const std::string& scene = "") {
-  lang::Diagnostics diagnostics;
-  lang::LoadOptions options;
-  options.robot = specs("robots/" + robot + "_base.yaml");
-  if (!scene.empty()) options.scene = specs("scenes/" + scene + ".yaml");
-  auto program = lang::load(specs(task), options, diagnostics);
-  if (!program) throw std::runtime_error(task + " does not load with " + robot);
-  return *program;
+  return shipped_files(task, "robots/" + robot + "_base.yaml",
+                       scene.empty() ? "" : "scenes/" + scene + ".yaml");
 }
 
 }  // namespace zwang::test

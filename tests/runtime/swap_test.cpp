@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../temporary_folder.hpp"
+#include "constants.hpp"
 #include "shipped_program.hpp"
 #include "zwang/runtime/recorder.hpp"
 #include "zwang/runtime/replay.hpp"
@@ -18,8 +19,6 @@ namespace {
 using lang::SignalType;
 using std::string_literals::operator""s;
 using test::shipped_program;
-
-constexpr double period = 1e-3;
 
 /// Drives on, and reads signals of these names and types, seen from the base.
 lang::Program reading(const std::vector<std::pair<std::string, lang::SignalType>>& signals,

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "drive/velocity_drive.hpp"
+#include "shipped_program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 #include "zwang/solver/base_analysis.hpp"
@@ -81,21 +82,14 @@ TEST(TorqueBox, IsAsWideAsOneBoundAllows) {
   }
 }
 
-lang::Program shipped(const std::string& task, const std::string& robot) {
-  lang::Diagnostics diagnostics;
-  lang::LoadOptions options;
-  options.root = "/";
-  options.robot = ZWANG_SOURCE_DIR "/specs/robots/limited/" + robot + ".yaml";
-  options.scene = ZWANG_SOURCE_DIR "/specs/scenes/wall_far.yaml";
-  auto program = lang::load(ZWANG_SOURCE_DIR "/specs/" + task, options, diagnostics);
-  if (!program) throw std::runtime_error(task + " does not load");
-  return *program;
+lang::Program at_far_wall(const std::string& task, const std::string& robot) {
+  return zwang::test::shipped_files(task, "robots/limited/" + robot + ".yaml", "scenes/wall_far.yaml");
 }
 
 /// Of a base whose centre of mass is its origin, 1 N m at each wheel of the radius R presses with 4/R ahead.
 /// The torques of each corner of the box that is sent press with the task's 20 N at most.
 TEST(TorqueBox, PressesNoHarderThanTheTaskWhateverTheDriveChooses) {
-  const lang::Program program = shipped("wall_align.yaml", "mecanum_50_hz");
+  const lang::Program program = at_far_wall("wall_align.yaml", "mecanum_50_hz");
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program);

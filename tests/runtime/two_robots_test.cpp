@@ -6,13 +6,12 @@
 #include <numbers>
 #include <sstream>
 
+#include "constants.hpp"
 #include "scene_program.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::runtime {
 namespace {
-
-constexpr double period = 1e-3;
 
 /// A task of a robot that does nothing: it rolls as it is pushed.
 const char* const idle_task = R"(zwang: 1

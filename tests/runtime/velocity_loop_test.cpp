@@ -5,23 +5,18 @@
 
 #include <cmath>
 
+#include "constants.hpp"
+#include "shipped_program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::runtime {
 namespace {
 
-constexpr double ms = 1e-3;
-
-lang::Program shipped(const std::string& robot) {
-  lang::Diagnostics diagnostics;
-  lang::LoadOptions options;
-  options.root = "/";
-  options.robot = ZWANG_SOURCE_DIR "/specs/robots/limited/" + robot + ".yaml";
-  auto program = lang::load(ZWANG_SOURCE_DIR "/specs/wall_align.yaml", options, diagnostics);
-  if (!program) throw std::runtime_error(robot + " does not load");
-  program->scene->start_yaw = 0.0;
-  return *program;
+lang::Program aligning(const std::string& robot) {
+  lang::Program program = zwang::test::shipped_files("wall_align.yaml", "robots/limited/" + robot + ".yaml");
+  program.scene->start_yaw = 0.0;
+  return program;
 }
 
 /// All wheels at the rate of the base's speed `v` [m/s] ahead, with `most` [N m] each way.
@@ -48,7 +43,7 @@ double speed_after(double t, double V, const lang::Drive& drive) {
 
 TEST(VelocityLoop, AFreeBaseFollowsAStepByItsClosedForm) {
   for (const bool has_integral : {true, false}) {
-    lang::Program program = shipped("mecanum_1_khz");
+    lang::Program program = aligning("mecanum_1_khz");
     if (!has_integral) program.robot.drive.integral_time.reset();
     ScenePlantOptions options;
     options.simulation.period = 0.25 * ms;
@@ -58,14 +53,15 @@ TEST(VelocityLoop, AFreeBaseFollowsAStepByItsClosedForm) {
     for (int i = 0; i < 1200; ++i) {
       ASSERT_EQ(plant.follow(command), PlantStatus::ok);
       const double t = plant.truth().time;
-      // A step of the simulation is 1/80 of T_c: explicit Euler is off by half of that, and by a step at first.
+      // A step of the simulation is 1/80 of T_c: explicit Euler is off by half of that, and by a step at
+      // first.
       ASSERT_NEAR(plant.truth().velocity.x(), speed_after(t, V, program.robot.drive), V / 80.0) << t;
     }
   }
 }
 
 TEST(VelocityLoop, AtABlockedWheelTheTorqueRestsOnItsLimit) {
-  const lang::Program program = shipped("mecanum_1_khz");
+  const lang::Program program = aligning("mecanum_1_khz");
   VelocityLoop loop(program.robot);
   const Command command = ahead(program.robot, 0.05, 0.5);
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(program.robot.model.joint_count());
@@ -82,7 +78,7 @@ TEST(VelocityLoop, AtABlockedWheelTheTorqueRestsOnItsLimit) {
 }
 
 TEST(VelocityLoop, ItsTorqueLimitIsWhatThePlantPressesWith) {
-  lang::Program program = shipped("mecanum_50_hz");
+  lang::Program program = aligning("mecanum_50_hz");
   ScenePlant plant(program);
   const double most = 0.4;  // [N m]
   const Command command = ahead(program.robot, 0.1, most);
@@ -106,7 +102,7 @@ TEST(SampledLine, HandsOnWhatWasTakenACycleAndADelayAgo) {
 }
 
 TEST(ScenePlant, ADriveThatTakesVelocitiesRefusesTorques) {
-  const lang::Program program = shipped("mecanum_50_hz");
+  const lang::Program program = aligning("mecanum_50_hz");
   ScenePlant plant(program);
   EXPECT_EQ(plant.apply(Eigen::VectorXd::Zero(4)), PlantStatus::unreachable);
 }

@@ -16,7 +16,7 @@ using test::read;
 using test::Result;
 
 const fs::path source = ZWANG_SOURCE_DIR;
-const fs::path specs = source / "specs";
+const fs::path specs_folder = source / "specs";
 const fs::path conformance = source / "tests/conformance";
 
 bool contains(const std::string& text, const std::string& words) {
@@ -74,15 +74,15 @@ TEST_F(Verbs, DoctorSaysWhatIsThere) {
   EXPECT_EQ(r.code, 0) << r.err;
   for (const char* subject : {"zwang ", "MuJoCo ", "real-time priority", "locked memory", "shipped files"})
     EXPECT_TRUE(contains(r.out, subject)) << r.out;
-  EXPECT_TRUE(contains(r.out, specs.string())) << r.out;
+  EXPECT_TRUE(contains(r.out, specs_folder.string())) << r.out;
 }
 
 TEST_F(Verbs, ValidateReadsFolders) {
-  Result r = zwang({"validate", specs.string(), "--format", "json"});
+  Result r = zwang({"validate", specs_folder.string(), "--format", "json"});
   EXPECT_EQ(r.code, 0) << r.out << r.err;
   const json files = json::parse(r.out)["files"];
   std::size_t shipped = 0;
-  for (const auto& file : fs::recursive_directory_iterator(specs)) {
+  for (const auto& file : fs::recursive_directory_iterator(specs_folder)) {
     shipped += file.path().extension() == ".yaml" ? 1u : 0u;
   }
   EXPECT_EQ(files.size(), shipped);
@@ -130,7 +130,7 @@ TEST_F(Verbs, DeniedWarningsRefuseTheFile) {
 }
 
 TEST_F(Verbs, ValidateTakesWhatRunAndPlanTake) {
-  const std::string file = (specs / "wall_align.yaml").string();
+  const std::string file = (specs_folder / "wall_align.yaml").string();
   EXPECT_EQ(zwang({"validate", file, "-p", "push=30 N"}).code, 0);
   Result r = zwang({"validate", file, "-p", "push=200 N"});
   EXPECT_EQ(r.code, 1);
@@ -143,8 +143,8 @@ TEST_F(Verbs, ValidateTakesWhatRunAndPlanTake) {
   EXPECT_EQ(r.code, 1);
   EXPECT_TRUE(contains(r.out, "did you mean `push`?")) << r.out;
 
-  const std::string skid = (specs / "robots/skid_base.yaml").string();
-  r = zwang({"validate", file, "--robot", (specs / "robots/omni_base.yaml").string()});
+  const std::string skid = (specs_folder / "robots/skid_base.yaml").string();
+  r = zwang({"validate", file, "--robot", (specs_folder / "robots/omni_base.yaml").string()});
   EXPECT_EQ(r.code, 0);
   EXPECT_TRUE(contains(r.out, "omni")) << r.out;
   EXPECT_EQ(zwang({"graph", file, "--robot", skid, "-p", "push=200 N"}).code, 1);
@@ -156,8 +156,9 @@ TEST_F(Verbs, ValidateTakesWhatRunAndPlanTake) {
 }
 
 TEST_F(Verbs, ValidateKnowsARobotForAScene) {
-  const std::string scene = (specs / "scenes/dock.yaml").string();
-  EXPECT_EQ(zwang({"validate", scene, "--robot", (specs / "robots/mecanum_base.yaml").string()}).code, 0);
+  const std::string scene = (specs_folder / "scenes/dock.yaml").string();
+  EXPECT_EQ(zwang({"validate", scene, "--robot", (specs_folder / "robots/mecanum_base.yaml").string()}).code,
+            0);
   const std::string mini = (fs::path(ZWANG_SOURCE_DIR) / "tests/conformance/robots/mini.yaml").string();
   const Result r = zwang({"validate", scene, "--robot", mini});
   EXPECT_EQ(r.code, 1);
@@ -177,7 +178,7 @@ TEST_F(Verbs, ValidateSpeaksShortAndSarif) {
   EXPECT_EQ(r.code, 0);
   EXPECT_TRUE(contains(r.out, "endless.yaml:5:3: warning W503: ")) << r.out;
   EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 1) << r.out;
-  r = zwang({"validate", file, (specs / "robots").string(), "--format", "sarif"});
+  r = zwang({"validate", file, (specs_folder / "robots").string(), "--format", "sarif"});
   EXPECT_EQ(r.code, 0);
   const json log = json::parse(r.out);
   EXPECT_EQ(log["version"], "2.1.0");
@@ -252,14 +253,15 @@ TEST_F(Verbs, SchemaPrintsEveryKind) {
   for (const char* kind : {"task", "robot", "scene", "scenario", "connection"}) {
     const Result r = zwang({"schema", kind});
     EXPECT_EQ(r.code, 0);
-    EXPECT_EQ(r.out, read(specs / "schemas" / (std::string(kind) + ".json"))) << kind;
+    EXPECT_EQ(r.out, read(specs_folder / "schemas" / (std::string(kind) + ".json"))) << kind;
     EXPECT_EQ(json::parse(r.out)["$schema"], "http://json-schema.org/draft-07/schema#");
   }
-  EXPECT_EQ(zwang({"schema"}).out, read(specs / "schemas/task.json"));
+  EXPECT_EQ(zwang({"schema"}).out, read(specs_folder / "schemas/task.json"));
   EXPECT_EQ(zwang({"schema", "robots"}).code, 2);
   // The words that may stand there, and where to read about this verb.
-  EXPECT_EQ(zwang({"schema", "robots"}).err,
-            "zwang: kind: robots not in {connection,robot,scenario,scene,task}\nTry `zwang schema --help`.\n");
+  EXPECT_EQ(
+      zwang({"schema", "robots"}).err,
+      "zwang: kind: robots not in {connection,robot,scenario,scene,task}\nTry `zwang schema --help`.\n");
   EXPECT_EQ(zwang({"robot", "inspect"}).err, "zwang: file is required\nTry `zwang robot inspect --help`.\n");
 }
 

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.hpp"
 #include "recorded_run.hpp"
+#include "shipped_program.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -15,16 +17,8 @@
 namespace zwang::runtime {
 namespace {
 
-constexpr double ms = 1e-3;
-
-lang::Program shipped(const std::string& task, const std::string& robot) {
-  lang::Diagnostics diagnostics;
-  lang::LoadOptions options;
-  options.root = "/";
-  options.robot = ZWANG_SOURCE_DIR "/specs/robots/blind/" + robot + ".yaml";
-  auto program = lang::load(ZWANG_SOURCE_DIR "/specs/laws/" + task + ".yaml", options, diagnostics);
-  if (!program) throw std::runtime_error(task + " does not load on " + robot);
-  return *program;
+lang::Program under_law(const std::string& task, const std::string& robot) {
+  return zwang::test::shipped_files("laws/" + task + ".yaml", "robots/blind/" + robot + ".yaml");
 }
 
 /// v' = (c - v)/T_c + S, S' = (c - v)/(T_c T_i): what VelocityLoop makes of a base alone on the floor.
@@ -103,7 +97,7 @@ TEST(LoopInput, AHeldCommandAcceleratesAWheelAsItIsMeantTo) {
 
 /// Samples that differ by d from where the base was led then leave d e^(-t/T) of it.
 TEST(VirtualRobot, SamplesCorrectItsPoseWithinASecond) {
-  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  const lang::Program program = under_law("fence", "mecanum_50_hz");
   VirtualRobot robot(program.robot, 1 * ms);
   const solver::Solver solver(program.robot.model);
   solver::State state(program.robot.model);
@@ -123,7 +117,7 @@ TEST(VirtualRobot, SamplesCorrectItsPoseWithinASecond) {
 
 /// A sample of a base that follows by exactly the lag corrects nothing.
 TEST(VirtualRobot, ABaseThatFollowsByTheLagIsNotCorrected) {
-  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  const lang::Program program = under_law("fence", "mecanum_50_hz");
   VirtualRobot robot(program.robot, 1 * ms);
   const solver::Solver solver(program.robot.model);
   solver::State state(program.robot.model);
@@ -152,7 +146,7 @@ struct Meeting {
 
 /// `from` [m]: the crate's face is at 2.4 m.
 Meeting meet(const std::string& robot, double pace, double from) {
-  lang::Program program = shipped("meet_unfelt", robot);
+  lang::Program program = under_law("meet_unfelt", robot);
   program.scene->start_at[0] = from;
   ScenePlant plant(program);
   Runner runner(program);
@@ -183,7 +177,7 @@ Meeting meet(const std::string& robot, double pace, double from) {
 /// commands, which fades with T_c + delay + 1/rate, tells nothing else.
 TEST(BlindDrive, StopsAtWhatItsWheelsDoNotPass) {
   for (const char* robot : {"mecanum_50_hz", "mecanum_20_hz", "diff_50_hz", "mecanum_twist"}) {
-    const lang::Drive drive = shipped("fence", robot).robot.drive;
+    const lang::Drive drive = under_law("fence", robot).robot.drive;
     const double samples = drive.delay + 2.0 / drive.rate;
     const Meeting meeting = meet(robot, 0.15, 1.0);
     std::printf("%s: stopped %.3f s after contact, %.0f N until then, %.0f N 3 s after the stop\n", robot,
@@ -211,7 +205,7 @@ struct Stopping {
 
 /// Before the edge of a region, on a drive whose loop is another than the robot file says.
 Stopping stop_before_the_edge(const lang::Drive& true_loop, double payload) {
-  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  const lang::Program program = under_law("fence", "mecanum_50_hz");
   lang::Program as_it_is = program;
   as_it_is.robot.drive = true_loop;
   ScenePlantOptions options;
@@ -235,7 +229,7 @@ Stopping stop_before_the_edge(const lang::Drive& true_loop, double payload) {
 /// A loop whose T_c is off by dT leaves dT of the lead: the base is behind, or ahead of, where it was led by
 /// v dT at most until the integral, or the pose's correction, has made up for it.
 TEST(BlindDrive, ALoopThatIsKnownBadlyPassesAnEdgeByItsOwnErrorOnly) {
-  const lang::Drive known = shipped("fence", "mecanum_50_hz").robot.drive;
+  const lang::Drive known = under_law("fence", "mecanum_50_hz").robot.drive;
   for (const double factor : {0.5, 1.0, 2.0}) {
     for (const std::optional<double>& integral_time : {std::optional(0.05), std::optional(0.2)}) {
       lang::Drive drive = known;
@@ -257,7 +251,7 @@ TEST(BlindDrive, ALoopThatIsKnownBadlyPassesAnEdgeByItsOwnErrorOnly) {
 /// A driver turns the twist into wheels' velocities: the base goes so, as the plant has it.
 TEST(BlindDrive, ABaseThatIsToldATwistGoesSo) {
   for (const char* robot : {"mecanum_twist", "diff_twist"}) {
-    const lang::Program program = shipped("fence", robot);
+    const lang::Program program = under_law("fence", robot);
     for (int axis = 0; axis < 3; ++axis) {
       if (axis == 1 && std::string(robot) == "diff_twist") continue;
       ScenePlant plant(program);
@@ -272,7 +266,7 @@ TEST(BlindDrive, ABaseThatIsToldATwistGoesSo) {
 
 /// Its torque limits are its own: those that are sent bound nothing.
 TEST(BlindDrive, TorqueLimitsThatAreSentBoundNothing) {
-  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  const lang::Program program = under_law("fence", "mecanum_50_hz");
   ScenePlant plant(program);
   Command command(program.robot.model.joint_count());
   for (const solver::Wheel& wheel : program.robot.model.wheels())
@@ -284,7 +278,7 @@ TEST(BlindDrive, TorqueLimitsThatAreSentBoundNothing) {
 /// v^2/2a, and what it rolls on until the drive's loop is told and follows: v (delay + 2/rate + T_c).
 TEST(BlindDrive, TheProtectiveStopRampsTheVelocityDown) {
   for (const char* robot : {"mecanum_50_hz", "mecanum_20_hz", "diff_twist"}) {
-    const lang::Program program = shipped("fence", robot);
+    const lang::Program program = under_law("fence", robot);
     ScenePlant plant(program);
     Runner runner(program);
     Sensed sensed(program);
@@ -311,7 +305,7 @@ TEST(BlindDrive, TheProtectiveStopRampsTheVelocityDown) {
 
 /// After a stop was reset the virtual robot begins where the base is: nothing is told to jump.
 TEST(BlindDrive, BeginsAnewAfterAStop) {
-  const lang::Program program = shipped("fence", "mecanum_50_hz");
+  const lang::Program program = under_law("fence", "mecanum_50_hz");
   ScenePlant plant(program);
   Runner runner(program);
   Sensed sensed(program);
@@ -337,7 +331,7 @@ TEST(BlindDrive, BeginsAnewAfterAStop) {
 }
 
 TEST(BlindDrive, ReplaysBitByBitAndAllocatesNothing) {
-  test::expect_replay_without_heap_calls(shipped("fence", "mecanum_twist"), 2000);
+  test::expect_replay_without_heap_calls(under_law("fence", "mecanum_twist"), 2000);
 }
 
 }  // namespace

@@ -7,15 +7,13 @@
 #include <cstdio>
 #include <numbers>
 
+#include "constants.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/runtime/runner.hpp"
 
 namespace zwang::runtime {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
-constexpr double period = 1e-3;
 
 lang::Program load() {
   lang::Diagnostics diagnostics;

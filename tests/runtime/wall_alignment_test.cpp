@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "../temporary_folder.hpp"
+#include "constants.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -25,9 +26,6 @@
 
 namespace zwang::runtime {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
-constexpr double period = 1e-3;
 
 struct Setting {
   const char* robot = "mecanum_base";

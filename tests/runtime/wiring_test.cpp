@@ -8,6 +8,7 @@
 #include <functional>
 #include <numbers>
 
+#include "constants.hpp"
 #include "guard/blind_budget.hpp"
 #include "guard/frozen_wheel.hpp"
 #include "guard/joint_rates.hpp"
@@ -21,7 +22,6 @@ namespace {
 
 using zwang::test::shipped_program;
 
-constexpr double period = 1e-3;
 /// With what is sensed, and with what is sent.
 struct Mistake {
   std::function<void(solver::State&)> sensed = [](solver::State&) {};

@@ -31,8 +31,8 @@ lang::Program felt() {
   return p;
 }
 
-struct Bench {
-  Bench() { sensed.signals[0].valid = true; }
+struct BoundBench {
+  BoundBench() { sensed.signals[0].valid = true; }
   std::optional<Event> look() { return bound.look(sensed.state, sensed.signals, time += period); }
   lang::Program program = felt();
   WrenchBound bound{program, period, longest};
@@ -41,7 +41,7 @@ struct Bench {
 };
 
 TEST(WrenchBound, IsWeightAndMotorsAtRest) {
-  Bench bench;
+  BoundBench bench;
   EXPECT_FALSE(bench.look());
   EXPECT_NEAR(bench.bound.force(), at_rest, 1e-9);
   EXPECT_NEAR(bench.bound.moment(), at_rest * radius, 1e-9);
@@ -49,7 +49,7 @@ TEST(WrenchBound, IsWeightAndMotorsAtRest) {
 
 /// 1.5 v sqrt(K m): a hit presses hardest when the base stands already.
 TEST(WrenchBound, KnowsTheHitOfTheSpeedThatTheBaseHad) {
-  Bench bench;
+  BoundBench bench;
   bench.sensed.state.base_twist.linear = {0.3, 0.4, 0.0};
   bench.look();
   const double hit = 1.5 * 0.5 * std::sqrt(1e6 * mass);
@@ -70,10 +70,10 @@ TEST(WrenchBound, RefusesWhatIsBeyondItAndNothingElse) {
       [](Sensed& s) -> solver::ForceVector& { return s.signals[0].wrench; }};
   for (const auto& place : places) {
     for (const double share : {0.99, 1.01, 1e3}) {
-      Bench force, moment;
+      BoundBench force, moment;
       place(force.sensed).linear = share * at_rest * solver::Vector3(0.6, 0.0, 0.8);
       place(moment.sensed).angular.z() = -share * at_rest * radius;
-      for (Bench* bench : {&force, &moment}) {
+      for (BoundBench* bench : {&force, &moment}) {
         const auto told = bench->look();
         EXPECT_EQ(told.has_value(), share > 1.0) << share;
         EXPECT_EQ(place(bench->sensed).is_zero(), share > 1.0) << share;
