@@ -13,6 +13,7 @@
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
 #include "zwang/lang/scene_for_robot.hpp"
+#include "zwang/lang/study.hpp"
 
 namespace zwang::cli {
 
@@ -109,6 +110,10 @@ std::optional<std::string> read_as(FileKind kind, const std::string& path, lang:
     case FileKind::connection:
       if (const auto connection = lang::load_connection(path, diagnostics))
         return "connection, " + count(connection->signals.size(), "signal");
+      return std::nullopt;
+    case FileKind::study:
+      if (const auto study = lang::load_study(path, diagnostics))
+        return "study, " + count(study->draws.size(), "draw") + ", " + count(study->runs, "run");
       return std::nullopt;
     case FileKind::task:
       break;

@@ -1,11 +1,13 @@
 #include "scenario_choice.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include "file_kind.hpp"
 #include "output.hpp"
 #include "zwang/lang/nearest.hpp"
 #include "zwang/lang/scenario.hpp"
+#include "zwang/lang/study.hpp"
 
 namespace zwang::cli {
 
@@ -13,9 +15,53 @@ namespace {
 
 constexpr std::size_t most_names = 8;  // that a message lists
 
-bool is_scenario(const std::string& file) {
-  require_file(file);
-  return kind_of_file(file) == FileKind::scenario;
+/// Options that say what a scenario or a study says.
+void refuse_overrides(const RunArguments& arguments, const std::string& whose) {
+  if (arguments.overrides.any() || arguments.start_yaw || arguments.start_at || arguments.seed != 0 ||
+      arguments.watch)
+    throw Impossible(arguments.file + ": " + whose +
+                     " says how it runs; of the options that say the same, and "
+                     "--watch, it takes none");
+}
+
+/// What a cell says in the place of the task file's own words.
+void take_cell(const lang::Scenario& scenario, const lang::ScenarioCell& cell, RunArguments& arguments) {
+  arguments.file = scenario.task.string();
+  if (cell.robot) arguments.overrides.robot = cell.robot->string();
+  if (cell.scene) arguments.overrides.scene = cell.scene->string();
+  arguments.overrides.parameters = cell.parameters;
+  arguments.start_at = cell.start_at;
+  arguments.start_yaw = cell.start_yaw;
+  arguments.seed = scenario.seed;
+}
+
+std::size_t number_of_cell(const lang::Study& study, const std::optional<std::string>& text) {
+  std::size_t number = 0;
+  const char* end = text ? text->data() + text->size() : nullptr;
+  const bool is_number = text && std::from_chars(text->data(), end, number).ptr == end && !text->empty();
+  if (!is_number || number >= lang::most_cells_of_a_study)
+    throw Impossible(study.path + ": a study of " + count(study.runs, "cell") +
+                     "; choose one by its number, as --cell 0");
+  return number;
+}
+
+RunArguments with_study(RunArguments arguments, lang::Diagnostics& diagnostics) {
+  const std::optional<lang::Study> study = lang::load_study(arguments.file, diagnostics);
+  if (!study) return arguments;
+  refuse_overrides(arguments, "a study");
+  const std::size_t number = number_of_cell(*study, arguments.cell);
+  lang::StudyCell drawn = lang::draw_cell(*study, number);
+  arguments.choice = {
+      arguments.file, number, drawn.cell().faults, {}, drawn.scenario.blend, drawn.scenario.time_limit, true};
+  take_cell(drawn.scenario, drawn.cell(), arguments);
+  // What the draws make of the simulated robot is known with its task.
+  lang::Diagnostics of_study, of_task;
+  if (lang::load_run(*study, drawn, of_study, of_task)) {
+    arguments.choice->deviation = drawn.cell().deviation;
+  } else {
+    diagnostics = of_study;
+  }
+  return arguments;
 }
 
 std::vector<std::string> names_of(const lang::Scenario& scenario) {
@@ -68,41 +114,46 @@ bool is_plain(const std::string& text) {
 }  // namespace
 
 RunArguments with_choice(RunArguments arguments, lang::Diagnostics& diagnostics) {
-  if (!is_scenario(arguments.file)) {
+  require_file(arguments.file);
+  const std::optional<FileKind> kind = kind_of_file(arguments.file);
+  if (kind == FileKind::study) return with_study(std::move(arguments), diagnostics);
+  if (kind != FileKind::scenario) {
     if (arguments.cell) throw Impossible(arguments.file + ": is no scenario, which --cell needs");
     return arguments;
   }
   const std::optional<lang::Scenario> scenario = lang::load_scenario(arguments.file, diagnostics);
   if (!scenario) return arguments;
-  const TaskOverrides& overrides = arguments.overrides;
-  if (overrides.any() || arguments.start_yaw || arguments.start_at || arguments.seed != 0 || arguments.watch)
-    throw Impossible(arguments.file +
-                     ": a scenario says how it runs; of the options that say the same, and "
-                     "--watch, it takes none");
+  refuse_overrides(arguments, "a scenario");
   const std::size_t index = index_of(*scenario, arguments.cell);
   const lang::ScenarioCell& cell = scenario->cells[index];
-  arguments.choice = {arguments.file, index, cell.faults, scenario->blend, scenario->time_limit};
-  arguments.file = scenario->task.string();
-  if (cell.robot) arguments.overrides.robot = cell.robot->string();
-  if (cell.scene) arguments.overrides.scene = cell.scene->string();
-  arguments.overrides.parameters = cell.parameters;
-  arguments.start_at = cell.start_at;
-  arguments.start_yaw = cell.start_yaw;
-  arguments.seed = scenario->seed;
+  arguments.choice = {arguments.file, index, cell.faults, {}, scenario->blend, scenario->time_limit, false};
+  take_cell(*scenario, cell, arguments);
   return arguments;
 }
 
 std::optional<lang::Program> load_choice(const ScenarioChoice& choice, lang::Diagnostics& diagnostics) {
   lang::Diagnostics of_scenario;
-  auto run = lang::load_run(choice.scenario, choice.cell, of_scenario, diagnostics);
+  std::optional<lang::ScenarioRun> run;
+  if (choice.is_of_study) {
+    const std::optional<lang::Study> study = lang::load_study(choice.scenario, of_scenario);
+    if (study) {
+      lang::StudyCell drawn = lang::draw_cell(*study, choice.cell);
+      run = lang::load_run(*study, drawn, of_scenario, diagnostics);
+    }
+  } else {
+    run = lang::load_run(choice.scenario, choice.cell, of_scenario, diagnostics);
+  }
   if (run) return std::move(run->program);
   diagnostics = std::move(of_scenario);
   return std::nullopt;
 }
 
+std::string argument_of_shell(const std::string& text) {
+  return is_plain(text) ? text : quoted(text);
+}
+
 std::string command_of(const std::string& scenario, const std::string& cell) {
-  return "zwang run " + (is_plain(scenario) ? scenario : quoted(scenario)) + " --cell " + quoted(cell) +
-         " --report";
+  return "zwang run " + argument_of_shell(scenario) + " --cell " + quoted(cell) + " --report";
 }
 
 }  // namespace zwang::cli

@@ -16,6 +16,9 @@ RunArguments with_choice(RunArguments arguments, lang::Diagnostics& diagnostics)
 /// The program of the cell. nullopt where the scenario, or the task on this robot, has errors.
 std::optional<lang::Program> load_choice(const ScenarioChoice& choice, lang::Diagnostics& diagnostics);
 
+/// In quotes, where a shell would not take it as it is.
+std::string argument_of_shell(const std::string& text);
+
 /// `zwang run FILE --cell NAME --report`, as a shell takes it.
 std::string command_of(const std::string& scenario, const std::string& cell);
 

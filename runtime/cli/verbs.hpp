@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "zwang/lang/program.hpp"
+#include "zwang/lang/scenario.hpp"
 #include "zwang/lang/schema.hpp"
 #include "zwang/runtime/log_parts.hpp"
 
@@ -58,12 +59,12 @@ struct FmtArguments {
 };
 int fmt(const FmtArguments& arguments);
 
-inline const std::map<std::string, lang::FileKind> schema_kinds = {
-    {"task", lang::FileKind::task},
-    {"robot", lang::FileKind::robot},
-    {"scene", lang::FileKind::scene},
-    {"scenario", lang::FileKind::scenario},
-    {"connection", lang::FileKind::connection}};
+inline const std::map<std::string, lang::FileKind> schema_kinds = {{"task", lang::FileKind::task},
+                                                                   {"robot", lang::FileKind::robot},
+                                                                   {"scene", lang::FileKind::scene},
+                                                                   {"scenario", lang::FileKind::scenario},
+                                                                   {"connection", lang::FileKind::connection},
+                                                                   {"study", lang::FileKind::study}};
 
 struct SchemaArguments {
   lang::FileKind kind = lang::FileKind::task;
@@ -89,13 +90,31 @@ struct TestArguments {
 };
 int test(const TestArguments& arguments);
 
-/// A cell of a scenario: what a run takes from it beside robot, scene, parameters, start and seed.
+struct SweepArguments {
+  std::string study;
+  int jobs = 0;                      ///< cells at the same time; 0: as many as there are cores
+  std::optional<std::size_t> runs;   ///< in the place of the study's
+  std::optional<std::string> out;    ///< the file of results; none: STUDY.db
+  std::optional<std::string> shard;  ///< `3/64`
+  std::vector<std::string> merged;   ///< files of results to join
+  std::optional<std::string> junit;
+  double cell_limit = 600.0;  ///< [s] of real time that a cell may take
+  bool fresh = false;         ///< without what earlier calls left
+  Format format = Format::human;
+};
+/// Runs the cells of a study that have no result yet, and reports on all.
+int sweep(const SweepArguments& arguments);
+
+/// A cell of a scenario or of a study: what a run takes from it beside robot, scene, parameters, start and
+/// seed.
 struct ScenarioChoice {
   std::string scenario;  ///< its file
   std::size_t cell = 0;
   std::vector<lang::Fault> faults;
+  lang::RobotDeviation deviation;
   std::optional<double> blend;  ///< [s]
   double time_limit = 0.0;      ///< [s]
+  bool is_of_study = false;
 };
 
 struct RunArguments {

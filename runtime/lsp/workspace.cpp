@@ -8,6 +8,7 @@
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/scenario.hpp"
 #include "zwang/lang/scene.hpp"
+#include "zwang/lang/study.hpp"
 
 namespace zwang::lsp {
 
@@ -48,6 +49,9 @@ Judgement judge(const fs::path& path, lang::FileKind kind) {
       break;
     case lang::FileKind::connection:
       lang::load_connection(path, judgement.diagnostics);
+      break;
+    case lang::FileKind::study:
+      lang::load_study(path, judgement.diagnostics);
       break;
   }
   judgement.read.insert(lang::canonical_name(path));

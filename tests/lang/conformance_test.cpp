@@ -12,6 +12,7 @@
 #include "zwang/lang/connection.hpp"
 #include "zwang/lang/notes.hpp"
 #include "zwang/lang/scenario.hpp"
+#include "zwang/lang/study.hpp"
 
 namespace zwang::lang {
 namespace {
@@ -36,6 +37,8 @@ void load_as_named(const std::filesystem::path& path, Diagnostics& diagnostics) 
     is_good = load_scene(path, diagnostics).has_value();
   } else if (name.starts_with("connection_")) {
     is_good = load_connection(path, diagnostics).has_value();
+  } else if (name.starts_with("study_")) {
+    is_good = load_study(path, diagnostics).has_value();
   } else if (name.starts_with("scenario_")) {
     is_good = check_scenario(path, diagnostics).has_value();
   } else {

@@ -16,6 +16,7 @@
 #include "zwang/lang/scenario.hpp"
 #include "zwang/lang/scene.hpp"
 #include "zwang/lang/schema.hpp"
+#include "zwang/lang/study.hpp"
 
 namespace zwang::lang {
 namespace {
@@ -74,6 +75,8 @@ Diagnostics said_about(const PageBlock& block, const test::Folder& folder) {
   } else if (part == "scene") {
     const std::string version = has_key(block.text, "zwang_scene") ? "" : "zwang_scene: 1\n";
     load_scene(folder.write("mine.yaml", version + block.text), diagnostics);
+  } else if (part == "study") {
+    load_study(folder.write("mine.yaml", block.text), diagnostics);
   } else if (part == "scenario") {
     check_scenario(folder.write("mine.yaml", block.text), diagnostics);
   } else {
@@ -157,7 +160,8 @@ std::set<std::string> words_of_code() {
 
 TEST(LanguageOfThePage, has_every_key_and_word_of_the_schemas) {
   const std::set<std::string> written = words_of_code();
-  for (const FileKind kind : {FileKind::task, FileKind::robot, FileKind::scene, FileKind::scenario}) {
+  for (const FileKind kind :
+       {FileKind::task, FileKind::robot, FileKind::scene, FileKind::scenario, FileKind::study}) {
     std::set<std::string> keys;
     gather_keys(nlohmann::json::parse(json_schema(kind)), keys);
     EXPECT_GT(keys.size(), 10u);

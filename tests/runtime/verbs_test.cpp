@@ -250,7 +250,7 @@ TEST_F(Verbs, FmtLeavesFilesWithErrorsAlone) {
 }
 
 TEST_F(Verbs, SchemaPrintsEveryKind) {
-  for (const char* kind : {"task", "robot", "scene", "scenario", "connection"}) {
+  for (const char* kind : {"task", "robot", "scene", "scenario", "connection", "study"}) {
     const Result r = zwang({"schema", kind});
     EXPECT_EQ(r.code, 0);
     EXPECT_EQ(r.out, read(specs_folder / "schemas" / (std::string(kind) + ".json"))) << kind;

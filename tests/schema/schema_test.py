@@ -37,7 +37,7 @@ def load(path):
 
 def kind_of(content):
     for key, kind in [("zwang_robot", "robot"), ("zwang_scene", "scene"), ("zwang_scenario", "scenario"),
-                      ("zwang_connection", "connection")]:
+                      ("zwang_connection", "connection"), ("zwang_study", "study")]:
         if isinstance(content, dict) and key in content:
             return kind
     return "task"
@@ -55,7 +55,7 @@ def main(program, root):
     root = pathlib.Path(root)
     failures = []
     validators = {}
-    for kind in ["task", "robot", "scene", "scenario", "connection"]:
+    for kind in ["task", "robot", "scene", "scenario", "connection", "study"]:
         schema = json.loads(subprocess.run([program, "schema", kind], check=True, capture_output=True).stdout)
         jsonschema.Draft7Validator.check_schema(schema)
         validators[kind] = jsonschema.Draft7Validator(schema)

@@ -132,6 +132,11 @@ std::vector<NamePlace> NameWalk::walk(FileKind kind) {
     case FileKind::scenario:
       walk_scenario(document_.root);
       break;
+    case FileKind::study:
+      walk_scenario(document_.root);
+      for (const Entry& draw : below(document_.root, "draw").entries)
+        mean_key_part(draw.key, "params.", NameKind::parameter);
+      break;
     case FileKind::connection:
       walk_connection(document_.root);
       break;

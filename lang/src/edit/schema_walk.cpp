@@ -21,6 +21,8 @@ Json whole_schema(FileKind kind) {
       return schema::scene_file();
     case FileKind::scenario:
       return schema::scenario_file();
+    case FileKind::study:
+      return schema::study_file();
     case FileKind::connection:
       break;
   }
@@ -29,8 +31,8 @@ Json whole_schema(FileKind kind) {
 
 /// The schemas are made once: a completion walks them with each letter.
 const Json& schema_of(FileKind kind) {
-  static const std::array<Json, 5> all = [] {
-    std::array<Json, 5> made;
+  static const std::array<Json, 6> all = [] {
+    std::array<Json, 6> made;
     for (std::size_t i = 0; i < made.size(); ++i) {
       made[i] = whole_schema(static_cast<FileKind>(i));
       Json definitions = schema::definitions();

@@ -18,5 +18,6 @@ std::span<const Explanation> robots();       ///< E80x
 std::span<const Explanation> urdfs();        ///< E85x
 std::span<const Explanation> scenes();       ///< E9xx
 std::span<const Explanation> connections();  ///< E92x
+std::span<const Explanation> studies();      ///< E93x
 
 }  // namespace zwang::lang::catalogue

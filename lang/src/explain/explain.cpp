@@ -19,7 +19,7 @@ std::vector<Explanation> gathered() {
   for (const std::span<const Explanation> part :
        {catalogue::text(), catalogue::quantities(), catalogue::names(), catalogue::constraints(),
         catalogue::order(), catalogue::physics(), catalogue::reach(), catalogue::robots(), catalogue::urdfs(),
-        catalogue::scenes(), catalogue::connections()}) {
+        catalogue::scenes(), catalogue::connections(), catalogue::studies()}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   const auto key = [](const Explanation& e) { return std::pair(number_of(e), e.code); };

@@ -113,6 +113,19 @@ int find_robot(const Word& name, const Scene& scene, Diagnostics& diagnostics) {
   return -1;
 }
 
+std::vector<std::string> units_of(const Condition& condition, const std::vector<Dimension>& dimensions) {
+  std::vector<std::string> units;
+  for (std::size_t i = 0; i < condition.nodes.size(); ++i) {
+    const Op op = condition.nodes[i].op;
+    const bool compares =
+        op == Op::less || op == Op::less_equal || op == Op::greater || op == Op::greater_equal;
+    units.push_back(usual_unit(dimensions[compares ? static_cast<std::size_t>(condition.nodes[i].left) : i]));
+  }
+  return units;
+}
+
+}  // namespace
+
 std::string text_of(const ExpectationText& text) {
   switch (text.kind) {
     case ExpectationKind::outcome:
@@ -129,19 +142,6 @@ std::string text_of(const ExpectationText& text) {
   }
   return "always: " + text.that.text;
 }
-
-std::vector<std::string> units_of(const Condition& condition, const std::vector<Dimension>& dimensions) {
-  std::vector<std::string> units;
-  for (std::size_t i = 0; i < condition.nodes.size(); ++i) {
-    const Op op = condition.nodes[i].op;
-    const bool compares =
-        op == Op::less || op == Op::less_equal || op == Op::greater || op == Op::greater_equal;
-    units.push_back(usual_unit(dimensions[compares ? static_cast<std::size_t>(condition.nodes[i].left) : i]));
-  }
-  return units;
-}
-
-}  // namespace
 
 std::vector<std::string> truth_names(const Program& program) {
   return truth_symbols(program).signal_names();

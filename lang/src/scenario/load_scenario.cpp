@@ -58,6 +58,7 @@ class CellMaker {
       names.push_back(set.name);
       if (set.name != value.word.text) continue;
       cell.faults = set.faults;
+      cell.fault_set = set.name;
       return;
     }
     diagnostics_.add(wording::unknown_name(value.word.span, "set of faults", value.word.text, names));
@@ -103,23 +104,20 @@ std::vector<ScenarioCell> multiply(const ScenarioFile& file, const fs::path& pat
   return cells;
 }
 
-/// Of a task that was refused: nobody can say what the conditions mean, and nobody needs to.
+}  // namespace
+
 std::vector<Expectation> expectations_of_words(const ScenarioFile& file) {
   std::vector<Expectation> expectations;
   for (const ExpectationText& text : file.expectations) {
     Expectation expected;
     expected.kind = text.kind;
     expected.word = text.word.text;
-    expected.text = text.kind == ExpectationKind::outcome      ? "outcome: " + text.word.text
-                    : text.kind == ExpectationKind::diagnostic ? "diagnostic: " + text.word.text
-                                                               : text.that.text;
+    expected.text = text_of(text);
     expected.span = text.span;
     expectations.push_back(std::move(expected));
   }
   return expectations;
 }
-
-}  // namespace
 
 std::optional<ScenarioFile> read_scenario(const fs::path& path, Diagnostics& diagnostics) {
   const std::optional<int> source = read_file(path, yaml_size_limit, {}, diagnostics);

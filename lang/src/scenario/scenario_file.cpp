@@ -6,6 +6,7 @@
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "diagnostic/wordings_study.hpp"
 #include "scene/faults.hpp"
 #include "spec/shape.hpp"
 #include "zwang/lang/explanation.hpp"
@@ -146,7 +147,7 @@ void parse_fault_sets(const Node& node, ScenarioFile& file, Diagnostics& diagnos
   }
 }
 
-std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& diagnostics) {
+std::optional<ExpectationText> parse_expectation(const Node& node, bool of_study, Diagnostics& diagnostics) {
   const bool is_condition = node.is_scalar() && node.text.find(' ') != std::string::npos;
   MapReader map(node, "an expectation", diagnostics,
                 is_condition ? "{at: end, that: " + node.text + "}"
@@ -190,6 +191,10 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
     expected.within = parse_positive(*within, dimension::time, "`within`", true, diagnostics).value_or(0.0);
     if (const Node* of = map.optional("of")) expected.of = parse_word(*of, "`of`", diagnostics);
   }
+  if (const Node* sure = of_study ? map.optional("probability") : nullptr)
+    expected.probability = parse_certainty(*sure, "`probability`", diagnostics);
+  if (const Node* sure = of_study ? map.optional("confidence") : nullptr)
+    expected.confidence = parse_certainty(*sure, "`confidence`", diagnostics);
   const Node* that = always != nullptr ? always : nullptr;
   if (always != nullptr) expected.kind = ExpectationKind::always;
   // Of two claims in one nobody knows which one needs it.
@@ -203,10 +208,30 @@ std::optional<ExpectationText> parse_expectation(const Node& node, Diagnostics& 
 
 }  // namespace
 
-std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagnostics& diagnostics) {
-  MapReader map(document.root, "a scenario file", diagnostics);
-  if (!map.is_mapping() || !check_version(map, "zwang_scenario", 1, diagnostics)) return std::nullopt;
-  ScenarioFile file;
+std::optional<double> parse_certainty(const Node& node, const std::string& what, Diagnostics& diagnostics) {
+  Node share = node;
+  constexpr std::string_view at_least = ">=";
+  if (share.is_scalar() && share.text.starts_with(at_least)) {
+    const std::size_t begin = share.text.find_first_not_of(' ', at_least.size());
+    share.text.erase(0, std::min(begin, share.text.size()));
+  }
+  const std::optional<double> value = parse_plain(share, dimension::none, what, diagnostics);
+  if (!value) return std::nullopt;
+  if (*value > 0.0 && *value < 1.0) return value;
+  diagnostics.add(wording::no_certainty(node.span, what, node.text));
+  return std::nullopt;
+}
+
+void parse_expectations(const Node& node, bool of_study, ScenarioFile& file, Diagnostics& diagnostics) {
+  if (!require_sequence(node, "`expect`", diagnostics)) return;
+  for (const Node& item : node.items) {
+    if (auto expected = parse_expectation(item, of_study, diagnostics))
+      file.expectations.push_back(std::move(*expected));
+  }
+  if (node.items.empty()) diagnostics.add(wording::nothing_expected(node.span));
+}
+
+void parse_scenario_keys(MapReader& map, bool of_study, ScenarioFile& file, Diagnostics& diagnostics) {
   if (const Node* about = map.optional("about")) file.about = about->text;
   if (const Node* task = map.required("task")) file.task = parse_word(*task, "`task`", diagnostics);
   if (const Node* limit = map.optional("time_limit")) {
@@ -223,14 +248,14 @@ std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagno
   if (const Node* matrix = map.optional("matrix")) parse_matrix(*matrix, file, diagnostics);
   complain_of_repetitions(file, diagnostics);
   if (const Node* faults = map.optional("faults")) parse_fault_sets(*faults, file, diagnostics);
-  const Node* expect = map.required("expect");
-  if (expect != nullptr && require_sequence(*expect, "`expect`", diagnostics)) {
-    for (const Node& item : expect->items) {
-      if (auto expected = parse_expectation(item, diagnostics))
-        file.expectations.push_back(std::move(*expected));
-    }
-    if (expect->items.empty()) diagnostics.add(wording::nothing_expected(expect->span));
-  }
+  if (const Node* expect = map.required("expect")) parse_expectations(*expect, of_study, file, diagnostics);
+}
+
+std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagnostics& diagnostics) {
+  MapReader map(document.root, "a scenario file", diagnostics);
+  if (!map.is_mapping() || !check_version(map, "zwang_scenario", 1, diagnostics)) return std::nullopt;
+  ScenarioFile file;
+  parse_scenario_keys(map, false, file, diagnostics);
   map.finish();
   return file;
 }

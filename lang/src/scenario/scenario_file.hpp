@@ -7,6 +7,7 @@
 
 #include "load_within.hpp"
 #include "spec/expression.hpp"
+#include "spec/shape.hpp"
 #include "spec/value.hpp"
 #include "tree/read.hpp"
 #include "zwang/lang/scenario.hpp"
@@ -41,6 +42,7 @@ struct ExpectationText {
   double within = 0.0;
   Word of;
   ConditionText that;
+  std::optional<double> probability, confidence;  ///< of a study
   Span span;
 };
 
@@ -60,6 +62,13 @@ inline constexpr std::size_t most_cells = 1000;
 
 /// The shape of a scenario file. nullopt when it is not one at all.
 std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagnostics& diagnostics);
+
+/// Its keys behind the version. `of_study`: an expectation may say how sure it must be.
+void parse_scenario_keys(MapReader& map, bool of_study, ScenarioFile& file, Diagnostics& diagnostics);
+void parse_expectations(const Node& node, bool of_study, ScenarioFile& file, Diagnostics& diagnostics);
+
+/// A share that is neither nothing nor all: `99.9 %`, or `'>= 99.9 %'`. E933 otherwise.
+std::optional<double> parse_certainty(const Node& node, const std::string& what, Diagnostics& diagnostics);
 
 /// The matrix multiplied out; paths are seen from `path`. nullopt on an error.
 std::optional<Scenario> scenario_of(const ScenarioFile& file, const std::filesystem::path& path,
@@ -81,6 +90,12 @@ void check_faults(const ScenarioCell& cell, const Program& program, Diagnostics&
 bool expects_refusal(const ScenarioFile& file, const std::vector<std::string>& codes);
 
 std::optional<ScenarioFile> read_scenario(const std::filesystem::path& path, Diagnostics& diagnostics);
+
+/// An expectation in a report: `at end: truth.wall.force < 20 N`.
+std::string text_of(const ExpectationText& text);
+
+/// Of a task that was refused: nobody can say what the conditions mean, and nobody needs to.
+std::vector<Expectation> expectations_of_words(const ScenarioFile& file);
 
 /// Names and dimensions of what is expected. nullopt on an error.
 std::optional<std::vector<Expectation>> check_expectations(const ScenarioFile& file, const Program& program,

@@ -75,6 +75,12 @@ Json one_of_words(const char* description, std::vector<std::string> words) {
   return described({{"enum", std::move(words)}}, description);
 }
 
+Json certainty(const char* description) {
+  Json schema = any_of({reference("quantity"), Json{{"type", "string"}, {"pattern", "^>= *[0-9.]+ *%$"}}});
+  schema["description"] = description;
+  return schema;
+}
+
 Json reference(const char* name, const char* description) {
   // Draft 7 reads nothing beside a $ref: the description goes around it.
   const Json bare = {{"$ref", std::string("#/definitions/") + name}};
@@ -128,6 +134,9 @@ std::string json_schema(FileKind kind) {
       break;
     case FileKind::connection:
       schema = schema::connection_file();
+      break;
+    case FileKind::study:
+      schema = schema::study_file();
       break;
   }
   schema::Json whole = {{"$schema", "http://json-schema.org/draft-07/schema#"}};

@@ -30,6 +30,8 @@ Json any_of(std::vector<Json> choices);
 Json word(const char* description);
 Json one_of_words(const char* description, std::vector<std::string> words);
 Json reference(const char* name, const char* description = "");
+/// A share of runs: `99.9 %`, or `>= 99.9 %` in quotes.
+Json certainty(const char* description);
 /// The definitions that `reference` can name: text, quantity, value, range, vector, pose.
 Json definitions();
 /// `key: 1`
@@ -40,5 +42,6 @@ Json robot_file();
 Json scene_file();
 Json scenario_file();
 Json connection_file();
+Json study_file();
 
 }  // namespace zwang::lang::schema

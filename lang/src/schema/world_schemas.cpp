@@ -206,9 +206,10 @@ Json start_pose() {
   return object("where the robot starts", {{"at", reference("point")}, {"yaw", reference("quantity")}});
 }
 
-Json expectation() {
+/// Of a study it may say how sure it must be.
+Json expectation(bool of_study = false) {
   const Json condition = word("a condition; truth.* is what the plant measured");
-  return any_of(
+  Json choices = any_of(
       {object("", {{"outcome",
                     one_of_words(
                         "", {"done", "failed", "stopped", "fallen", "diverged", "refused", "unfinished"}),
@@ -220,6 +221,23 @@ Json expectation() {
                    {"of", word("the time from which it counts; default the start of the run")},
                    {"that", condition, true}}),
        object("", {{"always", condition, true}})});
+  if (!of_study) return choices;
+  for (Json& choice : choices["anyOf"]) {
+    choice["properties"]["probability"] = certainty("the share of all runs in which it must hold");
+    choice["properties"]["confidence"] = certainty("with which that must be shown; default 95 %");
+  }
+  return choices;
+}
+
+Json draw() {
+  const Json number = reference("quantity");
+  return object(
+      "one distribution",
+      {{"uniform", tuple("lowest and highest value", number, 2, 2)},
+       {"log_uniform", tuple("lowest and highest value; evenly by its logarithm", number, 2, 2)},
+       {"normal", tuple("mean and standard deviation", number, 2, 2)},
+       {"choice", list("values, each as often as the others", Json::object())},
+       {"times", Json{{"type", "boolean"}, {"description", "a factor on the value that is there"}}}});
 }
 
 }  // namespace
@@ -291,6 +309,28 @@ Json scenario_file() {
                                   list("", Json::object()))},
                  {"faults", named("sets of faults, for the matrix", list("", fault()))},
                  {"expect", list("the expectations", expectation()), true}});
+}
+
+Json study_file() {
+  Json study = object(
+      "A scenario whose cells are drawn, and how sure each expectation must be",
+      {version("zwang_study"),
+       {"scenario", word("the path of a scenario file; else its keys stand here")},
+       {"cell", word("of the scenario's matrix; default each as often as the others")},
+       {"runs", Json{{"type", "integer"}, {"minimum", 1}, {"description", "cells"}}, true},
+       {"sequence", one_of_words("how cells are drawn; default random", {"random", "halton"})},
+       {"probability",
+        certainty("of each expectation that says none: the share of runs in which it must hold")},
+       {"confidence", certainty("with which that must be shown; default 95 %")},
+       {"draw",
+        named("what is drawn: params.NAME, start.x, robot.mass, scene.OBJECT.stiffness, state.delay ..",
+              draw())}});
+  const Json scenario = scenario_file();
+  for (const auto& [key, value] : scenario["properties"].items()) {
+    if (key != "zwang_scenario") study["properties"][key] = value;
+  }
+  study["properties"]["expect"] = list("the expectations", expectation(true));
+  return study;
 }
 
 }  // namespace zwang::lang::schema

@@ -453,7 +453,8 @@ std::optional<std::vector<std::array<double, 2>>> parse_polygon(const Node& node
 bool check_version(MapReader& map, const std::string& key, int newest, Diagnostics& diagnostics) {
   const Node* version = map.optional(key);
   if (version == nullptr) {
-    for (const char* other : {"zwang", "zwang_robot", "zwang_scene", "zwang_scenario", "zwang_connection"}) {
+    for (const char* other :
+         {"zwang", "zwang_robot", "zwang_scene", "zwang_scenario", "zwang_connection", "zwang_study"}) {
       const Node* given = map.optional(other);
       if (given == nullptr) continue;
       diagnostics.add(wording::another_kind_of_file(map.node().span, map.what(), other));

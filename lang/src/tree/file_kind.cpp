@@ -20,9 +20,11 @@ const char* word_of(FileKind kind) {
     case FileKind::scenario:
       return "scenario";
     case FileKind::connection:
+      return "connection";
+    case FileKind::study:
       break;
   }
-  return "connection";
+  return "study";
 }
 
 namespace {
@@ -35,7 +37,8 @@ constexpr FirstKey first_keys[] = {{"zwang", FileKind::task},
                                    {"zwang_robot", FileKind::robot},
                                    {"zwang_scene", FileKind::scene},
                                    {"zwang_scenario", FileKind::scenario},
-                                   {"zwang_connection", FileKind::connection}};
+                                   {"zwang_connection", FileKind::connection},
+                                   {"zwang_study", FileKind::study}};
 constexpr std::size_t is_another_word = 3;
 
 /// How many letters have to be written again for one word to become the other, if they stand together.

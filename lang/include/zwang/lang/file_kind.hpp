@@ -7,9 +7,9 @@
 
 namespace zwang::lang {
 
-enum class FileKind { task, robot, scene, scenario, connection };
+enum class FileKind { task, robot, scene, scenario, connection, study };
 
-/// `task`, `robot`, `scene`, `scenario` or `connection`.
+/// `task`, `robot`, `scene`, `scenario`, `connection` or `study`.
 const char* word_of(FileKind kind);
 
 /// By the text's first key, a misspelt one, too: its reader says what is wrong. nullopt when it is none of

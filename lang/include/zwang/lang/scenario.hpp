@@ -14,6 +14,12 @@
 
 namespace zwang::lang {
 
+/// How the robot of the simulation differs from the one that the task knows, as factors on the latter's.
+struct RobotDeviation {
+  double friction = 1.0;      ///< dry and viscous, of every joint
+  double wheel_radius = 1.0;  ///< of every wheel with a motor
+};
+
 /// One run: what stands in the place of the task file's own words.
 struct ScenarioCell {
   std::string name;  ///< "robot diff_base, start_yaw 20 deg"; "as written" where nothing varies
@@ -22,7 +28,9 @@ struct ScenarioCell {
   std::optional<double> start_yaw;                ///< [rad]
   std::map<std::string, std::string> parameters;  ///< name -> quantity as text
   std::vector<Fault> faults;                      ///< beside the scene's own
-  std::map<std::string, Span> spans;              ///< where `robot`, `scene`, `params.NAME` are written
+  std::string fault_set;                          ///< whose they are; empty: nobody's
+  RobotDeviation deviation;
+  std::map<std::string, Span> spans;  ///< where `robot`, `scene`, `params.NAME` are written
 };
 
 struct Scenario {

@@ -1,0 +1,43 @@
+#include "diagnostic/wordings_study.hpp"
+
+#include "diagnostic/make.hpp"
+
+namespace zwang::lang::wording {
+
+Diagnostic unknown_draw(const Span& span, const std::string& name, const std::string& meant,
+                        const std::vector<std::string>& known) {
+  std::string help;
+  for (const std::string& one : known) help += (help.empty() ? "can be drawn here: " : ", ") + one;
+  Diagnostic diagnostic = error("E931", span, "nothing named `" + name + "` can be drawn", help);
+  return with_suggestion(std::move(diagnostic), meant);
+}
+
+Diagnostic bad_draw(const Span& span, const std::string& why, const std::string& help) {
+  return error("E931", span, why, help);
+}
+
+Diagnostic one_distribution(const Span& span, const std::string& name) {
+  return error("E932", span, "`" + name + "` has one distribution",
+               "write one of `uniform: [low, high]`, `log_uniform: [low, high]`, `normal: [mean, deviation]` "
+               "and `choice: [one, another]`");
+}
+
+Diagnostic bad_distribution(const Span& span, const std::string& why, const std::string& help) {
+  return error("E932", span, why, help);
+}
+
+Diagnostic no_certainty(const Span& span, const std::string& what, const std::string& text) {
+  return error("E933", span, what + " is between 0 and 100 %, and `" + text + "` is not",
+               "write a share that runs can show, as `99.9 %`");
+}
+
+Diagnostic too_few_runs(const Span& span, const std::string& probability, const std::string& confidence,
+                        std::size_t runs, std::size_t needed) {
+  const std::string count = std::to_string(runs);
+  return warning("W934", span,
+                 count + " runs cannot show " + probability + " at a confidence of " + confidence +
+                     ": that takes " + std::to_string(needed) + " without a miss",
+                 "write `runs: " + std::to_string(needed) + "` or more, or ask for less");
+}
+
+}  // namespace zwang::lang::wording

@@ -1,0 +1,304 @@
+#include "study/drawable.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "spec/units.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+/// A number of a scene's part that may be drawn, with the least value that it can have.
+template <typename Owner>
+struct DrawnNumber {
+  const char* key;
+  Dimension dimension;
+  bool may_be_zero;
+  bool may_be_negative;
+  double* (*find)(Owner&);  ///< null where the owner does not have it
+};
+
+constexpr bool at_zero = true, not_at_zero = false, signed_too = true, positive = false;
+
+constexpr std::array object_numbers{
+    DrawnNumber<SceneObject>{"stiffness", dimension::stiffness, not_at_zero, positive,
+                             [](SceneObject& o) { return &o.stiffness; }},
+    DrawnNumber<SceneObject>{"damping", dimension::none, at_zero, positive,
+                             [](SceneObject& o) { return &o.damping; }},
+    DrawnNumber<SceneObject>{"friction", dimension::none, at_zero, positive,
+                             [](SceneObject& o) { return o.friction ? &*o.friction : nullptr; }},
+    DrawnNumber<SceneObject>{"mass", dimension::mass, not_at_zero, positive,
+                             [](SceneObject& o) { return o.mass ? &*o.mass : nullptr; }},
+    DrawnNumber<SceneObject>{"x", dimension::length, at_zero, signed_too,
+                             [](SceneObject& o) { return o.motion.empty() ? &o.at[0] : nullptr; }},
+    DrawnNumber<SceneObject>{"y", dimension::length, at_zero, signed_too,
+                             [](SceneObject& o) { return o.motion.empty() ? &o.at[1] : nullptr; }},
+    DrawnNumber<SceneObject>{"yaw", dimension::angle, at_zero, signed_too,
+                             [](SceneObject& o) { return o.motion.empty() ? &o.yaw : nullptr; }},
+};
+
+constexpr std::array partner_numbers{
+    DrawnNumber<SceneRobot>{"stiffness", dimension::stiffness, not_at_zero, positive,
+                            [](SceneRobot& r) { return &r.stiffness; }},
+    DrawnNumber<SceneRobot>{"damping", dimension::none, at_zero, positive,
+                            [](SceneRobot& r) { return &r.damping; }},
+    DrawnNumber<SceneRobot>{"friction", dimension::none, at_zero, positive,
+                            [](SceneRobot& r) { return r.friction ? &*r.friction : nullptr; }},
+    DrawnNumber<SceneRobot>{"x", dimension::length, at_zero, signed_too,
+                            [](SceneRobot& r) { return &r.at[0]; }},
+    DrawnNumber<SceneRobot>{"y", dimension::length, at_zero, signed_too,
+                            [](SceneRobot& r) { return &r.at[1]; }},
+    DrawnNumber<SceneRobot>{"yaw", dimension::angle, at_zero, signed_too,
+                            [](SceneRobot& r) { return &r.yaw; }},
+};
+
+constexpr std::array state_numbers{
+    DrawnNumber<StateNoise>{"delay", dimension::time, at_zero, positive,
+                            [](StateNoise& s) { return &s.delay; }},
+    DrawnNumber<StateNoise>{"position", dimension::length, at_zero, positive,
+                            [](StateNoise& s) { return s.wheels_only ? nullptr : &s.position; }},
+    DrawnNumber<StateNoise>{"yaw", dimension::angle, at_zero, positive,
+                            [](StateNoise& s) { return s.wheels_only ? nullptr : &s.yaw; }},
+    DrawnNumber<StateNoise>{"velocity", dimension::velocity, at_zero, positive,
+                            [](StateNoise& s) { return s.wheels_only ? nullptr : &s.velocity; }},
+    DrawnNumber<StateNoise>{"turn", dimension::angular_velocity, at_zero, positive,
+                            [](StateNoise& s) { return s.wheels_only ? nullptr : &s.turn; }},
+};
+
+bool is_seen(const SceneSignal& signal) {
+  return signal.kind == SceneSignalKind::pose || signal.kind == SceneSignalKind::distance;
+}
+
+double* noise_of(SceneSignal& signal) {
+  return is_seen(signal) || signal.kind == SceneSignalKind::force ? &signal.noise : nullptr;
+}
+
+constexpr std::array signal_numbers{
+    DrawnNumber<SceneSignal>{"delay", dimension::time, at_zero, positive,
+                             [](SceneSignal& s) { return &s.delay; }},
+    DrawnNumber<SceneSignal>{"period", dimension::time, at_zero, positive,
+                             [](SceneSignal& s) { return &s.period; }},
+    DrawnNumber<SceneSignal>{"dropouts", dimension::none, at_zero, positive,
+                             [](SceneSignal& s) { return &s.dropouts; }},
+    DrawnNumber<SceneSignal>{
+        "angle_noise", dimension::angle, at_zero, positive,
+        [](SceneSignal& s) { return s.kind == SceneSignalKind::pose ? &s.angle_noise : nullptr; }},
+    DrawnNumber<SceneSignal>{
+        "bias", dimension::force, at_zero, signed_too,
+        [](SceneSignal& s) { return s.kind == SceneSignalKind::force ? &s.bias : nullptr; }},
+};
+
+/// A number of the simulated robot that differs from the task's during the whole run.
+struct RobotNumber {
+  const char* key;
+  Dimension dimension;
+  bool is_factor;
+};
+constexpr std::array robot_numbers{
+    RobotNumber{"mass", dimension::none, true},     RobotNumber{"payload", dimension::mass, false},
+    RobotNumber{"inertia", dimension::none, true},  RobotNumber{"centre_of_mass", dimension::length, false},
+    RobotNumber{"friction", dimension::none, true}, RobotNumber{"wheel_radius", dimension::none, true}};
+
+template <typename Owner, std::size_t N>
+const DrawnNumber<Owner>* number_named(const std::array<DrawnNumber<Owner>, N>& numbers,
+                                       const std::string& key) {
+  const auto found =
+      std::find_if(numbers.begin(), numbers.end(), [&](const auto& n) { return key == n.key; });
+  return found == numbers.end() ? nullptr : &*found;
+}
+
+/// As it stands in the scene: `Use` is called with the number and its place.
+template <typename Use>
+bool visit_number(const Drawable& d, Scene& scene, const Use& use) {
+  const auto visit = [&](const auto& numbers, auto& owner) {
+    const auto* number = number_named(numbers, d.key);
+    double* place = number != nullptr ? number->find(owner) : nullptr;
+    if (place == nullptr) return false;
+    use(number->dimension, number->may_be_zero, number->may_be_negative, *place);
+    return true;
+  };
+  if (d.part == DrawnPart::floor) {
+    use(dimension::none, not_at_zero, positive, scene.floor_friction);
+    return true;
+  }
+  if (d.part == DrawnPart::state) return visit(state_numbers, scene.state);
+  if (d.part == DrawnPart::signal) {
+    for (SceneSignal& signal : scene.signals) {
+      if (signal.name != d.owner) continue;
+      if (d.key != "noise") return visit(signal_numbers, signal);
+      double* noise = noise_of(signal);
+      if (noise == nullptr) return false;
+      const bool is_force = signal.kind == SceneSignalKind::force;
+      use(is_force ? dimension::force : dimension::length, at_zero, positive, *noise);
+      return true;
+    }
+    return false;
+  }
+  for (SceneObject& object : scene.objects) {
+    if (object.name == d.owner) return visit(object_numbers, object);
+  }
+  for (SceneRobot& robot : scene.robots) {
+    if (robot.name == d.owner) return visit(partner_numbers, robot);
+  }
+  return false;
+}
+
+std::vector<std::string> parts_of(const std::string& name) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', begin)) {
+    parts.push_back(name.substr(begin, dot - begin));
+    begin = dot + 1;
+  }
+  parts.push_back(name.substr(begin));
+  return parts;
+}
+
+std::optional<Dimension> dimension_of_parameter(const std::string& name, const Program& program) {
+  for (const Parameter& parameter : program.parameters) {
+    if (parameter.name != name) continue;
+    std::string unknown;
+    const auto unit = parse_unit(parameter.unit, unknown);
+    return unit ? unit->dimension : dimension::none;
+  }
+  return std::nullopt;
+}
+
+Fault whole_run(FaultKind kind, double value) {
+  Fault fault;
+  fault.kind = kind;
+  fault.value = value;
+  return fault;
+}
+
+std::optional<std::string> put_into_robot(const std::string& key, double value, Program& program,
+                                          RobotDeviation& deviation) {
+  const bool is_factor = key != "payload" && key != "centre_of_mass";
+  if (is_factor && !(value > 0.0)) return "a factor of " + format_number(value) + " leaves nothing";
+  std::vector<Fault>& faults = program.scene->faults;
+  // The first fault of a kind is the one that acts.
+  const auto act = [&](FaultKind kind, double v) { faults.insert(faults.begin(), whole_run(kind, v)); };
+  if (key == "mass")
+    act(FaultKind::payload, (value - 1.0) * program.robot.model.bodies().front().inertia.mass);
+  if (key == "payload") act(FaultKind::payload, value);
+  if (key == "inertia") act(FaultKind::inertia, value - 1.0);
+  if (key == "centre_of_mass") act(FaultKind::centre_of_mass, value);
+  if (key == "friction") deviation.friction = value;
+  if (key == "wheel_radius") deviation.wheel_radius = value;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Drawable> drawable_named(const std::string& name) {
+  if (is_parameter(name)) return Drawable{.part = DrawnPart::parameter, .key = name.substr(7)};
+  const std::vector<std::string> parts = parts_of(name);
+  const std::string& first = parts.front();
+  if (parts.size() == 2) {
+    for (const auto& [word, part] :
+         {std::pair{"start", DrawnPart::start}, {"robot", DrawnPart::robot}, {"state", DrawnPart::state}}) {
+      if (first == word) return Drawable{.part = part, .key = parts[1]};
+    }
+  }
+  if (parts.size() != 3) return std::nullopt;
+  for (const auto& [word, part] :
+       {std::pair{"faults", DrawnPart::onset}, {"scene", DrawnPart::thing}, {"signals", DrawnPart::signal}}) {
+    if (first != word) continue;
+    return Drawable{
+        .part = name == "scene.floor.friction" ? DrawnPart::floor : part, .owner = parts[1], .key = parts[2]};
+  }
+  return std::nullopt;
+}
+
+std::optional<Drawable> find_drawable(const std::string& name, const ScenarioFile& file,
+                                      const Program& program) {
+  std::optional<Drawable> drawable = drawable_named(name);
+  if (!drawable) return std::nullopt;
+  std::optional<Dimension> measures;
+  if (drawable->part == DrawnPart::parameter) {
+    measures = dimension_of_parameter(drawable->key, program);
+  } else if (drawable->part == DrawnPart::start) {
+    if (drawable->key == "x" || drawable->key == "y") measures = dimension::length;
+    if (drawable->key == "yaw") measures = dimension::angle;
+  } else if (drawable->part == DrawnPart::onset) {
+    const auto is_named = [&](const FaultSet& set) { return set.name == drawable->owner; };
+    const bool is_there = std::any_of(file.faults.begin(), file.faults.end(), is_named);
+    if (is_there && drawable->key == "at") measures = dimension::time;
+  } else if (drawable->part == DrawnPart::robot) {
+    for (const RobotNumber& number : robot_numbers) {
+      if (drawable->key != number.key) continue;
+      measures = number.dimension;
+      drawable->is_factor_only = drawable->can_be_factor = number.is_factor;
+    }
+  } else if (program.scene) {
+    Scene scene = *program.scene;
+    drawable->can_be_factor = true;
+    visit_number(*drawable, scene, [&](const Dimension& d, bool, bool, double) { measures = d; });
+  }
+  if (!measures) return std::nullopt;
+  drawable->dimension = *measures;
+  return drawable;
+}
+
+std::vector<std::string> drawable_names(const ScenarioFile& file, const Program& program) {
+  std::vector<std::string> names{"start.x", "start.y", "start.yaw", "robot", "scene", "faults"};
+  for (const Parameter& parameter : program.parameters) names.push_back("params." + parameter.name);
+  for (const RobotNumber& number : robot_numbers) names.push_back(std::string("robot.") + number.key);
+  for (const FaultSet& set : file.faults) names.push_back("faults." + set.name + ".at");
+  if (!program.scene) return names;
+  names.emplace_back("scene.floor.friction");
+  std::vector<std::string> candidates;
+  for (const SceneObject& object : program.scene->objects) {
+    for (const auto& number : object_numbers) candidates.push_back("scene." + object.name + "." + number.key);
+  }
+  for (const SceneRobot& robot : program.scene->robots) {
+    for (const auto& number : partner_numbers) candidates.push_back("scene." + robot.name + "." + number.key);
+  }
+  for (const auto& number : state_numbers) candidates.push_back(std::string("state.") + number.key);
+  for (const SceneSignal& signal : program.scene->signals) {
+    candidates.push_back("signals." + signal.name + ".noise");
+    for (const auto& number : signal_numbers)
+      candidates.push_back("signals." + signal.name + "." + number.key);
+  }
+  for (std::string& name : candidates) {
+    if (find_drawable(name, file, program)) names.push_back(std::move(name));
+  }
+  return names;
+}
+
+void put_before(const Draw& draw, double value, const std::array<double, 2>& start_at, ScenarioCell& cell) {
+  const std::optional<Drawable> drawable = drawable_named(draw.name);
+  if (drawable->part == DrawnPart::parameter)
+    cell.parameters[drawable->key] = format_number(value) + (draw.unit.empty() ? "" : " " + draw.unit);
+  if (drawable->part == DrawnPart::start && drawable->key == "yaw") {
+    cell.start_yaw = value;
+  } else if (drawable->part == DrawnPart::start) {
+    if (!cell.start_at) cell.start_at = start_at;
+    (*cell.start_at)[drawable->key == "x" ? 0 : 1] = value;
+  }
+  if (drawable->part != DrawnPart::onset || cell.fault_set != drawable->owner || cell.faults.empty()) return;
+  double first = cell.faults.front().at;
+  for (const Fault& fault : cell.faults) first = std::min(first, fault.at);
+  for (Fault& fault : cell.faults) fault.at = std::max(0.0, fault.at + value - first);
+}
+
+std::optional<std::string> put_after(const Draw& draw, double value, Program& program,
+                                     RobotDeviation& deviation) {
+  const std::optional<Drawable> drawable = drawable_named(draw.name);
+  if (drawable->part < DrawnPart::robot || !program.scene) return std::nullopt;
+  if (drawable->part == DrawnPart::robot) return put_into_robot(drawable->key, value, program, deviation);
+  std::optional<std::string> why = "this scene has no " + draw.name;
+  const auto put = [&](const Dimension&, bool may_be_zero, bool may_be_negative, double& place) {
+    const double number = draw.is_factor ? value * place : value;
+    why.reset();
+    if (!may_be_negative && (number < 0.0 || (number == 0.0 && !may_be_zero)))
+      why = draw.name + " cannot be " + format_number(number) + (draw.unit.empty() ? "" : " " + draw.unit);
+    if (!why) place = number;
+  };
+  visit_number(*drawable, *program.scene, put);
+  return why;
+}
+
+}  // namespace zwang::lang
