@@ -188,6 +188,7 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
     runtime::ScenePlantOptions options = plant_options(*program);
     options.seed = arguments.seed;
     if (arguments.choice) options.faults = arguments.choice->faults;
+    if (arguments.choice) options.deviation = arguments.choice->deviation;
     plant = start_plant(*program, options, diagnostics);
   }
   const bool refused = !program || diagnostics.has_errors();

@@ -92,6 +92,39 @@ class MotorDrive {
   std::optional<VelocityLoop> loop_;
 };
 
+lang::Robot with_friction(lang::Robot robot, double factor) {
+  for (lang::JointFriction& joint : robot.friction) {
+    joint.coulomb *= factor;
+    joint.viscous *= factor;
+  }
+  return robot;
+}
+
+/// Wheels whose radius is `factor` times what the model says. With the same power, they turn 1/factor times
+/// as far along the floor, and push 1/factor times as hard: the simulation has the model's wheels, and their
+/// angles and torques are told so. Their own inertia is told as factor^-2 of the model's.
+class WheelSize {
+ public:
+  WheelSize(const solver::Model& model, double factor) : share_(1.0 / factor) {
+    for (const solver::Wheel& wheel : model.wheels()) {
+      if (share_ != 1.0 && model.joint(wheel.body - 1).actuated) joints_.push_back(wheel.body - 1);
+    }
+  }
+  void tell(solver::State& state) const noexcept {
+    for (const int joint : joints_) {
+      state.q(joint) *= share_;
+      state.qd(joint) *= share_;
+    }
+  }
+  void push(Eigen::VectorXd& torque) const noexcept {
+    for (const int joint : joints_) torque(joint) *= share_;
+  }
+
+ private:
+  double share_;
+  std::vector<int> joints_;
+};
+
 const lang::Scene& scene_of(const lang::Program& program) {
   if (!program.scene) throw std::invalid_argument("plant: the program has no scene");
   return *program.scene;
@@ -146,15 +179,18 @@ struct ScenePlant::Parts {
 
   Parts(const lang::Program& program, const ScenePlantOptions& options)
       : scene(scene_of(program)),
-        simulation(program.robot, scene, options.simulation),
+        robot(with_friction(program.robot, options.deviation.friction)),
+        wheels(program.robot.model, options.deviation.wheel_radius),
+        simulation(robot, scene, options.simulation),
         senses(program, scene, 0, program.robot, options.seed),
         faults(faults_of({}, scene, options.faults), program.robot.model),
         changes(0, program.robot.model, scene.floor_friction),
         motors(program.robot),
         period(options.simulation.period),
         actual(program.robot.model),
-        torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())) {
-    static_cast<void>(simulation.sense(actual));
+        torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())),
+        pushed(torque) {
+    static_cast<void>(sense());
     senses.start_at(actual);
     RunnerSettings settings;
     settings.extra_columns = base_truth_columns();
@@ -171,6 +207,13 @@ struct ScenePlant::Parts {
       static_cast<void>(simulation.sense_partner(i, told.back().actual));
       told.back().senses.start_at(told.back().actual);
     }
+  }
+
+  /// The first robot, as its encoders have it.
+  PlantStatus sense() noexcept {
+    const PlantStatus status = simulation.sense(actual);
+    if (status == PlantStatus::ok) wheels.tell(actual.state);
+    return status;
   }
 
   /// What the floor's friction is where no fault names a wheel.
@@ -260,6 +303,8 @@ struct ScenePlant::Parts {
   }
 
   lang::Scene scene;
+  lang::Robot robot;  ///< the first one, as it is
+  WheelSize wheels;
   MujocoPlant simulation;
   RobotSenses senses;
   InjectedFaults faults;
@@ -268,6 +313,7 @@ struct ScenePlant::Parts {
   double period;  ///< [s] of a step
   Sensed actual;
   Eigen::VectorXd torque;  ///< what the motors make of the command
+  Eigen::VectorXd pushed;  ///< the same, at wheels of the model's size
   std::vector<ScenePartner> partners;
   std::vector<Told> told;  ///< parallel to `partners`
   struct HeldDock {
@@ -293,7 +339,7 @@ ScenePlant::~ScenePlant() = default;
 
 PlantStatus ScenePlant::sense(Sensed& sensed) noexcept {
   Parts& p = *parts_;
-  const PlantStatus status = p.simulation.sense(p.actual);
+  const PlantStatus status = p.sense();
   if (status != PlantStatus::ok) return status;
   if (sensed.state.q.size() != p.actual.state.q.size()) return PlantStatus::unreachable;
   p.senses.measure(p.simulation.truth(), p.torque, p.actual);
@@ -315,7 +361,7 @@ PlantStatus ScenePlant::follow(const Command& command) noexcept {
   if (command.torque.size() != p.torque.size()) return PlantStatus::unreachable;
   p.hold_docks(command.outputs);
   if (p.motors.takes_velocity()) {
-    const PlantStatus status = p.simulation.sense(p.actual);
+    const PlantStatus status = p.sense();
     if (status != PlantStatus::ok) return status;
   }
   p.motors.drive(command, p.actual, p.period, p.torque);
@@ -328,7 +374,9 @@ PlantStatus ScenePlant::Parts::step() noexcept {
   change_world(time);
   press_by_hands(time);
   for (std::size_t i = 0; i < partners.size(); ++i) step_partner(i);
-  return simulation.apply(torque);
+  pushed = torque;
+  wheels.push(pushed);
+  return simulation.apply(pushed);
 }
 
 void ScenePlant::set_push(const Push& push) noexcept {
@@ -347,7 +395,7 @@ void ScenePlant::end_lean() noexcept {
   const double end = truth().time + longest;
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(p.torque.size());
   while (!base.fallen && truth().time < end) {
-    if (p.simulation.sense(p.actual) != PlantStatus::ok || stands()) return;
+    if (p.sense() != PlantStatus::ok || stands()) return;
     if (apply(rest) != PlantStatus::ok) return;
   }
 }

@@ -90,6 +90,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
   options.simulation.period = steps.period();
   options.seed = scenario.seed;
   options.faults = cell.faults;
+  options.deviation = cell.deviation;
   ScenePlant plant(program, options);
   Runner runner(program);
   TrueFacts facts(program);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "zwang/lang/program.hpp"
+#include "zwang/lang/scenario.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/runtime/runner.hpp"
 
@@ -36,6 +37,7 @@ struct ScenePlantOptions {
   MujocoPlantOptions simulation;
   std::uint64_t seed = 0;           ///< of all noise and dropouts
   std::vector<lang::Fault> faults;  ///< beside the scene's own
+  lang::RobotDeviation deviation;   ///< of the first robot
 };
 
 /// Another robot of the scene, under a runner of its own.
