@@ -13,6 +13,7 @@
 #include "shipped.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/nearest.hpp"
+#include "zwang/lang/study.hpp"
 #include "zwang/version.hpp"
 
 namespace {
@@ -61,8 +62,8 @@ void add_validate(CLI::App& app, std::function<int()>& chosen) {
                                                                      {"sarif", ReportFormat::sarif}};
   const auto arguments = std::make_shared<ValidateArguments>();
   const auto deny = std::make_shared<std::string>();
-  CLI::App* verb =
-      app.add_subcommand("validate", "Check task, robot, scene and scenario files without running them");
+  CLI::App* verb = app.add_subcommand(
+      "validate", "Check task, robot, scene, scenario and study files without running them");
   verb->add_option(
           "files", arguments->files,
           "files, whose first key tells what they are, or folders of such files; `-`: the standard input")
@@ -102,7 +103,8 @@ void add_fmt(CLI::App& app, std::function<int()>& chosen) {
 void add_schema(CLI::App& app, std::function<int()>& chosen) {
   const auto arguments = std::make_shared<SchemaArguments>();
   CLI::App* verb = app.add_subcommand("schema", "Print the JSON Schema of a kind of file, for editors");
-  takes(verb->add_option("kind", arguments->kind, "task (default), robot, scene, scenario or connection"),
+  takes(verb->add_option("kind", arguments->kind,
+                         "task (default), robot, scene, scenario, connection or study"),
         schema_kinds);
   verb->callback([=, &chosen] { chosen = [=] { return schema(*arguments); }; });
 }
@@ -208,6 +210,31 @@ void add_simulate(CLI::App& app, std::function<int()>& chosen) {
   verb->callback([=, &chosen] { chosen = [=] { return connect("simulate", *arguments); }; });
 }
 
+void add_sweep(CLI::App& app, std::function<int()>& chosen) {
+  const auto arguments = std::make_shared<SweepArguments>();
+  CLI::App* verb = app.add_subcommand("sweep", "Run the drawn cells of a study, and say how sure it makes");
+  verb->add_option("study", arguments->study, "the study file")->required();
+  verb->add_option("-j,--jobs", arguments->jobs,
+                   "cells at the same time (default: as many as there are cores)")
+      ->check(CLI::Range(1, 1024));
+  verb->add_option("--runs", arguments->runs, "cells, in the place of the study's `runs`")
+      ->check(CLI::Range(std::size_t{1}, zwang::lang::most_cells_of_a_study));
+  verb->add_option("-o,--out", arguments->out,
+                   "the SQLite file of results (default STUDY.db); cells that it has are not run again");
+  verb->add_flag("--fresh", arguments->fresh, "delete that file first");
+  CLI::Option* shard = verb->add_option("--shard", arguments->shard, "run a part of the cells only, as 3/64");
+  verb->add_option("--merge", arguments->merged, "take the cells of these files, and run none")
+      ->excludes(shard);
+  verb->add_option("--cell-limit", arguments->cell_limit, "seconds of real time after which a cell is hung")
+      ->check(CLI::Range(1e-3, 1e6));
+  verb->add_option("--junit", arguments->junit, "file for a JUnit XML report");
+  add_format(*verb, arguments->format);
+  verb->callback([=, &chosen] {
+    arguments->study = file_or_shipped(arguments->study);
+    chosen = [=] { return sweep(*arguments); };
+  });
+}
+
 /// A verb that takes nothing.
 CLI::App* add_plain(CLI::App& app, std::function<int()>& chosen, const char* name, const char* words,
                     int (*verb)()) {
@@ -283,6 +310,7 @@ int parse_and_do(int argc, char** argv) {
   add_completion(app, chosen);
   add_drive(app, chosen);
   add_simulate(app, chosen);
+  add_sweep(app, chosen);
 
   RunArguments to_run;
   std::optional<std::string> yaw_text, at_text, seed_text;
@@ -301,9 +329,12 @@ int parse_and_do(int argc, char** argv) {
   add_format(*test_verb, to_test.format);
 
   CLI::App* run_verb = app.add_subcommand("run", "Run a task on the simulated robot");
-  run_verb->add_option("file", to_run.file, "the task file; or a scenario file, of which one cell runs")
+  run_verb
+      ->add_option("file", to_run.file, "the task file; or a scenario or study file, of which one cell runs")
       ->required();
-  run_verb->add_option("--cell", to_run.cell, "of a scenario: the cell to run, by its name in `zwang test`");
+  run_verb->add_option(
+      "--cell", to_run.cell,
+      "of a scenario: the cell to run, by its name in `zwang test`; of a study by its number");
   add_overrides(*run_verb, to_run.overrides);
   run_verb->add_option("--log", to_run.log,
                        "folder for the log (default runs/<task>-NNN); a log in it is written over");

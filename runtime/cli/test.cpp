@@ -10,15 +10,12 @@
 #include "interruption.hpp"
 #include "output.hpp"
 #include "report_page.hpp"
+#include "study/cell_record.hpp"
 #include "test_page.hpp"
 #include "test_report.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/scenario.hpp"
 #include "zwang/runtime/scenario_run.hpp"
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace zwang::cli {
 
@@ -57,25 +54,6 @@ struct Job {
   const lang::Scenario* scenario = nullptr;
 };
 
-std::vector<std::string> codes_of(const lang::Diagnostics& diagnostics) {
-  std::vector<std::string> codes;
-  for (const lang::Diagnostic& d : diagnostics.sorted()) {
-    if (d.severity != lang::Severity::note && std::find(codes.begin(), codes.end(), d.code) == codes.end())
-      codes.push_back(d.code);
-  }
-  return codes;
-}
-
-/// Each run makes a simulation of 100 MB twice, and frees it. Where the pages go back to the system, it costs
-/// four times what the run does to get them anew.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int beyond_any_simulation = 1 << 30;  // [bytes]
-  mallopt(M_MMAP_THRESHOLD, beyond_any_simulation);
-  mallopt(M_TRIM_THRESHOLD, beyond_any_simulation);
-#endif
-}
-
 /// One line that is written over itself; nothing where stdout is no terminal.
 class Progress {
  public:
@@ -108,7 +86,7 @@ class Loader {
     const std::lock_guard lock(mutex_);
     lang::Diagnostics of_scenario, of_task;
     auto run = lang::load_run(job.scenario->path, job.cell, of_scenario, of_task);
-    codes = codes_of(of_task);
+    codes = study::codes_of(of_task);
     if (!run) {
       report.readable = false;
       report.diagnostics = of_scenario;
@@ -168,7 +146,7 @@ int test(const TestArguments& arguments) {
   }
 
   const std::atomic<bool>& interrupted = catch_interruption();
-  keep_freed_memory();
+  study::keep_freed_memory();
   const auto begin = Clock::now();
   Progress progress(jobs.size(), arguments.format == Format::human);
   Loader loader;

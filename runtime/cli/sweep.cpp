@@ -1,0 +1,192 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <sstream>
+#include <thread>
+
+#include "commit.hpp"
+#include "file_kind.hpp"
+#include "interruption.hpp"
+#include "output.hpp"
+#include "scenario_choice.hpp"
+#include "study/result_store.hpp"
+#include "study/study_report.hpp"
+#include "study/workers.hpp"
+#include "verbs.hpp"
+#include "zwang/version.hpp"
+
+namespace zwang::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+/// Every `of`-th cell, from `first` on.
+struct Shard {
+  std::size_t first = 0, of = 1;
+};
+
+Shard shard_of(const std::optional<std::string>& text) {
+  if (!text) return {};
+  std::istringstream in(*text);
+  std::size_t number = 0, of = 0;
+  char slash = 0;
+  const bool is_read = static_cast<bool>(in >> number >> slash >> of) && in.peek() == EOF && slash == '/';
+  if (!is_read || number < 1 || number > of)
+    throw Impossible("--shard " + *text + ": write the number of the part and how many there are, as 3/64");
+  return {number - 1, of};
+}
+
+/// FNV-1a, of 64 bits: files are told apart, and nobody forges them.
+class Fingerprint {
+ public:
+  void add(std::string_view text) {
+    for (const char c : text) hash_ = (hash_ ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+    hash_ = (hash_ ^ 0x100U) * 0x100000001b3U;
+  }
+  std::string text() const {
+    std::ostringstream out;
+    out << std::hex << hash_;
+    return out.str();
+  }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325U;
+};
+
+/// Of all texts that the study and its first cell are read from, and of the program.
+std::string fingerprint_of(const lang::Study& study) {
+  Fingerprint print;
+  print.add(ZWANG_VERSION);
+  print.add(commit);
+  lang::Diagnostics of_study, of_task;
+  lang::StudyCell cell = lang::draw_cell(study, 0);
+  static_cast<void>(lang::load_run(study, cell, of_study, of_task));
+  for (const lang::Diagnostics* read : {study.read.get(), static_cast<const lang::Diagnostics*>(&of_task)}) {
+    for (const lang::Source& source : read->sources()) print.add(source.text);
+  }
+  return print.text();
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<long>(seconds);
+  if (whole < 100) return std::to_string(whole) + " s";
+  return whole < 6000 ? std::to_string(whole / 60) + " min" : std::to_string(whole / 3600) + " h";
+}
+
+/// One line that is written over itself: cells done, their rate, the time left, and how many missed anything.
+class SweepProgress {
+ public:
+  SweepProgress(std::size_t before, std::size_t wanted, bool shown)
+      : before_(before), wanted_(wanted), shown_(shown && stdout_is_terminal()) {}
+  void count(const study::CellRecord& record) {
+    ++done_;
+    missed_ += record.holds() ? 0U : 1U;
+  }
+  void show() {
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+    if (!shown_ || seconds < next_) return;
+    next_ = seconds + 0.5;
+    const double rate = static_cast<double>(done_) / seconds;
+    std::ostringstream line;
+    line.precision(3);
+    line << before_ + done_ << " of " << wanted_ << " cells, " << rate << " a second";
+    if (done_ > 0)
+      line << ", " << duration_text(static_cast<double>(wanted_ - before_ - done_) / rate) << " left";
+    line << ", " << done_ - missed_ << " of " << done_ << " hold";
+    print_over(line.str());
+  }
+  void end() const {
+    if (shown_) print_over("");
+  }
+
+ private:
+  std::size_t before_, wanted_, done_ = 0, missed_ = 0;
+  bool shown_;
+  Clock::time_point begin_ = Clock::now();
+  double next_ = 0.5;
+};
+
+std::string results_path(const SweepArguments& arguments, const Shard& shard) {
+  if (arguments.out) return *arguments.out;
+  const std::string stem = fs::path(arguments.study).stem().string();
+  const std::string part =
+      shard.of == 1 ? "" : "." + std::to_string(shard.first + 1) + "-of-" + std::to_string(shard.of);
+  return stem + part + ".db";
+}
+
+void remove_results(const std::string& path) {
+  for (const char* end : {"", "-wal", "-shm"}) fs::remove(path + end);
+}
+
+std::vector<std::size_t> cells_to_run(std::size_t runs, const Shard& shard,
+                                      const std::set<std::size_t>& known) {
+  std::vector<std::size_t> cells;
+  for (std::size_t cell = shard.first; cell < runs; cell += shard.of) {
+    if (!known.contains(cell)) cells.push_back(cell);
+  }
+  return cells;
+}
+
+void run_cells(const lang::Study& study, const std::vector<std::size_t>& cells,
+               const SweepArguments& arguments, study::ResultStore& store, SweepProgress& progress) {
+  const std::atomic<bool>& interrupted = catch_interruption();
+  study::keep_freed_memory();
+  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
+  const study::WorkSettings settings{arguments.jobs > 0 ? static_cast<std::size_t>(arguments.jobs) : cores,
+                                     arguments.cell_limit};
+  study::WorkCalls calls;
+  calls.run = [&](std::size_t cell) { return study::run_cell(study, cell); };
+  calls.fail = [&](std::size_t cell, const std::string& outcome, const std::string& because) {
+    return study::unrun(study, cell, outcome, because);
+  };
+  calls.done = [&](const study::CellRecord& record) {
+    store.put(record);
+    progress.count(record);
+  };
+  calls.wants_to_stop = [&] { return interrupted.load(); };
+  calls.wait = [&] { progress.show(); };
+  study::run_all(cells, settings, calls);
+}
+
+}  // namespace
+
+int sweep(const SweepArguments& arguments) {
+  require_file(arguments.study);
+  const Shard shard = shard_of(arguments.shard);
+  lang::Diagnostics diagnostics;
+  const std::optional<lang::Study> study = lang::load_study(arguments.study, diagnostics);
+  std::ostringstream remarks;
+  lang::render_human(diagnostics, remarks);
+  // How many runs there are is said here.
+  if (!study || !arguments.runs) print_error(remarks.str());
+  if (!study) return exit_bad;
+  const std::size_t runs = arguments.runs.value_or(study->runs);
+  const std::string path = results_path(arguments, shard);
+  if (arguments.fresh) remove_results(path);
+  study::ResultStore store(path, study::identity_of(*study, fingerprint_of(*study)));
+  for (const std::string& other : arguments.merged) store.merge(other);
+  const std::vector<std::size_t> cells =
+      arguments.merged.empty() ? cells_to_run(runs, shard, store.cells()) : std::vector<std::size_t>();
+  const std::size_t wanted = (runs + shard.of - 1 - shard.first) / shard.of;
+  SweepProgress progress(wanted - std::min(wanted, cells.size()), wanted, arguments.format == Format::human);
+  run_cells(*study, cells, arguments, store, progress);
+  progress.end();
+
+  const study::StudyReport report = study::report_of(*study, wanted, store.records(runs));
+  if (arguments.format == Format::json) {
+    print_data(study::json_report(*study, report));
+  } else {
+    print(
+        study::human_report(*study, report, "zwang run " + argument_of_shell(arguments.study) + " --cell "));
+    print("results in " + path + "\n");
+  }
+  if (arguments.junit) write_file(*arguments.junit, study::junit_report(*study, report));
+  if (report.is_broken()) return exit_bad;
+  return report.runs < wanted ? exit_impossible : exit_good;
+}
+
+}  // namespace zwang::cli

@@ -1,0 +1,238 @@
+// The one file that knows SQLite.
+#include "study/result_store.hpp"
+
+#include <sqlite3.h>
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+namespace zwang::study {
+
+namespace {
+
+/// A name as SQL takes it, whatever is in it.
+std::string in_quotes(const std::string& name) {
+  std::string out = "\"";
+  for (const char c : name) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
+std::vector<std::string> columns_of(const StudyIdentity& identity) {
+  std::vector<std::string> columns{
+      "cell INTEGER PRIMARY KEY", "of_matrix TEXT", "outcome TEXT", "because TEXT", "why TEXT",
+      "simulated REAL",           "torque REAL",    "wall REAL"};
+  for (const std::string& draw : identity.draws) columns.push_back(in_quotes(draw) + " REAL");
+  for (std::size_t i = 1; i <= identity.claims.size(); ++i) {
+    const std::string n = std::to_string(i);
+    columns.insert(columns.end(),
+                   {"held_" + n + " INTEGER", "margin_" + n + " REAL", "value_" + n + " REAL"});
+  }
+  return columns;
+}
+
+}  // namespace
+
+struct ResultStore::Database {
+  explicit Database(const std::string& file) : path(file) {
+    if (sqlite3_open(path.c_str(), &handle) == SQLITE_OK) return;
+    const std::string why = handle != nullptr ? sqlite3_errmsg(handle) : "out of memory";
+    sqlite3_close(handle);
+    throw std::runtime_error(path + ": " + why);
+  }
+  ~Database() { sqlite3_close(handle); }
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+
+  void require(int code) const {
+    if (code != SQLITE_OK && code != SQLITE_DONE && code != SQLITE_ROW)
+      throw std::runtime_error(path + ": " + sqlite3_errmsg(handle));
+  }
+  void run(const std::string& sql) const {
+    require(sqlite3_exec(handle, sql.c_str(), nullptr, nullptr, nullptr));
+  }
+
+  std::string path;
+  sqlite3* handle = nullptr;
+};
+
+namespace {
+
+/// A statement with its values, given and taken in their order.
+class Statement {
+ public:
+  Statement(sqlite3* handle, const std::string& path, const std::string& sql) : handle_(handle), path_(path) {
+    if (sqlite3_prepare_v2(handle, sql.c_str(), -1, &statement_, nullptr) != SQLITE_OK) fail();
+  }
+  ~Statement() { sqlite3_finalize(statement_); }
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  void give(const std::string& text) {
+    sqlite3_bind_text(statement_, ++given_, text.c_str(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
+  }
+  void give(std::size_t number) {
+    sqlite3_bind_int64(statement_, ++given_, static_cast<sqlite3_int64>(number));
+  }
+  /// Nothing and what is no number are null.
+  void give(const std::optional<double>& number) {
+    ++given_;
+    if (number && !std::isnan(*number)) sqlite3_bind_double(statement_, given_, *number);
+  }
+  /// Whether there is a row.
+  bool step() {
+    const int code = sqlite3_step(statement_);
+    if (code != SQLITE_ROW && code != SQLITE_DONE) fail();
+    taken_ = 0;
+    return code == SQLITE_ROW;
+  }
+  std::string text() {
+    const auto* bytes = reinterpret_cast<const char*>(sqlite3_column_text(statement_, taken_));
+    const auto size = static_cast<std::size_t>(sqlite3_column_bytes(statement_, taken_++));
+    return bytes == nullptr ? std::string() : std::string(bytes, size);
+  }
+  std::size_t count() { return static_cast<std::size_t>(sqlite3_column_int64(statement_, taken_++)); }
+  std::optional<double> number() {
+    const int column = taken_++;
+    if (sqlite3_column_type(statement_, column) == SQLITE_NULL) return std::nullopt;
+    return sqlite3_column_double(statement_, column);
+  }
+
+ private:
+  [[noreturn]] void fail() const { throw std::runtime_error(path_ + ": " + sqlite3_errmsg(handle_)); }
+
+  sqlite3* handle_;
+  const std::string& path_;
+  sqlite3_stmt* statement_ = nullptr;
+  int given_ = 0, taken_ = 0;
+};
+
+void put_into(Statement& statement, const CellRecord& record) {
+  statement.give(record.cell);
+  for (const std::string* text : {&record.of_matrix, &record.outcome, &record.because, &record.why})
+    statement.give(*text);
+  for (const double number : {record.simulated, record.torque, record.wall})
+    statement.give(std::optional<double>(number));
+  for (const double drawn : record.drawn) statement.give(std::optional<double>(drawn));
+  for (const ExpectationRecord& one : record.expectations) {
+    statement.give(std::size_t{one.held ? 1U : 0U});
+    statement.give(one.margin);
+    statement.give(one.value);
+  }
+  statement.step();
+}
+
+CellRecord taken_from(Statement& row, std::size_t draws, std::size_t claims) {
+  CellRecord record;
+  record.cell = row.count();
+  for (std::string* text : {&record.of_matrix, &record.outcome, &record.because, &record.why})
+    *text = row.text();
+  for (double* number : {&record.simulated, &record.torque, &record.wall})
+    *number = row.number().value_or(0.0);
+  for (std::size_t i = 0; i < draws; ++i) record.drawn.push_back(row.number().value_or(0.0));
+  for (std::size_t i = 0; i < claims; ++i) {
+    const bool held = row.count() != 0;
+    const std::optional<double> margin = row.number();
+    record.expectations.push_back({held, margin, row.number()});
+  }
+  return record;
+}
+
+/// The fingerprint of the study whose results the file holds; empty: it holds none yet.
+std::string fingerprint_in(sqlite3* handle, const std::string& path) {
+  Statement table(handle, path, "SELECT count(*) FROM sqlite_master WHERE name = 'study'");
+  table.step();
+  if (table.count() == 0) return {};
+  Statement said(handle, path, "SELECT value FROM study WHERE key = 'fingerprint'");
+  return said.step() ? said.text() : std::string();
+}
+
+}  // namespace
+
+StudyIdentity identity_of(const lang::Study& study, const std::string& fingerprint) {
+  StudyIdentity identity{fingerprint, {}, {}, study.claims};
+  for (const lang::Draw& draw : study.draws) {
+    identity.draws.push_back("draw." + draw.name);
+    identity.units.push_back(draw.unit);
+  }
+  return identity;
+}
+
+ResultStore::ResultStore(const std::string& path, const StudyIdentity& identity)
+    : database_(std::make_unique<Database>(path)), identity_(identity) {
+  sqlite3* handle = database_->handle;
+  constexpr int patience = 10'000;  // [ms]
+  sqlite3_busy_timeout(handle, patience);
+  const std::string found = fingerprint_in(handle, path);
+  if (!found.empty() && found != identity.fingerprint)
+    throw std::runtime_error(path +
+                             ": holds the results of other files or of another version of zwang; "
+                             "keep it and name another one with --out, or begin anew with --fresh");
+  // Readers do not wait for the writer. A commit need not reach the disk at once: the log does.
+  database_->run("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL;");
+  if (!found.empty()) return;
+  std::string columns;
+  for (const std::string& column : columns_of(identity)) columns += (columns.empty() ? "" : ", ") + column;
+  database_->run(
+      "BEGIN IMMEDIATE; CREATE TABLE study (key TEXT PRIMARY KEY, value TEXT);"
+      "CREATE TABLE draws (number INTEGER PRIMARY KEY, name TEXT, unit TEXT);"
+      "CREATE TABLE expectations (number INTEGER PRIMARY KEY, text TEXT, probability REAL, confidence "
+      "REAL); CREATE TABLE cells (" +
+      columns + ");");
+  for (std::size_t i = 0; i < identity.draws.size(); ++i) {
+    Statement draw(handle, database_->path, "INSERT INTO draws VALUES (?, ?, ?)");
+    draw.give(i + 1);
+    draw.give(identity.draws[i]);
+    draw.give(identity.units[i]);
+    draw.step();
+  }
+  for (std::size_t i = 0; i < identity.claims.size(); ++i) {
+    Statement claim(handle, database_->path, "INSERT INTO expectations VALUES (?, ?, ?, ?)");
+    claim.give(i + 1);
+    claim.give(identity.claims[i].text);
+    claim.give(identity.claims[i].probability);
+    claim.give(std::optional<double>(identity.claims[i].confidence));
+    claim.step();
+  }
+  Statement said(handle, database_->path, "INSERT INTO study VALUES ('fingerprint', ?)");
+  said.give(identity.fingerprint);
+  said.step();
+  database_->run("COMMIT");
+}
+
+ResultStore::~ResultStore() = default;
+
+std::set<std::size_t> ResultStore::cells() const {
+  Statement rows(database_->handle, database_->path, "SELECT cell FROM cells");
+  std::set<std::size_t> cells;
+  while (rows.step()) cells.insert(rows.count());
+  return cells;
+}
+
+void ResultStore::put(const CellRecord& record) {
+  const std::size_t count = columns_of(identity_).size();
+  std::string places = "?";
+  for (std::size_t i = 1; i < count; ++i) places += ", ?";
+  Statement insert(database_->handle, database_->path,
+                   "INSERT OR REPLACE INTO cells VALUES (" + places + ")");
+  put_into(insert, record);
+}
+
+std::vector<CellRecord> ResultStore::records(std::size_t runs) const {
+  Statement rows(database_->handle, database_->path, "SELECT * FROM cells WHERE cell < ? ORDER BY cell");
+  rows.give(runs);
+  std::vector<CellRecord> records;
+  while (rows.step()) records.push_back(taken_from(rows, identity_.draws.size(), identity_.claims.size()));
+  return records;
+}
+
+void ResultStore::merge(const std::string& path) {
+  // Otherwise an empty one would be made.
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": no such file");
+  const ResultStore other(path, identity_);
+  database_->run("BEGIN IMMEDIATE");
+  for (const CellRecord& record : other.records(lang::most_cells_of_a_study)) put(record);
+  database_->run("COMMIT");
+}
+
+}  // namespace zwang::study

@@ -1,0 +1,43 @@
+/// The results of a study in one SQLite file: what resumes, reports, and `sqlite3` or Python reads.
+#pragma once
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "study/cell_record.hpp"
+
+namespace zwang::study {
+
+/// The study that a file of results belongs to. Other texts, another version or seed make another study.
+struct StudyIdentity {
+  std::string fingerprint;
+  std::vector<std::string> draws, units;
+  std::vector<lang::Claim> claims;
+};
+StudyIdentity identity_of(const lang::Study& study, const std::string& fingerprint);
+
+/// Tables: `cells`, a row each with a column of each draw and with held_N, margin_N, value_N of expectation
+/// N; `expectations`, `draws` and `study`. Another process may read while it grows.
+class ResultStore {
+ public:
+  /// Throws std::runtime_error where the file cannot be written, or is made for something else.
+  ResultStore(const std::string& path, const StudyIdentity& identity);
+  ~ResultStore();
+
+  std::set<std::size_t> cells() const;
+  /// Kept at once: a process that is killed right behind this loses nothing.
+  void put(const CellRecord& record);
+  /// In the order of the cells, below `runs`.
+  std::vector<CellRecord> records(std::size_t runs) const;
+  /// All cells of another file of the same study. Throws as the constructor does.
+  void merge(const std::string& path);
+
+ private:
+  struct Database;
+  std::unique_ptr<Database> database_;
+  StudyIdentity identity_;
+};
+
+}  // namespace zwang::study

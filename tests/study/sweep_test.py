@@ -1,0 +1,140 @@
+"""`zwang sweep` as its users have it, on a task that takes 0.1 s.
+
+    sweep_test.py PROGRAM SPECS
+
+The results do not depend on the number of processes, on a kill -9 under way, or on being computed in parts. A
+cell runs again alone, bit for bit. Ends with 1 and says why when anything is otherwise.
+"""
+
+import json
+import pathlib
+import shutil
+import signal
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+
+TASK = """zwang: 1
+robot: robots/mecanum_base.yaml
+scene: scene.yaml
+params: {pace: {value: 5 cm/s, range: [1 cm/s, 20 cm/s]}}
+start: go
+tasks:
+  go:
+    constraints: {go: {move: base_link, in: base_link, x: {velocity: $pace}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
+    timeout: {after: 0.1 s, goto: done}
+"""
+SCENE = """zwang_scene: 1
+state: {position: 1 mm, velocity: 1 mm/s}
+objects: {crate: {box: [1 m, 1 m, 1 m], at: [3 m, 0 m], mass: 20 kg}}
+"""
+STUDY = """zwang_study: 1
+task: task.yaml
+runs: 8
+draw:
+  params.pace: {uniform: [2 cm/s, 10 cm/s]}
+  start.yaw: {normal: [0 deg, 10 deg]}
+  robot.mass: {normal: [1, 0.05], times: true}
+  robot.friction: {log_uniform: [0.5, 2], times: true}
+  robot.wheel_radius: {uniform: [0.98, 1.02], times: true}
+  scene.crate.stiffness: {log_uniform: [10 kN/m, 1 MN/m]}
+  state.delay: {choice: [0 ms, 5 ms]}
+  faults: {choice: [none, slip]}
+  faults.slip.at: {uniform: [0 s, 50 ms]}
+faults: {slip: [{at: 0 s, floor_friction: 0.3}]}
+expect:
+  - {outcome: done, probability: 99.9 %}
+  - {at: end, that: truth.base.speed < 6 cm/s, probability: 1 %}
+"""
+
+failures = []
+
+
+def expect(holds, what):
+    if not holds:
+        failures.append(what)
+
+
+def rows(path):
+    """All but the real time."""
+    with sqlite3.connect(path) as database:
+        cursor = database.execute("SELECT * FROM cells ORDER BY cell")
+        wall = [column[0] for column in cursor.description].index("wall")
+        return [row[:wall] + row[wall + 1:] for row in cursor]
+
+
+def main(program, specs):
+    folder = pathlib.Path(tempfile.mkdtemp(prefix="zwang_sweep_"))
+    shutil.copytree(pathlib.Path(specs) / "robots", folder / "robots")
+    for name, text in [("task.yaml", TASK), ("scene.yaml", SCENE), ("study.yaml", STUDY)]:
+        (folder / name).write_text(text)
+
+    def zwang(*arguments):
+        return subprocess.run([program, *arguments], cwd=folder, capture_output=True, text=True)
+
+    alone = zwang("sweep", "study.yaml", "-j", "1", "--out", "alone.db", "--format", "json")
+    expect(alone.returncode == 0, f"sweep ends with {alone.returncode}: {alone.stderr}{alone.stdout}")
+    report = json.loads(alone.stdout)
+    expect(report["cells"] == 8 and report["passed"], f"the report says {alone.stdout}")
+    expect([e["verdict"] for e in report["expectations"]] == ["too few runs", "held"], f"verdicts: {alone.stdout}")
+    pace = {c["draw"]: c.get("margin") for c in report["expectations"][1]["correlations"]}["params.pace"]
+    expect(pace is not None and pace < -0.7, f"the margin of the speed goes with the pace by {pace}")
+    reference = rows(folder / "alone.db")
+
+    zwang("sweep", "study.yaml", "-j", "3", "--out", "three.db")
+    expect(rows(folder / "three.db") == reference, "three processes have other results than one")
+
+    killed = subprocess.Popen([program, "sweep", "study.yaml", "-j", "2", "--out", "killed.db"], cwd=folder,
+                              stdout=subprocess.DEVNULL)
+    for _ in range(2000):
+        time.sleep(0.01)
+        if killed.poll() is not None or ((folder / "killed.db").exists() and cells(folder / "killed.db") >= 3):
+            break
+    killed.send_signal(signal.SIGKILL)
+    killed.wait()
+    before = cells(folder / "killed.db")
+    again = zwang("sweep", "study.yaml", "-j", "2", "--out", "killed.db")
+    expect(again.returncode == 0, f"a killed sweep does not go on: {again.stderr}")
+    expect(before >= 3 and rows(folder / "killed.db") == reference, "a killed sweep has other results")
+
+    for part in ("1/2", "2/2"):
+        zwang("sweep", "study.yaml", "--shard", part)
+    merged = zwang("sweep", "study.yaml", "--out", "merged.db", "--merge", "study.1-of-2.db", "study.2-of-2.db")
+    expect(merged.returncode == 0 and rows(folder / "merged.db") == reference, f"parts: {merged.stderr}")
+
+    for log in ("first", "second"):
+        one = zwang("run", "study.yaml", "--cell", "5", "--log", log, "--format", "json")
+        expect(one.returncode == 0, f"a cell alone ends with {one.returncode}: {one.stderr}")
+    csv = [zwang("log", log).stdout for log in ("first", "second")]
+    expect(csv[0] == csv[1] and len(csv[0]) > 1000, "a cell that runs again has another log")
+    elapsed = json.loads(one.stdout).get("time")
+    expect(elapsed is None or abs(elapsed - reference[5][5]) < 2e-3,
+           f"{elapsed} s alone, {reference[5][5]} s in the sweep")
+    replayed = zwang("replay", "first")
+    expect(replayed.returncode == 0, f"replay: {replayed.stdout}{replayed.stderr}")
+
+    (folder / "scene.yaml").write_text(SCENE.replace("20 kg", "21 kg"))
+    other = zwang("sweep", "study.yaml", "--out", "alone.db")
+    expect(other.returncode == 2 and "--fresh" in other.stderr, f"results of other files: {other.stderr}")
+    expect(zwang("run", "study.yaml").returncode == 2, "a study runs without the number of a cell")
+    expect(zwang("sweep", "study.yaml", "--shard", "3/2").returncode == 2, "a part beyond the last one")
+    expect(zwang("sweep", "task.yaml").returncode == 1, "a task is swept")
+
+    shutil.rmtree(folder)
+    for failure in failures:
+        print(failure)
+    return 1 if failures else 0
+
+
+def cells(path):
+    try:
+        with sqlite3.connect(f"file:{path}?mode=ro", uri=True) as database:
+            return database.execute("SELECT count(*) FROM cells").fetchone()[0]
+    except sqlite3.OperationalError:
+        return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
