@@ -87,7 +87,9 @@ double spatial_acceleration_along(const Moving& robot, const Row& row) {
   return sum;
 }
 
-void expect_derivatives(const Moving& robot, AxisConstraint c, const std::string& what) {
+/// `stretch`: of the velocity to the rate of the position.
+void expect_derivatives(const Moving& robot, AxisConstraint c, const std::string& what,
+                        double stretch = 1.0) {
   const solver::Coordinate now = robot.coordinate(c, 0.0);
   // Central differences of fourth order.
   const auto derivative = [&](double solver::Coordinate::*quantity) {
@@ -97,7 +99,7 @@ void expect_derivatives(const Moving& robot, AxisConstraint c, const std::string
   };
   const bool has_position = c.measure != Measure::speed && c.in.body != c.move.body;
   if (has_position) {
-    EXPECT_NEAR(derivative(&solver::Coordinate::position), now.velocity, 1e-8) << what;
+    EXPECT_NEAR(stretch * derivative(&solver::Coordinate::position), now.velocity, 1e-8) << what;
   }
   const double dds = derivative(&solver::Coordinate::velocity);
   c.driver = solver::Driver{.quantity = Quantity::acceleration, .target = 0.0};
@@ -168,6 +170,76 @@ TEST(Measures, HaveTheDerivativesThatTheirRowsSay) {
     }
   }
   EXPECT_GT(bearings, 40);  // of 80: few stand on the other's z axis
+}
+
+// Of x the velocity is the frame's own along the tangent, u = (1 - k o) ds.
+TEST(Measures, AlongAPathHaveTheDerivativesThatTheirRowsSay) {
+  int arcs = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Moving robot(seed);
+    const struct {
+      const char* name;
+      AttachedFrame in;
+    } paths[] = {{"a moving object", robot.object}, {"elbow", robot.elbow}, {"the world", robot.fixed}};
+    for (const auto& path : paths) {
+      for (const double curvature : {0.0, 0.8, -1.3}) {
+        AxisConstraint c;
+        c.move = robot.hand;
+        c.in = path.in;
+        c.measure = Measure::path;
+        c.curvature = curvature;
+        c.axis = Axis::y;
+        const double share = 1.0 - curvature * robot.coordinate(c, 0.0).position;
+        if (share < 0.3) continue;
+        arcs += curvature != 0.0 ? 1 : 0;
+        const std::string where = std::string(path.name) + ", seed " + std::to_string(seed) + ": ";
+        expect_derivatives(robot, c, where + "across");
+        c.axis = Axis::z;
+        expect_derivatives(robot, c, where + "above");
+        c.axis = Axis::x;
+        c.arc_length = 5.0;
+        expect_derivatives(robot, c, where + "along", share);
+      }
+    }
+  }
+  EXPECT_GT(arcs, 60);  // of 120: few stand near the centre
+}
+
+// A base that goes around the centre of the arc keeps its place across it and its heading against it, and
+// the unit force along it is one of a newton, however far it is from the arc.
+TEST(Measures, AroundTheCentreOfAnArcNothingButTheWayAlongItGrows) {
+  const solver::Model model = solver::test::mecanum({});
+  for (const double radius : {0.5, 2.0, 3.0}) {
+    solver::State state(model);
+    constexpr double angle = 0.7, speed = 0.4, heading = 0.2;
+    state.base_pose.rotation = solver::rotation_from_rpy(0.0, 0.0, angle + heading);
+    state.base_pose.position = {radius * std::sin(angle), 2.0 - radius * std::cos(angle), 0.0};
+    state.base_twist.angular.z() = speed / radius;
+    state.base_twist.linear = {speed * std::cos(heading), -speed * std::sin(heading), 0.0};
+    AxisConstraint c;
+    c.move = {0, {}};
+    c.in = {-1, {}};
+    c.measure = Measure::path;
+    c.curvature = 0.5;
+    c.arc_length = 1.0;
+    const auto along = [&](Axis axis) {
+      c.axis = axis;
+      return coordinate_of(c, model, state);
+    };
+    EXPECT_NEAR(along(Axis::x).position, 1.0 + 2.0 * angle, 1e-12);
+    EXPECT_NEAR(along(Axis::x).velocity, speed, 1e-12);
+    EXPECT_NEAR(along(Axis::y).position, 2.0 - radius, 1e-12);
+    EXPECT_NEAR(along(Axis::y).velocity, 0.0, 1e-12);
+    EXPECT_NEAR(along(Axis::rz).position, heading, 1e-12);
+    EXPECT_NEAR(along(Axis::rz).velocity, 0.0, 1e-12);
+    c.axis = Axis::x;
+    c.driver = solver::Driver{.quantity = Quantity::acceleration, .target = 0.0};
+    solver::ConstraintSet set(1, 1);
+    ASSERT_TRUE(set.add(c));
+    ASSERT_TRUE(set.fill(model, state));
+    EXPECT_NEAR(set.rows()[0].a.linear.norm(), 1.0, 1e-12);
+    c.driver.reset();
+  }
 }
 
 // Axes that the body carries move as fixed ones do that coincide with them now; where they are counts for

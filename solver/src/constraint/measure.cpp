@@ -1,12 +1,14 @@
 #include "constraint/measure.hpp"
 
 #include <cmath>
+#include <numbers>
 
 namespace zwang::solver {
 
 namespace {
 
-constexpr double degenerate = 1e-9;  // a distance, or the sine of an angle, that has no direction
+constexpr double degenerate = 1e-9;      // a distance, or the sine of an angle, that has no direction
+constexpr double nearest_centre = 1e-3;  // of an arc, in radii
 
 /// The angle of R = T' F about its own axis `k` alone (the twist of a swing-twist decomposition).
 double twist_angle(const Matrix3& T, const Matrix3& F, int k) {
@@ -129,6 +131,50 @@ Measurement along_bearing(const FrameMotion& f, const FrameMotion& t) {
   return result;
 }
 
+/// Of the arc through T's origin along T's x, with the centre (0, 1/k). At (x, y) in T the nearest point of
+/// the arc has the tangent t = (cos f, sin f) and the normal n = (-sin f, cos f), with
+///   q sin f = k x,   q cos f = 1 - k y,   q = 1 - k o     o: the offset along n
+///   s = s_0 + f/k    u = t.v    do = n.v    df = k u/q
+/// The row of x has u for its velocity, not ds = u/q: its multiplier is the force along t, and a range of
+/// that force is one of newtons wherever the frame is. With the accelerations of x and y as along an axis of
+/// T
+///   du = t.a + df do       ddo = n.a - df u
+/// The heading r = rz - f turns against the tangent with dr = drz - df. What speeds up along the path
+/// adds nothing to its row: ddr = ddrz where df is constant, and the row presses with a torque alone.
+Measurement along_path(const FrameMotion& f, const FrameMotion& t, const AxisConstraint& c) {
+  if (c.axis == Axis::z) return along_axis(f, t, Axis::z);
+  const double k = c.curvature;
+  const Measurement x = along_axis(f, t, Axis::x), y = along_axis(f, t, Axis::y);
+  const double ahead = k * x.now.position, inwards = 1.0 - k * y.now.position;
+  const double q = std::hypot(ahead, inwards);
+  Measurement result;
+  result.is_degenerate = q < nearest_centre;
+  if (result.is_degenerate) return result;
+  const double sine = ahead / q, cosine = inwards / q, angle = std::atan2(ahead, inwards);
+  const double along = cosine * x.now.velocity + sine * y.now.velocity;
+  const double across = cosine * y.now.velocity - sine * x.now.velocity;
+  const double turning = k * along / q;
+  Coordinate& now = result.now;
+  if (is_rotation(c.axis)) {
+    result = along_axis(f, t, Axis::rz);
+    now.position = std::remainder(now.position - angle, 2.0 * std::numbers::pi);
+    now.velocity -= turning;
+  } else if (c.axis == Axis::x) {
+    result.force = cosine * x.force + sine * y.force;
+    now.position = c.arc_length + (k == 0.0 ? x.now.position : angle / k);
+    now.velocity = along;
+    now.acceleration_bias =
+        cosine * x.now.acceleration_bias + sine * y.now.acceleration_bias + turning * across;
+  } else {
+    result.force = cosine * y.force - sine * x.force;
+    now.position = k == 0.0 ? y.now.position : (1.0 - q) / k;
+    now.velocity = across;
+    now.acceleration_bias =
+        cosine * y.now.acceleration_bias - sine * x.now.acceleration_bias - turning * along;
+  }
+  return result;
+}
+
 /// ds = |v| in T's plane, and d|v|/dt = v.dv/dt / |v|: the direction of the present motion.
 Measurement along_motion(const FrameMotion& f, const FrameMotion& t) {
   const double vx = along_axis(f, t, Axis::x).now.velocity;
@@ -208,6 +254,8 @@ Measurement measure(const AxisConstraint& constraint, const FrameMotion& f, cons
       return along_angle(f, t, constraint.axis, constraint.other_axis);
     case Measure::bearing:
       return along_bearing(f, t);
+    case Measure::path:
+      return along_path(f, t, constraint);
     case Measure::speed:
       return along_motion(f, t);
     case Measure::turn:  // of carried axes alone

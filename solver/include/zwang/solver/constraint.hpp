@@ -36,6 +36,9 @@ enum class Measure {
   bearing,    ///< of T's origin, from F's x axis towards its y axis, in F's x-y plane; it wraps, and makes no
               ///< row where T's origin is nearer to F's z axis than `nearest_bearing`
   speed,      ///< of F in the x-y plane of T; velocity ranges only, and no row below half of the highest
+  path,  ///< the same along a piece of a path in T's x-y plane, a line or an arc that begins at T's origin
+         ///< along T's x: x is the arc length of the nearest point, and its velocity that of F along the
+         ///< tangent there; y how far F is to the left, rz F's heading from the tangent, z as an axis
   side,  ///< a direction in the x-y plane of T whose acceleration is that of the point F, also where T turns
   turn,  ///< s = w v of axes that F's body carries: v along `coefficients`, w about z. With it a base that
          ///< cannot move sideways accelerates sideways. Ranges of s [m/s^2] are `velocity`, and make no row
@@ -71,6 +74,8 @@ struct AxisConstraint {
   Axis axis = Axis::x;                   ///< of an angle: the one of F
   Axis other_axis = Axis::x;             ///< of an angle: the one of T
   std::array<double, 6> coefficients{};  ///< of a direction, a side or a turn, by x y z rx ry rz
+  double curvature = 0.0;                ///< k of a path's piece [1/m], above 0 to the left; 0: a line
+  double arc_length = 0.0;               ///< where the path's piece begins [m]
   std::optional<Driver> driver;
   std::optional<Range> position;      ///< [m] or [rad]
   std::optional<Range> velocity;      ///< [m/s] or [rad/s]
@@ -94,7 +99,10 @@ struct AxisConstraint {
   /// Whether the measure is in radians by its kind: a direction may be, and does not know.
   bool is_angle() const { return measure == Measure::angle || wraps(); }
   /// An angle that starts anew at pi.
-  bool wraps() const { return measure == Measure::bearing || (measure == Measure::axis && axis >= Axis::rx); }
+  bool wraps() const {
+    const bool has_axis = measure == Measure::axis || measure == Measure::path;
+    return measure == Measure::bearing || (has_axis && axis >= Axis::rx);
+  }
 };
 
 /// The present motion along a measure. [m, m/s] or [rad, rad/s]
