@@ -171,7 +171,7 @@ TEST(LanguageOfThePage, has_every_key_and_word_of_the_schemas) {
 
 /// The line of the page's table, as the table of the functions has it.
 std::string row_of(const ConditionFunction& function) {
-  static constexpr std::array arguments{"x", "signal", "frame", "task"};
+  static constexpr std::array arguments{"x", "signal", "frame", "task", "path"};
   const std::string argument = arguments[static_cast<std::size_t>(function.argument)];
   const auto& p = function.powers;
   const std::string what = describe(Dimension{p[0], p[1], p[2], p[3]});

@@ -142,6 +142,7 @@ class ConditionCheck {
       lowered.index = *signal;
       return boolean_type;
     }
+    if (function.argument == FunctionArgument::path) return check_call_of_path(node, lowered);
     const std::optional<int> frame = check_frame(context_, {node.argument, node.span});
     if (!frame) return bad_type;
     if (context_.symbols.stands_in_world(*frame)) {
@@ -158,6 +159,21 @@ class ConditionCheck {
     Diagnostic diagnostic = wording::unknown_name(node.span, kind, node.argument, known);
     if (diagnostic.replacement) diagnostic.replacement = node.word + "(" + *diagnostic.replacement + ")";
     return complain(std::move(diagnostic));
+  }
+
+  /// Nothing changes its length: a constant.
+  Type check_call_of_path(const ExpressionText& node, ExpressionNode& lowered) {
+    const std::optional<int> frame = context_.symbols.find_frame(node.argument);
+    const int path = frame ? context_.symbols.frames[static_cast<std::size_t>(*frame)].path : -1;
+    if (path < 0) {
+      std::vector<std::string> known;
+      for (const Path& other : context_.file.paths) known.push_back(other.name);
+      return complain_of_argument(node, "path", known);
+    }
+    context_.symbols.frames[static_cast<std::size_t>(*frame)].is_used = true;
+    lowered.op = Op::constant;
+    lowered.number = context_.file.paths[static_cast<std::size_t>(path)].length();
+    return type_of_function(*find_function(node.word));
   }
 
   Type check_call_of_task(const ExpressionText& node, ExpressionNode& lowered) {

@@ -96,7 +96,8 @@ void check_uses(CheckContext& context) {
   }
   for (const FrameSymbol& symbol : context.symbols.frames) {
     if (symbol.is_declared && !symbol.is_used) {
-      context.diagnostics.add(wording::unused(symbol.declaration.span, "frame", symbol.declaration.name));
+      const char* kind = symbol.path >= 0 ? "path" : "frame";
+      context.diagnostics.add(wording::unused(symbol.declaration.span, kind, symbol.declaration.name));
     }
   }
 }

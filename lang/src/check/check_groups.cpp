@@ -6,6 +6,7 @@
 #include "check/parameter_values.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_forces.hpp"
+#include "diagnostic/wordings_paths.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_standing.hpp"
 
@@ -330,6 +331,20 @@ void check_group_return(CheckContext& context, const GroupText& group) {
     context.diagnostics.add(wording::return_without_range(group.return_speed->span, group.name.text));
 }
 
+/// Of a group along a path: its axes, and that its frame moves against the path.
+void check_path_group(CheckContext& context, const GroupText& group, const std::optional<int>& move_index,
+                      const FrameSymbol& path) {
+  for (const AxisText& axis : group.axes) {
+    const std::string& word = axis.name.text;
+    if (word != "x" && word != "y" && word != "z" && word != "rz")
+      context.diagnostics.add(wording::no_axis_of_a_path(axis.name.span, group.name.text, word,
+                                                         group.move.text, path.declaration.name));
+  }
+  if (!move_index || path.body < 0) return;
+  if (context.symbols.frames[static_cast<std::size_t>(*move_index)].body == path.body)
+    context.diagnostics.add(wording::rigid_path(group.in.span, group.move.text, path.declaration.name));
+}
+
 void check_group(CheckContext& context, const std::vector<GroupText>& groups, const GroupText& group) {
   if (group.kind == GroupKind::inside) return check_inside(context, group);
   if (group.kind == GroupKind::feature) return check_feature_group(context, groups, group);
@@ -347,6 +362,8 @@ void check_group(CheckContext& context, const std::vector<GroupText>& groups, co
   if (group.axes.empty() && !group.is_incomplete)
     context.diagnostics.add(wording::group_without_axes(group.name.span, group.name.text));
   for (const AxisText& axis : group.axes) AxisCheck(context, groups, group, axis).check();
+  const FrameSymbol* axes = in ? &context.symbols.frames[static_cast<std::size_t>(*in)] : nullptr;
+  if (axes != nullptr && axes->path >= 0) return check_path_group(context, group, move, *axes);
   check_positions(context, group, move, in);
 }
 

@@ -163,6 +163,7 @@ class FrameOrder {
     symbol.declaration.name = frame.name.text;
     symbol.declaration.span = frame.span;
     symbol.declaration.pose = pose_of(frame);
+    if (frame.is_path) symbol.path = path_named(frame.name.text);
     if (hangs_on_signal(frame, symbol)) {
       context_.symbols.frames.push_back(std::move(symbol));
       return;
@@ -175,6 +176,12 @@ class FrameOrder {
       symbol.declaration.parent_index = *parent == 0 ? -1 : *parent;
     }
     context_.symbols.frames.push_back(std::move(symbol));
+  }
+
+  int path_named(const std::string& name) const {
+    const std::vector<Path>& paths = context_.file.paths;
+    const auto is_it = [&](const Path& path) { return path.name == name; };
+    return static_cast<int>(std::find_if(paths.begin(), paths.end(), is_it) - paths.begin());
   }
 
   /// What it may hang on are pose signals, too.
@@ -269,8 +276,26 @@ void check_parameters(CheckContext& context) {
   gather_set_values(context);
 }
 
+namespace {
+
+/// A path is a frame, too: one of `frames` cannot have its name.
+void check_names_of_paths(CheckContext& context) {
+  const std::vector<FrameText>& frames = context.file.frames;
+  for (const FrameText& path : frames) {
+    if (!path.is_path) continue;
+    const auto is_taken = [&](const FrameText& frame) {
+      return !frame.is_path && frame.name.text == path.name.text;
+    };
+    if (std::any_of(frames.begin(), frames.end(), is_taken))
+      context.diagnostics.add(wording::name_taken(path.span, path.name.text, "a frame"));
+  }
+}
+
+}  // namespace
+
 void check_frames(CheckContext& context) {
   add_robot_frames(context);
+  check_names_of_paths(context);
   for (const FrameText& frame : context.file.frames) {
     const std::optional<int> taken = context.symbols.find_frame(frame.name.text);
     if (!taken) continue;

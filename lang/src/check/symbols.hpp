@@ -22,6 +22,7 @@ struct ParameterSymbol {
 struct FrameSymbol {
   FrameDeclaration declaration;
   int body = -1;             ///< that carries it; -1: it stands in the world
+  int path = -1;             ///< that begins in it, of TaskFile::paths
   bool is_declared = false;  ///< by the task file, rather than by the robot
   bool is_bad = false;
   bool is_used = false;

@@ -70,7 +70,9 @@ std::optional<Span> NameWalk::span_of(const Node& scalar, std::size_t begin, std
 std::vector<NameKind> kinds_in(const ConditionFunction* called) {
   if (called != nullptr && called->argument == FunctionArgument::task) return {NameKind::task};
   if (called != nullptr && called->argument == FunctionArgument::signal) return {NameKind::signal};
-  if (called != nullptr && called->argument == FunctionArgument::frame) return {NameKind::frame};
+  const bool is_place = called != nullptr && (called->argument == FunctionArgument::frame ||
+                                              called->argument == FunctionArgument::path);
+  if (is_place) return {NameKind::frame};
   return {NameKind::group,   NameKind::signal, NameKind::output,
           NameKind::feature, NameKind::frame,  NameKind::object};
 }
@@ -162,10 +164,11 @@ void NameWalk::walk_task_file(const Node& root) {
 }
 
 void NameWalk::walk_declarations(const Node& root) {
-  constexpr std::array<std::pair<const char*, NameKind>, 8> sections = {
+  constexpr std::array<std::pair<const char*, NameKind>, 9> sections = {
       {{"params", NameKind::parameter},
        {"outputs", NameKind::output},
        {"frames", NameKind::frame},
+       {"paths", NameKind::frame},  // the one that it begins in
        {"regions", NameKind::region},
        {"signals", NameKind::signal},
        {"features", NameKind::feature},
@@ -179,7 +182,7 @@ void NameWalk::walk_declarations(const Node& root) {
 /// The frames that other frames, regions and signals are seen from.
 void NameWalk::walk_frames(const Node& root) {
   const Kinds frames{NameKind::frame, NameKind::signal};
-  for (const char* section : {"frames", "regions"}) {
+  for (const char* section : {"frames", "regions", "paths"}) {
     for (const Entry& entry : below(root, section).entries) mean(below(entry.value, "parent"), frames);
   }
   for (const Entry& signal : below(root, "signals").entries) {

@@ -284,6 +284,51 @@ tasks:
   go:
     enter: {set: {outputs.gripper: true}}
     timeout: {after: 1 s, goto: done})~"},
+      Explanation{
+          .code = "E419",
+          .title = "a path that cannot be drawn",
+          .why =
+              R"~(A fillet of radius r takes r tan(turn/2) of the lines on both sides of its corner. Two corners share
+the line between them. A path that turns back has no fillet, and one place alone has no direction.)~",
+          .fix = "Take the radius of the message, move the points apart, or write two paths.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(paths: {way: {through: [[0 m, 0 m], [3 m, 0 m], [3 m, 2 m]], fillet: 2.5 m}}
+tasks:
+  drive:
+    constraints:
+      go: {move: bumper, in: way, x: {velocity: 0.3 m/s}, y: {position: 0 m}}
+    exits: [{when: go.x.position > length(way), for: 20 ms, goto: done}]
+    timeout: {after: 60 s, goto: failed})~",
+          .instead = R"~(paths: {way: {through: [[0 m, 0 m], [3 m, 0 m], [3 m, 2 m]], fillet: 0.6 m}}
+tasks:
+  drive:
+    constraints:
+      go: {move: bumper, in: way, x: {velocity: 0.3 m/s}, y: {position: 0 m}}
+    exits: [{when: go.x.position > length(way), for: 20 ms, goto: done}]
+    timeout: {after: 60 s, goto: failed})~"},
+      Explanation{
+          .code = "E420",
+          .title = "an axis that a path does not have",
+          .why =
+              R"~(A path lies in a plane: a frame has its way along it (`x`), its offset to the left (`y`), its height
+(`z`) and its heading against the tangent (`rz`). Norms and the other angles do not turn with it.)~",
+          .fix = "State it in a group of its own, in the world or in the moved frame.",
+          .part = ExcerptOf::task_file,
+          .example = R"~(paths: {way: {through: [[0 m, 0 m], [3 m, 0 m]]}}
+tasks:
+  drive:
+    constraints:
+      go: {move: bumper, in: way, x: {velocity: 0.3 m/s}, y: {position: 0 m}, plane: {velocity: [0 m/s, 0.4 m/s]}}
+    exits: [{when: go.x.position > length(way), for: 20 ms, goto: done}]
+    timeout: {after: 60 s, goto: failed})~",
+          .instead = R"~(paths: {way: {through: [[0 m, 0 m], [3 m, 0 m]]}}
+tasks:
+  drive:
+    constraints:
+      go: {move: bumper, in: way, x: {velocity: 0.3 m/s}, y: {position: 0 m}}
+      calm: {move: bumper, in: world, plane: {velocity: [0 m/s, 0.4 m/s]}}
+    exits: [{when: go.x.position > length(way), for: 20 ms, goto: done}]
+    timeout: {after: 60 s, goto: failed})~"},
   };
   return entries;
 }

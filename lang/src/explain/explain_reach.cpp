@@ -171,6 +171,14 @@ tasks:
       gap: {move: base_link, in: person, x: {position: -0.9 m, velocity: +-0.6 m/s}}
     timeout: {after: 60 s, goto: done})~"},
       Explanation{
+          .code = "N622",
+          .title = "a heading along a path that nothing is left for",
+          .why =
+              R"~(A base of two freedoms meets two rows. If x and y of a point ahead of the axle are driven along a
+path, nothing is left for its heading. It turns into a straight path by itself: to a third after each
+length from the axle to the point.)~",
+          .fix = "Leave `rz` out, or keep the line for bases with three freedoms: it does no harm."},
+      Explanation{
           .code = "W618",
           .title = "a yield that rings when it is held",
           .why =
@@ -247,7 +255,8 @@ sideways with mu m g l, more than the push has at a corner of the footprint.)~",
           .title = "a circle that the norm of the acceleration does not allow",
           .why =
               R"~(A base that drives ahead at v and turns at w goes around a circle, and its point accelerates towards the centre with w v. The
-axes' own accelerations are 0 then; `plane` bounds the acceleration of the point, and slows the base down.)~",
+axes' own accelerations are 0 then; `plane` bounds the acceleration of the point, and slows the base down. A fillet of radius
+r that is driven along at v needs v^2/r; where the norm allows less, the base leaves the path.)~",
           .fix = "Turn or drive more slowly, or allow the acceleration: the message has the numbers.",
           .part = ExcerptOf::group,
           .example =

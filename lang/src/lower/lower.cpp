@@ -30,6 +30,8 @@ class Lowering {
     for (const OutputSymbol& symbol : checked_.symbols.outputs) program.outputs.push_back(symbol.output);
     for (const RegionSymbol& symbol : checked_.symbols.regions) program.regions.push_back(symbol.region);
     for (const FeatureSymbol& symbol : checked_.symbols.features) program.features.push_back(symbol.feature);
+    program.paths = checked_.file.paths;
+    for (Path& path : program.paths) path.frame = *checked_.symbols.find_frame(path.name);
     for (const GroupText& group : checked_.file.always_groups) {
       program.always.groups.push_back(lower_group(group, 0));
     }
@@ -126,6 +128,7 @@ class Lowering {
       case GroupKind::axes:
         group.move = *checked_.symbols.find_frame(text.move.text);
         group.in = *checked_.symbols.find_frame(text.in.text);
+        group.path = checked_.symbols.frames[static_cast<std::size_t>(group.in)].path;
         break;
       case GroupKind::inside:
         group.region = *checked_.symbols.find_region(text.region.text);

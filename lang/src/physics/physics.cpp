@@ -16,8 +16,9 @@ bool is_same_axis(const PlannedAxis& a, const PlannedAxis& b) {
     return f.body == g.body && f.pose.rotation.isApprox(g.pose.rotation) &&
            (f.pose.position - g.pose.position).norm() < 1e-9;
   };
-  return a.measure == b.measure && a.axis == b.axis && a.other_axis == b.other_axis &&
-         a.coefficients == b.coefficients && is_same(a.move, b.move) && is_same(a.in, b.in);
+  return a.is_on_path == b.is_on_path && a.measure == b.measure && a.axis == b.axis &&
+         a.other_axis == b.other_axis && a.coefficients == b.coefficients && is_same(a.move, b.move) &&
+         is_same(a.in, b.in);
 }
 
 /// A range on an axis of the base also bounds what frames on the base may do, however they are turned.
@@ -78,6 +79,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_distance(plan, probe, remarks);
   ask_top_speed(plan, *context.robot, remarks);
   ask_plane(plan, probe, remarks);
+  ask_path(context, plan, remarks);
   ask_arm_force(plan, *context.robot, remarks);
   ask_press(plan, probe, remarks);
   ask_springs(plan, probe, remarks);
@@ -90,6 +92,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_traction(plan, asked.scene, probe, remarks);
   if (!context.with_notes) return;
   ask_trailing(context, plan, remarks);
+  ask_heading(context, plan, probe, remarks);
   ask_hit(plan, asked.scene, probe, remarks);
   ask_force_budget(plan, probe, remarks);
 }

@@ -91,6 +91,7 @@ bool measure_axis(const CheckContext& context, const GroupText& group, const Axi
   axis.move_name = group.move.text;
   axis.in_name = group.in.text;
   axis.axis = *named;
+  axis.is_on_path = context.symbols.frames[static_cast<std::size_t>(*in)].path >= 0;
   stand_between(axis, place_of(context, *move), place_of(context, *in));
   return true;
 }

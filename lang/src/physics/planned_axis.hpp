@@ -25,8 +25,9 @@ struct PlannedAxis {
   solver::Axis axis = solver::Axis::x;        ///< of an angle: the one of `move`; of other features any alike
   solver::Axis other_axis = solver::Axis::x;  ///< of an angle: the one of `in`
   std::array<double, 6> coefficients{};       ///< of a direction
-  bool is_placed = true;  ///< false: a frame hangs on a signal, so nobody knows yet where it is
-  bool is_set = false;    ///< a `set` of the file puts one of its frames elsewhere
+  bool is_placed = true;    ///< false: a frame hangs on a signal, so nobody knows yet where it is
+  bool is_on_path = false;  ///< it turns with a path, at whose start it stands here
+  bool is_set = false;      ///< a `set` of the file puts one of its frames elsewhere
   std::optional<solver::Quantity> driver;
   std::optional<double> target;  ///< at the start; none: `here`, or a signal's
   std::optional<double>

@@ -54,6 +54,10 @@ void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 void ask_dead_guard(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W615: circles that the norm of an acceleration does not allow. W641: two ranges that are meant as a norm.
 void ask_plane(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+/// W615: fillets that the norm of an acceleration does not allow at the speed along the path.
+void ask_path(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
+/// N622: a heading along a path, of a base whose freedoms x and y take.
+void ask_heading(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W601: springs that an acceleration limit clips.
 void ask_springs(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W604: time constants too short for the braking, or for the tick.

@@ -49,6 +49,7 @@ class StartCheck {
 
   void check_group(const Group& group, const std::string& owner) {
     if (group.kind == GroupKind::inside) return check_region(group, owner);
+    if (group.path >= 0) return;  // from where along it the robot starts is found as it starts
     for (const AxisStatements& axis : group.axes) {
       if (axis.position) check_range(group, axis, owner);
     }

@@ -72,7 +72,7 @@ Json group_use() {
 
 Json group() {
   std::vector<Property> axes = {{"move", word("the frame that moves"), true},
-                                {"in", word("the frame whose axes count"), true}};
+                                {"in", word("the frame whose axes count, or a path"), true}};
   for (Property& property : manner()) axes.push_back(std::move(property));
   axes.push_back(way_back());
   for (const char* name : {"x", "y", "z", "rx", "ry", "rz"}) axes.push_back({name, reference("axis")});
@@ -185,6 +185,15 @@ Json regions() {
                                                  {"parent", word("a frame; default `world`")}}));
 }
 
+Json paths() {
+  Json points = list("the points, the first one where the path begins", reference("point"));
+  points["minItems"] = 2;
+  return named("lines that fillets join, which `in` of a group may name",
+               object("", {{"through", points, true},
+                           {"fillet", reference("quantity", "the radius of all corners")},
+                           {"parent", word("a frame; default `world`")}}));
+}
+
 Json signals() {
   return named(
       "values that are measured outside of zwang",
@@ -236,6 +245,7 @@ Json task_file() {
        {"params", parameters()},
        {"frames", frames()},
        {"regions", regions()},
+       {"paths", paths()},
        {"signals", signals()},
        {"outputs", outputs()},
        {"features", features()},

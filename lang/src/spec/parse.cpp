@@ -193,6 +193,7 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   each("params", [&](const Entry& e) { file.parameters.push_back(parse_parameter(e, diagnostics)); });
   each("frames", [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
   if (const Node* node = map.optional("regions")) file.regions = parse_regions(*node, diagnostics);
+  if (const Node* node = map.optional("paths")) parse_paths(*node, file, diagnostics);
   if (const Node* node = map.optional("signals")) file.signals = parse_signals(*node, diagnostics);
   if (const Node* node = map.optional("outputs")) file.outputs = parse_outputs(*node, diagnostics);
   if (const Node* node = map.optional("features")) file.features = parse_features(*node, diagnostics);
@@ -202,8 +203,8 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   if (const Node* node = map.optional("always")) parse_always(*node, templates, file, diagnostics);
   if (const Node* start = map.required("start")) file.start = parse_word(*start, "`start`", diagnostics);
   if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, templates, file, diagnostics);
-  for (const char* section :
-       {"params", "frames", "regions", "signals", "outputs", "features", "templates", "always", "tasks"}) {
+  for (const char* section : {"params", "frames", "regions", "paths", "signals", "outputs", "features",
+                              "templates", "always", "tasks"}) {
     const Entry* entry = document.root.find(section);
     file.is_incomplete = file.is_incomplete || (entry == nullptr && map.has_misspelt({section})) ||
                          (entry != nullptr && !entry->value.is_mapping());

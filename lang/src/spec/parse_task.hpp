@@ -16,6 +16,8 @@ std::vector<SignalText> parse_signals(const Node& node, Diagnostics& diagnostics
 std::vector<OutputText> parse_outputs(const Node& node, Diagnostics& diagnostics);
 std::vector<RegionText> parse_regions(const Node& node, Diagnostics& diagnostics);
 std::vector<FeatureText> parse_features(const Node& node, Diagnostics& diagnostics);
+/// Paths, and the frames that they begin in: into `file.paths` and `file.frames`.
+void parse_paths(const Node& node, TaskFile& file, Diagnostics& diagnostics);
 /// `at`, and `yaw` or `rpy`; empty where not given. [m, rad]
 void parse_pose(MapReader& map, std::vector<double>& at, std::vector<double>& rpy, Diagnostics& diagnostics);
 

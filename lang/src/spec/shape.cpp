@@ -427,27 +427,32 @@ std::optional<std::array<double, 2>> parse_place(const Node& node, const std::st
 
 std::optional<std::vector<std::array<double, 2>>> parse_polygon(const Node& node, const std::string& what,
                                                                 Diagnostics& diagnostics) {
-  if (!require_sequence(node, what + "'s `polygon`", diagnostics)) return std::nullopt;
-  const auto is_scalar = [](const Node& corner) { return corner.is_scalar(); };
+  return parse_places(node, what + "'s `polygon`", "a corner of " + what, diagnostics);
+}
+
+std::optional<std::vector<std::array<double, 2>>> parse_places(const Node& node, const std::string& list,
+                                                               const std::string& part,
+                                                               Diagnostics& diagnostics) {
+  if (!require_sequence(node, list, diagnostics)) return std::nullopt;
+  const auto is_scalar = [](const Node& place) { return place.is_scalar(); };
   if (!node.items.empty() && std::all_of(node.items.begin(), node.items.end(), is_scalar)) {
-    diagnostics.add(wording::place_for_a_list(node.span, what + "'s `polygon`"));
+    diagnostics.add(wording::place_for_a_list(node.span, list));
     return std::nullopt;
   }
-  const auto lacks_units = [](const Node& corner) { return count_bare_numbers(corner) > 0; };
+  const auto lacks_units = [](const Node& place) { return count_bare_numbers(place) > 0; };
   if (std::count_if(node.items.begin(), node.items.end(), lacks_units) > 1) {
-    diagnostics.add(
-        wording::needs_units(node.span, what + "'s `polygon`", in_one_line(node, dimension::length)));
+    diagnostics.add(wording::needs_units(node.span, list, in_one_line(node, dimension::length)));
     return std::nullopt;
   }
-  std::vector<std::array<double, 2>> corners;
-  for (const Node& corner : node.items) {
-    const auto at = parse_vector(corner, dimension::length, 2, 2, "a corner of " + what, diagnostics);
-    // Who writes one corner in another shape writes all so.
-    if (!at && !corner.is_sequence()) return std::nullopt;
-    if (at) corners.push_back({(*at)[0], (*at)[1]});
+  std::vector<std::array<double, 2>> places;
+  for (const Node& place : node.items) {
+    const auto at = parse_vector(place, dimension::length, 2, 2, part, diagnostics);
+    // Who writes one place in another shape writes all so.
+    if (!at && !place.is_sequence()) return std::nullopt;
+    if (at) places.push_back({(*at)[0], (*at)[1]});
   }
-  if (corners.size() != node.items.size()) return std::nullopt;
-  return corners;
+  if (places.size() != node.items.size()) return std::nullopt;
+  return places;
 }
 
 bool check_version(MapReader& map, const std::string& key, int newest, Diagnostics& diagnostics) {

@@ -83,6 +83,10 @@ std::optional<std::array<double, 2>> parse_place(const Node& node, const std::st
 /// The corners of `what`, [m]; nullopt when one is bad.
 std::optional<std::vector<std::array<double, 2>>> parse_polygon(const Node& node, const std::string& what,
                                                                 Diagnostics& diagnostics);
+/// The same of a list of places under another key; `part` names one of them: "a corner of region `hall`".
+std::optional<std::vector<std::array<double, 2>>> parse_places(const Node& node, const std::string& list,
+                                                               const std::string& part,
+                                                               Diagnostics& diagnostics);
 /// Plain quantities of one dimension: `[0.4 m, 0 m]`. nullopt when one is bad.
 std::optional<std::vector<double>> parse_vector(const Node& node, const Dimension& expected,
                                                 std::size_t fewest, std::size_t most, const std::string& what,

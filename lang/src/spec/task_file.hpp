@@ -30,6 +30,7 @@ struct FrameText {
   std::vector<double> at;   ///< [m]
   std::vector<double> rpy;  ///< [rad]
   Span span;
+  bool is_path = false;  ///< the one that a path of this name begins in
 };
 
 struct SignalText {
@@ -159,6 +160,7 @@ struct TaskFile {
   std::vector<OutputText> outputs;
   std::vector<RegionText> regions;
   std::vector<FeatureText> features;
+  std::vector<Path> paths;  ///< the frame of each is among `frames`, by its name; no pieces: it is bad
   std::vector<GroupText> always_groups;
   std::vector<ExitText> always_exits;
   Word start;

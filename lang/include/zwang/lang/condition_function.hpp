@@ -12,7 +12,7 @@
 
 namespace zwang::lang {
 
-enum class FunctionArgument { number, signal, frame, task };
+enum class FunctionArgument { number, signal, frame, task, path };
 
 /// How often a task was entered, and when.
 struct TaskEntries {

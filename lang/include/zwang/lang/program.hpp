@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "zwang/lang/diagnostic.hpp"
+#include "zwang/lang/path.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/scene.hpp"
 #include "zwang/solver/constraint.hpp"
@@ -218,8 +219,9 @@ enum class GroupKind {
 
 struct Group {
   std::string name;
-  int move = 0;  ///< frame
-  int in = 0;    ///< frame
+  int move = 0;   ///< frame
+  int in = 0;     ///< frame
+  int path = -1;  ///< of axes: the path that they are measured along, in its frame `in`; -1: those of `in`
   std::vector<AxisStatements> axes;
   GroupKind kind = GroupKind::axes;
   int region = -1;
@@ -303,6 +305,7 @@ struct Program {
   std::vector<Output> outputs;
   std::vector<Region> regions;
   std::vector<Feature> features;
+  std::vector<Path> paths;
   Always always;
   std::vector<Task> tasks;
   int start = 0;

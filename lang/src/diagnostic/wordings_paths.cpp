@@ -1,0 +1,91 @@
+#include "diagnostic/wordings_paths.hpp"
+
+#include <cmath>
+
+#include "diagnostic/make.hpp"
+#include "diagnostic/wordings_physics.hpp"
+#include "tree/text.hpp"
+
+namespace zwang::lang::wording {
+
+namespace {
+
+/// Three digits, not above the value.
+std::string at_most_in(double value, const std::string& unit) {
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return figure(std::floor(value / step + 1e-9) * step, unit);
+}
+
+/// Three digits, not below the value.
+std::string no_less_in(double value, const std::string& unit) {
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  return figure(std::ceil(value / step - 1e-9) * step, unit);
+}
+
+}  // namespace
+
+Diagnostic path_of_one_point(const Span& span, const std::string& what) {
+  return error("E419", span, what + " has no way to go: it needs two points or more",
+               "write where it begins and where it ends: `[[0 m, 0 m], [3 m, 0 m]]`");
+}
+
+Diagnostic point_twice(const Span& span, const std::string& what) {
+  return error("E419", span, what + " has no direction here: the point before stands at the same place",
+               "leave one of them out");
+}
+
+Diagnostic path_turns_back(const Span& span, const std::string& what) {
+  return error("E419", span, what + " turns back the way that it came: no fillet fits there",
+               "write two paths, one for each way");
+}
+
+Diagnostic fillet_too_large(const Span& span, const std::string& what, double radius, double most) {
+  const std::string fits = at_most_in(most, "m");
+  return with_replacement(
+      error("E419", span,
+            "the fillet of " + figure(radius, "m") + " does not fit " + what + ": its lines are too short",
+            "at most `" + fits + "`"),
+      fits);
+}
+
+Diagnostic no_axis_of_a_path(const Span& span, const std::string& group, const std::string& word,
+                             const std::string& move, const std::string& path) {
+  const std::string own = word == "speed" || word == "plane" ? "world" : move;
+  return error(
+      "E420", span,
+      "`" + group + "." + word + "` is no axis of the path `" + path + "`: it has `x`, `y`, `z` and `rz`",
+      "write `" + word + "` in a group of its own: `{move: " + move + ", in: " + own + ", " + word +
+          ": ..}`");
+}
+
+Diagnostic rigid_path(const Span& span, const std::string& move, const std::string& path) {
+  return error("E412", span,
+               "`" + move + "` never moves along the path `" + path + "`: one link carries both",
+               "give the path a `parent` that does not move with `" + move + "`: `world`");
+}
+
+Diagnostic fillet_beyond_norm(const Span& span, const Fillet& f, const Span& norm, const Span& declared) {
+  const double needed = f.speed * f.speed / f.radius;
+  return with_related(
+      with_related(
+          warning("W615", span,
+                  figure(f.speed, "m/s") + " around a fillet of " + figure(f.radius, "m") + " needs " +
+                      figure(needed, "m/s^2") + ", `" + f.norm + "` allows " + figure(f.most, "m/s^2") +
+                      ": the base leaves the path",
+                  "drive with `" + at_most_in(std::sqrt(f.most * f.radius), "m/s") + "`, or give `" + f.path +
+                      "` a fillet of `" + no_less_in(f.speed * f.speed / f.most, "m") + "`"),
+          norm, "the norm of the acceleration is limited here"),
+      declared, "the path is declared here");
+}
+
+Diagnostic heading_left_over(const Span& span, const std::string& axis, const std::string& move,
+                             double length) {
+  const std::string rate =
+      length > 0.0 ? ": to a third after each " + figure(length, "m") + " of the way" : std::string();
+  return make("N622", Severity::note, span,
+              "`" + axis + "` gets nothing: x and y of `" + move +
+                  "` take both freedoms of this base. Its heading turns into the path by itself" + rate,
+              "leave `" + axis + "` out, or keep it for bases with three freedoms");
+}
+
+}  // namespace zwang::lang::wording
