@@ -151,6 +151,27 @@ ordered_json region_entity(double time, const lang::Region& region, const std::s
   return one;
 }
 
+/// An arc as chords of 5 deg at most.
+ordered_json path_entity(double time, const lang::Path& path, const std::string& frame) {
+  constexpr double thickness = 0.02, chord = std::numbers::pi / 36.0;
+  std::vector<Vector3> points;
+  const auto add = [&](const lang::PathPiece& piece, double s) {
+    const double k = piece.curvature, turn = k * s;
+    const Vector3 ahead =
+        k == 0.0 ? Vector3(s, 0.0, 0.01) : Vector3(std::sin(turn) / k, (1.0 - std::cos(turn)) / k, 0.01);
+    points.push_back(piece.pose * ahead);
+  };
+  for (const lang::PathPiece& piece : path.pieces) {
+    const double turn = std::abs(piece.curvature) * piece.length;
+    const int count = std::max(1, static_cast<int>(std::ceil(turn / chord)));
+    for (int i = 0; i < count; ++i) add(piece, piece.length * i / count);
+  }
+  if (!path.pieces.empty()) add(path.pieces.back(), path.pieces.back().length);
+  ordered_json one = entity(time, frame, "path " + path.name);
+  one["lines"].push_back(line(line_strip, points, thickness, of_region));
+  return one;
+}
+
 // Each definition holds the fields that the messages of a log have.
 constexpr const char* time_definition =
     R"({"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}})";
@@ -272,6 +293,10 @@ ordered_json scene_update(double time, const lang::Program& program) {
   for (const lang::Region& region : program.regions) {
     const std::string& frame = program.frames[static_cast<std::size_t>(region.parent)].name;
     entities.push_back(region_entity(time, region, frame));
+  }
+  for (const lang::Path& path : program.paths) {
+    const std::string& frame = program.frames[static_cast<std::size_t>(path.frame)].name;
+    entities.push_back(path_entity(time, path, frame));
   }
   if (program.scene) {
     for (const lang::SceneObject& object : program.scene->objects)

@@ -339,6 +339,8 @@ void Blend::stretch(Ranges entering, AxisConstraint& c) const noexcept {
 void Blend::tighten(const AxisConstraint& to, Ranges entering, AxisConstraint& c) const noexcept {
   c.move = to.move;
   c.in = to.in;
+  c.curvature = to.curvature;
+  c.arc_length = to.arc_length;
   if (to.position && !c.position) {
     c.braking = to.braking;
     c.return_speed = to.return_speed;

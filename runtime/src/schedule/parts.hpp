@@ -1,5 +1,5 @@
 /// What a scheduler is made of. One file for each step of the tick: tick_sense, tick_choose, tick_switch,
-/// tick_rows, tick_return, tick_sides.
+/// tick_rows, tick_return, tick_sides, tick_paths.
 #pragma once
 
 #include <array>
@@ -14,6 +14,7 @@
 #include "schedule/estimated_wrenches.hpp"
 #include "schedule/frame_table.hpp"
 #include "schedule/guards.hpp"
+#include "schedule/path_follower.hpp"
 #include "schedule/plane_norm.hpp"
 #include "schedule/region_fence.hpp"
 #include "schedule/signal_table.hpp"
@@ -37,6 +38,7 @@ struct ActiveAxis {
   int brakes = -1;  ///< of the base's x, y and rz the one whose braking its ranges limit; -1: none; or
                     ///< `both_axes`
   bool hangs_on_signal = false;                     ///< its frames or its value do: it can be lost
+  bool is_along_path = false;                       ///< its axes turn with a path: it can be lost, too
   bool varies = false;                              ///< what it wants is not up to the parameters alone
   std::optional<solver::AttachedFrame> entry_axes;  ///< `here` in axes of the moved body: the axes on entry
   double here = 0.0;
@@ -99,6 +101,13 @@ struct Scheduler::Parts final : Facts {
   double position_of(const lang::Group& group, const lang::AxisStatements& axis,
                      const ActiveAxis* active_axis) const noexcept;
 
+  // Where frames are along paths.
+  void list_followers();
+  const PathFollower* follower_of(const lang::Group& group) const noexcept;
+  bool is_off_path(const lang::Group& group) const noexcept;
+  void follow_paths(int owner, bool enters) noexcept;
+  void measure_along(const lang::Group& group, solver::AxisConstraint& c) const noexcept;
+
   // Steps 4 and 5: guards, and at most one transition.
   struct Choice {
     Transition transition;
@@ -128,7 +137,7 @@ struct Scheduler::Parts final : Facts {
   void stop_outputs() noexcept;
   void resume() noexcept;
   void apply(const std::vector<lang::SetAction>& actions) noexcept;
-  void list_axes() noexcept;
+  void list_axes(bool resumes) noexcept;
   void remember(TaskSnapshot& snapshot, int of_task) const noexcept;
   ActiveAxis active_axis(const Origin& origin) noexcept;
   int braking_direction(const lang::Group& group, const lang::AxisStatements& axis) const noexcept;
@@ -202,6 +211,7 @@ struct Scheduler::Parts final : Facts {
   const std::vector<std::optional<solver::Range>> parameter_ranges;
   std::vector<lang::FrameDeclaration> declarations;
   const std::vector<lang::Feature> features;
+  const std::vector<lang::Path> paths;
   const int base;  ///< frame
   const std::vector<HeldJoint> held_joints;
   const TaskList tasks;
@@ -218,6 +228,7 @@ struct Scheduler::Parts final : Facts {
   const double radius;             ///< [m] of the footprint
   solver::Vector3 effective_mass;  ///< of the base along x, y and rz [kg, kg, kg m^2]
   solver::Vector3 braking;         ///< what the ranges in force leave along them [m/s^2, m/s^2, rad/s^2]
+  std::vector<PathFollower> followers;
   std::vector<RegionFence> fences;
   std::vector<InReach> in_reach;  ///< of each fence
   std::vector<PlaneNorm> planes;

@@ -74,6 +74,7 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       parameter_ranges(ranges_of(given.parameters)),
       declarations(given.frames),
       features(given.features),
+      paths(given.paths),
       base(base_frame(declarations, given.robot)),
       held_joints(find_held_joints(declarations, given.robot.model)),
       tasks(given, declarations, base, held_joints),
@@ -95,6 +96,7 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
       always_guards(tasks.most_exits, tasks.most_nodes, control_period, Unknown::fires_when_stale) {
   for (const lang::Output& output : declared_outputs) outputs.push_back(output.start);
   pushing.resize(tasks.most_nodes);
+  list_followers();
   std::size_t most_pairs = 0;
   for (const lang::Task& t : tasks.tasks) {
     if (t.require) follow(*t.require);

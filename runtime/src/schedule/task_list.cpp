@@ -147,6 +147,12 @@ bool is_on_robot(const std::vector<lang::FrameDeclaration>& frames, int frame) {
 
 void shape(lang::Group& group, const lang::Program& program,
            const std::vector<lang::FrameDeclaration>& frames) {
+  if (group.path >= 0) {
+    require_index(group.path, program.paths.size(), "a path");
+    group.in = program.paths[static_cast<std::size_t>(group.path)].frame;
+    if (program.paths[static_cast<std::size_t>(group.path)].pieces.empty())
+      throw std::invalid_argument("scheduler: a path has no pieces");
+  }
   if (group.kind == lang::GroupKind::inside) {
     require_index(group.region, program.regions.size(), "a region");
     group.in = program.regions[static_cast<std::size_t>(group.region)].parent;

@@ -124,6 +124,7 @@ void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
     c.move = frames.attached(g.move);
     c.in = axes_frame(g, &a);
   }
+  if (a.is_along_path) measure_along(g, c);
   if (s.weight) c.weight = s.weight->evaluate(parameters);
   if (a.plane >= 0) want_plane(a);
   if (s.is_planar) {
@@ -142,7 +143,7 @@ void Scheduler::Parts::want_motion_ranges(const ActiveAxis& a, solver::AxisConst
   const AxisStatements& s = *a.says;
   const lang::Group& g = *a.group;
   // In axes that nobody knows, a range of places or of speeds allows no motion.
-  const bool blind = !is_known(g.in) || !is_known(g.move);
+  const bool blind = !is_known(g.in) || !is_known(g.move) || is_off_path(g);
   const bool stands_by_driver = c.driver && !c.driver->makes_force();
   c.position.reset();
   c.velocity.reset();
@@ -284,7 +285,7 @@ void Scheduler::Parts::want() noexcept {
 bool Scheduler::Parts::is_lost(const ActiveAxis& a) const noexcept {
   const lang::Group& g = *a.group;
   const int value_signal = a.says->target.signal;
-  if (!is_known(g.in) || !is_known(g.move)) return true;
+  if (!is_known(g.in) || !is_known(g.move) || is_off_path(g)) return true;
   if (a.says->yield) return std::isnan(pushed_with(a));
   return value_signal >= 0 && !signals.known(value_signal);
 }
@@ -302,7 +303,7 @@ void Scheduler::Parts::start_blend() noexcept {
 void Scheduler::Parts::track_losses() noexcept {
   bool changed = false;
   for (ActiveAxis& a : axes) {
-    if (!a.hangs_on_signal) continue;
+    if (!a.hangs_on_signal && !a.is_along_path) continue;
     const bool lost = is_lost(a);
     changed = changed || lost != a.lost;
     if (!lost) capture_here(a);

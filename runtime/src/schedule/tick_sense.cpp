@@ -14,6 +14,8 @@ void Scheduler::Parts::sense(const Sensed& sensed) noexcept {
   excursion.reset();
   frames.update(model, sensed.state, period);
   signals.update(sensed, parameters, frames);
+  if (task < 0) return;
+  for (const int owner : {tasks.always(), task}) follow_paths(owner, false);
 }
 
 /// A frame on a pose signal is somewhere only while the signal is known.
@@ -90,6 +92,7 @@ Fact Scheduler::Parts::coordinate(const lang::ExpressionNode& node, int owner) c
   const lang::Group& g = group(origin);
   const lang::AxisStatements& axis = g.axes[static_cast<std::size_t>(node.axis)];
   if (!is_known(g.move)) return of_frame(g.move, 0.0);
+  if (is_off_path(g)) return of_frame(g.in, std::nan(""));
   if (node.what == lang::CoordinateQuantity::velocity)
     return of_frame(g.in, coordinate_of(g, axis, a).velocity);
   return of_frame(g.in, position_of(g, axis, a));
@@ -114,6 +117,7 @@ solver::AxisConstraint Scheduler::Parts::measured(const lang::Group& group, cons
   c.in = axes_frame(group, active_axis);
   c.axis = axis.axis;
   if (axis.is_planar) c.measure = solver::Measure::speed;
+  if (group.path >= 0) measure_along(group, c);
   if (group.kind == lang::GroupKind::feature) {
     const lang::Feature& feature = features[static_cast<std::size_t>(group.feature)];
     lang::set_measure(c, feature);
@@ -132,7 +136,7 @@ solver::Coordinate Scheduler::Parts::coordinate_of(const lang::Group& group, con
 
 double Scheduler::Parts::position_of(const lang::Group& group, const lang::AxisStatements& axis,
                                      const ActiveAxis* active_axis) const noexcept {
-  const bool is_one_axis = group.kind != lang::GroupKind::feature && !axis.is_planar;
+  const bool is_one_axis = group.kind != lang::GroupKind::feature && group.path < 0 && !axis.is_planar;
   if (!is_one_axis) return coordinate_of(group, axis, active_axis).position;
   return solver::position_of(frames.attached(group.move), axes_frame(group, active_axis), axis.axis,
                              frames.motions());

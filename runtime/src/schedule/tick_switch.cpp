@@ -187,11 +187,12 @@ void Scheduler::Parts::take(Choice choice) noexcept {
     enter();
   }
   guards.restart();
-  list_axes();
+  list_axes(t.resumes);
   start_blend();
 }
 
-void Scheduler::Parts::list_axes() noexcept {
+void Scheduler::Parts::list_axes(bool resumes) noexcept {
+  for (const int owner : {tasks.always(), task}) follow_paths(owner, owner == task && !resumes);
   const auto list = [&](int owner) {
     const lang::Task& t = tasks[owner];
     for (std::size_t g = 0; g < t.groups.size(); ++g) {
@@ -221,10 +222,11 @@ ActiveAxis Scheduler::Parts::active_axis(const Origin& origin) noexcept {
   a.brakes = braking_direction(*a.group, *a.says);
   a.hangs_on_signal = frames.signal_of(a.group->in) >= 0 || frames.signal_of(a.group->move) >= 0 ||
                       a.says->target.signal >= 0 || a.says->yield;
+  a.is_along_path = a.group->path >= 0;
   // How hard a range of places may brake hangs on where the base points, and how hard a base that rolls may
   // accelerate on how it turns.
   const bool rolls = a.plane >= 0 && planes[static_cast<std::size_t>(a.plane)].rolls;
-  a.varies = a.hangs_on_signal || a.says->position || a.says->build_up || rolls;
+  a.varies = a.hangs_on_signal || a.is_along_path || a.says->position || a.says->build_up || rolls;
   return a;
 }
 
@@ -250,7 +252,7 @@ int Scheduler::Parts::braking_direction(const lang::Group& g, const lang::AxisSt
 void Scheduler::Parts::capture_here(ActiveAxis& a) noexcept {
   const lang::AxisStatements& s = *a.says;
   const lang::Group& g = *a.group;
-  if (!s.here || a.has_here || !is_known(g.in)) return;
+  if (!s.here || a.has_here || !is_known(g.in) || is_off_path(g)) return;
   const solver::AttachedFrame& move = frames.attached(g.move);
   const solver::AttachedFrame& in = frames.attached(g.in);
   // Axes that the moved body carries cannot tell where it is: they stay where they were on entry.
