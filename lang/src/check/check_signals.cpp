@@ -14,8 +14,9 @@ namespace {
 std::optional<Dimension> number_of(const SceneSignal& signal) {
   if (signal.kind == SceneSignalKind::distance) return dimension::length;
   if (signal.kind == SceneSignalKind::force) return dimension::force;
-  const bool is_number = signal.kind == SceneSignalKind::script && signal.script_kind == ScriptKind::number;
-  if (!is_number) return std::nullopt;
+  const bool is_script = signal.kind == SceneSignalKind::script && signal.script_kind == ScriptKind::number;
+  const bool is_travel = signal.kind == SceneSignalKind::travel && !signal.beyond;
+  if (!is_script && !is_travel) return std::nullopt;
   return Dimension{signal.powers[0], signal.powers[1], signal.powers[2], signal.powers[3]};
 }
 
@@ -45,7 +46,7 @@ bool gives(const SceneSignal& signal, const SignalSymbol& declared) {
   const bool is_lost = is_script && signal.script_kind == ScriptKind::lost;
   switch (declared.signal.type) {
     case SignalType::boolean:
-      return signal.kind == SceneSignalKind::latch || is_lost ||
+      return signal.kind == SceneSignalKind::latch || is_lost || signal.beyond ||
              (is_script && signal.script_kind == ScriptKind::truth);
     case SignalType::number:
       return is_lost || number_of(signal) == declared.dimension;

@@ -51,6 +51,48 @@ hard the object is to push is not known.)~",
           .example = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], fixed: false}",
           .instead = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg}"},
       Explanation{
+          .code = "E917",
+          .title = "an object that cannot move as it says",
+          .why =
+              R"~(A `hinge` turns an object, a `slide` leads it, `slides` and `casters` say how it stands on the floor,
+`motion` moves it by a script, and `fixed` holds it. An object moves in one of these ways. What a
+push moves has a mass.)~",
+          .fix = "Keep one of the keys, and give the object its `mass`.",
+          .part = ExcerptOf::scene,
+          .example = "objects:\n  gate: {box: [4 cm, 1 m, 1 m], at: [2 m, 0 m], hinge: {at: [0 m, 50 cm], "
+                     "range: [0 deg, 90 deg]}}",
+          .instead =
+              "objects:\n  gate: {box: [4 cm, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg, hinge: {at: [0 m, "
+              "50 cm], range: [0 deg, 90 deg]}}"},
+      Explanation{
+          .code = "E918",
+          .title = "a range of travel without 0",
+          .why =
+              R"~(`at` and `yaw` say where an object stands at the start. There its hinge or slide is at 0. A range
+without 0 would put the object somewhere else before anything moved.)~",
+          .fix = "Count the travel from where the object stands: its range begins, ends or lies around 0.",
+          .part = ExcerptOf::scene,
+          .example =
+              "objects:\n  gate: {box: [4 cm, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg, hinge: {at: [0 m, 50 "
+              "cm], range: [10 deg, 90 deg]}}",
+          .instead =
+              "objects:\n  gate: {box: [4 cm, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg, hinge: {at: [0 m, 50 "
+              "cm], range: [0 deg, 90 deg]}}"},
+      Explanation{
+          .code = "E919",
+          .title = "a preload to both sides",
+          .why =
+              R"~(A `preload` presses a door or a drawer shut: against the end of its range at 0. In the middle of a
+range there is no end to press against, and the force would jump at 0.)~",
+          .fix = "End the range at 0. A door that swings both ways is centred by its `stiffness`.",
+          .part = ExcerptOf::scene,
+          .example =
+              "objects:\n  gate: {box: [4 cm, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg, hinge: {at: [0 m, 50 "
+              "cm], range: +-90 deg, preload: 8 N m}}",
+          .instead =
+              "objects:\n  gate: {box: [4 cm, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg, hinge: {at: [0 m, 50 "
+              "cm], range: +-90 deg, stiffness: 10 N m/rad}}"},
+      Explanation{
           .code = "E903",
           .title = "an outcome that no run can have",
           .why =

@@ -93,7 +93,7 @@ Struck struck_bumper(const Robot& robot, const AxisFigures& figures, double spee
 
 Struck struck_object(const SceneObject& object, const Robot& robot, const Hit& of_robot, int corners) {
   Struck struck{of_robot, 0.0, object.name, 1};
-  const double other = object.mass ? 1.0 / *object.mass : 0.0;
+  const double other = object.inverse_mass();
   struck.hit.mass = 1.0 / (1.0 / of_robot.mass + other);
   // A flat side meets corners, or the corners of what is narrower; a round thing one point.
   if (object.shape != ShapeKind::cylinder) struck.points = corners;

@@ -61,6 +61,11 @@ Symbols truth_symbols(const Program& program) {
     for (const TruthQuantity& quantity : of_object) declare(symbols, prefix, quantity);
     for (const TruthQuantity& quantity : of_robot) declare(symbols, prefix, quantity);
   }
+  for (const SceneObject& object : scene.objects) {
+    const std::string prefix = "truth." + object.name + ".";
+    if (object.guide && object.guide->turns) declare(symbols, prefix, {"angle", dimension::angle});
+    if (object.guide && !object.guide->turns) declare(symbols, prefix, {"travel", dimension::length});
+  }
   for (const Output& output : program.outputs) {
     std::string unknown;
     const auto unit = parse_unit(output.unit, unknown);

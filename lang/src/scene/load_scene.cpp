@@ -8,6 +8,7 @@
 #include "diagnostic/wordings_slips.hpp"
 #include "scene/check_scene.hpp"
 #include "scene/faults.hpp"
+#include "scene/load_guide.hpp"
 #include "scene/load_robots.hpp"
 #include "scene/load_signals.hpp"
 #include "spec/in_one_line.hpp"
@@ -151,7 +152,8 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   }
   const std::optional<bool> is_fixed =
       fixed != nullptr ? parse_boolean(*fixed, what + "'s `fixed`", diagnostics) : std::nullopt;
-  if (is_fixed == true && mass != nullptr)
+  const bool is_guided = entry.value.find("hinge") != nullptr || entry.value.find("slide") != nullptr;
+  if (is_fixed == true && mass != nullptr && !is_guided)
     diagnostics.add(wording::fixed_with_mass(fixed->span, what, mass->span));
   const bool has_motion = entry.value.find("motion") != nullptr;
   if (is_fixed == false && mass == nullptr && !has_motion && !map.has_misspelt({"mass", "motion"}))
@@ -159,8 +161,10 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   parse_contact(map, object, diagnostics);
   if (const Node* node = map.optional("motion")) {
     object.motion = parse_motion(*node, what + "'s `motion`", diagnostics);
-    if (mass != nullptr) diagnostics.add(wording::scripted_with_mass(node->span, what, mass->span));
+    if (mass != nullptr && !is_guided)
+      diagnostics.add(wording::scripted_with_mass(node->span, what, mass->span));
   }
+  parse_guide(map, object, diagnostics);
   if (const Node* node = map.optional("dock")) {
     object.dock = parse_dock(*node, what + "'s `dock`", diagnostics);
   }
@@ -271,7 +275,7 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
       // `truth.base.x` is the robot's.
       if (entry.key.text == "base")
         diagnostics.add(wording::name_taken(entry.key.span, "base", "the robot's base in `truth.base`"));
-      seen.push_back({entry.key.text, has_dock(entry.value)});
+      seen.push_back({entry.key.text, has_dock(entry.value), travel_of(entry.value)});
     }
   }
   seen.push_back({"base", false});

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_guides.hpp"
 
 namespace zwang::lang {
 
@@ -90,6 +91,13 @@ constexpr double longest_delay = 1.9;          // [s]
 constexpr double longest_fix_delay = 0.4;      // [s]
 constexpr double longest_state_delay = 15e-3;  // [s] twenty ticks without a sample are a fault
 
+/// What the travel measures.
+void describe_travel(const Word& object, TravelOf travel, SceneSignal& signal, Diagnostics& diagnostics) {
+  if (travel == TravelOf::nothing) diagnostics.add(wording::nothing_travels(object.span, object.text));
+  const Dimension measured = travel == TravelOf::hinge ? dimension::angle : dimension::length;
+  signal.powers = {measured.length, measured.mass, measured.time, measured.angle};
+}
+
 void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<Seen>& seen, bool is_first,
                        Diagnostics& diagnostics) {
   const Word word = parse_word(node, "signal `" + signal.name + "`", diagnostics);
@@ -107,9 +115,19 @@ void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<
   } else if (signal.kind == SceneSignalKind::latch &&
              !seen[static_cast<std::size_t>(signal.object)].has_dock) {
     diagnostics.add(wording::nothing_latches(word.span, word.text));
+  } else if (signal.kind == SceneSignalKind::travel) {
+    describe_travel(word, seen[static_cast<std::size_t>(signal.object)].travel, signal, diagnostics);
   } else if (signal.kind == SceneSignalKind::force && (!is_first || word.text == "base")) {
     diagnostics.add(wording::not_felt(word.span, word.text));
   }
+}
+
+/// `beyond` of a travel.
+void parse_threshold(MapReader& map, SceneSignal& signal, Diagnostics& diagnostics) {
+  const Node* beyond = map.optional("beyond");
+  if (beyond == nullptr || signal.object < 0) return;
+  const Dimension measured = signal.powers[3] != 0 ? dimension::angle : dimension::length;
+  signal.beyond = parse_plain(*beyond, measured, map.what() + "'s `beyond`", diagnostics);
 }
 
 /// `noise`, `bias`, `angle_noise`, `delay`, `rate`, `dropouts`.
@@ -149,7 +167,7 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, bool
   for (const Source& source :
        {Source{"script", SceneSignalKind::script}, Source{"pose_of", SceneSignalKind::pose},
         Source{"distance_to", SceneSignalKind::distance}, Source{"latch", SceneSignalKind::latch},
-        Source{"force_of", SceneSignalKind::force}}) {
+        Source{"force_of", SceneSignalKind::force}, Source{"travel_of", SceneSignalKind::travel}}) {
     const Node* node = map.optional(source.key);
     if (node == nullptr) continue;
     ++found;
@@ -162,6 +180,7 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, bool
   } else if (found == 1) {
     parse_object_name(*given, signal, seen, is_first, diagnostics);
   }
+  if (signal.kind == SceneSignalKind::travel) parse_threshold(map, signal, diagnostics);
   parse_quality(map, signal, longest_delay, diagnostics);
   // An unknown key may have been the source's.
   if (found > 1 || (found == 0 && !map.has_unread_keys()))
@@ -227,6 +246,9 @@ std::optional<Dock> parse_dock(const Node& node, const std::string& what, Diagno
     dock.held_while = parse_word(*held, "`held_while`", diagnostics).text;
     dock.held_while_span = held->span;
   }
+  if (const Node* press = map.optional("press"))
+    dock.press =
+        parse_positive(*press, dimension::force, what + "'s `press`", false, diagnostics).value_or(0.0);
   map.finish();
   return dock;
 }

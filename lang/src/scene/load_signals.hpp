@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "scene/load_guide.hpp"
 #include "spec/shape.hpp"
 #include "zwang/lang/scene.hpp"
 
@@ -12,11 +13,12 @@ namespace zwang::lang {
 struct Seen {
   std::string name;  ///< empty: there are more, whose names could not be read
   bool has_dock = false;
+  TravelOf travel = TravelOf::nothing;
 };
 
-/// `{name: {script: ..} | {pose_of: ..} | {distance_to: ..} | {latch: ..} | {force_of: ..}, + how it is
-/// measured}` `seen` are the objects and robots of the scene, in the order of SceneSignal::object. Only the
-/// first robot feels what it touches.
+/// `{name: {script: ..} | {pose_of: ..} | {distance_to: ..} | {latch: ..} | {force_of: ..} | {travel_of: ..},
+/// + how it is measured}` `seen` are the objects and robots of the scene, in the order of
+/// SceneSignal::object. Only the first robot feels what it touches.
 std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<Seen>& seen, bool is_first,
                                              Diagnostics& diagnostics);
 /// `[{time, at, yaw}, ..]`

@@ -105,8 +105,21 @@ Json dock() {
   return object("a socket in which a hook latches", {{"at", reference("point", "in the object's axes"), true},
                                                      {"reach", reference("quantity")},
                                                      {"hook", word("a frame of the robot"), true},
+                                                     {"press", reference("quantity",
+                                                                         "a force: it latches what "
+                                                                         "presses so hard")},
                                                      {"held_while", word("an output of the task file: it "
                                                                          "holds while that is true")}});
+}
+
+std::vector<Property> guide_of(const char* travel, std::vector<Property> first) {
+  first.insert(first.end(), {{"range", reference("range", travel), true},
+                             {"preload", reference("quantity", "presses towards 0")},
+                             {"stiffness", reference("quantity", "of a spring that is relaxed at 0")},
+                             {"damping", reference("quantity")},
+                             {"friction", reference("quantity", "dry, as a force or a torque")},
+                             {"locked", Json{{"type", "boolean"}}}});
+  return first;
 }
 
 Json scene_object() {
@@ -120,6 +133,15 @@ Json scene_object() {
        {"yaw", reference("quantity")},
        {"mass", reference("quantity", "of an object that a push moves")},
        {"fixed", Json{{"type", "boolean"}}},
+       {"hinge", object("an upright axis that it turns about",
+                        guide_of("angles that it turns through; it stands at 0",
+                                 {{"at", reference("point", "in the object's axes"), true}}))},
+       {"slide", object("a guide that it moves along",
+                        guide_of("how far it moves; it stands at 0",
+                                 {{"along", one_of_words("", {"x", "-x", "y", "-y"}), true}}))},
+       {"slides",
+        reference("quantity", "coefficient on the floor, in the place of its friction and the floor's")},
+       {"casters", reference("quantity", "the trail of four swivel casters at its corners")},
        {"stiffness", reference("quantity", "of a contact, as N/m")},
        {"damping", reference("quantity", "of a contact, against the critical one")},
        {"friction", reference("quantity", "coefficient")},
@@ -128,12 +150,14 @@ Json scene_object() {
 }
 
 Json scene_signal() {
-  return object("has one source: script, pose_of, distance_to, latch or force_of",
+  return object("has one source: script, pose_of, distance_to, latch, force_of or travel_of",
                 {{"script", filled(list("pairs of a time and a value", Json{{"type", "array"}}))},
                  {"pose_of", word("an object or a robot; `base` is the first one")},
                  {"distance_to", word("an object or a robot")},
                  {"latch", word("an object or a robot with a dock")},
                  {"force_of", word("an object or a robot that the first one touches")},
+                 {"travel_of", word("an object with a hinge or a slide")},
+                 {"beyond", reference("quantity", "of travel_of: true where the travel is as far from 0")},
                  {"noise", reference("quantity", "standard deviation")},
                  {"bias", reference("quantity", "added to a force")},
                  {"angle_noise", reference("quantity", "standard deviation")},

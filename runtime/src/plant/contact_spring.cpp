@@ -21,7 +21,7 @@ Touchable::Skin skin_of(const Touched& object, const char* kind) {
 }  // namespace
 
 Touchable touchable_object(const lang::SceneObject& object) {
-  return {object.name, object.mass ? 1.0 / *object.mass : 0.0, skin_of(object, "object")};
+  return {object.name, object.inverse_mass(), skin_of(object, "object")};
 }
 
 Touchable touchable_robot(const lang::SceneRobot* robot, double mass) {

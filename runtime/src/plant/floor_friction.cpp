@@ -31,8 +31,27 @@ Eigen::Vector3d FloorFriction::step(const Eigen::Vector3d& velocity, double peri
   return force;
 }
 
+namespace {
+
+/// mu
+double coefficient_of(const lang::SceneObject& object, double floor) {
+  return object.slides.value_or(pair_friction(object.friction, floor));
+}
+
+}  // namespace
+
+CasterFriction casters_of(const lang::SceneObject& object, double floor, double gravity) {
+  const double mass = object.mass.value_or(0.0);
+  // On a round object they stand where the corners of the square inside of it are.
+  const bool is_round = object.shape == lang::ShapeKind::cylinder;
+  const double half = std::numbers::sqrt2 / 2.0;
+  const double ahead = is_round ? half * object.size[0] : 0.5 * object.size[0];
+  const double aside = is_round ? half * object.size[0] : 0.5 * object.size[1];
+  return {mass, coefficient_of(object, floor) * mass * gravity, object.caster_trail, ahead, aside};
+}
+
 FloorFriction floor_friction_of(const lang::SceneObject& object, double floor, double gravity) {
-  const double coefficient = pair_friction(object.friction, floor);
+  const double coefficient = coefficient_of(object, floor);
   const double mass = object.mass.value_or(0.0);
   const double a = object.size[0];
   const double b = object.size[1];

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include "caster_friction.hpp"
 #include "zwang/lang/scene.hpp"
 
 namespace zwang::runtime {
@@ -32,6 +33,7 @@ class FloorFriction {
 };
 
 /// Of an object with a mass, on a floor of the friction `floor`. `gravity` [m/s^2]
+CasterFriction casters_of(const lang::SceneObject& object, double floor, double gravity);
 FloorFriction floor_friction_of(const lang::SceneObject& object, double floor, double gravity);
 
 }  // namespace zwang::runtime

@@ -60,6 +60,7 @@ class MjcfWriter {
     std::size_t joints = 0;
     for (const SimulatedRobot& robot : robots_)
       joints += static_cast<std::size_t>(robot.robot.model.joint_count());
+    for (const SceneObject& object : scene_.objects) joints += object.guide ? 1U : 0U;
     const std::size_t points = std::min(most_points, points_of_a_pair * elements("<pair"));
     const std::size_t rows = std::min(most_rows, rows_of_a_point * points + rows_of_a_joint * joints +
                                                      rows_of_a_dock * elements("<connect"));
@@ -100,7 +101,9 @@ class MjcfWriter {
     const std::string name = numbered("object", k);
     text_ += "<body" + attribute("name", name) + attribute("pos", list_of(g.centre)) +
              attribute("euler", list_of(0.0, 0.0, object.yaw)) + ">\n";
-    if (object.mass || !object.motion.empty()) {
+    if (object.guide) {
+      if (!object.is_locked()) write_guide(*object.guide, object, g, name);
+    } else if (object.mass || !object.motion.empty()) {
       const double mass = object.mass.value_or(scripted_mass);
       if (!(mass > 0.0)) refuse("the mass of `" + object.name + "` is not positive");
       text_ += "<joint" + attribute("name", name + "_x") + " type=\"slide\" axis=\"1 0 0\"/>\n";
@@ -110,6 +113,24 @@ class MjcfWriter {
     }
     if (is_met(object)) write_faces(g, name);
     text_ += "</body>\n";
+  }
+
+  /// The joint of an object on a hinge or a slide, and its inertia. What else the guide does is in
+  /// object_guide.hpp.
+  void write_guide(const lang::Guide& guide, const SceneObject& object, const ObjectGeometry& g,
+                   const std::string& name) {
+    if (!object.mass || !(*object.mass > 0.0)) refuse("the mass of `" + object.name + "` is not positive");
+    const Vector3 axis = Vector3(guide.at[0], guide.at[1], 0.0) - g.shift;
+    const std::string moves =
+        guide.turns
+            ? attribute("type", "hinge") + attribute("axis", list_of(0.0, 0.0, 1.0)) +
+                  attribute("pos", list_of(axis))
+            : attribute("type", "slide") + attribute("axis", list_of(guide.along[0], guide.along[1], 0.0));
+    text_ += "<joint" + attribute("name", name + "_guide") + moves + attribute("limited", "true") +
+             attribute("range", list_of(guide.lower, guide.upper)) +
+             attribute("damping", text_of(guide.damping)) +
+             " solreflimit=\"0.004 1\" solimplimit=\"0.95 0.99 0.001\"/>\n";
+    text_ += inertial(inertia_of(*object.mass, g));
   }
 
   /// A round object is met as the sphere that its circle in the bumper's plane belongs to.
@@ -150,7 +171,7 @@ class MjcfWriter {
         for (std::size_t t = 0; t < robot.tips.size(); ++t) write_meeting_of_tip(k, robot, t);
       }
       for (std::size_t other = 0; other < k; ++other) {
-        if ((moves(k) || moves(other)) && is_met(scene_.objects[k]) && is_met(scene_.objects[other]))
+        if (meet(k, other) && is_met(scene_.objects[k]) && is_met(scene_.objects[other]))
           write_meeting(k, other);
       }
     }
@@ -161,6 +182,16 @@ class MjcfWriter {
   }
 
   bool moves(std::size_t k) const { return scene_.objects[k].mass || !scene_.objects[k].motion.empty(); }
+  /// A drawer's cabinet and a door's frame stand where the drawer and the door are: what a guide carries
+  /// meets only what moves freely.
+  bool meet(std::size_t k, std::size_t other) const {
+    const bool k_guided = scene_.objects[k].guide.has_value();
+    const bool other_guided = scene_.objects[other].guide.has_value();
+    if (k_guided && other_guided) return false;
+    if (k_guided) return moves(other);
+    if (other_guided) return moves(k);
+    return moves(k) || moves(other);
+  }
 
   /// Ties that hold nothing until the plant puts one in force: the hook's origin to a point of the object.
   void write_docks() {

@@ -31,6 +31,7 @@ void MujocoPlant::Simulation::latch_hooks() noexcept {
     const Vector3 hook =
         vector_of(data->xpos + 3 * dock.hook_body) + matrix_of(data->xquat + 4 * dock.hook_body) * dock.hook;
     if (!is_in_reach(dock.dock, truth.objects[dock.owner], hook)) continue;
+    if (truth.objects[dock.owner].force < dock.dock.press) continue;
     Eigen::Map<Vector3>(model->eq_data + mjNEQDATA * dock.equality) = dock.hook;
     Eigen::Map<Vector3>(model->eq_data + mjNEQDATA * dock.equality + 3) =
         matrix_of(data->xquat + 4 * dock.body).transpose() * (hook - vector_of(data->xpos + 3 * dock.body));
@@ -73,6 +74,7 @@ void MujocoPlant::Simulation::read_objects() noexcept {
     const int body = objects[k].body;
     place_truth(objects[k], vector_of(data->xpos + 3 * body), matrix_of(data->xquat + 4 * body),
                 truth.objects[k]);
+    if (objects[k].guide) truth.objects[k].travel = data->qpos[objects[k].position];
   }
   for (std::size_t r = 1; r < robots.size(); ++r) {
     ObjectTruth& seen = truth.objects[objects.size() + r - 1];
@@ -118,7 +120,7 @@ bool MujocoPlant::Simulation::step() noexcept {
   for (MovingRobot& robot : robots) robot.push(*model, *data);
   for (SimulatedObject& object : objects) {
     follow_script(object, time(), data->qpos, data->qvel);
-    add_floor_friction(object, model->opt.timestep, data->qvel, data->qfrc_applied);
+    add_resistance(object, model->opt.timestep, data->qpos, data->qvel, data->qfrc_applied);
   }
   contact_friction.push(*model, *data);
   press_by_hand();

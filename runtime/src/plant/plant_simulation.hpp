@@ -41,6 +41,8 @@ struct MujocoPlant::Simulation {
                                                      bool real_rollers);
   void find_addresses();
   void find_objects(const lang::Scene& scene);
+  /// What an object with a mass stands on.
+  void add_floor(double friction, SimulatedObject& object) const;
   void find_docks(const lang::Scene& scene);
   /// Lets the robots sink into their wheels' contacts. Then puts them exactly where they start, at rest, at
   /// t = 0. Height and tilt of the settled base are kept.
@@ -53,7 +55,8 @@ struct MujocoPlant::Simulation {
   MovingRobot& first() noexcept { return robots.front(); }
   const MovingRobot& first() const noexcept { return robots.front(); }
   int id_of(int type, const std::string& name) const;
-  /// A hook that is near enough to its socket is tied to the object where it is.
+  /// A hook that is near enough to its socket, and pressed on it as hard as that asks, is tied to the object
+  /// where it is.
   void latch_hooks() noexcept;
   void set_dock(std::size_t owner, bool holds) noexcept;
   /// MuJoCo's tie pushes the hook with `f`, and so the dock with -f: pull = -f . n, n outwards.

@@ -97,10 +97,24 @@ void MujocoPlant::Simulation::find_objects(const lang::Scene& scene) {
       simulated_object.position = model->jnt_qposadr[joint];
       simulated_object.velocity = model->jnt_dofadr[joint];
     }
-    if (object.mass)
-      simulated_object.friction =
-          floor_friction_of(object, scene.floor_friction, first().model().gravity().norm());
+    const int guide = id_of(mjOBJ_JOINT, name + "_guide");
+    if (guide >= 0) {
+      simulated_object.position = model->jnt_qposadr[guide];
+      simulated_object.velocity = model->jnt_dofadr[guide];
+      simulated_object.guide.emplace(*object.guide, model->dof_M0[simulated_object.velocity]);
+    } else if (joint >= 0 && object.mass) {
+      add_floor(scene.floor_friction, simulated_object);
+    }
     objects.push_back(std::move(simulated_object));
+  }
+}
+
+void MujocoPlant::Simulation::add_floor(double friction, SimulatedObject& object) const {
+  const double gravity = first().model().gravity().norm();
+  if (object.described.caster_trail > 0.0) {
+    object.casters.emplace(casters_of(object.described, friction, gravity));
+  } else {
+    object.friction = floor_friction_of(object.described, friction, gravity);
   }
 }
 

@@ -32,6 +32,8 @@ bool gives(SceneSignalKind kind, SignalType type) {
       return type == SignalType::number;
     case SceneSignalKind::latch:
       return type == SignalType::boolean;
+    case SceneSignalKind::travel:
+      return type == SignalType::boolean || type == SignalType::number;
   }
   return false;
 }
@@ -196,6 +198,13 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
       break;
     case SceneSignalKind::force:
       sample.number = force(truth, number) + signal.bias + signal.noise * source.noise.normal();
+      break;
+    case SceneSignalKind::travel:
+      sample.number = truth.objects[static_cast<std::size_t>(number)].travel +
+                      (signal.powers[3] != 0 ? signal.angle_noise : signal.noise) * source.noise.normal();
+      if (signal.beyond)
+        sample.boolean =
+            *signal.beyond < 0.0 ? sample.number <= *signal.beyond : sample.number >= *signal.beyond;
       break;
     case SceneSignalKind::distance:
       sample.number = std::max(0.0, distance(truth, number, state) + signal.noise * source.noise.normal());

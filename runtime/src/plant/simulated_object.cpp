@@ -32,10 +32,22 @@ void follow_script(const SimulatedObject& object, double time, double* qpos, dou
   std::copy(std::begin(rates), std::end(rates), qvel + object.velocity);
 }
 
-void add_floor_friction(SimulatedObject& object, double period, const double* qvel, double* force) noexcept {
-  if (!object.friction) return;
+void add_resistance(SimulatedObject& object, double period, const double* qpos, const double* qvel,
+                    double* force) noexcept {
+  if (object.guide) {
+    force[object.velocity] = object.guide->step(qpos[object.position], qvel[object.velocity], period);
+    return;
+  }
+  if (!object.friction && !object.casters) return;
   const double* v = qvel + object.velocity;
-  const Vector3 resistance = object.friction->step({v[0], v[1], v[2]}, period);
+  Vector3 resistance;
+  if (object.casters) {
+    // The joints x and y keep their axes while the object turns.
+    const Matrix3 turned = turned_by(qpos[object.position + 2]);
+    resistance = turned * object.casters->step(turned.transpose() * Vector3(v[0], v[1], v[2]), period);
+  } else {
+    resistance = object.friction->step({v[0], v[1], v[2]}, period);
+  }
   std::copy(resistance.data(), resistance.data() + 3, force + object.velocity);
 }
 

@@ -3,8 +3,10 @@
 
 #include <optional>
 
+#include "caster_friction.hpp"
 #include "floor_friction.hpp"
 #include "object_geometry.hpp"
+#include "object_guide.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 
 namespace zwang::runtime {
@@ -13,16 +15,20 @@ struct SimulatedObject {
   lang::SceneObject described;
   ObjectGeometry geometry;
   int body = 0;
-  int position = -1, velocity = -1;       ///< of its joints x, y, turn in qpos and qvel; -1: it is fixed
+  /// Of its joints x, y, turn in qpos and qvel, or of its guide's one; -1: it is fixed.
+  int position = -1, velocity = -1;
   std::optional<FloorFriction> friction;  ///< of one that slides on the floor
+  std::optional<CasterFriction> casters;  ///< of one that rolls on it
+  std::optional<ObjectGuide> guide;       ///< of one on a hinge or a slide that is not locked
 };
 
 /// Puts a scripted object where it is at this time. Its joints are measured from where it was written, along
 /// the axes that it had there.
 void follow_script(const SimulatedObject& object, double time, double* qpos, double* qvel) noexcept;
 
-/// What the floor does to one that slides; moves its bristles by one step of `period` [s].
-void add_floor_friction(SimulatedObject& object, double period, const double* qvel, double* force) noexcept;
+/// What floor or guide do to it; moves its bristles by one step of `period` [s].
+void add_resistance(SimulatedObject& object, double period, const double* qpos, const double* qvel,
+                    double* force) noexcept;
 
 /// Where the object's `at` is when its body is there.
 void place_truth(const SimulatedObject& object, const solver::Vector3& centre,

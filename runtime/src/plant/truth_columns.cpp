@@ -27,6 +27,10 @@ std::vector<Column> truth_columns(const lang::Scene& scene) {
     if (moves(o)) add_place(o.name);
   }
   for (const lang::SceneRobot& r : scene.robots) add_place(r.name);
+  for (const lang::SceneObject& o : scene.objects) {
+    if (o.guide && o.guide->turns) columns.push_back({"truth." + o.name + ".angle", "rad", {}});
+    if (o.guide && !o.guide->turns) columns.push_back({"truth." + o.name + ".travel", "m", {}});
+  }
   return columns;
 }
 
@@ -40,6 +44,9 @@ void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> v
     if (i < scene.objects.size() && !moves(scene.objects[i])) continue;
     const ObjectTruth& o = truth.objects[i];
     for (const double place : {o.x, o.y, o.yaw}) values[at++] = place;
+  }
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].guide) values[at++] = truth.objects[i].travel;
   }
 }
 

@@ -49,7 +49,16 @@ void TrueFacts::update(const Truth& truth, const solver::State& state, double to
   const std::size_t objects = truth.objects.size() - truth.robots.size();
   for (std::size_t k = 0; k < objects; ++k)
     put_object(k, truth, values_.data() + lang::truth_base_count + k * lang::truth_object_count);
+  put_travels(truth);
   look_at_regions();
+}
+
+void TrueFacts::put_travels(const Truth& truth) noexcept {
+  if (!program_.scene) return;
+  double* value = of_partner(truth.robots.size());
+  for (std::size_t k = 0; k < program_.scene->objects.size(); ++k) {
+    if (program_.scene->objects[k].guide) *value++ = truth.objects[k].travel;
+  }
 }
 
 void TrueFacts::put_object(std::size_t number, const Truth& truth, double* values) noexcept {

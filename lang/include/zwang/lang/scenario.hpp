@@ -66,9 +66,9 @@ struct Expectation {
 
 /// What the plant measures, as expectations call it, and when the run told what. First come
 /// `truth_base_count` of the base, then `truth_object_count` of each object, then `truth_robot_count` of each
-/// robot of the scene, in the order of these enumerations; then, of each output of the task file, what it is
-/// set to, of each region how far inside of it the footprint is [m], and of each task when it was entered
-/// first [s].
+/// robot of the scene, in the order of these enumerations; then the travel of each object with a guide,
+/// `angle` of a hinge and `travel` of a slide; then, of each output of the task file, what it is set to, of
+/// each region how far inside of it the footprint is [m], and of each task when it was entered first [s].
 enum TruthOfBase {
   truth_x,
   truth_y,

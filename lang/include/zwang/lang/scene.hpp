@@ -26,6 +26,7 @@ struct Waypoint {
 struct Dock {
   std::array<double, 2> at{};  ///< [m] in the axes of the object, from its `at`
   double reach = 0.02;         ///< [m] the hook latches when its frame is as near as this
+  double press = 0.0;          ///< [N] and when the first robot presses on the object as hard as this
   std::string hook;            ///< a frame of the first robot
   Span hook_span{};
   /// An output of the first robot's task file: the dock catches and holds while it is true. Empty: for good.
@@ -34,6 +35,20 @@ struct Dock {
 };
 
 enum class ShapeKind { box, cylinder, wall };
+
+/// A hinge with an upright axis, or a slide: it carries an object and leaves it one way to move. The travel q
+/// is 0 where the object was written. Positive: to the left about a hinge, along `along` of a slide.
+struct Guide {
+  bool turns = true;                      ///< a hinge
+  std::array<double, 2> at{};             ///< [m] the hinge's axis, in the object's axes from its `at`
+  std::array<double, 2> along{1.0, 0.0};  ///< the slide's direction in the object's axes
+  double lower = 0.0, upper = 0.0;        ///< [rad] or [m]; 0 lies in between
+  double preload = 0.0;                   ///< [N m] or [N] towards 0, where 0 is an end of the range
+  double stiffness = 0.0;                 ///< [N m/rad] or [N/m] of a spring that is relaxed at 0
+  double damping = 0.0;                   ///< [N m s/rad] or [N s/m]
+  double friction = 0.0;                  ///< [N m] or [N], dry
+  bool locked = false;                    ///< nothing moves it
+};
 
 struct SceneObject {
   std::string name;
@@ -44,12 +59,19 @@ struct SceneObject {
   double yaw = 0.0;  ///< [rad] a wall's face looks along its own -x: a robot that drives along +x meets it
                      ///< square at yaw 0
   std::optional<double> mass;      ///< [kg]; none: fixed to the world
+  std::optional<Guide> guide;      ///< of one that has a mass, and does not stand on the floor
+  std::optional<double> slides;    ///< Coulomb coefficient on the floor; none: by `friction` and the floor's
+  double caster_trail = 0.0;       ///< [m] of four swivel casters at its corners; 0: it has none
   double stiffness = 1e5;          ///< [N/m] of one contact point
   double damping = 0.3;            ///< damping ratio of the contact
   std::optional<double> friction;  ///< Coulomb coefficient; none: that of what it touches
   std::vector<Waypoint> motion;    ///< scripted: moves whatever stands in its way; empty: none
   std::optional<Dock> dock;
   Span span;
+
+  bool is_locked() const { return guide && guide->locked; }
+  /// [1/kg] 0: nothing pushes it.
+  double inverse_mass() const { return mass && !is_locked() ? 1.0 / *mass : 0.0; }
 };
 
 struct ScriptStep {
@@ -71,6 +93,7 @@ enum class SceneSignalKind {
   distance,  ///< of the object's or robot's edge from the seeing robot's base frame, in the plane [m]
   latch,     ///< whether the hook holds in the dock of the object or robot
   force,     ///< that the first robot and the object or robot press each other with [N]
+  travel,    ///< how far an object has gone in its guide [rad] or [m], or whether that is `beyond`
 };
 
 /// Where a signal of the task file with this name comes from, and how well it is measured.
@@ -79,15 +102,17 @@ struct SceneSignal {
   SceneSignalKind kind = SceneSignalKind::script;
   std::vector<ScriptStep> script;
   ScriptKind script_kind = ScriptKind::lost;
-  std::array<int, 4> powers{};  ///< of length, mass, time and angle, in what a script's numbers measure
-  Span source_span{};           ///< of what is seen; of a script its first value
-  int object = -1;              ///< what is seen: an index into Scene::objects, or of a robot (`seen_robot`)
-  double noise = 0.0;           ///< [m], [N] standard deviation of a distance, a pose's x and y, a force
-  double bias = 0.0;            ///< [N] that a force is measured too large
-  double angle_noise = 0.0;     ///< [rad] of a pose's yaw
-  double delay = 0.0;           ///< [s] from the measurement to its arrival
-  double period = 0.0;          ///< [s] between measurements; 0: every tick
-  double dropouts = 0.0;        ///< the share of measurements that are lost, 0 to 1
+  /// Of length, mass, time and angle, in what the numbers of a script or a travel measure.
+  std::array<int, 4> powers{};
+  std::optional<double> beyond;  ///< [rad], [m] true where the travel is as far from 0, on its side
+  Span source_span{};            ///< of what is seen; of a script its first value
+  int object = -1;               ///< what is seen: an index into Scene::objects, or of a robot (`seen_robot`)
+  double noise = 0.0;            ///< [m], [N] standard deviation of a distance, a pose's x and y, a force
+  double bias = 0.0;             ///< [N] that a force is measured too large
+  double angle_noise = 0.0;      ///< [rad] of a pose's yaw
+  double delay = 0.0;            ///< [s] from the measurement to its arrival
+  double period = 0.0;           ///< [s] between measurements; 0: every tick
+  double dropouts = 0.0;         ///< the share of measurements that are lost, 0 to 1
   Span span;
 };
 

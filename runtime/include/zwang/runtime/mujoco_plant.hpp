@@ -23,7 +23,8 @@ struct ObjectTruth {
   double peak_force = 0.0;             ///< [N] largest `force` so far
   double x = 0.0, y = 0.0, yaw = 0.0;  ///< [m], [rad] of the object's `at`, of a robot's base
   std::optional<double> latched;       ///< [s] since when a hook holds in its dock
-  double pull = 0.0;  ///< [N] with which that hook pulls the dock outwards, now; negative: inwards
+  double pull = 0.0;    ///< [N] with which that hook pulls the dock outwards, now; negative: inwards
+  double travel = 0.0;  ///< [rad] about its hinge or [m] along its slide, from where it was written
 };
 
 /// Of a robot's base, beside its place and its planar motion.
