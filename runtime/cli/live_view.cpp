@@ -19,8 +19,6 @@ constexpr double bucket = 0.02;  // [s] of a run in one message
 constexpr double slowest = 0.01, fastest = 1.0;
 constexpr auto look_every = std::chrono::milliseconds(10);  // while nothing runs
 constexpr auto longest_building = std::chrono::seconds(5);  // of a page, for which the run waits at its begin
-constexpr double strongest_push = 500.0;                    // [N] by the mouse
-constexpr double farthest_push = 5.0;                       // [m] from the base's origin
 constexpr double longest_delay = 0.1;                       // [s] that is caught up with
 
 /// The policy of the page allows no connection; this one allows the stream.
@@ -69,7 +67,7 @@ std::unique_ptr<runtime::LogSink> LiveView::begin(const lang::Program& program,
   has_begun_ = true;
   is_over_ = restart_ = is_ready_ = false;
   ticks_ = 1;  // the page is built of the first records
-  push_ = {};
+  hand_ = LiveHand(program);
   parameters_ = program.parameters;
   ordered_json files = ordered_json::array();
   for (const lang::Source& source : diagnostics.sources())
@@ -82,7 +80,8 @@ std::unique_ptr<runtime::LogSink> LiveView::begin(const lang::Program& program,
                               {"period", runner.period()},
                               {"world", world_of(program)},
                               {"graph", graph_json(program)},
-                              {"bounds", bounds_of(program)}};
+                              {"bounds", bounds_of(program)},
+                              {"hand", hand_.choices()}};
   server_.begin(live_message(text_of(first), {}));
   refused_.clear();
   begin_pace(0.0);
@@ -139,7 +138,7 @@ void LiveView::look(runtime::Runner* runner) {
   const std::vector<std::string> requests = server_.take_requests();
   for (const std::string& request : requests) obey(request, runner);
   if (!requests.empty()) tell_state();
-  if (server_.pages() == 0) push_ = {};
+  if (server_.pages() == 0) hand_.let_go();
 }
 
 /// What is no request is not obeyed.
@@ -150,18 +149,10 @@ void LiveView::obey(const std::string& request, runtime::Runner* runner) {
     const auto found = json.find(key);
     return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
   };
-  const auto pair = [&](const char* key) {
-    const auto found = json.find(key);
-    std::array<double, 2> two{std::nan(""), std::nan("")};
-    for (std::size_t i = 0; i < two.size() && found != json.end() && found->is_array() && found->size() == 2;
-         ++i)
-      if ((*found)[i].is_number()) two[i] = (*found)[i].get<double>();
-    return two;
-  };
   const auto value = json.find("value");
   const double number = value != json.end() && value->is_number() ? value->get<double>() : std::nan("");
   const std::string what = text("do");
-  refused_.clear();
+  refused_ = runner != nullptr ? hand_.obey(json) : std::string();
   if (what == "ready") is_ready_ = true;
   if (what == "pause") paused_ = true;
   if (what == "go") paused_ = false;
@@ -171,7 +162,6 @@ void LiveView::obey(const std::string& request, runtime::Runner* runner) {
   }
   if (what == "restart") restart_ = true;
   if (what == "speed" && number >= slowest && number <= fastest) speed_ = number;
-  if (what == "push") press(pair("at"), pair("force"));
   if (what == "set" && runner != nullptr) set(*runner, text("name"), number);
   begin_pace(now_);
 }
@@ -186,14 +176,6 @@ void LiveView::set(runtime::Runner& runner, const std::string& name, double valu
   }
 }
 
-void LiveView::press(const std::array<double, 2>& at, const std::array<double, 2>& force) {
-  if (std::hypot(at[0], at[1]) <= farthest_push && std::hypot(force[0], force[1]) <= strongest_push) {
-    push_ = {{at[0], at[1]}, {force[0], force[1]}};
-  } else {
-    refused_ = "nobody pushes as hard, or as far from the base";
-  }
-}
-
 void LiveView::begin_pace(double time) {
   since_time_ = time;
   since_ = Clock::now();
@@ -202,9 +184,9 @@ void LiveView::begin_pace(double time) {
 void LiveView::tell_state() {
   ordered_json values = ordered_json::object();
   for (const lang::Parameter& p : parameters_) values[p.name] = p.value;
-  const ordered_json state = {{"kind", "state"},    {"paused", paused_}, {"speed", speed_},
-                              {"over", is_over_},   {"time", now_},      {"values", values},
-                              {"refused", refused_}};
+  const ordered_json state = {
+      {"kind", "state"}, {"paused", paused_}, {"speed", speed_},     {"over", is_over_},
+      {"time", now_},    {"values", values},  {"refused", refused_}, {"hand", hand_.in_force()}};
   server_.tell_state(live_message(text_of(state), {}));
 }
 

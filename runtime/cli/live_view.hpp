@@ -1,17 +1,16 @@
 /// `zwang run --live`: the page of a run while it goes on.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <memory>
 #include <string>
 
+#include "live_hand.hpp"
 #include "live_server.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/recorder.hpp"
 #include "zwang/runtime/runner.hpp"
-#include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::cli {
 
@@ -33,8 +32,8 @@ class LiveView {
 
   /// Between two ticks. `time` [s] is that of the run.
   void wait_for_tick(runtime::Runner& runner, double time, const std::atomic<bool>& interrupted);
-  /// What somebody presses with on the base by the mouse. It ends with the last page.
-  const runtime::Push& push() const { return push_; }
+  /// What somebody does to the simulated world by the page. Its push ends with the last page.
+  const runtime::Hand& hand() const { return hand_.hand(); }
   /// The page wants the run from its begin.
   bool is_restart_asked() const { return restart_; }
 
@@ -48,7 +47,6 @@ class LiveView {
   void look(runtime::Runner* runner);
   void obey(const std::string& request, runtime::Runner* runner);
   void set(runtime::Runner& runner, const std::string& name, double value);
-  void press(const std::array<double, 2>& at, const std::array<double, 2>& force);
   void begin_pace(double time);
   void tell_state();
 
@@ -58,7 +56,7 @@ class LiveView {
   bool paused_ = false;
   bool is_ready_ = false;       ///< the page is built
   Clock::time_point ready_by_;  ///< a page that is not built by then is not waited for
-  runtime::Push push_;
+  LiveHand hand_;
   int ticks_ = 0;       ///< to make although it is paused
   double speed_ = 1.0;  ///< 1: real time
   double now_ = 0.0;    ///< [s] of the run

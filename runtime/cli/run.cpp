@@ -88,7 +88,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
              LiveView* view, const std::atomic<bool>& interrupted, Live& live, RunReport& report) {
   runtime::Sensed sensed(program);
   const std::size_t true_values = runtime::truth_columns(*program.scene).size();
-  std::vector<double> truth(true_values + (view != nullptr ? runtime::push_columns().size() : 0));
+  std::vector<double> truth(true_values + (view != nullptr ? runtime::hand_columns(program).size() : 0));
   runtime::SimulationSteps steps(runner.period());
   TruthWatch watch(plant.truth(), steps.period());
   PlantStatus status = PlantStatus::ok;
@@ -115,11 +115,11 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
       runtime::put_truth(plant.truth(), *program.scene, truth);
       // Who has asked for the end does not wait for the pace of real time.
       if (reloads != nullptr && !give_up) reloads->look(runner, sensed.time);
-      if (view != nullptr && !give_up) view->wait_for_tick(runner, sensed.time, interrupted);
+      if (view != nullptr && !give_up) view->wait_for_tick(runner, plant.truth().time, interrupted);
       if (view != nullptr && view->is_restart_asked()) break;
       if (view != nullptr) {
-        plant.set_push(view->push());
-        runtime::put_push(view->push(), std::span(truth).subspan(true_values));
+        plant.set_hand(view->hand());
+        runtime::put_hand(view->hand(), plant.truth(), program, std::span(truth).subspan(true_values));
       }
       runner.step(sensed, truth);
       if (runner.state() == runtime::RunState::running && runner.scheduler().transition())
@@ -202,8 +202,8 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
   runtime::RunnerSettings settings;
   settings.extra_columns = runtime::truth_columns(*program->scene);
   if (view != nullptr) {
-    const std::vector<runtime::Column> pushed = runtime::push_columns();
-    settings.extra_columns.insert(settings.extra_columns.end(), pushed.begin(), pushed.end());
+    const std::vector<runtime::Column> by_hand = runtime::hand_columns(*program);
+    settings.extra_columns.insert(settings.extra_columns.end(), by_hand.begin(), by_hand.end());
   }
   runtime::Runner runner(*program, settings);
 

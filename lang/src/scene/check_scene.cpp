@@ -6,6 +6,7 @@
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "scene/check_start.hpp"
+#include "zwang/lang/fault_word.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::lang {
@@ -66,12 +67,10 @@ void check_wheel(const Fault& fault, const Robot& robot, Diagnostics& diagnostic
   if (!is_known) diagnostics.add(wording::unknown_name(fault.joint_span, "wheel", fault.joint, wheels));
 }
 
-constexpr double least_share = 0.25;  ///< of the base link's mass that a negative payload leaves
-
 void check_payload(const Fault& fault, const Robot& robot, Diagnostics& diagnostics) {
   const double mass = robot.model.bodies().front().inertia.mass;
-  if (fault.value < -(1.0 - least_share) * mass)
-    diagnostics.add(wording::too_light(fault.span, (1.0 - least_share) * mass));
+  if (fault.value < -most_payload_less * mass)
+    diagnostics.add(wording::too_light(fault.span, most_payload_less * mass));
 }
 
 void check_fault(const Fault& fault, const Robot& robot, Diagnostics& diagnostics) {

@@ -1,39 +1,18 @@
 #include "scene/faults.hpp"
 
-#include <array>
-
 #include "diagnostic/wordings.hpp"
 #include "spec/shape.hpp"
+#include "zwang/lang/fault_word.hpp"
 
 namespace zwang::lang {
 
 namespace {
 
-struct FaultWord {
-  const char* key;
-  const char* word;
-  FaultKind kind;
-};
-constexpr std::array words{
-    FaultWord{"samples", "lost", FaultKind::samples_lost},
-    FaultWord{"samples", "nan", FaultKind::samples_nan},
-    FaultWord{"samples", "inf", FaultKind::samples_inf},
-    FaultWord{"samples", "huge", FaultKind::samples_huge},
-    FaultWord{"samples", "frozen", FaultKind::samples_frozen},
-    FaultWord{"samples", "dead", FaultKind::samples_dead},
-    FaultWord{"clock", "backwards", FaultKind::clock_backwards},
-    FaultWord{"clock", "ahead", FaultKind::clock_ahead},
-    FaultWord{"torque", "lost", FaultKind::torque_lost},
-    FaultWord{"torque", "stuck", FaultKind::torque_stuck},
-    FaultWord{"torque", "flipped", FaultKind::torque_flipped},
-    FaultWord{"plant", "diverges", FaultKind::plant_diverges},
-};
-
 /// What `key` says, one of its words.
 void parse_word_of(const char* key, const Node& node, Fault& fault, int& found, Diagnostics& diagnostics) {
   ++found;
   std::vector<std::string> known;
-  for (const FaultWord& word : words) {
+  for (const FaultWord& word : fault_words) {
     if (std::string_view(word.key) != key) continue;
     known.emplace_back(word.word);
     if (node.text != word.word) continue;
@@ -42,8 +21,6 @@ void parse_word_of(const char* key, const Node& node, Fault& fault, int& found, 
   }
   if (!node.is_bad) diagnostics.add(wording::unknown_fault(node.span, key, node.text, known));
 }
-
-constexpr double most_inertia_less = 0.75;
 
 Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
   Fault fault;

@@ -30,6 +30,16 @@ InjectedFaults::InjectedFaults(std::vector<Fault> faults, const solver::Model& m
   }
 }
 
+void InjectedFaults::put(const Fault& fault, Eigen::Index joint) {
+  faults_.insert(faults_.begin(), {.fault = fault, .joint = joint, .by_hand = true});
+}
+
+void InjectedFaults::lift(FaultKind kind, Eigen::Index joint) {
+  std::erase_if(faults_, [&](const Injected& one) {
+    return one.by_hand && one.fault.kind == kind && one.joint == joint;
+  });
+}
+
 bool InjectedFaults::in_force(const Fault& fault, double time) noexcept {
   return time >= fault.at - tick_rounding && time < fault.at + fault.duration - tick_rounding;
 }

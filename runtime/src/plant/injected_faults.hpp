@@ -14,6 +14,11 @@ class InjectedFaults {
   /// Throws std::invalid_argument on a fault of a joint that the model does not have.
   InjectedFaults(std::vector<lang::Fault> faults, const solver::Model& model);
 
+  /// By hand: from its `at` until `lift`, before all others of its kind. `joint`: -1 of none.
+  void put(const lang::Fault& fault, Eigen::Index joint);
+  /// What was put on by hand, of this kind and joint.
+  void lift(lang::FaultKind kind, Eigen::Index joint);
+
   bool active(lang::FaultKind kind, double time) const noexcept;
   /// The first fault of the kind in force, or none; of those that name a joint, this one's.
   const lang::Fault* find(lang::FaultKind kind, double time, Eigen::Index joint = -1) const noexcept;
@@ -26,6 +31,7 @@ class InjectedFaults {
   struct Injected {
     lang::Fault fault;
     Eigen::Index joint = -1;
+    bool by_hand = false;
     bool has_begun = false;
     double kept = 0.0;  ///< torque at the begin
   };

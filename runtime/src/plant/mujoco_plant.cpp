@@ -119,7 +119,8 @@ bool MujocoPlant::Simulation::step() noexcept {
   const double before = data->time;
   for (MovingRobot& robot : robots) robot.push(*model, *data);
   for (SimulatedObject& object : objects) {
-    follow_script(object, time(), data->qpos, data->qvel);
+    object.position >= 0 ? follow_script(object, time(), data->qpos, data->qvel) : place_fixed(object);
+    let_go(object, time());
     add_resistance(object, model->opt.timestep, data->qpos, data->qvel, data->qfrc_applied);
   }
   contact_friction.push(*model, *data);
@@ -133,6 +134,15 @@ bool MujocoPlant::Simulation::step() noexcept {
   }
   return is_finite(data->qpos, model->nq) && is_finite(data->qvel, model->nv) &&
          is_finite(data->qacc, model->nv);
+}
+
+void MujocoPlant::Simulation::place_fixed(const SimulatedObject& object) noexcept {
+  if (object.described.motion.empty()) return;
+  const ScriptedPose now = scripted_pose(object.described.motion, time());
+  const Vector3 centre = scripted_centre(object, now);
+  const mjtNum turn[] = {std::cos(0.5 * now.yaw), 0.0, 0.0, std::sin(0.5 * now.yaw)};
+  std::copy(centre.data(), centre.data() + 3, model->body_pos + 3 * object.body);
+  std::copy(std::begin(turn), std::end(turn), model->body_quat + 4 * object.body);
 }
 
 void MujocoPlant::Simulation::read_loads() noexcept {
@@ -302,6 +312,12 @@ void MujocoPlant::shift_centre_of_mass(std::size_t robot, double ahead) noexcept
 void MujocoPlant::scale_inertia(std::size_t robot, double factor) noexcept {
   if (robot < simulation_->robots.size())
     simulation_->robots[robot].scale_inertia(*simulation_->model, factor);
+}
+
+void MujocoPlant::move_object(std::size_t object, std::vector<lang::Waypoint> motion) {
+  if (object >= simulation_->objects.size()) return;
+  SimulatedObject& moved = simulation_->objects[object];
+  if (!moved.described.guide) moved.described.motion = std::move(motion);
 }
 
 void MujocoPlant::set_dock(std::size_t owner, bool holds) noexcept {

@@ -68,6 +68,8 @@ struct MujocoPlant::Simulation {
   const GeomOwner& rolling_in(int pair) const;
   void set_pair_friction(int pair, double coefficient) noexcept;
   const GeomOwner& owner_of(int geom) const { return contacts.owner_of(geom); }
+  /// An object without joints, where its motion has it.
+  void place_fixed(const SimulatedObject& object) noexcept;
   /// One step; false when the simulation is void.
   bool step() noexcept;
   void read_loads() noexcept;

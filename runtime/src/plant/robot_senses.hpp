@@ -19,6 +19,8 @@ class RobotSenses {
 
   /// Before the first sample: where the robot starts.
   void start_at(const Sensed& actual);
+  /// As SceneSignals::block.
+  void block(const std::vector<bool>& blocked) noexcept { signals_.block(blocked); }
   /// To be called once a step of the simulation. What the robot feels comes into `actual`; `torque`: what its
   /// motors made in the last step.
   void measure(const Truth& truth, const Eigen::VectorXd& torque, Sensed& actual) noexcept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <stdexcept>
 
 #include "estimate/ticks.hpp"
@@ -148,17 +149,6 @@ bool SimulationSteps::tick_is_due() noexcept {
   return is_due;
 }
 
-std::vector<Column> base_truth_columns() {
-  return {{"truth.base.x", "m", {}},       {"truth.base.y", "m", {}},
-          {"truth.base.yaw", "rad", {}},   {"truth.base.roll", "rad", {}},
-          {"truth.base.pitch", "rad", {}}, {"truth.base.acceleration", "m/s^2", {}},
-          {"truth.base.push", "N", {}},    {"truth.base.slip", "m/s", {}}};
-}
-
-BaseTruthValues base_truth_values(double x, double y, double yaw, const BaseTruth& base) noexcept {
-  return {x, y, yaw, base.roll, base.pitch, base.acceleration, base.push, base.slip};
-}
-
 ScenePartner::ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& settings)
     : name(robot.name),
       program(robot.program),
@@ -187,6 +177,9 @@ struct ScenePlant::Parts {
         changes(0, program.robot.model, scene.floor_friction),
         motors(program.robot),
         period(options.simulation.period),
+        switches(fault_switches(program.robot)),
+        hand(idle_hand(program)),
+        model_of_first(program.robot.model),
         actual(program.robot.model),
         torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())),
         pushed(torque) {
@@ -276,11 +269,11 @@ struct ScenePlant::Parts {
     if (hands.empty()) return;
     pressing.clear();
     const double yaw = simulation.truth().yaw;
-    for (const Hand& hand : hands) {
-      if (time < hand.says.at || time >= hand.says.at + hand.says.duration) continue;
+    for (const SceneHand& one : hands) {
+      if (time < one.says.at || time >= one.says.at + one.says.duration) continue;
       const solver::Vector3 force =
-          hand.pose.rotation * solver::Vector3{hand.says.force[0], hand.says.force[1], 0.0};
-      pressing.push_back({hand.pose.position.head<2>(), Eigen::Rotation2Dd(yaw) * force.head<2>()});
+          one.pose.rotation * solver::Vector3{one.says.force[0], one.says.force[1], 0.0};
+      pressing.push_back({one.pose.position.head<2>(), Eigen::Rotation2Dd(yaw) * force.head<2>()});
     }
     simulation.set_more_pushes(pressing);
   }
@@ -289,6 +282,30 @@ struct ScenePlant::Parts {
     for (const HeldDock& dock : held_docks) {
       if (dock.output < outputs.size()) simulation.set_dock(dock.owner, outputs[dock.output] > 0.5);
     }
+  }
+
+  /// The fault of a switch, as its value has it, in the place of the one before.
+  void turn(const FaultSwitch& one, double value) {
+    const Eigen::Index joint = one.joint.empty() ? -1 : model_of_first.find_joint(one.joint).value_or(-1);
+    for (const FaultKind kind : one.kinds) faults.lift(kind, joint);
+    if (one.words.empty() ? std::isnan(value) : value < 1.0) return;
+    lang::Fault fault;
+    fault.kind = one.kinds[one.words.empty() ? 0 : static_cast<std::size_t>(value) - 1];
+    fault.at = simulation.truth().time;
+    fault.value = one.words.empty() ? value : 0.0;
+    faults.put(fault, joint);
+  }
+
+  /// Straight and evenly from where it is.
+  void send(const SentObject& sent) {
+    const auto number = static_cast<std::size_t>(sent.object);
+    const ObjectTruth& now = simulation.truth().objects[number];
+    const double turning = std::remainder(sent.yaw - now.yaw, 2.0 * std::numbers::pi);
+    const double way = std::hypot(sent.to[0] - now.x, sent.to[1] - now.y);
+    const double lasts = std::max({way / hand_speed, std::abs(turning) / hand_turn, period});
+    const double begin = simulation.truth().time;
+    simulation.move_object(number,
+                           {{begin, {now.x, now.y}, now.yaw}, {begin + lasts, sent.to, now.yaw + turning}});
   }
 
   /// With the first robot's torques as they stand.
@@ -311,6 +328,9 @@ struct ScenePlant::Parts {
   Changes changes;
   MotorDrive motors;
   double period;  ///< [s] of a step
+  std::vector<FaultSwitch> switches;
+  Hand hand;  ///< as it is
+  solver::Model model_of_first;
   Sensed actual;
   Eigen::VectorXd torque;  ///< what the motors make of the command
   Eigen::VectorXd pushed;  ///< the same, at wheels of the model's size
@@ -321,11 +341,11 @@ struct ScenePlant::Parts {
     std::size_t output;  ///< of the program
   };
   std::vector<HeldDock> held_docks;
-  struct Hand {
+  struct SceneHand {
     lang::ScenePush says;
     solver::Pose pose;  ///< in the base
   };
-  std::vector<Hand> hands;
+  std::vector<SceneHand> hands;
   std::vector<Push> pressing;  ///< now
 };
 
@@ -381,6 +401,19 @@ PlantStatus ScenePlant::Parts::step() noexcept {
 
 void ScenePlant::set_push(const Push& push) noexcept {
   parts_->simulation.set_push(push);
+}
+
+void ScenePlant::set_hand(const Hand& hand) {
+  Parts& p = *parts_;
+  p.simulation.set_push(hand.push);
+  if (hand.blocked != p.hand.blocked) p.senses.block(hand.blocked);
+  for (std::size_t i = 0; i < p.switches.size(); ++i) {
+    const double before = p.hand.faults[i], value = hand.faults[i];
+    const bool is_same = before == value || (std::isnan(before) && std::isnan(value));
+    if (!is_same) p.turn(p.switches[i], value);
+  }
+  if (hand.sent.object >= 0 && hand.sent != p.hand.sent) p.send(hand.sent);
+  p.hand = hand;
 }
 
 void ScenePlant::end_lean() noexcept {

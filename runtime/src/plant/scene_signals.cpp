@@ -237,7 +237,15 @@ void SceneSignals::measure(Source& source, const Truth& truth, const solver::Sta
   source.last_measured = truth.time;
   SignalSample sample = measured(source, truth, state);
   if (source.signal.dropouts > 0.0 && source.noise.uniform() < source.signal.dropouts) sample.valid = false;
+  if (source.is_blocked) sample.valid = false;
   source.on_way[source.next++ % ring] = sample;
+}
+
+void SceneSignals::block(const std::vector<bool>& blocked) noexcept {
+  for (Source& source : sources_) {
+    const auto index = static_cast<std::size_t>(source.index);
+    source.is_blocked = index < blocked.size() && blocked[index];
+  }
 }
 
 void SceneSignals::measure(const Truth& truth, const solver::State& state) noexcept {

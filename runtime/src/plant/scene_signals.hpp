@@ -36,6 +36,8 @@ class SceneSignals {
   /// From now on the base's own pose in the world is measured, too.
   void measure_base(const lang::SceneSignal& fix, std::uint64_t seed);
 
+  /// By the program's signals: nothing is measured of those that are blocked.
+  void block(const std::vector<bool>& blocked) noexcept;
   /// Measures what is due at `truth.time`; `state` is the seeing robot's true one.
   void measure(const Truth& truth, const solver::State& state) noexcept;
   /// What has arrived by then.
@@ -53,6 +55,7 @@ class SceneSignals {
     std::vector<SignalSample> on_way;           ///< a ring of the last measurements
     std::size_t next = 0;
     double last_measured = -1.0;
+    bool is_blocked = false;
     Noise noise{0};
   };
   struct PlanarPose {

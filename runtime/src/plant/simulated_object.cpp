@@ -16,12 +16,23 @@ Matrix3 turned_by(double yaw) {
 
 }  // namespace
 
+Vector3 scripted_centre(const SimulatedObject& object, const ScriptedPose& now) noexcept {
+  return Vector3(now.at[0], now.at[1], object.geometry.centre.z()) +
+         turned_by(now.yaw) * object.geometry.shift;
+}
+
+void let_go(SimulatedObject& object, double time) noexcept {
+  std::vector<lang::Waypoint>& motion = object.described.motion;
+  const bool is_on_the_floor = object.friction || object.casters;
+  if (is_on_the_floor && !motion.empty() && time >= motion.back().time) motion.clear();
+}
+
 void follow_script(const SimulatedObject& object, double time, double* qpos, double* qvel) noexcept {
   if (object.described.motion.empty()) return;
   const ScriptedPose now = scripted_pose(object.described.motion, time);
   const Matrix3 written = turned_by(object.described.yaw);
   const Vector3 arm = turned_by(now.yaw) * object.geometry.shift;
-  const Vector3 centre = Vector3(now.at[0], now.at[1], object.geometry.centre.z()) + arm;
+  const Vector3 centre = scripted_centre(object, now);
   const Vector3 velocity =
       Vector3(now.velocity[0], now.velocity[1], 0.0) + now.turn * Vector3::UnitZ().cross(arm);
   const Vector3 moved = written.transpose() * (centre - object.geometry.centre);

@@ -22,9 +22,15 @@ struct SimulatedObject {
   std::optional<ObjectGuide> guide;       ///< of one on a hinge or a slide that is not locked
 };
 
+/// Where the centre of its body is then. [m]
+solver::Vector3 scripted_centre(const SimulatedObject& object, const ScriptedPose& now) noexcept;
+
 /// Puts a scripted object where it is at this time. Its joints are measured from where it was written, along
 /// the axes that it had there.
 void follow_script(const SimulatedObject& object, double time, double* qpos, double* qvel) noexcept;
+
+/// One with a mass follows no script any more that is over at this time: the floor holds it again.
+void let_go(SimulatedObject& object, double time) noexcept;
 
 /// What floor or guide do to it; moves its bristles by one step of `period` [s].
 void add_resistance(SimulatedObject& object, double period, const double* qpos, const double* qvel,

@@ -1,6 +1,5 @@
 // What the plant measured, as columns of a log.
 #include <algorithm>
-#include <array>
 
 #include "zwang/runtime/scene_plant.hpp"
 
@@ -13,6 +12,17 @@ bool moves(const lang::SceneObject& object) {
 }
 
 }  // namespace
+
+std::vector<Column> base_truth_columns() {
+  return {{"truth.base.x", "m", {}},       {"truth.base.y", "m", {}},
+          {"truth.base.yaw", "rad", {}},   {"truth.base.roll", "rad", {}},
+          {"truth.base.pitch", "rad", {}}, {"truth.base.acceleration", "m/s^2", {}},
+          {"truth.base.push", "N", {}},    {"truth.base.slip", "m/s", {}}};
+}
+
+BaseTruthValues base_truth_values(double x, double y, double yaw, const BaseTruth& base) noexcept {
+  return {x, y, yaw, base.roll, base.pitch, base.acceleration, base.push, base.slip};
+}
 
 std::vector<Column> truth_columns(const lang::Scene& scene) {
   std::vector<Column> columns = base_truth_columns();
@@ -48,16 +58,6 @@ void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> v
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.objects[i].guide) values[at++] = truth.objects[i].travel;
   }
-}
-
-std::vector<Column> push_columns() {
-  return {
-      {"hand.at.x", "m", {}}, {"hand.at.y", "m", {}}, {"hand.force.x", "N", {}}, {"hand.force.y", "N", {}}};
-}
-
-void put_push(const Push& push, std::span<double> values) {
-  const std::array<double, 4> all{push.at.x(), push.at.y(), push.force.x(), push.force.y()};
-  std::copy(all.begin(), all.end(), values.begin());
 }
 
 }  // namespace zwang::runtime

@@ -134,6 +134,10 @@ class MujocoPlant : public Plant {
   void set_push(const Push& push) noexcept;
   /// Beside that one; as many as there ever were do not allocate.
   void set_more_pushes(std::span<const Push> pushes) noexcept;
+  /// From now on an object of the scene, by its number, follows these points in time, whatever stands in its
+  /// way, in the place of its own; at least one. After the last one an object with a mass is let go. One that
+  /// is fixed meets the robot as if it stood: the dampers of its contacts do not see how fast it moves.
+  void move_object(std::size_t object, std::vector<lang::Waypoint> motion);
   /// Whether the dock of an object or robot, by its number in `Truth::objects`, catches and holds; at first
   /// each does. One that lets go has not latched.
   void set_dock(std::size_t owner, bool holds) noexcept;

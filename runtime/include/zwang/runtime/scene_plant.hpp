@@ -9,6 +9,7 @@
 
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
+#include "zwang/runtime/hand.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/runtime/runner.hpp"
 
@@ -60,11 +61,6 @@ std::vector<Column> truth_columns(const lang::Scene& scene);
 /// In the order of those columns, as many values.
 void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> values);
 
-/// Of a run in which a hand may press on the base: where, in the base's axes, and with what, in the world's.
-std::vector<Column> push_columns();
-/// In the order of those columns, as many values.
-void put_push(const Push& push, std::span<double> values);
-
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
 /// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its
 /// own samples and with its own runner, then makes one step of the world. A robot whose control period is
@@ -85,6 +81,11 @@ class ScenePlant : public Plant {
   PlantStatus follow(const Command& command) noexcept override;
   /// On the first robot, from the next step on, until another one; finite.
   void set_push(const Push& push) noexcept;
+  /// What a hand does from the next step on, its push included. A signal that is blocked is measured as
+  /// `lost` in a script. A fault acts as one of the scene and goes before it. An object that is sent
+  /// somewhere goes there straight and evenly, whatever stands in its way; there one with a mass is let go.
+  /// `hand` has as many signals and faults as `idle_hand` of the program.
+  void set_hand(const Hand& hand);
   /// At the end of a run: a base that still leans stands up or falls, without torque, within 1 s.
   void end_lean() noexcept;
   const Truth& truth() const noexcept;
