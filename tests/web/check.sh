@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes pages of runs and looks at them in Chromium. Exit code 77, which ctest takes as skipped, where something is missing.
-# usage: check.sh ZWANG SPECS FOLDER [SCRIPT]
+# usage: check.sh ZWANG SPECS FOLDER [SCRIPT [WORD]]
 set -euo pipefail
 zwang=$1 specs=$2 folder=$3 script=${4-check.mjs}
 web=$(cd -- "$(dirname -- "$0")/../../web" && pwd)
@@ -14,4 +14,4 @@ chromium=$(command -v chromium) || skip "no chromium"
 
 rm -rf "$folder"
 mkdir -p "$folder"
-exec node "$(dirname -- "$0")/$script" "$zwang" "$specs" "$folder" "$chromium"
+exec node "$(dirname -- "$0")/$script" "$zwang" "$specs" "$folder" "$chromium" "${@:5}"

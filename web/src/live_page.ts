@@ -6,7 +6,9 @@ import { curvesOf } from './curves';
 import { taskAt, type Run } from './data';
 import { h, part } from './dom';
 import { graph } from './graph';
-import { baseAt } from './motion';
+import { Grip } from './grip';
+import { handPanel } from './hand_panel';
+import { baseAt, type Place } from './motion';
 import { Hand } from './push';
 import { liveControls, parameterPanel, type Steering } from './live_controls';
 import { LiveRun } from './live_run';
@@ -15,6 +17,7 @@ import { SpaceView } from './space';
 import { Stream, type Begin, type Over, type State } from './stream';
 import { events, factList, margins, why } from './tables';
 import { TopView } from './top';
+import { placeOf } from './world';
 
 const viewsEvery = 33;    // [ms]
 const chartsEvery = 250;
@@ -75,7 +78,8 @@ function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask
   const top = new TopView([{ run, world: begin.world }], clock);
   const space = new SpaceView(run, begin.world, clock);
   const hand = new Hand((push) => ask({ do: 'push', ...push }), () => (clock.isLive ? baseAt(run, run.duration) : null));
-  top.hand = hand;
+  const grip = new Grip(run, begin.world, () => clock.isLive, (object, { x, y, yaw }) => ask({ do: 'move', name: object, to: [x, y], yaw }));
+  top.takeHands(hand, grip);
   pressByKeys(hand);
   const name = begin.facts['task']?.split('/').at(-1) ?? 'a run';
   document.title = `${name}: live`;
@@ -84,6 +88,8 @@ function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask
   const header = h('header', { class: 'verdict' }, h('h1', {}, sign, name), sentence);
   const steering = liveControls(clock, (time) => taskAt(run, time), [top, space], ask);
   const parameters = parameterPanel(begin.parameters, ask);
+  const placeNow = (object: string): Place => placeOf(run, begin.world.scene!.objects.find((one) => one.name === object)!, run.duration);
+  const byHand = handPanel(begin.hand, placeNow, ask);
   const bands = redrawn(clock, (moments) => band(run, moments));
   const tasks = redrawn(clock, (moments) => graph(run, moments));
   const told = redrawn(clock, (moments) => events(run, moments));
@@ -93,6 +99,7 @@ function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask
       h('div', { class: 'wide' },
         ending,
         part('parameters', 'Parameters', parameters.element),
+        part('hand', 'By hand', byHand.element),
         part('views', 'Where', h('div', { class: 'views' }, top.element, space.element)),
         part('band', 'Tasks over time', bands.element),
         curves,
@@ -138,7 +145,7 @@ function build(begin: Begin, run: LiveRun, ask: (request: Parameters<Stream['ask
       drawCharts();
       drawBand();
     },
-    onOver, steerings: [steering, parameters],
+    onOver, steerings: [steering, parameters, byHand],
   };
 }
 

@@ -1,8 +1,9 @@
 // The top view: robot, scene, regions, frames and forces, drawn in the plane; of two runs both.
 import type { Clock } from './clock';
 import { ofStyle, onScheme } from './colours';
-import type { Run, World } from './data';
+import type { Run, SceneObject, World } from './data';
 import { h } from './dom';
+import type { Grip } from './grip';
 import { isInside, type Hand } from './push';
 import { withUnit } from './units';
 import { contactsAt, cornersOf, extentOf, frameInWorld, instantAt, outlineOf, placeOf, pushAt, worldPoint, type Instant } from './world';
@@ -30,12 +31,14 @@ function pathOf(run: Run): Point[] {
 export class TopView {
   readonly element: HTMLElement;
   follow = false;
-  /** Of a run that goes on: a drag that begins on the robot pushes it. */
-  set hand(hand: Hand) {
+  /** Of a run that goes on: a drag that begins on the robot pushes it, one that begins on an object moves that. */
+  takeHands(hand: Hand, grip: Grip): void {
     this.pusher = hand;
-    this.caption.append(' A drag that begins on the robot pushes it.');
+    this.grip = grip;
+    this.caption.append(' A drag that begins on the robot pushes it; one on an object sends that there.');
   }
   private pusher: Hand | null = null;
+  private grip: Grip | null = null;
   private readonly caption = h('figcaption', {});
   private readonly canvas = h('canvas', { class: 'view', tabindex: 0, role: 'img' });
   private scale = 100;
@@ -63,14 +66,21 @@ export class TopView {
     });
     this.canvas.addEventListener('pointerdown', (event) => {
       const point = this.toWorld(event);
-      if (event.button !== 0 || !this.pusher || !isInside(this.footprint(), point)) return;
-      this.canvas.setPointerCapture(event.pointerId);
-      this.pusher.take(point);
+      if (event.button !== 0 || !this.pusher) return;
+      const isOnRobot = isInside(this.footprint(), point);
+      if (isOnRobot) this.pusher.take(point);
+      if (isOnRobot || this.grip?.take(point)) this.canvas.setPointerCapture(event.pointerId);
     });
-    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) this.canvas.addEventListener(end, () => this.pusher?.release());
+    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) {
+      this.canvas.addEventListener(end, () => {
+        this.pusher?.release();
+        this.grip?.release();
+      });
+    }
     this.canvas.addEventListener('pointermove', (event) => {
       if (event.buttons !== 1) return;
-      if (this.pusher?.move(this.toWorld(event))) return this.draw();
+      const point = this.toWorld(event);
+      if (this.pusher?.move(point) || this.grip?.move(point)) return this.draw();
       this.isTouched = true;
       this.centre = [this.centre[0]! - event.movementX / this.pixels(), this.centre[1]! + event.movementY / this.pixels()];
       this.draw();
@@ -182,12 +192,7 @@ export class TopView {
     for (const object of world.scene?.objects ?? []) {
       const place = placeOf(run, object, now.time);
       if (isSecond && this.hasAlready(object.name, place)) continue;
-      if (object.shape === 'cylinder') {
-        c.beginPath();
-        c.arc(...to([place.x, place.y]), object.size[0]! * s, 0, 2 * Math.PI);
-      } else {
-        this.polygon(c, to, outlineOf(object).map((p) => worldPoint(place, p)));
-      }
+      this.outline(c, to, object, place, s);
       this.finishObject(c, to, place, object.name, isSecond);
     }
     for (const robot of world.scene?.robots ?? []) {
@@ -202,6 +207,24 @@ export class TopView {
       const pose = frame.declared && i > 0 ? frameInWorld(world, i, now) : null;
       if (pose) this.drawFrame(c, to, pose.p, Math.atan2(pose.r[3]!, pose.r[0]!), frame.name);
     });
+  }
+
+  private outline(c: CanvasRenderingContext2D, to: ToPixels, object: SceneObject, place: Place, s: number): void {
+    if (object.shape !== 'cylinder') return this.polygon(c, to, outlineOf(object).map((p) => worldPoint(place, p)));
+    c.beginPath();
+    c.arc(...to([place.x, place.y]), object.size[0]! * s, 0, 2 * Math.PI);
+  }
+
+  /** Where an object goes when the pointer lets go. */
+  private drawGhost(c: CanvasRenderingContext2D, to: ToPixels): void {
+    const ghost = this.grip?.ghost;
+    if (!ghost) return;
+    this.outline(c, to, ghost.object, ghost.place, this.pixels());
+    c.setLineDash([3, 4]);
+    c.strokeStyle = ofStyle('--link');
+    c.lineWidth = 2;
+    c.stroke();
+    c.setLineDash([]);
   }
 
   private drawRegions(c: CanvasRenderingContext2D, to: ToPixels, world: World, now: Instant): void {
@@ -336,6 +359,7 @@ export class TopView {
 
   /** The push of the pointer, and the one that the log has at this time. */
   private drawHand(c: CanvasRenderingContext2D, to: ToPixels, now: Instant): void {
+    this.drawGhost(c, to);
     const pulled = this.pusher?.arrow;
     const push = pulled ?? pushAt(this.viewed[0]!.run, now);
     if (!push) return;
