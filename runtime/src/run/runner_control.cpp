@@ -1,0 +1,146 @@
+// From a sample to the command.
+#include <algorithm>
+
+#include "run/runner_parts.hpp"
+
+namespace zwang::runtime {
+
+bool Runner::Parts::control() noexcept {
+  sample.time = estimated.time;
+  const bool is_virtual = drive && drive->has_virtual_robot();
+  if (is_virtual && is_new_sample) {
+    if (!project(drive->measured())) return false;
+    compare(drive->measured());
+  }
+  if (!project(estimated.state)) return false;
+  friction.follow(sample.state.q);
+  if (!is_virtual && is_new_sample) compare(estimated.state);
+  if (drive && drive->felt_force() != nullptr) scheduler.estimate_force(*drive->felt_force());
+  if (guard.stopped()) return true;  // a motor is not to be trusted
+  arm.bear(sample.state);            // it floats where nothing is said of it
+  is_solution_of_rows = false;
+  const bool was_finished = scheduler.phase() == Phase::finished;
+  scheduler.tick(sample);
+  if (!was_finished && scheduler.phase() == Phase::finished && !scheduler.has_stood()) tell_doubt();
+  if (scheduler.transition()) {
+    const Transition& t = *scheduler.transition();
+    if (t.refusal == Refusal::require || t.refusal == Refusal::set)
+      tell({EventCode::entry_refused, sample.time, -1, static_cast<double>(t.refused)});
+    ++transition_count;
+    turning_point.look(*scheduler.transition(), scheduler, limits);
+    if (transitions.size() < transitions.capacity()) transitions.push_back(*scheduler.transition());
+  }
+  tell_excursion();
+  if (!solve()) return false;
+  wanted = solution.tau;
+  if (!friction.empty()) {
+    friction.update(sample.state.qd, press.look(solver, scheduler.row_sets(), solution));
+    friction.compensate(wanted);
+  }
+  if (handed_over_for < handover) hand_over();
+  return true;
+}
+
+bool Runner::Parts::project(const solver::State& state) noexcept {
+  sample.state = state;
+  solver_status = solver.project_velocity(sample.state);
+  return solver_status == solver::Status::ok;
+}
+
+/// Until no norm in a plane is broken.
+bool Runner::Parts::solve() noexcept {
+  constexpr int most_rounds = 5;
+  for (int round = 1;; ++round) {
+    const bool is_filled = scheduler.fill_constraints();
+    if (round == 1) {
+      if (const auto refused = wrenches.look(scheduler.row_sets(), sample.state, sample.time)) tell(*refused);
+    }
+    solver_status = is_filled ? solver.solve(sample.state, scheduler.row_sets(), solution)
+                              : solver::Status::capacity_exceeded;
+    if (solver_status != solver::Status::ok && solver_status != solver::Status::iteration_limit) return false;
+    scheduler.observe(solution);
+    if (round == most_rounds || !scheduler.pose_broken_sides(solver, solution)) break;
+  }
+  scheduler.follow_up(solver);
+  is_solution_of_rows = true;
+  return true;
+}
+
+void Runner::Parts::hand_over() noexcept {
+  if (handed_over_for <= 0.0) handed_over = tau - wanted;
+  wanted += (1.0 - handed_over_for / handover) * handed_over;
+  handed_over_for += period;
+}
+
+void Runner::Parts::send(bool good, bool solved) noexcept {
+  if (good && blind_budget.takes_over()) {
+    if (guard.stopped()) wanted.setZero();
+    blind_budget.give_back(wanted);
+  }
+  guard_status = good ? guard.output(estimated, wanted, tau) : guard.output_blind(tau);
+  put_command(good, solved);
+  if (solved && !guard.stopped() && !drive) {
+    disturbance.expect(solver, solution, sample.state, friction.torque(), tau, sample.time);
+    blind_budget.expect(disturbance, friction.torque(), tau);
+    return;
+  }
+  if (good) disturbance.pause();
+  if (guard.stopped() && !drive) blind_budget.expect_brake(tau);
+}
+
+/// A sample that was refused leaves a drive's velocities and bounds as they are.
+void Runner::Parts::put_command(bool good, bool solved) noexcept {
+  if (guard.stopped()) scheduler.stop_outputs();
+  std::ranges::copy(scheduler.outputs(), command.outputs.begin());
+  if (!drive) {
+    command.torque = command.lower = command.upper = tau;
+    return;
+  }
+  if (guard.stopped()) {
+    const bool is_contrary = guard.reason() == EventCode::not_followed;
+    const int suspect = is_contrary ? event_signal::joint_of(guard.stop_event().signal) : -1;
+    drive->brake(good && !is_a_wheel_dead ? &estimated.state.qd : nullptr, suspect, command);
+    tau.setZero();
+  } else if (solved) {
+    command.torque = tau;
+    compensation = wanted - solution.tau;
+    drive->drive(solver, scheduler, solution, sample.state, sample.time, compensation, command);
+    if (scheduler.phase() == Phase::finished) drive->rest(command);
+  }
+}
+
+bool Runner::Parts::control_or_stop() noexcept {
+  const bool computed = control();
+  if (!computed) guard.stop(EventCode::solver, -1, static_cast<double>(solver_status));
+  return computed && !guard.stopped();
+}
+
+void Runner::Parts::keep_stop(bool good_sample) noexcept {
+  if (guard.stopped()) {
+    if (!stop_is_told) tell(guard.stop_event());
+    stop_is_told = true;
+    brake_protectively(good_sample);
+    return;
+  }
+  stop_is_told = false;
+  stopped_ticks = 0;
+  rest.begin();
+  is_past_stop = is_rest_doubted = false;
+}
+
+void Runner::Parts::brake_protectively(bool good_sample) noexcept {
+  ++stopped_ticks;
+  // Where one wheel's encoder is dead, the others do not tell how the base moves.
+  if (good_sample && !is_a_wheel_dead && !blind_budget.takes_over()) {
+    rest.look(estimated.state.base_twist, period);
+  } else {
+    rest.doubt();
+  }
+  if (drive && drive->moves(command)) return;  // it is told less from tick to tick
+  if (rest.stood_for() >= rest_dwell) is_past_stop = true;
+  if (is_past_stop || static_cast<double>(stopped_ticks) * period <= longest_stop) return;
+  is_past_stop = is_rest_doubted = true;
+  tell_doubt();
+}
+
+}  // namespace zwang::runtime

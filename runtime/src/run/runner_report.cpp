@@ -1,0 +1,228 @@
+// What is told of a run: its log, its limits, and whatever a host asks.
+#include <algorithm>
+
+#include "run/runner_parts.hpp"
+
+namespace zwang::runtime {
+
+const char* to_string(RunState state) noexcept {
+  switch (state) {
+    case RunState::running:
+      return "running";
+    case RunState::done:
+      return "done";
+    case RunState::failed:
+      return "failed";
+    case RunState::stopped:
+      return "stopped";
+  }
+  return "?";
+}
+
+void Runner::Parts::follow_limits() noexcept {
+  limits.update(statements, scheduler.constraints(), scheduler.in_force(), solution, tau, blends());
+}
+
+void Runner::Parts::record(const Sensed& sensed, bool good, bool solved,
+                           std::span<const double> extra) noexcept {
+  const Shortfall shortfall = find_shortfall();
+  const Tick tick{sensed,
+                  given_parameters,
+                  good ? estimated : sensed,
+                  scheduler,
+                  solved,
+                  solution,
+                  solver_status,
+                  guard_status,
+                  tau,
+                  command,
+                  extra,
+                  shortfall,
+                  event,
+                  force_on_base(),
+                  slip.speed()};
+  recorder->record(layout.fill(statements, tick));
+}
+
+Shortfall Runner::Parts::find_shortfall() const noexcept {
+  if (!is_solution_of_rows) return {};
+  return runtime::find_shortfall(statements, scheduler.constraints(), scheduler.in_force(), solver, solution);
+}
+
+std::map<std::string, std::string> Runner::facts() const {
+  RunFacts facts = parts_->facts;
+  for (std::size_t i = 0; i < parts_->parameter_names.size(); ++i)
+    facts["params." + parts_->parameter_names[i]] = exactly(parts_->scheduler.parameters()[i]);
+  return facts;
+}
+
+RunState Runner::state() const noexcept {
+  if (parts_->guard.stopped()) return RunState::stopped;
+  switch (parts_->scheduler.outcome()) {
+    case Outcome::done:
+      return RunState::done;
+    case Outcome::failed:
+      return RunState::failed;
+    case Outcome::none:
+      break;
+  }
+  return RunState::running;
+}
+
+bool Runner::finished() const noexcept {
+  if (parts_->guard.stopped()) return parts_->is_past_stop;
+  return parts_->scheduler.phase() == Phase::finished;
+}
+
+bool Runner::may_still_move() const noexcept {
+  if (parts_->guard.stopped()) return parts_->is_rest_doubted;
+  return finished() && !parts_->scheduler.has_stood();
+}
+
+std::string Runner::because() const {
+  std::string words;
+  if (parts_->guard.stopped()) words = describe(parts_->guard.reason());
+  if (may_still_move()) words += (words.empty() ? "" : "; ") + std::string(unseen_rest);
+  return words;
+}
+
+std::vector<Column> Runner::columns() const {
+  return parts_->layout.columns();
+}
+
+void Runner::record_to(Recorder* recorder) noexcept {
+  parts_->recorder = recorder;
+}
+
+const Command& Runner::command() const noexcept {
+  return parts_->command;
+}
+
+std::span<const double> Runner::outputs() const noexcept {
+  return parts_->command.outputs;
+}
+
+double Runner::period() const noexcept {
+  return parts_->period;
+}
+
+const Scheduler& Runner::scheduler() const noexcept {
+  return parts_->scheduler;
+}
+
+const SafetyGuard& Runner::guard() const noexcept {
+  return parts_->guard;
+}
+
+SafetyGuard& Runner::guard() noexcept {
+  return parts_->guard;
+}
+
+const solver::Solution& Runner::solution() const noexcept {
+  return parts_->solution;
+}
+
+GuardStatus Runner::guard_status() const noexcept {
+  return parts_->guard_status;
+}
+
+solver::Status Runner::solver_status() const noexcept {
+  return parts_->solver_status;
+}
+
+const std::vector<Transition>& Runner::transitions() const noexcept {
+  return parts_->transitions;
+}
+
+std::uint64_t Runner::transition_count() const noexcept {
+  return parts_->transition_count;
+}
+
+const std::vector<Event>& Runner::events() const noexcept {
+  return parts_->events;
+}
+
+std::uint64_t Runner::event_count() const noexcept {
+  return parts_->event_count;
+}
+
+std::string Runner::event_signal(const Event& event) const {
+  const auto i = static_cast<std::size_t>(event.signal);
+  return event.signal >= 0 && i < parts_->signal_words.size() ? parts_->signal_words[i] : std::string();
+}
+
+solver::Vector3 Runner::estimated_force() const noexcept {
+  return parts_->force_on_base();
+}
+
+bool Runner::set_parameter(std::string_view name, double value) noexcept {
+  for (std::size_t i = 0; i < parts_->parameter_names.size(); ++i) {
+    if (parts_->parameter_names[i] == name)
+      return parts_->scheduler.set_parameter(static_cast<int>(i), value);
+  }
+  return false;
+}
+
+std::vector<LimitReport> Runner::limits() const {
+  return parts_->limits.reports();
+}
+
+std::optional<LimitReport> Runner::limit_now() const {
+  return parts_->limits.now();
+}
+
+std::optional<ShortfallReport> Runner::shortfall() const {
+  const Shortfall s = parts_->find_shortfall();
+  if (s.missed < 0) return std::nullopt;
+  const auto name = [&](int statement, const Origin& origin) {
+    const std::string part = parts_->scheduler.part_name(origin);
+    const std::string& whole = parts_->statements.all()[static_cast<std::size_t>(statement)].name;
+    return part.empty() ? whole : whole + "." + part;
+  };
+  ShortfallReport report;
+  report.row = name(s.missed, s.origin);
+  report.residual = s.residual;
+  const Statement& missed = parts_->statements.all()[static_cast<std::size_t>(s.missed)];
+  report.unit = unit_of(missed.says.axis, solver::Quantity::acceleration);
+  for (int i = 0; i < s.count; ++i) {
+    const Shortfall::Holder& by = s.held_by[static_cast<std::size_t>(i)];
+    report.held_back_by.push_back(name(by.statement, by.origin));
+  }
+  return report;
+}
+
+std::optional<Why> Runner::why() const {
+  if (state() == RunState::done) return std::nullopt;
+  const Parts& p = *parts_;
+  const bool is_decided = !p.guard.stopped() && p.turning_point.found();
+  EndOfRun end{.scheduler = p.scheduler,
+               .turning_point = p.turning_point,
+               .file = p.facts.at("task"),
+               .time = p.guard.time(),
+               .limit = p.limits.report_of(is_decided ? p.turning_point.limit() : p.limits.tightest()),
+               .stop = {},
+               .refused = {}};
+  if (p.guard.stopped()) end.stop = describe_stop();
+  const double until = is_decided ? p.turning_point.found()->time : end.time;
+  const int first = event_signal::measured(p.model.joint_count(), 0);
+  std::vector<EventCode> kinds;  // the first of a kind is enough
+  for (const Event& told : p.events) {
+    if (told.code == EventCode::signal_refused && told.signal >= first) {
+      end.refused.push_back({p.signals[static_cast<std::size_t>(told.signal - first)].name, told.value});
+    } else if (!latches_the_stop(told.code) && std::ranges::find(kinds, told.code) == kinds.end() &&
+               told.time <= until) {
+      kinds.push_back(told.code);
+      end.told.push_back("the guard told at " + with_unit(told.time, "s") + ": " + describe(told.code));
+    }
+  }
+  return why_of(end);
+}
+
+/// With the signal that told it, and what that read.
+std::string Runner::describe_stop() const {
+  const Event& stop = parts_->guard.stop_event();
+  const std::string signal = event_signal(stop);
+  return std::string(describe(stop.code)) + (signal.empty() ? "" : " (`" + signal + "`)");
+}
+
+}  // namespace zwang::runtime
