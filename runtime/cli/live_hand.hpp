@@ -1,10 +1,10 @@
 /// The requests of a live page to the simulated world.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "json_parts.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/hand.hpp"
 
