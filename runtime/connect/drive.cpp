@@ -23,15 +23,19 @@ void pause() {
 bool wait_for_robot(const lang::Connection& connection, Inbox& inbox, const Outbox& outbox, double most,
                     runtime::Sensed& sensed) {
   const double until = now() + most;
-  const auto is_there = [&] { return inbox.has_joints() && inbox.has_base() && outbox.readers() > 0; };
+  const auto is_there = [&] {
+    return inbox.clock().has_come() && inbox.has_joints() && inbox.has_base() && outbox.readers() > 0;
+  };
   for (; !is_there() && now() < until && !cli::is_interrupted(); pause()) inbox.fill(sensed);
   if (is_there()) return true;
-  const char* missing = !inbox.has_joints() ? "no sample of every motor's joint on "
-                        : !inbox.has_base() ? "no odometry on "
-                                            : "nobody listens to ";
-  const std::string& topic = !inbox.has_joints() ? connection.joints.topic.name
-                             : !inbox.has_base() ? connection.base->name
-                                                 : connection.command.topic.name;
+  const char* missing = !inbox.clock().has_come() ? "no time on "
+                        : !inbox.has_joints()     ? "no sample of every motor's joint on "
+                        : !inbox.has_base()       ? "no odometry on "
+                                                  : "nobody listens to ";
+  const std::string& topic = !inbox.clock().has_come() ? connection.clock->name
+                             : !inbox.has_joints()     ? connection.joints.topic.name
+                             : !inbox.has_base()       ? connection.base->name
+                                                       : connection.command.topic.name;
   std::fprintf(stderr, "zwang drive: %s%s in domain %d within %g s; nothing was sent\n", missing,
                topic.c_str(), connection.domain, most);
   return false;
@@ -69,7 +73,7 @@ int drive(const Arguments& arguments) {
   Outbox outbox(connection, loaded->program, participant);
   runtime::Sensed sensed(loaded->program);
   Control control(connection, loaded->program, participant,
-                  [&] { return now() - inbox.last_arrival() < connection.joints.stale_after; });
+                  [&] { return inbox.silence() < connection.joints.stale_after; });
   const bool is_ready = wait_for_robot(connection, inbox, outbox, arguments.wait, sensed) &&
                         wait_for_start(connection, inbox, control, sensed);
   if (!is_ready) return exit_impossible;

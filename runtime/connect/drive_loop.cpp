@@ -20,6 +20,8 @@ constexpr double blocked_for = 0.2;    // [s] without a tick: the thread hangs, 
 constexpr double too_late = 0.1;       // [s] a tick that is so late is a stop
 constexpr double longest_brake = 2.0;  // [s] behind a signal
 constexpr double nearly_a_period = 0.7;
+constexpr double told_rounding = 1e-3;  // of a period
+constexpr double look_again = 0.5e-3;   // [s] at a clock that is told
 
 class Loop {
  public:
@@ -45,7 +47,9 @@ class Loop {
       [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof(text) - 1);
       _exit(exit_bad);
     });
-    begin_ = due_ = now();
+    watchdog_ = &watchdog;
+    begin_ = now();
+    due_ = inbox_.clock().time();
     inbox_.fill(sensed_);
     sensed_.time = report_.first_sample = inbox_.joints().stamp;
     while (!runner_.finished()) {
@@ -63,24 +67,49 @@ class Loop {
  private:
   void wait_for_clock() {
     due_ += period_;
-    sleep_until(due_);
-    const double late = now() - due_;
+    const bool is_due = wait_until_due();
+    inbox_.fill(sensed_);
+    sensed_.time = inbox_.clock().time();
+    sensed_.measured_at = inbox_.joints().stamp;
+    if (!is_due) {
+      ++report_.without_new;  // the guard counts it as lost
+      due_ = sensed_.time;
+      return;
+    }
+    const double late = std::max(0.0, sensed_.time - due_);
     note(late);
     const double missed = std::floor(std::max(0.0, late) / period_);
     report_.skipped += static_cast<std::uint64_t>(missed);
     due_ += missed * period_;
-    inbox_.fill(sensed_);
-    sensed_.time = now();
-    sensed_.measured_at = inbox_.joints().stamp;
+  }
+
+  /// By the robot's clock. False: it stands.
+  bool wait_until_due() {
+    const RobotClock& clock = inbox_.clock();
+    if (!clock.is_told()) {
+      sleep_until(due_);
+      return true;
+    }
+    // What is told comes in steps: one that falls short by rounding is due.
+    while (clock.time() < due_ - told_rounding * period_) {
+      if (clock.stands(now()) || cli::is_interrupted()) return false;
+      sleep_until(now() + look_again);
+      watchdog_->feed();
+    }
+    return true;
   }
 
   /// Samples may come more often than the control period: those between are passed over.
   void wait_for_sample() {
-    const double last = inbox_.joints().stamp, until = now() + 1.5 * period_;
+    const RobotClock& clock = inbox_.clock();
+    const double last = inbox_.joints().stamp, until = clock.time() + 1.5 * period_;
     bool is_new = false;
-    while (!is_new && inbox_.wait_for_joints(until)) {
-      inbox_.fill(sensed_);
-      is_new = inbox_.joints().stamp - last > nearly_a_period * period_;
+    while (!is_new && clock.time() < until && !clock.stands(now())) {
+      if (inbox_.wait_for_joints(clock.is_told() ? now() + look_again : until)) {
+        inbox_.fill(sensed_);
+        is_new = inbox_.joints().stamp - last > nearly_a_period * period_;
+      }
+      watchdog_->feed();
     }
     if (!is_new) {
       ++report_.without_new;  // the guard counts it as lost
@@ -117,8 +146,7 @@ class Loop {
   /// The guard does not know this process's own clock, by which nothing may come any more. Nor does it know
   /// that somebody asks for the end, by a signal or by the service `stop`.
   void judge() {
-    const double silence = now() - inbox_.last_arrival();
-    if (silence > connection_.joints.stale_after) stop(EventCode::lost_ticks);
+    if (inbox_.silence() > connection_.joints.stale_after) stop(EventCode::lost_ticks);
     judge_base();
     if ((cli::is_interrupted() || control_.wants_stop() || control_.wants_cancel()) && !give_up_) {
       give_up_ = now() + longest_brake;
@@ -134,12 +162,13 @@ class Loop {
     has_stepped_ = true;
     const runtime::SafetyGuard& guard = runner_.guard();
     if (!report_.silence && guard.stopped() && guard.reason() == EventCode::lost_ticks)
-      report_.silence = now() - inbox_.last_arrival();
+      report_.silence = inbox_.silence();
+    outbox_.send_outputs(runner_.outputs());
     // A tick that comes a little early is that of its cycle.
-    const double time = now();
+    const double time = inbox_.clock().time();
     if (time < send_at_ - 0.3 * period_) return;
     send_at_ = std::max(send_at_ + send_every_, time);
-    if (!outbox_.send(runner_.command(), now())) ++report_.unsent;
+    if (!outbox_.send(runner_.command(), time)) ++report_.unsent;
   }
 
   /// Of the active task's timeout; -1 without one.
@@ -159,6 +188,7 @@ class Loop {
   DriveReport& report_;
   runtime::Sensed sensed_;
   FrozenBase frozen_base_;
+  runtime::Watchdog* watchdog_ = nullptr;
   bool takes_velocity_;
   double period_, send_every_;
   double begin_ = 0.0, due_ = 0.0, send_at_ = 0.0;  // [s]

@@ -97,6 +97,7 @@ class Goals {
     std::fflush(stdout);
     robot_.control.speak_of(first_);
     robot_.inbox.read_for(first_);
+    robot_.outbox.write_for(first_);
     // Before the goal is over: whoever hears of that may send the next one.
     robot_.control.enter(is_latched ? Phase::latched : Phase::ready);
     robot_.control.goals().finish(result);
@@ -122,6 +123,7 @@ class Goals {
     if (const std::string trouble = clock_trouble(robot_.connection, robot_.inbox); !trouble.empty())
       return refused(trouble);
     robot_.inbox.read_for(*program);
+    robot_.outbox.write_for(*program);
     robot_.control.speak_of(*program);
     return run_task(robot_, *program, diagnostics,
                     {log_of(arguments_.log, number_), arguments_.log_rate, arguments_.rotation});

@@ -63,11 +63,11 @@ std::optional<SignalSample> sample_of(const WrenchStamped& message, const lang::
   return sample;
 }
 
-void count(TopicCounts& counts, double arrival, double stamp) {
+void count(TopicCounts& counts, double arrival, double age) {
   if (counts.received++ == 0) counts.first_arrival = arrival;
   counts.last_arrival = arrival;
-  counts.age_sum = counts.age_sum + (arrival - stamp);
-  counts.most_age = std::max(counts.most_age.load(), arrival - stamp);
+  counts.age_sum = counts.age_sum + age;
+  counts.most_age = std::max(counts.most_age.load(), age);
 }
 
 struct SignalBox {
@@ -101,6 +101,8 @@ struct Inbox::Parts {
   std::mutex fix_mutex;                      ///< of the threads of DDS: /tf and /tf_static have one each
   std::vector<std::unique_ptr<SignalBox>> signals;
   std::vector<std::unique_ptr<TopicCounts>> counts;
+  RobotClock clock;
+  std::atomic<double> last_stamp{0.0};  ///< [s] of the joints
   sem_t arrivals{};
   bool has_joints = false, has_base = false, has_fix = false, trusts_base = true;
 
@@ -108,7 +110,8 @@ struct Inbox::Parts {
       : connection(c),
         program(&p),
         merger(c.joints, p.robot.model),
-        joints(JointsSample{0.0, 0.0, merger.q(), merger.qd()}) {
+        joints(JointsSample{0.0, 0.0, merger.q(), merger.qd()}),
+        clock(c.clock.has_value(), c.joints.stale_after) {
     sem_init(&arrivals, 0, 0);
     if (c.fix_frames) transforms.emplace(c.fix_frames->parent, c.fix_frames->child);
   }
@@ -122,7 +125,7 @@ struct Inbox::Parts {
     TopicCounts& of = *counts.emplace_back(std::make_unique<TopicCounts>());
     of.topic = topic.name;
     of.type = lang::to_string(type);
-    participant.subscribe(topic.name, of.type, [&of, admits, take](const Payload& payload) {
+    participant.subscribe(topic.name, of.type, [this, &of, admits, take](const Payload& payload) {
       const double arrival = now();
       const std::optional<Message> message = decode<Message>(payload.bytes);
       if (!admits(of, message, payload.sender, arrival)) {
@@ -130,7 +133,7 @@ struct Inbox::Parts {
         return;
       }
       const std::optional<double> stamp = message ? take(*message, arrival) : std::nullopt;
-      stamp ? count(of, arrival, *stamp) : void(++of.bad);
+      stamp ? count(of, arrival, clock.time_at(arrival) - *stamp) : void(++of.bad);
     });
   }
 
@@ -156,6 +159,7 @@ struct Inbox::Parts {
     if (!merger.take(message)) return std::nullopt;
     const double stamp = message.header.stamp();
     if (!merger.is_whole()) return stamp;
+    last_stamp = stamp;
     JointsSample& draft = joints.draft();
     draft.stamp = stamp;
     draft.arrival = arrival;
@@ -213,13 +217,22 @@ struct Inbox::Parts {
       const Verdict verdict = transforms->take(transform, is_static, payload.sender, arrival);
       if (verdict == Verdict::bad) ++of.bad;
       if (verdict == Verdict::of_another) ++of.others;
-      if (verdict == Verdict::taken) count(of, arrival, is_static ? arrival : transform.header.stamp());
+      if (verdict == Verdict::taken)
+        count(of, arrival, is_static ? 0.0 : clock.time_at(arrival) - transform.header.stamp());
     }
     const std::lock_guard lock(fix_mutex);
     if (const auto found = transforms->find()) {
       fix.draft() = {found->stamp, found->pose};
       fix.put();
     }
+  }
+
+  void subscribe_clock(Participant& participant) {
+    listen_to_one<ClockMessage>(participant, *connection.clock, MessageType::clock,
+                                [this](const ClockMessage& message, double arrival) -> std::optional<double> {
+                                  clock.tell(message.time(), arrival);
+                                  return message.time();
+                                });
   }
 
   void subscribe_signal(const lang::SignalSource& source, Participant& participant) {
@@ -240,14 +253,15 @@ struct Inbox::Parts {
   template <typename Message>
   void listen_for_signal(const lang::SignalSource& source, Participant& participant) {
     SignalBox& box = *signals.emplace_back(std::make_unique<SignalBox>(source));
-    listen_to_one<Message>(participant, source.topic, source.type,
-                           [&box, &source](const Message& message, double arrival) -> std::optional<double> {
-                             const auto sample = sample_of(message, source, arrival);
-                             if (!sample) return std::nullopt;
-                             box.mail.draft() = *sample;
-                             box.mail.put();
-                             return sample->stamp;
-                           });
+    listen_to_one<Message>(
+        participant, source.topic, source.type,
+        [this, &box, &source](const Message& message, double arrival) -> std::optional<double> {
+          const auto sample = sample_of(message, source, clock.time_at(arrival));
+          if (!sample) return std::nullopt;
+          box.mail.draft() = *sample;
+          box.mail.put();
+          return sample->stamp;
+        });
   }
 
   /// The base goes on along its circle from its own stamp to that of the joints.
@@ -271,6 +285,7 @@ Inbox::~Inbox() = default;
 void Inbox::subscribe(Participant& participant) {
   Parts& p = *parts_;
   p.subscribe_joints(participant);
+  if (p.connection.clock) p.subscribe_clock(participant);
   if (p.connection.base)
     p.listen_to_one<Odometry>(
         participant, *p.connection.base, MessageType::odometry,
@@ -333,6 +348,12 @@ void Inbox::fill(runtime::Sensed& sensed) noexcept {
   }
 }
 
+const RobotClock& Inbox::clock() const noexcept {
+  return parts_->clock;
+}
+double Inbox::silence() const noexcept {
+  return parts_->clock.silence(now(), last_arrival(), parts_->last_stamp);
+}
 const JointsSample& Inbox::joints() const noexcept {
   return parts_->joints.value();
 }

@@ -14,6 +14,7 @@
 #include "frozen_base.hpp"
 #include "mailbox.hpp"
 #include "message.hpp"
+#include "robot_clock.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/plant.hpp"
 
@@ -58,6 +59,10 @@ class Inbox {
   /// caller's.
   void fill(runtime::Sensed& sensed) noexcept;
 
+  /// What the robot's stamps go by.
+  const RobotClock& clock() const noexcept;
+  /// [s] by that clock, for how long no sample of the joints has come.
+  double silence() const noexcept;
   const JointsSample& joints() const noexcept;  ///< as of the last `fill`
   /// As of the last `fill`, not carried on; nullptr where none has come, or it is distrusted.
   const BaseSample* base() const noexcept;

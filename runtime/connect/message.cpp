@@ -34,6 +34,8 @@ void describe(Way& way, M& m) {
     pass(way, m.header, m.names, m.positions, m.velocities, m.efforts);
   } else if constexpr (std::is_same_v<Message, Odometry>) {
     pass(way, m.header, m.child_frame, m.pose, m.pose_covariance, m.twist, m.twist_covariance);
+  } else if constexpr (std::is_same_v<Message, ClockMessage>) {
+    pass(way, m.seconds, m.nanoseconds);
   } else if constexpr (std::is_same_v<Message, Twist>) {
     pass(way, m.twist);
   } else if constexpr (std::is_same_v<Message, TwistStamped>) {
@@ -113,6 +115,7 @@ ZWANG_BOTH_WAYS(Bool);
 ZWANG_BOTH_WAYS(Float64);
 ZWANG_BOTH_WAYS(Float64MultiArray);
 ZWANG_BOTH_WAYS(LaserScan);
+ZWANG_BOTH_WAYS(ClockMessage);
 ZWANG_BOTH_WAYS(TransformsMessage);
 #undef ZWANG_BOTH_WAYS
 
@@ -133,6 +136,15 @@ std::optional<double> LaserScan::nearest(double low, double high) const {
     nearest = std::min(nearest.value_or(range), range);
   }
   return nearest;
+}
+
+std::optional<double> read_output(lang::MessageType type, std::span<const std::uint8_t> payload) {
+  if (type == lang::MessageType::float64) {
+    const auto message = decode<Float64>(payload);
+    return message && std::isfinite(message->data) ? std::optional(message->data) : std::nullopt;
+  }
+  const auto message = decode<Bool>(payload);
+  return message ? std::optional(message->data ? 1.0 : 0.0) : std::nullopt;
 }
 
 bool are_finite(std::span<const double> numbers) {

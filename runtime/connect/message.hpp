@@ -68,6 +68,13 @@ struct TransformStamped {
 struct TransformsMessage {
   std::vector<TransformStamped> transforms;
 };
+/// rosgraph_msgs/Clock.
+struct ClockMessage {
+  std::int32_t seconds = 0;
+  std::uint32_t nanoseconds = 0;
+
+  double time() const { return seconds + 1e-9 * nanoseconds; }  ///< [s]
+};
 struct String {
   std::string data;
 };
@@ -103,6 +110,8 @@ void encode(const Message& message, Bytes& bytes);
 template <typename Message>
 std::optional<Message> decode(std::span<const std::uint8_t> bytes);
 
+/// Of a std_msgs/Bool 0 or 1, of a Float64 its number; nullopt for a bad one.
+std::optional<double> read_output(lang::MessageType type, std::span<const std::uint8_t> payload);
 /// None of them is NaN or infinite.
 bool are_finite(std::span<const double> numbers);
 

@@ -1,5 +1,6 @@
 #include "outbox.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -27,7 +28,35 @@ Outbox::Outbox(const lang::Connection& connection, const lang::Program& program,
       order_(joints_in_order(connection.command, program.robot.model)),
       writer_(participant.advertise(sink_.topic.name, lang::to_string(sink_.type))),
       last_writer_(participant.advertise(sink_.topic.name, lang::to_string(sink_.type))),
-      zeros_(program.robot.model.joint_count()) {}
+      zeros_(program.robot.model.joint_count()) {
+  for (const lang::OutputSink& sink : connection.outputs)
+    outputs_.push_back({sink.name,
+                        sink.type,
+                        participant.advertise(sink.topic.name, lang::to_string(sink.type), Late::gets_last),
+                        {},
+                        {}});
+  write_for(program);
+}
+
+void Outbox::write_for(const lang::Program& program) {
+  for (OutputWriter& output : outputs_) {
+    const auto found = std::ranges::find(program.outputs, output.name, &lang::Output::name);
+    output.index.reset();
+    if (found != program.outputs.end())
+      output.index = static_cast<std::size_t>(found - program.outputs.begin());
+  }
+}
+
+void Outbox::send_outputs(std::span<const double> values) noexcept {
+  for (OutputWriter& output : outputs_) {
+    if (!output.index || *output.index >= values.size() || output.last == values[*output.index]) continue;
+    const double value = values[*output.index];
+    output.type == lang::MessageType::float64 ? encode(Float64{value}, bytes_)
+                                              : encode(Bool{value > 0.5}, bytes_);
+    // What could not be handed over is sent with the next tick.
+    if (output.writer->write(bytes_)) output.last = value;
+  }
+}
 
 bool Outbox::send_by(Writer& writer, const runtime::Command& command, double stamp, Bytes& bytes) const {
   if (sink_.type == lang::MessageType::twist) {

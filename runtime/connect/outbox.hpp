@@ -2,6 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "dds.hpp"
@@ -18,9 +21,14 @@ class Outbox {
 
   /// One message; false where it could not be handed over within a millisecond.
   bool send(const runtime::Command& command, double stamp) noexcept;
+  /// The program's outputs, in its order: each when it changes, and the first time. Who comes later gets the
+  /// last.
+  void send_outputs(std::span<const double> values) noexcept;
   /// The last word to the motors: zeros, five times within 50 ms. By a writer of its own, so that a thread
   /// that hangs in `send` cannot keep it back.
   void send_zeros(double stamp) noexcept;
+  /// From now on outputs are those of this program, in its order.
+  void write_for(const lang::Program& program);
   int readers() const noexcept { return writer_->readers(); }
 
  private:
@@ -30,6 +38,14 @@ class Outbox {
   std::vector<int> order_;
   std::unique_ptr<Writer> writer_, last_writer_;
   runtime::Command zeros_;
+  struct OutputWriter {
+    std::string name;  ///< of the output
+    lang::MessageType type;
+    std::unique_ptr<Writer> writer;
+    std::optional<std::size_t> index;  ///< in Program::outputs; none: the program has no such output
+    std::optional<double> last;        ///< that was sent
+  };
+  std::vector<OutputWriter> outputs_;
   Bytes bytes_;
 };
 

@@ -29,10 +29,14 @@ RobotSide::RobotSide(const lang::Connection& connection, const lang::Program& pr
       order_(joints_in_order(connection.command, program.robot.model)),
       mail_(CommandMail{runtime::Command(program.robot.model.joint_count()), 0.0}),
       zeros_(program.robot.model.joint_count()),
+      given_(program.robot.model.joint_count()),
+      outputs_(program.outputs.size()),
       stamps_ahead_(stamps_ahead) {
   for (int j = 0; j < program.robot.model.joint_count(); ++j)
     joint_state_.names.push_back(connection.joints.name_of(program.robot.model.joint(j).name));
   odometry_.child_frame = program.robot.base_frame;
+  for (std::size_t i = 0; i < outputs_.size(); ++i) outputs_[i] = program.outputs[i].start;
+  given_.outputs.resize(outputs_.size());
   now();
 }
 
@@ -53,6 +57,9 @@ void RobotSide::join(Participant& participant) {
           {i, &source, participant.advertise(source.topic.name, lang::to_string(source.type))});
     }
   }
+  if (connection_.clock)
+    clock_ = participant.advertise(connection_.clock->name, lang::to_string(lang::MessageType::clock));
+  subscribe_outputs(participant);
   const lang::CommandSink& sink = connection_.command;
   participant.subscribe(sink.topic.name, lang::to_string(sink.type), [this, &sink](const Payload& payload) {
     const double arrival = now();
@@ -62,13 +69,34 @@ void RobotSide::join(Participant& participant) {
     CommandMail& draft = mail_.draft();
     if (!commander_.admits(process, arrival)) return;
     if (!read_command(sink, order_, payload.bytes, draft.command)) return;
-    draft.arrival = arrival;
+    draft.arrival = time();
+    draft.has_come = true;
     mail_.put();
   });
 }
 
+void RobotSide::subscribe_outputs(Participant& participant) {
+  for (const lang::OutputSink& sink : connection_.outputs) {
+    const auto output = std::ranges::find(program_.outputs, sink.name, &lang::Output::name);
+    if (output == program_.outputs.end()) continue;
+    std::atomic<double>& value = outputs_[static_cast<std::size_t>(output - program_.outputs.begin())];
+    const auto take = [&value, type = sink.type](const Payload& payload) {
+      if (const auto read = read_output(type, payload.bytes)) value = *read;
+    };
+    participant.subscribe(sink.topic.name, lang::to_string(sink.type), take, Late::gets_last);
+  }
+}
+
+void RobotSide::tell_time(double time) {
+  if (!clock_) return;
+  told_time_ = time;
+  const Header header = header_at(time);
+  encode(ClockMessage{header.seconds, header.nanoseconds}, bytes_);
+  clock_->write(bytes_);
+}
+
 void RobotSide::leave() noexcept {
-  joints_.reset(), base_.reset(), fix_.reset();
+  joints_.reset(), base_.reset(), fix_.reset(), clock_.reset();
   signals_.clear();
 }
 
@@ -138,12 +166,16 @@ void RobotSide::publish_signal(const lang::SignalSource& source, const runtime::
   writer.write(bytes_);
 }
 
-const runtime::Command& RobotSide::command(double time) noexcept {
+const runtime::Command& RobotSide::command(double time) {
   mail_.take();
   const CommandMail& newest = mail_.value();
   const auto& timeout = connection_.command.timeout;
-  if (newest.arrival == 0.0 || (timeout && time - newest.arrival > *timeout)) return zeros_;
-  return newest.command;
+  const bool is_old = timeout && time - newest.arrival > *timeout;
+  std::vector<double> outputs = std::move(given_.outputs);
+  given_ = newest.has_come && !is_old ? newest.command : zeros_;
+  given_.outputs = std::move(outputs);
+  for (std::size_t i = 0; i < outputs_.size(); ++i) given_.outputs[i] = outputs_[i];
+  return given_;
 }
 
 }  // namespace zwang::connect

@@ -1,9 +1,11 @@
 /// The robot's side of a connection: it publishes what `Inbox` reads, and takes what `Outbox` sends.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
+#include "clock.hpp"
 #include "dds.hpp"
 #include "mailbox.hpp"
 #include "message.hpp"
@@ -15,7 +17,8 @@ namespace zwang::connect {
 
 struct CommandMail {
   runtime::Command command;
-  double arrival = 0.0;  ///< [s] of `now`; 0: none has come
+  double arrival = 0.0;  ///< [s] of RobotSide::time
+  bool has_come = false;
 };
 
 class RobotSide {
@@ -27,16 +30,22 @@ class RobotSide {
   void join(Participant& participant);
   /// The writers go: before the participant does.
   void leave() noexcept;
+  /// [s] What the stamps go by: this computer's clock, or the one that `tell_time` tells.
+  double time() const noexcept { return connection_.clock ? told_time_.load() : now(); }
+  /// On the topic of the connection's clock, if it has one. [s]
+  void tell_time(double time);
   /// The joints, the base, a fix and the signals of a sample, which was measured at `stamp` [s] since 1970.
   /// `shift` is the same time less that of the sample's own clock.
   void publish(const runtime::Sensed& sensed, double stamp, double shift);
   /// From now on the odometry tells the pose and the twist that it told last, under new stamps.
   void hold_odometry() noexcept { holds_odometry_ = true; }
-  /// The newest command, or zeros when it is older than the receiver's `timeout`.
-  const runtime::Command& command(double time) noexcept;
+  /// The newest command, or zeros when it is older than the receiver's `timeout`; with the outputs as they
+  /// were told last. `time` [s] is as `time()`.
+  const runtime::Command& command(double time);
   const CommandMail& newest() const noexcept { return mail_.value(); }
 
  private:
+  void subscribe_outputs(Participant& participant);
   void publish_fix(const runtime::MeasuredPose& fix, double shift);
   void publish_signal(const lang::SignalSource& source, const runtime::SignalSample& sample, double shift,
                       Writer& writer);
@@ -53,8 +62,10 @@ class RobotSide {
   std::vector<int> order_;
   Mailbox<CommandMail> mail_;
   OnePublisher commander_;  ///< of the thread of DDS that takes commands
-  runtime::Command zeros_;
-  std::unique_ptr<Writer> joints_, base_, fix_;
+  runtime::Command zeros_, given_;
+  std::atomic<double> told_time_{0.0};
+  std::vector<std::atomic<double>> outputs_;  ///< by Program::outputs
+  std::unique_ptr<Writer> joints_, base_, fix_, clock_;
   std::vector<SignalWriter> signals_;
   JointState joint_state_;
   Odometry odometry_;

@@ -35,9 +35,9 @@ struct World {
 
 struct Happenings {
   Lateness lateness;
-  double first_command = 0.0;  ///< [s] of `now`; 0: none has come
-  double moved_last = 0.0;     ///< [s] of the world: when the base was last seen to move
-  double silent_since = 0.0;   ///< [s] of the world: when the last command had come
+  bool has_begun = false;     ///< a command has come
+  double moved_last = 0.0;    ///< [s] of the world: when the base was last seen to move
+  double silent_since = 0.0;  ///< [s] of the world: when the last command had come
 };
 
 /// One step of the world; `shift` is the stamps' clock less the world's.
@@ -46,6 +46,7 @@ runtime::PlantStatus step(const lang::Connection& connection, RobotSide& side, W
   if (sensed == runtime::PlantStatus::diverged) return sensed;
   const double measured = world.sensed.measured_at.value_or(world.sensed.time);
   const bool is_due = world.steps.tick_is_due();
+  if (is_due) side.tell_time(world.plant.truth().time + shift);
   // A drive that takes velocities tells of its samples as seldom as it has them.
   const bool is_new = world.sensed.measured_at ? measured != world.measured_at : is_due;
   if (sensed == runtime::PlantStatus::ok && is_new) {
@@ -65,22 +66,26 @@ runtime::PlantStatus step(const lang::Connection& connection, RobotSide& side, W
 /// Stands still, and says so, until somebody commands.
 void wait_for_command(RobotSide& side, World& world, double period, Happenings& happenings) {
   if (world.plant.sense(world.sensed) != runtime::PlantStatus::ok) return;
-  for (double due = now(); !cli::is_interrupted() && happenings.first_command == 0.0; due += period) {
+  const double begin = now();
+  for (double due = begin; !cli::is_interrupted() && !happenings.has_begun; due += period) {
     sleep_until(due);
-    side.publish(world.sensed, now(), now());
-    side.command(now());
-    happenings.first_command = side.newest().arrival;
+    // A clock of its own runs before the world does, so that the other side can tick.
+    side.tell_time(due - begin);
+    side.publish(world.sensed, side.time(), side.time());
+    side.command(side.time());
+    happenings.has_begun = side.newest().has_come;
   }
 }
 
 runtime::PlantStatus run(const lang::Connection& connection, RobotSide& side, World& world,
                          const std::optional<double>& stuck_odometry, Happenings& happenings) {
-  double shift = now() - world.plant.truth().time;
+  double shift = side.time() - world.plant.truth().time;
   for (double due = now(); !cli::is_interrupted(); due += world.steps.period()) {
     sleep_until(due);
     happenings.lateness.add(std::max(0.0, now() - due));
     if (now() - due > most_behind) {
-      shift += now() - due;
+      // With a clock of its own the world may be slower than real time.
+      if (!connection.clock) shift += now() - due;
       due = now();
     }
     const runtime::PlantStatus status = step(connection, side, world, shift);

@@ -97,12 +97,15 @@ GoalOutcome outcome_of(const runtime::Runner& runner, const Control& control) {
 }  // namespace
 
 std::string clock_trouble(const lang::Connection& connection, const Inbox& inbox) {
-  const double age = inbox.joints().arrival - inbox.joints().stamp;
+  const double age = inbox.clock().time_at(inbox.joints().arrival) - inbox.joints().stamp;
   if (std::abs(age) <= connection.joints.stale_after) return "";
   char text[64];
   std::snprintf(text, sizeof text, " is stamped %.3f s before it comes", age);
   return connection.joints.topic.name + text +
-         ", more than stale_after: set both clocks (chrony), or have the driver stamp its samples";
+         (connection.clock
+              ? ", by " + connection.clock->name + ", more than stale_after: one clock must stamp them"
+              : ", more than stale_after: set both clocks (chrony), have the driver stamp its "
+                "samples, or name a simulation's clock: `clock: {ros: /clock}`");
 }
 
 RunTaskResult run_task(const Robot& robot, const lang::Program& program, const lang::Diagnostics& diagnostics,

@@ -55,15 +55,28 @@ TEST(Message, ComesBackAsItWas) {
   expect_same_again(Float64{1.25});
   expect_same_again(Float64MultiArray{{{"rows", 2, 2}}, 0, {1, 2}});
   expect_same_again(scan());
+  expect_same_again(ClockMessage{12, 345'000'000});
 }
 
 // XCDR1 by hand: header, then each value at a multiple of its own size from behind the header.
 TEST(Message, IsEncodedAsXcdr1Says) {
   EXPECT_EQ(encoded(Bool{true}), (Bytes{0, 1, 0, 0, 1}));
   EXPECT_EQ(encoded(Float64{1.0}), (Bytes{0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f}));
+  EXPECT_EQ(encoded(ClockMessage{1, 2}), (Bytes{0, 1, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0}));
+  EXPECT_EQ(dds_type(lang::to_string(lang::MessageType::clock)), "rosgraph_msgs::msg::dds_::Clock_");
   // No dimensions, offset 0, one value, padded to 16.
   EXPECT_EQ(encoded(Float64MultiArray{{}, 0, {1.0}}), (Bytes{0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,    1,   0, 0,
                                                              0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f}));
+}
+
+TEST(Message, OfAnOutputIsABoolOrANumber) {
+  using lang::MessageType;
+  EXPECT_EQ(read_output(MessageType::boolean, encoded(Bool{true})), 1.0);
+  EXPECT_EQ(read_output(MessageType::boolean, encoded(Bool{false})), 0.0);
+  EXPECT_EQ(read_output(MessageType::float64, encoded(Float64{-0.25})), -0.25);
+  EXPECT_FALSE(read_output(MessageType::float64, encoded(Float64{NAN})).has_value());
+  EXPECT_FALSE(read_output(MessageType::float64, encoded(Bool{true})).has_value());
+  EXPECT_FALSE(read_output(MessageType::boolean, encoded(Float64{1.0})).has_value());
 }
 
 TEST(Message, IsReadInEitherByteOrder) {

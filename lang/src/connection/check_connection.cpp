@@ -52,6 +52,20 @@ void check_signals(const Connection& connection, const Program& program, Diagnos
   }
 }
 
+void check_outputs(const Connection& connection, const Program& program, Diagnostics& diagnostics) {
+  for (const Output& output : program.outputs) {
+    const auto sink = std::find_if(connection.outputs.begin(), connection.outputs.end(),
+                                   [&](const OutputSink& s) { return s.name == output.name; });
+    if (sink == connection.outputs.end()) {
+      diagnostics.add(
+          wording::output_without_sink(output.span, output.name, output.is_number, connection.path));
+    } else if ((sink->type == MessageType::float64) != output.is_number) {
+      diagnostics.add(
+          wording::output_of_another_type(sink->span, output.name, to_string(sink->type), output.span));
+    }
+  }
+}
+
 void check_order(const CommandSink& command, const Program& program, Diagnostics& diagnostics) {
   const std::vector<std::string> motors = joint_names(program, true);
   for (std::size_t i = 0; i < command.order.size(); ++i) {
@@ -106,6 +120,7 @@ bool check_connection(const Connection& connection, const Program& program, Diag
       diagnostics.add(wording::unknown_name(span, "joint", name, joints));
   }
   check_signals(connection, program, diagnostics);
+  check_outputs(connection, program, diagnostics);
   check_command(connection.command, program, diagnostics);
   diagnostics.settle();
   return diagnostics.error_count() == errors_before;

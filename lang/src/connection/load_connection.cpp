@@ -154,6 +154,35 @@ SignalSource parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   return signal;
 }
 
+OutputSink parse_output(const Entry& entry, Diagnostics& diagnostics) {
+  OutputSink output;
+  output.name = entry.key.text;
+  output.span = entry.key.span;
+  MapReader map(entry.value, "output `" + output.name + "`", diagnostics,
+                "{topic: /" + output.name + ", type: std_msgs/Bool}");
+  output.topic = parse_topic(map, diagnostics);
+  constexpr MessageType types[] = {MessageType::boolean, MessageType::float64};
+  if (const Node* type = map.required("type"))
+    output.type = parse_type(*type, map.what() + "'s `type`", types, diagnostics).value_or(output.type);
+  map.finish();
+  return output;
+}
+
+/// `system` or `{ros: /clock}`.
+void parse_clock(const Node& node, Connection& connection, Diagnostics& diagnostics) {
+  if (node.is_scalar()) {
+    parse_choice(node, "`clock`", {"system"}, diagnostics);
+    return;
+  }
+  MapReader map(node, "`clock`", diagnostics, "{ros: /clock}");
+  if (const Node* ros = map.required("ros")) {
+    const Word word = parse_word(*ros, "`ros`", diagnostics);
+    if (word.exists() && !is_topic_name(word.text)) diagnostics.add(wording::bad_topic(word.span, word.text));
+    connection.clock = Topic{word.text, ros->span};
+  }
+  map.finish();
+}
+
 void parse_timeout(MapReader& map, CommandSink& command, Diagnostics& diagnostics) {
   if (const Node* timeout = map.optional("timeout"))
     command.timeout = parse_positive(*timeout, dimension::time, "`timeout`", false, diagnostics);
@@ -249,6 +278,13 @@ std::optional<Connection> parse_connection(const Document& document, const std::
       if (!entry.key.is_bad) connection.signals.push_back(parse_signal(entry, diagnostics));
     }
   }
+  const Node* outputs = map.optional("outputs");
+  if (outputs != nullptr && require_mapping(*outputs, "`outputs`", diagnostics)) {
+    for (const Entry& entry : outputs->entries) {
+      if (!entry.key.is_bad) connection.outputs.push_back(parse_output(entry, diagnostics));
+    }
+  }
+  if (const Node* clock = map.optional("clock")) parse_clock(*clock, connection, diagnostics);
   if (const Node* command = map.required("command"))
     connection.command = parse_command(*command, diagnostics);
   parse_begin(map, folder, connection, diagnostics);  // last: `state` is no misspelt `start`
@@ -282,6 +318,8 @@ const char* to_string(MessageType type) noexcept {
       return "std_msgs/Float64MultiArray";
     case MessageType::tf_message:
       return "tf2_msgs/TFMessage";
+    case MessageType::clock:
+      return "rosgraph_msgs/Clock";
     case MessageType::laser_scan:
       break;
   }

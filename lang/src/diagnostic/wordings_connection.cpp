@@ -29,6 +29,21 @@ Diagnostic signal_of_another_type(const Span& span, const std::string& name, con
                       declared, "declared here");
 }
 
+Diagnostic output_without_sink(const Span& span, const std::string& name, bool is_number,
+                               const std::string& connection) {
+  const std::string type = is_number ? "std_msgs/Float64" : "std_msgs/Bool";
+  return error(
+      "E922", span, "output `" + name + "` has no topic: nobody would carry it out",
+      "add `" + name + ": {topic: /" + name + ", type: " + type + "}` to `outputs` in " + connection);
+}
+
+Diagnostic output_of_another_type(const Span& span, const std::string& name, const std::string& type,
+                                  const Span& declared) {
+  return with_related(error("E922", span, "output `" + name + "` is not what a " + type + " holds",
+                            "std_msgs/Bool holds a bool, std_msgs/Float64 a number in SI"),
+                      declared, "declared here");
+}
+
 Diagnostic one_command(const Span& span) {
   return error("E923", span, "a connection has one command: `twist` or `joints`", "keep one of them");
 }

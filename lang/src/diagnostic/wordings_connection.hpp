@@ -13,6 +13,10 @@ Diagnostic nearest_of_a_scan(const Span& span, bool is_scan);
 Diagnostic signal_without_source(const Span& span, const std::string& name, const std::string& connection);
 Diagnostic signal_of_another_type(const Span& span, const std::string& name, const std::string& type,
                                   const Span& declared);
+Diagnostic output_without_sink(const Span& span, const std::string& name, bool is_number,
+                               const std::string& connection);
+Diagnostic output_of_another_type(const Span& span, const std::string& name, const std::string& type,
+                                  const Span& declared);
 Diagnostic one_command(const Span& span);
 Diagnostic wrong_command(const Span& span, const std::string& what, const std::string& help);
 Diagnostic two_fixes(const Span& span);

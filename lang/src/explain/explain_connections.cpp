@@ -25,12 +25,13 @@ full, because zwang has no namespace and remaps nothing.)~",
           .fix = "Write the name that `ros2 topic list` prints, as `/base/cmd_vel`."},
       Explanation{
           .code = "E922",
-          .title = "a signal that no topic measures",
+          .title = "a signal or an output without a topic",
           .why =
               R"~(A signal of the task file needs a topic whose messages hold what the signal is: `Bool` a bool,
 `Float64` or the `nearest` range of a `LaserScan` a number, `PoseStamped` a pose, `WrenchStamped` a
-wrench. Without it the signal would never be known.)~",
-          .fix = "Name the topic, with its type, under `signals` of the connection file."},
+wrench. Without it the signal would never be known. An output needs one that takes it, `Bool` or
+`Float64`. Without it nobody would carry it out.)~",
+          .fix = "Name the topic, with its type, under `signals` or `outputs` of the connection file."},
       Explanation{
           .code = "E923",
           .title = "a command that the robot's drive does not take",

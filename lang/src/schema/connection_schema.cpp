@@ -41,6 +41,16 @@ Json signal() {
            {"nearest", reference("vector", "of a LaserScan: the angles between which a range counts")}});
 }
 
+Json output() {
+  return object("", {{"topic", word("a ROS 2 topic, with its namespace"), true},
+                     {"type", word("std_msgs/Bool or std_msgs/Float64, in SI"), true}});
+}
+
+Json clock() {
+  return any_of({one_of_words("default: this computer's", {"system"}),
+                 object("a simulation's", {{"ros", word("a topic of rosgraph_msgs/Clock"), true}})});
+}
+
 Json command() {
   const Json twist = object("", {{"topic", word(""), true},
                                  {"type", word("geometry_msgs/Twist or geometry_msgs/TwistStamped"), true},
@@ -73,7 +83,9 @@ Json connection_file() {
                     {"base", topic("nav_msgs/Odometry; without it the wheels tell how the base moves")},
                     {"fix", fix_source()}}),
         true},
+       {"clock", clock()},
        {"signals", named("the sources of the task's signals", signal())},
+       {"outputs", named("where the task's outputs go", output())},
        {"command", command(), true}});
 }
 

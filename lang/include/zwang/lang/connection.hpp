@@ -29,6 +29,7 @@ enum class MessageType {
   float64_multi_array,
   laser_scan,
   tf_message,
+  clock,
 };
 /// As ROS 2 writes it: `geometry_msgs/Twist`.
 const char* to_string(MessageType type) noexcept;
@@ -73,6 +74,14 @@ struct SignalSource {
   Span span;
 };
 
+/// Where a task's output goes: a bool, or a number in SI.
+struct OutputSink {
+  std::string name;  ///< the task file's
+  Topic topic;
+  MessageType type = MessageType::boolean;  ///< or float64
+  Span span;
+};
+
 enum class CommandKind { twist, effort, velocity };
 
 struct CommandSink {
@@ -106,12 +115,15 @@ struct Connection {
   Begin begin = Begin::at_once;
   std::vector<NamedTask> tasks;  ///< with `Begin::goals`
   Reach reach = Reach::loopback;
+  /// rosgraph_msgs/Clock, by which all stamps and ticks go; none: the computer's clock.
+  std::optional<Topic> clock;
   JointsSource joints;
   std::optional<Topic> base;  ///< nav_msgs/Odometry; none: the base is reckoned from its wheels
   /// The base's pose in the world, now and then: geometry_msgs/PoseWithCovarianceStamped, or by transforms.
   std::optional<Topic> fix;
   std::optional<FramePair> fix_frames;  ///< instead of `fix`
   std::vector<SignalSource> signals;
+  std::vector<OutputSink> outputs;
   CommandSink command;
   int priority = 0;  ///< of SCHED_FIFO; 0: the usual scheduler
 };
