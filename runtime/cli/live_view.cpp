@@ -17,7 +17,7 @@ using nlohmann::ordered_json;
 
 constexpr double bucket = 0.02;  // [s] of a run in one message
 constexpr double slowest = 0.01, fastest = 1.0;
-constexpr auto look_every = std::chrono::milliseconds(10);  // while nothing runs
+constexpr auto page_look_every = std::chrono::milliseconds(10);  // while nothing runs
 constexpr auto longest_building = std::chrono::seconds(5);  // of a page, for which the run waits at its begin
 constexpr double longest_delay = 0.1;                       // [s] that is caught up with
 
@@ -90,7 +90,7 @@ std::unique_ptr<runtime::LogSink> LiveView::begin(const lang::Program& program,
 }
 
 void LiveView::wait_for_page(const std::atomic<bool>& interrupted) {
-  while (!interrupted && server_.pages() == 0) std::this_thread::sleep_for(look_every);
+  while (!interrupted && server_.pages() == 0) std::this_thread::sleep_for(page_look_every);
   ready_by_ = Clock::now() + longest_building;
 }
 
@@ -104,7 +104,7 @@ void LiveView::wait_for_tick(runtime::Runner& runner, double time, const std::at
       return;
     }
     if (paused_ || !is_ready_) {
-      std::this_thread::sleep_for(look_every);
+      std::this_thread::sleep_for(page_look_every);
       begin_pace(time);
     } else {
       const std::chrono::duration<double> due((time - since_time_) / speed_);
@@ -112,7 +112,7 @@ void LiveView::wait_for_tick(runtime::Runner& runner, double time, const std::at
       // A run that was held up does not hurry afterwards.
       if (left < -std::chrono::duration<double>(longest_delay)) begin_pace(time);
       if (left <= Clock::duration::zero()) return;
-      std::this_thread::sleep_for(std::min<Clock::duration>(left, look_every));
+      std::this_thread::sleep_for(std::min<Clock::duration>(left, page_look_every));
     }
     look(&runner);
     if (Clock::now() > ready_by_) is_ready_ = true;
@@ -128,7 +128,7 @@ void LiveView::end(const std::string& report) {
 
 bool LiveView::wait_for_restart(const std::atomic<bool>& interrupted) {
   while (!interrupted && !restart_) {
-    std::this_thread::sleep_for(look_every);
+    std::this_thread::sleep_for(page_look_every);
     look(nullptr);
   }
   return !interrupted;
