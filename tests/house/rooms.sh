@@ -75,7 +75,7 @@ keep_library() {
 
 keep_library 'yaml-cpp/' 'lang/src/.*\.cpp' 1
 keep_library 'urdf_|urdf/|console_bridge/|tinyxml' 'lang/src/robot/.*\.cpp' 1
-keep_library 'CLI/' 'runtime/cli/.*\.cpp' 1
+keep_library 'CLI/' 'runtime/cli/command_line/.*\.hpp' 1
 keep_library '(eprosima|fastdds|fastrtps|fastcdr)/' 'runtime/connect/.*\.cpp' 1
 keep_library 'libwebsockets' 'runtime/cli/.*\.cpp' 1
 keep_library 'mujoco/' 'runtime/src/plant/.*\.cpp' 6

@@ -32,7 +32,7 @@ clean lang/src/tree/reader.cpp '<yaml-cpp/eventhandler.h>'
 clean lang/src/robot/urdf.cpp '<urdf_parser/urdf_parser.h>'
 clean lang/include/zwang/lang/robot.hpp '"zwang/solver/model.hpp"'
 clean runtime/src/plant/mujoco_plant.cpp '<mujoco/mujoco.h>'
-clean runtime/cli/main.cpp '<CLI/CLI.hpp>'
+clean runtime/cli/command_line/command_line.hpp '<CLI/CLI.hpp>'
 clean tests/peers/kdl_test.cpp '<kdl/chain.hpp>'
 expect 0 'a tree that keeps the rules'
 

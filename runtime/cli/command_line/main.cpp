@@ -1,0 +1,74 @@
+// The program `zwang`.
+#include <algorithm>
+#include <csignal>
+#include <exception>
+#include <sstream>
+
+#include "command_line/command_line.hpp"
+#include "commit.hpp"
+#include "output.hpp"
+#include "zwang/lang/nearest.hpp"
+#include "zwang/version.hpp"
+
+namespace {
+
+using namespace zwang::cli;
+
+/// `runn` is answered with `run`. Empty when the first word is a verb or an option.
+std::string unknown_verb(const CLI::App& app, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (word.empty() || word.front() == '-' || std::find(verbs.begin(), verbs.end(), word) != verbs.end())
+    return "";
+  const std::string meant = zwang::lang::nearest(word, verbs);
+  return "no verb `" + word + "`" + (meant.empty() ? "" : "; did you mean `zwang " + meant + "`?");
+}
+
+int parse_and_do(int argc, char** argv) {
+  CLI::App app("Checks and runs task files for robots that touch the world.", "zwang");
+  const std::string built_from = *commit == '\0' ? "" : std::string(", commit ") + commit;
+  app.set_version_flag("--version", "zwang " ZWANG_VERSION + built_from);
+  app.require_subcommand(1);
+
+  Chosen chosen;
+  add_file_verbs(app, chosen);
+  add_robot_verbs(app, chosen);
+  add_run_verbs(app, chosen);
+  add_log_verbs(app, chosen);
+  add_tool_verbs(app, chosen);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& wanted) {  // --help, --version
+    std::ostringstream text, error;
+    app.exit(wanted, text, error);
+    print(text.str());
+    return exit_good;
+  } catch (const CLI::ParseError& mistake) {
+    const std::string unknown = unknown_verb(app, argc, argv);
+    if (!unknown.empty()) throw Impossible(unknown + "\nTry `zwang --help`.");
+    // CLI11's own exit codes say nothing that ours do not.
+    std::string verb;  // the innermost that was named
+    for (auto below = app.get_subcommands(); !below.empty(); below = below.front()->get_subcommands())
+      verb += " " + below.front()->get_name();
+    throw Impossible(std::string(mistake.what()) + "\nTry `zwang" + verb + " --help`.");
+  }
+  return chosen();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A reader that went away is an error that `print` sees, not a silent death.
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    secure_standard_streams();
+    return parse_and_do(argc, argv);
+  } catch (const std::exception& e) {
+    print_error(std::string("zwang: ") + e.what() + "\n");
+  } catch (...) {
+    print_error("zwang: an unknown error\n");
+  }
+  return exit_impossible;
+}
