@@ -135,6 +135,9 @@ void bind_language(py::module_& module) {
           "their names, in the file's order")
       .def_property_readonly(
           "signals", [](const lang::Program& p) { return names_of(p.signals); }, "what the host measures")
+      .def_property_readonly(
+          "outputs", [](const lang::Program& p) { return names_of(p.outputs); },
+          "what tasks set beside motion, in the file's order")
       .def_property_readonly("joints", &joints_of, "of the robot, in the order of `q`, `qd` and torques")
       .def_property_readonly(
           "params", [](const lang::Program& p) { return values_of(p.parameters); },

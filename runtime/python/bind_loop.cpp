@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <map>
 
 #include "bind.hpp"
 #include "named_sensed.hpp"
@@ -120,6 +121,18 @@ std::vector<py::dict> events_of(const runtime::Runner& runner) {
   return events;
 }
 
+/// The columns of the log name them, in the order of the program.
+std::map<std::string, double> outputs_of(const runtime::Runner& runner) {
+  static const std::string before = "output.";
+  std::map<std::string, double> outputs;
+  std::size_t next = 0;
+  for (const runtime::Column& column : runner.columns()) {
+    if (next < runner.outputs().size() && column.name.starts_with(before))
+      outputs[column.name.substr(before.size())] = runner.outputs()[next++];
+  }
+  return outputs;
+}
+
 std::string task_of(const runtime::Runner& runner) {
   const int task = runner.scheduler().task();
   return task < 0 ? "" : runner.scheduler().tasks()[static_cast<std::size_t>(task)].name;
@@ -138,6 +151,8 @@ void bind_runner(py::module_& module) {
                     "(joints,) [rad/s]; 0 of a drive that takes torques")
       .def_readonly("twist", &runtime::Command::twist,
                     "(3,) of the base in its axes: x, y [m/s], rz [rad/s]; of a drive that takes it")
+      .def_readonly("outputs", &runtime::Command::outputs,
+                    "what the task's outputs are set to, as Program.outputs: in SI, or 0 and 1")
       .def_readonly("lower", &runtime::Command::lower, "(joints,) least torque [N m]")
       .def_readonly("upper", &runtime::Command::upper, "(joints,) largest torque [N m]");
 
@@ -174,6 +189,9 @@ void bind_runner(py::module_& module) {
           },
           "a sentence: why the run is not done; empty where it is")
       .def_property_readonly("events", &events_of, "code, time [s], signal and value of each")
+      .def_property_readonly(
+          "outputs", &outputs_of,
+          "by name, what the task's outputs are set to after the last step: SI, or 0 and 1")
       .def("set", &set_parameter, arg("name"), arg("value"), "A parameter, in SI, between two steps.")
       .def(
           "stop", [](runtime::Runner& r) { r.guard().stop(runtime::EventCode::requested); },
