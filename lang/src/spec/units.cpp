@@ -38,6 +38,7 @@ constexpr std::array named_units{
     NamedUnit{"deg", dimension::angle, std::numbers::pi / 180.0},
     NamedUnit{"N", dimension::force, 1.0},
     NamedUnit{"kN", dimension::force, 1000.0},
+    NamedUnit{"MN", dimension::force, 1e6},
     NamedUnit{"mN", dimension::force, 0.001},
     NamedUnit{"Hz", dimension::frequency, 1.0},
     NamedUnit{"%", dimension::none, 0.01},
