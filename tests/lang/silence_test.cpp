@@ -17,9 +17,9 @@ namespace {
 constexpr double mass = 56.9;
 
 /// The same on every machine: the standard fixes the generator, not its distributions.
-class Draw {
+class Dice {
  public:
-  explicit Draw(unsigned seed) : generator_(seed) {}
+  explicit Dice(unsigned seed) : generator_(seed) {}
   double number(double low, double high) {
     return low + (high - low) * static_cast<double>(generator_()) / 4294967296.0;
   }
@@ -73,11 +73,11 @@ const std::string fails = "{after: 20 s, goto: failed}";
 struct Kind {
   const char* name;
   std::vector<const char*> codes;
-  std::function<std::string(Draw&, bool)> draw;
+  std::function<std::string(Dice&, bool)> draw;
 };
 
 /// Two ranges of one quantity, of the task and beside it or under `always`, apart or overlapping.
-std::string two_ranges(Draw& d, bool fault) {
+std::string two_ranges(Dice& d, bool fault) {
   const double edge = d.number(0.1, 0.4), gap = d.number(0.01, 0.2);
   const bool is_velocity = d.whole(0, 1) == 0;
   const std::string word = is_velocity ? "velocity" : "acceleration";
@@ -93,7 +93,7 @@ std::string two_ranges(Draw& d, bool fault) {
               head);
 }
 
-std::string beyond_a_range(Draw& d, bool fault) {
+std::string beyond_a_range(Dice& d, bool fault) {
   const double most = d.number(0.1, 0.4),
                asked = fault ? most * d.number(1.05, 2.0) : most * d.number(0.3, 0.99);
   const double sign = d.whole(0, 1) == 0 ? 1.0 : -1.0;
@@ -106,7 +106,7 @@ std::string beyond_a_range(Draw& d, bool fault) {
 }
 
 /// Tasks in a ring; a sound one has a way out of one of them, or a signal that stops it.
-std::string ring(Draw& d, bool fault) {
+std::string ring(Dice& d, bool fault) {
   const int count = d.whole(2, 6), way_out = d.whole(0, count - 1);
   const bool by_signal = d.whole(0, 2) == 0;
   const bool by_time = d.whole(0, 1) == 0;
@@ -131,7 +131,7 @@ std::string ring(Draw& d, bool fault) {
 }
 
 /// One comparison, on the far side of what the file allows or on the near one.
-std::string impossible_exit(Draw& d, bool fault) {
+std::string impossible_exit(Dice& d, bool fault) {
   const double most = d.number(0.1, 0.5), limit = d.number(5.0, 40.0), until = d.number(3.0, 15.0);
   const double far = d.number(1.05, 3.0), near = d.number(0.3, 0.9), part = fault ? far : near;
   const std::string timeout = "{after: " + q(until, "s") + ", goto: failed}";
@@ -165,7 +165,7 @@ std::string impossible_exit(Draw& d, bool fault) {
   return file(task("a", drive(axis), exit_when(when, "done"), timeout));
 }
 
-std::string long_dwell(Draw& d, bool fault) {
+std::string long_dwell(Dice& d, bool fault) {
   const double until = d.number(1.0, 10.0);
   return file(task("a", drive("velocity: 0.1 m/s"),
                    exit_when("speed(base_link) < 5 cm/s", "done",
@@ -173,7 +173,7 @@ std::string long_dwell(Draw& d, bool fault) {
                    "{after: " + q(until, "s") + ", goto: failed}"));
 }
 
-std::string flutter(Draw& d, bool fault) {
+std::string flutter(Dice& d, bool fault) {
   const double there = d.number(0.5, 2.0), back = there * (fault ? d.number(0.3, 0.95) : d.number(1.05, 2.0));
   const std::string head = "signals: {gap: {type: number, unit: m, stale_after: 200 ms}}\n";
   const std::string still = drive("velocity: 0 m/s");
@@ -183,7 +183,7 @@ std::string flutter(Draw& d, bool fault) {
 }
 
 /// Blocked, a velocity driver presses with m v / T.
-std::string unreached_force(Draw& d, bool fault) {
+std::string unreached_force(Dice& d, bool fault) {
   const double v = d.number(0.02, 0.2), T = d.number(0.2, 1.0), made = mass * v / T;
   return file(task("a",
                    drive("velocity: " + q(v, "m/s") + ", time_constant: " + q(T, "s") + ", force: " +
@@ -193,7 +193,7 @@ std::string unreached_force(Draw& d, bool fault) {
 }
 
 /// The robot file's limit of 1 m/s^2 clips it.
-std::string clipped_spring(Draw& d, bool fault) {
+std::string clipped_spring(Dice& d, bool fault) {
   const double k = mass * 1.0 / 0.2 * (fault ? d.number(1.1, 5.0) : d.number(0.1, 0.9));
   return file(
       task("a",
@@ -203,7 +203,7 @@ std::string clipped_spring(Draw& d, bool fault) {
            "", "{after: 5 s, goto: done}"));
 }
 
-std::string held_steering(Draw& d, bool fault) {
+std::string held_steering(Dice& d, bool fault) {
   struct Steered {
     const char *robot, *held, *free;
   };
@@ -221,7 +221,7 @@ std::string held_steering(Draw& d, bool fault) {
 }
 
 /// v (for + stale_after + blend / 2) + v^2 / 2a + a T^2 / 2, or v T, and 0.40 m of footprint.
-std::string late_guard(Draw& d, bool fault) {
+std::string late_guard(Dice& d, bool fault) {
   const double v = d.number(0.2, 0.8), a = d.number(0.3, 1.0), T = 0.5;
   const double delay = 0.1 + 0.2 + 0.1;
   const double way = v * delay + (v < a * T ? v * T : v * v / (2.0 * a) + a * T * T / 2.0);
@@ -235,7 +235,7 @@ std::string late_guard(Draw& d, bool fault) {
       head);
 }
 
-std::string flutter_in_a_ring(Draw& d, bool fault) {
+std::string flutter_in_a_ring(Dice& d, bool fault) {
   const double most = d.number(0.8, 1.5), least = most * (fault ? d.number(0.3, 0.9) : d.number(1.1, 2.0));
   const std::string head = "signals: {gap: {type: number, unit: m, stale_after: 200 ms}}\n";
   const std::string still = drive("velocity: 0 m/s");
@@ -247,14 +247,14 @@ std::string flutter_in_a_ring(Draw& d, bool fault) {
 }
 
 /// Without a force range the bound is what the motors make, here 101 N.
-std::string never_saturated(Draw& d, bool fault) {
+std::string never_saturated(Dice& d, bool fault) {
   const double v = d.number(0.05, 0.1), T = d.number(0.3, 0.5), made = mass * v / T;
   const std::string bound = fault ? "" : ", force: " + range(-0.8 * made, 0.8 * made, "N");
   return file(task("a", drive("velocity: " + q(v, "m/s") + ", time_constant: " + q(T, "s") + bound),
                    exit_when("go.x.saturated and moved(base_link) > 1 cm", "done"), fails));
 }
 
-std::string force_beyond_a_sum(Draw& d, bool fault) {
+std::string force_beyond_a_sum(Dice& d, bool fault) {
   const double most = d.number(10.0, 30.0), push = most * (fault ? d.number(1.1, 1.8) : d.number(0.3, 0.95));
   const std::string head =
       "always: {constraints: {soft: {move: base_link, in: base_link, x: {force: " + range(-most, most, "N") +
@@ -266,7 +266,7 @@ std::string force_beyond_a_sum(Draw& d, bool fault) {
               head);
 }
 
-std::string faster_than_a_norm(Draw& d, bool fault) {
+std::string faster_than_a_norm(Dice& d, bool fault) {
   const double most = d.number(0.1, 0.5), least = most * (fault ? d.number(1.1, 1.8) : d.number(0.2, 0.9));
   return file(task(
       "a",
@@ -323,7 +323,7 @@ class Silence : public testing::Test {
 TEST_F(Silence, a_drawn_fault_is_told) {
   for (int i = 0; i < count(); ++i) {
     const Kind& kind = kinds()[static_cast<std::size_t>(i) % kinds().size()];
-    Draw draw(1000u + static_cast<unsigned>(i));
+    Dice draw(1000u + static_cast<unsigned>(i));
     const std::string text = kind.draw(draw, true);
     bool is_told = false;
     for (const Diagnostic& d : said(text)) {
@@ -336,7 +336,7 @@ TEST_F(Silence, a_drawn_fault_is_told) {
 TEST_F(Silence, a_sound_file_gets_no_word) {
   for (int i = 0; i < count(); ++i) {
     const Kind& kind = kinds()[static_cast<std::size_t>(i) % kinds().size()];
-    Draw draw(5000u + static_cast<unsigned>(i));
+    Dice draw(5000u + static_cast<unsigned>(i));
     const std::string text = kind.draw(draw, false);
     for (const Diagnostic& d : said(text))
       ADD_FAILURE() << kind.name << " " << i << ": " << d.code << " " << d.message << "\n" << text;
