@@ -39,7 +39,7 @@ signals:
   loaded: {script: [[0 s, true]]}
 )";
 
-lang::Program program_with(const std::string& scene) {
+lang::Program watching_in(const std::string& scene) {
   return zwang::test::program_in_scene(watching, scene);
 }
 
@@ -81,9 +81,9 @@ class FaultByHand : public testing::TestWithParam<ByHand> {};
 // The same run twice: the fault stands in the scene, or a hand puts it on and ends it.
 TEST_P(FaultByHand, ActsAsThatOfTheSceneToTheLastBit) {
   const ByHand& fault = GetParam();
-  const lang::Program of_scene = program_with(crate_and_post + "faults: [{at: 0.1 s, for: 0.1 s, " +
+  const lang::Program of_scene = watching_in(crate_and_post + "faults: [{at: 0.1 s, for: 0.1 s, " +
                                               std::string(fault.in_scene) + "}]\n");
-  const lang::Program program = program_with(crate_and_post);
+  const lang::Program program = watching_in(crate_and_post);
   ScenePlant expected(of_scene), plant(program);
   std::vector<double> told, told_by_hand;
   const auto note = [](std::vector<double>& list) {
@@ -128,7 +128,7 @@ INSTANTIATE_TEST_SUITE_P(
                     ByHand{"inertia: 50 %", "inertia", 0.5}));
 
 TEST(HandOnSignals, NothingIsMeasuredOfOneThatIsBlocked) {
-  const lang::Program program = program_with(crate_and_post);
+  const lang::Program program = watching_in(crate_and_post);
   ScenePlant plant(program);
   const std::vector<std::size_t> given = given_signals(program);
   EXPECT_EQ(given, (std::vector<std::size_t>{0, 1})) << "the scene gives no `unseen`";
@@ -145,7 +145,7 @@ TEST(HandOnSignals, NothingIsMeasuredOfOneThatIsBlocked) {
 
 // Half a metre takes 2 s at 0.25 m/s; the quarter turn beside it takes a little less.
 TEST(HandOnObjects, AFixedOneGoesStraightAndEvenlyAndStays) {
-  const lang::Program program = program_with(crate_and_post);
+  const lang::Program program = watching_in(crate_and_post);
   ScenePlant plant(program);
   Hand hand = idle_hand(program);
   hand.sent = {1, {0.3, 2.4}, 0.5 * std::numbers::pi};
@@ -167,7 +167,7 @@ TEST(HandOnObjects, AFixedOneGoesStraightAndEvenlyAndStays) {
 }
 
 TEST(HandOnObjects, OneWithAMassIsLetGoAtRest) {
-  const lang::Program program = program_with(crate_and_post);
+  const lang::Program program = watching_in(crate_and_post);
   ScenePlant plant(program);
   Hand hand = idle_hand(program);
   hand.sent = {0, {2.0, 0.1}, 0.0};
@@ -181,7 +181,7 @@ TEST(HandOnObjects, OneWithAMassIsLetGoAtRest) {
 }
 
 TEST(HandOnObjects, PushesTheBaseOutOfItsWay) {
-  const lang::Program program = program_with(
+  const lang::Program program = watching_in(
       "objects: {post: {cylinder: {radius: 0.1 m, height: 1 m}, at: [0 m, 0.5 m], fixed: true}}\n");
   ScenePlant plant(program);
   Hand hand = idle_hand(program);
@@ -194,7 +194,7 @@ TEST(HandOnObjects, PushesTheBaseOutOfItsWay) {
 }
 
 TEST(Hand, HasAColumnForEachOfItsValues) {
-  const lang::Program program = program_with(crate_and_post);
+  const lang::Program program = watching_in(crate_and_post);
   ScenePlant plant(program);
   const std::vector<Column> columns = hand_columns(program);
   std::set<std::string> names;
