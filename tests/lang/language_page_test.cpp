@@ -165,7 +165,10 @@ TEST(LanguageOfThePage, has_every_key_and_word_of_the_schemas) {
     std::set<std::string> keys;
     gather_keys(nlohmann::json::parse(json_schema(kind)), keys);
     EXPECT_GT(keys.size(), 10u);
-    for (const std::string& key : keys) EXPECT_TRUE(written.contains(key)) << key;
+    for (const std::string& key : keys) {
+      const std::size_t word = key.find_first_not_of('-');  // of `-x`
+      EXPECT_TRUE(written.contains(key.substr(word))) << key;
+    }
   }
 }
 
@@ -199,7 +202,7 @@ TEST(LanguageOfThePage, has_only_units_that_are_known) {
     std::istringstream words(row.substr(begin + 1, row.find('`', begin + 1) - begin - 1));
     for (std::string unit; words >> unit; ++units) EXPECT_TRUE(is_unit_name(unit)) << unit;
   }
-  EXPECT_EQ(units, 20);
+  EXPECT_EQ(units, 21);
 }
 
 }  // namespace

@@ -261,7 +261,7 @@ TEST_F(Verbs, SchemaPrintsEveryKind) {
   // The words that may stand there, and where to read about this verb.
   EXPECT_EQ(
       zwang({"schema", "robots"}).err,
-      "zwang: kind: robots not in {connection,robot,scenario,scene,task}\nTry `zwang schema --help`.\n");
+      "zwang: kind: robots not in {connection,robot,scenario,scene,study,task}\nTry `zwang schema --help`.\n");
   EXPECT_EQ(zwang({"robot", "inspect"}).err, "zwang: file is required\nTry `zwang robot inspect --help`.\n");
 }
 

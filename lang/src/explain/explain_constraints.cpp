@@ -294,14 +294,14 @@ the line between them. A path that turns back has no fillet, and one place alone
           .part = ExcerptOf::task_file,
           .example = R"~(paths: {way: {through: [[0 m, 0 m], [3 m, 0 m], [3 m, 2 m]], fillet: 2.5 m}}
 tasks:
-  drive:
+  go:
     constraints:
       go: {move: bumper, in: way, x: {velocity: 0.3 m/s}, y: {position: 0 m}}
     exits: [{when: go.x.position > length(way), for: 20 ms, goto: done}]
     timeout: {after: 60 s, goto: failed})~",
           .instead = R"~(paths: {way: {through: [[0 m, 0 m], [3 m, 0 m], [3 m, 2 m]], fillet: 0.6 m}}
 tasks:
-  drive:
+  go:
     constraints:
       go: {move: bumper, in: way, x: {velocity: 0.3 m/s}, y: {position: 0 m}}
     exits: [{when: go.x.position > length(way), for: 20 ms, goto: done}]
@@ -316,14 +316,14 @@ tasks:
           .part = ExcerptOf::task_file,
           .example = R"~(paths: {way: {through: [[0 m, 0 m], [3 m, 0 m]]}}
 tasks:
-  drive:
+  go:
     constraints:
       go: {move: bumper, in: way, x: {velocity: 0.3 m/s}, y: {position: 0 m}, plane: {velocity: [0 m/s, 0.4 m/s]}}
     exits: [{when: go.x.position > length(way), for: 20 ms, goto: done}]
     timeout: {after: 60 s, goto: failed})~",
           .instead = R"~(paths: {way: {through: [[0 m, 0 m], [3 m, 0 m]]}}
 tasks:
-  drive:
+  go:
     constraints:
       go: {move: bumper, in: way, x: {velocity: 0.3 m/s}, y: {position: 0 m}}
       calm: {move: bumper, in: world, plane: {velocity: [0 m/s, 0.4 m/s]}}

@@ -4,6 +4,7 @@
 #include "check/check.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_physics.hpp"
 #include "diagnostic/wordings_scenario.hpp"
 #include "diagnostic/wordings_study.hpp"
 #include "load_within.hpp"
@@ -283,8 +284,7 @@ std::string words_of(const Study& study, const StudyCell& cell) {
   std::string words = cell.cell().name == "as written" ? "" : cell.cell().name;
   for (std::size_t i = 0; i < study.draws.size(); ++i) {
     const Draw& draw = study.draws[i];
-    words += (words.empty() ? "" : ", ") + draw.name + " " + format_number(cell.drawn[i]) +
-             (draw.unit.empty() ? "" : " " + draw.unit);
+    words += (words.empty() ? "" : ", ") + draw.name + " " + wording::figure(cell.drawn[i], draw.unit);
   }
   return words.empty() ? "as written" : words;
 }
