@@ -10,7 +10,6 @@
 #include "load_within.hpp"
 #include "scene/check_scene.hpp"
 #include "scene/check_start.hpp"
-#include "spec/units.hpp"
 #include "study/drawable.hpp"
 #include "study/study_file.hpp"
 #include "tree/file.hpp"
