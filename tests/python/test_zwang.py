@@ -150,6 +150,32 @@ def test_parameters_and_signals_are_told_by_name():
         sensed.measure("nearst", 1.5)
 
 
+def test_a_host_reads_what_a_task_sets(tmp_path):
+    for folder in ("robots", "scenes"):
+        shutil.copytree(SPECS / folder, tmp_path / folder)
+    task = tmp_path / "task.yaml"
+    task.write_text("""zwang: 2
+robot: robots/mecanum_base.yaml
+scene: scenes/wall.yaml
+start: grip
+outputs:
+  gripper: {type: bool, stop: keep}
+  lamp: {type: number, unit: m, stop: 0 m, start: 20 cm}
+tasks:
+  grip:
+    enter: {set: {outputs.gripper: true}}
+    constraints: {go: {move: base, in: base, x: {velocity: 1 cm/s}}}
+    timeout: {after: 1 s, goto: done}
+""")
+    program = zwang.load(task)
+    plant, runner, sensed = zwang.ScenePlant(program), zwang.Runner(program), zwang.Sensed(program)
+    plant.sense(sensed)
+    command = runner.step(sensed)
+    assert program.outputs == ["gripper", "lamp"]
+    assert command.outputs == [1.0, 0.2]
+    assert runner.outputs == {"gripper": 1.0, "lamp": 0.2}
+
+
 def test_a_sweep_is_its_runs_in_their_order():
     grid = {"push": ["10 N", "20 N"], "start_yaw": [-0.1, 0.1]}
     runs = zwang.sweep(WALL_ALIGN, grid, jobs=2)
