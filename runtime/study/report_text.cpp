@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <utility>
 
 #include "study/study_report.hpp"
 #include "zwang/lang/printable.hpp"
@@ -137,7 +138,9 @@ std::string xml_text(const std::string& text) {
 std::string human_report(const lang::Study& study, const StudyReport& report, const std::string& command) {
   std::ostringstream out;
   out << study.path << ": " << report.runs << " of " << report.wanted << " cells";
-  for (const auto& [outcome, count] : report.outcomes) out << ", " << count << " " << outcome;
+  const char* before = "; ended: ";
+  for (const auto& [outcome, count] : report.outcomes)
+    out << std::exchange(before, ", ") << count << " " << outcome;
   out << "\n";
   for (const ClaimReport& claim : report.claims) describe_claim(claim, out);
   for (const GroupReport& group : report.groups)
