@@ -12,6 +12,7 @@
 #include "robot/load_robot.hpp"
 #include "scenario/scenario_file.hpp"
 #include "scene/load_scene.hpp"
+#include "study/study_file.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
 
@@ -205,9 +206,22 @@ void scenario(std::string_view bytes) {
   judge(diagnostics, is_good);
 }
 
+void study(std::string_view bytes) {
+  if (!is_readable(bytes, yaml_size_limit)) return;
+  Diagnostics diagnostics;
+  const std::optional<Document> document = read(add(bytes, diagnostics), diagnostics);
+  const std::optional<StudyFile> file = document ? parse_study_file(*document, diagnostics) : std::nullopt;
+  require(file.has_value() || diagnostics.has_errors(), "a study is read or complained of");
+  if (file) {
+    for (const DrawText& draw : file->draws)
+      static_cast<void>(distribution_of(draw, dimension::force, diagnostics));
+  }
+  judge(diagnostics, !diagnostics.has_errors());
+}
+
 const std::vector<Target>& targets() {
-  static const std::vector<Target> all = {
-      {"task", task}, {"condition", condition}, {"robot", robot}, {"scene", scene}, {"scenario", scenario}};
+  static const std::vector<Target> all = {{"task", task},   {"condition", condition}, {"robot", robot},
+                                          {"scene", scene}, {"scenario", scenario},   {"study", study}};
   return all;
 }
 

@@ -15,6 +15,7 @@ void scene(std::string_view bytes);  ///< a scene file
 /// A scenario file beside those of tests/conformance: its matrix multiplied out, and its expectations of a
 /// fixed task.
 void scenario(std::string_view bytes);
+void study(std::string_view bytes);  ///< a study file, by itself
 
 struct Target {
   std::string name;
