@@ -161,7 +161,7 @@ has "$err" '2.3 s  Tick.Slow
 '
 export LOG=''
 mkdir -p "$place/build/asan" "$place/tests/fuzz/corpus"
-for target in task condition robot scene scenario; do ln -sf /bin/true "$place/build/asan/fuzz_$target"; done
+for target in task condition robot scene scenario study; do ln -sf /bin/true "$place/build/asan/fuzz_$target"; done
 try 'all' 0 "$place/dev" test --all
 has "$called" "$place/build/tsan"
 has "$err" 'fuzzing scenario for 10 s'

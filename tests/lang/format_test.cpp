@@ -106,8 +106,10 @@ std::string program_of(const std::string& text, const fs::path& original) {
   const bool is_draft = original.string().find("shared/cases") != std::string::npos;
   const fs::path robots = is_draft ? test::source_dir / "specs/robots" : original.parent_path() / "robots";
   if (fs::exists(robots)) fs::copy(robots, folder.path() / "robots", fs::copy_options::recursive);
-  const fs::path scenes = original.parent_path() / "scenes";
-  if (fs::exists(scenes)) fs::copy(scenes, folder.path() / "scenes", fs::copy_options::recursive);
+  for (const char* beside : {"scenes", "partners"}) {
+    const fs::path of_it = original.parent_path() / beside;
+    if (fs::exists(of_it)) fs::copy(of_it, folder.path() / beside, fs::copy_options::recursive);
+  }
   Diagnostics diagnostics;
   const auto program = load(folder.write("file.yaml", text), {}, diagnostics);
   return program ? test::ProgramText(*program).text() : std::string();
