@@ -145,30 +145,6 @@ std::string failure_of(const CellResult& cell) {
   return outcome_text(cell);
 }
 
-/// For XML, which takes no control characters and nothing that is not UTF-8.
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : lang::printable(text)) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c == '\n' || c == '\t' ? ' ' : c;
-    }
-  }
-  return out;
-}
-
 std::size_t failures(const ScenarioReport& report) {
   if (!report.readable) return 1;
   return static_cast<std::size_t>(
@@ -260,19 +236,19 @@ std::string junit_report(const std::vector<ScenarioReport>& reports) {
   for (const ScenarioReport& report : reports) {
     const std::size_t tests = report.readable ? report.cells.size() : 1;
     const std::size_t skipped = report.cells.size() - runs_over(report);
-    out << "  <testsuite name=\"" << escaped(report.path) << "\" tests=\"" << tests << "\" failures=\""
-        << failures(report) << "\" skipped=\"" << skipped << "\">\n";
+    out << "  <testsuite name=\"" << lang::printable_in_xml(report.path) << "\" tests=\"" << tests
+        << "\" failures=\"" << failures(report) << "\" skipped=\"" << skipped << "\">\n";
     if (!report.readable) {
       std::ostringstream text;
       lang::render_human(report.diagnostics, text);
-      out << "    <testcase name=\"the scenario file\" classname=\"" << escaped(report.path)
-          << "\" time=\"0\"><failure message=\"not readable\">" << escaped(text.str())
+      out << "    <testcase name=\"the scenario file\" classname=\"" << lang::printable_in_xml(report.path)
+          << "\" time=\"0\"><failure message=\"not readable\">" << lang::printable_in_xml(text.str())
           << "</failure></testcase>\n  </testsuite>\n";
       continue;
     }
     for (const CellResult& cell : report.cells) {
-      out << "    <testcase name=\"" << escaped(cell.name) << "\" classname=\"" << escaped(report.path)
-          << "\" time=\"" << number(cell.wall, 3) << "\">";
+      out << "    <testcase name=\"" << lang::printable_in_xml(cell.name) << "\" classname=\""
+          << lang::printable_in_xml(report.path) << "\" time=\"" << number(cell.wall, 3) << "\">";
       if (!is_over(cell)) {
         out << "<skipped message=\"interrupted\"/>";
       } else if (!cell.passed) {
@@ -280,7 +256,8 @@ std::string junit_report(const std::vector<ScenarioReport>& reports) {
         for (const ExpectationResult& result : cell.expectations) {
           if (!result.held) missed += result.text + "  " + margin_text(result) + "\n";
         }
-        out << "<failure message=\"" << escaped(failure_of(cell)) << "\">" << escaped(missed) << "</failure>";
+        out << "<failure message=\"" << lang::printable_in_xml(failure_of(cell)) << "\">"
+            << lang::printable_in_xml(missed) << "</failure>";
       }
       out << "</testcase>\n";
     }

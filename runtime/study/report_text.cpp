@@ -36,13 +36,17 @@ std::string wanted_text(const lang::Claim& claim) {
          short_number(100.0 * claim.confidence) + " %";
 }
 
-/// Larger than what chance makes of as many cells, two times in a hundred thousand.
+/// What chance makes of as many cells is larger twice in a hundred thousand studies.
+double most_by_chance(const ClaimReport& claim) {
+  return 4.0 / std::sqrt(std::max<double>(1.0, static_cast<double>(claim.runs) - 1.0));
+}
+
 std::string correlations_text(const ClaimReport& claim) {
   std::vector<std::pair<double, std::string>> lines;
-  const double of_chance = 4.0 / std::sqrt(std::max<double>(1.0, static_cast<double>(claim.runs) - 1.0));
   for (const Correlation& one : claim.correlations) {
     const double rho = one.with_margin.value_or(0.0);
-    if (std::abs(rho) > of_chance) lines.emplace_back(-std::abs(rho), one.draw + " " + short_number(rho));
+    if (std::abs(rho) > most_by_chance(claim))
+      lines.emplace_back(-std::abs(rho), one.draw + " " + short_number(rho));
   }
   std::sort(lines.begin(), lines.end());
   std::string text;
@@ -52,10 +56,10 @@ std::string correlations_text(const ClaimReport& claim) {
 
 std::string misses_text(const ClaimReport& claim) {
   std::string text;
-  const double of_chance = 4.0 / std::sqrt(std::max<double>(1.0, static_cast<double>(claim.runs) - 1.0));
   for (const Correlation& one : claim.correlations) {
     const double rho = one.with_misses.value_or(0.0);
-    if (std::abs(rho) > of_chance) text += (text.empty() ? "" : ", ") + one.draw + " " + short_number(rho);
+    if (std::abs(rho) > most_by_chance(claim))
+      text += (text.empty() ? "" : ", ") + one.draw + " " + short_number(rho);
   }
   return text;
 }
@@ -114,23 +118,6 @@ ordered_json json_of(const ClaimReport& claim) {
   }
   one["correlations"] = correlations;
   return one;
-}
-
-std::string xml_text(const std::string& text) {
-  std::string out;
-  for (const char c : lang::printable(text)) {
-    const char* entity = c == '&'   ? "&amp;"
-                         : c == '<' ? "&lt;"
-                         : c == '>' ? "&gt;"
-                         : c == '"' ? "&quot;"
-                                    : nullptr;
-    if (entity != nullptr) {
-      out += entity;
-    } else {
-      out += c == '\n' || c == '\t' ? ' ' : c;
-    }
-  }
-  return out;
 }
 
 }  // namespace
@@ -193,23 +180,23 @@ std::string junit_report(const lang::Study& study, const StudyReport& report) {
   std::size_t broken = 0, skipped = 0;
   std::ostringstream cases;
   for (const ClaimReport& claim : report.claims) {
-    cases << "    <testcase name=\"" << xml_text(claim.claim.text) << "\" classname=\""
-          << xml_text(study.path) << "\" time=\"0\">";
+    cases << "    <testcase name=\"" << lang::printable_in_xml(claim.claim.text) << "\" classname=\""
+          << lang::printable_in_xml(study.path) << "\" time=\"0\">";
     const std::string share = std::to_string(claim.held) + " of " + std::to_string(claim.runs) +
                               " cells held, wanted " + wanted_text(claim.claim);
     if (claim.verdict == Verdict::broken) {
       ++broken;
-      cases << "<failure message=\"" << xml_text(share) << "\"/>";
+      cases << "<failure message=\"" << lang::printable_in_xml(share) << "\"/>";
     } else if (claim.verdict == Verdict::too_few_runs) {
       ++skipped;
-      cases << "<skipped message=\"too few runs: " << xml_text(share) << "\"/>";
+      cases << "<skipped message=\"too few runs: " << lang::printable_in_xml(share) << "\"/>";
     }
     cases << "</testcase>\n";
   }
   std::ostringstream out;
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n  <testsuite name=\""
-      << xml_text(study.path) << "\" tests=\"" << report.claims.size() << "\" failures=\"" << broken
-      << "\" skipped=\"" << skipped << "\">\n"
+      << lang::printable_in_xml(study.path) << "\" tests=\"" << report.claims.size() << "\" failures=\""
+      << broken << "\" skipped=\"" << skipped << "\">\n"
       << cases.str() << "  </testsuite>\n</testsuites>\n";
   return out.str();
 }

@@ -9,6 +9,7 @@
 #include "diagnostic/wordings_forces.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "tree/text.hpp"
 
 namespace zwang::lang {
 
@@ -45,17 +46,6 @@ Type type_of_coordinate(CoordinateQuantity what, solver::Axis axis) {
   return boolean_type;
 }
 
-std::vector<std::string> split(const std::string& path) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t dot = path.find('.'); dot != std::string::npos; dot = path.find('.', begin)) {
-    parts.push_back(path.substr(begin, dot - begin));
-    begin = dot + 1;
-  }
-  parts.push_back(path.substr(begin));
-  return parts;
-}
-
 /// The symbol that a name stands for. It counts as used, and the node refers to it.
 template <typename Symbol>
 const Symbol& referred(std::vector<Symbol>& symbols, Op op, int index, ExpressionNode& lowered) {
@@ -83,7 +73,7 @@ Type ConditionNames::type_of(const ExpressionText& node, ExpressionNode& lowered
   if (const auto output = symbols.find_output(node.word)) return check_output(*output, lowered);
   if (const auto feature = symbols.find_feature(node.word)) return check_feature(*feature, lowered);
   if (const auto force = check_estimated_force(node, lowered)) return *force;
-  std::vector<std::string> parts = split(node.word);
+  std::vector<std::string> parts = split_at_dots(node.word);
   if (context_.of_truth && parts.size() > 1) {
     return complain(wording::unknown_truth(node.span, node.word, truth_meant(node.word)));
   }

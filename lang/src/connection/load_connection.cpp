@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cctype>
+#include <span>
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_connection.hpp"
@@ -18,6 +19,7 @@ constexpr int highest_priority = 98;
 
 constexpr MessageType signal_types[] = {MessageType::boolean, MessageType::float64, MessageType::pose_stamped,
                                         MessageType::wrench_stamped, MessageType::laser_scan};
+constexpr MessageType output_types[] = {MessageType::boolean, MessageType::float64};
 
 /// `geometry_msgs/msg/Twist` is the same type as `geometry_msgs/Twist`.
 std::string without_msg(const std::string& type) {
@@ -131,16 +133,22 @@ void parse_state(const Node& node, Connection& connection, Diagnostics& diagnost
   map.finish();
 }
 
+/// `topic` and `type` of a signal or an output.
+template <typename Carried>
+void parse_message(MapReader& map, std::span<const MessageType> types, Carried& carried,
+                   Diagnostics& diagnostics) {
+  carried.topic = parse_topic(map, diagnostics);
+  if (const Node* type = map.required("type"))
+    carried.type = parse_type(*type, map.what() + "'s `type`", types, diagnostics).value_or(carried.type);
+}
+
 SignalSource parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   SignalSource signal;
   signal.name = entry.key.text;
   signal.span = entry.key.span;
   MapReader map(entry.value, "signal `" + signal.name + "`", diagnostics,
                 "{topic: /" + signal.name + ", type: std_msgs/Bool}");
-  signal.topic = parse_topic(map, diagnostics);
-  if (const Node* type = map.required("type"))
-    signal.type =
-        parse_type(*type, map.what() + "'s `type`", signal_types, diagnostics).value_or(signal.type);
+  parse_message(map, signal_types, signal, diagnostics);
   const Node* nearest = map.optional("nearest");
   if (nearest != nullptr) {
     const auto range =
@@ -160,10 +168,7 @@ OutputSink parse_output(const Entry& entry, Diagnostics& diagnostics) {
   output.span = entry.key.span;
   MapReader map(entry.value, "output `" + output.name + "`", diagnostics,
                 "{topic: /" + output.name + ", type: std_msgs/Bool}");
-  output.topic = parse_topic(map, diagnostics);
-  constexpr MessageType types[] = {MessageType::boolean, MessageType::float64};
-  if (const Node* type = map.required("type"))
-    output.type = parse_type(*type, map.what() + "'s `type`", types, diagnostics).value_or(output.type);
+  parse_message(map, output_types, output, diagnostics);
   map.finish();
   return output;
 }

@@ -231,17 +231,26 @@ void parse_expectations(const Node& node, bool of_study, ScenarioFile& file, Dia
   if (node.items.empty()) diagnostics.add(wording::nothing_expected(node.span));
 }
 
+bool parse_time_limit(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics) {
+  const Node* limit = map.optional("time_limit");
+  if (limit == nullptr) return false;
+  file.time_limit = parse_positive(*limit, dimension::time, "`time_limit`", false, diagnostics).value_or(1.0);
+  return true;
+}
+
+bool parse_seed(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics) {
+  const Node* seed = map.optional("seed");
+  if (seed == nullptr) return false;
+  const auto value = parse_integer(*seed, "`seed`", 0, 1'000'000'000, diagnostics);
+  file.seed = static_cast<std::uint64_t>(value.value_or(0));
+  return true;
+}
+
 void parse_scenario_keys(MapReader& map, bool of_study, ScenarioFile& file, Diagnostics& diagnostics) {
   if (const Node* about = map.optional("about")) file.about = about->text;
   if (const Node* task = map.required("task")) file.task = parse_word(*task, "`task`", diagnostics);
-  if (const Node* limit = map.optional("time_limit")) {
-    file.time_limit =
-        parse_positive(*limit, dimension::time, "`time_limit`", false, diagnostics).value_or(1.0);
-  }
-  if (const Node* seed = map.optional("seed")) {
-    const auto value = parse_integer(*seed, "`seed`", 0, 1'000'000'000, diagnostics);
-    file.seed = static_cast<std::uint64_t>(value.value_or(0));
-  }
+  parse_time_limit(map, file, diagnostics);
+  parse_seed(map, file, diagnostics);
   if (const Node* blend = map.optional("blend"))
     file.blend = parse_positive(*blend, dimension::time, "`blend`", true, diagnostics);
   parse_fixed(map, file, diagnostics);

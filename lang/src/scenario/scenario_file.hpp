@@ -65,6 +65,9 @@ std::optional<ScenarioFile> parse_scenario_file(const Document& document, Diagno
 
 /// Its keys behind the version. `of_study`: an expectation may say how sure it must be.
 void parse_scenario_keys(MapReader& map, bool of_study, ScenarioFile& file, Diagnostics& diagnostics);
+/// Whether there is one.
+bool parse_time_limit(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics);
+bool parse_seed(MapReader& map, ScenarioFile& file, Diagnostics& diagnostics);
 void parse_expectations(const Node& node, bool of_study, ScenarioFile& file, Diagnostics& diagnostics);
 
 /// A share that is neither nothing nor all: `99.9 %`, or `'>= 99.9 %'`. E933 otherwise.

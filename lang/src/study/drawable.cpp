@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "spec/units.hpp"
+#include "tree/text.hpp"
 
 namespace zwang::lang {
 
@@ -101,12 +102,15 @@ constexpr std::array robot_numbers{
     RobotNumber{"inertia", dimension::none, true},  RobotNumber{"centre_of_mass", dimension::length, false},
     RobotNumber{"friction", dimension::none, true}, RobotNumber{"wheel_radius", dimension::none, true}};
 
-template <typename Owner, std::size_t N>
-const DrawnNumber<Owner>* number_named(const std::array<DrawnNumber<Owner>, N>& numbers,
-                                       const std::string& key) {
+template <typename Number, std::size_t N>
+const Number* number_named(const std::array<Number, N>& numbers, const std::string& key) {
   const auto found =
-      std::find_if(numbers.begin(), numbers.end(), [&](const auto& n) { return key == n.key; });
+      std::find_if(numbers.begin(), numbers.end(), [&](const Number& n) { return key == n.key; });
   return found == numbers.end() ? nullptr : &*found;
+}
+
+const RobotNumber* robot_number(const std::string& key) {
+  return number_named(robot_numbers, key);
 }
 
 /// As it stands in the scene: `Use` is called with the number and its place.
@@ -145,17 +149,6 @@ bool visit_number(const Drawable& d, Scene& scene, const Use& use) {
   return false;
 }
 
-std::vector<std::string> parts_of(const std::string& name) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', begin)) {
-    parts.push_back(name.substr(begin, dot - begin));
-    begin = dot + 1;
-  }
-  parts.push_back(name.substr(begin));
-  return parts;
-}
-
 std::optional<Dimension> dimension_of_parameter(const std::string& name, const Program& program) {
   for (const Parameter& parameter : program.parameters) {
     if (parameter.name != name) continue;
@@ -175,8 +168,9 @@ Fault whole_run(FaultKind kind, double value) {
 
 std::optional<std::string> put_into_robot(const std::string& key, double value, Program& program,
                                           RobotDeviation& deviation) {
-  const bool is_factor = key != "payload" && key != "centre_of_mass";
-  if (is_factor && !(value > 0.0)) return "a factor of " + format_number(value) + " leaves nothing";
+  const RobotNumber* number = robot_number(key);
+  if (number != nullptr && number->is_factor && !(value > 0.0))
+    return "a factor of " + format_number(value) + " leaves nothing";
   std::vector<Fault>& faults = program.scene->faults;
   // The first fault of a kind is the one that acts.
   const auto act = [&](FaultKind kind, double v) { faults.insert(faults.begin(), whole_run(kind, v)); };
@@ -194,7 +188,7 @@ std::optional<std::string> put_into_robot(const std::string& key, double value, 
 
 std::optional<Drawable> drawable_named(const std::string& name) {
   if (is_parameter(name)) return Drawable{.part = DrawnPart::parameter, .key = name.substr(7)};
-  const std::vector<std::string> parts = parts_of(name);
+  const std::vector<std::string> parts = split_at_dots(name);
   const std::string& first = parts.front();
   if (parts.size() == 2) {
     for (const auto& [word, part] :
@@ -227,10 +221,9 @@ std::optional<Drawable> find_drawable(const std::string& name, const ScenarioFil
     const bool is_there = std::any_of(file.faults.begin(), file.faults.end(), is_named);
     if (is_there && drawable->key == "at") measures = dimension::time;
   } else if (drawable->part == DrawnPart::robot) {
-    for (const RobotNumber& number : robot_numbers) {
-      if (drawable->key != number.key) continue;
-      measures = number.dimension;
-      drawable->is_factor_only = drawable->can_be_factor = number.is_factor;
+    if (const RobotNumber* number = robot_number(drawable->key)) {
+      measures = number->dimension;
+      drawable->is_factor_only = drawable->can_be_factor = number->is_factor;
     }
   } else if (program.scene) {
     Scene scene = *program.scene;

@@ -122,16 +122,8 @@ std::optional<StudyFile> parse_study_file(const Document& document, Diagnostics&
     file.scenario = parse_word(*scenario, "`scenario`", diagnostics);
     if (const Node* cell = map.optional("cell")) file.cell = parse_word(*cell, "`cell`", diagnostics);
     if (const Node* about = map.optional("about")) file.own.about = about->text;
-    if (const Node* seed = map.optional("seed")) {
-      file.has_seed = true;
-      file.own.seed = static_cast<std::uint64_t>(
-          parse_integer(*seed, "`seed`", 0, 1'000'000'000, diagnostics).value_or(0));
-    }
-    if (const Node* limit = map.optional("time_limit")) {
-      file.has_time_limit = true;
-      file.own.time_limit =
-          parse_positive(*limit, dimension::time, "`time_limit`", false, diagnostics).value_or(1.0);
-    }
+    file.has_seed = parse_seed(map, file.own, diagnostics);
+    file.has_time_limit = parse_time_limit(map, file.own, diagnostics);
     if (const Node* expect = map.optional("expect")) parse_expectations(*expect, true, file.own, diagnostics);
   } else {
     parse_scenario_keys(map, true, file.own, diagnostics);

@@ -32,6 +32,8 @@ class TextIndex {
 
 std::size_t count_code_points(std::string_view text);
 std::string trimmed(std::string_view text);
+/// `a.b.c` as `a`, `b`, `c`.
+std::vector<std::string> split_at_dots(const std::string& path);
 std::string lower_case(std::string_view text);
 /// A decimal comma ends an item in brackets: `0,08 m/s` comes as `0` and `08 m/s`. What was meant, `0.08
 /// m/s`; empty where the two are something else.

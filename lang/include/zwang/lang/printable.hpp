@@ -10,6 +10,9 @@ namespace zwang::lang {
 /// look other than it is, and for each byte that is not UTF-8. `kept` are control characters that stay.
 std::string printable(std::string_view text, std::string_view kept = "\n\t");
 
+/// The same as text or an attribute of XML: in one line, its four marks as entities.
+std::string printable_in_xml(std::string_view text);
+
 /// The text with one space in the place of every run of spaces, tabs and ends of lines, and none at its ends.
 std::string in_one_line(std::string_view text);
 
