@@ -13,8 +13,6 @@ namespace zwang::lang {
 
 namespace {
 
-using solver::Quantity;
-
 /// Level 0 is that of `always` alone.
 std::optional<int> parse_level(const Node& node, const std::string& path, int lowest_level,
                                Diagnostics& diagnostics) {
@@ -59,8 +57,8 @@ void parse_yield(MapReader& map, const std::string& path, AxisText& axis, Diagno
 
 void parse_statements(MapReader& map, const std::string& path, AxisText& axis, int lowest_level,
                       Diagnostics& diagnostics) {
-  for (const Quantity quantity :
-       {Quantity::position, Quantity::velocity, Quantity::acceleration, Quantity::force}) {
+  for (const solver::Quantity quantity : {solver::Quantity::position, solver::Quantity::velocity,
+                                          solver::Quantity::acceleration, solver::Quantity::force}) {
     const std::string word = word_of(quantity);
     const Node* node = map.optional(word);
     if (node == nullptr) continue;
@@ -109,15 +107,15 @@ std::string statement_of(const std::string& text, const std::string& axis) {
 void parse_plane(MapReader& map, const Entry& entry, const std::string& path, AxisText& axis,
                  Diagnostics& diagnostics) {
   bool is_empty = true;
-  for (const Quantity quantity :
-       {Quantity::position, Quantity::velocity, Quantity::acceleration, Quantity::force}) {
+  for (const solver::Quantity quantity : {solver::Quantity::position, solver::Quantity::velocity,
+                                          solver::Quantity::acceleration, solver::Quantity::force}) {
     const std::string word = word_of(quantity);
     const Node* node = map.optional(word);
     if (node == nullptr) continue;
     is_empty = false;
     StatementText range = parse_statement(*node, path + "." + word, diagnostics);
     const bool is_read = range.is_range || range.value.kind != ValueKind::bad;
-    if (is_read && (quantity == Quantity::position || !range.is_range)) {
+    if (is_read && (quantity == solver::Quantity::position || !range.is_range)) {
       diagnostics.add(wording::norm_that_drives(node->span, path + "." + word));
       continue;
     }
@@ -171,7 +169,7 @@ AxisText parse_axis(const Entry& entry, const std::string& group, int lowest_lev
       range.is_range = true;
       range.span = node->span;
       range.key_span = entry.value.find("velocity")->key.span;
-      axis.statements[static_cast<std::size_t>(Quantity::velocity)] = std::move(range);
+      axis.statements[static_cast<std::size_t>(solver::Quantity::velocity)] = std::move(range);
     }
   } else {
     parse_statements(map, path, axis, lowest_level, diagnostics);
