@@ -2,11 +2,13 @@
 ///
 /// A caster's wheel trails its pivot by t. It holds no force across its heading: the pivot's velocity across
 /// it swivels the caster by d' = v_across/t - w, w the object's turn. Along its heading it rolls against dry
-/// friction, a bristle as in floor_friction.hpp, with a quarter of mu m g.
+/// friction, a bristle, with a quarter of mu m g.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+
+#include "bristle.hpp"
 
 namespace zwang::runtime {
 
@@ -24,13 +26,10 @@ class CasterFriction {
   struct Caster {
     Eigen::Vector2d pivot = Eigen::Vector2d::Zero();
     double heading = 0.0;  ///< [rad]
-    double stretch = 0.0;  ///< [m]
+    Bristle bristle;       ///< along the heading
   };
   std::array<Caster, 4> casters_;
-  double bristle_ = 0.0;  ///< [N/m] of one caster
-  double damper_ = 0.0;   ///< [N s/m]
-  double most_ = 0.0;     ///< [N]
-  double trail_ = 1.0;    ///< [m]
+  double trail_ = 1.0;  ///< [m]
 };
 
 }  // namespace zwang::runtime

@@ -3,17 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "bristle.hpp"
 #include "cut.hpp"
 #include "pair_friction.hpp"
 
 namespace zwang::runtime {
-
-namespace {
-
-constexpr double floor_frequency = 200.0;  ///< w [1/s]
-constexpr double damping = 0.7;            ///< ratio, while the bristles hold
-
-}  // namespace
 
 FloorFriction::FloorFriction(double mass, double yaw_inertia, double load, double reach)
     : inertia_(mass, yaw_inertia), limit_(load, load * reach) {}
@@ -23,7 +17,7 @@ Eigen::Vector3d FloorFriction::step(const Eigen::Vector3d& velocity, double peri
   const Eigen::Vector2d stiffness = floor_frequency * floor_frequency * inertia_;
   cut(stretch_.head<2>(), limit_[0] / stiffness[0]);
   cut(stretch_.tail<1>(), limit_[1] / stiffness[1]);
-  const Eigen::Vector3d pull = stretch_ + 2.0 * damping / floor_frequency * velocity;
+  const Eigen::Vector3d pull = stretch_ + 2.0 * floor_damping_ratio / floor_frequency * velocity;
   Eigen::Vector3d force;
   force << -stiffness[0] * pull.head<2>(), -stiffness[1] * pull.tail<1>();
   cut(force.head<2>(), limit_[0]);

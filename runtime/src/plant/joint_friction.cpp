@@ -21,24 +21,23 @@ JointFriction::JointFriction(const lang::Robot& robot) {
     const double inertia =
         body.joint.rotor_inertia +
         (slides ? body.inertia.mass : body.joint.axis.dot(body.inertia.rotational * body.joint.axis));
-    Bristle bristle;
-    bristle.joint = static_cast<Eigen::Index>(j);
-    bristle.coulomb = friction.coulomb;
-    bristle.viscous = friction.viscous;
+    RubbingJoint rubbing;
+    rubbing.joint = static_cast<Eigen::Index>(j);
+    rubbing.viscous = friction.viscous;
     const double stiffest = inertia * joint_frequency * joint_frequency;
+    Bristle& bristle = rubbing.bristle;
+    bristle.most = friction.coulomb;
     bristle.longest = std::max(friction.presliding, friction.coulomb / stiffest);
     bristle.stiffness = bristle.longest > 0.0 ? friction.coulomb / bristle.longest : stiffest;
     bristle.damping = 2.0 * joint_damping_ratio * std::sqrt(inertia * bristle.stiffness);
-    joints_.push_back(bristle);
+    joints_.push_back(rubbing);
   }
 }
 
 void JointFriction::add_to(Eigen::VectorXd& torque, const Eigen::VectorXd& qd, double period) noexcept {
-  for (Bristle& bristle : joints_) {
-    const double rate = qd(bristle.joint);
-    bristle.stretch = std::clamp(bristle.stretch + period * rate, -bristle.longest, bristle.longest);
-    const double dry = bristle.stiffness * bristle.stretch + bristle.damping * rate;
-    torque(bristle.joint) -= std::clamp(dry, -bristle.coulomb, bristle.coulomb) + bristle.viscous * rate;
+  for (RubbingJoint& rubbing : joints_) {
+    const double rate = qd(rubbing.joint);
+    torque(rubbing.joint) -= rubbing.bristle.step(rate, period) + rubbing.viscous * rate;
   }
 }
 

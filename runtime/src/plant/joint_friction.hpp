@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "bristle.hpp"
 #include "zwang/lang/robot.hpp"
 
 namespace zwang::runtime {
@@ -22,15 +23,12 @@ class JointFriction {
   void add_to(Eigen::VectorXd& torque, const Eigen::VectorXd& qd, double period) noexcept;
 
  private:
-  struct Bristle {
+  struct RubbingJoint {
     Eigen::Index joint = 0;
-    double coulomb = 0.0, viscous = 0.0;
-    double longest = 0.0;    ///< stretch that slides [rad]
-    double stiffness = 0.0;  ///< k [N m/rad]
-    double damping = 0.0;    ///< c [N m s/rad]
-    double stretch = 0.0;    ///< [rad]
+    double viscous = 0.0;
+    Bristle bristle;
   };
-  std::vector<Bristle> joints_;
+  std::vector<RubbingJoint> joints_;
 };
 
 }  // namespace zwang::runtime

@@ -2,9 +2,10 @@
 /// damper, which stand in the simulation's text.
 ///
 /// At the travel q the force is f = -p sign(q) - k q - b(q). The preload p presses towards 0, k is the
-/// spring, and b is dry friction, a bristle as in floor_friction.hpp.
+/// spring, and b is dry friction, a bristle.
 #pragma once
 
+#include "bristle.hpp"
 #include "zwang/lang/scene.hpp"
 
 namespace zwang::runtime {
@@ -20,10 +21,8 @@ class ObjectGuide {
 
  private:
   lang::Guide guide_;
-  double side_ = 0.0;     ///< of 0 on which the range lies; 0: on both
-  double bristle_ = 0.0;  ///< [N m/rad] or [N/m] stiffness of the bristle
-  double damper_ = 0.0;   ///< of the bristle, while it holds
-  double stretch_ = 0.0;  ///< [rad] or [m]
+  double side_ = 0.0;  ///< of 0 on which the range lies; 0: on both
+  Bristle bristle_;
 };
 
 }  // namespace zwang::runtime

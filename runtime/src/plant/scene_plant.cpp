@@ -179,7 +179,6 @@ struct ScenePlant::Parts {
         period(options.simulation.period),
         switches(fault_switches(program.robot)),
         hand(idle_hand(program)),
-        model_of_first(program.robot.model),
         actual(program.robot.model),
         torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())),
         pushed(torque) {
@@ -286,7 +285,7 @@ struct ScenePlant::Parts {
 
   /// The fault of a switch, as its value has it, in the place of the one before.
   void turn(const FaultSwitch& one, double value) {
-    const Eigen::Index joint = one.joint.empty() ? -1 : model_of_first.find_joint(one.joint).value_or(-1);
+    const Eigen::Index joint = one.joint.empty() ? -1 : robot.model.find_joint(one.joint).value_or(-1);
     for (const FaultKind kind : one.kinds) faults.lift(kind, joint);
     if (one.words.empty() ? std::isnan(value) : value < 1.0) return;
     lang::Fault fault;
@@ -330,7 +329,6 @@ struct ScenePlant::Parts {
   double period;  ///< [s] of a step
   std::vector<FaultSwitch> switches;
   Hand hand;  ///< as it is
-  solver::Model model_of_first;
   Sensed actual;
   Eigen::VectorXd torque;  ///< what the motors make of the command
   Eigen::VectorXd pushed;  ///< the same, at wheels of the model's size
