@@ -101,11 +101,8 @@ ordered_json robot_of(const lang::Robot& robot) {
 ordered_json scene_of(const lang::Scene& scene) {
   ordered_json objects = ordered_json::array(), robots = ordered_json::array();
   for (const lang::SceneObject& o : scene.objects) {
-    ordered_json one = {{"name", o.name},
-                        {"size", o.size},
-                        {"at", o.at},
-                        {"yaw", o.yaw},
-                        {"moves", o.mass.has_value() || !o.motion.empty()}};
+    ordered_json one = {
+        {"name", o.name}, {"size", o.size}, {"at", o.at}, {"yaw", o.yaw}, {"moves", o.moves()}};
     one["shape"] = o.shape == lang::ShapeKind::wall  ? "wall"
                    : o.shape == lang::ShapeKind::box ? "box"
                                                      : "cylinder";

@@ -88,7 +88,9 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
              LiveView* view, const std::atomic<bool>& interrupted, Live& live, RunReport& report) {
   runtime::Sensed sensed(program);
   const std::size_t true_values = runtime::truth_columns(*program.scene).size();
-  std::vector<double> truth(true_values + (view != nullptr ? runtime::hand_columns(program).size() : 0));
+  std::optional<runtime::HandColumns> by_hand;
+  if (view != nullptr) by_hand.emplace(program);
+  std::vector<double> truth(true_values + (by_hand ? by_hand->columns().size() : 0));
   runtime::SimulationSteps steps(runner.period());
   TruthWatch watch(plant.truth(), steps.period());
   PlantStatus status = PlantStatus::ok;
@@ -119,7 +121,7 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
       if (view != nullptr && view->is_restart_asked()) break;
       if (view != nullptr) {
         plant.set_hand(view->hand());
-        runtime::put_hand(view->hand(), plant.truth(), program, std::span(truth).subspan(true_values));
+        by_hand->put(view->hand(), plant.truth(), std::span(truth).subspan(true_values));
       }
       runner.step(sensed, truth);
       if (runner.state() == runtime::RunState::running && runner.scheduler().transition())
@@ -202,8 +204,9 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
   runtime::RunnerSettings settings;
   settings.extra_columns = runtime::truth_columns(*program->scene);
   if (view != nullptr) {
-    const std::vector<runtime::Column> by_hand = runtime::hand_columns(*program);
-    settings.extra_columns.insert(settings.extra_columns.end(), by_hand.begin(), by_hand.end());
+    const runtime::HandColumns by_hand(*program);
+    settings.extra_columns.insert(settings.extra_columns.end(), by_hand.columns().begin(),
+                                  by_hand.columns().end());
   }
   runtime::Runner runner(*program, settings);
 

@@ -119,7 +119,7 @@ ordered_json scene_of(const CellScene& scene) {
                        {"size", o.size},
                        {"at", o.at},
                        {"yaw", o.yaw},
-                       {"moves", o.mass.has_value() || !o.motion.empty()}});
+                       {"moves", o.moves()}});
   }
   for (const solver::Vector3& corner : scene.footprint)
     footprint.push_back({millimetres(corner.x()), millimetres(corner.y())});

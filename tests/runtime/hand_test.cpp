@@ -82,7 +82,7 @@ class FaultByHand : public testing::TestWithParam<ByHand> {};
 TEST_P(FaultByHand, ActsAsThatOfTheSceneToTheLastBit) {
   const ByHand& fault = GetParam();
   const lang::Program of_scene = watching_in(crate_and_post + "faults: [{at: 0.1 s, for: 0.1 s, " +
-                                              std::string(fault.in_scene) + "}]\n");
+                                             std::string(fault.in_scene) + "}]\n");
   const lang::Program program = watching_in(crate_and_post);
   ScenePlant expected(of_scene), plant(program);
   std::vector<double> told, told_by_hand;
@@ -196,7 +196,8 @@ TEST(HandOnObjects, PushesTheBaseOutOfItsWay) {
 TEST(Hand, HasAColumnForEachOfItsValues) {
   const lang::Program program = watching_in(crate_and_post);
   ScenePlant plant(program);
-  const std::vector<Column> columns = hand_columns(program);
+  const HandColumns by_hand(program);
+  const std::vector<Column>& columns = by_hand.columns();
   std::set<std::string> names;
   for (const std::vector<Column>& some : {columns, truth_columns(*program.scene)}) {
     for (const Column& column : some) EXPECT_TRUE(names.insert(column.name).second) << column.name;
@@ -207,7 +208,7 @@ TEST(Hand, HasAColumnForEachOfItsValues) {
   hand.faults[switch_named(program, "payload")] = 12.0;
   hand.sent = {1, {0.5, 2.5}, 0.25};
   std::vector<double> values(columns.size());
-  put_hand(hand, plant.truth(), program, values);
+  by_hand.put(hand, plant.truth(), values);
   const auto value = [&](const std::string& name) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (columns[i].name == name) return values[i];

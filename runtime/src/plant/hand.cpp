@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "place_columns.hpp"
 #include "zwang/lang/fault_word.hpp"
 
 namespace zwang::runtime {
@@ -42,10 +43,6 @@ FaultSwitch numbered_fault(const std::string& name, FaultKind kind, const std::s
   one.low = low;
   one.high = high;
   return one;
-}
-
-bool is_fixed(const lang::SceneObject& object) {
-  return !object.mass && object.motion.empty();
 }
 
 }  // namespace
@@ -98,43 +95,44 @@ std::vector<std::size_t> given_signals(const lang::Program& program) {
   return given;
 }
 
-std::vector<Column> hand_columns(const lang::Program& program) {
-  std::vector<Column> columns{
-      {"hand.at.x", "m", {}}, {"hand.at.y", "m", {}}, {"hand.force.x", "N", {}}, {"hand.force.y", "N", {}}};
-  for (const std::size_t signal : given_signals(program))
-    columns.push_back({"hand.blocked." + program.signals[signal].name, {}, {}});
+HandColumns::HandColumns(const lang::Program& program)
+    : signals_(given_signals(program)),
+      columns_{{"hand.at.x", "m", {}},
+               {"hand.at.y", "m", {}},
+               {"hand.force.x", "N", {}},
+               {"hand.force.y", "N", {}}} {
+  const std::vector<lang::SceneObject>& objects = program.scene->objects;
+  for (const std::size_t signal : signals_)
+    columns_.push_back({"hand.blocked." + program.signals[signal].name, {}, {}});
   for (const FaultSwitch& one : fault_switches(program.robot))
-    columns.push_back({"hand.fault." + one.name, one.unit, one.words});
-  std::vector<std::string> objects{"none"};
-  for (const lang::SceneObject& object : program.scene->objects) objects.push_back(object.name);
-  columns.push_back({"hand.object", {}, objects});
-  columns.push_back({"hand.to.x", "m", {}});
-  columns.push_back({"hand.to.y", "m", {}});
-  columns.push_back({"hand.to.yaw", "rad", {}});
-  for (const lang::SceneObject& object : program.scene->objects) {
-    if (!is_fixed(object)) continue;
-    columns.push_back({"truth." + object.name + ".x", "m", {}});
-    columns.push_back({"truth." + object.name + ".y", "m", {}});
-    columns.push_back({"truth." + object.name + ".yaw", "rad", {}});
+    columns_.push_back({"hand.fault." + one.name, one.unit, one.words});
+  std::vector<std::string> names{"none"};
+  for (const lang::SceneObject& object : objects) names.push_back(object.name);
+  columns_.push_back({"hand.object", {}, names});
+  columns_.push_back({"hand.to.x", "m", {}});
+  columns_.push_back({"hand.to.y", "m", {}});
+  columns_.push_back({"hand.to.yaw", "rad", {}});
+  for (std::size_t k = 0; k < objects.size(); ++k) {
+    if (objects[k].moves()) continue;
+    fixed_.push_back(k);
+    add_place_columns(objects[k].name, columns_);
   }
-  return columns;
 }
 
-void put_hand(const Hand& hand, const Truth& truth, const lang::Program& program, std::span<double> values) {
+void HandColumns::put(const Hand& hand, const Truth& truth, std::span<double> values) const noexcept {
   std::size_t at = 0;
-  const auto put = [&](double value) { values[at++] = value; };
+  const auto put_one = [&](double value) { values[at++] = value; };
   for (const double value : {hand.push.at.x(), hand.push.at.y(), hand.push.force.x(), hand.push.force.y()})
-    put(value);
-  for (const std::size_t signal : given_signals(program)) put(hand.blocked[signal] ? 1.0 : 0.0);
-  for (const double value : hand.faults) put(value);
+    put_one(value);
+  for (const std::size_t signal : signals_) put_one(hand.blocked[signal] ? 1.0 : 0.0);
+  for (const double value : hand.faults) put_one(value);
   const bool is_sent = hand.sent.object >= 0;
-  put(hand.sent.object + 1);
+  put_one(hand.sent.object + 1);
   for (const double value : {hand.sent.to[0], hand.sent.to[1], hand.sent.yaw})
-    put(is_sent ? value : no_number);
-  for (std::size_t k = 0; k < program.scene->objects.size(); ++k) {
-    if (!is_fixed(program.scene->objects[k])) continue;
+    put_one(is_sent ? value : no_number);
+  for (const std::size_t k : fixed_) {
     const ObjectTruth& object = truth.objects[k];
-    for (const double value : {object.x, object.y, object.yaw}) put(value);
+    for (const double value : {object.x, object.y, object.yaw}) put_one(value);
   }
 }
 

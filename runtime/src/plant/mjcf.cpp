@@ -103,7 +103,7 @@ class MjcfWriter {
              attribute("euler", list_of(0.0, 0.0, object.yaw)) + ">\n";
     if (object.guide) {
       if (!object.is_locked()) write_guide(*object.guide, object, g, name);
-    } else if (object.mass || !object.motion.empty()) {
+    } else if (object.moves()) {
       const double mass = object.mass.value_or(scripted_mass);
       if (!(mass > 0.0)) refuse("the mass of `" + object.name + "` is not positive");
       text_ += "<joint" + attribute("name", name + "_x") + " type=\"slide\" axis=\"1 0 0\"/>\n";
@@ -181,7 +181,7 @@ class MjcfWriter {
     text_ += "</contact>\n";
   }
 
-  bool moves(std::size_t k) const { return scene_.objects[k].mass || !scene_.objects[k].motion.empty(); }
+  bool moves(std::size_t k) const { return scene_.objects[k].moves(); }
   /// A drawer's cabinet and a door's frame stand where the drawer and the door are: what a guide carries
   /// meets only what moves freely.
   bool meet(std::size_t k, std::size_t other) const {

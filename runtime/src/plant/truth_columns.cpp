@@ -1,17 +1,16 @@
 // What the plant measured, as columns of a log.
 #include <algorithm>
 
+#include "place_columns.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::runtime {
 
-namespace {
-
-bool moves(const lang::SceneObject& object) {
-  return object.mass.has_value() || !object.motion.empty();
+void add_place_columns(const std::string& name, std::vector<Column>& columns) {
+  columns.push_back({"truth." + name + ".x", "m", {}});
+  columns.push_back({"truth." + name + ".y", "m", {}});
+  columns.push_back({"truth." + name + ".yaw", "rad", {}});
 }
-
-}  // namespace
 
 std::vector<Column> base_truth_columns() {
   return {{"truth.base.x", "m", {}},       {"truth.base.y", "m", {}},
@@ -28,15 +27,10 @@ std::vector<Column> truth_columns(const lang::Scene& scene) {
   std::vector<Column> columns = base_truth_columns();
   for (const lang::SceneObject& o : scene.objects) columns.push_back({"truth." + o.name + ".force", "N", {}});
   for (const lang::SceneRobot& r : scene.robots) columns.push_back({"truth." + r.name + ".force", "N", {}});
-  const auto add_place = [&columns](const std::string& name) {
-    columns.push_back({"truth." + name + ".x", "m", {}});
-    columns.push_back({"truth." + name + ".y", "m", {}});
-    columns.push_back({"truth." + name + ".yaw", "rad", {}});
-  };
   for (const lang::SceneObject& o : scene.objects) {
-    if (moves(o)) add_place(o.name);
+    if (o.moves()) add_place_columns(o.name, columns);
   }
-  for (const lang::SceneRobot& r : scene.robots) add_place(r.name);
+  for (const lang::SceneRobot& r : scene.robots) add_place_columns(r.name, columns);
   for (const lang::SceneObject& o : scene.objects) {
     if (o.guide && o.guide->turns) columns.push_back({"truth." + o.name + ".angle", "rad", {}});
     if (o.guide && !o.guide->turns) columns.push_back({"truth." + o.name + ".travel", "m", {}});
@@ -51,7 +45,7 @@ void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> v
   std::size_t at = base.size();
   for (const ObjectTruth& o : truth.objects) values[at++] = o.force;
   for (std::size_t i = 0; i < truth.objects.size(); ++i) {
-    if (i < scene.objects.size() && !moves(scene.objects[i])) continue;
+    if (i < scene.objects.size() && !scene.objects[i].moves()) continue;
     const ObjectTruth& o = truth.objects[i];
     for (const double place : {o.x, o.y, o.yaw}) values[at++] = place;
   }

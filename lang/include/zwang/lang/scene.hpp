@@ -69,6 +69,8 @@ struct SceneObject {
   std::optional<Dock> dock;
   Span span;
 
+  /// By pushes, or by its script; else it is fixed to the world.
+  bool moves() const { return mass || !motion.empty(); }
   bool is_locked() const { return guide && guide->locked; }
   /// [1/kg] 0: nothing pushes it.
   double inverse_mass() const { return mass && !is_locked() ? 1.0 / *mass : 0.0; }

@@ -53,9 +53,19 @@ std::vector<std::size_t> given_signals(const lang::Program& program);
 
 /// The log's columns of a hand. The point of its push is in the base's axes, the force in the world's. Behind
 /// them stand the signals that it may block, the faults, and where it has sent an object. The last columns
-/// are the places of objects that nothing else moves. The program has a scene.
-std::vector<Column> hand_columns(const lang::Program& program);
-/// In the order of those columns, as many values.
-void put_hand(const Hand& hand, const Truth& truth, const lang::Program& program, std::span<double> values);
+/// are the places of objects that nothing else moves.
+class HandColumns {
+ public:
+  /// The program has a scene.
+  explicit HandColumns(const lang::Program& program);
+  const std::vector<Column>& columns() const noexcept { return columns_; }
+  /// In the order of the columns, as many values.
+  void put(const Hand& hand, const Truth& truth, std::span<double> values) const noexcept;
+
+ private:
+  std::vector<std::size_t> signals_;  ///< `given_signals`
+  std::vector<std::size_t> fixed_;    ///< objects, by their numbers in the scene
+  std::vector<Column> columns_;
+};
 
 }  // namespace zwang::runtime
