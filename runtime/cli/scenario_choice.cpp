@@ -46,13 +46,15 @@ std::size_t number_of_cell(const lang::Study& study, const std::optional<std::st
 }
 
 RunArguments with_study(RunArguments arguments, lang::Diagnostics& diagnostics) {
-  const std::optional<lang::Study> study = lang::load_study(arguments.file, diagnostics);
-  if (!study) return arguments;
+  std::optional<lang::Study> loaded = lang::load_study(arguments.file, diagnostics);
+  if (!loaded) return arguments;
+  const auto study = std::make_shared<const lang::Study>(std::move(*loaded));
   refuse_overrides(arguments, "a study");
   const std::size_t number = number_of_cell(*study, arguments.cell);
   lang::StudyCell drawn = lang::draw_cell(*study, number);
   arguments.choice = {
-      arguments.file, number, drawn.cell().faults, {}, drawn.scenario.blend, drawn.scenario.time_limit, true};
+      arguments.file, number, drawn.cell().faults, {}, drawn.scenario.blend, drawn.scenario.time_limit,
+      study};
   take_cell(drawn.scenario, drawn.cell(), arguments);
   // What the draws make of the simulated robot is known with its task.
   lang::Diagnostics of_study, of_task;
@@ -126,7 +128,7 @@ RunArguments with_choice(RunArguments arguments, lang::Diagnostics& diagnostics)
   refuse_overrides(arguments, "a scenario");
   const std::size_t index = index_of(*scenario, arguments.cell);
   const lang::ScenarioCell& cell = scenario->cells[index];
-  arguments.choice = {arguments.file, index, cell.faults, {}, scenario->blend, scenario->time_limit, false};
+  arguments.choice = {arguments.file, index, cell.faults, {}, scenario->blend, scenario->time_limit, nullptr};
   take_cell(*scenario, cell, arguments);
   return arguments;
 }
@@ -134,12 +136,9 @@ RunArguments with_choice(RunArguments arguments, lang::Diagnostics& diagnostics)
 std::optional<lang::Program> load_choice(const ScenarioChoice& choice, lang::Diagnostics& diagnostics) {
   lang::Diagnostics of_scenario;
   std::optional<lang::ScenarioRun> run;
-  if (choice.is_of_study) {
-    const std::optional<lang::Study> study = lang::load_study(choice.scenario, of_scenario);
-    if (study) {
-      lang::StudyCell drawn = lang::draw_cell(*study, choice.cell);
-      run = lang::load_run(*study, drawn, of_scenario, diagnostics);
-    }
+  if (choice.study) {
+    lang::StudyCell drawn = lang::draw_cell(*choice.study, choice.cell);
+    run = lang::load_run(*choice.study, drawn, of_scenario, diagnostics);
   } else {
     run = lang::load_run(choice.scenario, choice.cell, of_scenario, diagnostics);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,10 @@
 #include "zwang/lang/scenario.hpp"
 #include "zwang/lang/schema.hpp"
 #include "zwang/runtime/log_parts.hpp"
+
+namespace zwang::lang {
+struct Study;
+}
 
 namespace zwang::cli {
 
@@ -112,9 +117,9 @@ struct ScenarioChoice {
   std::size_t cell = 0;
   std::vector<lang::Fault> faults;
   lang::RobotDeviation deviation;
-  std::optional<double> blend;  ///< [s]
-  double time_limit = 0.0;      ///< [s]
-  bool is_of_study = false;
+  std::optional<double> blend;               ///< [s]
+  double time_limit = 0.0;                   ///< [s]
+  std::shared_ptr<const lang::Study> study;  ///< that it is a cell of; none: of a scenario
 };
 
 struct RunArguments {

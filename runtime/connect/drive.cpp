@@ -2,6 +2,8 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <optional>
+#include <string>
 #include <thread>
 
 #include "../cli/interruption.hpp"
@@ -19,25 +21,27 @@ void pause() {
   std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
+std::optional<std::string> what_is_missing(const lang::Connection& connection, const Inbox& inbox,
+                                           const Outbox& outbox) {
+  if (!inbox.clock().has_come()) return "no time on " + connection.clock->name;
+  if (!inbox.has_joints()) return "no sample of every motor's joint on " + connection.joints.topic.name;
+  if (!inbox.has_base()) return "no odometry on " + connection.base->name;
+  if (outbox.readers() <= 0) return "nobody listens to " + connection.command.topic.name;
+  return std::nullopt;
+}
+
 /// Until samples come and somebody listens. Says what is missing where it gives up.
 bool wait_for_robot(const lang::Connection& connection, Inbox& inbox, const Outbox& outbox, double most,
                     runtime::Sensed& sensed) {
   const double until = now() + most;
-  const auto is_there = [&] {
-    return inbox.clock().has_come() && inbox.has_joints() && inbox.has_base() && outbox.readers() > 0;
-  };
-  for (; !is_there() && now() < until && !cli::is_interrupted(); pause()) inbox.fill(sensed);
-  if (is_there()) return true;
-  const char* missing = !inbox.clock().has_come() ? "no time on "
-                        : !inbox.has_joints()     ? "no sample of every motor's joint on "
-                        : !inbox.has_base()       ? "no odometry on "
-                                                  : "nobody listens to ";
-  const std::string& topic = !inbox.clock().has_come() ? connection.clock->name
-                             : !inbox.has_joints()     ? connection.joints.topic.name
-                             : !inbox.has_base()       ? connection.base->name
-                                                       : connection.command.topic.name;
-  std::fprintf(stderr, "zwang drive: %s%s in domain %d within %g s; nothing was sent\n", missing,
-               topic.c_str(), connection.domain, most);
+  std::optional<std::string> missing = what_is_missing(connection, inbox, outbox);
+  for (; missing && now() < until && !cli::is_interrupted(); pause()) {
+    inbox.fill(sensed);
+    missing = what_is_missing(connection, inbox, outbox);
+  }
+  if (!missing) return true;
+  std::fprintf(stderr, "zwang drive: %s in domain %d within %g s; nothing was sent\n", missing->c_str(),
+               connection.domain, most);
   return false;
 }
 

@@ -17,9 +17,10 @@ bool CellRecord::holds() const {
   return std::ranges::all_of(expectations, &ExpectationRecord::held);
 }
 
-CellRecord unrun(const lang::Study& study, std::size_t cell, const std::string& outcome,
-                 const std::string& because) {
-  const lang::StudyCell drawn = lang::draw_cell(study, cell);
+namespace {
+
+CellRecord empty_record(const lang::Study& study, std::size_t cell, const lang::StudyCell& drawn,
+                        const std::string& outcome, const std::string& because) {
   CellRecord record;
   record.cell = cell;
   record.of_matrix = study.scenario.cells[drawn.matrix_cell].name;
@@ -30,16 +31,24 @@ CellRecord unrun(const lang::Study& study, std::size_t cell, const std::string& 
   return record;
 }
 
+}  // namespace
+
+CellRecord unrun(const lang::Study& study, std::size_t cell, const std::string& outcome,
+                 const std::string& because) {
+  return empty_record(study, cell, lang::draw_cell(study, cell), outcome, because);
+}
+
 CellRecord run_cell(const lang::Study& study, std::size_t cell) {
   lang::StudyCell drawn = lang::draw_cell(study, cell);
   lang::Diagnostics of_study, of_task;
   const auto run = lang::load_run(study, drawn, of_study, of_task);
   if (!run) {
     const auto error = of_study.first_error();
-    return unrun(study, cell, "error", error ? error->message : "the study cannot be read any more");
+    return empty_record(study, cell, drawn, "error",
+                        error ? error->message : "the study cannot be read any more");
   }
   const runtime::CellResult result = runtime::run_cell(drawn.scenario, drawn.cell(), *run, codes_of(of_task));
-  CellRecord record = unrun(study, cell, result.outcome, result.because);
+  CellRecord record = empty_record(study, cell, drawn, result.outcome, result.because);
   record.why = result.why;
   record.simulated = result.simulated;
   record.torque = result.torque;
