@@ -12,6 +12,7 @@
 #include "output.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/format.hpp"
+#include "zwang/lang/upgrade.hpp"
 
 namespace zwang::cli {
 
@@ -62,8 +63,9 @@ int fmt(const FmtArguments& arguments) {
     const FileKind kind = kind_of_file(path).value_or(FileKind::task);
     const bool is_readable = read_as(kind, path, diagnostics).has_value() && !diagnostics.has_errors();
     lang::Diagnostics layout;
-    const std::optional<std::string> text =
-        is_readable ? lang::format_file(path, layout) : std::optional<std::string>();
+    const bool is_upgraded = arguments.upgrade && kind == FileKind::task;
+    std::optional<std::string> text;
+    if (is_readable) text = is_upgraded ? lang::upgrade_task(path, layout) : lang::format_file(path, layout);
     if (!text) {
       std::ostringstream out;
       lang::render_human(is_readable ? layout : diagnostics, out);

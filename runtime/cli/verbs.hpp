@@ -60,7 +60,8 @@ int explain(const ExplainArguments& arguments);
 
 struct FmtArguments {
   std::vector<std::string> files;
-  bool check = false;  ///< only tell
+  bool check = false;    ///< only tell
+  bool upgrade = false;  ///< task files into the newest version of the language
 };
 int fmt(const FmtArguments& arguments);
 

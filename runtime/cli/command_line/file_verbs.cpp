@@ -51,6 +51,7 @@ void add_fmt(CLI::App& app, Chosen& chosen) {
   CLI::App* verb = app.add_subcommand("fmt", "Lay files out anew; comments, order and meaning stay");
   verb->add_option("files", arguments->files, "task, robot and scene files")->required();
   verb->add_flag("--check", arguments->check, "change nothing; tell which files would change");
+  verb->add_flag("--upgrade", arguments->upgrade, "write task files in the newest version of the language");
   verb->callback([=, &chosen] { chosen = [=] { return fmt(*arguments); }; });
 }
 
