@@ -51,6 +51,7 @@ std::vector<std::string> scenario_files(const std::vector<std::string>& paths) {
 /// A run that waits for its thread.
 struct Job {
   std::size_t report = 0, cell = 0;
+  std::size_t place = 0;  ///< of the cell's result in the report
   const lang::Scenario* scenario = nullptr;
 };
 
@@ -110,10 +111,10 @@ void work(const std::vector<Job>& jobs, std::atomic<std::size_t>& next, Loader& 
     ScenarioReport& report = reports[job.report];
     const lang::ScenarioCell& cell = job.scenario->cells[job.cell];
     std::vector<std::string> codes;
-    runtime::CellResult& result = report.cells[job.cell];
+    runtime::CellResult& result = report.cells[job.place];
     if (const auto run = loader.load(job, report, codes)) {
       result = runtime::run_cell(*job.scenario, cell, *run, codes, &interrupted);
-      if (!report.scenes.empty()) report.scenes[job.cell] = scene_of(*run);
+      if (!report.scenes.empty()) report.scenes[job.place] = scene_of(*run);
     } else {
       result.name = cell.name;
       result.outcome = "error";
@@ -137,12 +138,13 @@ int test(const TestArguments& arguments) {
     reports[i].readable = scenarios[i].has_value();
     if (!scenarios[i]) continue;
     reports[i].about = scenarios[i]->about;
-    reports[i].cells.resize(scenarios[i]->cells.size());
-    if (arguments.report) reports[i].scenes.resize(scenarios[i]->cells.size());
     for (std::size_t c = 0; c < scenarios[i]->cells.size(); ++c) {
-      reports[i].cells[c].name = scenarios[i]->cells[c].name;
-      jobs.push_back({i, c, &*scenarios[i]});
+      const lang::ScenarioCell& cell = scenarios[i]->cells[c];
+      if (arguments.each_value && !cell.shows_each_value) continue;
+      jobs.push_back({i, c, reports[i].cells.size(), &*scenarios[i]});
+      reports[i].cells.emplace_back().name = cell.name;
     }
+    if (arguments.report) reports[i].scenes.resize(reports[i].cells.size());
   }
 
   const std::atomic<bool>& interrupted = catch_interruption();

@@ -89,6 +89,7 @@ int graph(const GraphArguments& arguments);
 struct TestArguments {
   std::vector<std::string> paths;    ///< scenario files, or folders that are searched for them
   int jobs = 0;                      ///< threads; 0: as many as there are cores
+  bool each_value = false;           ///< only so many cells that each value of a matrix occurs
   std::optional<std::string> junit;  ///< file for a JUnit XML report
   bool report = false;               ///< a page of all runs
   std::optional<std::string> out;    ///< of the page; none: test-report.html

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
+#include <set>
 
 #include "../times_count.hpp"
 #include "support.hpp"
@@ -256,6 +257,23 @@ TEST(Scenario, a_matrix_has_a_thousand_cells_and_no_more) {
   EXPECT_FALSE(load_scenario(Shelf(with_matrix(64, 1)).path, beyond_any_number));
   EXPECT_EQ(test::count(beyond_any_number, "E905"), 1) << rendered(beyond_any_number);
   EXPECT_EQ(beyond_any_number.all()[0].span.begin.line, 14);
+}
+
+TEST(Scenario, few_cells_show_each_value_of_the_matrix) {
+  Diagnostics diagnostics;
+  const auto scenario = load_scenario(Shelf(with_matrix(3, 5)).path, diagnostics);
+  ASSERT_TRUE(scenario) << rendered(diagnostics);
+  std::set<std::string> values;
+  std::size_t shown = 0;
+  for (const ScenarioCell& cell : scenario->cells) {
+    if (!cell.shows_each_value) continue;
+    ++shown;
+    std::istringstream labels(cell.name);
+    for (std::string label; std::getline(labels, label, ',');)
+      values.insert(label.substr(label.find_first_not_of(' ')));
+  }
+  EXPECT_EQ(shown, 5u) << "as many as the longest key has values";
+  EXPECT_EQ(values.size(), 3u * 2u + 5u);
 }
 
 TEST(Scene, reads_what_unfolds_in_time) {

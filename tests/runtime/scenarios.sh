@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# scenarios.sh PROGRAM [FILE...]: what the shipped scenarios claim; of all of them, where none is named. Those that vary
-# what another scenario runs once, or run it on another drive, take half of the time: `./dev test --long` runs them.
+# scenarios.sh PROGRAM [FILE...]: what the shipped scenarios claim; of all of them, where none is named. `./dev test` runs
+# so many cells that each value of a matrix occurs, `./dev test --long` the whole matrix. Scenarios that vary what another one
+# runs once, or run it on another drive, take half of the time: `./dev test --long` runs them.
 set -euo pipefail
 program=$1
 files=("${@:2}")
@@ -21,4 +22,6 @@ if ((${#files[@]} == 0)); then
     if [[ ${ZWANG_LONG-} ]] || ! is_long "$file"; then files+=("$file"); fi
   done
 fi
-exec "$program" test "${files[@]}"
+cells=(--each-value)
+if [[ ${ZWANG_LONG-} ]]; then cells=(); fi
+exec "$program" test "${cells[@]}" "${files[@]}"

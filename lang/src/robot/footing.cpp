@@ -100,7 +100,7 @@ double Footing::most_carried(const std::vector<double>& shares) const {
       for (std::size_t k = j + 1; k < points.size(); ++k) {
         balance << column(i), column(j), column(k);
         if (std::abs(balance.determinant()) < least_area) continue;
-        const Eigen::Vector3d n = balance.partialPivLu().solve(asked);
+        const Eigen::Vector3d n = balance.inverse() * asked;
         if (n.minCoeff() < -1e-9 * weight) continue;
         most = std::max(most, n.dot(Eigen::Vector3d(shares[i], shares[j], shares[k])));
       }

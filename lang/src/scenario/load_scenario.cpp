@@ -71,6 +71,18 @@ class CellMaker {
   Diagnostics& diagnostics_;
 };
 
+/// The diagonal of the matrix: cell i has the value i of each key, and begins anew at the end of a shorter
+/// one. As many cells as the longest key has values.
+void mark_each_value(const ScenarioFile& file, std::vector<ScenarioCell>& cells) {
+  std::size_t longest = 1;
+  for (const MatrixKey& key : file.matrix) longest = std::max(longest, key.values.size());
+  for (std::size_t i = 0; i < longest; ++i) {
+    std::size_t cell = 0;
+    for (const MatrixKey& key : file.matrix) cell = cell * key.values.size() + i % key.values.size();
+    cells[cell].shows_each_value = true;
+  }
+}
+
 /// The product of all keys, the last one varying fastest.
 std::vector<ScenarioCell> multiply(const ScenarioFile& file, const fs::path& path, Diagnostics& diagnostics) {
   CellMaker maker(file, path, diagnostics);
@@ -101,6 +113,7 @@ std::vector<ScenarioCell> multiply(const ScenarioFile& file, const fs::path& pat
   for (ScenarioCell& cell : cells) {
     if (cell.name.empty()) cell.name = "as written";
   }
+  mark_each_value(file, cells);
   return cells;
 }
 

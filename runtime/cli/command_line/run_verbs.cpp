@@ -27,6 +27,8 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
       ->excludes(shard);
   verb->add_option("--cell-limit", arguments->cell_limit, "seconds of real time after which a cell is hung")
       ->check(CLI::Range(1e-3, 1e6));
+  verb->add_flag("--each-value", arguments->each_value,
+                 "run only so many cells that each value of a matrix occurs");
   verb->add_option("--junit", arguments->junit, "file for a JUnit XML report");
   add_format(*verb, arguments->format);
   verb->callback([=, &chosen] {
@@ -42,6 +44,8 @@ void add_test(CLI::App& app, Chosen& chosen) {
   verb->add_option("-j,--jobs", arguments->jobs,
                    "runs at the same time (default: as many as there are cores)")
       ->check(CLI::Range(1, 1024));
+  verb->add_flag("--each-value", arguments->each_value,
+                 "run only so many cells that each value of a matrix occurs");
   verb->add_option("--junit", arguments->junit, "file for a JUnit XML report");
   CLI::Option* page =
       verb->add_flag("--report", arguments->report, "make a page of all runs, the worst first");

@@ -80,7 +80,8 @@ PlaneNorm plane_norm_of(const solver::Model& model, const solver::AttachedFrame&
                         const solver::AttachedFrame& in) {
   PlaneNorm norm;
   if (model.has_fixed_base()) return norm;
-  const Eigen::SelfAdjointEigenSolver<Matrix2d> W(mobility_of(model, move, in));
+  Eigen::SelfAdjointEigenSolver<Matrix2d> W;
+  W.computeDirect(mobility_of(model, move, in));
   const double least = W.eigenvalues()(0), most = W.eigenvalues()(1);
   if (!(most > 0.0)) return norm;
   const bool is_carried = in.body >= 0 && in.body == move.body;

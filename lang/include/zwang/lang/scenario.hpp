@@ -30,6 +30,7 @@ struct ScenarioCell {
   std::vector<Fault> faults;                      ///< beside the scene's own
   std::string fault_set;                          ///< whose they are; empty: nobody's
   RobotDeviation deviation;
+  bool shows_each_value = false;  ///< one of the few cells in which each value of the matrix occurs
   std::map<std::string, Span> spans;  ///< where `robot`, `scene`, `params.NAME` are written
 };
 
