@@ -10,10 +10,12 @@
 #include "file_kind.hpp"
 #include "interruption.hpp"
 #include "output.hpp"
+#include "report_page.hpp"
 #include "scenario_choice.hpp"
 #include "study/result_store.hpp"
 #include "study/study_report.hpp"
 #include "study/workers.hpp"
+#include "sweep_page.hpp"
 #include "verbs.hpp"
 #include "zwang/version.hpp"
 
@@ -156,6 +158,7 @@ void run_cells(const lang::Study& study, const std::vector<std::size_t>& cells,
 
 int sweep(const SweepArguments& arguments) {
   require_file(arguments.study);
+  if (arguments.report) page_parts();  // missing ones are told before the runs, not behind them
   const Shard shard = shard_of(arguments.shard);
   lang::Diagnostics diagnostics;
   const std::optional<lang::Study> study = lang::load_study(arguments.study, diagnostics);
@@ -176,13 +179,19 @@ int sweep(const SweepArguments& arguments) {
   run_cells(*study, cells, arguments, store, progress);
   progress.end();
 
-  const study::StudyReport report = study::report_of(*study, wanted, store.records(runs));
+  const std::vector<study::CellRecord> records = store.records(runs);
+  const study::StudyReport report = study::report_of(*study, wanted, records);
+  const std::string command = "zwang run " + argument_of_shell(arguments.study) + " --cell ";
   if (arguments.format == Format::json) {
     print_data(study::json_report(*study, report));
   } else {
-    print(
-        study::human_report(*study, report, "zwang run " + argument_of_shell(arguments.study) + " --cell "));
+    print(study::human_report(*study, report, command));
     print("results in " + path + "\n");
+  }
+  if (arguments.report) {
+    const std::string page = write_sweep_page(*study, report, records, command,
+                                              fs::path(path).replace_extension(".html").string());
+    if (arguments.format == Format::human) print("page   " + page + "\n");
   }
   if (arguments.junit) write_file(*arguments.junit, study::junit_report(*study, report));
   if (report.is_broken()) return exit_bad;

@@ -107,6 +107,7 @@ struct SweepArguments {
   std::optional<std::string> junit;
   double cell_limit = 600.0;  ///< [s] of real time that a cell may take
   bool fresh = false;         ///< without what earlier calls left
+  bool report = false;        ///< a page beside the results
   Format format = Format::human;
 };
 /// Runs the cells of a study that have no result yet, and reports on all.

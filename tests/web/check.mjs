@@ -243,6 +243,47 @@ expect:
 }
 
 /** A task whose name and comments try to be HTML: the language takes such a comment, and a parameter's help. */
+/** A study whose second expectation one half misses: its shares, its points, the strongest draw first. */
+async function checkStudy() {
+  const at = `${folder}/study`;
+  mkdirSync(at, { recursive: true });
+  for (const name of ['robots', 'scenes', 'wall_align.yaml']) cpSync(`${specs}/${name}`, `${at}/${name}`, { recursive: true });
+  writeFileSync(`${at}/.zwang-root`, '');
+  writeFileSync(`${at}/push.yaml`, `zwang_study: 1
+about: "</script><img src=x onerror=alert(1)>"
+task: wall_align.yaml
+runs: 24
+draw:
+  params.push: {uniform: [10 N, 30 N]}
+  start.yaw: {uniform: [-5 deg, 5 deg]}
+expect:
+  - outcome: done
+  - {at: end, that: truth.wall.steady < 20 N, probability: 90 %}
+`);
+  const made = spawnSync(zwang, ['sweep', `${at}/push.yaml`, '--out', `${at}/push.db`, '--format', 'json', '--report'], { encoding: 'utf8' });
+  const report = JSON.parse(made.stdout);
+  const { page, close } = await open(`${at}/push.html`);
+  assert.equal(await page.locator('img').count(), 0);
+  const claims = page.locator('#claims .cells > li');
+  assert.deepEqual(await claims.locator('.head strong').allTextContents(), report.expectations.map((one) => ({ held: '✓ held', broken: '✗ broken', 'too few runs': '? too few runs' })[one.verdict]));
+  assert.equal(report.expectations[1].verdict, 'broken', 'pushes above 20 N are one half');
+  const points = await page.evaluate(() => window.zwang.data.points);
+  assert.equal(points.cells.length, report.cells);
+  assert.equal(points.expectations[1].held.filter(Boolean).length, report.expectations[1].held);
+  // The push decides: its chart comes first behind the histogram, and something is drawn on each.
+  const broken = claims.nth(1);
+  assert.match(await broken.locator('figcaption').nth(1).textContent(), /params\.push/);
+  for (const canvas of await broken.locator('canvas').all())
+    assert.ok(await canvas.evaluate((one) => new Set(new Uint32Array(one.getContext('2d').getImageData(0, 0, one.width, one.height).data.buffer)).size) > 2);
+  assert.match(await page.locator('#worst code').first().textContent(), /^zwang run .*push\.yaml --cell \d+ --report$/);
+  // The keyboard opens and closes an expectation.
+  const head = broken.locator('.head');
+  await head.focus();
+  await page.keyboard.press('Enter');
+  assert.equal(await broken.locator('canvas').count(), 0);
+  await close();
+}
+
 async function checkHostile() {
   const text = readFileSync(`${specs}/laws/fence.yaml`, 'utf8');
   mkdirSync(`${folder}/hostile`, { recursive: true });
@@ -278,6 +319,8 @@ const steps = {
   'look of a comparison': () => checkLook(comparison, [[360, 'dark'], [800, 'light'], [1600, 'light']]),
   'unlike runs': () => checkUnlikeRuns(wall, unseen),
   'matrix': checkMatrix,
+  'study': checkStudy,
+  'look of a study': () => checkLook({ name: 'study', path: `${folder}/study/push.html` }, [[360, 'light'], [800, 'dark'], [1600, 'light']]),
   'look of a matrix': () => checkLook(matrix, [[360, 'light'], [800, 'dark'], [1600, 'light']]),
   'hostile text': checkHostile,
 };

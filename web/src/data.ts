@@ -106,6 +106,25 @@ export interface MatrixData {
   scenes: { objects: SceneObject[]; footprint: number[][] }[];
 }
 
+/** An expectation of a study, over all of its cells. */
+export interface StudyClaim {
+  text: string; verdict: string; held: number; runs: number; share: [number, number]; confidence: number; probability?: number;
+  margins?: { share: number; margin: number }[];
+  correlations: { draw: string; margin?: number; misses?: number }[];
+}
+/** All cells of `zwang sweep`. */
+export interface StudyData {
+  study: {
+    study: string; passed: boolean; cells: number; wanted: number; outcomes: Record<string, number>; expectations: StudyClaim[];
+    groups: { name: string; hold: number; runs: number }[];
+    worst: { cell: number; of_matrix: string; outcome: string; because: string; why: string; expectation: string; drawn: Record<string, number>; margin?: number }[];
+  };
+  about: string; command: string;
+  draws: { name: string; unit: string; is_log: boolean }[];
+  /** Parallel lists: of cells, of what each drew, of each expectation. */
+  points: { cells: number[]; drawn: number[][]; expectations: { held: number[]; margins: (number | null)[] }[] };
+}
+
 /** Base 64, deflated, the four bytes of the numbers in four planes. */
 async function unpack(text: string): Promise<Float32Array> {
   const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));

@@ -27,9 +27,9 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
       ->excludes(shard);
   verb->add_option("--cell-limit", arguments->cell_limit, "seconds of real time after which a cell is hung")
       ->check(CLI::Range(1e-3, 1e6));
-  verb->add_flag("--each-value", arguments->each_value,
-                 "run only so many cells that each value of a matrix occurs");
   verb->add_option("--junit", arguments->junit, "file for a JUnit XML report");
+  verb->add_flag("--report", arguments->report,
+                 "make a page beside the results: histograms, and each margin over each draw");
   add_format(*verb, arguments->format);
   verb->callback([=, &chosen] {
     arguments->study = file_or_shipped(arguments->study);
