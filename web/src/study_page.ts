@@ -73,7 +73,7 @@ function claimItem(data: StudyData, index: number): HTMLElement {
 
 function worst(data: StudyData): HTMLElement {
   return table(['cell', 'ended', 'margin', 'expected', 'drawn, and why', 'again'], data.study.worst.map((one) => {
-    const drawn = [one.of_matrix, ...data.draws.map((draw) => `${draw.name} ${Number((one.drawn[draw.name] ?? 0).toPrecision(4))}${draw.unit ? ` ${draw.unit}` : ''}`)].filter(Boolean).join(', ');
+    const drawn = [data.study.groups.length ? one.of_matrix : '', ...data.draws.map((draw) => `${draw.name} ${Number((one.drawn[draw.name] ?? 0).toPrecision(4))}${draw.unit ? ` ${draw.unit}` : ''}`)].filter(Boolean).join(', ');
     return h('tr', {}, td(String(one.cell), 'figure'), td(one.outcome), td(one.margin === undefined ? 'missed' : `${(100 * one.margin).toFixed(1)} %`, 'figure'), td(one.expectation),
       h('td', {}, drawn, (one.why || one.because) && h('p', { class: 'note' }, one.why || one.because)), h('td', {}, h('code', {}, `${data.command}${one.cell} --report`)));
   }));
