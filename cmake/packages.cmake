@@ -1,5 +1,5 @@
 # The Debian packages that `./dev package` makes: the program, the libraries with their headers, the Python module.
-# What each holds is said where it is installed, by its COMPONENT: program, ros2, development, python.
+# What each holds is said where it is installed, by its COMPONENT: program, ros2, development, python, mpi.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME zwang)
 set(CPACK_PACKAGE_VENDOR "zwang")
@@ -16,6 +16,9 @@ if(ZWANG_CONNECT)
 endif()
 if(ZWANG_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+if(ZWANG_MPI)
+  list(APPEND CPACK_COMPONENTS_ALL mpi)
 endif()
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -56,6 +59,9 @@ zwang_package(development libzwang-dev libdevel
   "libeigen3-dev (>= 3.4), libyaml-cpp-dev, liburdfdom-dev, libzstd-dev, zlib1g-dev, libmujoco-dev, pkg-config"
 "task language and runtime for mobile robots - libraries and headers" "What a host links to run zwang tasks in its own loop: the solver, the
 language, the runtime without a simulator, and the simulation on MuJoCo.")
+zwang_package(mpi zwang-mpi science "zwang (= ${PROJECT_VERSION})"
+"task language and runtime for mobile robots - studies on many machines" "Runs a study on many machines, under mpirun or srun: each rank runs cells, and
+rank 0 keeps the results.")
 zwang_package(ros2 zwang-ros2 science "zwang (= ${PROJECT_VERSION})"
 "task language and runtime for mobile robots - ROS 2 robots" "Runs a task on a robot over its ROS 2 topics, by DDS, and simulates such a
 robot. Neither needs an installation of ROS.")

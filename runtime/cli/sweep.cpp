@@ -12,6 +12,7 @@
 #include "output.hpp"
 #include "report_page.hpp"
 #include "scenario_choice.hpp"
+#include "study/ranks.hpp"
 #include "study/result_store.hpp"
 #include "study/study_report.hpp"
 #include "study/workers.hpp"
@@ -133,31 +134,29 @@ std::vector<std::size_t> cells_to_run(std::size_t runs, const Shard& shard,
   return cells;
 }
 
-void run_cells(const lang::Study& study, const std::vector<std::size_t>& cells,
-               const SweepArguments& arguments, study::ResultStore& store, SweepProgress& progress) {
+study::WorkSettings settings_of(const SweepArguments& arguments, bool is_in_a_job) {
+  // Whoever starts a job says how many processes there are.
+  const std::size_t cores = is_in_a_job ? 1U : std::max(1U, std::thread::hardware_concurrency());
+  return {arguments.jobs > 0 ? static_cast<std::size_t>(arguments.jobs) : cores, arguments.cell_limit};
+}
+
+study::WorkCalls calls_of(const lang::Study& study) {
   const std::atomic<bool>& interrupted = catch_interruption();
   study::keep_freed_memory();
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  const study::WorkSettings settings{arguments.jobs > 0 ? static_cast<std::size_t>(arguments.jobs) : cores,
-                                     arguments.cell_limit};
   study::WorkCalls calls;
   calls.run = [&](std::size_t cell) { return study::run_cell(study, cell); };
   calls.fail = [&](std::size_t cell, const std::string& outcome, const std::string& because) {
     return study::unrun(study, cell, outcome, because);
   };
-  calls.done = [&](const study::CellRecord& record) {
-    store.put(record);
-    progress.count(record);
-  };
   calls.wants_to_stop = [&] { return interrupted.load(); };
-  calls.wait = [&] { progress.show(); };
-  study::run_all(cells, settings, calls);
+  return calls;
 }
 
 }  // namespace
 
 int sweep(const SweepArguments& arguments) {
   require_file(arguments.study);
+  const std::unique_ptr<study::Messages> others = study::messages_of_job();
   if (arguments.report) page_parts();  // missing ones are told before the runs, not behind them
   const Shard shard = shard_of(arguments.shard);
   lang::Diagnostics diagnostics;
@@ -165,18 +164,35 @@ int sweep(const SweepArguments& arguments) {
   std::ostringstream remarks;
   lang::render_human(diagnostics, remarks);
   // How many runs there are is said here.
-  if (!study || !arguments.runs) print_error(remarks.str());
+  const bool is_first = !others || others->rank() == 0;
+  if (is_first && (!study || !arguments.runs)) print_error(remarks.str());
   if (!study) return exit_bad;
+  const std::string identity = fingerprint_of(*study);
+  const study::WorkSettings settings = settings_of(arguments, others != nullptr);
+  study::WorkCalls calls = calls_of(*study);
+  if (!is_first) {
+    study::serve_rank(settings, calls, identity, *others);
+    return exit_good;
+  }
   const std::size_t runs = arguments.runs.value_or(study->runs);
   const std::string path = results_path(arguments, shard);
   if (arguments.fresh) remove_results(path);
-  study::ResultStore store(path, study::identity_of(*study, fingerprint_of(*study)));
+  study::ResultStore store(path, study::identity_of(*study, identity));
   for (const std::string& other : arguments.merged) store.merge(other);
   const std::vector<std::size_t> cells =
       arguments.merged.empty() ? cells_to_run(runs, shard, store.cells()) : std::vector<std::size_t>();
   const std::size_t wanted = (runs + shard.of - 1 - shard.first) / shard.of;
   SweepProgress progress(wanted - std::min(wanted, cells.size()), wanted, arguments.format == Format::human);
-  run_cells(*study, cells, arguments, store, progress);
+  calls.done = [&](const study::CellRecord& record) {
+    store.put(record);
+    progress.count(record);
+  };
+  calls.wait = [&] { progress.show(); };
+  if (others) {
+    study::run_with_ranks(cells, settings, calls, identity, *others);
+  } else {
+    study::run_all(cells, settings, calls);
+  }
   progress.end();
 
   const std::vector<study::CellRecord> records = store.records(runs);

@@ -1,160 +1,29 @@
 #include "study/workers.hpp"
 
 #include <poll.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <chrono>
 #include <cmath>
-#include <csignal>
-#include <cstdint>
-#include <cstring>
 #include <memory>
-#include <optional>
-#include <system_error>
-#include <utility>
+
+#include "study/worker.hpp"
 
 namespace zwang::study {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int look_every = 100;  // [ms]
 
-/// False where the other end is closed.
-bool read_all_of(int file, void* bytes, std::size_t size) {
-  auto* at = static_cast<char*>(bytes);
-  while (size > 0) {
-    const ssize_t got = ::read(file, at, size);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    at += got;
-    size -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
-bool write_all_of(int file, const void* bytes, std::size_t size) {
-  const auto* at = static_cast<const char*>(bytes);
-  while (size > 0) {
-    const ssize_t put = ::write(file, at, size);
-    if (put < 0 && errno == EINTR) continue;
-    if (put <= 0) return false;
-    at += put;
-    size -= static_cast<std::size_t>(put);
-  }
-  return true;
-}
-
-/// A process runs cell for cell, until it is killed or nobody listens.
-[[noreturn]] void serve(int questions, int answers, const WorkCalls& calls) {
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  std::signal(SIGINT, SIG_IGN);  // of a terminal, which asks all processes: the first one ends the others
-  std::signal(SIGTERM, SIG_DFL);
-  std::uint64_t cell = 0;
-  while (read_all_of(questions, &cell, sizeof cell)) {
-    std::string text;
-    try {
-      text = to_text(calls.run(cell));
-    } catch (const std::exception& error) {
-      text = to_text(calls.fail(cell, "error", error.what()));
-    }
-    const std::uint64_t size = text.size();
-    if (!write_all_of(answers, &size, sizeof size) || !write_all_of(answers, text.data(), text.size())) break;
-  }
-  ::_exit(0);
-}
-
-class Worker {
- public:
-  explicit Worker(const WorkCalls& calls) : calls_(calls) { start(); }
-  ~Worker() { end(); }
-  Worker(const Worker&) = delete;
-  Worker& operator=(const Worker&) = delete;
-
-  bool is_free() const { return !cell_; }
-  int answers() const { return answers_; }
-  std::size_t cell() const { return *cell_; }
-  double busy_for() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }  // [s]
-
-  void ask(std::size_t cell) {
-    cell_ = cell;
-    begin_ = Clock::now();
-    const std::uint64_t number = cell;
-    // A process that has died is told by its answers.
-    static_cast<void>(write_all_of(questions_, &number, sizeof number));
-  }
-
-  /// The record that has come; of a process that has died, that it has.
-  CellRecord answer() {
-    const std::size_t cell = *std::exchange(cell_, std::nullopt);
-    std::uint64_t size = 0;
-    std::string text;
-    if (read_all_of(answers_, &size, sizeof size)) {
-      text.resize(size);
-      if (read_all_of(answers_, text.data(), size)) return record_of(text);
-    }
-    const int status = end();
-    const std::string because = WIFSIGNALED(status) ? ::strsignal(WTERMSIG(status)) : "its process ended";
-    start();
-    return calls_.fail(cell, "crashed", because);
-  }
-
-  CellRecord give_up(const std::string& because) {
-    const std::size_t cell = *std::exchange(cell_, std::nullopt);
-    end();
-    start();
-    return calls_.fail(cell, "hung", because);
-  }
-
- private:
-  void start() {
-    int questions[2], answers[2];
-    if (::pipe(questions) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-    if (::pipe(answers) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
-    process_ = ::fork();
-    if (process_ < 0) throw std::system_error(errno, std::generic_category(), "fork");
-    if (process_ == 0) {
-      ::close(questions[1]);
-      ::close(answers[0]);
-      serve(questions[0], answers[1], calls_);
-    }
-    ::close(questions[0]);
-    ::close(answers[1]);
-    questions_ = questions[1];
-    answers_ = answers[0];
-  }
-
-  /// How it ended, as waitpid has it.
-  int end() {
-    int status = 0;
-    // A process that has died by itself keeps its own status.
-    ::kill(process_, SIGKILL);
-    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-    }
-    ::close(questions_);
-    ::close(answers_);
-    return status;
-  }
-
-  const WorkCalls& calls_;
-  pid_t process_ = -1;
-  int questions_ = -1, answers_ = -1;
-  std::optional<std::size_t> cell_;
-  Clock::time_point begin_;
-};
-
 }  // namespace
+
+std::string too_long(double cell_limit) {
+  return "took longer than " + std::to_string(std::lround(cell_limit)) + " s";
+}
 
 void run_all(const std::vector<std::size_t>& cells, const WorkSettings& settings, const WorkCalls& calls) {
   std::vector<std::unique_ptr<Worker>> workers;
   while (workers.size() < std::min(settings.processes, cells.size()))
     workers.push_back(std::make_unique<Worker>(calls));
-  const std::string too_long = "took longer than " + std::to_string(std::lround(settings.cell_limit)) + " s";
   for (std::size_t next = 0, ended = 0; ended < cells.size() && !calls.wants_to_stop();) {
     std::vector<pollfd> waiting;
     std::vector<Worker*> asked;
@@ -170,7 +39,7 @@ void run_all(const std::vector<std::size_t>& cells, const WorkSettings& settings
         calls.done(asked[i]->answer());
         ++ended;
       } else if (asked[i]->busy_for() > settings.cell_limit) {
-        calls.done(asked[i]->give_up(too_long));
+        calls.done(asked[i]->give_up(too_long(settings.cell_limit)));
         ++ended;
       }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "study/cell_record.hpp"
@@ -21,6 +22,9 @@ struct WorkCalls {
   std::function<bool()> wants_to_stop;          ///< asked several times a second
   std::function<void()> wait;                   ///< called as often: for a progress line
 };
+
+/// Why a cell is `hung`.
+std::string too_long(double cell_limit);
 
 /// Runs the cells, each by the next process that is free. Must be called before the process has threads.
 /// Throws std::system_error where no process can be made.

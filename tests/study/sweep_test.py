@@ -104,6 +104,13 @@ def main(program, specs):
     merged = zwang("sweep", "study.yaml", "--out", "merged.db", "--merge", "study.1-of-2.db", "study.2-of-2.db")
     expect(merged.returncode == 0 and rows(folder / "merged.db") == reference, f"parts: {merged.stderr}")
 
+    if shutil.which("mpirun") and (pathlib.Path(program).parent / "zwang_mpi.so").exists():
+        ranks = subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", "3", program, "sweep",
+                                "study.yaml", "--out", "ranks.db"], cwd=folder, capture_output=True, text=True)
+        expect(ranks.returncode == 0, f"under mpirun: {ranks.stderr}{ranks.stdout}")
+        expect(rows(folder / "ranks.db") == reference, "three ranks have other results than one process")
+        expect(ranks.stdout.count("8 of 8 cells") == 1, f"each rank reports: {ranks.stdout}")
+
     for log in ("first", "second"):
         one = zwang("run", "study.yaml", "--cell", "5", "--log", log, "--format", "json")
         expect(one.returncode == 0, f"a cell alone ends with {one.returncode}: {one.stderr}")

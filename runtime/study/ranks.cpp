@@ -1,0 +1,122 @@
+#include "study/ranks.hpp"
+
+#include <dlfcn.h>
+#include <poll.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+
+#include "study/worker.hpp"
+
+namespace zwang::study {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const no_more = "no more";
+/// While cells run nobody is in a hurry: they take a tenth of a second and more.
+constexpr double busy_look = 5e-4, idle_look = 0.1;  // [s]
+
+bool has_answer(const Worker& worker) {
+  pollfd file{worker.answers(), POLLIN, 0};
+  return ::poll(&file, 1, 0) > 0;
+}
+
+/// The record of a cell that has ended, or that takes too long.
+std::optional<CellRecord> outcome_of(Worker& worker, const WorkSettings& settings) {
+  if (worker.is_free()) return std::nullopt;
+  if (has_answer(worker)) return worker.answer();
+  if (worker.busy_for() > settings.cell_limit) return worker.give_up(too_long(settings.cell_limit));
+  return std::nullopt;
+}
+
+/// Whether a starter of parallel jobs made this process: Open MPI's mpirun, or one that speaks PMI or PMIx.
+bool is_in_a_job() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
+    if (std::getenv(name) != nullptr) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::unique_ptr<Messages> messages_of_job() {
+  if (!is_in_a_job()) return nullptr;
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const fs::path& path :
+       {folder / "zwang_mpi.so", folder.parent_path() / "libexec/zwang/zwang_mpi.so"}) {
+    if (!fs::exists(path, error)) continue;
+    // Open MPI's own parts look for its names among those of all libraries.
+    void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
+    if (library == nullptr) throw std::runtime_error(::dlerror());
+    using Join = Messages* (*)();
+    const auto join = reinterpret_cast<Join>(::dlsym(library, "zwang_join_job"));
+    if (join == nullptr) throw std::runtime_error(::dlerror());
+    return std::unique_ptr<Messages>(join());
+  }
+  throw std::runtime_error(
+      "this zwang was built without MPI: install libopenmpi-dev and build again, or run parts of the study "
+      "by --shard");
+}
+
+void run_with_ranks(const std::vector<std::size_t>& cells, const WorkSettings& settings,
+                    const WorkCalls& calls, const std::string& identity, Messages& messages) {
+  std::vector<std::unique_ptr<Worker>> workers;
+  while (workers.size() < settings.processes) workers.push_back(std::make_unique<Worker>(calls));
+  std::vector<bool> is_known(static_cast<std::size_t>(messages.size()), false);
+  int listening = messages.size() - 1;  // ranks that have not been told that there are no more
+  std::size_t next = 0, ended = 0;
+  const auto keep = [&](const CellRecord& record) {
+    calls.done(record);
+    ++ended;
+  };
+  const auto take = [&](const Messages::Message& message) {
+    const auto from = static_cast<std::size_t>(message.from);
+    if (is_known[from]) {
+      keep(record_of(message.text));
+    } else if (message.text != identity) {
+      throw std::runtime_error("rank " + std::to_string(message.from) +
+                               " has read another study, or is another version of zwang");
+    }
+    is_known[from] = true;
+    const bool is_more = next < cells.size() && !calls.wants_to_stop();
+    messages.send(message.from, is_more ? std::to_string(cells[next]) : no_more);
+    if (is_more) {
+      ++next;
+    } else {
+      --listening;
+    }
+  };
+  while (listening > 0 || (ended < cells.size() && !calls.wants_to_stop())) {
+    for (const auto& worker : workers) {
+      if (worker->is_free() && next < cells.size() && !calls.wants_to_stop()) worker->ask(cells[next++]);
+      if (const auto record = outcome_of(*worker, settings)) keep(*record);
+    }
+    while (const auto message = messages.receive(0.0)) take(*message);
+    if (const auto message = messages.receive(busy_look)) take(*message);
+    calls.wait();
+  }
+}
+
+void serve_rank(const WorkSettings& settings, const WorkCalls& calls, const std::string& identity,
+                Messages& messages) {
+  Worker worker(calls);
+  messages.send(0, identity);
+  for (;;) {
+    const auto message = messages.receive(idle_look);
+    if (!message) continue;
+    if (message->text == no_more) return;
+    worker.ask(std::stoull(message->text));
+    std::optional<CellRecord> record;
+    while (!(record = outcome_of(worker, settings))) {
+      pollfd file{worker.answers(), POLLIN, 0};
+      ::poll(&file, 1, static_cast<int>(1e3 * idle_look));
+    }
+    messages.send(0, to_text(*record));
+  }
+}
+
+}  // namespace zwang::study

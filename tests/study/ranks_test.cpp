@@ -1,0 +1,127 @@
+// A study on several ranks: each cell once, whatever becomes of the others, and nobody works on another
+// study. Sockets stand in for MPI; `study.process` has mpirun itself.
+#include "study/ranks.hpp"
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+
+namespace zwang::study {
+namespace {
+
+/// One socket to each other rank that is spoken to.
+class SocketMessages : public Messages {
+ public:
+  SocketMessages(int rank, std::map<int, int> sockets) : rank_(rank), sockets_(std::move(sockets)) {}
+  int rank() const override { return rank_; }
+  int size() const override { return static_cast<int>(sockets_.size()) + 1; }
+  void send(int to, const std::string& text) override {
+    ::send(sockets_.at(to), text.data(), text.size(), 0);
+  }
+  std::optional<Message> receive(double most) override {
+    std::vector<pollfd> files;
+    std::vector<int> ranks;
+    for (const auto& [rank, socket] : sockets_) {
+      files.push_back({socket, POLLIN, 0});
+      ranks.push_back(rank);
+    }
+    ::poll(files.data(), files.size(), static_cast<int>(1e3 * most));
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if ((files[i].revents & POLLIN) == 0) continue;
+      std::string text(1 << 16, '\0');
+      text.resize(static_cast<std::size_t>(::recv(files[i].fd, text.data(), text.size(), 0)));
+      return Message{ranks[i], text};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  int rank_;
+  std::map<int, int> sockets_;
+};
+
+CellRecord ended_as(std::size_t cell, const std::string& outcome) {
+  CellRecord record;
+  record.cell = cell;
+  record.outcome = outcome;
+  return record;
+}
+
+WorkCalls calls_into(std::map<std::size_t, std::string>& outcomes) {
+  WorkCalls calls;
+  calls.run = [](std::size_t cell) {
+    if (cell == 7) ::kill(::getpid(), SIGKILL);
+    return ended_as(cell, "done");
+  };
+  calls.fail = [](std::size_t cell, const std::string& outcome, const std::string&) {
+    return ended_as(cell, outcome);
+  };
+  calls.done = [&](const CellRecord& record) {
+    EXPECT_TRUE(outcomes.emplace(record.cell, record.outcome).second) << record.cell << " came twice";
+  };
+  calls.wants_to_stop = [] { return false; };
+  calls.wait = [] {};
+  return calls;
+}
+
+/// Rank 0 of three; the other two are processes that have read studies of these identities.
+std::map<std::size_t, std::string> outcomes_with(const std::array<std::string, 2>& identities,
+                                                 std::size_t own_processes) {
+  std::map<std::size_t, std::string> outcomes;
+  std::map<int, int> sockets;
+  std::vector<pid_t> others;
+  for (int rank = 1; rank <= 2; ++rank) {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends) != 0) throw std::runtime_error("no sockets");
+    const pid_t other = ::fork();
+    if (other == 0) {
+      SocketMessages messages(rank, {{0, ends[1]}});
+      serve_rank({}, calls_into(outcomes), identities[static_cast<std::size_t>(rank) - 1], messages);
+      ::_exit(0);
+    }
+    ::close(ends[1]);
+    sockets[rank] = ends[0];
+    others.push_back(other);
+  }
+  std::vector<std::size_t> cells(60);
+  std::iota(cells.begin(), cells.end(), std::size_t{0});
+  SocketMessages messages(0, sockets);
+  std::string problem;
+  try {
+    run_with_ranks(cells, {.processes = own_processes}, calls_into(outcomes), "this study", messages);
+  } catch (const std::runtime_error& error) {
+    problem = error.what();
+    for (const pid_t other : others) ::kill(other, SIGKILL);
+  }
+  for (const pid_t other : others) ::waitpid(other, nullptr, 0);
+  for (const auto& [rank, socket] : sockets) ::close(socket);
+  if (!problem.empty()) throw std::runtime_error(problem);
+  return outcomes;
+}
+
+TEST(Ranks, RunEachCellOnceAndTellOfOneThatCrashes) {
+  for (const std::size_t own : {0U, 2U}) {
+    const auto outcomes = outcomes_with({"this study", "this study"}, own);
+    ASSERT_EQ(outcomes.size(), 60u);
+    for (const auto& [cell, outcome] : outcomes) EXPECT_EQ(outcome, cell == 7 ? "crashed" : "done") << cell;
+  }
+}
+
+TEST(Ranks, RefuseOneThatHasReadAnotherStudy) {
+  EXPECT_THROW(outcomes_with({"this study", "another one"}, 1), std::runtime_error);
+}
+
+TEST(Ranks, AreNoneWithoutAJob) {
+  EXPECT_EQ(messages_of_job(), nullptr);
+}
+
+}  // namespace
+}  // namespace zwang::study
