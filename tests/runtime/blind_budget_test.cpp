@@ -269,6 +269,35 @@ TEST(BlindBudget, AStopWithoutEncodersSaysThatTheBaseMayStillMove) {
   }
 }
 
+/// A wall that is let go moves the base back by F/K, 0.2 mm: encoders that do not count that say nothing of
+/// the wall, which may be gone, and of the base, which may be under way.
+TEST(BlindBudget, AnEndBehindAPressThatNoEncoderConfirmsIsDoubted) {
+  constexpr double force = 20.0, stiffness = 1e5, damping = 2e3, wall = 0.02;  // [N], [N/m], [N s/m], [m]
+  lang::Program program_ = program({task("press", {drive("press.x", Axis::x, Quantity::force, force),
+                                                   drive("press.y", Axis::y, Quantity::velocity, 0.0),
+                                                   drive("press.rz", Axis::rz, Quantity::velocity, 0.0)})});
+  program_.tasks.front().timeout = lang::Timeout{{.constant = 4.0}, to_failed, {}};
+  for (const bool is_dead : {true, false}) {
+    Runner runner(program_);
+    Sensed sensed(program_.robot.model, program_.signals.size());
+    Failing encoders;
+    PlanarBase base;
+    while (base.time < 8.0 && !runner.finished()) {
+      base.sense(sensed);
+      sensed.base_measured = false;
+      if (is_dead && base.time > 3.0) encoders.spoil(sensed);
+      const double depth = base.pose.x() - wall;
+      const bool is_there = depth > 0.0 && !(is_dead && base.time > 3.5);
+      const double held = is_there ? std::max(0.0, stiffness * depth + damping * base.V.x()) : 0.0;
+      base.step(runner.step(sensed), {-held, 0.0, 0.0});
+    }
+    ASSERT_TRUE(runner.finished());
+    EXPECT_FALSE(runner.guard().stopped());
+    EXPECT_EQ(std::abs(base.V.x()) > 0.01, is_dead) << "nothing holds it any more";
+    EXPECT_EQ(runner.may_still_move(), is_dead);
+  }
+}
+
 /// What was not confirmed before a swap of programs is not after it.
 TEST(BlindBudget, ASwapOfProgramsDoesNotFillIt) {
   const lang::Program program_ = sets_out(0.5);

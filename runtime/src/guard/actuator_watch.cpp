@@ -21,11 +21,13 @@ ActuatorWatch::ActuatorWatch(const lang::Robot& robot, double period)
     : dwell_ticks_(ticks_of(dwell, period)),
       entry_ticks_(ticks_of(entry, period)),
       quiet_ticks_(ticks_of(quiet, period)),
-      close_ticks_(ticks_of(close_dwell, period)) {
+      close_ticks_(ticks_of(close_dwell, period)),
+      after_a_hit_ticks_(ticks_of(after_a_hit, period)) {
   for (const WheelMotor& of : wheel_motors(robot, smallest)) {
     motors_.push_back({.joint = of.joint,
                        .radius = of.radius,
                        .threshold = of.threshold,
+                       .ticks_since_hit = after_a_hit_ticks_,
                        .obedience = Obedience(ticks_of(DisturbanceObserver::mean_over, period))});
   }
 }
@@ -36,6 +38,7 @@ void ActuatorWatch::reset() noexcept {
     motor = {.joint = motor.joint,
              .radius = motor.radius,
              .threshold = motor.threshold,
+             .ticks_since_hit = after_a_hit_ticks_,
              .obedience = motor.obedience};
   }
 }
@@ -91,7 +94,15 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer, co
   return Event{codes[*sure], 0.0, event_signal::of_joint(best->joint, event_signal::tau), best->f};
 }
 
-/// Out of quiet, or closely while the wheel rolls. A stuck motor needs a command that varies, and twice the
+/// [m] that the force went along, as a rim of the wheel would: P = f qd_j of a motor; 0 where a spring as
+/// deep explains it.
+double ActuatorWatch::way_of(const Motor& motor, const Fit& fit, const Claim::Begin& since,
+                             const ContactDepth& contact) noexcept {
+  if (!contact.is_no_spring(since.contact)) return 0.0;
+  return std::abs(contact.now().way - since.contact.way) * std::sqrt(fit.s) * motor.radius;
+}
+
+/// Out of quiet, or closely, while the wheel rolls. A stuck motor needs a command that varies, and twice the
 /// time to tell its steady torque from one that only changes slowly.
 bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, double q,
                             const ContactDepth& contact) const noexcept {
@@ -99,13 +110,14 @@ bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, doubl
   const double told = motor.high_tau - motor.low_tau;
   if (motor.is_met && motor.hardest < left_behind * std::abs(fit.f)) return false;
   if (kind == stuck && !(told > varied * std::abs(fit.f))) return false;
-  if (motor.is_armed && claim.ticks >= dwell_ticks_) return true;
-  if (motor.obedience.is_seen()) return false;
-  const bool has_rolled =
-      std::abs(q - claim.q) * motor.radius > travel && contact.is_no_spring(claim.contact);
-  if (kind != stuck) return claim.close_ticks >= close_ticks_ && has_rolled;
+  const bool is_even = motor.is_armed && claim.ticks >= dwell_ticks_;
+  const bool is_apart = motor.ticks_since_hit >= after_a_hit_ticks_;
+  if (is_even && (is_apart || way_of(motor, fit, claim.any, contact) > least_way)) return true;
+  const bool has_rolled = std::abs(q - claim.close.q) * motor.radius > travel;
+  if (motor.obedience.is_seen() || !has_rolled || !contact.is_no_spring(claim.close.contact)) return false;
+  if (kind != stuck) return claim.close_ticks >= close_ticks_;
   const bool is_steady = motor.high_sum - motor.low_sum < closely * told;
-  return std::min(claim.ticks, claim.close_ticks) >= 2 * close_ticks_ && has_rolled && is_steady;
+  return std::min(claim.ticks, claim.close_ticks) >= 2 * close_ticks_ && is_steady;
 }
 
 /// A motor is armed by a quiet while, and a force that begins then starts its clock. No fault of this motor
@@ -113,11 +125,13 @@ bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, doubl
 void ActuatorWatch::follow_onset(Motor& motor, const Fit& fit) const noexcept {
   const double force = std::sqrt(fit.all / fit.s);
   const double told = std::abs(fit.tau);
+  motor.ticks_since_hit = std::min(motor.ticks_since_hit + 1, after_a_hit_ticks_);
   if (force > motor.threshold) {
     motor.quiet_ticks = 0;
     ++motor.loud_ticks;
     motor.told = std::max(motor.told, told);
     motor.hardest = std::max(motor.hardest, force);
+    if (force > most_told * motor.told + motor.threshold) motor.ticks_since_hit = 0;
     const bool begins = motor.is_armed && motor.loud_ticks <= entry_ticks_;
     if (begins && force > most_told * motor.told + motor.threshold) {
       motor.is_met = true;
@@ -140,17 +154,14 @@ void ActuatorWatch::follow(Motor& motor, Kind kind, const Fit& fit, double f, do
   const bool fits = is_felt && fit.rest < most_unexplained * fit.all && std::abs(f - fit.f) < slack;
   const double share = kind == stuck ? 1.0 : fit.f / f;
   const bool keeps = claim.ticks > 0 && std::abs(share - claim.share) < closely * claim.share;
-  if (!keeps)
-    claim = {.close_ticks = claim.close_ticks, .q = claim.q, .contact = claim.contact, .share = share};
+  if (!keeps) claim = {.close_ticks = claim.close_ticks, .close = claim.close, .share = share};
   claim.ticks = fits ? claim.ticks + 1 : 0;
+  if (claim.ticks <= 1) claim.any = {q, contact.now()};
   const double left = fit.rest + fit.s * (f - fit.f) * (f - fit.f);
   claim.left = left;
   const bool is_close = std::abs(fit.f) > late * motor.threshold && left < closely * closely * fit.all;
   claim.close_ticks = is_close ? claim.close_ticks + 1 : 0;
-  if (claim.close_ticks <= 1) {
-    claim.q = q;
-    claim.contact = contact.now();
-  }
+  if (claim.close_ticks <= 1) claim.close = {q, contact.now()};
 }
 
 /// Its torque, tau + f, stays the same while the command changes.

@@ -21,7 +21,9 @@ namespace zwang::runtime {
 /// from the instant on at which it differs from nothing. Contact can have that direction, too: the corner of
 /// a differential base, as far out as its wheel. Three things tell them apart.
 ///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
-///    began out of quiet, and keeps it `closely` for `dwell`, is a motor's.
+///    began out of quiet, and keeps it `closely` for `dwell` while the wheel rolls on by `travel`, is a
+///    motor's. A base that turns about a corner at the wall leans on it with what the wheel beside it is
+///    told, evenly: that wheel stands.
 ///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
 ///    gives way or grows. A force that keeps to direction and size `closely` the while, farther than a spring
 ///    does that is as deep (ContactDepth), is a motor's, whenever it began: a motor that failed while it was
@@ -55,18 +57,24 @@ class ActuatorWatch {
   static constexpr double closely = 0.1;       ///< of the force, both in direction and size
   static constexpr double late = 4.0;          ///< thresholds that such a force is worth
   static constexpr double close_dwell = 0.03;  ///< [s] that a force keeps close
+  static constexpr double after_a_hit = 1.0;   ///< [s] in which a base still bounces, and squares up
+  static constexpr double least_way = 0.2e-3;  ///< [m] at the wheel's rim
   static constexpr double travel = 0.5e-3;     ///< [m] of the wheel's rim
   static constexpr double varied = 0.2;  ///< of f: a command that differs by that much proves a stuck motor
 
  private:
   /// That a motor has one kind of fault.
   struct Claim {
-    int ticks = 0;               ///< that it has held
-    int close_ticks = 0;         ///< that it has held closely
-    double q = 0.0;              ///< [rad] where that began
-    ContactDepth::Mark contact;  ///< then
-    double left = 0.0;           ///< of |p|^2 that it does not explain
-    double share = 0.0;          ///< of the size that it tells, when it began to hold
+    /// Where it began to hold.
+    struct Begin {
+      double q = 0.0;  ///< [rad]
+      ContactDepth::Mark contact;
+    };
+    int ticks = 0;        ///< that it has held
+    int close_ticks = 0;  ///< that it has held closely
+    Begin any, close;     ///< of either
+    double left = 0.0;    ///< of |p|^2 that it does not explain
+    double share = 0.0;   ///< of the size that it tells, when it began to hold
   };
   enum Kind { lost, flipped, stuck, kind_count };
   struct Motor {
@@ -81,6 +89,7 @@ class ActuatorWatch {
     int quiet_ticks = 0;                   ///< without one
     double told = 0.0;                     ///< [N m] the largest command since before it began
     double hardest = 0.0;                  ///< [N m] the largest |p| / |T_j| since then
+    int ticks_since_hit = 0;               ///< p was more than any fault makes of the command
     bool is_met = false;                   ///< what began is a contact
     bool is_armed = false;
     Obedience obedience;
@@ -97,10 +106,12 @@ class ActuatorWatch {
   void follow_stuck(Motor& motor, const Fit& fit, double q, const ContactDepth& contact) const noexcept;
   bool is_sure(const Motor& motor, Kind kind, const Fit& fit, double q,
                const ContactDepth& contact) const noexcept;
+  static double way_of(const Motor& motor, const Fit& fit, const Claim::Begin& since,
+                       const ContactDepth& contact) noexcept;
   bool is_distinct(const Motor& motor, const solver::FreeMotions& motions) const noexcept;
 
   std::vector<Motor> motors_;
-  int dwell_ticks_ = 0, entry_ticks_ = 0, quiet_ticks_ = 0, close_ticks_ = 0;
+  int dwell_ticks_ = 0, entry_ticks_ = 0, quiet_ticks_ = 0, close_ticks_ = 0, after_a_hit_ticks_ = 0;
 };
 
 }  // namespace zwang::runtime

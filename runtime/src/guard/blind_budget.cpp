@@ -8,7 +8,7 @@ namespace zwang::runtime {
 
 BlindBudget::BlindBudget(const lang::Robot& robot) : motion_(robot), contact_(motion_) {
   const auto n = static_cast<Eigen::Index>(motion_.joints().size());
-  q_ = rates_ = mean_ = change_ = now_ = v_ = found_ = Eigen::VectorXd::Zero(n);
+  q_ = rates_ = mean_ = change_ = now_ = v_ = found_ = lean_ = Eigen::VectorXd::Zero(n);
   y_ = p_ = told_ = Eigen::VectorXd::Zero(motion_.most_freedoms());
   double radius = 0.0;
   for (const BlindMotion::DrivenJoint& driven : motion_.joints()) radius = std::max(radius, driven.radius);
@@ -25,6 +25,7 @@ void BlindBudget::begin(const Eigen::VectorXd& q) noexcept {
   mean_.setZero();
   change_.setZero();
   v_.setZero();
+  lean_.setZero();
   gap_ = s_ = 0.0;
   phase_ = Phase::counts;
   contact_.forget();
@@ -88,6 +89,7 @@ void BlindBudget::set_out_from(const Eigen::VectorXd& rates) noexcept {
   }
   rates_ = now_;
   change_.setZero();
+  lean_.setZero();
   gap_ = s_ = 0.0;
 }
 
@@ -99,11 +101,11 @@ double BlindBudget::way_from_the_found() const noexcept {
   return most;
 }
 
-double BlindBudget::rim_speed() noexcept {
+double BlindBudget::rim_speed(const Eigen::VectorXd& rates) noexcept {
   double most = 0.0;
-  for (Eigen::Index i = 0; i < v_.size(); ++i) {
+  for (Eigen::Index i = 0; i < rates.size(); ++i) {
     const BlindMotion::DrivenJoint& driven = motion_.joints()[static_cast<std::size_t>(i)];
-    const double speed = driven.radius * std::abs(v_(i));
+    const double speed = driven.radius * std::abs(rates(i));
     if (speed > most) fastest_ = driven.joint;
     most = std::max(most, speed);
   }
@@ -132,11 +134,20 @@ std::optional<Event> BlindBudget::look(const Eigen::VectorXd& q, double time) no
   return spend(dt);
 }
 
+bool BlindBudget::leans() noexcept {
+  return rim_speed(lean_) > slowest;
+}
+
 std::optional<Event> BlindBudget::spend(double dt) noexcept {
+  const int n = motion_.freedoms();
   motion_.to_motions(v_, y_);
+  told_.head(n) = y_.head(n) + dt * motion_.acceleration().head(n);
   contact_.step(motion_, dt, y_);
+  told_.head(n) -= y_.head(n);
+  motion_.to_rates(told_, now_);
+  if (!contact_.is_tied()) lean_ += now_;  // the latch says that the hook holds
   motion_.to_rates(y_, v_);
-  const double speed = rim_speed();
+  const double speed = rim_speed(v_);
   s_ += speed * dt;
   if (!(s_ > budget())) return std::nullopt;
   const double way = std::isfinite(rim_step_) ? std::max(least_look, steps * rim_step_) : least_look;

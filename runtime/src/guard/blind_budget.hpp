@@ -44,6 +44,9 @@ class BlindBudget {
 
   /// The wheels are to get the torques of `give_back`.
   bool takes_over() const noexcept { return phase_ != Phase::counts; }
+  /// Since the last sign of life nothing but a contact, by the model, has kept the motors from moving a rim
+  /// at `slowest`: whether that contact is still there, no encoder says.
+  bool leans() noexcept;
   /// Rates are not to be believed.
   bool is_blind() const noexcept { return phase_ == Phase::blind; }
   /// Sets the wheels' torques.
@@ -74,7 +77,7 @@ class BlindBudget {
   void feel() noexcept;
   double way_from_the_found() const noexcept;
   void set_out_from(const Eigen::VectorXd& rates) noexcept;
-  double rim_speed() noexcept;
+  double rim_speed(const Eigen::VectorXd& rates) noexcept;
   double budget() const noexcept;
   Event event(EventCode code) const noexcept;
   std::optional<Event> spend(double dt) noexcept;
@@ -91,6 +94,7 @@ class BlindBudget {
   Eigen::VectorXd now_;     ///< rates up to this sign
   Eigen::VectorXd v_;       ///< by the model
   Eigen::VectorXd found_;   ///< where a look was answered last [rad]
+  Eigen::VectorXd lean_;    ///< that contacts took from the model, since the last sign of life
   Eigen::VectorXd y_, p_, told_;
   double time_ = 0.0;
   double gap_ = 0.0;  ///< [s] since the last sign of life

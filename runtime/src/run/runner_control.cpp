@@ -21,7 +21,12 @@ bool Runner::Parts::control() noexcept {
   is_solution_of_rows = false;
   const bool was_finished = scheduler.phase() == Phase::finished;
   scheduler.tick(sample);
-  if (!was_finished && scheduler.phase() == Phase::finished && !scheduler.has_stood()) tell_doubt();
+  if (!was_finished && scheduler.phase() == Phase::finished) {
+    // What presses against the base when it lets go moves it a little: where nothing counts that, it may be
+    // gone.
+    is_end_doubted = !scheduler.has_stood() || blind_budget.leans();
+    if (is_end_doubted) tell_doubt();
+  }
   if (scheduler.transition()) {
     const Transition& t = *scheduler.transition();
     if (t.refusal == Refusal::require || t.refusal == Refusal::set)

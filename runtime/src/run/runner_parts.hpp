@@ -165,6 +165,7 @@ struct Runner::Parts {
   RestWatch rest;                ///< after a protective stop
   bool is_past_stop = false;     ///< a protective stop is over, by its time if not by rest
   bool is_rest_doubted = false;  ///< and nobody saw the base stand
+  bool is_end_doubted = false;   ///< in the end of the task, the same
 };
 
 }  // namespace zwang::runtime

@@ -76,7 +76,7 @@ bool Runner::finished() const noexcept {
 
 bool Runner::may_still_move() const noexcept {
   if (parts_->guard.stopped()) return parts_->is_rest_doubted;
-  return finished() && !parts_->scheduler.has_stood();
+  return finished() && parts_->is_end_doubted;
 }
 
 std::string Runner::because() const {
