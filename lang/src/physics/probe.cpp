@@ -1,6 +1,5 @@
 #include "physics/probe.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,8 +12,6 @@
 namespace zwang::lang {
 
 namespace {
-
-constexpr int most_rows = 64;
 
 /// A force driver along the axis, and nothing else.
 solver::AxisConstraint constraint_of(const PlannedAxis& axis, double force) {
@@ -106,9 +103,10 @@ solver::Vector3 Probe::direction(const PlannedAxis& axis) const {
     const solver::Pose in = solver::motion_of(axis.in, robot_.model, states_[0]).pose;
     return in.rotation.col(static_cast<int>(axis.axis) % 3);
   }
-  const solver::Row row = row_along(axis, states_[0]);
-  const solver::Pose body = solver::motion_of({row.body, {}}, robot_.model, states_[0]).pose;
-  const solver::Vector3 along = body.rotation * (axis.turns() ? row.a.angular : row.a.linear);
+  const std::optional<solver::Row> row = row_along(axis, states_[0]);
+  if (!row) return solver::Vector3::Zero();
+  const solver::Pose body = solver::motion_of({row->body, {}}, robot_.model, states_[0]).pose;
+  const solver::Vector3 along = body.rotation * (axis.turns() ? row->a.angular : row->a.linear);
   return along.norm() > 0.0 ? solver::Vector3(along.normalized()) : along;
 }
 
@@ -128,17 +126,20 @@ double Probe::kept_height(const PlannedAxis& axis) const {
 }
 
 /// A row along the axis depends on the point that moves (unless it turns) and on where the axes point; a
-/// distance on the other point, too.
+/// distance and a bearing depend on both points.
 Probe::Key Probe::key_of(const PlannedAxis& axis) {
   Key key{};
   std::size_t n = 0;
   const auto put = [&](const auto& numbers) {
     for (const double number : numbers) key[n++] = std::round(number * 1e9) * 1e-9 + 0.0;
   };
+  const bool is_bearing = axis.measure == solver::Measure::bearing;
+  const bool is_between_points = is_bearing || axis.measure == solver::Measure::distance;
+  const solver::Vector3 nowhere = solver::Vector3::Zero();
   put(axis.move.pose.rotation.reshaped());
-  put(axis.turns() ? solver::Vector3::Zero().eval() : axis.move.pose.position);
+  put(axis.turns() && !is_bearing ? nowhere : axis.move.pose.position);
   put(axis.in.pose.rotation.reshaped());
-  put(axis.measure == solver::Measure::distance ? axis.in.pose.position : solver::Vector3::Zero().eval());
+  put(is_between_points ? axis.in.pose.position : nowhere);
   put(axis.coefficients);
   put(axis.corners);
   put(std::array{double(axis.move.body), double(axis.in.body), double(axis.is_placed), double(axis.measure),
@@ -146,11 +147,11 @@ Probe::Key Probe::key_of(const PlannedAxis& axis) {
   return key;
 }
 
-solver::Row Probe::row_along(const PlannedAxis& axis, const solver::State& state) const {
+std::optional<solver::Row> Probe::row_along(const PlannedAxis& axis, const solver::State& state) const {
   solver::ConstraintSet set(1, 1);
-  set.add(constraint_of(axis, 1.0));
-  set.fill(robot_.model, state);
-  return set.rows().at(0);
+  const bool has_one =
+      set.add(constraint_of(axis, 1.0)) && set.fill(robot_.model, state) && !set.rows().empty();
+  return has_one ? std::optional(set.rows().front()) : std::nullopt;
 }
 
 bool Probe::pay(std::size_t rows, double passes) {
@@ -261,92 +262,8 @@ const AxisFigures* Probe::figures(const PlannedAxis& axis) {
   return looks != nullptr ? &looks->figures : nullptr;
 }
 
-/// That of [ground; rows], less that of the ground alone.
-int Probe::rank_at(const std::vector<const PlannedAxis*>& axes, const solver::State& state) {
-  std::vector<solver::AccelerationRow> rows;
-  if (equalities_.solve(state, rows, motion_) != solver::Status::ok) return 0;
-  const int ground = motion_.rank;
-  for (const PlannedAxis* axis : axes) {
-    const solver::Row row = row_along(*axis, state);
-    rows.push_back({row.body, row.a, row.reference_body, row.a_reference, 0.0});
-  }
-  if (equalities_.solve(state, rows, motion_) != solver::Status::ok) return 0;
-  return motion_.rank - ground;
-}
-
-int Probe::rank(const std::vector<const PlannedAxis*>& axes) {
-  const bool is_asked = axes.size() <= static_cast<std::size_t>(most_rows) &&
-                        pay(axes.size(), 2.0 * static_cast<double>(general_.size()));
-  if (!is_asked) return static_cast<int>(axes.size());
-  int rank = 0;
-  for (std::size_t i = 0; i < general_.size() && rank < static_cast<int>(axes.size()); ++i) {
-    rank = std::max(rank, rank_at(axes, general_[i]));
-  }
-  return rank;
-}
-
-int Probe::rank_at_start(const std::vector<const PlannedAxis*>& axes) {
-  const bool is_asked = axes.size() <= static_cast<std::size_t>(most_rows) && pay(axes.size(), 2.0);
-  return is_asked ? rank_at(axes, states_[0]) : static_cast<int>(axes.size());
-}
-
-int Probe::alignment(const PlannedAxis& a, const PlannedAxis& b) {
-  const bool is_known = a.is_placed && b.is_placed && !a.is_set && !b.is_set;
-  const bool is_named_alike = a.in_name == b.in_name && a.move_name == b.move_name;
-  if (a.move.body != b.move.body || (!is_known && !is_named_alike) || !pay(2, 0.1)) return 0;
-  // A base on the ground moves in the plane: what a row demands of it otherwise the ground meets.
-  const bool is_on_ground = robot_.model.base_type() == solver::BaseType::ground;
-  const auto is_close = [&](int body, const solver::ForceVector& m, const solver::ForceVector& n,
-                            double sign) {
-    solver::Vector3 angular = m.angular - sign * n.angular, linear = m.linear - sign * n.linear;
-    if (body == 0 && is_on_ground) {
-      angular.head<2>().setZero();
-      linear.z() = 0.0;
-    }
-    return angular.norm() + linear.norm() < 1e-9;
-  };
-  int sign = 0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const solver::Row row = row_along(a, general_[i]), other = row_along(b, general_[i]);
-    if (row.body != other.body || row.reference_body != other.reference_body) return 0;
-    const auto is_alike = [&](double s) {
-      return is_close(row.body, row.a, other.a, s) &&
-             (row.reference_body < 0 || is_close(row.reference_body, row.a_reference, other.a_reference, s));
-    };
-    const int found = is_alike(1.0) ? 1 : is_alike(-1.0) ? -1 : 0;
-    if (found == 0 || (i > 0 && found != sign)) return 0;
-    sign = found;
-  }
-  return sign;
-}
-
 double Probe::position_at_start(const PlannedAxis& axis) const {
   return solver::coordinate_of(constraint_of(axis, 0.0), robot_.model, states_[0]).position;
-}
-
-int Probe::kinematic_rank(const std::vector<const PlannedAxis*>& axes) {
-  const auto count = static_cast<double>(axes.size());
-  budget_ -= 12.0 * robot_.model.body_count() * count * count;
-  if (is_exhausted()) return static_cast<int>(axes.size());
-  const solver::State& state = general_[0];
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(6 * robot_.model.body_count(), static_cast<int>(axes.size()));
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    const solver::Row row = row_along(*axes[i], state);
-    const auto column = static_cast<int>(i);
-    rows.block<3, 1>(6 * row.body, column) = row.a.angular;
-    rows.block<3, 1>(6 * row.body + 3, column) = row.a.linear;
-    if (row.reference_body < 0) continue;
-    rows.block<3, 1>(6 * row.reference_body, column) = -row.a_reference.angular;
-    rows.block<3, 1>(6 * row.reference_body + 3, column) = -row.a_reference.linear;
-  }
-  if (robot_.model.base_type() == solver::BaseType::ground) {
-    // Of the base only rz, x and y are coordinates.
-    rows.topRows<2>().setZero();
-    rows.row(5).setZero();
-  }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows);
-  qr.setThreshold(1e-9);
-  return static_cast<int>(qr.rank());
 }
 
 /// The robot does what the rows say, as if nothing were in its way. Blocked, it meets the force that takes

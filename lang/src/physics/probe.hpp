@@ -61,6 +61,12 @@ class Probe {
   int rank_at_start(const std::vector<const PlannedAxis*>& axes);
   /// 1 where both axes are one motion, -1 where one is the other turned around, else 0.
   int alignment(const PlannedAxis& a, const PlannedAxis& b);
+  /// Between two directions that frames carry, at the start pose and at most in general position, too. [rad]
+  struct Angles {
+    double at_start = 0.0, most = 0.0;
+  };
+  Angles angles(const solver::AttachedFrame& a, const solver::Vector3& along_a,
+                const solver::AttachedFrame& b, const solver::Vector3& along_b) const;
   /// The coordinate of an axis whose place is known. [m] or [rad]
   double position_at_start(const PlannedAxis& axis) const;
   /// What a force driver presses with against something that blocks its axis, after the acceleration ranges
@@ -79,7 +85,8 @@ class Probe {
   std::string frame_ahead() const;
   /// Whether the motors move the base along its own x and turn it.
   bool turns_and_drives();
-  /// The axis in the world, at the start pose; of a feature the direction of its force or moment.
+  /// The axis in the world, at the start pose; of a feature the direction of its force or moment, 0 where it
+  /// has none.
   solver::Vector3 direction(const PlannedAxis& axis) const;
   /// Whether the axis points up or turns the base over: what the ground itself holds.
   bool is_out_of_plane(const PlannedAxis& axis) const;
@@ -88,6 +95,7 @@ class Probe {
   double kept_height(const PlannedAxis& axis) const;
 
  private:
+  static constexpr int most_rows = 64;
   /// An axis in one configuration, seen in one direction.
   struct Look {
     const solver::State* state;
@@ -109,7 +117,8 @@ class Probe {
   bool look_around(const PlannedAxis& axis, const solver::State& state, std::vector<Look>& all);
   bool look_everywhere(const PlannedAxis& axis, Looks& looks);
   static AxisFigures summary(const PlannedAxis& axis, const std::vector<Look>& all);
-  solver::Row row_along(const PlannedAxis& axis, const solver::State& state) const;
+  /// nullopt where a feature has no direction: of a bearing, within 5 cm of its target.
+  std::optional<solver::Row> row_along(const PlannedAxis& axis, const solver::State& state) const;
   int rank_at(const std::vector<const PlannedAxis*>& axes, const solver::State& state);
   /// What a pass of the sweeps over the ground and `rows` more costs. False past the budget.
   bool pay(std::size_t rows, double passes);
