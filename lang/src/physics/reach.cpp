@@ -16,6 +16,7 @@ namespace {
 /// Standing still where one cannot move asks for nothing; nor does staying `here`.
 bool asks_for_nothing(const PlannedAxis& axis) {
   if (axis.text == nullptr) return true;
+  if (axis.is_yield) return false;
   const StatementText& statement = *(*axis.text)[*axis.driver];
   if (statement.value.kind == ValueKind::here) return true;
   return axis.driver != solver::Quantity::position && statement.value.kind == ValueKind::quantity &&
@@ -29,7 +30,7 @@ void ask_reach(PlannedTask& plan, Probe& probe, Remarks& remarks) {
     if (!axis.driver || asks_for_nothing(axis)) return false;
     const AxisFigures* figures = probe.figures(axis);
     if (figures == nullptr || figures->is_reachable) return false;
-    const Span span = (*axis.text)[*axis.driver]->key_span;
+    const Span span = axis.is_yield ? axis.driver_span() : (*axis.text)[*axis.driver]->key_span;
     const std::string& word = axis.text->name.text;
     const bool is_sideways = axis.move.body == 0 && !axis.turns() && !axis.is_feature();
     if (probe.is_out_of_plane(axis)) {

@@ -37,6 +37,7 @@ bool asks_for_motion(const PlannedAxis& axis, Probe& probe) {
   const bool is_asked = axis.driver && axis.text != nullptr && !axis.is_soft && axis.move.body == 0 &&
                         axis.is_placed && !probe.is_out_of_plane(axis);
   if (!is_asked) return false;
+  if (axis.is_yield) return true;
   const StatementText& statement = *(*axis.text)[*axis.driver];
   if (statement.value.kind == ValueKind::here) return false;
   if (!axis.target || (axis.driver == solver::Quantity::position && axis.is_set)) return !axis.is_set;
