@@ -1,4 +1,6 @@
 // What a task's drivers ask for and `always` does not allow.
+#include <cmath>
+
 #include "check/context.hpp"
 #include "check/parameter_values.hpp"
 #include "diagnostic/wordings.hpp"
@@ -9,7 +11,7 @@ namespace {
 
 using solver::Quantity;
 
-/// The magnitude that a driver asks for, where it is known before the run.
+/// What a driver asks for, where it is known before the run.
 std::optional<double> asked(const CheckContext& context, const StatementText& statement) {
   if (statement.is_range) return std::nullopt;
   const bool is_known =
@@ -23,7 +25,8 @@ void compare_with_limit(CheckContext& context, const std::string& group, const A
   const std::optional<StatementText>& driver = axis[quantity];
   const std::optional<StatementText>& range = limit[quantity];
   if (!driver || !range || !range->is_range) return;
-  const std::optional<double> value = asked(context, *driver);
+  std::optional<double> value = asked(context, *driver);
+  if (value && limit.is_norm()) value = std::abs(*value);  // whatever way it goes
   const double low = present_value(context, range->low);
   const double high = present_value(context, range->high);
   if (!value || (low <= *value && *value <= high) || low > high) return;
