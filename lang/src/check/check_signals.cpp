@@ -96,27 +96,105 @@ void check_age(CheckContext& context, const SceneSignal& signal, int index) {
       wording::signal_too_old(signal.span, signal.name, signal.delay, signal.period, age, stale_after->span));
 }
 
-/// Where a condition first reads it: always's exits, then task by task.
-const Span* first_read(const TaskFile& file, const std::string& name) {
-  const auto find = [&](const ConditionText& condition) -> const Span* {
+/// Where the file first uses a signal that the scene does not give.
+class UnfedSignal {
+ public:
+  UnfedSignal(const CheckContext& context, int signal) : context_(context), signal_(signal) {}
+
+  struct Use {
+    Span span;
+    wording::UnfedUse kind;
+  };
+  /// Conditions first: those of `always`, then task by task.
+  std::optional<Use> find() const {
+    const TaskFile& file = context_.file;
+    const Span* span = read_by(file.always_exits);
+    for (std::size_t i = 0; span == nullptr && i < file.tasks.size(); ++i) span = read_by(file.tasks[i]);
+    if (span != nullptr) return use_at(*span, wording::UnfedUse::condition);
+    span = moved_by(file.always_groups);
+    for (std::size_t i = 0; span == nullptr && i < file.tasks.size(); ++i)
+      span = moved_by(file.tasks[i].groups);
+    if (span != nullptr) return use_at(*span, wording::UnfedUse::motion);
+    return std::nullopt;
+  }
+
+ private:
+  const SignalSymbol& symbol() const { return context_.symbols.signals[static_cast<std::size_t>(signal_)]; }
+
+  Use use_at(const Span& span, wording::UnfedUse kind) const {
+    const bool is_wrench = symbol().signal.type == SignalType::wrench;
+    return {span, is_wrench ? wording::UnfedUse::wrench : kind};
+  }
+
+  bool hangs_on_it(const Word& frame) const {
+    const std::optional<int> index = context_.symbols.find_frame(frame.text);
+    return index && context_.symbols.signal_of(*index) == signal_;
+  }
+
+  bool feature_hangs_on_it(const std::string& name) const {
+    const std::optional<int> index = context_.symbols.find_feature(name);
+    if (!index) return false;
+    const Feature& feature = context_.symbols.features[static_cast<std::size_t>(*index)].feature;
+    return context_.symbols.signal_of(feature.first) == signal_ ||
+           context_.symbols.signal_of(feature.second) == signal_;
+  }
+
+  bool region_hangs_on_it(const std::string& name) const {
+    const std::optional<int> index = context_.symbols.find_region(name);
+    if (!index) return false;
+    const Region& region = context_.symbols.regions[static_cast<std::size_t>(*index)].region;
+    return context_.symbols.signal_of(region.parent) == signal_;
+  }
+
+  /// `pace`, `felt.x`, a distance to what the signal sees.
+  const Span* read_by(const ConditionText& condition) const {
+    const std::string& name = symbol().signal.name;
     for (const ExpressionText& node : condition.nodes) {
-      if (node.kind == ExpressionKind::name && node.word == name) return &node.span;
+      const bool is_it = node.word == name || node.word.starts_with(name + ".");
+      if (node.kind == ExpressionKind::name && (is_it || feature_hangs_on_it(node.word))) return &node.span;
     }
     return nullptr;
-  };
-  for (const ExitText& exit : file.always_exits) {
-    if (const Span* span = find(exit.when)) return span;
   }
-  for (const TaskText& task : file.tasks) {
-    if (task.require) {
-      if (const Span* span = find(*task.require)) return span;
+
+  const Span* read_by(const std::vector<ExitText>& exits) const {
+    for (const ExitText& exit : exits) {
+      if (const Span* span = read_by(exit.when)) return span;
     }
-    for (const ExitText& exit : task.exits) {
-      if (const Span* span = find(exit.when)) return span;
-    }
+    return nullptr;
   }
-  return nullptr;
-}
+
+  const Span* read_by(const TaskText& task) const {
+    const Span* span = task.require ? read_by(*task.require) : nullptr;
+    return span != nullptr ? span : read_by(task.exits);
+  }
+
+  /// A value that drives, or the force of a yield.
+  const Span* moved_by(const AxisText& axis) const {
+    for (const std::optional<StatementText>& statement : axis.statements) {
+      const bool is_it = statement && !statement->is_range && statement->value.kind == ValueKind::name &&
+                         statement->value.name == symbol().signal.name;
+      if (is_it) return &statement->value.span;
+    }
+    return axis.yield ? read_by(*axis.yield) : nullptr;
+  }
+
+  const Span* moved_by(const std::vector<GroupText>& groups) const {
+    for (const GroupText& group : groups) {
+      for (const Word* frame : {&group.in, &group.move}) {
+        if (frame->exists() && hangs_on_it(*frame)) return &frame->span;
+      }
+      if (group.feature.exists() && feature_hangs_on_it(group.feature.text)) return &group.feature.span;
+      if (group.region.exists() && region_hangs_on_it(group.region.text)) return &group.region.span;
+      for (const AxisText& axis : group.axes) {
+        if (const Span* span = moved_by(axis)) return span;
+      }
+    }
+    return nullptr;
+  }
+
+  const CheckContext& context_;
+  int signal_;
+};
 
 }  // namespace
 
@@ -147,13 +225,14 @@ void check_unfed_signals(CheckContext& context, const Scene& scene) {
   for (const SceneSignal& signal : scene.signals) {
     if (!context.symbols.find_signal(signal.name)) unheard.push_back(signal.name);
   }
-  for (const SignalSymbol& symbol : context.symbols.signals) {
+  for (std::size_t i = 0; i < context.symbols.signals.size(); ++i) {
+    const SignalSymbol& symbol = context.symbols.signals[i];
     const std::string& name = symbol.signal.name;
     const bool is_fed = std::any_of(scene.signals.begin(), scene.signals.end(),
                                     [&](const SceneSignal& signal) { return signal.name == name; });
     if (is_fed || symbol.is_bad || !nearest(name, unheard).empty()) continue;
-    const Span* read = first_read(context.file, name);
-    if (read != nullptr) context.diagnostics.add(wording::unfed_signal(*read, name, symbol.signal.span));
+    const auto use = UnfedSignal(context, static_cast<int>(i)).find();
+    if (use) context.diagnostics.add(wording::unfed_signal(use->span, name, use->kind, symbol.signal.span));
   }
 }
 

@@ -53,7 +53,7 @@ void check_scene_signals(CheckContext& context, const Scene& scene);
 /// W302: signals of the scene that only nearly have the name of one of the task file's. Asked last: there may
 /// be a better reason.
 void check_scene_names(CheckContext& context, const Scene& scene);
-/// W509: signals that a condition reads and that the scene does not give. Asked last.
+/// W509: signals that conditions read or motion follows and that the scene does not give. Asked last.
 void check_unfed_signals(CheckContext& context, const Scene& scene);
 /// Names of signals; what they are seen from is asked in `check_world`, once the frames are known.
 void declare_signals(CheckContext& context);

@@ -259,11 +259,17 @@ Diagnostic urdf_for_robot_file(const Span& span) {
                "`zwang robot init` writes the robot file that goes with it");
 }
 
-Diagnostic unfed_signal(const Span& span, const std::string& name, const Span& declared) {
+Diagnostic unfed_signal(const Span& span, const std::string& name, UnfedUse use, const Span& declared) {
+  const std::string source = "give it a source under `signals` of the scene; never measured, ";
+  const std::string help =
+      use == UnfedUse::condition
+          ? source + "it lets an exit of `always` fire once its `stale_after` is over, and any other never"
+      : use == UnfedUse::motion
+          ? source + "it lets the axis stand still, and a force be 0"
+          : "no source of a scene gives a wrench: ask for `estimated.FRAME` instead, which is simulated";
   return with_related(
       warning("W509", span, "the scene gives nothing for the signal " + in_ticks(name) + ", which this reads",
-              "give it a source under `signals` of the scene; never measured, it lets an exit of `always` "
-              "fire once its `stale_after` is over, and any other never"),
+              help),
       declared, "it is declared here");
 }
 

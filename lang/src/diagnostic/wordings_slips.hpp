@@ -77,7 +77,9 @@ Diagnostic signal_too_old(const Span& span, const std::string& name, double dela
 /// Of the scene, and the task file has none of this name.
 Diagnostic unheard_signal(const Span& span, const std::string& name, const std::string& meant);
 /// A condition reads a signal for which the scene in use gives nothing.
-Diagnostic unfed_signal(const Span& span, const std::string& name, const Span& declared);
+/// What a signal that the scene does not give is for.
+enum class UnfedUse { condition, motion, wrench };
+Diagnostic unfed_signal(const Span& span, const std::string& name, UnfedUse use, const Span& declared);
 /// A pose signal's name where a frame belongs.
 Diagnostic signal_is_no_frame(const Span& span, const std::string& name);
 /// `level: 0` outside of `always`.

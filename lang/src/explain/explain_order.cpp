@@ -152,12 +152,13 @@ way, so there is nothing to go back to.)~",
           .code = "W509",
           .title = "a signal that the scene does not give",
           .why =
-              R"~(A condition reads it, and in this scene it is never measured: it stays unknown. Under `always` that
-counts as true once its `stale_after` is over, in a task it never fires. Either way the run says
-nothing about the condition.)~",
+              R"~(A condition reads the signal, or motion follows it: a driver, a yield, a frame on a pose. In this
+scene it is never measured, so it stays unknown. A condition under `always` counts as true once the
+signal's `stale_after` is over, in a task it never fires. An axis stands still, and a force is 0. Either
+way the run says nothing about what the signal is for.)~",
           .fix =
               R"~(Give the signal a source under `signals` of the scene. A condition that is about its absence asks
-`valid(signal)`.)~"},
+`valid(signal)`. No source gives a wrench: `estimated.FRAME` is the force that is simulated.)~"},
   };
   return entries;
 }
