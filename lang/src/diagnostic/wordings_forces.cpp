@@ -1,6 +1,7 @@
 #include "diagnostic/wordings_forces.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings_physics.hpp"
@@ -14,6 +15,10 @@ namespace {
 std::string at_least_in(double value, const std::string& unit) {
   const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
   return figure(std::ceil(value / step - 1e-9) * step, unit);
+}
+
+std::string angle_in_degrees(double radians) {
+  return figure(radians * 180.0 / std::numbers::pi, "deg");
 }
 
 std::string in_time(double seconds) {
@@ -64,13 +69,30 @@ Diagnostic rings_when_held(const Span& span, const std::string& axis, const Ring
       is_error ? error("E417", span, message, help) : warning("W618", span, message, help), enough);
 }
 
-Diagnostic trails_its_target(const Span& span, const std::string& axis, double speed, double distance,
-                             const std::string& signal, const Span& declared) {
-  return with_related(make("N616", Severity::note, span,
-                           "a target at " + figure(speed, "m/s") + " is trailed by `" + axis + "` by " +
-                               figure(distance, "m") + " (2 T v)",
-                           "write `twist: 0.5 s` at the signal `" + signal + "`"),
-                      declared, "`" + signal + "` is taken to stand between two samples");
+Diagnostic trails_its_target(const Span& span, const std::string& axis, const Trailed& trailed,
+                             const Span& declared) {
+  const std::string speed =
+      trailed.turns ? angle_in_degrees(trailed.speed) + "/s" : figure(trailed.speed, "m/s");
+  const std::string distance =
+      trailed.turns ? angle_in_degrees(trailed.distance) : figure(trailed.distance, "m");
+  return with_related(
+      make("N616", Severity::note, span,
+           "a target at " + speed + " is trailed by `" + axis + "` by " + distance + " (2 T v)",
+           "write `twist: 0.5 s` at the signal `" + trailed.signal + "`"),
+      declared, "`" + trailed.signal + "` is taken to stand between two samples");
+}
+
+Diagnostic yields_across(const Span& span, const std::string& axis, const Across& across) {
+  const std::string apart = across.at_start > 0.0
+                                ? "they lie " + angle_in_degrees(across.at_start) + " apart at the start"
+                                : "they turn apart as the robot moves";
+  const bool is_reversed = across.at_start > 175.0 / 180.0 * std::numbers::pi;
+  return warning("W617", span,
+                 "`" + axis + "` yields along an axis of `" + across.in + "` to a force along an axis of `" +
+                     across.force + "`: " + apart,
+                 is_reversed
+                     ? "turn the sign of the force"
+                     : "write `in: " + across.force + "`, or take the part of the force along this axis");
 }
 
 Diagnostic twist_without_pose(const Span& span, const std::string& signal) {

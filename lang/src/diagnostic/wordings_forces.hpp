@@ -26,9 +26,23 @@ struct Ringing {
 };
 Diagnostic rings_when_held(const Span& span, const std::string& axis, const Ringing& ringing, bool is_error);
 
-/// `speed` [m/s] of a target, `distance` [m] that it is trailed by.
-Diagnostic trails_its_target(const Span& span, const std::string& axis, double speed, double distance,
-                             const std::string& signal, const Span& declared);
+/// A target that moves on while its signal is taken to stand.
+struct Trailed {
+  double speed = 0.0;     ///< [m/s] or [rad/s] of the target
+  double distance = 0.0;  ///< [m] or [rad] that it is trailed by
+  bool turns = false;
+  std::string signal;
+};
+Diagnostic trails_its_target(const Span& span, const std::string& axis, const Trailed& trailed,
+                             const Span& declared);
+
+/// A yield along an axis that is not the one along which its force is measured.
+struct Across {
+  std::string in;         ///< whose axes the group has
+  std::string force;      ///< whose axes the force has
+  double at_start = 0.0;  ///< [rad] between the two; 0: not known, or together at the start
+};
+Diagnostic yields_across(const Span& span, const std::string& axis, const Across& across);
 
 /// `twist` of a signal that is no pose.
 Diagnostic twist_without_pose(const Span& span, const std::string& signal);
