@@ -10,10 +10,10 @@ namespace {
 
 /// `start` or `stop`, SI; nullopt for a bad one.
 std::optional<double> plain_value(CheckContext& context, const ValueText& value, const OutputSymbol& symbol,
-                                  const std::string& what) {
+                                  const std::string& what, bool is_stop) {
   if (!symbol.output.is_number) {
     if (const auto truth = truth_of(value)) return *truth ? 1.0 : 0.0;
-    context.diagnostics.add(wording::output_needs_truth(value.span, what));
+    context.diagnostics.add(wording::output_needs_truth(value.span, what, is_stop));
     return std::nullopt;
   }
   if (!require_quantity(value, symbol.dimension, what, context.diagnostics)) return std::nullopt;
@@ -34,15 +34,13 @@ OutputSymbol check_output(CheckContext& context, const OutputText& text) {
   if (text.is_bad) return symbol;
   const std::string what = "output `" + text.name.text + "`";
   if (text.unit && !text.is_number) {
-    context.diagnostics.add(wording::unit_without_number(text.name.span, text.name.text));
+    context.diagnostics.add(wording::unit_of_a_truth(text.name.span, text.name.text));
     symbol.is_bad = true;
   }
   if (text.start) {
-    const auto start = plain_value(context, *text.start, symbol, what + "'s `start`");
-    symbol.is_bad = symbol.is_bad || !start;
-    symbol.output.start = start.value_or(0.0);
+    symbol.output.start = plain_value(context, *text.start, symbol, what + "'s `start`", false).value_or(0.0);
   }
-  if (text.stop) symbol.output.stop = plain_value(context, *text.stop, symbol, what + "'s `stop`");
+  if (text.stop) symbol.output.stop = plain_value(context, *text.stop, symbol, what + "'s `stop`", true);
   return symbol;
 }
 
@@ -74,6 +72,7 @@ void check_outputs(CheckContext& context) {
     if (is_taken)
       context.diagnostics.add(wording::name_taken(
           text.name.span, text.name.text, symbols.find_signal(text.name.text) ? "a signal" : "a feature"));
+    check_is_no_word(context, text.name);
     context.symbols.outputs.push_back(check_output(context, text));
   }
 }

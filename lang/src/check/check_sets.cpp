@@ -65,7 +65,7 @@ void check_set_output(CheckContext& context, const SetText& set) {
     check_value(context, set.value, symbol.dimension, what);
     return;
   }
-  if (!truth_of(set.value)) context.diagnostics.add(wording::output_needs_truth(set.value.span, what));
+  if (!truth_of(set.value)) context.diagnostics.add(wording::output_needs_truth(set.value.span, what, false));
 }
 
 /// What a node can be while the signal is not known. A number: known or not.

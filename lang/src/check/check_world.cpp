@@ -92,15 +92,6 @@ void check_feature(CheckContext& context, const FeatureText& text) {
   context.symbols.features.push_back(std::move(symbol));
 }
 
-/// Words that conditions read as something else, so that nothing could ever ask for it.
-void check_is_no_word(CheckContext& context, const Word& name) {
-  const std::string& text = name.text;
-  if (text == "elapsed")
-    context.diagnostics.add(wording::name_taken(name.span, text, "the time since the task was entered"));
-  if (text == "and" || text == "or" || text == "not" || text == "here")
-    context.diagnostics.add(wording::word_for_a_name(name.span, text));
-}
-
 /// `group.x.position`-like names win over nothing: a signal and a feature of one name cannot be told apart.
 void check_distinct(CheckContext& context, const Word& name) {
   if (context.symbols.find_signal(name.text)) {
@@ -109,6 +100,14 @@ void check_distinct(CheckContext& context, const Word& name) {
 }
 
 }  // namespace
+
+void check_is_no_word(CheckContext& context, const Word& name) {
+  const std::string& text = name.text;
+  if (text == "elapsed")
+    context.diagnostics.add(wording::name_taken(name.span, text, "the time since the task was entered"));
+  if (text == "and" || text == "or" || text == "not" || text == "here")
+    context.diagnostics.add(wording::word_for_a_name(name.span, text));
+}
 
 void declare_signals(CheckContext& context) {
   for (const SignalText& text : context.file.signals) {

@@ -55,6 +55,8 @@ void check_scene_signals(CheckContext& context, const Scene& scene);
 void check_scene_names(CheckContext& context, const Scene& scene);
 /// W509: signals that conditions read or motion follows and that the scene does not give. Asked last.
 void check_unfed_signals(CheckContext& context, const Scene& scene);
+/// E305: words that conditions read as something else, so that nothing could ever ask for the name.
+void check_is_no_word(CheckContext& context, const Word& name);
 /// Names of signals; what they are seen from is asked in `check_world`, once the frames are known.
 void declare_signals(CheckContext& context);
 void check_frames(CheckContext& context);

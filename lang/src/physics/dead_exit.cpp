@@ -7,6 +7,7 @@
 //   speed(frame)                what `speed` and the ranges of the base's axes leave
 //   moved(frame)                that speed times the time t until the task ends at the latest
 //   elapsed                     that time
+//   an output                   its start, and each value that the file sets it to
 //
 // An exit to `failed` may watch over a range: whoever pushes the base can break it. So positions and speeds
 // count for other exits only.
@@ -15,6 +16,7 @@
 
 #include "check/endings.hpp"
 #include "diagnostic/wordings_never.hpp"
+#include "diagnostic/wordings_outputs.hpp"
 #include "physics/questions.hpp"
 #include "zwang/lang/condition_function.hpp"
 
@@ -30,7 +32,37 @@ struct Known {
   std::string by;  ///< path of the range, `timeout`
   Span span;
   bool holds_whatever_pushes = false;
+  int output = -1;  ///< whose values they are
 };
+
+/// What the file sets an output to, wherever.
+std::vector<const ValueText*> values_set(const CheckContext& context, const std::string& output) {
+  std::vector<const ValueText*> values;
+  const auto gather = [&](const std::vector<SetText>& sets) {
+    for (const SetText& set : sets) {
+      if (set.kind == SetKind::output && set.name.text == output) values.push_back(&set.value);
+    }
+  };
+  for (const ExitText& exit : context.file.always_exits) gather(exit.set);
+  for (const TaskText& task : context.file.tasks) {
+    gather(task.set_on_entry);
+    for (const ExitText& exit : task.exits) gather(exit.set);
+  }
+  return values;
+}
+
+Known known_output(const CheckContext& context, int index) {
+  const Output& output = context.symbols.outputs[static_cast<std::size_t>(index)].output;
+  Known known{{output.start, output.start}, output.name, output.span, true, index};
+  for (const ValueText* value : values_set(context, output.name)) {
+    const std::optional<bool> truth = truth_of(*value);
+    if (!truth && value->kind != ValueKind::quantity) return {};
+    const double given = truth ? (*truth ? 1.0 : 0.0) : value->quantity.value;
+    known.bounds.low = std::min(known.bounds.low, given);
+    known.bounds.high = std::max(known.bounds.high, given);
+  }
+  return known;
+}
 
 class ExitQuestion {
  public:
@@ -56,6 +88,7 @@ class ExitQuestion {
       if (!found) return ask_at_once(exit, condition, remarks);
       if (!why) why = found;
     }
+    if (why->known.output >= 0) return tell_output(exit, why->known, false, remarks);
     remarks.add(wording::never_true(exit.when.span, why->what, why->known.bounds.low, why->known.bounds.high,
                                     why->unit, why->known.by, why->known.span));
   }
@@ -83,6 +116,7 @@ class ExitQuestion {
       if (!found) return;
       why = found;
     }
+    if (why->known.output >= 0) return tell_output(exit, why->known, true, remarks);
     remarks.add(wording::always_true(exit.when.span, why->what, why->known.bounds.low, why->known.bounds.high,
                                      why->unit, why->known.by, why->known.span));
   }
@@ -109,6 +143,8 @@ class ExitQuestion {
         return known_coordinate(node);
       case Op::feature:
         return known_feature(node);
+      case Op::output:
+        return known_output(context_, node.index);
       default:
         return {};
     }
@@ -222,6 +258,13 @@ class ExitQuestion {
     return {{range->low, range->high}, axis.path, axis.span(Quantity::force), true};
   }
 
+  void tell_output(const ExitText& exit, const Known& known, bool is_true, Remarks& remarks) const {
+    const Output& output = context_.symbols.outputs[static_cast<std::size_t>(known.output)].output;
+    const bool is_set = !values_set(context_, output.name).empty();
+    const std::string example = output.is_number ? ".." : output.start == 0.0 ? "true" : "false";
+    remarks.add(wording::output_decides(exit.when.span, {output.name, is_set, example}, is_true, known.span));
+  }
+
   std::string name_of(const ExpressionNode& node) const {
     switch (node.op) {
       case Op::of_frame:
@@ -231,6 +274,8 @@ class ExitQuestion {
         return context_.symbols.features[static_cast<std::size_t>(node.index)].feature.name;
       case Op::coordinate:
         break;
+      case Op::output:
+        return context_.symbols.outputs[static_cast<std::size_t>(node.index)].output.name;
       default:
         return "elapsed";
     }
@@ -251,6 +296,7 @@ class ExitQuestion {
     }
     if (node.op == Op::feature)
       return context_.symbols.features[static_cast<std::size_t>(node.index)].feature.turns ? "rad" : "m";
+    if (node.op == Op::output) return "";
     const PlannedAxis* axis = axis_of(node);
     const auto which = axis != nullptr && axis->turns() ? solver::Axis::rz : solver::Axis::x;
     const Quantity quantity = node.what == CoordinateQuantity::position   ? Quantity::position
