@@ -329,6 +329,22 @@ tasks:
       calm: {move: bumper, in: world, plane: {velocity: [0 m/s, 0.4 m/s]}}
     exits: [{when: go.x.position > length(way), for: 20 ms, goto: done}]
     timeout: {after: 60 s, goto: failed})~"},
+      Explanation{
+          .code = "W617",
+          .title = "a yield along another axis than its force",
+          .why =
+              R"~(The force is measured along an axis of one frame, and the robot gives way along an axis of another.
+Where the two lie apart, it stands still where it is pushed, or moves aside. A force that is taken
+for motion along the axis, and is none, can stop the robot. Axes of the world and of the base turn
+apart with the base.)~",
+          .fix =
+              R"~(Write the frame of the force as `in`, or take the part of the force along this axis. A row that
+keeps the base at its heading keeps the axes together, too.)~",
+          .part = ExcerptOf::group,
+          .example =
+              "move: base_link\nin: world\nx: {yield: estimated.force.x, mass: 60 kg, damping: 80 N s/m}",
+          .instead = "move: base_link\nin: base_link\nx: {yield: estimated.force.x, mass: 60 kg, damping: 80 "
+                     "N s/m}"},
   };
   return entries;
 }

@@ -65,6 +65,9 @@ void ask_time_constant(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// W618, E417: yields that ring when a hand holds them stiffly.
 void ask_yields(const CheckContext& context, const PlannedTask& plan, const std::optional<Scene>& scene,
                 Probe& probe, Remarks& remarks);
+/// W617: yields along an axis that is not the one along which their force is measured.
+void ask_yield_axes(const CheckContext& context, const PlannedTask& plan, const Probe& probe,
+                    Remarks& remarks);
 /// N616: targets on a pose signal that are trailed.
 void ask_trailing(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
 /// N605: what other rows may add along a limited direction.
