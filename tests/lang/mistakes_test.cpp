@@ -19,6 +19,88 @@ struct Mistake {
   std::string told_at;
 };
 
+/// In the files of hands, doors, carts, outputs and paths.
+std::vector<Mistake> mistakes_in_forces() {
+  return {
+      {"yield_misspelt", "guide", "{yield: estimated", "{yeild: estimated", "E101", {}},
+      {"mass_misspelt", "guide", "mass: $mass, damping", "mas: $mass, damping", "E101", {}},
+      {"mass_without_damping", "guide", ", damping: $damping, dead_band", ", dead_band", "E103", {}},
+      {"mass_in_newtons", "guide", "mass: {value: 60 kg, range: [40 kg, 200 kg]",
+       "mass: {value: 60 N, range: [40 N, 200 N]", "E202", "        x: {yield"},
+      {"part_of_the_estimate", "guide", "estimated.force.x", "estimated.force.z", "E301", {}},
+      {"yield_in_the_axes_of_the_world", "guide", "        in: base\n        x: {yield",
+       "        in: world\n        x: {yield", "W617", "        x: {yield"},
+      {"torque_for_a_force", "guide", "estimated.force.x", "estimated.force.rz", "E202", {}},
+      {"dead_band_of_a_speed", "guide", "dead_band: 5 N", "dead_band: 5 m/s", "E202", {}},
+      {"yield_and_velocity", "guide", "dead_band: 5 N}", "velocity: 0.1 m/s}", "E401", {}},
+      {"yield_with_a_time_constant", "guide", "dead_band: 5 N}", "time_constant: 0.2 s}", "E104", {}},
+      {"build_up_too_fast", "door", "build_up: 0.4 s", "build_up: 0.2 s", "W604", {}},
+      {"build_up_of_a_force",
+       "door",
+       "x: {velocity: $pace, force: +-$push, build_up",
+       "x: {force: $push, build_up",
+       "E104",
+       {}},
+      {"build_up_misspelt", "door", "build_up: 0.4 s", "buildup: 0.4 s", "E101", {}},
+      {"build_up_without_unit", "door", "build_up: 0.4 s", "build_up: 0.4", "E201", {}},
+      {"guard_without_group", "door", "way.x.saturated", "wai.x.saturated", "E301", {}},
+      {"output_misspelt", "drawer", "{outputs.gripper: true}", "{outputs.griper: true}", "E301", {}},
+      {"output_of_no_set", "drawer", "{set: {outputs.gripper: true}}", "{set: {gripper: true}}", "E105", {}},
+      {"truth_in_words", "drawer", "outputs.gripper: true", "outputs.gripper: closed", "E105", {}},
+      {"output_without_stop", "drawer", "start: false, stop: keep", "start: false", "E418", {}},
+      {"stop_of_a_misspelt_word", "drawer", "stop: keep", "stop: keap", "E105", {}},
+      {"type_of_an_output",
+       "drawer",
+       "{type: bool, start: false",
+       "{type: boolean, start: false",
+       "E301",
+       {}},
+      {"group_that_is_taken", "drawer", "moved(tool) > 5 cm", "moved(tol) > 5 cm", "E301", {}},
+      {"goal_without_dollar", "cart", "{position: $goal,", "{position: goal,", "E301", {}},
+      {"speed_beyond_zero", "cart", "speed(base) < 5 mm/s", "speed(base) < -5 mm/s", "E505", {}},
+      {"template_of_a_group",
+       "follow_wall",
+       "{side: {use: at_the_wall, with: {pace: 0 m/s}}}",
+       "{side: {use: at_wall, with: {pace: 0 m/s}}}",
+       "E301",
+       {}},
+      {"argument_of_another_kind_of_group",
+       "follow_wall",
+       "with: {pace: 0 m/s}",
+       "with: {pace: 0 m}",
+       "E303",
+       {}},
+      {"group_and_body", "follow_wall", "    group:\n", "    grup:\n", "E101", {}},
+      {"argument_that_is_missing", "follow_wall", ", with: {pace: $pace}", "", "E303", {}},
+      {"pose_for_a_frame", "cradle", "in: socket\n", "in: plug\n", "E301", {}},
+      {"holds_of_nobody", "cradle", "holds: hook", "holds: hok", "E301", {}},
+      {"since_of_nothing", "cradle", "since(rest)", "since(rst)", "E301", {}},
+      {"attempts_alone", "cradle", "{max: 3, goto: failed}", "3", "E104", {}},
+      {"light_that_is_no_signal", "button", "when: lit,", "when: lid,", "E301", {}},
+      {"turn_of_a_tool",
+       "button",
+       "x: {force: $press, velocity: +-4 cm/s}",
+       "x: {force: $press, velocity: +-4 cm}",
+       "E202",
+       {}},
+      {"hand_over_of_nobody", "carry", "goto: carry}", "goto: cary}", "E301", {}},
+      {"time_in_words", "carry", "elapsed > 5 s", "elapsed > 5", "E201", {}},
+      {"corner_that_is_none", "patrol", "{corner: two, then", "{corner: too, then", "E301", {}},
+      {"norm_that_drives", "patrol", "velocity: [0 m/s, $speed]", "velocity: $speed", "E415", {}},
+      {"distance_in_degrees", "patrol", "nearest < 1.05 m", "nearest < 1.05 deg", "E202", {}},
+      {"path_misspelt", "deliver", "        in: way\n", "        in: wy\n", "E301", {}},
+      {"length_of_a_frame", "deliver", "length(way)", "length(lead)", "E301", {}},
+      {"fillet_too_wide", "deliver", "fillet: 0.6 m", "fillet: 6 m", "E419", {}},
+      {"fillet_missing", "deliver", ", fillet: 0.6 m", "", "E103", {}},
+      {"tilt_of_a_path",
+       "deliver",
+       "        rz: {position: 0 deg, force",
+       "        rx: {position: 0 deg, force",
+       "E420",
+       {}},
+  };
+}
+
 std::vector<Mistake> mistakes() {
   return {
       // --- misspelt words ---
@@ -164,8 +246,13 @@ std::string text_of(const std::string& file) {
 
 Diagnostics said_about(const std::string& text) {
   const test::Folder folder;
-  for (const char* file : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "scenes/corridor.yaml",
-                           "scenes/dock.yaml", "scenes/obstacle.yaml", "scenes/wall.yaml"}) {
+  for (const char* file :
+       {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "robots/mecanum_arm_base.yaml",
+        "robots/mecanum_arm_base.urdf", "scenes/corridor.yaml", "scenes/dock.yaml", "scenes/obstacle.yaml",
+        "scenes/wall.yaml", "scenes/drawer.yaml", "scenes/cart.yaml", "scenes/cradle.yaml",
+        "scenes/button.yaml", "scenes/box_between.yaml", "partners/carry.yaml", "scenes/square.yaml",
+        "scenes/leading_hand.yaml", "scenes/wall_beside.yaml", "scenes/gate.yaml",
+        "scenes/cart_on_the_way.yaml"}) {
     folder.write(file, test::slurp(test::source_dir / "specs" / file));
   }
   Diagnostics diagnostics;
@@ -208,6 +295,8 @@ TEST_P(MistakeOf, is_found_in_its_place_and_told_once) {
 }
 
 INSTANTIATE_TEST_SUITE_P(An, MistakeOf, testing::ValuesIn(mistakes()),
+                         [](const auto& mistake) { return mistake.param.name; });
+INSTANTIATE_TEST_SUITE_P(InForces, MistakeOf, testing::ValuesIn(mistakes_in_forces()),
                          [](const auto& mistake) { return mistake.param.name; });
 
 }  // namespace

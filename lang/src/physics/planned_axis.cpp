@@ -92,6 +92,8 @@ bool measure_axis(const CheckContext& context, const GroupText& group, const Axi
   axis.in_name = group.in.text;
   axis.axis = *named;
   axis.is_on_path = context.symbols.frames[static_cast<std::size_t>(*in)].path >= 0;
+  // E420: a path has no other axes.
+  if (axis.is_on_path && (*named == solver::Axis::rx || *named == solver::Axis::ry)) return false;
   stand_between(axis, place_of(context, *move), place_of(context, *in));
   return true;
 }

@@ -40,7 +40,8 @@ void ask_tick(const PlannedAxis& axis, double dt, Remarks& remarks) {
 /// With z = 1/T, s^2 + z s + z/t = 0 of a velocity has real roots from t = 4 T on, and
 /// s^3 + 2 z s^2 + z^2 s + z^2/t = 0 of a position from t = 6.75 T on.
 void ask_build_up(const PlannedAxis& axis, Remarks& remarks) {
-  if (!axis.build_up || !axis.driver) return;
+  // An acceleration has no error to add up: E104.
+  if (!axis.build_up || axis.driver == solver::Quantity::acceleration) return;
   const double least = (axis.driver == solver::Quantity::position ? 8.0 : 4.0) * axis.time_constant;
   if (*axis.build_up < least)
     remarks.add(wording::builds_up_too_fast(axis.build_up_span, axis.path, axis.time_constant, least));

@@ -46,7 +46,13 @@ void parse_manner(MapReader& map, const std::string& path, std::optional<ValueTe
 /// `yield: felt.x` moves like a mass with a damper.
 void parse_yield(MapReader& map, const std::string& path, AxisText& axis, Diagnostics& diagnostics) {
   const Node* force = map.optional("yield");
-  if (force == nullptr) return;
+  if (force == nullptr) {
+    // A misspelt `yield` is told alone, not with all that belongs to it.
+    if (map.has_misspelt({"yield"})) {
+      for (const char* key : {"mass", "dead_band"}) map.optional(key);
+    }
+    return;
+  }
   axis.yield = parse_expression(*force, path + ".yield", diagnostics);
   axis.yield_span = map.node().find("yield")->key.span;
   if (const Node* node = map.required("mass")) axis.mass = parse_value(*node, path + ".mass", diagnostics);

@@ -151,7 +151,7 @@ void Templates::declare(const Node& node) {
     bool has_names = parse_name(entry.key, "a template's name", diagnostics_).exists();
     MapReader map(entry.value, "template `" + entry.key.text + "`", diagnostics_);
     const Node* group = map.optional("group");
-    declared.is_group = group != nullptr;
+    declared.is_group = group != nullptr || map.has_misspelt({"group"});
     if (group != nullptr && entry.value.find("body") != nullptr) {
       map.optional("body");
       diagnostics_.add(wording::body_and_group(entry.key.span, entry.key.text));
