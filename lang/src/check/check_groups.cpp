@@ -129,9 +129,12 @@ class AxisCheck {
     if (!text_.build_up) return;
     check_time(context_, *text_.build_up, path_ + ".build_up", false);
     const auto drives = [&](Quantity quantity) { return text_[quantity] && !text_[quantity]->is_range; };
-    const bool has_error = (drives(Quantity::position) || drives(Quantity::velocity)) && !text_.stiffness;
-    if (!has_error && !is_incomplete_)
+    const bool has_error = drives(Quantity::position) || drives(Quantity::velocity);
+    if (!has_error && !is_incomplete_) {
       context_.diagnostics.add(wording::build_up_without_driver(text_.build_up->span, path_));
+    } else if (text_.stiffness && !text_.yield) {
+      context_.diagnostics.add(wording::build_up_with_spring(text_.build_up->span, path_));
+    }
   }
 
   /// `stiffness` and `damping` make a spring of a position driver, in the place of the time constant.

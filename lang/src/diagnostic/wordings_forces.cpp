@@ -50,6 +50,11 @@ Diagnostic build_up_without_driver(const Span& span, const std::string& axis) {
       "leave it out, or drive a `position` or a `velocity`");
 }
 
+Diagnostic build_up_with_spring(const Span& span, const std::string& axis) {
+  return error("E104", span, "`build_up` does not go with a spring: `" + axis + "` gives a stiffness",
+               "leave `build_up` out, or give a `time_constant` in the place of `stiffness` and `damping`");
+}
+
 Diagnostic builds_up_too_fast(const Span& span, const std::string& axis, double time_constant, double least) {
   return with_replacement(warning("W604", span,
                                   "`" + axis + "` swings: it builds up faster than its time constant of " +

@@ -15,6 +15,7 @@ Diagnostic wrench_that_the_floor_bears(const Span& span, const std::string& name
 Diagnostic yield_with_time_constant(const Span& span, const std::string& axis);
 /// `build_up` beside a driver that has no error to add up, or beside none.
 Diagnostic build_up_without_driver(const Span& span, const std::string& axis);
+Diagnostic build_up_with_spring(const Span& span, const std::string& axis);
 Diagnostic builds_up_too_fast(const Span& span, const std::string& axis, double time_constant, double least);
 
 /// A yield, held by something stiff.
