@@ -70,8 +70,8 @@ TEST(Upgrade, EveryTaskThatShipsIsTheSameProgramInBothVersions) {
     Diagnostics diagnostics;
     const std::string new_text = upgrade_task(file.path(), diagnostics).value_or("refused");
     EXPECT_NE(new_text.find("zwang: 2\n"), std::string::npos);
-    EXPECT_EQ(with_each(before, "\n  speed ", "\n  plane "), program_of(new_text));
-    with_speed += before.find("\n  speed ") != std::string::npos;
+    EXPECT_EQ(with_each(before, ".speed -1 ", ".plane -1 "), program_of(new_text));
+    with_speed += before.find(".speed -1 ") != std::string::npos;
   }
   EXPECT_GE(with_speed, 1);
 }
