@@ -34,8 +34,8 @@ tasks:
     exits: [{when: elapsed > 0.8 s, goto: done}]
 )";
 
-/// Runs the first cell of a scenario over the shipped wall alignment.
-CellResult run_scenario(const std::string& text) {
+/// Runs the first cell of a scenario over the shipped wall alignment, or over the task `lamp`.
+CellResult run_scenario(const std::string& text, const std::string& lamp = {}) {
   const zwang::test::TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
   for (const char* name : {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "robots/skid_base.yaml",
@@ -46,6 +46,7 @@ CellResult run_scenario(const std::string& text) {
   }
   std::ofstream(folder / ".zwang-root");
   std::ofstream(folder / "roomy.yaml") << roomy;
+  if (!lamp.empty()) std::ofstream(folder / "lamp.yaml") << lamp;
   const char* const task = text.starts_with("task:") ? "" : "task: wall_align.yaml\n";
   std::ofstream(folder / "scenario.yaml") << "zwang_scenario: 1\n" << task << text;
   lang::Diagnostics of_scenario, of_task;
@@ -97,6 +98,33 @@ expect:
 }
 
 // `elapsed > ...` opens a window; outside of it nothing is asked, and nothing is a margin.
+/// The lamp is set on the way to `done` alone, and `stop` puts it out with the brake.
+TEST(ScenarioRun, WhatIsSetOnTheWayToTheEndIsSeenThere) {
+  const std::string task = R"(zwang: 2
+robot: robots/mecanum_base.yaml
+outputs:
+  lamp: {type: bool, stop: false}
+  lift: {type: number, unit: m, start: 1 cm, stop: keep}
+start: go
+tasks:
+  go:
+    constraints: {ahead: {move: base, in: base, x: {velocity: 0.2 m/s}}}
+    exits: [{when: moved(base) > 1 cm, for: 10 ms, goto: done, set: {outputs.lamp: true, outputs.lift: 3 cm}}]
+    timeout: {after: 3 s, goto: failed}
+)";
+  const CellResult result = run_scenario(
+      "task: lamp.yaml\nscene: scenes/wall.yaml\nexpect:\n"
+      "  - outcome: done\n"
+      "  - {at: end, that: truth.output.lamp}\n"
+      "  - {within: 3 s, that: truth.output.lift > 2.9 cm}\n"
+      "  - {within: 3 s, that: truth.output.lamp}\n"
+      "  - {always: elapsed < 50 ms or truth.output.lamp}\n",
+      task);
+  for (const std::size_t expectation : {0u, 1u, 2u, 3u})
+    EXPECT_TRUE(result.expectations[expectation].held) << expectation;
+  EXPECT_FALSE(result.expectations[4].held);  // neither before it is set nor in the brake
+}
+
 TEST(ScenarioRun, AWindowOfTimeHasTheMarginOfWhatIsAskedInIt) {
   const CellResult result = run_scenario(R"(start_yaw: 0 deg
 expect:

@@ -65,9 +65,32 @@ std::vector<PartnerResult> results_of(ScenePlant& plant) {
   return results;
 }
 
+/// Whether this tick led to `done` or `failed`.
+bool ends_by_itself(const Runner& runner) {
+  const std::optional<Transition>& transition = runner.scheduler().transition();
+  return transition && transition->to >= runner.scheduler().program_task_count() && !runner.guard().stopped();
+}
+
+/// The outputs with what the last exit sets; what `stop` says of them counts from the next tick on.
+std::vector<double> outputs_at_the_end(const lang::Program& program, const Runner& runner,
+                                       std::vector<double> outputs) {
+  const Transition& end = *runner.scheduler().transition();
+  const bool is_of_always = end.cause == Cause::always;
+  if (!is_of_always && end.cause != Cause::exit) return outputs;
+  const std::vector<lang::Exit>& exits =
+      is_of_always ? program.always.exits : program.tasks[static_cast<std::size_t>(end.from)].exits;
+  for (const lang::SetAction& set : exits[static_cast<std::size_t>(end.exit)].set) {
+    if (set.kind != lang::SetKind::output) continue;
+    outputs[static_cast<std::size_t>(set.index)] = set.value.evaluate(runner.scheduler().parameters());
+  }
+  return outputs;
+}
+
 /// A tick, and what is to be told of it.
-const Eigen::VectorXd& step(Runner& runner, const Sensed& sensed, double time, TrueFacts& facts) {
+const Eigen::VectorXd& step(Runner& runner, const lang::Program& program, const Sensed& sensed, double time,
+                            TrueFacts& facts) {
   const std::size_t told = runner.events().size();
+  const std::vector<double> outputs(runner.outputs().begin(), runner.outputs().end());
   const bool was_stopped = runner.guard().stopped();
   const Eigen::VectorXd& tau = runner.step(sensed);
   if (runner.guard().stopped() && !was_stopped) facts.note_stop(time);
@@ -77,7 +100,11 @@ const Eigen::VectorXd& step(Runner& runner, const Sensed& sensed, double time, T
   const std::optional<Transition>& transition = runner.scheduler().transition();
   const bool enters = transition && transition->to < runner.scheduler().program_task_count();
   if (enters && !transition->resumes) facts.note_entry(transition->to, time);
-  facts.note_outputs(runner.outputs());
+  if (ends_by_itself(runner)) {
+    facts.note_outputs(outputs_at_the_end(program, runner, outputs));
+  } else {
+    facts.note_outputs(runner.outputs());
+  }
   facts.note_torque(tau, enters && transition->from >= 0);
   return tau;
 }
@@ -105,12 +132,15 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     // A sample that does not arrive is the runtime's to deal with: it steps on what it has.
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
-    if (steps.tick_is_due()) tau = step(runner, sensed, plant.truth().time, facts);
+    bool in_task = runner.state() == RunState::running;
+    if (steps.tick_is_due()) {
+      tau = step(runner, program, sensed, plant.truth().time, facts);
+      in_task = runner.state() == RunState::running || ends_by_itself(runner);
+    }
     const double share = torque_share(program.robot, tau);
     facts.update(plant.truth(), plant.true_state(), share);
     path.look(plant.truth());
     result.torque = std::max({result.torque, share, look_at_partners(plant, facts)});
-    const bool in_task = runner.state() == RunState::running;
     for (ExpectationWatch& watch : watches) watch.look(facts, plant.truth().time, in_task);
     status = plant.follow(runner.command());
     if (status != PlantStatus::ok || plant.truth().base.fallen) break;
