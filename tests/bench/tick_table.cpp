@@ -85,7 +85,9 @@ TickTimes time_ticks(const lang::Program& program, const std::vector<runtime::Se
   return least;
 }
 
-void print(const char* name, const std::string& task, const std::string& robot, double goal, bool has_share) {
+/// Returns the median of the tick [us].
+double print(const char* name, const std::string& task, const std::string& robot, double goal,
+             bool has_share) {
   const lang::Program program = load(task, robot);
   const std::vector<runtime::Sensed> samples = record(program, 20'000);
   const TickTimes least = time_ticks(program, samples);
@@ -95,6 +97,7 @@ void print(const char* name, const std::string& task, const std::string& robot, 
   if (has_share)
     std::printf("  %4.0f %% of a step of %.2f us (goal 50, stretch 35)", 100.0 * tick / step, step);
   std::printf("\n");
+  return tick;
 }
 
 }  // namespace
@@ -106,7 +109,10 @@ int main() {
   sched_setaffinity(0, sizeof(core), &core);
   std::printf("the tick, sample to torques [us]: least of %d replays of each tick\n", replays);
   std::printf("%-34s %6s %8s %8s %8s %6s\n", "task, robot", "ticks", "median", "p99.9", "worst", "goal");
-  print("hospital, mecanum (4 wheels)", "hospital.yaml", "mecanum_base", 10.0, true);
+  const double hospital = print("hospital, mecanum (4 wheels)", "hospital.yaml", "mecanum_base", 10.0, true);
+  const double crowded =
+      print("path, bearing, 2 yields, 16 sums", "laws/crowded.yaml", "mecanum_base", 1.5 * hospital, false);
+  std::printf("%-34s %.2f x the hospital's tick (goal 1.5)\n", "", crowded / hospital);
   print("wall_align, mecanum (4 wheels)", "wall_align.yaml", "mecanum_base", 10.0, true);
   print("obstacle, mecanum with 7-joint arm", "obstacle.yaml", "mecanum_arm_base", 60.0, false);
   return 0;
