@@ -134,6 +134,86 @@ TEST_F(Draft, of_a_smaller_urdf_takes_its_efforts) {
   EXPECT_TRUE(draft->assumed.empty());
 }
 
+std::string inertial(const std::string& mass, const std::string& moments) {
+  return "<inertial><mass value='" + mass + "'/><inertia " + moments +
+         " ixy='0' ixz='0' iyz='0'/></inertial>";
+}
+
+/// Of 1 kg and 80 mm, at `xyz` of its parent.
+std::string wheel_at(const std::string& name, const std::string& parent, const std::string& xyz,
+                     const std::string& more = "<limit effort='8' velocity='9'/>") {
+  return "<link name='" + name + "'>" + inertial("1", "ixx='.002' iyy='.003' izz='.002'") +
+         "<collision><origin rpy='1.5707963 0 0'/><geometry><cylinder radius='.08' length='.04'/></geometry>"
+         "</collision></link><joint name='" +
+         name + "_joint' type='continuous'><parent link='" + parent + "'/><child link='" + name +
+         "'/><origin xyz='" + xyz + "'/><axis xyz='0 1 0'/>" + more + "</joint>";
+}
+
+/// Of 20 kg, its middle at the height of the link.
+std::string chassis() {
+  return "<link name='chassis'>" + inertial("20", "ixx='.3' iyy='.5' izz='.6'") +
+         "<collision><geometry><box size='.6 .4 .1'/></geometry></collision></link>";
+}
+
+/// Two wheels below `chassis`, and what is drawn above it.
+std::string below_world(const std::string& above) {
+  return "<robot name='r'>" + above + chassis() + wheel_at("left_wheel", "chassis", "0 .2 0") +
+         wheel_at("right_wheel", "chassis", "0 -.2 0") + "</robot>";
+}
+
+std::string joint_between(const std::string& name, const std::string& type, const std::string& parent,
+                          const std::string& child) {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
+         child + "'/><axis xyz='1 0 0'/><limit lower='-9' upper='9' effort='1' velocity='1'/></joint>";
+}
+
+const std::string massless_roots = "<link name='world'/><link name='odom'/><link name='base_footprint'/>";
+
+// What stands between world and base is what the base does by itself.
+TEST_F(Draft, leaves_out_free_joints_above_the_base) {
+  for (const char* type : {"floating", "planar"}) {
+    const std::string urdf =
+        below_world(massless_roots + joint_between("world_to_odom", "fixed", "world", "odom") +
+                    joint_between("virtual", type, "odom", "base_footprint") +
+                    joint_between("stand", "fixed", "base_footprint", "chassis"));
+    const auto draft = this->draft(folder_.write("world.urdf", urdf));
+    ASSERT_TRUE(draft);
+    EXPECT_EQ(draft->base, "base_footprint");
+    EXPECT_NE(draft->text.find("links `world`, `odom` and joints `world_to_odom`, `virtual`"),
+              std::string::npos)
+        << draft->text;
+    EXPECT_EQ(said_of(draft->text).find("error"), std::string::npos) << said_of(draft->text);
+    EXPECT_EQ(said_of(draft->text + "fixed: [virtual]\n").find("error"), std::string::npos);
+  }
+}
+
+// A link of 0.1 % of 22 kg counts as none, one of 1 kg is a part of the robot.
+TEST_F(Draft, refuses_a_free_joint_below_a_link_that_weighs) {
+  const auto said = [&](const std::string& mass) {
+    const std::string urdf =
+        below_world("<link name='odom'>" + inertial(mass, "ixx='1e-3' iyy='1e-3' izz='1e-3'") + "</link>" +
+                    joint_between("virtual", "floating", "odom", "chassis"));
+    Diagnostics diagnostics;
+    draft_robot(folder_.write("weighs.urdf", urdf), "weighs.urdf", diagnostics);
+    return test::rendered(diagnostics);
+  };
+  EXPECT_EQ(said("0.021"), "");
+  EXPECT_NE(said("1").find("E859"), std::string::npos) << said("1");
+}
+
+// Rails of 1 mg, as simulators want them, are rails.
+TEST_F(Draft, takes_rails_of_a_milligram_for_rails) {
+  const std::string urdf = below_world("<link name='map'/><link name='rail'>" +
+                                       inertial("1e-6", "ixx='1e-9' iyy='1e-9' izz='1e-9'") + "</link>" +
+                                       joint_between("slide", "prismatic", "map", "rail") +
+                                       joint_between("turn", "continuous", "rail", "chassis"));
+  const auto draft = this->draft(folder_.write("rails.urdf", urdf));
+  ASSERT_TRUE(draft);
+  EXPECT_EQ(draft->base, "chassis");
+  EXPECT_NE(draft->text.find("fixed: [slide, turn]"), std::string::npos) << draft->text;
+  EXPECT_EQ(said_of(draft->text).find("error"), std::string::npos) << said_of(draft->text);
+}
+
 TEST_F(RealDraft, finds_two_wheels_and_what_only_supports) {
   const auto turtlebot = real_draft("turtlebot3_burger");
   ASSERT_TRUE(turtlebot);

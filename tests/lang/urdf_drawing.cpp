@@ -106,8 +106,16 @@ void UrdfDrawing::draw_roots() {
 
 void UrdfDrawing::draw_planar_chain() {
   const std::array<const char*, 4> links{"world", "along_x", "along_y", "base_link"};
+  if (frame_ == 3) {  // the same, as one joint
+    text_.add(LinkShape{links[0], 0.0, {}, {}, "", false});
+    const char* type = mirror_ == 0 ? "planar" : "floating";
+    text_.add(JointShape{"virtual", type, links[0], links[3], {}, {}, {0.0, 0.0, 1.0}, "", ""});
+    return;
+  }
+  // Some simulators refuse links without a mass.
+  const double mass = frame_ == 0 ? 0.0 : 1e-6 * density_, inertia = 1e-3 * mass;
   for (std::size_t i = 0; i < 3; ++i) {
-    text_.add(LinkShape{links[i], 0.0, {}, {}, "", false});
+    put({links[i], mass, {}, {inertia, inertia, inertia}, "", false});
     const std::string name = i == 0 ? "rail_x" : i == 1 ? "rail_y" : "turn";
     JointShape joint{name, i < 2 ? "prismatic" : "continuous", links[i], links[i + 1], {}, {}, {}, "", ""};
     joint.axis = {i == 0 ? 1.0 : 0.0, i == 1 ? 1.0 : 0.0, i == 2 ? 1.0 : 0.0};

@@ -29,6 +29,8 @@ void hold_joints(const std::vector<Word>& fixed, Urdf& urdf, Diagnostics& diagno
     const auto joint = std::find_if(urdf.joints.begin(), urdf.joints.end(),
                                     [&](const UrdfJoint& j) { return j.joint.name == name.text; });
     if (joint == urdf.joints.end()) {
+      const std::vector<std::string>& above = urdf.above_base.joints;  // they are not there, and do not move
+      if (std::find(above.begin(), above.end(), name.text) != above.end()) continue;
       diagnostics.add(wording::unknown_name(name.span, "joint", name.text, urdf.joint_names()));
       continue;
     }

@@ -65,7 +65,20 @@ std::string DraftFrames::base_and_lead() const {
   lead.resize(column, ' ');
   base += "  # the link that floats\n";
   lead += "  # the point that tasks drive: ahead of the axle, for this base cannot go sideways\n";
-  return has_lead ? base + lead : base;
+  return (has_lead ? base + lead : base) + above_base();
+}
+
+/// Joints of the URDF that say what `base` does by itself.
+std::string DraftFrames::above_base() const {
+  const AboveBase& above = urdf_.above_base;
+  if (above.joints.empty()) return "";
+  const auto listed = [](const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "`" : ", `") + name + "`";
+    return text;
+  };
+  return "# Left out, for the base moves by itself: links " + listed(above.links) + " and joints " +
+         listed(above.joints) + " above it.\n";
 }
 
 std::string DraftFrames::footprint(const std::string& open) const {

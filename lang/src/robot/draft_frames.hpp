@@ -29,6 +29,7 @@ class DraftFrames {
 
  private:
   bool has_nose() const;
+  std::string above_base() const;
   std::string frame(const std::string& name, const std::string& at, const char* yaw) const;
 
   const Urdf& urdf_;

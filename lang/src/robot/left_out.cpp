@@ -1,8 +1,5 @@
 #include "robot/left_out.hpp"
 
-#include <cstddef>
-#include <set>
-
 namespace zwang::lang {
 
 namespace {
@@ -42,8 +39,9 @@ std::set<std::string> below(const std::string& link, const std::map<std::size_t,
   return links;
 }
 
-/// The elements of the root, and all inside them.
-void erase(const std::set<std::size_t>& gone, std::vector<XmlElement>& elements) {
+}  // namespace
+
+void erase_elements(const std::set<std::size_t>& gone, std::vector<XmlElement>& elements) {
   std::vector<int> place(elements.size(), -1);  // where an element is now; -1: nowhere
   std::vector<XmlElement> kept;
   for (std::size_t i = 0; i < elements.size(); ++i) {
@@ -55,8 +53,6 @@ void erase(const std::set<std::size_t>& gone, std::vector<XmlElement>& elements)
   }
   elements = std::move(kept);
 }
-
-}  // namespace
 
 LeftOut leave_out(const std::vector<std::string>& links, std::vector<XmlElement>& elements) {
   const std::map<std::size_t, Edge> edges = edges_of(elements);
@@ -82,7 +78,7 @@ LeftOut leave_out(const std::vector<std::string>& links, std::vector<XmlElement>
       if (!is_root) gone.insert(i);
     }
   }
-  erase(gone, elements);
+  erase_elements(gone, elements);
   return left_out;
 }
 

@@ -237,6 +237,10 @@ std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cau
                               const std::vector<std::string>& ignored) {
   const std::optional<int> source = read_file(path, urdf_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
+bool Urdf::is_negligible(const UrdfLink& link) const {
+  return !(link.inertia.mass > negligible_share * mass());
+}
+
   return read_urdf(*source, diagnostics, ignored);
 }
 
@@ -248,6 +252,7 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
   if (!findings) return std::nullopt;
 
   urdf::ModelInterfaceSharedPtr model;
+  AboveBase above_base = drop_above_base(*elements);
   std::string message;
   {
     static std::mutex one_trap;  // console_bridge's handler is the process's
@@ -267,6 +272,7 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
   urdf.root = model->getRoot()->name;
   for (const auto& [name, link] : model->links_) {
     UrdfLink result;
+  urdf.above_base = std::move(above_base);
     result.name = name;
     result.span = span_of(*elements, "link", name);
     for (const auto& shape : link->collision_array) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "robot/above_base.hpp"
 #include "robot/left_out.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/solver/model.hpp"
@@ -13,6 +14,9 @@
 namespace zwang::lang {
 
 inline constexpr std::size_t most_links = 256;
+
+/// Of the robot's mass: what a lighter link adds to it is less than anybody knows it by.
+inline constexpr double negligible_share = 1e-3;
 
 struct UrdfLink {
   std::string name;
@@ -48,6 +52,7 @@ struct Urdf {
   std::vector<UrdfJoint> joints;
   LeftOut left_out;
 
+  AboveBase above_base;
   const UrdfLink* find_link(const std::string& link) const;
   const UrdfJoint* find_joint(const std::string& joint) const;
   const UrdfJoint* joint_above(const std::string& link) const;
@@ -55,6 +60,8 @@ struct Urdf {
   std::vector<std::string> joint_names() const;
   double mass() const;  ///< [kg] of all links
 };
+  /// At most `negligible_share` of the robot's mass.
+  bool is_negligible(const UrdfLink& link) const;
 
 /// `ignored`: links that are left out, and not looked at.
 std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics,

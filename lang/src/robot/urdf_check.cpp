@@ -39,9 +39,6 @@ constexpr double least_inertia = 1e-18;  // [kg m^2]
 /// A thousand tonnes, a kilometre across.
 constexpr double most_inertia = 1e12;  // [kg m^2]
 constexpr double most_distance = 1e3;  // [m]
-/// Of the robot's mass: what a link that is fixed to another adds to an inertia is then less than anybody
-/// knows it by.
-constexpr double negligible_share = 1e-3;
 
 class UrdfChecker {
  public:

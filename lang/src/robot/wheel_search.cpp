@@ -72,12 +72,15 @@ class WheelSearch {
 
  private:
   /// `base_link` where it is fixed to the root, as it often hangs on a footprint; else the root. Rails that
-  /// lead to a base and have no mass are a simulator's.
+  /// lead to a base and weigh next to nothing are a simulator's.
   std::string base() {
     std::string root = urdf_.root;
-    for (const UrdfJoint* rail = only_rail(root); rail != nullptr; rail = only_rail(root)) {
-      found_.in_between.push_back(rail->joint.name);
-      root = rail->child;
+    std::string link = root;
+    for (const UrdfJoint* below = only_joint(link); below != nullptr; below = only_joint(link)) {
+      link = below->child;
+      if (!moves(*below)) continue;
+      found_.in_between.push_back(below->joint.name);
+      root = link;
     }
     if (urdf_.find_link("base_link") == nullptr) return root;
     for (const UrdfJoint* above = urdf_.joint_above("base_link"); above != nullptr && above->child != root;
@@ -87,16 +90,16 @@ class WheelSearch {
     return "base_link";
   }
 
-  /// The joint below a link without mass, where it moves and is the only one.
-  const UrdfJoint* only_rail(const std::string& link) const {
+  /// The joint below a link of negligible mass, where it is the only one.
+  const UrdfJoint* only_joint(const std::string& link) const {
+    if (!urdf_.is_negligible(*urdf_.find_link(link))) return nullptr;
     const UrdfJoint* below = nullptr;
     for (const UrdfJoint& joint : urdf_.joints) {
       if (joint.parent != link) continue;
       if (below != nullptr) return nullptr;
       below = &joint;
     }
-    const bool is_rail = below != nullptr && moves(*below) && !(urdf_.find_link(link)->inertia.mass > 0.0);
-    return is_rail ? below : nullptr;
+    return below;
   }
 
   void place_links() {
