@@ -214,6 +214,70 @@ TEST_F(Draft, takes_rails_of_a_milligram_for_rails) {
   EXPECT_EQ(said_of(draft->text).find("error"), std::string::npos) << said_of(draft->text);
 }
 
+std::string follows(const std::string& leader, const std::string& factor = "1") {
+  return "<limit effort='8' velocity='9'/><mimic joint='" + leader + "_joint' multiplier='" + factor + "'/>";
+}
+
+std::string four_wheels(const std::string& rear_left, const std::string& rear_right) {
+  return "<robot name='r'>" + chassis() + wheel_at("front_left", "chassis", ".2 .25 0") +
+         wheel_at("front_right", "chassis", ".2 -.25 0") +
+         wheel_at("rear_left", "chassis", "-.2 .25 0", rear_left) +
+         wheel_at("rear_right", "chassis", "-.2 -.25 0", rear_right) + "</robot>";
+}
+
+// A belt turns two wheels in line alike, and so does the floor: the motor of one of them drives both.
+TEST_F(Draft, couples_wheels_in_line_that_mimic) {
+  const auto draft =
+      this->draft(folder_.write("belts.urdf", four_wheels(follows("front_left"), follows("front_right"))));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("mimic: {rear_left_joint: coupled, rear_right_joint: coupled}"),
+            std::string::npos)
+      << draft->text;
+  EXPECT_EQ(draft->wheels.size(), 2U);
+  EXPECT_EQ(draft->text.find("FILL_IN"), std::string::npos) << "coupled wheels have no rollers";
+  EXPECT_EQ(said_of(draft->text), "");
+  EXPECT_NE(why_unfit("wall_align", base_fit(*draft)), "");
+  // With a motor of its own it cannot be coupled; it can be one of four.
+  const std::string both =
+      test::replaced(draft->text, "front_left_joint: {}", "front_left_joint: {}\n  rear_left_joint: {}");
+  EXPECT_NE(said_of(both).find("E861"), std::string::npos);
+  EXPECT_EQ(said_of(test::replaced(both, "rear_left_joint: coupled", "rear_left_joint: ignore")), "");
+}
+
+// Half as fast, or across: no floor makes that.
+TEST_F(Draft, does_not_couple_wheels_that_the_floor_turns_otherwise) {
+  for (const std::string& rear : {follows("front_left", "0.5"), follows("front_right")}) {
+    const auto draft = this->draft(folder_.write("odd.urdf", four_wheels(rear, follows("front_right"))));
+    ASSERT_TRUE(draft);
+    EXPECT_NE(draft->text.find("mimic: {rear_left_joint: ignore, rear_right_joint: coupled}"),
+              std::string::npos)
+        << draft->text;
+    const std::string belts = test::replaced(draft->text, "left_joint: ignore", "left_joint: coupled");
+    EXPECT_NE(said_of(test::replaced(belts, "  rear_left_joint: {}\n", "")).find("keep"), std::string::npos);
+  }
+}
+
+// One motor turns both pivots by a linkage. Here two do, and each wheel rolls as the other lets it.
+TEST_F(Draft, steers_each_pivot_of_a_linkage) {
+  const auto pivot = [](const std::string& name, const std::string& y, const std::string& mimic) {
+    return "<link name='" + name + "'>" + inertial(".5", "ixx='2e-3' iyy='2e-3' izz='2e-3'") +
+           "</link><joint name='" + name + "_joint' type='revolute'><parent link='chassis'/><child link='" +
+           name + "'/><origin xyz='.3 " + y +
+           " 0'/><axis xyz='0 0 1'/><limit lower='-.6' upper='.6' "
+           "effort='20' velocity='2'/>" +
+           mimic + "</joint>" + wheel_at(name + "_wheel", name, "0 0 0", "");
+  };
+  const std::string urdf = "<robot name='r'>" + chassis() + pivot("steer_left", ".2", "") +
+                           pivot("steer_right", "-.2", "<mimic joint='steer_left_joint'/>") +
+                           wheel_at("rear_left", "chassis", "-.2 .2 0") +
+                           wheel_at("rear_right", "chassis", "-.2 -.2 0") + "</robot>";
+  const auto draft = this->draft(folder_.write("car.urdf", urdf));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("mimic: {steer_right_joint: ignore}"), std::string::npos) << draft->text;
+  EXPECT_EQ(said_of(draft->text).find("error"), std::string::npos) << said_of(draft->text);
+  EXPECT_EQ(base_fit(*draft).freedoms, Freedoms::steered);
+}
+
 TEST_F(RealDraft, finds_two_wheels_and_what_only_supports) {
   const auto turtlebot = real_draft("turtlebot3_burger");
   ASSERT_TRUE(turtlebot);

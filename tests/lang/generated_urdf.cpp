@@ -45,6 +45,7 @@ class Drawing : private UrdfDrawing {
     if (dice_.one_of(4)) draw_arm();
     if (dice_.one_of(4)) draw_antenna();
     draw_flaw();
+    if (flaw_ == Flaw::coupled) couple_third();
     robot_.text = text_.robot("drawn");
     return robot_;
   }
@@ -184,7 +185,13 @@ class Drawing : private UrdfDrawing {
     if (flaw_ == Flaw::millimetres) refuse(RefusedAt::urdf, "E858");
     if (flaw_ == Flaw::stuck || flaw_ == Flaw::stops) refuse(RefusedAt::wheels, first_wheel_);
     if (flaw_ == Flaw::nameless) refuse(RefusedAt::wheels, "");
-    if (flaw_ == Flaw::coupled) refuse(RefusedAt::robot_file, "E861");
+  }
+
+  /// No flaw: a belt turns the third wheel, which is in line with the first and has no motor.
+  void couple_third() {
+    robot_.motors.erase(named(language_->wheel, "3", "joint"));
+    robot_.kind = "skid";
+    robot_.freedoms = Freedoms::skid;
   }
 
   Flaw flaw_;

@@ -38,10 +38,41 @@ std::string follows(const Coupling& coupling) {
 Diagnostic coupled_joint(const Span& span, const Coupling& coupling) {
   const std::string reason = coupling.has_leader ? ", and zwang moves each joint by itself" : "";
   return with_related(
-      error(
-          "E861", span, follows(coupling) + reason,
-          "take the <mimic> out of the URDF if the joint moves by itself; else leave it out of `wheels` and "
-          "`actuated`, or make it `fixed`"),
+      error("E861", span, follows(coupling) + reason,
+            "say `mimic: {" + coupling.joint +
+                ": ignore}` if the joint moves by itself, `coupled` if a belt turns both wheels; "
+                "else make it `fixed`"),
+      coupling.span, "it is coupled here");
+}
+
+Diagnostic unknown_mimic(const Span& span, const std::string& word, const std::string& joint) {
+  return error("E861", span, "a <mimic> cannot be " + in_ticks(word),
+               "say `ignore` if `" + joint +
+                   "` moves by itself, `coupled` if a belt turns both wheels; list it under `fixed` where it "
+                   "stands");
+}
+
+Diagnostic no_mimic(const Span& span, const std::string& joint, const std::vector<std::string>& following) {
+  Diagnostic diagnostic = unknown_name(span, "joint with a <mimic>", joint, following);
+  diagnostic.code = "E861";
+  return diagnostic;
+}
+
+Diagnostic coupled_motor(const Span& span, const Coupling& coupling) {
+  return with_related(error("E861", span,
+                            in_ticks(coupling.joint) + " is coupled to " + in_ticks(coupling.leader) +
+                                " and has a motor of its own",
+                            "leave it out of `actuated`, or say `mimic: {" + coupling.joint + ": ignore}`"),
+                      coupling.span, "it is coupled here");
+}
+
+Diagnostic out_of_step(const Span& span, const Coupling& coupling) {
+  return with_related(
+      error("E861", span,
+            "the floor does not keep " + in_ticks(coupling.joint) + " in step with " +
+                in_ticks(coupling.leader) +
+                ", and zwang simulates no other coupling: it needs two plain wheels in line, of one radius",
+            "say `ignore`: each of the two moves by itself then; or list it under `fixed`"),
       coupling.span, "it is coupled here");
 }
 

@@ -18,6 +18,14 @@ struct Coupling {
 };
 /// Of a wheel or a motor, named at `span` in the robot file.
 Diagnostic coupled_joint(const Span& span, const Coupling& coupling);
+/// `word` of `mimic: {joint: word}` in the robot file.
+Diagnostic unknown_mimic(const Span& span, const std::string& word, const std::string& joint);
+/// `joint` of `mimic` follows none. `following`: those that do.
+Diagnostic no_mimic(const Span& span, const std::string& joint, const std::vector<std::string>& following);
+/// `coupled` in the robot file, at `span`, of a joint that has a motor of its own.
+Diagnostic coupled_motor(const Span& span, const Coupling& coupling);
+/// `coupled` of a joint that the floor does not keep in step.
+Diagnostic out_of_step(const Span& span, const Coupling& coupling);
 /// Of joints that nothing drives. Not empty.
 Diagnostic loose_couplings(const Span& span, const std::vector<Coupling>& couplings);
 

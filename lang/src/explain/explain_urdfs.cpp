@@ -162,9 +162,11 @@ simulator.)~",
 own motion only: it would drive the two one against the other, and count on a mobility that the base
 does not have.)~",
           .fix =
-              R"~(Where the joint has a motor of its own take the `<mimic>` out, it is often left over from a display.
-Where a mechanism moves it, leave it out of `wheels` and `actuated`, or make it `fixed`; two wheels
-on one axle are one wheel.)~",
+              R"~(The URDF may stay as it is. Where the joint has a motor of its own, say `mimic: {JOINT: ignore}` in the
+robot file: a `<mimic>` is often left over from a display. A belt or chain between two plain wheels in line is
+`coupled`: the floor keeps the two in step, and the motor of the first drives both. Other mechanisms are not
+simulated: make the joint `fixed`, or `ignore` the `<mimic>` of a steering linkage. Each pivot has a motor
+then.)~",
           .part = ExcerptOf::urdf,
           .example = R"~(<joint name="left" type="continuous">
   <parent link="base_link"/>

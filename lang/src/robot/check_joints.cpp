@@ -27,11 +27,43 @@ void add_movers_above(const Urdf& urdf, const std::string& joint, std::set<std::
   }
 }
 
+wording::Coupling coupling_of(const UrdfJoint& joint, const Urdf& urdf) {
+  const std::string& leader = joint.mimic->joint;
+  return {joint.joint.name, leader, urdf.find_joint(leader) != nullptr, joint.mimic->span};
+}
+
+/// A wheel that stands on the base and rolls without slip turns by r w = d (v + w_z x p) with its axle a,
+/// d = a x z: a row of (v_x, v_y, w_z).
+std::optional<Eigen::RowVector3d> rate_of_wheel(const Robot& robot, const std::string& joint) {
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const solver::Body& body = robot.model.bodies()[static_cast<std::size_t>(wheel.body)];
+    if (robot.model.joint(wheel.body - 1).name != joint) continue;
+    if (body.parent != 0 || wheel.roller_angle || !wheel.holds_rolling) return std::nullopt;
+    const solver::Pose pose = pose_in_base(robot.model, wheel.body);
+    const solver::Vector3 ahead =
+        (pose.rotation * robot.model.joint(wheel.body - 1).axis).cross(solver::Vector3::UnitZ());
+    const solver::Vector3& p = pose.position;
+    return Eigen::RowVector3d(ahead.x(), ahead.y(), ahead.y() * p.x() - ahead.x() * p.y()) / wheel.radius;
+  }
+  return std::nullopt;
+}
+
 bool is_possible(const solver::RigidInertia& inertia) {
   if (!(inertia.mass > 0.0)) return true;  // what it is fixed to may have the mass
   const solver::Vector3 moments =
       Eigen::SelfAdjointEigenSolver<solver::Matrix3>(inertia.rotational_at_com()).eigenvalues();
   return moments(0) + moments(1) >= moments(2) - 1e-6 * moments.cwiseAbs().maxCoeff();
+}
+
+void check_mimic_names(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics) {
+  std::vector<std::string> following;
+  for (const UrdfJoint& joint : urdf.joints) {
+    if (joint.mimic) following.push_back(joint.joint.name);
+  }
+  for (const MimicText& mimic : file.mimics) {
+    if (std::find(following.begin(), following.end(), mimic.joint.text) == following.end())
+      diagnostics.add(wording::no_mimic(mimic.joint.span, mimic.joint.text, following));
+  }
 }
 
 }  // namespace
@@ -49,12 +81,25 @@ void check_couplings(const RobotFile& file, const Urdf& urdf, Diagnostics& diagn
     if (carry_wheels.contains(joint)) return file.urdf.span;
     return std::nullopt;
   };
+  const auto said_of = [&](const std::string& joint) -> const MimicText* {
+    const auto said = std::find_if(file.mimics.begin(), file.mimics.end(),
+                                   [&](const MimicText& mimic) { return mimic.joint.text == joint; });
+    return said == file.mimics.end() ? nullptr : &*said;
+  };
+  const auto has_motor = [&](const std::string& joint) {
+    return std::any_of(file.actuators.begin(), file.actuators.end(),
+                       [&](const ActuatorText& actuator) { return actuator.joint.text == joint; });
+  };
+  check_mimic_names(file, urdf, diagnostics);
   std::vector<wording::Coupling> loose;
   for (const UrdfJoint& joint : urdf.joints) {
     if (!joint.mimic || joint.joint.type == solver::JointType::fixed) continue;
-    const std::string& leader = joint.mimic->joint;
-    const wording::Coupling coupling{joint.joint.name, leader, urdf.find_joint(leader) != nullptr,
-                                     joint.mimic->span};
+    const wording::Coupling coupling = coupling_of(joint, urdf);
+    if (const MimicText* said = said_of(joint.joint.name)) {
+      if (said->is_coupled && has_motor(joint.joint.name))
+        diagnostics.add(wording::coupled_motor(said->joint.span, coupling));
+      continue;
+    }
     if (const std::optional<Span> span = named_at(joint.joint.name)) {
       diagnostics.add(wording::coupled_joint(*span, coupling));
     } else {
@@ -62,6 +107,19 @@ void check_couplings(const RobotFile& file, const Urdf& urdf, Diagnostics& diagn
     }
   }
   if (!loose.empty()) diagnostics.add(wording::loose_couplings(file.urdf.span, loose));
+}
+
+void check_steps(const RobotFile& file, const Urdf& urdf, const Robot& robot, Diagnostics& diagnostics) {
+  constexpr double rounding = 1e-3;  // of a wheel's rate
+  for (const MimicText& mimic : file.mimics) {
+    const UrdfJoint* joint = urdf.find_joint(mimic.joint.text);
+    if (!mimic.is_coupled || joint == nullptr || !joint->mimic) continue;
+    const auto rate = rate_of_wheel(robot, joint->joint.name),
+               leads = rate_of_wheel(robot, joint->mimic->joint);
+    if (rate && leads && (*rate - joint->mimic->multiplier * *leads).norm() <= rounding * rate->norm())
+      continue;
+    diagnostics.add(wording::out_of_step(mimic.joint.span, coupling_of(*joint, urdf)));
+  }
 }
 
 void check_starts(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics) {

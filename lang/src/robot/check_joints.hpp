@@ -8,6 +8,8 @@ namespace zwang::lang {
 
 /// E861, W862: a <mimic> couples a joint to another one, which zwang does not.
 void check_couplings(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
+/// E861: joints that are `coupled`, and that the floor does not keep in step.
+void check_steps(const RobotFile& file, const Urdf& urdf, const Robot& robot, Diagnostics& diagnostics);
 /// E809: a joint that the posture does not name starts at 0, outside of its travel.
 void check_starts(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
 /// E802, E810: wheels whose axis points up, wheels behind joints that do not steer them, and wheels that do

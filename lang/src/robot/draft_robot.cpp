@@ -5,6 +5,7 @@
 
 #include "diagnostic/wordings_physics.hpp"
 #include "robot/check_push.hpp"
+#include "robot/draft_entries.hpp"
 #include "robot/draft_frames.hpp"
 #include "robot/drive_kind.hpp"
 #include "robot/each_wheel.hpp"
@@ -36,12 +37,6 @@ struct Filling {
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// The first two digits, the next above.
-double rounded_up(double value) {
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
-  return std::ceil(value / step - 1e-9) * step;
 }
 
 class Drafter {
@@ -83,7 +78,7 @@ class Drafter {
     RobotDraft draft;
     draft.name = urdf_.name;
     draft.base = found_.base;
-    draft.drive = in_words(drive_, holding_wheels(found_));
+    draft.drive = drive_in_words();
     draft.mass = urdf_.mass();
     draft.wheels = found_.wheels;
     draft.idle = found_.idle;
@@ -108,8 +103,7 @@ class Drafter {
     filling.footprint = frames_.around_wheels();
     filling.back = "-0.5 m";
     filling.mass = "0.1 kg";
-    if (drive_ != DriveKind::rollers_or_skid)
-      return {{in_words(drive_, holding_wheels(found_)), text(filling)}};
+    if (!is_kind_open()) return {{drive_in_words(), text(filling)}};
     std::vector<std::pair<std::string, std::string>> texts;
     filling.kind = "skid";
     texts.emplace_back("with plain wheels that skid", text(filling));
@@ -145,6 +139,15 @@ class Drafter {
     const solver::Vector3& axle = urdf_.find_joint(wheel.joint)->joint.axis;
     const double radius = wheel.radius.value_or(0.3);
     return axle.dot(link.inertia.rotational * axle) > link.inertia.mass * radius * radius;
+  }
+
+  /// Wheels with rollers are never coupled: each turns as it must.
+  bool is_kind_open() const { return drive_ == DriveKind::rollers_or_skid && found_.coupled.empty(); }
+
+  std::string drive_in_words() const {
+    if (!found_.coupled.empty() && drive_ == DriveKind::rollers_or_skid)
+      return "skid steering: coupled wheels in line";
+    return in_words(drive_, holding_wheels(found_));
   }
 
   /// F = sum tau_i / R_i, as far as it is known. [N]
@@ -193,7 +196,7 @@ class Drafter {
     all.insert(all.end(), found_.casters.begin(), found_.casters.end());
     add_missing(lines, "the radius, where the shape is a mesh: ", all, lacks_radius);
     add_missing(lines, "the largest torque: ", found_.wheels, lacks_effort);
-    if (drive_ == DriveKind::rollers_or_skid) {
+    if (is_kind_open()) {
       lines.push_back("whether the wheels have rollers (mecanum) or skid: a URDF does not tell");
     }
     std::string links;
@@ -218,13 +221,15 @@ class Drafter {
       keys += (keys.empty() ? "" : ", ") + key + ": " + value;
       about += "# " + comment + "\n";
     };
-    if (drive_ == DriveKind::rollers_or_skid)
+    if (is_kind_open())
       add("kind", filling.kind,
           "kind: `skid` if the wheels slide sideways to turn, `mecanum` if they have rollers.");
     if (share_radius())
       add("radius", filling.radius,
           "radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.");
     if (share_effort()) add("effort", filling.effort, "effort: the largest torque of a wheel, as `2 N m`.");
+    if (!found_.coupled.empty())
+      add("kind", "skid", "kind: wheels that are coupled have no rollers: they slide sideways to turn.");
     if (keys.empty()) return "";
     return "# each_wheel: of every wheel with a motor, where its own entry says nothing.\n" + about +
            "each_wheel: {" + keys + "}\n";
@@ -296,16 +301,6 @@ class Drafter {
     return "[" + text + "]\n";
   }
 
-  /// As hard as most bases brake, and the force that this takes.
-  std::string stop() const {
-    const double mass = urdf_.mass();
-    const std::string force = mass > 0.0 ? wording::figure(rounded_up(mass), "N") : fill_in;
-    return "\n# The one brake of `done`, `failed` and the protective stop. Proposed: 1 m/s^2, and the force "
-           "that it "
-           "takes,\n# " +
-           wording::figure(mass, "kg") + " x 1 m/s^2.\nstop: {deceleration: 1 m/s^2, force: " + force + "}\n";
-  }
-
   std::string text(const Filling& filling) const {
     std::string text = "zwang_robot: 1\nurdf: " + named_as_ + "\n" + frames_.base_and_lead();
     if (!held_.empty())
@@ -316,7 +311,7 @@ class Drafter {
           "simulator's "
           "rails.\nfixed: " +
           listed(held_);
-    text += "\n";
+    text += mimic_entry(urdf_, found_) + "\n";
     text += each_wheel(filling) + "wheels:\n";
     for (const DraftWheel& wheel : found_.wheels) text += wheel_entry(wheel, true, false, filling);
     if (!found_.idle.empty()) text += "  # They have no motor, and roll along.\n";
@@ -333,7 +328,7 @@ class Drafter {
         "# rotor_inertia, as {gear: 20, rotor_inertia: 2 kg mm^2}: they are often larger than the wheel's "
         "own inertia.\n";
     text += actuated(filling);
-    text += inertias(filling) + posture_entry(urdf_, folded_) + stop() +
+    text += inertias(filling) + posture_entry(urdf_, folded_) + stop_entry(urdf_.mass(), deceleration_) +
             frames_.footprint(filling.footprint) + frames_.frames(filling.back);
     text +=
         "\n# In force where a task gives none, as limits: {acceleration: {x: +-1 m/s^2}, velocity: {x: +-1 "
@@ -357,6 +352,7 @@ class Drafter {
   std::vector<std::string> held_;    ///< joints of `fixed`
   std::vector<std::string> bodies_;  ///< links whose inertia is in the draft
   FoldedArm folded_;
+  double deceleration_ = 1.0;  ///< [m/s^2] as hard as most bases brake
 };
 
 std::optional<Robot> build_from(const std::string& robot_file, const Urdf& urdf, Diagnostics& diagnostics) {
@@ -369,6 +365,23 @@ std::optional<Robot> build_from(const std::string& robot_file, const Urdf& urdf,
   return build_robot(*file, urdf, 0, diagnostics);
 }
 
+RobotDraft with_assumptions(Drafter& drafter, const Urdf& urdf) {
+  RobotDraft draft = drafter.draft();
+  draft.assumption_notes = drafter.assumptions();
+  for (const auto& [as, text] : drafter.assumed_texts()) {
+    Diagnostics unheard;  // of a file that is not the user's; what the URDF lacks is
+    std::optional<Robot> robot = build_from(text, urdf, unheard);
+    if (robot) {
+      draft.assumed.push_back({as, std::move(*robot)});
+    } else if (draft.assumed.empty()) {
+      draft.missing.insert(draft.missing.begin(),
+                           "a model that can move: " + unheard.sorted().front().message);
+      break;
+    }
+  }
+  return draft;
+}
+
 }  // namespace
 
 std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const std::string& named_as,
@@ -378,19 +391,7 @@ std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const s
   const FoundWheels found = find_wheels(*urdf);
   if (!has_wheels_in_metres(found, *urdf, diagnostics)) return std::nullopt;
   Drafter drafter(*urdf, found, named_as, options);
-  RobotDraft draft = drafter.draft();
-  draft.assumption_notes = drafter.assumptions();
-  for (const auto& [as, text] : drafter.assumed_texts()) {
-    Diagnostics unheard;  // of a file that is not the user's; what the URDF lacks is
-    std::optional<Robot> robot = build_from(text, *urdf, unheard);
-    if (robot) {
-      draft.assumed.push_back({as, std::move(*robot)});
-    } else if (draft.assumed.empty()) {
-      draft.missing.insert(draft.missing.begin(),
-                           "a model that can move: " + unheard.sorted().front().message);
-      break;
-    }
-  }
+  RobotDraft draft = with_assumptions(drafter, *urdf);
   return draft;
 }
 

@@ -406,6 +406,7 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   std::optional<Robot> robot = build_robot(*file, *urdf, errors_before, diagnostics);
   if (!robot) return std::nullopt;
   check_wheels_stand(*file, *urdf, *robot, diagnostics);
+  check_steps(*file, *urdf, *robot, diagnostics);
   check_rollers(*file, *robot, diagnostics);
   check_wheel_shapes(*file, *urdf, diagnostics);
   check_wheel_inertias(*file, *robot, diagnostics);

@@ -28,6 +28,7 @@ constexpr std::array fill_in_reasons{
 constexpr std::array check_reasons{
     Reason{"base", "the link that floats, its x ahead"},
     Reason{"fixed", "what moves in truth must not stand here"},
+    Reason{"mimic", "`coupled` by a belt, or `ignore`: each has a motor"},
     Reason{"posture", "how the arm stands at the start: folded, as far as a URDF tells"},
     Reason{"inertias", "the URDF has none, or none that a body has"},
     Reason{"stop", "how hard the base may brake"},

@@ -146,6 +146,15 @@ FrictionText parse_friction(const Entry& entry, Diagnostics& diagnostics) {
   return friction;
 }
 
+MimicText parse_mimic(const Entry& entry, Diagnostics& diagnostics) {
+  MimicText mimic{{entry.key.text, entry.key.span}};
+  const Word word = parse_word(entry.value, "mimic of `" + entry.key.text + "`", diagnostics);
+  mimic.is_coupled = word.text == "coupled";
+  if (word.exists() && !mimic.is_coupled && word.text != "ignore")
+    diagnostics.add(wording::unknown_mimic(word.span, word.text, entry.key.text));
+  return mimic;
+}
+
 void parse_limits(const Node& node, RobotFile& file, Diagnostics& diagnostics) {
   MapReader map(node, "`limits`", diagnostics);
   for (const solver::Quantity quantity : {solver::Quantity::acceleration, solver::Quantity::velocity}) {
@@ -295,6 +304,8 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
     return list;
   };
   file.fixed = words("fixed");
+  each(map.optional("mimic"), "mimic",
+       [&](const Entry& e) { file.mimics.push_back(parse_mimic(e, diagnostics)); });
   file.ignored = words("ignore");
   file.supports = words("supports");
   const Node* actuated = map.required("actuated");

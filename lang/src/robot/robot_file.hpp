@@ -61,6 +61,13 @@ struct FrictionText {
   double compensate = 0.0;
 };
 
+/// What becomes of a <mimic> of the URDF.
+struct MimicText {
+  Word joint;  ///< that follows
+  /// By a belt or a chain, which the floor keeps in step; else it moves by itself.
+  bool is_coupled = false;
+};
+
 struct RobotFile {
   Word urdf;
   Word base;
@@ -68,7 +75,8 @@ struct RobotFile {
   std::vector<WheelText> wheels;
   EachWheel each_wheel;
   std::vector<InertiaText> inertias;
-  std::vector<Word> fixed;    ///< joints that do not move, whatever the URDF says
+  std::vector<Word> fixed;  ///< joints that do not move, whatever the URDF says
+  std::vector<MimicText> mimics;
   std::vector<Word> ignored;  ///< links that are left out, with all that hangs on them
   std::vector<Word> supports;
   std::vector<ActuatorText> actuators;

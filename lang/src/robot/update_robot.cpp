@@ -115,7 +115,7 @@ class Update {
   }
 
   void add_items() {
-    for (const char* key : {"fixed", "wheels", "supports", "actuated", "inertias", "frames"}) {
+    for (const char* key : {"fixed", "mimic", "wheels", "supports", "actuated", "inertias", "frames"}) {
       const Node* section = old_.find(key);
       const Node* drafted = draft_.find(key);
       if (section == nullptr || drafted == nullptr) continue;
@@ -220,7 +220,7 @@ class Update {
         gone(joint != nullptr ? joint->value : item, std::string(key) + ": ");
       }
     }
-    for (const char* key : {"actuated", "posture", "friction", "inertias"}) {
+    for (const char* key : {"mimic", "actuated", "posture", "friction", "inertias"}) {
       const Node* section = old_.find(key);
       if (section == nullptr) continue;
       for (const Entry& entry : section->entries) gone(entry.key, std::string(key) + ": ");

@@ -14,6 +14,7 @@
 #include "robot/possible_inertia.hpp"
 #include "robot/urdf_check.hpp"
 #include "robot/urdf_excerpt.hpp"
+#include "robot/xml_numbers.hpp"
 #include "robot/xml_scan.hpp"
 #include "tree/file.hpp"
 
@@ -166,7 +167,10 @@ std::map<int, UrdfMimic> find_mimics(const std::vector<XmlElement>& elements) {
   for (const XmlElement& element : elements) {
     if (element.name != "mimic") continue;
     const XmlAttribute* joint = element.find("joint");
-    mimics.try_emplace(element.parent, UrdfMimic{joint != nullptr ? joint->value : "", element.span});
+    const XmlAttribute* factor = element.find("multiplier");
+    const auto numbers = factor != nullptr ? read_numbers(factor->value, 1) : std::nullopt;
+    mimics.try_emplace(element.parent, UrdfMimic{joint != nullptr ? joint->value : "",
+                                                 numbers ? numbers->front() : 1.0, element.span});
   }
   return mimics;
 }
@@ -233,14 +237,14 @@ double Urdf::mass() const {
   return sum;
 }
 
-std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics,
-                              const std::vector<std::string>& ignored) {
-  const std::optional<int> source = read_file(path, urdf_size_limit, cause, diagnostics);
-  if (!source) return std::nullopt;
 bool Urdf::is_negligible(const UrdfLink& link) const {
   return !(link.inertia.mass > negligible_share * mass());
 }
 
+std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics,
+                              const std::vector<std::string>& ignored) {
+  const std::optional<int> source = read_file(path, urdf_size_limit, cause, diagnostics);
+  if (!source) return std::nullopt;
   return read_urdf(*source, diagnostics, ignored);
 }
 
@@ -248,11 +252,11 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
   auto elements = scan_xml(source, diagnostics);
   if (!elements) return std::nullopt;
   LeftOut left_out = leave_out(ignored, *elements);
+  AboveBase above_base = drop_above_base(*elements);
   const std::optional<UrdfFindings> findings = check_urdf(*elements, diagnostics);
   if (!findings) return std::nullopt;
 
   urdf::ModelInterfaceSharedPtr model;
-  AboveBase above_base = drop_above_base(*elements);
   std::string message;
   {
     static std::mutex one_trap;  // console_bridge's handler is the process's
@@ -268,11 +272,11 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
 
   Urdf urdf;
   urdf.left_out = std::move(left_out);
+  urdf.above_base = std::move(above_base);
   urdf.name = model->getName();
   urdf.root = model->getRoot()->name;
   for (const auto& [name, link] : model->links_) {
     UrdfLink result;
-  urdf.above_base = std::move(above_base);
     result.name = name;
     result.span = span_of(*elements, "link", name);
     for (const auto& shape : link->collision_array) {

@@ -31,6 +31,7 @@ struct UrdfLink {
 /// A <mimic>: another joint that this one follows.
 struct UrdfMimic {
   std::string joint;
+  double multiplier = 1.0;
   Span span;
 };
 
@@ -51,17 +52,17 @@ struct Urdf {
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
   LeftOut left_out;
-
   AboveBase above_base;
+
   const UrdfLink* find_link(const std::string& link) const;
   const UrdfJoint* find_joint(const std::string& joint) const;
   const UrdfJoint* joint_above(const std::string& link) const;
   std::vector<std::string> link_names() const;
   std::vector<std::string> joint_names() const;
   double mass() const;  ///< [kg] of all links
-};
   /// At most `negligible_share` of the robot's mass.
   bool is_negligible(const UrdfLink& link) const;
+};
 
 /// `ignored`: links that are left out, and not looked at.
 std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics,

@@ -63,6 +63,7 @@ class WheelSearch {
   FoundWheels find() {
     for (const UrdfJoint* joint : candidates()) add(*joint);
     if (!found_.wheels.empty()) assign_roles(urdf_, found_);
+    couple_wheels();
     find_balls();
     find_others();
     if (found_.wheels.empty()) find_stuck_wheels();
@@ -210,6 +211,34 @@ class WheelSearch {
       }
     }
     found_.wheels.push_back(wheel);
+  }
+
+  /// Two plain wheels in line, of one radius: the floor keeps them in step, as the belt does that a <mimic>
+  /// stands for. The one that follows has no motor.
+  void couple_wheels() {
+    const std::vector<DraftWheel> driven = found_.wheels;
+    const auto is_coupled = [&](const DraftWheel& wheel) {
+      const std::optional<UrdfMimic>& mimic = urdf_.find_joint(wheel.joint)->mimic;
+      return mimic && std::any_of(driven.begin(), driven.end(), [&](const DraftWheel& leader) {
+               return leader.joint == mimic->joint && are_in_step(leader, wheel, mimic->multiplier);
+             });
+    };
+    for (const DraftWheel& wheel : driven) {
+      if (!is_coupled(wheel)) continue;
+      found_.idle.push_back(wheel);
+      found_.coupled.push_back(wheel.joint);
+    }
+    std::erase_if(found_.wheels, is_coupled);
+  }
+
+  static bool are_in_step(const DraftWheel& leader, const DraftWheel& wheel, double multiplier) {
+    constexpr double rounding = 1e-3;
+    const Eigen::Vector2d axle = leader.axle.normalized();
+    const Eigen::Vector2d between(wheel.at[0] - leader.at[0], wheel.at[1] - leader.at[1]);
+    const double radius = leader.radius.value_or(1.0), ratio = radius / wheel.radius.value_or(1.0);
+    return leader.swivel.empty() && wheel.swivel.empty() &&
+           leader.radius.has_value() == wheel.radius.has_value() && std::abs(between.dot(axle)) < rounding &&
+           (ratio * wheel.axle.normalized() - multiplier * axle).norm() < rounding;
   }
 
   static void note(std::vector<std::string>& names, const std::string& name) {

@@ -15,6 +15,7 @@ struct FoundWheels {
   std::vector<DraftWheel> wheels;       ///< with a motor
   std::vector<DraftWheel> idle;         ///< without one, and they hold: a car's front wheels, for example
   std::vector<DraftWheel> casters;      ///< without one, on swivels that follow
+  std::vector<std::string> coupled;     ///< joints of `idle` that follow a driven wheel by a <mimic>
   std::vector<std::string> steering;    ///< swivels that a motor turns
   std::vector<std::string> supports;    ///< links of balls
   std::vector<std::string> others;      ///< moving joints that are neither wheels, nor swivels, nor casters

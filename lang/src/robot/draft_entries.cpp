@@ -1,0 +1,59 @@
+#include "robot/draft_entries.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnostic/wordings_physics.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+double step_of_two_digits(double value) {
+  return std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+}
+
+/// The first two digits, the next above.
+double two_digits_above(double value) {
+  const double step = step_of_two_digits(value);
+  return std::ceil(value / step - 1e-9) * step;
+}
+
+}  // namespace
+
+std::string mimic_entry(const Urdf& urdf, const FoundWheels& found) {
+  std::string entries;
+  const auto add = [&](const std::string& joint, const char* word) {
+    if (joint.empty() || !urdf.find_joint(joint)->mimic) return;
+    const std::string entry = joint + ": " + word;
+    if ((", " + entries + ",").find(", " + entry + ",") == std::string::npos)
+      entries += (entries.empty() ? "" : ", ") + entry;
+  };
+  for (const auto* wheels : {&found.wheels, &found.idle, &found.casters}) {
+    for (const DraftWheel& wheel : *wheels) {
+      const auto& coupled = found.coupled;
+      const bool is_coupled = std::find(coupled.begin(), coupled.end(), wheel.joint) != coupled.end();
+      add(wheel.joint, is_coupled ? "coupled" : "ignore");
+      add(wheel.swivel, "ignore");
+    }
+  }
+  if (entries.empty()) return "";
+  return "\n# They follow another joint by a <mimic>. coupled: a belt or chain turns both, and the floor "
+         "keeps "
+         "them in step.\n# ignore: each moves by itself, as two motors do; a steering linkage is simulated "
+         "so, "
+         "too.\nmimic: {" +
+         entries + "}\n";
+}
+
+std::string stop_entry(double mass, double deceleration) {
+  const std::string a = wording::figure(deceleration, "m/s^2");
+  const std::string force =
+      mass > 0.0 ? wording::figure(two_digits_above(mass * deceleration), "N") : fill_in;
+  const std::string why = deceleration < 1.0 ? ": harder, and the base could tip (W640);" : ",";
+  return "\n# The one brake of `done`, `failed` and the protective stop. Proposed: " + a + why +
+         " and the force that it takes,\n# " + wording::figure(mass, "kg") + " x " + a +
+         ".\nstop: {deceleration: " + a + ", force: " + force + "}\n";
+}
+
+}  // namespace zwang::lang

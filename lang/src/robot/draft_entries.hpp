@@ -1,0 +1,18 @@
+/// Entries of a drafted robot file that depend on few things.
+#pragma once
+
+#include <string>
+
+#include "robot/urdf.hpp"
+#include "robot/wheel_search.hpp"
+#include "zwang/lang/robot_draft.hpp"
+
+namespace zwang::lang {
+
+/// `mimic`: joints that the file names elsewhere, and that follow another one. Empty where none does.
+std::string mimic_entry(const Urdf& urdf, const FoundWheels& found);
+
+/// `stop`, at this deceleration [m/s^2], of a mass [kg]; 0: not known.
+std::string stop_entry(double mass, double deceleration);
+
+}  // namespace zwang::lang
