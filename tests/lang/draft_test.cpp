@@ -278,6 +278,33 @@ TEST_F(Draft, steers_each_pivot_of_a_linkage) {
   EXPECT_EQ(base_fit(*draft).freedoms, Freedoms::steered);
 }
 
+// 20 kg in a box of 1 m above wheels and a ball 0.1 m ahead and behind: a h = g d.
+TEST_F(Draft, brakes_no_harder_than_what_tips_it) {
+  const auto brake = [&](double height) {
+    const std::string z = std::to_string(height);
+    const std::string urdf =
+        "<robot name='r'><link name='base_link'><inertial><origin xyz='0 0 " + z +
+        "'/><mass value='20'/><inertia ixx='.3' iyy='.3' izz='.3' ixy='0' ixz='0' iyz='0'/></inertial>"
+        "<collision><geometry><box size='.4 .4 .1'/></geometry></collision></link>" +
+        wheel_at("left_wheel", "base_link", ".1 .2 .08") +
+        wheel_at("right_wheel", "base_link", ".1 -.2 .08") +
+        "<link name='caster_ball'/><joint name='b' type='fixed'><parent link='base_link'/><child "
+        "link='caster_ball'/><origin xyz='-.1 0 0'/></joint></robot>";
+    const auto draft = this->draft(folder_.write("tall.urdf", urdf));
+    Diagnostics diagnostics;
+    const auto robot = load_robot(folder_.write("robot.yaml", draft->text), diagnostics);
+    EXPECT_TRUE(robot) << test::rendered(diagnostics) << draft->text;
+    return robot->stop;
+  };
+  EXPECT_EQ(brake(0.3).deceleration, 1.0);
+  // The centre of all 22 kg: (20 z + 2 x 0.08) / 22 up and 0.2 / 22 ahead of the middle.
+  const double height = (20.0 * 2.0 + 2.0 * 0.08) / 22.0, tips = 9.81 * (0.1 - 0.2 / 22.0) / height;
+  const Stop stop = brake(2.0);
+  EXPECT_LE(stop.deceleration, tips);
+  EXPECT_GT(stop.deceleration, 0.9 * tips);
+  EXPECT_NEAR(stop.force, 22.0 * stop.deceleration, 0.1 * stop.force);
+}
+
 TEST_F(RealDraft, finds_two_wheels_and_what_only_supports) {
   const auto turtlebot = real_draft("turtlebot3_burger");
   ASSERT_TRUE(turtlebot);

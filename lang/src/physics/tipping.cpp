@@ -103,12 +103,7 @@ void ask_tipping(const PlannedTask& plan, const std::optional<Scene>& scene, Pro
 void ask_stop(const Span& span, Probe& probe, Remarks& remarks) {
   const std::optional<Footing> footing = footing_of(probe.robot());
   if (!footing || !(footing->inside > 0.0)) return;
-  double tips = solver::infinity;
-  for (const Vector3& direction : {Vector3(1.0, 0.0, 0.0), Vector3(0.0, 1.0, 0.0)}) {
-    if (direction.y() > 0.5 && probe.base_mobility() < 3) continue;
-    tips =
-        std::min({tips, footing->tipping_acceleration(direction), footing->tipping_acceleration(-direction)});
-  }
+  const double tips = footing->tipping_deceleration(probe.base_mobility() >= 3);
   const double asked = probe.robot().stop.deceleration;
   if (asked > tips) remarks.add(wording::tips_by_stop(span, asked, tips));
 }

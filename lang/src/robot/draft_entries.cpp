@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "zwang/lang/footing.hpp"
+#include "zwang/solver/base_analysis.hpp"
 
 namespace zwang::lang {
 
@@ -17,6 +19,12 @@ double step_of_two_digits(double value) {
 double two_digits_above(double value) {
   const double step = step_of_two_digits(value);
   return std::ceil(value / step - 1e-9) * step;
+}
+
+double two_digits_below(double value) {
+  if (!(value > 0.0) || !std::isfinite(value)) return value;
+  const double step = step_of_two_digits(value);
+  return std::floor(value / step + 1e-9) * step;
 }
 
 }  // namespace
@@ -54,6 +62,23 @@ std::string stop_entry(double mass, double deceleration) {
   return "\n# The one brake of `done`, `failed` and the protective stop. Proposed: " + a + why +
          " and the force that it takes,\n# " + wording::figure(mass, "kg") + " x " + a +
          ".\nstop: {deceleration: " + a + ", force: " + force + "}\n";
+}
+
+double steady_deceleration(const RobotDraft& draft) {
+  double least = solver::infinity;
+  for (const AssumedRobot& assumed : draft.assumed) {
+    const Robot& robot = assumed.robot;
+    const std::optional<Footing> footing = footing_of(robot);
+    if (!footing || !(footing->inside > 0.0)) continue;
+    // On fewer points than three the base stands on its outline.
+    const bool is_known = draft.outline_is_known || footing->wheels + robot.supports.size() >= 3;
+    const bool has_swivels = std::any_of(draft.wheels.begin(), draft.wheels.end(),
+                                         [](const DraftWheel& wheel) { return !wheel.swivel.empty(); });
+    const bool goes_sideways =
+        has_swivels || solver::analyse_base(robot.model, start_state(robot)).base_mobility == 3;
+    if (is_known) least = std::min(least, footing->tipping_deceleration(goes_sideways));
+  }
+  return two_digits_below(least);
 }
 
 }  // namespace zwang::lang

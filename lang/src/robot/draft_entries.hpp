@@ -15,4 +15,8 @@ std::string mimic_entry(const Urdf& urdf, const FoundWheels& found);
 /// `stop`, at this deceleration [m/s^2], of a mass [kg]; 0: not known.
 std::string stop_entry(double mass, double deceleration);
 
+/// The deceleration [m/s^2], rounded down, within which no model of the draft tips over (W640). Infinite
+/// where nothing is known to carry the base.
+double steady_deceleration(const RobotDraft& draft);
+
 }  // namespace zwang::lang

@@ -74,6 +74,9 @@ class Drafter {
     }
   }
 
+  /// Proposes as hard a brake [m/s^2], where it is less.
+  void brake_within(double deceleration) { deceleration_ = std::min(deceleration_, deceleration); }
+
   RobotDraft draft() {
     RobotDraft draft;
     draft.name = urdf_.name;
@@ -392,7 +395,10 @@ std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const s
   if (!has_wheels_in_metres(found, *urdf, diagnostics)) return std::nullopt;
   Drafter drafter(*urdf, found, named_as, options);
   RobotDraft draft = with_assumptions(drafter, *urdf);
-  return draft;
+  const double steady = steady_deceleration(draft);
+  if (steady >= 1.0) return draft;
+  drafter.brake_within(steady);
+  return with_assumptions(drafter, *urdf);
 }
 
 }  // namespace zwang::lang

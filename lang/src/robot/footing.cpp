@@ -84,6 +84,12 @@ double Footing::tipping_acceleration(const Vector3& direction) const {
   return height > 0.0 ? weight / mass * arm_behind(direction) / height : solver::infinity;
 }
 
+double Footing::tipping_deceleration(bool goes_sideways) const {
+  const Vector3 x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0);
+  const double along = std::min(tipping_acceleration(x), tipping_acceleration(-x));
+  return goes_sideways ? std::min({along, tipping_acceleration(y), tipping_acceleration(-y)}) : along;
+}
+
 double Footing::tipping_push(const Vector3& direction, double height_of_push) const {
   return height_of_push > 0.0 ? weight * arm_behind(direction) / height_of_push : solver::infinity;
 }

@@ -23,6 +23,8 @@ struct Footing {
   /// The largest acceleration [m/s^2] along `direction`, a unit vector in the plane, that lifts no point.
   /// Beyond it the base tips over an edge behind: a h > g d, d from the centre to that edge.
   double tipping_acceleration(const solver::Vector3& direction) const;
+  /// The largest deceleration [m/s^2] along x, either way, and along y of a base that `goes_sideways`.
+  double tipping_deceleration(bool goes_sideways) const;
   /// The largest force [N] with which it may push along `direction` at a height [m] above the floor:
   /// F z > m g d tips it over an edge behind.
   double tipping_push(const solver::Vector3& direction, double height_of_push) const;
