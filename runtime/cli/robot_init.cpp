@@ -1,6 +1,7 @@
 // A first robot file from a URDF, or the same again for one that is there; and a task with its scene beside
 // it.
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -47,12 +48,31 @@ struct Files {
                   .replace_filename(robot_file.stem().string() + "_" + task_name + "_scene.yaml")) {}
 };
 
-/// The task and its scene, as texts. Throws Impossible where this base cannot do the task.
+/// Where the owner names no robot file: letters, digits and `_` of the robot's own name, in this folder.
+std::string file_named_after(const std::string& robot) {
+  std::string name;
+  for (const char c : robot) {
+    const bool is_plain = (static_cast<unsigned char>(c) & 0x80U) != 0 ||
+                          std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+    name += is_plain ? c : '_';
+  }
+  return (name.empty() ? "robot" : name) + ".yaml";
+}
+
+/// Why no task is written for this base; empty: it can do the task, as far as is known.
+std::string why_no_task(const std::string& task, const lang::BaseFit& fit, const lang::RobotDraft& draft) {
+  if (draft.assumed.empty() && !draft.missing.empty()) return draft.missing.front();
+  return lang::why_unfit(task, fit);
+}
+
+/// The robot file was written, and no task.
+[[noreturn]] void refuse_task(const std::string& task, const lang::BaseFit& fit, const std::string& why) {
+  throw Impossible("--task " + task + ": not for `" + fit.robot + "`: " + why +
+                   ". `--task feel_wall` is for every base. No task was written");
+}
+
+/// The task and its scene, as texts.
 lang::TaskTexts fitted(const std::string& task, const lang::BaseFit& fit, const Files& files) {
-  const std::string why = lang::why_unfit(task, fit);
-  if (!why.empty())
-    throw Impossible("--task " + task + ": not for `" + fit.robot + "`: " + why +
-                     ". `--task feel_wall` is for every base. Nothing was written");
   const std::optional<fs::path> shipped = shipped_folder();
   if (!shipped)
     throw Impossible(
@@ -140,9 +160,9 @@ void add_task(const std::string& task, const lang::BaseFit& fit, const Files& fi
   add(files.scene, texts.scene);
 }
 
-std::string what_next(const RobotInitArguments& arguments, const Files& files) {
-  const std::string file = (arguments.task ? files.task : files.robot).string();
-  return "\nthen\n  zwang validate " + file + "\n" + (arguments.task ? "  zwang run " + file + "\n" : "");
+std::string what_next(bool has_task, const Files& files) {
+  const std::string file = (has_task ? files.task : files.robot).string();
+  return "\nthen\n  zwang validate " + file + "\n" + (has_task ? "  zwang run " + file + "\n" : "");
 }
 
 std::string listed(const std::string& title, const std::vector<lang::UpdateNote>& notes) {
@@ -151,20 +171,25 @@ std::string listed(const std::string& title, const std::vector<lang::UpdateNote>
   return listed(title, places);
 }
 
-int write_new(const RobotInitArguments& arguments, const Files& files) {
+int write_new(const RobotInitArguments& arguments) {
+  lang::Diagnostics diagnostics;
+  const auto draft = drafted(arguments, arguments.out.value_or("robot.yaml"), {}, diagnostics);
+  if (!draft) return refused(diagnostics);
+  require_wheels(arguments.urdf, *draft);
+  const Files files(arguments.out.value_or(file_named_after(draft->name)), arguments.task.value_or(""));
   require_free(files.robot, "`--update " + files.robot.string() + "` keeps what you filled in");
   if (arguments.task) require_free(files.task, "remove it, or name another robot file");
   if (arguments.task) require_free(files.scene, "remove it, or name another robot file");
-  lang::Diagnostics diagnostics;
-  const auto draft = drafted(arguments, files.robot.string(), {}, diagnostics);
-  if (!draft) return refused(diagnostics);
-  require_wheels(arguments.urdf, *draft);
+  const lang::BaseFit fit = lang::base_fit(*draft);
+  const std::string why_not = arguments.task ? why_no_task(*arguments.task, fit, *draft) : "";
+  const bool has_task = arguments.task && why_not.empty();
   Written written;
   written.add(files.robot.string(), draft->text, "written");
-  if (arguments.task) add_task(*arguments.task, lang::base_fit(*draft), files, written);
+  if (has_task) add_task(*arguments.task, fit, files, written);
   written.write();
   print(written.report + "\n" + to_decide(files.robot.string(), draft->text) +
-        titled_list("not in the URDF", draft->missing) + what_next(arguments, files));
+        titled_list("not in the URDF", draft->missing) + what_next(has_task, files));
+  if (!why_not.empty()) refuse_task(*arguments.task, fit, why_not);
   return exit_good;
 }
 
@@ -201,12 +226,16 @@ int update(const RobotInitArguments& arguments, const Files& files) {
   } else {
     written.add(files.robot.string(), changed->text, "updated; every line of it was kept");
   }
-  if (arguments.task) add_task(*arguments.task, fit_of(files, *draft), files, written);
+  const lang::BaseFit fit = fit_of(files, *draft);
+  const std::string why_not = arguments.task ? why_no_task(*arguments.task, fit, *draft) : "";
+  const bool has_task = arguments.task && why_not.empty();
+  if (has_task) add_task(*arguments.task, fit, files, written);
   written.write();
   print(written.report + "\n" + listed("added, in " + files.robot.string(), changed->added) +
         listed("the URDF has no such joint or link any more: remove it", changed->vanished) +
         listed("kept, and the URDF says otherwise", changed->differ) +
-        listed("to fill in", lang::open_places(changed->text).to_fill_in) + what_next(arguments, files));
+        listed("to fill in", lang::open_places(changed->text).to_fill_in) + what_next(has_task, files));
+  if (!why_not.empty()) refuse_task(*arguments.task, fit, why_not);
   return exit_good;
 }
 
@@ -215,13 +244,8 @@ int update(const RobotInitArguments& arguments, const Files& files) {
 int robot_init(const RobotInitArguments& arguments) {
   require_file(arguments.urdf);
   if (arguments.task) require_task(*arguments.task);
-  const std::optional<std::string>& file = arguments.update ? arguments.update : arguments.out;
-  if (arguments.task && !file)
-    throw Impossible("--task: name the robot file, too, with -o FILE or --update FILE");
-  if (file) {
-    const Files files(*file, arguments.task.value_or(""));
-    return arguments.update ? update(arguments, files) : write_new(arguments, files);
-  }
+  if (arguments.update) return update(arguments, Files(*arguments.update, arguments.task.value_or("")));
+  if (arguments.out || arguments.task) return write_new(arguments);
   lang::Diagnostics diagnostics;
   const auto draft = drafted(arguments, std::nullopt, {}, diagnostics);
   if (!draft) return refused(diagnostics);

@@ -314,8 +314,19 @@ TEST_F(CliPlan, init_refuses_a_task_that_the_base_cannot_do) {
   const Result refused = zwang("robot init robots/tricycle_base.urdf --task wall_align -o robots/mine.yaml");
   EXPECT_EQ(refused.code, 2) << refused.out;
   EXPECT_NE(refused.out.find("E621"), std::string::npos) << refused.out;
-  EXPECT_FALSE(fs::exists(folder_ / "robots/mine.yaml"));
+  EXPECT_TRUE(fs::exists(folder_ / "robots/mine.yaml")) << "the robot file is good without a task";
+  EXPECT_FALSE(fs::exists(folder_ / "robots/mine_wall_align.yaml"));
   EXPECT_EQ(zwang("robot init robots/diff_base.urdf --task wall_aling -o robots/mine.yaml").code, 2);
+}
+
+// Without -o the files are called after the robot.
+TEST_F(CliPlan, init_with_a_task_names_the_files_itself) {
+  const Result made = zwang("robot init robots/diff_base.urdf --task wall_align");
+  ASSERT_EQ(made.code, 0) << made.out;
+  EXPECT_EQ(zwang("validate diff_base_wall_align.yaml").code, 0);
+  const Result again = zwang("robot init robots/diff_base.urdf --task wall_align");
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.out.find("diff_base.yaml: is there already"), std::string::npos) << again.out;
 }
 
 TEST_F(CliPlan, inspect_refuses_what_is_no_robot) {
