@@ -1,13 +1,17 @@
 #include "output.hpp"
 
 #include <fcntl.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <numbers>
 
 #include "zwang/lang/printable.hpp"
@@ -16,6 +20,14 @@ namespace zwang::cli {
 
 namespace {
 
+bool begins_code_point(char c) noexcept {
+  return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+}
+
+std::size_t code_points_in(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, begins_code_point));
+}
+
 void write(std::string_view bytes) {
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
   if (!written || std::fflush(stdout) != 0) {
@@ -23,9 +35,55 @@ void write(std::string_view bytes) {
   }
 }
 
+constexpr std::size_t unknown_width = 80;
+constexpr std::size_t room_for_interrupt = 3;  // an echoed `^C` stays in the line, too
+
+/// What `print_over` has written last. Threads of runs and of reloads print while it stands there.
+struct LineInPlace {
+  std::mutex mutex;
+  std::size_t columns = 0;
+};
+LineInPlace line_in_place;
+
+/// Of the window as it is now. Somebody may have changed it since the last line.
+std::size_t terminal_columns() {
+  winsize size{};
+  const bool is_known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return is_known ? size.ws_col : unknown_width;
+}
+
+std::string cut_to(std::string text, std::size_t columns) {
+  std::size_t seen = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (begins_code_point(text[at]) && ++seen > columns) {
+      text.resize(at);
+      break;
+    }
+  }
+  return text;
+}
+
+/// To the begin of the line in place. A terminal that became narrower has wrapped it: the begin is above.
+std::string way_to_its_begin(std::size_t columns, std::size_t width) {
+  const std::size_t rows_above = columns > 0 ? (columns - 1) / width : 0;
+  return rows_above == 0 ? "\r" : "\r\033[" + std::to_string(rows_above) + "A";
+}
+
+/// Other text begins where the line in place began. Does not throw: errors are told, too, when stdout is
+/// full.
+void erase_line_in_place() {
+  const std::lock_guard lock(line_in_place.mutex);
+  if (line_in_place.columns == 0) return;
+  const std::string bytes = way_to_its_begin(line_in_place.columns, terminal_columns()) + "\033[J";
+  line_in_place.columns = 0;
+  std::fwrite(bytes.data(), 1, bytes.size(), stdout);
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 void print(std::string_view text) {
+  erase_line_in_place();
   write(lang::printable(text));
 }
 
@@ -34,13 +92,17 @@ void print_data(std::string_view text) {
 }
 
 void print_over(std::string_view line) {
-  std::string whole = "\r";
-  whole += lang::printable(line, "");
-  whole += "\033[K";
-  write(whole);
+  const std::lock_guard lock(line_in_place.mutex);
+  const std::size_t width = terminal_columns();
+  const std::string begin = way_to_its_begin(line_in_place.columns, width);
+  const std::string shown =
+      cut_to(lang::printable(line, ""), width - std::min(width - 1, room_for_interrupt));
+  write(begin + shown + (begin == "\r" ? "\033[K" : "\033[J"));
+  line_in_place.columns = code_points_in(shown);
 }
 
 void print_error(std::string_view text) {
+  erase_line_in_place();
   const std::string shown = lang::printable(text);
   std::fwrite(shown.data(), 1, shown.size(), stderr);
   std::fflush(stderr);
@@ -48,6 +110,11 @@ void print_error(std::string_view text) {
 
 bool stdout_is_terminal() noexcept {
   return isatty(STDOUT_FILENO) == 1;
+}
+
+bool stdout_can_be_written_over() noexcept {
+  const char* terminal = std::getenv("TERM");
+  return stdout_is_terminal() && (terminal == nullptr || std::strcmp(terminal, "dumb") != 0);
 }
 
 void secure_standard_streams() {

@@ -22,11 +22,13 @@ class Impossible : public std::runtime_error {
 void print(std::string_view text);
 /// For programs: JSON, a graph, a file's text. Byte for byte, but on a terminal as `print` has it.
 void print_data(std::string_view text);
-/// For people, in the place of the terminal's last line.
+/// For people, in the place of what it wrote last, cut to the width of the terminal. Any other text erases it.
 void print_over(std::string_view line);
 void print_error(std::string_view text);  ///< as `print` has it, to stderr
 
 bool stdout_is_terminal() noexcept;
+/// Whether `print_over` has its line: on a terminal that is not dumb.
+bool stdout_can_be_written_over() noexcept;
 
 /// Keeps the three standard descriptors from being reused by a file that is opened later. Throws Impossible
 /// when stdout is closed.

@@ -84,7 +84,7 @@ std::string duration_text(double seconds) {
 class SweepProgress {
  public:
   SweepProgress(std::size_t before, std::size_t wanted, bool shown)
-      : before_(before), wanted_(wanted), shown_(shown && stdout_is_terminal()) {}
+      : before_(before), wanted_(wanted), shown_(shown && stdout_can_be_written_over()) {}
   void count(const study::CellRecord& record) {
     ++done_;
     missed_ += record.holds() ? 0U : 1U;

@@ -58,7 +58,7 @@ struct Job {
 /// One line that is written over itself; nothing where stdout is no terminal.
 class Progress {
  public:
-  Progress(std::size_t runs, bool shown) : runs_(runs), shown_(shown && stdout_is_terminal()) {}
+  Progress(std::size_t runs, bool shown) : runs_(runs), shown_(shown && stdout_can_be_written_over()) {}
   void done(bool passed) {
     const std::lock_guard lock(mutex_);
     ++finished_;
