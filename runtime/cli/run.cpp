@@ -34,7 +34,6 @@ using Clock = std::chrono::steady_clock;
 using runtime::PlantStatus;
 
 constexpr auto terminal_refresh = std::chrono::milliseconds(50);
-constexpr double line_every = 1.0;  // [s] of the run, where there is no terminal
 constexpr auto longest_signal_stop = std::chrono::milliseconds(300);
 constexpr double blocked_for = 0.19;  // [s] of real time without a tick: the thread is blocked
 
@@ -51,10 +50,10 @@ void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Form
   print_error(text.str());
 }
 
-/// One line that is written over itself on a terminal, and now and then a line elsewhere.
+/// One line that is written over itself on a terminal; elsewhere a line for each transition.
 class Live {
  public:
-  explicit Live(bool shown) : shown_(shown), terminal_(stdout_is_terminal()) {}
+  explicit Live(bool shown) : shown_(shown), terminal_(stdout_can_be_written_over()) {}
   void show(const runtime::Runner& runner, double time) {
     if (!shown_) return;
     if (terminal_) {
@@ -64,9 +63,8 @@ class Live {
       if (now - last_ < terminal_refresh) return;
       last_ = now;
       print_over(live_line(runner, time));
-    } else if (time >= next_line_) {
-      next_line_ += line_every;
-      print(live_line(runner, time) + "\n");
+    } else if (const auto& transition = runner.scheduler().transition()) {
+      print(transition_line(runner.scheduler(), *transition) + "\n");
     }
   }
   void end() {
@@ -78,7 +76,6 @@ class Live {
   bool shown_;
   bool terminal_;
   unsigned calls_ = 0;
-  double next_line_ = 0.0;
   Clock::time_point last_;
 };
 

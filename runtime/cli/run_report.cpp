@@ -220,6 +220,11 @@ std::string live_line(const runtime::Runner& runner, double time) {
   return line;
 }
 
+std::string transition_line(const runtime::Scheduler& scheduler, const Transition& t) {
+  return padded_left(seconds(t.time), 9) + "  " + task_name(scheduler, t.from) + " -> " +
+         task_name(scheduler, t.to) + "  " + scheduler.why(t);
+}
+
 std::string verdict(const RunReport& report) {
   std::string text = report.outcome + " after " + seconds(report.elapsed);
   for (const ObjectReport& o : report.objects) {

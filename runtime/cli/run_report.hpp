@@ -56,6 +56,8 @@ struct RunReport {
 
 /// The row that is at its limit, in a line without its end.
 std::string live_line(const runtime::Runner& runner, double time);
+/// A transition and its reason, likewise.
+std::string transition_line(const runtime::Scheduler& scheduler, const runtime::Transition& transition);
 
 /// `done after 11.05 s`, with what was hit and why it is not `done`, in a line without its end.
 std::string verdict(const RunReport& report);

@@ -1,0 +1,112 @@
+// What the program writes on a terminal, and what it writes in its place elsewhere.
+#include <fcntl.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdlib>
+
+#include "program.hpp"
+
+namespace zwang {
+namespace {
+
+const std::string specs_of_terminal = std::string(ZWANG_SOURCE_DIR) + "/specs/";
+
+class OnATerminal : public test::Program {
+ protected:
+  void SetUp() override {
+    setenv("TERM", "xterm-256color", 1);
+    unsetenv("NO_COLOR");
+    ASSERT_GE(terminal_, 0);
+    ASSERT_EQ(grantpt(terminal_), 0);
+    ASSERT_EQ(unlockpt(terminal_), 0);
+    resize(80);
+  }
+  void TearDown() override { close(terminal_); }
+
+  void resize(unsigned short columns) const {
+    winsize size{};
+    size.ws_row = 24;
+    size.ws_col = columns;
+    ASSERT_EQ(ioctl(terminal_, TIOCSWINSZ, &size), 0);
+  }
+  pid_t start_there(const std::vector<std::string>& words) { return start(words, ptsname(terminal_)); }
+
+  /// What comes until the words came so often; until the end where they do not.
+  std::string read_until(const std::string& words, int times) const {
+    std::string shown;
+    char one = 0;
+    while (times > 0 && ::read(terminal_, &one, 1) > 0) {
+      shown += one;
+      if (shown.ends_with(words)) --times;
+    }
+    return shown;
+  }
+  std::string read_to_the_end() const { return read_until("\n", 1 << 30); }
+
+  /// The words of `zwang run` for a task of two steps, each so long.
+  std::vector<std::string> run_of_steps(const std::string& each) {
+    const std::string still =
+        "{still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: "
+        "0 rad/s}}}";
+    const auto step = [&](const std::string& name, const std::string& next) {
+      return "  " + name + ":\n    constraints: " + still + "\n    exits: [{when: elapsed > " + each +
+             ", goto: " + next + "}]\n    timeout: never\n";
+    };
+    write("task.yaml", "zwang: 1\nrobot: none.yaml\nstart: first\ntasks:\n" + step("first", "second") +
+                           step("second", "done"));
+    return {"run",     (folder_ / "task.yaml").string(),
+            "--robot", specs_of_terminal + "robots/mecanum_base.yaml",
+            "--scene", specs_of_terminal + "scenes/open.yaml",
+            "--log",   "log"};
+  }
+
+  const int terminal_ = posix_openpt(O_RDWR | O_NOCTTY);
+};
+
+// A live line of a run in real time. It begins with the time and the task: more than 20 columns.
+TEST_F(OnATerminal, ALineInPlaceIsCutToTheWidthAndFollowsIt) {
+  resize(12);
+  std::vector<std::string> words = run_of_steps("1000 s");
+  words.push_back("--watch");
+  const pid_t child = start_there(words);
+  const std::string head = read_until("\n", 1);
+  EXPECT_TRUE(head.starts_with("task.yaml: robot")) << head;
+  const std::string lines = read_until("\033[K", 3);
+  std::size_t count = 0;
+  for (std::size_t at = lines.find('\r'); at != std::string::npos; at = lines.find('\r', at + 1)) {
+    ++count;
+    EXPECT_EQ(lines.find("\033[K", at), at + 10) << "12 columns, of which 3 stay free for an echoed ^C";
+  }
+  EXPECT_EQ(count, 3u);
+  // Nine columns take two lines of five: the line begins one above.
+  resize(5);
+  EXPECT_TRUE(read_until("\033[J", 1).ends_with("\r\033[1A  \033[J"));
+  kill(child, SIGINT);
+  const std::string end = read_to_the_end();
+  EXPECT_NE(end.find("\r\033[K\033["), std::string::npos)
+      << "the report stands in the place of the line: " << end;
+  EXPECT_EQ(finish(child).code, 1);
+}
+
+TEST_F(OnATerminal, ADumbOneAndAFileHaveALineForEachTransition) {
+  const std::vector<std::string> words = run_of_steps("2 s");
+  const std::string of_file = zwang(words).out;
+  setenv("TERM", "dumb", 1);
+  const pid_t child = start_there(words);
+  const std::string of_terminal = read_to_the_end();
+  EXPECT_EQ(finish(child).code, 0);
+  const std::string begin =
+      "task.yaml: robot `mecanum_base`\n"
+      "  0.000 s  - -> first  start\n"
+      "  2.001 s  first -> second  elapsed > 2 s\n"
+      "  4.002 s  second -> done  elapsed > 2 s\n"
+      "\ndone after ";
+  EXPECT_EQ(of_file.substr(0, begin.size()), begin);
+  EXPECT_EQ(of_terminal.find('\033'), std::string::npos);
+  EXPECT_NE(of_terminal.find("first -> second"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zwang
