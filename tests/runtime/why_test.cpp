@@ -147,18 +147,27 @@ tasks:
   EXPECT_EQ(ended.why->cause, WhyCause::exit);
 }
 
-TEST(Why, AStuckMotor) {
-  const Ended ended =
-      run(std::string(drive_ahead) + R"(
+void expect_a_motor_is_named(const std::string& fault, const std::string& what) {
+  const Ended ended = run(
+      std::string(drive_ahead) + R"(
     exits:
       - {when: moved(base_link) > 1 m, goto: done}
     timeout: never
 )",
-          std::string(open_floor) + "faults: [{at: 0.1 s, wheel: front_left_wheel, torque: flipped}]\n");
-  EXPECT_EQ(ended.state, RunState::stopped);
-  expect_words(ended, {"the protective stop latched in `go`: ", "front_left_wheel",
+      std::string(open_floor) + "faults: [{at: 0.1 s, wheel: front_left_wheel, torque: " + fault + "}]\n");
+  EXPECT_EQ(ended.state, RunState::stopped) << fault;
+  expect_words(ended, {"the protective stop latched in `go`: " + what + " (`front_left_wheel",
                        "which waited: `moved(base_link) > 1 m` is false"});
-  EXPECT_EQ(ended.why->cause, WhyCause::stopped);
+  ASSERT_TRUE(ended.why) << fault;
+  EXPECT_EQ(ended.why->cause, WhyCause::stopped) << fault;
+}
+
+TEST(Why, AStuckMotor) {
+  expect_a_motor_is_named("stuck", "a motor's torque does not follow its command");
+}
+
+TEST(Why, AFlippedMotor) {
+  expect_a_motor_is_named("flipped", "a motor turns the wrong way");
 }
 
 TEST(Why, Ice) {
@@ -251,7 +260,30 @@ tasks:
 )",
                           open_floor);
   expect_words(ended,
-               {"`moved(base_link) > 1 m` is false (0.", "`always.fence.left` was at its limit, 0.050 m"});
+               {"`moved(base_link) > 1 m` is false (0.",
+                "`always.fence.left` was at its limit, 0.050 m, which keeps `footprint` inside `room`"});
+}
+
+// The run begins 1.4 m outside: at the corner (0.6, 0) the region ends, and the base stands at (2, 0).
+TEST(Why, ARegionThatIsLeft) {
+  const Ended ended = run(R"(
+regions: {room: {polygon: [[-1 m, -1 m], [0.6 m, -1 m], [0.6 m, 1 m], [-1 m, 1 m]]}}
+always:
+  constraints:
+    fence: {move: base_link, inside: room, margin: 5 cm}
+start: wait
+tasks:
+  wait:
+    constraints:
+      still: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits:
+      - {when: moved(base_link) > 1 m, goto: done}
+    timeout: {after: 0.1 s, goto: failed}
+)",
+                          "start: {at: [2 m, 0 m]}\nfloor: {friction: 0.9}\n");
+  expect_words(ended, {"the guard told at 0.00", ": `base_link` left the region `room` by 1.400 m",
+                       "`always.fence.left` stood at -1.",
+                       ", beyond its limit of 0.050 m, which keeps `base_link` inside `room`"});
 }
 
 TEST(Why, AttemptsThatAreUsedUp) {

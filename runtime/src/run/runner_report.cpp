@@ -191,6 +191,25 @@ std::optional<ShortfallReport> Runner::shortfall() const {
   return report;
 }
 
+namespace {
+
+/// What a limit's row holds, where that is a region.
+std::string kept_by(const std::optional<LimitReport>& limit, const StatementTable& statements) {
+  if (!limit) return {};
+  const auto row = std::ranges::find_if(
+      statements.all(), [&](const Statement& s) { return s.inside && s.name + ".left" == limit->row; });
+  return row == statements.all().end() ? "" : "`" + row->frame + "` inside `" + row->region + "`";
+}
+
+/// Of a row that was left the first event is enough; of another kind of events, too.
+bool is_told_already(const std::vector<Event>& kinds, const Event& event) {
+  return std::ranges::any_of(kinds, [&](const Event& one) {
+    return one.code == event.code && (event.code != EventCode::outside || one.signal == event.signal);
+  });
+}
+
+}  // namespace
+
 std::optional<Why> Runner::why() const {
   if (state() == RunState::done) return std::nullopt;
   const Parts& p = *parts_;
@@ -200,19 +219,28 @@ std::optional<Why> Runner::why() const {
                .file = p.facts.at("task"),
                .time = p.guard.time(),
                .limit = p.limits.report_of(is_decided ? p.turning_point.limit() : p.limits.tightest()),
+               .limit_keeps = {},
                .stop = {},
-               .refused = {}};
+               .refused = {},
+               .told = {}};
+  end.limit_keeps = kept_by(end.limit, p.statements);
   if (p.guard.stopped()) end.stop = describe_stop();
   const double until = is_decided ? p.turning_point.found()->time : end.time;
   const int first = event_signal::measured(p.model.joint_count(), 0);
-  std::vector<EventCode> kinds;  // the first of a kind is enough
+  const int first_row = first + static_cast<int>(p.signals.size());
+  std::vector<Event> kinds;
   for (const Event& told : p.events) {
     if (told.code == EventCode::signal_refused && told.signal >= first) {
       end.refused.push_back({p.signals[static_cast<std::size_t>(told.signal - first)].name, told.value});
-    } else if (!latches_the_stop(told.code) && std::ranges::find(kinds, told.code) == kinds.end() &&
-               told.time <= until) {
-      kinds.push_back(told.code);
-      end.told.push_back("the guard told at " + with_unit(told.time, "s") + ": " + describe(told.code));
+    } else if (!latches_the_stop(told.code) && !is_told_already(kinds, told) && told.time <= until) {
+      kinds.push_back(told);
+      const bool is_of_row = told.code == EventCode::outside && told.signal >= first_row;
+      end.told.push_back(
+          "the guard told at " + with_unit(told.time, "s") + ": " +
+          (is_of_row
+               ? words_of_excursion(p.statements.all()[static_cast<std::size_t>(told.signal - first_row)],
+                                    told.value, p.limits.reports())
+               : describe(told.code)));
     }
   }
   return why_of(end);

@@ -1,5 +1,7 @@
 #include "run/statement_table.hpp"
 
+#include <utility>
+
 namespace zwang::runtime {
 
 namespace {
@@ -18,6 +20,18 @@ void merge(lang::AxisStatements& into, const lang::AxisStatements& from) {
   take(&lang::AxisStatements::force, solver::Quantity::force);
 }
 
+/// One axis of a group.
+Statement statement_of(const std::string& name, bool own, const lang::AxisStatements& says,
+                       const lang::Group& group, const lang::Program& program) {
+  Statement statement{name, own, says, group.kind == lang::GroupKind::inside, {}, {}};
+  const auto frame = static_cast<std::size_t>(group.move);
+  if (frame < program.frames.size()) statement.frame = program.frames[frame].name;
+  if (!statement.inside) return statement;
+  if (group.moves_footprint) statement.frame = "footprint";
+  statement.region = program.regions[static_cast<std::size_t>(group.region)].name;
+  return statement;
+}
+
 }  // namespace
 
 StatementTable::StatementTable(const Scheduler& scheduler, const lang::Program& program) {
@@ -33,24 +47,24 @@ StatementTable::StatementTable(const Scheduler& scheduler, const lang::Program& 
       ids_[t].resize(tasks[t].groups.size());
       for (std::size_t g = 0; g < tasks[t].groups.size(); ++g) {
         if ((g < own_groups) != own) continue;
-        for (const lang::AxisStatements& a : tasks[t].groups[g].axes) {
-          const bool inside = tasks[t].groups[g].kind == lang::GroupKind::inside;
-          ids_[t][g].push_back(find_or_add(own ? tasks[t].name + "." + a.name : a.name, own, a, inside));
+        const lang::Group& group = tasks[t].groups[g];
+        for (const lang::AxisStatements& a : group.axes) {
+          const std::string name = own ? tasks[t].name + "." + a.name : a.name;
+          ids_[t][g].push_back(find_or_add(statement_of(name, own, a, group, program)));
         }
       }
     }
   }
 }
 
-int StatementTable::find_or_add(const std::string& name, bool own, const lang::AxisStatements& says,
-                                bool inside) {
+int StatementTable::find_or_add(Statement statement) {
   for (std::size_t i = 0; i < statements_.size(); ++i) {
-    if (statements_[i].own == own && statements_[i].name == name) {
-      merge(statements_[i].says, says);
+    if (statements_[i].own == statement.own && statements_[i].name == statement.name) {
+      merge(statements_[i].says, statement.says);
       return static_cast<int>(i);
     }
   }
-  statements_.push_back({name, own, says, inside});
+  statements_.push_back(std::move(statement));
   return static_cast<int>(statements_.size()) - 1;
 }
 

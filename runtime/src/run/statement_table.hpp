@@ -15,6 +15,8 @@ struct Statement {
   bool own = true;   ///< written in the task file
   lang::AxisStatements says;
   bool inside = false;  ///< stands for all the rows of a group `inside` a region
+  std::string frame;    ///< that moves; of a footprint "footprint"
+  std::string region;   ///< of `inside`
 };
 
 class StatementTable {
@@ -24,7 +26,7 @@ class StatementTable {
   int id(const Origin& origin) const noexcept;
 
  private:
-  int find_or_add(const std::string& name, bool own, const lang::AxisStatements& says, bool inside);
+  int find_or_add(Statement statement);
 
   std::vector<Statement> statements_;
   std::vector<std::vector<std::vector<int>>> ids_;  // by task, group, axis

@@ -73,13 +73,21 @@ class Sentence {
 
   std::string text(const Transition* t) const {
     const std::string of = t != nullptr ? of_transition(*t) : of_the_end();
-    const std::string with_told = of + told();
-    if (!end_.limit) return with_told;
-    return with_told + "; " + quoted(end_.limit->row) + " was at its limit, " +
-           with_unit(end_.limit->limit, end_.limit->unit);
+    return of + told() + at_limit();
   }
 
  private:
+  std::string at_limit() const {
+    if (!end_.limit) return {};
+    const LimitReport& limit = *end_.limit;
+    const std::string figure = with_unit(limit.limit, limit.unit);
+    const std::string is = limit.is_broken() ? " stood at " + with_unit(limit.worst, limit.unit) +
+                                                   ", beyond its limit of " + figure
+                                             : " was at its limit, " + figure;
+    const std::string keeps = end_.limit_keeps.empty() ? "" : ", which keeps " + end_.limit_keeps;
+    return "; " + quoted(limit.row) + is + keeps;
+  }
+
   std::string told() const {
     std::string text;
     for (const std::string& one : end_.told) text += "; " + one;

@@ -41,11 +41,16 @@ struct EndOfRun {
   std::string file;                  ///< of the task, as places name it
   double time = 0.0;                 ///< [s] of the last sample
   std::optional<LimitReport> limit;  ///< that was at its limit when it was decided
+  std::string limit_keeps;           ///< of a region: "`footprint` inside `ward`"
   std::string stop;                  ///< what latched the protective stop; empty: it is not latched
   std::vector<RefusedSignal> refused;
   std::vector<std::string> told;  ///< what the guard told while the task was active, in words
 };
 Why why_of(const EndOfRun& end);
+
+/// Which frame left its range or its region, and by how much. `at_first`: the event's distance, SI; `limits`:
+/// of the run, which know the largest one.
+std::string words_of_excursion(const Statement& row, double at_first, const std::vector<LimitReport>& limits);
 
 /// The words of `Why::sentence`.
 struct WhyWords {

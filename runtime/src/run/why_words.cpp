@@ -94,6 +94,22 @@ std::string WhyWords::of_exit(const WaitedExit& exit) const {
   return of_terms(exit) + was_true;
 }
 
+std::string words_of_excursion(const Statement& row, double at_first,
+                               const std::vector<LimitReport>& limits) {
+  const std::string column = row.name + (row.inside ? ".left" : ".position");
+  const auto limit = std::ranges::find(limits, column, &LimitReport::row);
+  const std::string unit = unit_of(row.says.axis, solver::Quantity::position);
+  const double beyond = limit == limits.end() ? at_first : std::max(at_first, -limit->margin);
+  const std::string frame = quoted(row.frame);
+  if (!row.inside) return frame + " left its range of " + quoted(row.name) + " by " + with_unit(beyond, unit);
+  // A region keeps its frame a margin away from its edge: the margin is left first.
+  const double outside = limit == limits.end() ? at_first : -limit->worst;
+  const std::string region = " the region " + quoted(row.region);
+  if (outside > 0.0) return frame + " left" + region + " by " + with_unit(outside, unit);
+  return frame + " came within " + with_unit(-outside, unit) + " of the edge of" + region +
+         ", which keeps a margin of " + with_unit(limit->limit, unit);
+}
+
 /// The exits that lead on; where none does, all.
 std::string WhyWords::of_waiting(const WaitedTask& task) const {
   if (task.exits.empty()) return "it has no exits";
