@@ -67,9 +67,7 @@ int fmt(const FmtArguments& arguments) {
     std::optional<std::string> text;
     if (is_readable) text = is_upgraded ? lang::upgrade_task(path, layout) : lang::format_file(path, layout);
     if (!text) {
-      std::ostringstream out;
-      lang::render_human(is_readable ? layout : diagnostics, out);
-      print(out.str() + path + ": left as it is\n");
+      print(rendered(is_readable ? layout : diagnostics) + path + ": left as it is\n");
       is_good = false;
       continue;
     }

@@ -173,9 +173,7 @@ int graph(const GraphArguments& arguments) {
   const std::optional<Program> program =
       lang::load(arguments.file, arguments.overrides.load_options(), diagnostics);
   if (!program) {
-    std::ostringstream text;
-    lang::render_human(diagnostics, text);
-    print_error(text.str());
+    print_error(rendered(diagnostics));
     return exit_bad;
   }
   const Graph graph = graph_of(*program);

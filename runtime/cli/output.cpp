@@ -13,20 +13,14 @@
 #include <fstream>
 #include <mutex>
 #include <numbers>
+#include <sstream>
 
+#include "colour.hpp"
 #include "zwang/lang/printable.hpp"
 
 namespace zwang::cli {
 
 namespace {
-
-bool begins_code_point(char c) noexcept {
-  return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-}
-
-std::size_t code_points_in(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, begins_code_point));
-}
 
 void write(std::string_view bytes) {
   const bool written = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
@@ -53,13 +47,11 @@ std::size_t terminal_columns() {
 }
 
 std::string cut_to(std::string text, std::size_t columns) {
-  std::size_t seen = 0;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    if (begins_code_point(text[at]) && ++seen > columns) {
-      text.resize(at);
-      break;
-    }
+  std::size_t end = 0;
+  for (std::size_t seen = 0; end < text.size(); ++end) {
+    if (columns_of(std::string_view(text).substr(end, 1)) > 0 && ++seen > columns) break;
   }
+  text.resize(end);
   return text;
 }
 
@@ -84,7 +76,7 @@ void erase_line_in_place() {
 
 void print(std::string_view text) {
   erase_line_in_place();
-  write(lang::printable(text));
+  write(shown(lang::printable(text), takes_colour(STDOUT_FILENO)));
 }
 
 void print_data(std::string_view text) {
@@ -95,16 +87,15 @@ void print_over(std::string_view line) {
   const std::lock_guard lock(line_in_place.mutex);
   const std::size_t width = terminal_columns();
   const std::string begin = way_to_its_begin(line_in_place.columns, width);
-  const std::string shown =
-      cut_to(lang::printable(line, ""), width - std::min(width - 1, room_for_interrupt));
-  write(begin + shown + (begin == "\r" ? "\033[K" : "\033[J"));
-  line_in_place.columns = code_points_in(shown);
+  const std::string cut = cut_to(lang::printable(line, ""), width - std::min(width - 1, room_for_interrupt));
+  write(begin + cut + (begin == "\r" ? "\033[K" : "\033[J"));
+  line_in_place.columns = columns_of(cut);
 }
 
 void print_error(std::string_view text) {
   erase_line_in_place();
-  const std::string shown = lang::printable(text);
-  std::fwrite(shown.data(), 1, shown.size(), stderr);
+  const std::string bytes = shown(lang::printable(text), takes_colour(STDERR_FILENO));
+  std::fwrite(bytes.data(), 1, bytes.size(), stderr);
   std::fflush(stderr);
 }
 
@@ -129,8 +120,15 @@ void secure_standard_streams() {
 
 std::string padded(std::string_view text, std::size_t width) {
   std::string out(text);
-  if (out.size() < width) out.append(width - out.size(), ' ');
+  const std::size_t columns = columns_of(text);
+  if (columns < width) out.append(width - columns, ' ');
   return out;
+}
+
+std::string rendered(const lang::Diagnostics& diagnostics, const lang::RenderOptions& options) {
+  std::ostringstream text;
+  lang::render_human(diagnostics, text, options);
+  return with_marked_severities(text.str());
 }
 
 std::string titled_list(const std::string& title, const std::vector<std::string>& lines) {
@@ -141,7 +139,8 @@ std::string titled_list(const std::string& title, const std::vector<std::string>
 }
 
 std::string padded_left(std::string_view text, std::size_t width) {
-  return text.size() < width ? std::string(width - text.size(), ' ').append(text) : std::string(text);
+  const std::size_t columns = columns_of(text);
+  return columns < width ? std::string(width - columns, ' ').append(text) : std::string(text);
 }
 
 std::string count(std::size_t n, std::string_view thing) {

@@ -17,12 +17,14 @@ class Impossible : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// For people: written to stdout at once, as `lang::printable` has it. Throws Impossible when stdout is
-/// closed or full.
+/// For people: written to stdout at once, as `lang::printable` has it, its marks as colours where there are
+/// any (colour.hpp). Throws Impossible when stdout is closed or full.
 void print(std::string_view text);
-/// For programs: JSON, a graph, a file's text. Byte for byte, but on a terminal as `print` has it.
+/// For programs: JSON, a graph, a file's text; without marks. Byte for byte, but on a terminal as `print` has
+/// it.
 void print_data(std::string_view text);
-/// For people, in the place of what it wrote last, cut to the width of the terminal. Any other text erases it.
+/// For people, in the place of what it wrote last, cut to the width of the terminal. Any other text erases
+/// it.
 void print_over(std::string_view line);
 void print_error(std::string_view text);  ///< as `print` has it, to stderr
 
@@ -35,6 +37,8 @@ bool stdout_can_be_written_over() noexcept;
 void secure_standard_streams();
 
 using runtime::with_unit;
+/// What `lang::render_human` writes, with its severities marked.
+std::string rendered(const lang::Diagnostics& diagnostics, const lang::RenderOptions& options = {});
 std::string padded(std::string_view text, std::size_t width);       ///< to the left
 std::string padded_left(std::string_view text, std::size_t width);  ///< to the right
 /// The title, and each of the lines below it, indented; nothing where there are none.

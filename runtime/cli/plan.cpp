@@ -1,5 +1,3 @@
-#include <sstream>
-
 #include "output.hpp"
 #include "plan_report.hpp"
 #include "verbs.hpp"
@@ -13,13 +11,11 @@ int plan(const PlanArguments& arguments) {
   const std::optional<lang::Program> program =
       lang::load_with_notes(arguments.file, arguments.overrides.load_options(), diagnostics);
   if (!program) {
-    std::ostringstream text;
     if (arguments.format == Format::json) {
-      text << "{\"ok\": false, \"diagnostics\": " << lang::render_json(diagnostics) << "}\n";
+      print_data("{\"ok\": false, \"diagnostics\": " + lang::render_json(diagnostics) + "}\n");
     } else {
-      lang::render_human(diagnostics, text);
+      print(rendered(diagnostics));
     }
-    print_data(text.str());
     return exit_bad;
   }
   std::vector<int> wanted;

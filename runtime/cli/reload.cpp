@@ -108,9 +108,7 @@ void Reloads::load() {
   std::string refusal;
   try {
     next->program = cli::load(arguments_, next->diagnostics);
-    std::ostringstream text;
-    lang::render_human(next->diagnostics, text);
-    print_error(text.str());
+    print_error(rendered(next->diagnostics));
     const bool is_good = next->program && !next->diagnostics.has_errors();
     if (!is_good) {
       refusal = "it has errors";

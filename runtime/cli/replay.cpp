@@ -36,9 +36,7 @@ lang::Program program_of(const runtime::LogContext& context) {
   lang::Diagnostics diagnostics;
   std::optional<lang::Program> program = runtime::logged_program(context, diagnostics);
   if (program) return std::move(*program);
-  std::ostringstream text;
-  lang::render_human(diagnostics, text);
-  throw Impossible("the logged files do not load any more:\n" + text.str());
+  throw Impossible("the logged files do not load any more:\n" + rendered(diagnostics));
 }
 
 /// The log in the same folder where this one began, after a reload.

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "output.hpp"
 #include "verbs.hpp"
@@ -316,13 +315,11 @@ void show(const lang::RobotDraft& draft, Format format) {
 }
 
 int refused(const lang::Diagnostics& diagnostics, Format format) {
-  std::ostringstream text;
   if (format == Format::json) {
-    text << "{\"ok\": false, \"diagnostics\": " << lang::render_json(diagnostics) << "}\n";
+    print_data("{\"ok\": false, \"diagnostics\": " + lang::render_json(diagnostics) + "}\n");
   } else {
-    lang::render_human(diagnostics, text);
+    print(rendered(diagnostics));
   }
-  print_data(text.str());
   return exit_bad;
 }
 
@@ -341,11 +338,7 @@ int robot_inspect(const RobotInspectArguments& arguments) {
   const auto robot = lang::load_robot(arguments.file, diagnostics);
   if (!robot) return refused(diagnostics, arguments.format);
   show(*robot, arguments.format);
-  if (arguments.format == Format::human && !diagnostics.all().empty()) {
-    std::ostringstream warnings;
-    lang::render_human(diagnostics, warnings);
-    print("\n" + warnings.str());
-  }
+  if (arguments.format == Format::human && !diagnostics.all().empty()) print("\n" + rendered(diagnostics));
   return exit_good;
 }
 

@@ -8,7 +8,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
-#include <sstream>
 
 #include "output.hpp"
 #include "run_log.hpp"
@@ -184,9 +183,7 @@ int write_friction(const std::string& file, const std::vector<std::string>& join
     throw Impossible(file + ": of `" + robot->name + "`, whose joints are not those of the log");
   const auto text = robot ? lang::with_friction(file, frictions_of(found), diagnostics) : std::nullopt;
   if (!text) {
-    std::ostringstream said;
-    lang::render_human(diagnostics, said);
-    print_data(said.str());
+    print(rendered(diagnostics));
     return exit_bad;
   }
   write_file(file, *text);

@@ -104,9 +104,7 @@ std::string to_decide(const std::string& file, const std::string& text) {
 }
 
 int refused(const lang::Diagnostics& diagnostics) {
-  std::ostringstream text;
-  lang::render_human(diagnostics, text);
-  print_data(text.str());
+  print(rendered(diagnostics));
   return exit_bad;
 }
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <sstream>
 
+#include "colour.hpp"
 #include "interruption.hpp"
 #include "live_view.hpp"
 #include "output.hpp"
@@ -45,9 +46,7 @@ void report_diagnostics(const lang::Diagnostics& diagnostics, bool refused, Form
     print_data(whole.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
     return;
   }
-  std::ostringstream text;
-  lang::render_human(diagnostics, text);
-  print_error(text.str());
+  print_error(rendered(diagnostics));
 }
 
 /// One line that is written over itself on a terminal; elsewhere a line for each transition.
@@ -273,7 +272,7 @@ int run_once(const RunArguments& asked, LiveView* view, const std::atomic<bool>&
     print(human_report(report, runner, of_files));
   }
   if (!report.log_error.empty()) {
-    print_error("zwang: the log is incomplete: " + report.log_error + "\n");
+    print_error(marked(Hue::bad, "zwang:") + " the log is incomplete: " + report.log_error + "\n");
     return exit_impossible;
   }
   return report.outcome == "done" ? exit_good : exit_bad;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "colour.hpp"
 #include "json_parts.hpp"
 #include "output.hpp"
 #include "table.hpp"
@@ -78,7 +79,7 @@ std::string limits_table(const runtime::Runner& runner, const lang::Diagnostics&
   table.add({"", "worst", "limit", "margin", "", ""});
   for (const LimitReport& l : broken_first(runner.limits())) {
     table.add({l.row, with_unit(l.worst, l.unit), with_unit(l.limit, l.unit), with_unit(l.margin, l.unit),
-               l.is_broken() ? "BROKEN" : "", place(diagnostics, l.span)});
+               l.is_broken() ? marked(Hue::bad, "BROKEN") : "", place(diagnostics, l.span)});
   }
   return "limits\n" + table.text();
 }
@@ -100,7 +101,7 @@ std::string truth_table(const RunReport& report) {
     table.add({"", "peak " + with_unit(o.peak_force, "N") + " at " + seconds(o.peak_at) + " in `" +
                        o.peak_in + "`" +
                        (o.allowed ? ", where " + with_unit(*o.allowed, "N") + " are allowed" : "") +
-                       (o.is_hit() ? "  HIT" : "")});
+                       (o.is_hit() ? "  " + marked(Hue::bad, "HIT") : "")});
   }
   if (report.base.slipped) {
     table.add({"wheels", "slide over the floor from " + seconds(*report.base.slipped) + " on, with " +
@@ -242,9 +243,20 @@ std::string verdict(const RunReport& report) {
   return text;
 }
 
+namespace {
+
+/// A run that is done and hit something is no good one.
+std::string marked_verdict(const RunReport& report) {
+  const bool has_hit = std::ranges::any_of(report.objects, &ObjectReport::is_hit);
+  const Hue hue = report.outcome != "done" ? Hue::bad : has_hit ? Hue::warning : Hue::good;
+  return marked(hue, report.outcome) + verdict(report).substr(report.outcome.size());
+}
+
+}  // namespace
+
 std::string human_report(const RunReport& report, const runtime::Runner& runner,
                          const lang::Diagnostics& diagnostics) {
-  std::string text = verdict(report) + "\n\n";
+  std::string text = marked_verdict(report) + "\n\n";
   if (report.why) text += why_table(*report.why, diagnostics);
   for (const Chapter& chapter : report.before) {
     text += "until the task file was loaded again at " + seconds(chapter.until) + ": " +
@@ -259,7 +271,7 @@ std::string human_report(const RunReport& report, const runtime::Runner& runner,
   if (report.processor_time > 0.0)
     text += ", " + with_unit(100.0 * report.log_processor_time / report.processor_time, "%", 2) +
             " of the processor time";
-  if (!report.log_error.empty()) text += ", INCOMPLETE: " + report.log_error;
+  if (!report.log_error.empty()) text += ", " + marked(Hue::bad, "INCOMPLETE") + ": " + report.log_error;
   if (!report.page.empty()) text += "\npage   " + report.page;
   text += "\nspeed  " + with_unit(report.elapsed / std::max(report.wall_time, 1e-9), "x real time", 3) + "\n";
   return text;

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <thread>
 
+#include "colour.hpp"
 #include "commit.hpp"
 #include "file_kind.hpp"
 #include "interruption.hpp"
@@ -113,6 +114,22 @@ class SweepProgress {
   double next_ = 0.5;
 };
 
+/// The lines of a study's report that begin with a verdict.
+std::string with_marked_verdicts(const std::string& report) {
+  constexpr std::size_t indent = 2;
+  std::istringstream lines(report);
+  std::string text;
+  for (std::string line; std::getline(lines, line); text += line + "\n") {
+    for (const auto& [verdict, hue] :
+         {std::pair{study::Verdict::held, Hue::good}, std::pair{study::Verdict::broken, Hue::bad},
+          std::pair{study::Verdict::too_few_runs, Hue::warning}}) {
+      const std::string word = study::to_string(verdict);
+      if (line.starts_with("  " + word + " ")) line.replace(indent, word.size(), marked(hue, word));
+    }
+  }
+  return text;
+}
+
 std::string results_path(const SweepArguments& arguments, const Shard& shard) {
   if (arguments.out) return *arguments.out;
   const std::string stem = fs::path(arguments.study).stem().string();
@@ -161,11 +178,9 @@ int sweep(const SweepArguments& arguments) {
   const Shard shard = shard_of(arguments.shard);
   lang::Diagnostics diagnostics;
   const std::optional<lang::Study> study = lang::load_study(arguments.study, diagnostics);
-  std::ostringstream remarks;
-  lang::render_human(diagnostics, remarks);
   // How many runs there are is said here.
   const bool is_first = !others || others->rank() == 0;
-  if (is_first && (!study || !arguments.runs)) print_error(remarks.str());
+  if (is_first && (!study || !arguments.runs)) print_error(rendered(diagnostics));
   if (!study) return exit_bad;
   const std::string identity = fingerprint_of(*study);
   const study::WorkSettings settings = settings_of(arguments, others != nullptr);
@@ -201,7 +216,7 @@ int sweep(const SweepArguments& arguments) {
   if (arguments.format == Format::json) {
     print_data(study::json_report(*study, report));
   } else {
-    print(study::human_report(*study, report, command));
+    print(with_marked_verdicts(study::human_report(*study, report, command)));
     print("results in " + path + "\n");
   }
   if (arguments.report) {

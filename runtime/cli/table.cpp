@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "colour.hpp"
 #include "output.hpp"
 
 namespace zwang::cli {
@@ -10,7 +11,7 @@ namespace zwang::cli {
 Table::Table(std::vector<bool> to_right) : to_right_(std::move(to_right)), widths_(to_right_.size(), 0) {}
 
 void Table::add(std::vector<std::string> row) {
-  for (std::size_t i = 0; i < row.size(); ++i) widths_[i] = std::max(widths_[i], row[i].size());
+  for (std::size_t i = 0; i < row.size(); ++i) widths_[i] = std::max(widths_[i], columns_of(row[i]));
   rows_.push_back(std::move(row));
 }
 

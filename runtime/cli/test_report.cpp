@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "colour.hpp"
 #include "output.hpp"
 #include "zwang/lang/printable.hpp"
 
@@ -93,12 +94,13 @@ std::vector<Summary> summarise(const ScenarioReport& report) {
 void describe(const ScenarioReport& report, std::ostream& out) {
   out << report.path << "\n";
   if (!report.readable) {
-    lang::render_human(report.diagnostics, out);
+    out << rendered(report.diagnostics);
     return;
   }
   for (const CellResult& cell : report.cells) {
     if (!is_over(cell)) continue;
-    out << (cell.passed ? "  ok    " : "  FAIL  ") << padded(cell.name, 48) << "  " << outcome_text(cell);
+    out << "  " << padded(cell.passed ? marked(Hue::good, "ok") : marked(Hue::bad, "FAIL"), 6)
+        << padded(cell.name, 48) << "  " << outcome_text(cell);
     if (cell.simulated > 0.0)
       out << " after " << seconds_of(cell.simulated, 2) << " (" << seconds_of(cell.wall, 2)
           << " of computing, " << number(cell.simulated / cell.wall, 1) << " x real time)";
@@ -106,8 +108,8 @@ void describe(const ScenarioReport& report, std::ostream& out) {
     if (!cell.passed && !cell.why.empty()) out << "        why: " << cell.why << "\n";
     for (const ExpectationResult& result : cell.expectations) {
       if (result.held) continue;
-      out << "        missed: " << result.text << "  [" << place(report.diagnostics, result.span) << "] "
-          << margin_text(result) << "\n";
+      out << "        " << marked(Hue::bad, "missed:") << " " << result.text << "  ["
+          << place(report.diagnostics, result.span) << "] " << margin_text(result) << "\n";
     }
   }
   for (const Summary& summary : summarise(report)) {
@@ -201,7 +203,9 @@ std::string human_report(const std::vector<ScenarioReport>& reports, double seco
     over += runs_over(report);
     good += runs_over(report) - failures(report);
   }
-  out << hardest_motor(reports) << good << " of " << over << " runs as expected";
+  const Hue hue = good == over && unreadable == 0 ? Hue::good : Hue::bad;
+  out << hardest_motor(reports)
+      << marked(hue, std::to_string(good) + " of " + std::to_string(over) + " runs as expected");
   if (over < runs) out << ", interrupted before " << count(runs - over, "more run");
   if (unreadable > 0) out << ", and " << count(unreadable, "file") << " with errors";
   out << ", in " << seconds_of(seconds, 1) << "\n";

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "colour.hpp"
 #include "file_kind.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
@@ -86,14 +87,9 @@ std::string counts(const lang::Diagnostics& diagnostics) {
 }
 
 std::string human(const Checked& file, const ValidateArguments& arguments) {
-  std::ostringstream text;
-  lang::render_human(file.diagnostics, text, {.notes = arguments.notes});
-  if (file.is_good) {
-    text << file.path << ": good (" << *file.summary << ")\n";
-  } else {
-    text << file.path << ": " << counts(file.diagnostics) << "\n";
-  }
-  return text.str();
+  const std::string text = rendered(file.diagnostics, {.notes = arguments.notes}) + file.path + ": ";
+  if (file.is_good) return text + marked(Hue::good, "good") + " (" + *file.summary + ")\n";
+  return text + marked(Hue::bad, counts(file.diagnostics)) + "\n";
 }
 
 std::string short_lines(const Checked& file, const ValidateArguments& arguments) {

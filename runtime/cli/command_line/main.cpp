@@ -4,6 +4,7 @@
 #include <exception>
 #include <sstream>
 
+#include "colour.hpp"
 #include "command_line/command_line.hpp"
 #include "commit.hpp"
 #include "output.hpp"
@@ -66,9 +67,9 @@ int main(int argc, char** argv) {
     secure_standard_streams();
     return parse_and_do(argc, argv);
   } catch (const std::exception& e) {
-    print_error(std::string("zwang: ") + e.what() + "\n");
+    print_error(marked(Hue::bad, "zwang:") + " " + e.what() + "\n");
   } catch (...) {
-    print_error("zwang: an unknown error\n");
+    print_error(marked(Hue::bad, "zwang:") + " an unknown error\n");
   }
   return exit_impossible;
 }
