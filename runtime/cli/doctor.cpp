@@ -8,8 +8,11 @@
 #include <filesystem>
 #include <fstream>
 #include <thread>
+#include <vector>
 
+#include "colour.hpp"
 #include "output.hpp"
+#include "report_page.hpp"
 #include "shipped.hpp"
 #include "verbs.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
@@ -71,17 +74,67 @@ Finding kernel() {
           is_real_time ? "" : "for a robot's loop install linux-image-rt-amd64; simulations do without"};
 }
 
-Finding graph_drawer() {
+/// A program in a folder of PATH; empty: none has it.
+std::string on_path(const std::string& program) {
   const char* path = std::getenv("PATH");
   std::string rest = path != nullptr ? path : "";
   while (!rest.empty()) {
     const std::size_t colon = rest.find(':');
     const std::string folder = rest.substr(0, colon);
-    if (!folder.empty() && access((folder + "/dot").c_str(), X_OK) == 0)
-      return {"Graphviz", folder + "/dot", ""};
+    if (!folder.empty() && access((folder + "/" + program).c_str(), X_OK) == 0) return folder + "/" + program;
     rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
   }
-  return {"Graphviz", "none", "`apt install graphviz` draws what `zwang graph` prints"};
+  return "";
+}
+
+Finding of_program(const std::string& subject, const std::string& program, const std::string& way_out) {
+  const std::string path = on_path(program);
+  return path.empty() ? Finding{subject, "none", way_out} : Finding{subject, path, ""};
+}
+
+/// The first that is there. Places count from the folder of this program: installed, and built.
+Finding of_part(const std::string& subject, const std::vector<std::string>& places,
+                const std::string& way_out) {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  for (const std::string& place : places) {
+    const fs::path path = (folder / place).lexically_normal();
+    if (fs::exists(path, error)) return {subject, path.string(), ""};
+  }
+  return {subject, "none", way_out};
+}
+
+Finding page() {
+  const auto file = page_parts_file();
+  if (file) return {"page of a run", file->string(), ""};
+  return {"page of a run", "its parts are missing",
+          "`./dev web` in a checkout builds them, with node and npm; `report` and `--live` need them"};
+}
+
+Finding python_module() {
+  return of_part("Python module",
+                 {"../lib/python3/dist-packages/zwang/__init__.py", "python/zwang/__init__.py"},
+                 "install python3-zwang, or `./dev python` in a checkout; docs/python.md has the rest");
+}
+
+Finding robot_program() {
+  return of_part("ROS 2 topics (DDS)", {"../libexec/zwang/zwang-drive", "zwang-drive"},
+                 "install zwang-ros2; in a checkout `apt install libfastrtps-dev` and build with "
+                 "-DZWANG_CONNECT=ON");
+}
+
+Finding node() {
+  return of_program("node", "node", "`apt install nodejs npm`: `./dev web` builds the page with them");
+}
+
+Finding browser() {
+  return of_program(
+      "Chromium", "chromium",
+      "`apt install chromium`: pictures and the tests of the page need it; pages open in any browser");
+}
+
+Finding graph_drawer() {
+  return of_program("Graphviz", "dot", "`apt install graphviz` draws what `zwang graph` prints");
 }
 
 }  // namespace
@@ -96,12 +149,18 @@ int doctor() {
       locked_memory(),
       shipped_files(),
       log_folder(),
+      page(),
+      python_module(),
+      robot_program(),
       graph_drawer(),
+      node(),
+      browser(),
   };
   std::string text;
   for (const Finding& finding : findings) {
     text += padded(finding.subject, 22) + finding.found + "\n";
-    if (!finding.way_out.empty()) text += padded("", 22) + "-> " + finding.way_out + "\n";
+    if (!finding.way_out.empty())
+      text += padded("", 22) + marked(Hue::warning, "->") + " " + finding.way_out + "\n";
   }
   print(text);
   return exit_good;

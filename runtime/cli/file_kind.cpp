@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <set>
 #include <utility>
 
@@ -83,6 +84,21 @@ std::vector<std::string> yaml_files_below(const std::string& folder) {
   } catch (const fs::filesystem_error& error) {
     throw Impossible(error.path1().string() + ": " + error.code().message());
   }
+}
+
+bool is_urdf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char first = ' ';
+  while (file.get(first) && (first == ' ' || first == '\n' || first == '\r' || first == '\t' || first < 0)) {
+  }
+  return first == '<';
+}
+
+void refuse_urdf(const std::string& path) {
+  if (!is_urdf(path)) return;
+  const std::string draft = fs::path(path).filename().replace_extension(".yaml").string();
+  throw Impossible(path + ": is a URDF, not a file of zwang's; `zwang robot init " + path + " -o " + draft +
+                   "` begins a robot file of it, which task files name");
 }
 
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,

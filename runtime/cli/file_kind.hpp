@@ -18,6 +18,12 @@ using lang::word_of;
 /// lead to is there once, by the name without a link where it has one. Throws Impossible for a folder that
 /// cannot be read.
 std::vector<std::string> yaml_files_below(const std::string& folder);
+
+/// Whether the first letter of a file is that of XML.
+bool is_urdf(const std::string& path);
+/// Throws Impossible, with the way out, where a URDF is given in the place of a file of zwang's.
+void refuse_urdf(const std::string& path);
+
 struct Reading {
   lang::LoadOptions options = {};  ///< of a task file
   bool with_notes = false;         ///< notes are looked for, too

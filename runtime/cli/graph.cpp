@@ -4,6 +4,7 @@
 #include <sstream>
 #include <vector>
 
+#include "file_kind.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/printable.hpp"
@@ -169,6 +170,7 @@ std::string mermaid(const Graph& graph) {
 
 int graph(const GraphArguments& arguments) {
   require_file(arguments.file);
+  refuse_urdf(arguments.file);
   lang::Diagnostics diagnostics;
   const std::optional<Program> program =
       lang::load(arguments.file, arguments.overrides.load_options(), diagnostics);

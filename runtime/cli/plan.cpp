@@ -1,3 +1,4 @@
+#include "file_kind.hpp"
 #include "output.hpp"
 #include "plan_report.hpp"
 #include "verbs.hpp"
@@ -7,6 +8,7 @@ namespace zwang::cli {
 
 int plan(const PlanArguments& arguments) {
   require_file(arguments.file);
+  refuse_urdf(arguments.file);
   lang::Diagnostics diagnostics;
   const std::optional<lang::Program> program =
       lang::load_with_notes(arguments.file, arguments.overrides.load_options(), diagnostics);

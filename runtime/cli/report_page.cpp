@@ -22,15 +22,22 @@ constexpr std::array places{"../share/zwang/web/report.html", "../../web/dist/re
 
 }  // namespace
 
-std::string page_parts() {
+std::optional<fs::path> page_parts_file() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   for (const char* place : places) {
-    std::ifstream file(program.parent_path() / place, std::ios::binary);
-    if (!file) continue;
+    const fs::path file = (program.parent_path() / place).lexically_normal();
+    if (fs::is_regular_file(file, error)) return file;
+  }
+  return std::nullopt;
+}
+
+std::string page_parts() {
+  if (const auto path = page_parts_file()) {
+    std::ifstream file(*path, std::ios::binary);
     std::ostringstream bytes;
     bytes << file.rdbuf();
-    return bytes.str();
+    if (file) return bytes.str();
   }
   throw Impossible(
       "the parts of the page are missing; in a checkout `./dev web` builds them, from packages of npm, and "

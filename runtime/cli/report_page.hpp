@@ -1,6 +1,7 @@
 /// The page of a run: the parts that `./dev web` builds, and the run's data in their midst.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -9,6 +10,9 @@ namespace zwang::cli {
 /// The page without data. It lies beside the installed program, or in the checkout that the program was built
 /// in. Throws Impossible, with the way out, where it is missing.
 std::string page_parts();
+
+/// The file that they are in, where it is there.
+std::optional<std::filesystem::path> page_parts_file();
 
 /// The page with the data in it, which are JSON of ASCII letters: nothing of them can end the element that
 /// they stand in.

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "file_kind.hpp"
 #include "output.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/configurations.hpp"
@@ -19,14 +19,6 @@ namespace zwang::cli {
 namespace {
 
 using nlohmann::ordered_json;
-
-bool is_urdf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  char first = ' ';
-  while (file.get(first) && (first == ' ' || first == '\n' || first == '\r' || first == '\t' || first < 0)) {
-  }
-  return first == '<';
-}
 
 std::string known_number(double value) {
   if (!std::isfinite(value)) return "no limit known";

@@ -117,6 +117,7 @@ bool is_plain(const std::string& text) {
 
 RunArguments with_choice(RunArguments arguments, lang::Diagnostics& diagnostics) {
   require_file(arguments.file);
+  refuse_urdf(arguments.file);
   const std::optional<FileKind> kind = kind_of_file(arguments.file);
   if (kind == FileKind::study) return with_study(std::move(arguments), diagnostics);
   if (kind != FileKind::scenario) {

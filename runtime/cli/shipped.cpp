@@ -15,7 +15,7 @@ bool is_bare_name(const std::string& file) {
   return !file.empty() && file.find('/') == std::string::npos && fs::path(file).extension() != ".mcap";
 }
 
-std::vector<std::string> task_names(const fs::path& folder) {
+std::vector<std::string> shipped_names(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
   for (const auto& file : fs::directory_iterator(folder, error)) {
@@ -37,14 +37,15 @@ std::optional<fs::path> shipped_folder() {
   return std::nullopt;
 }
 
-std::string file_or_shipped(const std::string& file) {
+std::string file_or_shipped(const std::string& file, const std::string& below) {
   std::error_code error;
   if (!is_bare_name(file) || fs::exists(fs::symlink_status(file, error))) return file;
-  const std::optional<fs::path> folder = shipped_folder();
-  if (!folder) return file;
+  const std::optional<fs::path> shipped = shipped_folder();
+  if (!shipped) return file;
+  const fs::path folder = (*shipped / below).lexically_normal();
   const std::string name = fs::path(file).extension() == ".yaml" ? fs::path(file).stem().string() : file;
-  if (fs::exists(*folder / (name + ".yaml"), error)) return (*folder / (name + ".yaml")).string();
-  const std::string meant = lang::nearest(name, task_names(*folder));
+  if (fs::exists(folder / (name + ".yaml"), error)) return (folder / (name + ".yaml")).string();
+  const std::string meant = lang::nearest(name, shipped_names(folder));
   if (meant.empty()) return file;
   throw Impossible(file + ": no such file; did you mean `" + meant + "`, which ships with zwang?");
 }

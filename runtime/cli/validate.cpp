@@ -58,6 +58,7 @@ std::vector<std::string> files_of(const ValidateArguments& arguments, lang::Open
       files.insert(files.end(), below.begin(), below.end());
     } else {
       require_file(path);
+      refuse_urdf(path);
       files.push_back(path);
     }
   }

@@ -41,6 +41,31 @@ TEST_F(Verbs, AMistypedVerbIsAnsweredWithTheOneThatWasMeant) {
   EXPECT_EQ(r.code, 2);
   EXPECT_TRUE(contains(r.err, "did you mean `zwang run`?")) << r.err;
   EXPECT_TRUE(contains(zwang({"xyzzy"}).err, "no verb `xyzzy`\n"));
+  const Result of_robot = zwang({"robot", "inpsect", "x"});
+  EXPECT_EQ(of_robot.code, 2);
+  EXPECT_TRUE(contains(of_robot.err,
+                       "no verb `inpsect` of `zwang robot`; did you mean `zwang robot inspect`?\n"
+                       "Try `zwang robot --help`."))
+      << of_robot.err;
+}
+
+TEST_F(Verbs, AUrdfIsNoTaskFile) {
+  const std::string urdf = (specs_folder / "robots/diff_base.urdf").string();
+  for (const char* verb : {"run", "plan", "graph", "validate"}) {
+    const Result r = zwang({verb, urdf});
+    EXPECT_EQ(r.code, 2) << verb;
+    EXPECT_TRUE(contains(r.err, "is a URDF")) << r.err;
+    EXPECT_TRUE(contains(r.err, "`zwang robot init " + urdf + " -o diff_base.yaml`")) << r.err;
+  }
+}
+
+TEST_F(Verbs, AShippedScenarioIsFoundByItsName) {
+  const Result mistyped = zwang({"test", "pushde"});
+  EXPECT_EQ(mistyped.code, 2);
+  EXPECT_TRUE(contains(mistyped.err, "did you mean `pushed`")) << mistyped.err;
+  const Result r = zwang({"test", "docking_already", "--format", "json"});
+  EXPECT_EQ(json::parse(r.out)["scenarios"][0]["file"],
+            (specs_folder / "scenarios/docking_already.yaml").string());
 }
 
 TEST_F(Verbs, AShippedTaskIsFoundByItsName) {
@@ -72,9 +97,17 @@ TEST_F(Verbs, InitMakesAFolderThatRuns) {
 TEST_F(Verbs, DoctorSaysWhatIsThere) {
   const Result r = zwang({"doctor"});
   EXPECT_EQ(r.code, 0) << r.err;
-  for (const char* subject : {"zwang ", "MuJoCo ", "real-time priority", "locked memory", "shipped files"})
+  for (const char* subject : {"zwang ", "MuJoCo ", "real-time priority", "locked memory", "shipped files",
+                              "page of a run", "Python module", "ROS 2 topics (DDS)", "node", "Chromium"})
     EXPECT_TRUE(contains(r.out, subject)) << r.out;
   EXPECT_TRUE(contains(r.out, specs_folder.string())) << r.out;
+  // What is missing has its way out in the next line.
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder_.c_str(), 1);
+  const Result poor = zwang({"doctor"});
+  setenv("PATH", path.c_str(), 1);
+  for (const char* package : {"nodejs", "chromium", "graphviz"})
+    EXPECT_TRUE(contains(poor.out, std::string("-> `apt install ") + package)) << poor.out;
 }
 
 TEST_F(Verbs, ValidateReadsFolders) {
@@ -259,9 +292,9 @@ TEST_F(Verbs, SchemaPrintsEveryKind) {
   EXPECT_EQ(zwang({"schema"}).out, read(specs_folder / "schemas/task.json"));
   EXPECT_EQ(zwang({"schema", "robots"}).code, 2);
   // The words that may stand there, and where to read about this verb.
-  EXPECT_EQ(
-      zwang({"schema", "robots"}).err,
-      "zwang: kind: robots not in {connection,robot,scenario,scene,study,task}\nTry `zwang schema --help`.\n");
+  EXPECT_EQ(zwang({"schema", "robots"}).err,
+            "zwang: kind: robots not in {connection,robot,scenario,scene,study,task}\nTry `zwang schema "
+            "--help`.\n");
   EXPECT_EQ(zwang({"robot", "inspect"}).err, "zwang: file is required\nTry `zwang robot inspect --help`.\n");
 }
 

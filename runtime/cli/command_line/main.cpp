@@ -15,15 +15,25 @@ namespace {
 
 using namespace zwang::cli;
 
-/// `runn` is answered with `run`. Empty when the first word is a verb or an option.
+/// `runn` is answered with `run`, `robot inpsect` with `robot inspect`. Empty when the words are verbs, or
+/// where an option stands.
 std::string unknown_verb(const CLI::App& app, int argc, char** argv) {
-  const std::string word = argc > 1 ? argv[1] : "";
-  std::vector<std::string> verbs;
-  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-  if (word.empty() || word.front() == '-' || std::find(verbs.begin(), verbs.end(), word) != verbs.end())
-    return "";
-  const std::string meant = zwang::lang::nearest(word, verbs);
-  return "no verb `" + word + "`" + (meant.empty() ? "" : "; did you mean `zwang " + meant + "`?");
+  const CLI::App* within = &app;
+  std::string known = "zwang";
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    std::vector<std::string> verbs;
+    for (const CLI::App* verb : within->get_subcommands({})) verbs.push_back(verb->get_name());
+    if (verbs.empty() || word.empty() || word.front() == '-') return "";
+    if (std::find(verbs.begin(), verbs.end(), word) == verbs.end()) {
+      const std::string meant = zwang::lang::nearest(word, verbs);
+      return "no verb `" + word + "`" + (within == &app ? "" : " of `" + known + "`") +
+             (meant.empty() ? "" : "; did you mean `" + known + " " + meant + "`?");
+    }
+    within = within->get_subcommand(word);
+    known += " " + word;
+  }
+  return "";
 }
 
 int parse_and_do(int argc, char** argv) {
@@ -48,11 +58,11 @@ int parse_and_do(int argc, char** argv) {
     return exit_good;
   } catch (const CLI::ParseError& mistake) {
     const std::string unknown = unknown_verb(app, argc, argv);
-    if (!unknown.empty()) throw Impossible(unknown + "\nTry `zwang --help`.");
     // CLI11's own exit codes say nothing that ours do not.
     std::string verb;  // the innermost that was named
     for (auto below = app.get_subcommands(); !below.empty(); below = below.front()->get_subcommands())
       verb += " " + below.front()->get_name();
+    if (!unknown.empty()) throw Impossible(unknown + "\nTry `zwang" + verb + " --help`.");
     throw Impossible(std::string(mistake.what()) + "\nTry `zwang" + verb + " --help`.");
   }
   return chosen();

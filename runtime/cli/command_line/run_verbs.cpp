@@ -32,7 +32,7 @@ void add_sweep(CLI::App& app, Chosen& chosen) {
                  "make a page beside the results: histograms, and each margin over each draw");
   add_format(*verb, arguments->format);
   verb->callback([=, &chosen] {
-    arguments->study = file_or_shipped(arguments->study);
+    arguments->study = file_or_shipped(arguments->study, "studies");
     chosen = [=] { return sweep(*arguments); };
   });
 }
@@ -51,7 +51,10 @@ void add_test(CLI::App& app, Chosen& chosen) {
       verb->add_flag("--report", arguments->report, "make a page of all runs, the worst first");
   verb->add_option("-o,--out", arguments->out, "the page to write (default test-report.html)")->needs(page);
   add_format(*verb, arguments->format);
-  verb->callback([=, &chosen] { chosen = [=] { return test(*arguments); }; });
+  verb->callback([=, &chosen] {
+    for (std::string& path : arguments->paths) path = file_or_shipped(path, "scenarios");
+    chosen = [=] { return test(*arguments); };
+  });
 }
 
 /// As they were typed; what is wrong with them is told when `run` is what was asked for.
