@@ -264,10 +264,8 @@ tasks:
                 "`always.fence.left` was at its limit, 0.050 m, which keeps `footprint` inside `room`"});
 }
 
-// The run begins 1.4 m outside: at the corner (0.6, 0) the region ends, and the base stands at (2, 0).
-TEST(Why, ARegionThatIsLeft) {
-  const Ended ended = run(R"(
-regions: {room: {polygon: [[-1 m, -1 m], [0.6 m, -1 m], [0.6 m, 1 m], [-1 m, 1 m]]}}
+Ended stands_outside(const std::string& region) {
+  return run("\nregions: {room: " + region + R"(}
 always:
   constraints:
     fence: {move: base_link, inside: room, margin: 5 cm}
@@ -280,10 +278,17 @@ tasks:
       - {when: moved(base_link) > 1 m, goto: done}
     timeout: {after: 0.1 s, goto: failed}
 )",
-                          "start: {at: [2 m, 0 m]}\nfloor: {friction: 0.9}\n");
+             "start: {at: [2 m, 0 m]}\nfloor: {friction: 0.9}\n");
+}
+
+// Both regions end at x = 0.6 m, and the base stands at 2 m: 1.4 m outside of them.
+TEST(Why, ARegionThatIsLeft) {
+  Ended ended = stands_outside("{polygon: [[-1 m, -1 m], [0.6 m, -1 m], [0.6 m, 1 m], [-1 m, 1 m]]}");
   expect_words(ended, {"the guard told at 0.00", ": `base_link` left the region `room` by 1.400 m",
                        "`always.fence.left` stood at -1.",
                        ", beyond its limit of 0.050 m, which keeps `base_link` inside `room`"});
+  ended = stands_outside("{circle: {at: [0 m, 0 m], radius: 0.6 m}}");
+  expect_words(ended, {": `base_link` left the region `room` by 1.400 m", ", beyond its limit of 0.550 m"});
 }
 
 TEST(Why, AttemptsThatAreUsedUp) {

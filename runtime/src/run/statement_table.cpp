@@ -23,12 +23,14 @@ void merge(lang::AxisStatements& into, const lang::AxisStatements& from) {
 /// One axis of a group.
 Statement statement_of(const std::string& name, bool own, const lang::AxisStatements& says,
                        const lang::Group& group, const lang::Program& program) {
-  Statement statement{name, own, says, group.kind == lang::GroupKind::inside, {}, {}};
+  Statement statement{name, own, says, group.kind == lang::GroupKind::inside, {}, {}, 0.0};
   const auto frame = static_cast<std::size_t>(group.move);
   if (frame < program.frames.size()) statement.frame = program.frames[frame].name;
   if (!statement.inside) return statement;
   if (group.moves_footprint) statement.frame = "footprint";
-  statement.region = program.regions[static_cast<std::size_t>(group.region)].name;
+  const lang::Region& region = program.regions[static_cast<std::size_t>(group.region)];
+  statement.region = region.name;
+  statement.radius = region.radius;
   return statement;
 }
 

@@ -17,6 +17,7 @@ struct Statement {
   bool inside = false;  ///< stands for all the rows of a group `inside` a region
   std::string frame;    ///< that moves; of a footprint "footprint"
   std::string region;   ///< of `inside`
+  double radius = 0.0;  ///< [m] of that region; 0: it is a polygon
 };
 
 class StatementTable {

@@ -101,13 +101,19 @@ std::string words_of_excursion(const Statement& row, double at_first,
   const std::string unit = unit_of(row.says.axis, solver::Quantity::position);
   const double beyond = limit == limits.end() ? at_first : std::max(at_first, -limit->margin);
   const std::string frame = quoted(row.frame);
-  if (!row.inside) return frame + " left its range of " + quoted(row.name) + " by " + with_unit(beyond, unit);
-  // A region keeps its frame a margin away from its edge: the margin is left first.
-  const double outside = limit == limits.end() ? at_first : -limit->worst;
-  const std::string region = " the region " + quoted(row.region);
-  if (outside > 0.0) return frame + " left" + region + " by " + with_unit(outside, unit);
-  return frame + " came within " + with_unit(-outside, unit) + " of the edge of" + region +
-         ", which keeps a margin of " + with_unit(limit->limit, unit);
+  if (!row.inside || limit == limits.end())
+    return frame + " left " +
+           (row.inside ? "the region " + quoted(row.region) : "its range of " + quoted(row.name)) + " by " +
+           with_unit(beyond, unit);
+  // A region keeps its frame a margin away from its edge: the margin is left first. A polygon's limit counts
+  // from an edge, that of a circle from the centre.
+  const bool is_circle = row.radius > 0.0;
+  const double outside = is_circle ? limit->worst - row.radius : -limit->worst;
+  const double kept = is_circle ? row.radius - limit->limit : limit->limit;
+  if (outside > 0.0)
+    return frame + " left the region " + quoted(row.region) + " by " + with_unit(outside, unit);
+  return frame + " came within " + with_unit(-outside, unit) + " of the edge of the region " +
+         quoted(row.region) + ", which keeps a margin of " + with_unit(kept, unit);
 }
 
 /// The exits that lead on; where none does, all.
