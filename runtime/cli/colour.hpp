@@ -13,7 +13,7 @@ enum class Hue { bad, warning, good };
 /// The text between two marks. Both are characters that Unicode gives to no text, and take no column.
 std::string marked(Hue hue, std::string_view text);
 
-/// What `lang::render_human` wrote, with marks around severities, codes and carets.
+/// The text of `lang::render_human` with marks around severities, codes and carets.
 std::string with_marked_severities(std::string_view rendered);
 
 /// The text with escapes in the place of its marks; without colour, with nothing there.
