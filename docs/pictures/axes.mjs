@@ -12,7 +12,7 @@ start: go
 tasks:
   go:
     constraints:
-      way: {move: base_link, in: goal, x: {position: 0 m}, y: {position: 0 m}, rz: {position: 0 deg}}
+      way: {move: base, in: goal, x: {position: 0 m}, y: {position: 0 m}, rz: {position: 0 deg}}
     timeout: {after: 0.1 s, goto: done}
 `;
 const scene = 'zwang_scene: 1\nstart: {at: [0 m, 0 m], yaw: 20 deg}\n';
@@ -48,14 +48,14 @@ function fromAbove(record) {
   const end = [at[0] + reach * Math.cos(yaw), at[1] - reach * Math.sin(yaw)].map((value) => value.toFixed(1));
   const metres = (value) => `${value.toFixed(2)} m`.replace('-', '−');
   return [
-    text(20, 28, 'move: base_link, in: goal (from above)', undefined, 'font-weight="bold"'),
+    text(20, 28, 'move: base, in: goal (from above)', undefined, 'font-weight="bold"'),
     `<g transform="translate(${at[0]} ${at[1]}) rotate(${-turned})">`,
     `<rect x="${-0.4 * scale}" y="${-0.28 * scale}" width="${0.8 * scale}" height="${0.56 * scale}" rx="8" fill="#d7e6f7" stroke="${blue}" stroke-width="2"/>`,
     ...[[-1, -1], [1, -1], [-1, 1], [1, 1]].map(([i, k]) =>
       `<rect x="${(i * 0.27 - 0.0759) * scale}" y="${k * 0.22 * scale - 6}" width="${0.1518 * scale}" height="12" rx="3" fill="#444"/>`),
     line([0, 0], [56, 0], blue, tip('blue')), line([0, 0], [0, -36], blue, tip('blue')), '</g>',
     `<circle cx="${at[0]}" cy="${at[1]}" r="4" fill="${blue}"/>`,
-    text(at[0] - 20, at[1] + 78, 'base_link', blue),
+    text(at[0] - 20, at[1] + 78, 'base', blue),
     line(origin, [origin[0] + 70, origin[1]], red, tip('red')), line(origin, [origin[0], origin[1] - 70], green, tip('green')),
     `<circle cx="${origin[0]}" cy="${origin[1]}" r="4" fill="#333"/>`,
     text(origin[0] + 76, origin[1] + 5, 'x', red), text(origin[0] - 5, origin[1] - 80, 'y', green), text(origin[0] + 12, origin[1] + 24, 'goal'),

@@ -77,8 +77,8 @@ lang::TaskTexts fitted(const std::string& task, const lang::BaseFit& fit, const 
   if (!shipped)
     throw Impossible(
         "the shipped files are not beside this program: install it, or run it from its checkout");
-  const std::string variant = lang::shipped_variant(task, fit) + ".yaml";
-  const lang::TaskTexts texts{text_of(*shipped / variant), text_of(*shipped / "scenes/corridor.yaml")};
+  const lang::TaskTexts texts{text_of(*shipped / (task + ".yaml")),
+                              text_of(*shipped / "scenes/corridor.yaml")};
   return lang::draft_task(task, texts, fit, files.robot.filename().string(), files.scene.filename().string());
 }
 

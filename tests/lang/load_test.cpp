@@ -22,7 +22,7 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
   ASSERT_TRUE(program) << rendered(diagnostics);
   EXPECT_TRUE(diagnostics.all().empty()) << rendered(diagnostics);
 
-  ASSERT_EQ(program->parameters.size(), 1u);
+  ASSERT_EQ(program->parameters.size(), 2u);
   EXPECT_EQ(program->parameters[0].name, "push");
   EXPECT_DOUBLE_EQ(program->parameters[0].value, 20.0);
   EXPECT_DOUBLE_EQ(program->parameters[0].range->high, 40.0);
@@ -43,7 +43,7 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
   const Task& press = program->tasks[0];
   ASSERT_EQ(press.groups.size(), 1u);
   const Group& contact = press.groups[0];
-  EXPECT_EQ(program->frames[static_cast<std::size_t>(contact.move)].name, "base_link");
+  EXPECT_EQ(program->frames[static_cast<std::size_t>(contact.move)].name, "base");
   EXPECT_EQ(contact.in, contact.move);
   ASSERT_EQ(contact.axes.size(), 3u);
   const AxisStatements& x = contact.axes[0];
@@ -55,7 +55,7 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
   EXPECT_DOUBLE_EQ(x.velocity->high.constant, 0.08);
   EXPECT_FALSE(x.force);
   EXPECT_EQ(x.level, 1);
-  EXPECT_EQ(x.statement_spans[static_cast<std::size_t>(Quantity::force)].begin.line, 22);
+  EXPECT_EQ(x.statement_spans[static_cast<std::size_t>(Quantity::force)].begin.line, 23);
   EXPECT_EQ(contact.axes[1].driver, Quantity::velocity);
   EXPECT_EQ(contact.axes[2].axis, Axis::rz);
   EXPECT_FALSE(contact.axes[2].driver);
@@ -67,7 +67,7 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
   ASSERT_EQ(press.exits[0].set.size(), 1u);
   EXPECT_EQ(program->frames[static_cast<std::size_t>(press.exits[0].set[0].index)].name, "wall");
   ASSERT_TRUE(press.timeout);
-  EXPECT_DOUBLE_EQ(press.timeout->after.constant, 20.0);
+  EXPECT_EQ(press.timeout->after.parameter, 1);
   EXPECT_EQ(press.timeout->target.kind, TargetKind::failed);
 
   const Task& hold = program->tasks[1];

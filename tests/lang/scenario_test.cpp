@@ -215,8 +215,8 @@ expect: [{outcome: done}]
 
 TEST(Scenario, a_task_that_is_refused_anyway_is_judged_on_its_own) {
   const Shelf shelf(test::replaced(good, "task: wall_align.yaml", "task: broken.yaml"));
-  std::ofstream(shelf.path.parent_path() / "broken.yaml") << test::replaced(
-      test::slurp(test::source_dir / "specs/wall_align.yaml"), "move: base_link", "move: bas_link");
+  std::ofstream(shelf.path.parent_path() / "broken.yaml")
+      << test::replaced(test::slurp(test::source_dir / "specs/wall_align.yaml"), "move: base", "move: bsae");
   Diagnostics diagnostics;
   EXPECT_TRUE(check_scenario(shelf.path, diagnostics)) << rendered(diagnostics);
   EXPECT_TRUE(diagnostics.all().empty()) << rendered(diagnostics);

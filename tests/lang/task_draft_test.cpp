@@ -22,8 +22,7 @@ Robot shipped(const char* name) {
 }
 
 TaskTexts drafted(const std::string& task, const BaseFit& fit) {
-  const TaskTexts texts{test::slurp(specs / (shipped_variant(task, fit) + ".yaml")),
-                        test::slurp(specs / "scenes/corridor.yaml")};
+  const TaskTexts texts{test::slurp(specs / (task + ".yaml")), test::slurp(specs / "scenes/corridor.yaml")};
   return draft_task(task, texts, fit, "robot.yaml", "scene.yaml");
 }
 
@@ -73,6 +72,17 @@ TEST(TaskDraft, of_two_freedoms_leads_the_lead) {
   EXPECT_NE(texts.task.find("move: lead"), std::string::npos) << texts.task;
   EXPECT_EQ(texts.task.find("nose"), std::string::npos);
   EXPECT_EQ(texts.task.find("base_link"), std::string::npos);
+}
+
+// Where the URDF calls another link `base`, the task names the base link. What it tells people stays.
+TEST(TaskDraft, names_the_base_link_where_base_is_another_link) {
+  BaseFit fit = base_fit(shipped("mecanum_base"));
+  fit.base = "chassis";
+  const std::string task = drafted("obstacle", fit).task;
+  EXPECT_EQ(task.find("move: base\n"), std::string::npos) << task;
+  for (const char* part : {"move: chassis\n", "in: chassis\n", "moved(chassis) > 1 m",
+                           "frames.touch: chassis}", "help: most force the base may ever press with"})
+    EXPECT_NE(task.find(part), std::string::npos) << part << "\n" << task;
 }
 
 // 0.4 m x cos 20 deg + 0.28 m x sin 20 deg + 0.5 m = 0.972 m, as in the shipped scene of the same base.

@@ -95,7 +95,7 @@ TEST_F(Cli, RunsTheShippedTaskAndTellsTheStoryInJson) {
   ASSERT_EQ(j["transitions"].size(), 3u);
   EXPECT_EQ(j["transitions"][1]["from"], "press");
   EXPECT_EQ(j["transitions"][1]["to"], "hold");
-  EXPECT_NE(j["transitions"][1]["why"].get<std::string>().find("moved(base_link) > 2 cm (wall_align.yaml:"),
+  EXPECT_NE(j["transitions"][1]["why"].get<std::string>().find("moved(base) > 2 cm (wall_align.yaml:"),
             std::string::npos);
   EXPECT_GE(j["elapsed"], j["transitions"][2]["time"]);
 
@@ -150,7 +150,7 @@ TEST_F(Cli, TwoRunsWithOneSeedWriteTheSameBytes) {
   const std::string log = read(folder_ / "a/log.mcap");
   EXPECT_GT(log.size(), 1'000'000u);
   EXPECT_TRUE(log == read(folder_ / "b/log.mcap"));
-  EXPECT_FALSE(fs::exists(folder_ / "a/log.csv")) << "nobody asked for it"; 
+  EXPECT_FALSE(fs::exists(folder_ / "a/log.csv")) << "nobody asked for it";
 }
 
 TEST_F(Cli, ALogThatIsWrittenOverIsToldOf) {

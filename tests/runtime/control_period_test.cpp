@@ -134,7 +134,7 @@ TEST_P(AtTenMilliseconds, TheScenarioHolds) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, AtTenMilliseconds,
                          testing::Values("wall_align", "wall_align_casters", "obstacle_stays",
-                                         "obstacle_corner", "docking_live", "hospital_nose", "boundary",
+                                         "obstacle_corner", "docking_live", "hospital_diff", "boundary",
                                          "velocity_limit", "faults_of_motors", "faults_slip",
                                          "wall_align_soft"),
                          [](const auto& tested) { return std::string(tested.param); });

@@ -6,9 +6,9 @@ set -euo pipefail
 program=$1
 files=("${@:2}")
 long=(blind_hospital blind_obstacle cradle_varied docking_casters docking_casters_badly_seen docking_in_vain_casters
-  docking_live_casters docking_live_nose docking_nose_badly_seen docking_nose_in_vain docking_steady
+  docking_diff_badly_seen docking_diff_in_vain docking_live_casters docking_live_diff docking_steady
   faults_of_mass_casters faults_of_mass_diff faults_slip_askew hospital_blind hospital_loaded
-  hospital_nose_blind hospital_nose_closed limited_docking limited_hospital obstacle_leaves_diff
+  hospital_diff_blind hospital_diff_closed limited_docking limited_hospital obstacle_leaves_diff
   obstacle_rollers obstacle_stays_casters oncoming_fails pressed_on switch_hospital_hard switch_obstacle_hard
   wall_align_soft wipe_varied)
 

@@ -57,7 +57,7 @@ const std::vector<Job>& jobs() {
        10.0,
        15.0,
        {{"seat_force", "10 N"}}},
-      {"docking_nose.yaml",
+      {"docking.yaml",
        {"dock", "dock_drifts"},
        {"diff_base"},
        60.0,
@@ -66,7 +66,7 @@ const std::vector<Job>& jobs() {
        5.0,
        {{"seat_force", "10 N"}}},
       {"hospital.yaml", {"corridor"}, {"mecanum_base", "omni_base", "kelo_base"}, 15.0, 0.6, 80.0, 0.0},
-      {"hospital_nose.yaml", {"corridor"}, {"diff_base"}, 15.0, 0.6, 80.0, 0.0},
+      {"hospital.yaml", {"corridor"}, {"diff_base"}, 15.0, 0.6, 80.0, 0.0},
   };
   return all;
 }

@@ -36,7 +36,7 @@ struct Onset {
 };
 
 struct Drawn {
-  std::string name;  ///< "docking_nose.yaml on diff_base, dock"
+  std::string name;  ///< "docking.yaml on diff_base, dock"
   lang::Program program;
   double time_limit = 0.0;    ///< [s] of the run
   double speed = 0.0;         ///< [m/s] most that the task allows

@@ -1,6 +1,6 @@
 // A use case that ships is fitted to a base in three ways. Names: the task moves `base` and `lead`, which
-// every robot has. Forces: in proportion to the weight of a light base. Distances: from the edge of the
-// outline.
+// every robot has; a robot whose URDF calls another link `base` is named by its base link. Forces: in
+// proportion to the weight of a light base. Distances: from the edge of the outline.
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -39,12 +39,14 @@ bool is_of_a_word(char c) {
   return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-void replace_word(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) {
-    const std::size_t end = at + from.size();
-    const bool is_part =
-        (at > 0 && is_of_a_word(text[at - 1])) || (end < text.size() && is_of_a_word(text[end]));
-    if (!is_part) text.replace(at, from.size(), to);
+/// Where `from` is the value of a key, an argument or the first of a list. Words for people stay.
+void replace_name(std::string& text, const std::string& from, const std::string& to) {
+  for (const char* before : {": ", "(", "["}) {
+    const std::string old_text = before + from, new_text = before + to;
+    for (std::size_t at = 0; (at = text.find(old_text, at)) != std::string::npos; at += new_text.size()) {
+      const std::size_t end = at + old_text.size();
+      if (end == text.size() || !is_of_a_word(text[end])) text.replace(at, old_text.size(), new_text);
+    }
   }
 }
 
@@ -75,8 +77,7 @@ class Fitting {
     text.replace(0, schema,
                  "# Written by `zwang robot init` for `" + fit_.robot + "`, from the task `" + task_ +
                      "` that ships with zwang.");
-    replace_word(text, "base_link", fit_.base);
-    replace_word(text, "nose", fit_.lead);
+    if (fit_.base != "base") replace_name(text, "base", fit_.base);
     fit_forces(text);
     fit_times(text);
     return text;
@@ -187,16 +188,18 @@ class Fitting {
 
   /// The shipped time allows for the shipped way: 0.5 m at 0.08 m/s, 5 cm at 1 cm/s.
   void fit_times(std::string& text) const {
-    const auto after = [](double seconds) {
-      return "timeout: {after: " + wording::figure(std::ceil(seconds / 5.0) * 5.0, "s");
+    const auto timeout = [](double seconds) {
+      return "timeout: {value: " + wording::figure(std::ceil(seconds / 5.0) * 5.0, "s");
     };
-    // A large base takes longer to swing around the corner that touches first.
+    // A large base takes longer to swing around the corner that touches first. A drive that feels late takes
+    // 15 s longer.
+    constexpr double turn = 30.0;  // [s]
     if (task_ == "wall_align") replace(text, "for: 0.2 s", "for: " + wording::figure(still_for(), "s"));
     if (task_ == "wall_align")
-      replace(text, "timeout: {after: 20 s",
-              after(15.0 + (2.0 * wall_gap + slack()) / 0.08 + 10.0 * ahead(askew)));
+      replace(text, "timeout: {value: 40 s",
+              timeout(turn + (2.0 * wall_gap + slack()) / 0.08 + 10.0 * ahead(askew)));
     if (task_ == "feel_wall")
-      replace(text, "timeout: {after: 20 s", after(15.0 + (felt_gap + slack()) / 0.01));
+      replace(text, "timeout: {value: 20 s", timeout(15.0 + (felt_gap + slack()) / 0.01));
   }
 
   /// What the way may be longer while the outline is not known. [m]

@@ -167,9 +167,4 @@ std::string why_unfit(const std::string& task, const BaseFit& fit) {
   return "";
 }
 
-std::string shipped_variant(const std::string& task, const BaseFit& fit) {
-  const bool has_variant = task == "docking" || task == "hospital";
-  return fit.freedoms == Freedoms::two && has_variant ? task + "_nose" : task;
-}
-
 }  // namespace zwang::lang

@@ -33,7 +33,7 @@ struct BaseFit {
   double effective_mass = 0.0;  ///< [kg] that a force along x moves, wheels and rotors included; 0: not known
   double effective_inertia = 0.0;  ///< [kg m^2] of a turn, likewise
   Freedoms freedoms = Freedoms::all;
-  std::string base = "base", lead = "lead";  ///< what a task calls them
+  std::string base = "base";  ///< what a task calls it
 };
 
 BaseFit base_fit(const RobotDraft& draft);
@@ -46,14 +46,11 @@ std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, d
 /// Why this base cannot do `task`; empty: it can, as far as is known.
 std::string why_unfit(const std::string& task, const BaseFit& fit);
 
-/// The shipped task that is `task` for this base: `docking_nose` is `docking` for two freedoms.
-std::string shipped_variant(const std::string& task, const BaseFit& fit);
-
 struct TaskTexts {
   std::string task, scene;
 };
 
-/// `shipped`: the files of `shipped_variant`. The task names its files as given.
+/// `shipped`: the task `task` and the scene of a corridor. The task names its files as given.
 TaskTexts draft_task(const std::string& task, const TaskTexts& shipped, const BaseFit& fit,
                      const std::string& robot_file, const std::string& scene_file);
 
