@@ -1,4 +1,6 @@
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "json_parts.hpp"
 #include "zwang/runtime/scheduler.hpp"
@@ -34,8 +36,12 @@ void add_axis(const lang::AxisStatements& axis, const std::string& name, const s
   const auto add = [&](const std::optional<lang::ValueRange>& range, const char* column, Quantity quantity) {
     if (!range) return;
     const lang::Span& own = axis.statement_spans[static_cast<std::size_t>(quantity)];
-    bounds.push_back(json_of({name + "." + column, task, range->low.evaluate(parameters),
-                              range->high.evaluate(parameters), own.exists() ? own : axis.span}));
+    // A norm in a plane is never below 0: that is no end of its range.
+    double low = axis.is_planar ? -solver::infinity : range->low.evaluate(parameters);
+    double high = range->high.evaluate(parameters);
+    // The column of a region has what is left until its margin.
+    if (inside) std::tie(low, high) = std::pair(0.0, solver::infinity);
+    bounds.push_back(json_of({name + "." + column, task, low, high, own.exists() ? own : axis.span}));
   };
   add(axis.position, inside ? "left" : "position", Quantity::position);
   add(axis.velocity, "velocity", Quantity::velocity);

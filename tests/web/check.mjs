@@ -80,6 +80,50 @@ async function checkNumbers(made) {
   await close();
 }
 
+/** A row of a range has bars while less than a hundredth of its range is left, by the records themselves. */
+async function checkRangeAtLimit(made) {
+  const { page, close } = await open(made.path);
+  const bound = await page.evaluate(() => {
+    const { bounds } = window.zwang.run.data;
+    return bounds.find((one) => one.column.endsWith('contact.x.velocity'));
+  });
+  const [time, value] = ['time', bound.column].map(made.csv.column);
+  const near = value.filter((one) => Math.min(bound.high - one, one - bound.low) < 0.01 * (bound.high - bound.low)).length / time.length;
+  assert.ok(near > 0.02, `${bound.column} is at its limit for ${near} of the run`);
+  const shown = await page.evaluate((column) => [...document.querySelectorAll('.band-row')]
+    .filter((row) => row.querySelector('.band-name')?.textContent === column)
+    .flatMap((row) => [...row.querySelectorAll('.bar.limit')]).reduce((sum, bar) => sum + Number.parseFloat(bar.style.width), 0) / 100, bound.column);
+  assert.ok(Math.abs(shown - near) < 0.02, `${bound.column}: bars of ${shown} of the run, in the log ${near}`);
+  await close();
+}
+
+/** No word of the top view lies over another one or over its edge, at any time, however near it is seen. */
+async function checkLabels(page, width) {
+  const found = await page.evaluate(() => {
+    const { top, clock } = window.zwang;
+    const canvas = top.element.querySelector('canvas');
+    const complaints = [];
+    const over = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    let most = 0;
+    for (const zoom of [1, 0.2, 5]) {
+      top.setZoom(zoom);
+      for (let i = 0; i <= 4; ++i) {
+        clock.show(clock.duration * i / 4);
+        const boxes = top.shownLabels;
+        most = Math.max(most, boxes.length);
+        boxes.forEach((a, k) => {
+          if (a.left < 0 || a.top < 0 || a.right > canvas.clientWidth || a.bottom > canvas.clientHeight) complaints.push(`${a.text} is cut`);
+          boxes.slice(k + 1).forEach((b) => { if (over(a, b)) complaints.push(`${a.text} over ${b.text}`); });
+        });
+      }
+    }
+    top.setZoom(1);
+    return { complaints: [...new Set(complaints)], most };
+  });
+  assert.deepEqual(found.complaints, [], `labels at ${width} px`);
+  assert.ok(found.most >= 2);
+}
+
 async function checkUse(made) {
   const { page, close } = await open(made.path);
   const now = () => page.evaluate(() => window.zwang.clock.time);
@@ -131,6 +175,11 @@ async function checkLook(made, looks) {
       return found;
     });
     assert.deepEqual(overlaps, [], `${width} px`);
+    const cut = await page.evaluate(() => [...document.querySelectorAll('.scroll:has(.fits), .band-name')]
+      .filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.textContent.slice(0, 40)));
+    assert.deepEqual(cut, [], `cut at ${width} px`);
+    // Each look at the labels draws both views, and without a graphics card the one in space takes its time.
+    if (width === 360 && await page.evaluate(() => Boolean(window.zwang.top))) await checkLabels(page, width);
     assert.deepEqual(await tooFaint(page), [], `contrast at ${width} px, ${colorScheme}`);
     await page.screenshot({ path: `${folder}/${made.name}_${width}_${colorScheme}.png`, fullPage: true });
     await close();
@@ -312,6 +361,7 @@ const steps = {
     assert.ok(await page.locator('#why tr.holds').count() >= 3);
     await close();
   },
+  'a range at its limit': () => checkRangeAtLimit(wall),
   'use': () => checkUse(wall),
   'look of the wall': () => checkLook(wall, [[360, 'light'], [800, 'light'], [1600, 'light'], [1600, 'dark']]),
   'look of a failure': () => checkLook(unseen, [[360, 'dark']]),

@@ -93,6 +93,6 @@ export function comparePage(data: ComparisonData, a: Run, b: Run): void {
       part('views', 'Where', top ? top.element : h('p', { class: 'note' }, 'The files of these runs do not load any more: no view.')),
       part('curves', 'Curves', h('p', { class: 'note' }, 'Run A is solid, run B is dashed. A drag zooms all charts, a double click shows all, a click goes to the time. Dotted: a limit, while its task is active.'), charts.element),
       part('margins', 'Margins, worst first', marginsOfBoth(runs)))));
-  (window as unknown as { zwang: unknown }).zwang = { clock, runs, comparison: data.comparison };
+  (window as unknown as { zwang: unknown }).zwang = { clock, runs, top, comparison: data.comparison };
   clock.show(0);
 }

@@ -46,7 +46,7 @@ export function runPage(run: Run): void {
         part('events', 'Events', events(run, clock)),
         part('facts', 'Parameters, seed, versions', facts(run))),
       h('aside', { 'aria-label': 'Files' }, part('source', 'Files', source.element))));
-  (window as unknown as { zwang: unknown }).zwang = { clock, run };
+  (window as unknown as { zwang: unknown }).zwang = { clock, run, top };
   clock.show(0);
   setTimeout(() => space?.start(), 50);
 }

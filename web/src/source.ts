@@ -2,9 +2,9 @@
 import type { Clock } from './clock';
 import { indexAt, taskAt, type Run } from './data';
 import { h } from './dom';
+import { isNear } from './limits';
 
 interface Line { element: HTMLElement; mark: HTMLElement; columns: string[] }
-const nearLimit = 0.01;  // share of a range that is left
 
 export class Source {
   readonly element: HTMLElement;
@@ -80,10 +80,7 @@ export class Source {
     if (name.endsWith('.saturated')) return value > 0.5;
     const task = taskAt(this.run, time);
     return (this.run.data.bounds ?? []).some((b) => {
-      if (b.column !== name || (b.task !== null && b.task !== task) || b.low === b.high) return false;
-      const range = b.low !== null && b.high !== null ? b.high - b.low : 1;
-      const left = Math.min(b.high === null ? Infinity : b.high - value, b.low === null ? Infinity : value - b.low);
-      return left < nearLimit * range;
+      return b.column === name && (b.task === null || b.task === task) && isNear(value, b.low, b.high);
     });
   }
 

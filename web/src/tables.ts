@@ -6,9 +6,19 @@ import { seconds, withUnit } from './units';
 
 type OnLine = (file: number, line: number) => void;
 
-export const table = (names: string[], rows: HTMLElement[]): HTMLElement =>
-  h('div', { class: 'scroll', tabindex: 0 },
-    h('table', {}, h('thead', {}, h('tr', {}, ...names.map((name) => h('th', { scope: 'col' }, name)))), h('tbody', {}, ...rows)));
+/** In a narrow place each row is a block, in which the cells have the names of their columns; roles keep it a table. */
+export function table(names: string[], rows: HTMLElement[]): HTMLElement {
+  for (const row of rows) {
+    row.setAttribute('role', 'row');
+    [...row.children].forEach((one, i) => {
+      one.setAttribute('role', 'cell');
+      if (i > 0 && one.textContent) one.setAttribute('data-name', names[i] ?? '');
+    });
+  }
+  return h('div', { class: 'scroll', tabindex: 0 }, h('table', { role: 'table', class: 'fits' },
+    h('thead', { role: 'rowgroup' }, h('tr', { role: 'row' }, ...names.map((name) => h('th', { scope: 'col', role: 'columnheader' }, name)))),
+    h('tbody', { role: 'rowgroup' }, ...rows)));
+}
 export const cell = (text: string, kind = ''): HTMLElement => h('td', { class: kind }, text);
 
 /** `wall_align.yaml:22` as a way to the line. */

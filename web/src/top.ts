@@ -4,12 +4,14 @@ import { ofStyle, onScheme } from './colours';
 import type { Run, SceneObject, World } from './data';
 import { h } from './dom';
 import type { Grip } from './grip';
+import { drawLabels, type Box, type Label } from './labels';
 import { isInside, type Hand } from './push';
 import { withUnit } from './units';
 import { contactsAt, cornersOf, extentOf, frameInWorld, instantAt, outlineOf, placeOf, pushAt, worldPoint, type Instant } from './world';
 import type { Place } from './motion';
 
 type Point = number[];
+const words = '12px system-ui, sans-serif';
 type ToPixels = (p: Point) => [number, number];
 
 /** A run in the view; `letter` tells it from another one. */
@@ -46,6 +48,9 @@ export class TopView {
   private zoom = 1;
   private paths: Point[][];
   private isTouched = false;
+  private labels: Label[] = [];
+  /** What is written in the view now, and where [px]. */
+  shownLabels: Box[] = [];
 
   constructor(private readonly viewed: Viewed[], private readonly clock: Clock) {
     const dashed = viewed.length > 1 ? `Solid: run ${viewed[0]!.letter}. Dashed: run ${viewed[1]!.letter}.` : 'Dashed: where zwang has the base.';
@@ -148,13 +153,15 @@ export class TopView {
     const to = this.mapping();
     c.setTransform(ratio, 0, 0, ratio, 0, 0);
     c.clearRect(0, 0, width, height);
-    c.font = '12px system-ui, sans-serif';
+    c.font = words;
+    this.labels = [];
     this.drawGrid(c, to, s, width, height, centre);
     this.viewed.forEach((one, i) => this.drawScene(c, to, one, nows[i]!, s, i > 0));
     this.viewed.forEach((one, i) => this.drawPath(c, to, one, this.paths[i]!, i));
     this.viewed.forEach((one, i) => this.drawRobot(c, to, one, nows[i]!, i));
     this.viewed.forEach((one, i) => this.drawForces(c, to, one, nows[i]!));
     this.drawHand(c, to, nows[0]!);
+    this.shownLabels = drawLabels(c, this.labels.map((one) => ({ font: words, ...one })), width, height, ofStyle('--view'));
     const places = nows.map((now, i) => `${this.viewed[i]!.letter ? `run ${this.viewed[i]!.letter}, ` : ''}base at x ${now.base.x.toFixed(3)} m, ` +
       `y ${now.base.y.toFixed(3)} m, heading ${withUnit(now.base.yaw, 'rad')}`);
     this.canvas.setAttribute('aria-label', `Top view at ${this.clock.time.toFixed(3)} s: ${places.join('; ')}`);
@@ -175,8 +182,7 @@ export class TopView {
       c.lineTo(width, to([0, y])[1]);
     }
     c.stroke();
-    c.fillStyle = ofStyle('--quiet');
-    c.fillText(`grid ${step} m`, 8, height - 8);
+    this.labels.push({ text: `grid ${step} m`, at: [2, height - 5], style: ofStyle('--quiet') });
   }
 
   private polygon(c: CanvasRenderingContext2D, to: ToPixels, points: Point[]): void {
@@ -237,9 +243,7 @@ export class TopView {
       c.lineWidth = 2;
       c.stroke();
       c.setLineDash([]);
-      c.fillStyle = ofStyle('--region');
-      const [x, y] = to(corners[0]!);
-      c.fillText(region.name, x + 4, y - 4);
+      this.labels.push({ text: region.name, at: to(corners[0]!), style: ofStyle('--region') });
     }
   }
 
@@ -258,26 +262,23 @@ export class TopView {
     c.lineWidth = 1;
     if (!isSecond) c.fill();
     c.stroke();
-    c.fillStyle = ofStyle('--ink');
-    const [x, y] = to([place.x, place.y]);
-    c.fillText(isSecond ? `${name} (${this.viewed[1]!.letter})` : name, x + 6, y - 6);
+    const text = isSecond ? `${name} (${this.viewed[1]!.letter})` : name;
+    this.labels.push({ text, at: to([place.x, place.y]), style: ofStyle('--ink') });
   }
 
   private drawFrame(c: CanvasRenderingContext2D, to: ToPixels, p: Point, yaw: number, name: string): void {
     const [x, y] = to(p);
     for (const [turn, name_, style] of [[0, 'x', '--x'], [Math.PI / 2, 'y', '--y']] as const) {
       c.strokeStyle = ofStyle(style);
-      c.fillStyle = ofStyle(style);
       c.lineWidth = 2;
       const [ex, ey] = [x + 22 * Math.cos(yaw + turn), y - 22 * Math.sin(yaw + turn)];
       c.beginPath();
       c.moveTo(x, y);
       c.lineTo(ex, ey);
       c.stroke();
-      c.fillText(name_, ex + 2, ey);
+      this.labels.unshift({ text: name_, at: [ex - 3, ey + 12], style: ofStyle(style) });
     }
-    c.fillStyle = ofStyle('--quiet');
-    c.fillText(name, x + 4, y + 14);
+    this.labels.push({ text: name, at: [x, y + 12], style: ofStyle('--quiet') });
   }
 
   private drawPath(c: CanvasRenderingContext2D, to: ToPixels, { run }: Viewed, path: Point[], i: number): void {
@@ -337,12 +338,8 @@ export class TopView {
     });
     const nose = Math.max(...robot.footprint.map((p) => p[0]!), 0.1);
     this.arrow(c, to([now.base.x, now.base.y]), to(worldPoint(now.base, [nose, 0])), ofStyle(look.style));
-    if (!letter) return;
-    c.fillStyle = ofStyle('--ink');
-    c.font = 'bold 16px system-ui, sans-serif';
     const [x, y] = to(worldPoint(now.base, [-0.5 * nose, 0]));
-    c.fillText(letter, x - 6, y + (i ? 20 : -8));
-    c.font = '12px system-ui, sans-serif';
+    if (letter) this.labels.unshift({ text: letter, at: [x - 11, y + (i ? 20 : -8)], style: ofStyle('--ink'), font: 'bold 16px system-ui, sans-serif' });
   }
 
   private drawForces(c: CanvasRenderingContext2D, to: ToPixels, { run, world, letter }: Viewed, now: Instant): void {
@@ -352,8 +349,7 @@ export class TopView {
       const length = 18 * Math.log10(1 + contact.force * 2);
       const tip: [number, number] = [x + contact.normal[0] * length, y - contact.normal[1] * length];
       this.arrow(c, [x, y], tip, ofStyle('--force'));
-      c.fillStyle = ofStyle('--force');
-      c.fillText(withUnit(contact.force, 'N') + (letter ? ` (${letter})` : ''), tip[0] + 5, tip[1] - 5);
+      this.labels.unshift({ text: withUnit(contact.force, 'N') + (letter ? ` (${letter})` : ''), at: tip, style: ofStyle('--force') });
     }
   }
 
@@ -365,8 +361,7 @@ export class TopView {
     if (!push) return;
     const [from, tip] = [to(push.from), to(push.to)];
     this.arrow(c, from, tip, ofStyle('--link'));
-    c.fillStyle = ofStyle('--link');
-    c.fillText(`${withUnit(Math.hypot(...push.force), 'N')} by hand`, tip[0] + 8, tip[1] + 4);
+    this.labels.unshift({ text: `${withUnit(Math.hypot(...push.force), 'N')} by hand`, at: tip, style: ofStyle('--link') });
   }
 
   private arrow(c: CanvasRenderingContext2D, from: [number, number], tip: [number, number], style: string): void {
