@@ -6,6 +6,7 @@
 
 #include "diagnostic/wordings_physics.hpp"
 #include "zwang/lang/configurations.hpp"
+#include "zwang/lang/wheel_level.hpp"
 #include "zwang/solver/base_analysis.hpp"
 #include "zwang/solver/joint_loads.hpp"
 
@@ -83,10 +84,32 @@ Probe::Probe(const Robot& robot, const std::optional<Scene>& scene, double& budg
 std::string Probe::frame_ahead() const {
   // A base that steers has another freedom once it has steered, and at any moment one arc to go along.
   if (base_mobility_ != 2 || solver::analyse_base(robot_.model, states_[0]).base_mobility != 2) return "";
+  // A turn moves a point sideways by its distance from the axle.
+  const auto wheels = robot_.model.wheels();
+  const auto stiff = std::find_if(wheels.begin(), wheels.end(), [&](const solver::Wheel& wheel) {
+    return robot_.model.bodies()[static_cast<std::size_t>(wheel.body)].parent == 0 && wheel.holds_sideways;
+  });
+  if (stiff == wheels.end()) return "";
+  const solver::Pose pose = pose_in_base(robot_.model, stiff->body);
+  const solver::Vector3 axis = pose.rotation * robot_.model.joint(stiff->body - 1).axis;
+  double yaw = std::atan2(-axis.x(), axis.y());
+  constexpr double right = std::numbers::pi / 2.0, rounding = 1e-3;
+  if (yaw > right + rounding) yaw -= std::numbers::pi;
+  if (yaw < -right + rounding) yaw += std::numbers::pi;
+  const solver::Vector3 forward(std::cos(yaw), std::sin(yaw), 0.0);
+  const double axle = forward.dot(pose.position);
   double ahead = 0.0;
-  for (const solver::Vector3& corner : robot_.footprint) ahead = std::max(ahead, corner.x());
-  const std::string at = wording::figure(ahead > 0.05 ? ahead : 0.3, "m");
-  return "`nose: {parent: " + robot_.base_frame + ", at: [" + at + ", 0 m]}`";
+  for (const solver::Vector3& corner : robot_.footprint) ahead = std::max(ahead, forward.dot(corner));
+  if (ahead < axle + 0.05) ahead = axle + 0.3;
+  const auto metres = [](double value) {
+    return wording::figure(std::abs(value) < rounding ? 0.0 : std::round(value * 1e3) / 1e3, "m");
+  };
+  const std::string turned =
+      std::abs(yaw) < rounding
+          ? ""
+          : ", yaw: " + wording::figure(std::round(yaw * 180.0 / std::numbers::pi), "deg");
+  return "`nose: {parent: " + robot_.base_frame + ", at: [" + metres(ahead * forward.x()) + ", " +
+         metres(ahead * forward.y()) + "]" + turned + "}`";
 }
 
 bool Probe::turns_and_drives() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "diagnostic/wordings_physics.hpp"
 #include "zwang/lang/footing.hpp"
@@ -28,6 +29,12 @@ double two_digits_below(double value) {
 }
 
 }  // namespace
+
+std::string in_millimetres(double metres) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g mm", metres * 1e3);
+  return text;
+}
 
 std::string mimic_entry(const Urdf& urdf, const FoundWheels& found) {
   std::string entries;

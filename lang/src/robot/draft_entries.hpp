@@ -9,6 +9,9 @@
 
 namespace zwang::lang {
 
+/// As precise as a drawing.
+std::string in_millimetres(double metres);
+
 /// `mimic`: joints that the file names elsewhere, and that follow another one. Empty where none does.
 std::string mimic_entry(const Urdf& urdf, const FoundWheels& found);
 

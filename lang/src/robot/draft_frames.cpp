@@ -1,7 +1,9 @@
 #include "robot/draft_frames.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnostic/wordings_physics.hpp"
 
@@ -93,29 +95,68 @@ std::string DraftFrames::footprint(const std::string& open) const {
          "\nfootprint: {polygon: " + open + "}\n";
 }
 
-/// A line; none where a link has the name.
-std::string DraftFrames::frame(const std::string& name, const std::string& at, const char* yaw) const {
+double DraftFrames::heading() const {
+  return heading_of(drive_, found_.wheels);
+}
+
+std::string DraftFrames::base_ahead() const {
+  if (heading() == 0.0) return "";
+  return urdf_.find_link("base") == nullptr ? "base" : "ahead";
+}
+
+Eigen::Vector2d DraftFrames::along_heading(const Eigen::Vector2d& point) const {
+  return Eigen::Rotation2Dd(-heading()) * point;
+}
+
+/// A line; none where a link has the name. `ahead`: metres along the heading, or an open place.
+std::string DraftFrames::frame(const std::string& name, const std::string& ahead, double yaw) const {
   if (urdf_.find_link(name) != nullptr) return "";
-  return "  " + name + ": {parent: " + found_.base + ", at: [" + at + ", 0 m]" + yaw + "}\n";
+  std::string at = ahead + ", 0 m";
+  const double turned = heading();
+  if (turned != 0.0 && ahead.ends_with(" m")) {
+    const double far = std::stod(ahead);
+    at = metres(far * std::cos(turned)) + ", " + metres(far * std::sin(turned));
+  }
+  double degrees = std::round((turned + yaw) * 180.0 / std::numbers::pi);
+  if (degrees > 180.0) degrees -= 360.0;
+  return "  " + name + ": {parent: " + found_.base + ", at: [" + at + "]" +
+         (degrees == 0.0 ? "" : ", yaw: " + wording::figure(degrees, "deg")) + "}\n";
+}
+
+// A turn moves a point sideways by its distance from the axle: one close to it hardly moves.
+double DraftFrames::nose(double front) const {
+  double axle = 0.0, track = 0.0;
+  for (const DraftWheel& wheel : found_.wheels) {
+    const Eigen::Vector2d at = along_heading({wheel.at[0], wheel.at[1]});
+    axle += at.x() / static_cast<double>(found_.wheels.size());
+    track = std::max(track, std::abs(at.y()));
+  }
+  if (drive_ != DriveKind::differential) return front;
+  return std::max(front, axle + (outline_is_known() ? 0.5 : 1.0) * track);
 }
 
 /// Where the shipped tasks touch, hook and lead this robot.
 std::string DraftFrames::frames(const std::string& open) const {
   double ahead = 0.0, behind = 0.0;
   for (const Eigen::Vector2d& corner : outline()) {
-    ahead = std::max(ahead, corner.x());
-    behind = std::min(behind, corner.x());
+    ahead = std::max(ahead, along_heading(corner).x());
+    behind = std::min(behind, along_heading(corner).x());
   }
-  const char* back = ", yaw: 180 deg";
+  constexpr double back = std::numbers::pi;
+  std::string turned, about_turned;
+  if (!base_ahead().empty()) {
+    turned = frame(base_ahead(), metres(0.0), 0.0);
+    about_turned = "\n# The wheels do not roll along x: `" + base_ahead() +
+                   "` is the base for tasks, its x ahead. Which way is ahead, a URDF does not tell.";
+  }
   if (outline_is_known())
     return "\n# Places that tasks name. Proposed: the middle of the outline's front and back. Of a base that "
            "cannot "
-           "drive sideways,\n# `nose` is the point that x and y of a task lead.\nframes:\n" +
-           frame("bumper", metres(ahead), "") + frame("hook", metres(behind), back) +
-           frame("nose", metres(ahead), "");
-  std::string lines;
-  // A turn moves the nose sideways by its distance from the axle: a nose close to it hardly moves.
-  if (has_nose()) lines += frame("nose", metres(std::max(ahead, reach_of(found_).y())), "");
+           "drive sideways,\n# `nose` is the point that x and y of a task lead." +
+           about_turned + "\nframes:\n" + turned + frame("bumper", metres(ahead), 0.0) +
+           frame("hook", metres(behind), back) + frame("nose", metres(nose(ahead)), 0.0);
+  std::string lines = turned;
+  if (has_nose()) lines += frame("nose", metres(nose(ahead)), 0.0);
   if (options_.with_hook) lines += frame("hook", options_.back ? metres(*options_.back) : open, back);
   const std::string example = "bumper: {parent: " + found_.base + ", at: [0.3 m, 0 m]}";
   if (lines.empty()) return "\n# Tasks name places on the robot, as frames: {" + example + "}.\n";
@@ -123,7 +164,7 @@ std::string DraftFrames::frames(const std::string& open) const {
   if (has_nose()) about += " Proposed: `nose`, ahead of the axle.";
   if (options_.with_hook)
     about += "\n# `hook` is the middle of the back, as -0.4 m: what docks points out of it.";
-  return about + "\nframes:\n" + lines;
+  return about + about_turned + "\nframes:\n" + lines;
 }
 
 }  // namespace zwang::lang

@@ -18,6 +18,11 @@ class DraftFrames {
   /// [m] In the base, counter-clockwise; around the wheels alone where nobody knows.
   std::vector<Eigen::Vector2d> outline() const;
 
+  /// [rad] Where the wheels roll to, in the base.
+  double heading() const;
+  /// The frame on the base whose x is ahead; empty: the base.
+  std::string base_ahead() const;
+
   /// The lines `base` and, where tasks drive another point, `lead`.
   std::string base_and_lead() const;
   /// With `open` in the place of an outline that nobody knows.
@@ -30,7 +35,11 @@ class DraftFrames {
  private:
   bool has_nose() const;
   std::string above_base() const;
-  std::string frame(const std::string& name, const std::string& at, const char* yaw) const;
+  std::string frame(const std::string& name, const std::string& ahead, double yaw) const;
+  /// [m] Of a point in the base, along the heading and to the left of it.
+  Eigen::Vector2d along_heading(const Eigen::Vector2d& point) const;
+  /// [m] Ahead, where a turn moves it sideways.
+  double nose(double front) const;
 
   const Urdf& urdf_;
   const FoundWheels& found_;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 
 #include "diagnostic/wordings_physics.hpp"
@@ -20,13 +19,6 @@
 namespace zwang::lang {
 
 namespace {
-
-/// As precise as a drawing.
-std::string in_millimetres(double metres) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g mm", metres * 1e3);
-  return text;
-}
 
 /// What stands in the open places.
 struct Filling {
@@ -89,6 +81,8 @@ class Drafter {
     draft.supports = found_.supports;
     draft.stuck = found_.stuck;
     draft.outline = frames_.outline();
+    draft.heading = frames_.heading();
+    draft.base_ahead = frames_.base_ahead();
     draft.outline_is_known = frames_.outline_is_known();
     draft.arm_reach = folded_.reach;
     draft.has_own_base = found_.base != "base" && urdf_.find_link("base") != nullptr;

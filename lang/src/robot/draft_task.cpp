@@ -103,6 +103,11 @@ class Fitting {
                                   : " ahead of what the body may reach, for its outline is not known yet");
   }
 
+  /// Of the URDF's base, whose x may not be ahead. [deg]
+  std::string start_yaw(double degrees) const {
+    return wording::figure(degrees - std::round(fit_.heading * 180.0 / 3.14159265358979323846), "deg");
+  }
+
   std::string head(const std::string& about) const {
     return "# Written by `zwang robot init` for `" + fit_.robot + "`: " + about + "\nzwang_scene: 1\n\n";
   }
@@ -120,13 +125,13 @@ class Fitting {
 
   std::string wall_scene() const {
     return head("a wall, " + gap_text(wall_gap) + ", and the base 20 deg askew.") +
-           "start: {at: [0 m, 0 m], yaw: 20 deg}\nfloor: {friction: 0.9}\n\n" +
+           "start: {at: [0 m, 0 m], yaw: " + start_yaw(20.0) + "}\nfloor: {friction: 0.9}\n\n" +
            wall(ahead(askew) + wall_gap, std::max(4.0, 8.0 * ahead(askew)));
   }
 
   std::string felt_wall_scene() const {
     return head("a wall, " + gap_text(felt_gap) + ", and a force sensor that feels it.") +
-           "start: {at: [0 m, 0 m], yaw: 0 deg}\nfloor: {friction: 0.9}\n\n" +
+           "start: {at: [0 m, 0 m], yaw: " + start_yaw(0.0) + "}\nfloor: {friction: 0.9}\n\n" +
            wall(ahead(0.0) + felt_gap, std::max(4.0, 8.0 * ahead(0.0))) +
            "\nsignals:\n  felt: {force_of: wall, noise: " + force(0.5) + "}\n";
   }
@@ -134,7 +139,8 @@ class Fitting {
   std::string cart_scene() const {
     const std::string at = to_the_millimetre(ahead(0.0) + cart_gap + 0.2);
     return head("a cart in the way, " + gap_text(cart_gap) + ", that is pulled aside after 20 s.") +
-           "start: {at: [0 m, 0 m], yaw: 0 deg}\nfloor: {friction: 0.9}\n\nobjects:\n  cart:\n    box: [0.4 "
+           "start: {at: [0 m, 0 m], yaw: " + start_yaw(0.0) +
+           "}\nfloor: {friction: 0.9}\n\nobjects:\n  cart:\n    box: [0.4 "
            "m, 1.2 m, "
            "0.6 m]\n    at: [" +
            at +
@@ -147,7 +153,8 @@ class Fitting {
   std::string dock_scene() const {
     return head("the back of another robot, " + to_the_millimetre(dock_gap) +
                 " behind this one, with a socket that latches.") +
-           "start: {at: [0 m, 0 m], yaw: 0 deg}\nfloor: {friction: 0.9}\n\nobjects:\n  partner:\n    box: "
+           "start: {at: [0 m, 0 m], yaw: " + start_yaw(0.0) +
+           "}\nfloor: {friction: 0.9}\n\nobjects:\n  partner:\n    box: "
            "[0.6 m, 0.5 m, "
            "0.4 m]\n    at: [" +
            to_the_millimetre(-(behind() + dock_gap + 0.3)) +

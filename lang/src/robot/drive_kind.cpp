@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace zwang::lang {
 
@@ -35,6 +36,21 @@ DriveKind drive_of(const std::vector<DraftWheel>& wheels) {
   if (steered == 0 && count >= 4) return DriveKind::rollers_or_skid;
   if (steered > 0) return DriveKind::car;
   return DriveKind::other;
+}
+
+double heading_of(DriveKind drive, const std::vector<DraftWheel>& wheels) {
+  const bool has_heading =
+      drive == DriveKind::differential || drive == DriveKind::rollers_or_skid || drive == DriveKind::car;
+  const auto stiff =
+      std::find_if(wheels.begin(), wheels.end(), [](const DraftWheel& w) { return w.swivel.empty(); });
+  if (!has_heading || stiff == wheels.end()) return 0.0;
+  constexpr double nearly = 0.1;  // [rad] off a straight angle: a drawing's
+  double heading = std::atan2(-stiff->axle.x(), stiff->axle.y());
+  if (heading > std::numbers::pi / 2.0 + nearly) heading -= std::numbers::pi;
+  if (heading < -std::numbers::pi / 2.0 + nearly) heading += std::numbers::pi;
+  if (std::abs(heading) < nearly) return 0.0;
+  const double degree = std::numbers::pi / 180.0;
+  return std::round(heading / degree) * degree;
 }
 
 std::string in_words(DriveKind drive, const std::vector<DraftWheel>& wheels) {

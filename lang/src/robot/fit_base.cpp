@@ -41,13 +41,17 @@ std::vector<Eigen::Vector2d> circle(double radius) {
 Freedoms freedoms_of(const Robot& robot) {
   const solver::Model& model = robot.model;
   const solver::BaseAnalysis analysis = solver::analyse_base(model, start_state(robot));
-  if (usable(analysis.axes[y_axis]).reachable) return Freedoms::all;
-  bool is_steered = false, is_skid = false;
+  bool is_steered = false, is_skid = false, is_held = false;
   for (const solver::Wheel& wheel : model.wheels()) {
     const int carrier = model.bodies()[static_cast<std::size_t>(wheel.body)].parent;
     is_steered = is_steered || (carrier > 0 && model.joint(carrier - 1).actuated);
     is_skid = is_skid || (!wheel.roller_angle && !wheel.holds_sideways);
+    // A plain wheel that does not steer holds its own sideways, whatever a tilted pivot lets go.
+    is_held = is_held || (carrier == 0 && !wheel.roller_angle && wheel.holds_sideways);
   }
+  const bool goes_anywhere =
+      usable(analysis.axes[x_axis]).reachable && usable(analysis.axes[y_axis]).reachable;
+  if (goes_anywhere && !is_held) return Freedoms::all;
   return is_steered ? Freedoms::steered : is_skid ? Freedoms::skid : Freedoms::two;
 }
 
@@ -69,7 +73,8 @@ void add_arm(const Robot& robot, BaseFit& fit) {
   const Eigen::VectorXd q = start_state(robot).q;
   for (const solver::Frame& frame : model.frames()) {
     if (of_base.contains(frame.body)) continue;
-    const Eigen::Vector2d at = (pose_in_base(model, frame.body, q) * frame.pose_in_body.position).head<2>();
+    const Eigen::Vector2d at = Eigen::Rotation2Dd(-fit.heading) *
+                               (pose_in_base(model, frame.body, q) * frame.pose_in_body.position).head<2>();
     if (plane::contains(fit.outline, at) || plane::distance_to_edges(fit.outline, at) < beyond_outline)
       continue;
     fit.arm_reach = std::max(fit.arm_reach, at.norm());
@@ -80,20 +85,59 @@ void add_arm(const Robot& robot, BaseFit& fit) {
 void add_masses(const Robot& robot, BaseFit& fit) {
   const solver::BaseAnalysis analysis = solver::analyse_base(robot.model, start_state(robot));
   const auto known = [](double value) { return std::isfinite(value) ? value : 0.0; };
-  fit.effective_mass = known(analysis.axes[x_axis].effective_mass);
+  const bool goes_along_y = std::abs(std::sin(fit.heading)) > 0.7;
+  fit.effective_mass = known(analysis.axes[goes_along_y ? y_axis : x_axis].effective_mass);
   fit.effective_inertia = known(analysis.axes[yaw_axis].effective_mass);
+}
+
+void turn(std::vector<Eigen::Vector2d>& outline, double heading) {
+  for (Eigen::Vector2d& corner : outline) corner = Eigen::Rotation2Dd(-heading) * corner;
+}
+
+/// An outline that is round ahead has a short lever, and never none.
+double front_lever_of(const std::vector<Eigen::Vector2d>& outline) {
+  constexpr double flat = 0.01, least = 0.02;  // [m]
+  double front = 0.0, left = 0.0, right = 0.0;
+  for (const Eigen::Vector2d& corner : outline) front = std::max(front, corner.x());
+  for (const Eigen::Vector2d& corner : outline) {
+    if (corner.x() < front - flat) continue;
+    left = std::max(left, corner.y());
+    right = std::max(right, -corner.y());
+  }
+  return std::max(least, std::min(left, right));
+}
+
+/// The frame of the base that tasks call so: turned about its origin, where its x is not ahead.
+void find_base_ahead(const Robot& robot, BaseFit& fit) {
+  for (const char* name : {"base", "ahead"}) {
+    const auto frame = robot.model.find_frame(name);
+    if (!frame) continue;
+    const solver::Frame& found = robot.model.frames()[static_cast<std::size_t>(*frame)];
+    const solver::Pose& pose = found.pose_in_body;
+    constexpr double rounding = 1e-6;
+    if (found.body != 0 || pose.position.norm() > rounding || pose.rotation(2, 2) < 1.0 - rounding) continue;
+    fit.base = name;
+    fit.heading = std::atan2(pose.rotation(1, 0), pose.rotation(0, 0));
+    return;
+  }
+  fit.base = robot.base_frame;
 }
 
 }  // namespace
 
 BaseFit base_fit(const RobotDraft& draft) {
   BaseFit fit;
+  fit.heading = draft.heading;
   fit.robot = draft.name;
   fit.outline_is_known = draft.outline_is_known;
-  fit.outline = fit.outline_is_known ? draft.outline : circle(radius_of(draft.outline) + overhang);
+  fit.outline = draft.outline;
+  turn(fit.outline, fit.heading);
+  fit.front_lever = front_lever_of(fit.outline);
+  if (!fit.outline_is_known) fit.outline = circle(radius_of(draft.outline) + overhang);
   fit.arm_reach = draft.arm_reach;
   fit.mass = draft.mass;
   if (draft.has_own_base) fit.base = draft.base;
+  if (!draft.base_ahead.empty()) fit.base = draft.base_ahead;
   // What the wheels hold is not known before their rollers are.
   if (draft.assumed.size() == 1) fit.freedoms = freedoms_of(draft.assumed.front().robot);
   if (!draft.assumed.empty()) add_masses(draft.assumed.front().robot, fit);
@@ -105,12 +149,13 @@ BaseFit base_fit(const Robot& robot) {
   fit.robot = robot.name;
   for (const solver::Vector3& corner : robot.footprint) fit.outline.emplace_back(corner.head<2>());
   fit.outline_is_known = true;
+  find_base_ahead(robot, fit);
+  turn(fit.outline, fit.heading);
+  fit.front_lever = front_lever_of(fit.outline);
   if (!fit.outline.empty()) add_arm(robot, fit);
   fit.mass = robot.model.total_mass();
   fit.freedoms = freedoms_of(robot);
   add_masses(robot, fit);
-  const auto& implied = robot.implied_frames;
-  if (std::find(implied.begin(), implied.end(), "base") == implied.end()) fit.base = robot.base_frame;
   return fit;
 }
 

@@ -64,6 +64,7 @@ OpenPlaces open_places(const std::string& robot_file) {
       }
       continue;
     }
+    if (line.starts_with(" ")) continue;  // not a key of the file
     for (const Reason& reason : check_reasons) {
       if (entry.starts_with(std::string(reason.key) + ":"))
         places.to_check.push_back({number, entry, std::string(reason.what_to)});

@@ -51,6 +51,8 @@ struct RobotDraft {
   /// [m] Corners in the base, counter-clockwise; of the wheels alone where the URDF does not tell it.
   std::vector<Eigen::Vector2d> outline;
   bool outline_is_known = false;
+  double heading = 0.0;    ///< [rad] of what the tasks call `base`, where its x is not ahead
+  std::string base_ahead;  ///< the frame that is turned so; empty: the base itself
   /// [m] From the base's origin to the farthest point of an arm beyond the outline; 0: none is.
   double arm_reach = 0.0;
   bool has_own_base = false;  ///< the URDF calls a link `base` that is not the base

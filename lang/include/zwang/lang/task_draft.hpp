@@ -25,7 +25,9 @@ enum class Freedoms {
 struct BaseFit {
   std::string robot;  ///< its name, for comments
   std::vector<Eigen::Vector2d>
-      outline;  ///< [m] corners in the base; of the wheels alone where it is not known
+      outline;               ///< [m] corners in the axes of `base`; of the wheels alone where it is not known
+  double heading = 0.0;      ///< [rad] of those axes in the base, about its own origin
+  double front_lever = 0.0;  ///< [m] from the middle to the nearer end of the edge ahead
   bool outline_is_known = false;
   double arm_reach = 0.0;  ///< [m] from the base's origin to the farthest point of an arm beyond the outline
   double arm_ahead = 0.0;  ///< [m] in the base, the foremost of those points; 0: none is ahead

@@ -1,0 +1,256 @@
+// What URDFs draw above a base, between joints and beside their axes, as the drafted robot file has it.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <regex>
+
+#include "support.hpp"
+#include "zwang/lang/program.hpp"
+#include "zwang/lang/robot_draft.hpp"
+#include "zwang/lang/task_draft.hpp"
+
+namespace zwang::lang {
+namespace {
+
+class DraftOfHabits : public testing::Test {
+ protected:
+  std::optional<RobotDraft> draft(const std::filesystem::path& urdf) {
+    Diagnostics diagnostics;
+    std::optional<RobotDraft> draft = draft_robot(urdf, urdf.filename().string(), diagnostics);
+    EXPECT_TRUE(draft) << test::rendered(diagnostics);
+    return draft;
+  }
+  std::string said_of(const std::string& text) {
+    Diagnostics diagnostics;
+    load_robot(folder_.write("robot.yaml", text), diagnostics);
+    return test::rendered(diagnostics);
+  }
+
+  test::Folder folder_;
+};
+
+std::string inertial(const std::string& mass, const std::string& moments) {
+  return "<inertial><mass value='" + mass + "'/><inertia " + moments +
+         " ixy='0' ixz='0' iyz='0'/></inertial>";
+}
+
+/// Of 1 kg and 80 mm, at `xyz` of its parent.
+std::string wheel_at(const std::string& name, const std::string& parent, const std::string& xyz,
+                     const std::string& more = "<limit effort='8' velocity='9'/>") {
+  return "<link name='" + name + "'>" + inertial("1", "ixx='.002' iyy='.003' izz='.002'") +
+         "<collision><origin rpy='1.5707963 0 0'/><geometry><cylinder radius='.08' length='.04'/></geometry>"
+         "</collision></link><joint name='" +
+         name + "_joint' type='continuous'><parent link='" + parent + "'/><child link='" + name +
+         "'/><origin xyz='" + xyz + "'/><axis xyz='0 1 0'/>" + more + "</joint>";
+}
+
+/// Of 20 kg, its middle at the height of the link.
+std::string chassis() {
+  return "<link name='chassis'>" + inertial("20", "ixx='.3' iyy='.5' izz='.6'") +
+         "<collision><geometry><box size='.6 .4 .1'/></geometry></collision></link>";
+}
+
+/// Two wheels below `chassis`, and what is drawn above it.
+std::string below_world(const std::string& above) {
+  return "<robot name='r'>" + above + chassis() + wheel_at("left_wheel", "chassis", "0 .2 0") +
+         wheel_at("right_wheel", "chassis", "0 -.2 0") + "</robot>";
+}
+
+std::string joint_between(const std::string& name, const std::string& type, const std::string& parent,
+                          const std::string& child) {
+  return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
+         child + "'/><axis xyz='1 0 0'/><limit lower='-9' upper='9' effort='1' velocity='1'/></joint>";
+}
+
+const std::string massless_roots = "<link name='world'/><link name='odom'/><link name='base_footprint'/>";
+
+// What stands between world and base is what the base does by itself.
+TEST_F(DraftOfHabits, leaves_out_free_joints_above_the_base) {
+  for (const char* type : {"floating", "planar"}) {
+    const std::string urdf =
+        below_world(massless_roots + joint_between("world_to_odom", "fixed", "world", "odom") +
+                    joint_between("virtual", type, "odom", "base_footprint") +
+                    joint_between("stand", "fixed", "base_footprint", "chassis"));
+    const auto draft = this->draft(folder_.write("world.urdf", urdf));
+    ASSERT_TRUE(draft);
+    EXPECT_EQ(draft->base, "base_footprint");
+    EXPECT_NE(draft->text.find("links `world`, `odom` and joints `world_to_odom`, `virtual`"),
+              std::string::npos)
+        << draft->text;
+    EXPECT_EQ(said_of(draft->text).find("error"), std::string::npos) << said_of(draft->text);
+    EXPECT_EQ(said_of(draft->text + "fixed: [virtual]\n").find("error"), std::string::npos);
+  }
+}
+
+// A link of 0.1 % of 22 kg counts as none, one of 1 kg is a part of the robot.
+TEST_F(DraftOfHabits, refuses_a_free_joint_below_a_link_that_weighs) {
+  const auto said = [&](const std::string& mass) {
+    const std::string urdf =
+        below_world("<link name='odom'>" + inertial(mass, "ixx='1e-3' iyy='1e-3' izz='1e-3'") + "</link>" +
+                    joint_between("virtual", "floating", "odom", "chassis"));
+    Diagnostics diagnostics;
+    draft_robot(folder_.write("weighs.urdf", urdf), "weighs.urdf", diagnostics);
+    return test::rendered(diagnostics);
+  };
+  EXPECT_EQ(said("0.021"), "");
+  EXPECT_NE(said("1").find("E859"), std::string::npos) << said("1");
+}
+
+// Rails of 1 mg, as simulators want them, are rails.
+TEST_F(DraftOfHabits, takes_rails_of_a_milligram_for_rails) {
+  const std::string urdf = below_world("<link name='map'/><link name='rail'>" +
+                                       inertial("1e-6", "ixx='1e-9' iyy='1e-9' izz='1e-9'") + "</link>" +
+                                       joint_between("slide", "prismatic", "map", "rail") +
+                                       joint_between("turn", "continuous", "rail", "chassis"));
+  const auto draft = this->draft(folder_.write("rails.urdf", urdf));
+  ASSERT_TRUE(draft);
+  EXPECT_EQ(draft->base, "chassis");
+  EXPECT_NE(draft->text.find("fixed: [slide, turn]"), std::string::npos) << draft->text;
+  EXPECT_EQ(said_of(draft->text).find("error"), std::string::npos) << said_of(draft->text);
+}
+
+std::string follows(const std::string& leader, const std::string& factor = "1") {
+  return "<limit effort='8' velocity='9'/><mimic joint='" + leader + "_joint' multiplier='" + factor + "'/>";
+}
+
+std::string four_wheels(const std::string& rear_left, const std::string& rear_right) {
+  return "<robot name='r'>" + chassis() + wheel_at("front_left", "chassis", ".2 .25 0") +
+         wheel_at("front_right", "chassis", ".2 -.25 0") +
+         wheel_at("rear_left", "chassis", "-.2 .25 0", rear_left) +
+         wheel_at("rear_right", "chassis", "-.2 -.25 0", rear_right) + "</robot>";
+}
+
+// A belt turns two wheels in line alike, and so does the floor: the motor of one of them drives both.
+TEST_F(DraftOfHabits, couples_wheels_in_line_that_mimic) {
+  const auto draft =
+      this->draft(folder_.write("belts.urdf", four_wheels(follows("front_left"), follows("front_right"))));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("mimic: {rear_left_joint: coupled, rear_right_joint: coupled}"),
+            std::string::npos)
+      << draft->text;
+  EXPECT_EQ(draft->wheels.size(), 2U);
+  EXPECT_EQ(draft->text.find("FILL_IN"), std::string::npos) << "coupled wheels have no rollers";
+  EXPECT_EQ(said_of(draft->text), "");
+  EXPECT_NE(why_unfit("wall_align", base_fit(*draft)), "");
+  // With a motor of its own it cannot be coupled; it can be one of four.
+  const std::string both =
+      test::replaced(draft->text, "front_left_joint: {}", "front_left_joint: {}\n  rear_left_joint: {}");
+  EXPECT_NE(said_of(both).find("E861"), std::string::npos);
+  EXPECT_EQ(said_of(test::replaced(both, "rear_left_joint: coupled", "rear_left_joint: ignore")), "");
+}
+
+// Half as fast, or across: no floor makes that.
+TEST_F(DraftOfHabits, does_not_couple_wheels_that_the_floor_turns_otherwise) {
+  for (const std::string& rear : {follows("front_left", "0.5"), follows("front_right")}) {
+    const auto draft = this->draft(folder_.write("odd.urdf", four_wheels(rear, follows("front_right"))));
+    ASSERT_TRUE(draft);
+    EXPECT_NE(draft->text.find("mimic: {rear_left_joint: ignore, rear_right_joint: coupled}"),
+              std::string::npos)
+        << draft->text;
+    const std::string belts = test::replaced(draft->text, "left_joint: ignore", "left_joint: coupled");
+    EXPECT_NE(said_of(test::replaced(belts, "  rear_left_joint: {}\n", "")).find("keep"), std::string::npos);
+  }
+}
+
+// One motor turns both pivots by a linkage. Here two do, and each wheel rolls as the other lets it.
+TEST_F(DraftOfHabits, steers_each_pivot_of_a_linkage) {
+  const auto pivot = [](const std::string& name, const std::string& y, const std::string& mimic) {
+    return "<link name='" + name + "'>" + inertial(".5", "ixx='2e-3' iyy='2e-3' izz='2e-3'") +
+           "</link><joint name='" + name + "_joint' type='revolute'><parent link='chassis'/><child link='" +
+           name + "'/><origin rpy='0 -.09 0' xyz='.3 " + y +
+           " 0'/><axis xyz='0 0 1'/><limit lower='-.6' upper='.6' "
+           "effort='20' velocity='2'/>" +
+           mimic + "</joint>" + wheel_at(name + "_wheel", name, "0 0 0", "");
+  };
+  const std::string urdf = "<robot name='r'>" + chassis() + pivot("steer_left", ".2", "") +
+                           pivot("steer_right", "-.2", "<mimic joint='steer_left_joint'/>") +
+                           wheel_at("rear_left", "chassis", "-.2 .2 0") +
+                           wheel_at("rear_right", "chassis", "-.2 -.2 0") + "</robot>";
+  const auto draft = this->draft(folder_.write("car.urdf", urdf));
+  ASSERT_TRUE(draft);
+  EXPECT_NE(draft->text.find("mimic: {steer_right_joint: ignore}"), std::string::npos) << draft->text;
+  EXPECT_EQ(said_of(draft->text).find("error"), std::string::npos) << said_of(draft->text);
+  EXPECT_EQ(base_fit(*draft).freedoms, Freedoms::steered);
+}
+
+// 20 kg in a box of 1 m above wheels and a ball 0.1 m ahead and behind: a h = g d.
+TEST_F(DraftOfHabits, brakes_no_harder_than_what_tips_it) {
+  const auto brake = [&](double height) {
+    const std::string z = std::to_string(height);
+    const std::string urdf =
+        "<robot name='r'><link name='base_link'><inertial><origin xyz='0 0 " + z +
+        "'/><mass value='20'/><inertia ixx='.3' iyy='.3' izz='.3' ixy='0' ixz='0' iyz='0'/></inertial>"
+        "<collision><geometry><box size='.4 .4 .1'/></geometry></collision></link>" +
+        wheel_at("left_wheel", "base_link", ".1 .2 .08") +
+        wheel_at("right_wheel", "base_link", ".1 -.2 .08") +
+        "<link name='caster_ball'/><joint name='b' type='fixed'><parent link='base_link'/><child "
+        "link='caster_ball'/><origin xyz='-.1 0 0'/></joint></robot>";
+    const auto draft = this->draft(folder_.write("tall.urdf", urdf));
+    Diagnostics diagnostics;
+    const auto robot = load_robot(folder_.write("robot.yaml", draft->text), diagnostics);
+    EXPECT_TRUE(robot) << test::rendered(diagnostics) << draft->text;
+    return robot->stop;
+  };
+  EXPECT_EQ(brake(0.3).deceleration, 1.0);
+  // The centre of all 22 kg: (20 z + 2 x 0.08) / 22 up and 0.2 / 22 ahead of the middle.
+  const double height = (20.0 * 2.0 + 2.0 * 0.08) / 22.0, tips = 9.81 * (0.1 - 0.2 / 22.0) / height;
+  const Stop stop = brake(2.0);
+  EXPECT_LE(stop.deceleration, tips);
+  EXPECT_GT(stop.deceleration, 0.9 * tips);
+  EXPECT_NEAR(stop.force, 22.0 * stop.deceleration, 0.1 * stop.force);
+}
+
+/// Two wheels of `chassis` that roll along y, and a ball behind.
+std::string sideways(const std::string& base) {
+  std::string text = "<robot name='r'>" + chassis() + wheel_at("left_wheel", "chassis", "-.22 0 0") +
+                     wheel_at("right_wheel", "chassis", ".22 0 0") +
+                     "<link name='caster_ball'/><joint name='b' type='fixed'><parent link='chassis'/><child "
+                     "link='caster_ball'/><origin xyz='0 -.25 -.08'/></joint></robot>";
+  text = std::regex_replace(text, std::regex("axis xyz='0 1 0'"), "axis xyz='1 0 0'");
+  text = std::regex_replace(text, std::regex("rpy='1.5707963 0 0'"), "rpy='0 1.5707963 0'");
+  text = std::regex_replace(text, std::regex("size='.6 .4 .1'"), "size='.4 .6 .1'");
+  return std::regex_replace(text, std::regex("chassis"), base);
+}
+
+// Of a base whose y is ahead tasks see a turned one.
+TEST_F(DraftOfHabits, turns_the_base_that_rolls_along_y) {
+  for (const auto& [link, name] : {std::pair{"base_link", "base"}, {"base", "ahead"}}) {
+    const auto draft = this->draft(folder_.write("sideways.urdf", sideways(link)));
+    ASSERT_TRUE(draft);
+    const std::string parent = std::string(": {parent: ") + link;
+    EXPECT_NE(draft->text.find(name + parent + ", at: [0 m, 0 m], yaw: 90 deg}"), std::string::npos)
+        << draft->text;
+    EXPECT_NE(draft->text.find("nose" + parent + ", at: [0 m, 0.3 m], yaw: 90 deg}"), std::string::npos);
+    EXPECT_NE(draft->text.find("hook" + parent + ", at: [0 m, -0.3 m], yaw: -90 deg}"), std::string::npos);
+    EXPECT_EQ(said_of(draft->text), "");
+    Diagnostics diagnostics;
+    const auto robot = load_robot(folder_.write("robot.yaml", draft->text), diagnostics);
+    ASSERT_TRUE(robot);
+    for (const BaseFit& fit : {base_fit(*draft), base_fit(*robot)}) {
+      EXPECT_EQ(fit.freedoms, Freedoms::two);
+      EXPECT_EQ(fit.base, name);
+      EXPECT_NEAR(fit.heading, std::numbers::pi / 2.0, 1e-9);
+      EXPECT_NEAR(fit.front_lever, 0.2, 1e-9);
+      EXPECT_EQ(why_unfit("wall_align", fit), "");
+    }
+  }
+}
+
+// The point that helps lies where the wheels roll to, not along x.
+TEST_F(DraftOfHabits, of_a_base_that_rolls_along_y_is_told_of_a_point_ahead) {
+  const auto draft = this->draft(folder_.write("sideways.urdf", sideways("base_link")));
+  ASSERT_TRUE(draft);
+  folder_.write("robot.yaml", draft->text);
+  const auto task = folder_.write(
+      "task.yaml",
+      "zwang: 1\nrobot: robot.yaml\nstart: go\ntasks:\n  go:\n    constraints: {go: {move: base_link, in: "
+      "base_link, x: {velocity: 0.1 m/s}}}\n    timeout: {after: 1 s, goto: done}\n");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(load(task, {}, diagnostics));
+  EXPECT_NE(test::rendered(diagnostics).find("`nose: {parent: base_link, at: [0 m, 0.3 m], yaw: 90 deg}`"),
+            std::string::npos)
+      << test::rendered(diagnostics);
+}
+
+}  // namespace
+}  // namespace zwang::lang
