@@ -292,6 +292,45 @@ TEST_F(CliPlan, init_with_a_task_runs_once_the_robot_file_is_filled_in) {
   }
 }
 
+/// Two wheels and a ball behind them, and `load` on top. [kg, m]
+std::string loaded_base(const std::string& mass, const std::string& at) {
+  const auto link = [](const std::string& name, const std::string& kilograms, const std::string& moments,
+                       const std::string& shape) {
+    return "<link name='" + name + "'><inertial><mass value='" + kilograms + "'/><inertia " + moments +
+           " ixy='0' ixz='0' iyz='0'/></inertial><collision><geometry>" + shape +
+           "</geometry></collision></link>";
+  };
+  const auto joint = [](const std::string& name, const std::string& type, const std::string& xyz) {
+    return "<joint name='" + name + "_joint' type='" + type + "'><parent link='base_link'/><child link='" +
+           name + "'/><origin xyz='" + xyz +
+           "'/><axis xyz='0 1 0'/><limit effort='8' velocity='20'/></joint>";
+  };
+  const std::string disc = "ixx='.003' iyy='.005' izz='.003'", ball = "<sphere radius='.08'/>";
+  return "<robot name='loaded'>" +
+         link("base_link", "30", "ixx='.5' iyy='.8' izz='1'", "<box size='.6 .4 .1'/>") +
+         link("left_wheel", "1.5", disc, ball) + joint("left_wheel", "continuous", "0 .22 0") +
+         link("right_wheel", "1.5", disc, ball) + joint("right_wheel", "continuous", "0 -.22 0") +
+         "<link name='caster_ball'/>" + joint("caster_ball", "fixed", "-.28 0 -.08") +
+         link("load", mass, "ixx='.1' iyy='.1' izz='.1'", "<box size='.1 .1 .1'/>") +
+         joint("load", "fixed", at) + "</robot>";
+}
+
+/// With a free heading these bases spin at up to 140 deg/s on their way to the wall: I w' = -m x v w + m y
+/// v'.
+TEST_F(CliPlan, init_with_a_task_aligns_bases_whose_mass_is_beside_or_behind_the_axle) {
+  for (const auto& [mass, at] : {std::pair{"20", ".05 .15 .1"}, {"60", "-.2 .02 .1"}}) {
+    write("loaded.urdf", loaded_base(mass, at));
+    ASSERT_EQ(zwang("robot init loaded.urdf --task wall_align").code, 0);
+    for (const char* yaw : {"-20deg", "5deg", "20deg"}) {
+      const json report = zwang_json(std::string("run --quiet loaded_wall_align.yaml --start-yaw ") + yaw);
+      EXPECT_NEAR(report.at("truth").at("base").at("yaw").get<double>(), 0.0, 0.1 * std::numbers::pi / 180.0)
+          << at << yaw;
+    }
+    for (const char* file : {"loaded.yaml", "loaded_wall_align.yaml", "loaded_wall_align_scene.yaml"})
+      fs::remove(folder_ / file);
+  }
+}
+
 TEST_F(CliPlan, init_overwrites_nothing_and_updates_what_it_is_told_to) {
   ASSERT_EQ(zwang("robot init robots/diff_base.urdf --task obstacle -o robots/mine.yaml").code, 0);
   const std::string robot = read(folder_ / "robots/mine.yaml"),

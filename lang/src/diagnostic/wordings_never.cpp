@@ -262,7 +262,7 @@ Diagnostic stops_too_late(const Span& span, const LateGuard& g, const std::strin
 Diagnostic cannot_square(const Span& span, const std::string& axis, double floor, double wall,
                          const Span& exit) {
   const std::string why = floor > 0.0 ? "a wall turns this base with " + figure(wall, "N m") +
-                                            ", the floor holds it with " + figure(floor, "N m")
+                                            ", and it is held with " + figure(floor, "N m")
                                       : "the wheels hold the heading of this base, and no wall turns it";
   const std::string help = "drive `rz` to a measured angle, or take a base that a wall can turn";
   if (!exit.exists()) return warning("W621", span, "`" + axis + "` is free, but " + why, help);

@@ -7,6 +7,8 @@
 // push. The left side holds against it: wheels that slide sideways, each with its share m_i of the mass, x_i
 // ahead of the middle x of them all. E621: an exit asks for the rest of the heading, and a base that is stuck
 // rests as well as one that stands square. W621: the heading is free, and no exit asks for it.
+//
+// A heading that a row keeps still within a force range is turned, too, once the wall is stronger than both.
 #include <algorithm>
 #include <cmath>
 
@@ -84,23 +86,40 @@ std::optional<Span> asked_by(const TaskText& task, const PlannedAxis& axis) {
   return std::nullopt;
 }
 
+/// What a row that keeps the axis still gives way to; none where it gives way to nothing. [N m]
+std::optional<double> holds_back(const PlannedAxis& axis) {
+  const auto& range = axis[Quantity::force];
+  if (!axis.stands_still() || !range || axis.text == nullptr) return std::nullopt;
+  return std::max(range->high, -range->low);
+}
+
+void ask_heading(const PlannedTask& plan, const PlannedAxis& axis, double own,
+                 const std::vector<int>& held_steerings, double floor_friction, Probe& probe,
+                 Remarks& remarks) {
+  const bool is_heading = axis.move.body == 0 && axis.is_placed && !axis.is_feature() && axis.turns() &&
+                          !probe.is_out_of_plane(axis);
+  const Push push = is_heading ? push_of(plan, probe) : Push{};
+  const AxisFigures* figures = push.axis != nullptr ? probe.figures(axis) : nullptr;
+  if (figures == nullptr) return;
+  const bool is_held = std::isinf(figures->mass) && (figures->is_held || !held_steerings.empty());
+  const double wall = push.force * lever(push, probe);
+  const double floor = scrub(probe.robot(), floor_friction) + own;
+  if (!is_held && floor <= wall) return;
+  const std::optional<Span> exit = asked_by(*plan.task, axis);
+  if ((is_held || own > 0.0) && !exit) return;  // W609, or a row that is meant to hold
+  remarks.add(wording::cannot_square(axis.text->name.span, axis.path, is_held ? 0.0 : floor, wall,
+                                     exit.value_or(Span{})));
+}
+
 }  // namespace
 
 void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings, double floor_friction,
                 Probe& probe, Remarks& remarks) {
-  for (const PlannedAxis& axis : plan.free) {
-    const bool is_heading = axis.move.body == 0 && axis.is_placed && !axis.is_feature() && axis.turns() &&
-                            !probe.is_out_of_plane(axis);
-    const Push push = is_heading ? push_of(plan, probe) : Push{};
-    const AxisFigures* figures = push.axis != nullptr ? probe.figures(axis) : nullptr;
-    if (figures == nullptr) continue;
-    const bool is_held = std::isinf(figures->mass) && (figures->is_held || !held_steerings.empty());
-    const double wall = push.force * lever(push, probe), floor = scrub(probe.robot(), floor_friction);
-    if (!is_held && floor <= wall) continue;
-    const std::optional<Span> exit = asked_by(*plan.task, axis);
-    if (is_held && !exit) continue;  // W609
-    remarks.add(wording::cannot_square(axis.text->name.span, axis.path, is_held ? 0.0 : floor, wall,
-                                       exit.value_or(Span{})));
+  for (const PlannedAxis& axis : plan.free)
+    ask_heading(plan, axis, 0.0, held_steerings, floor_friction, probe, remarks);
+  for (const PlannedAxis& axis : plan.axes) {
+    if (const std::optional<double> own = holds_back(axis))
+      ask_heading(plan, axis, *own, held_steerings, floor_friction, probe, remarks);
   }
 }
 

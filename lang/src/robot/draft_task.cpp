@@ -180,6 +180,7 @@ class Fitting {
 
   void fit_forces(std::string& text) const {
     if (task_ == "wall_align") replace(text, "value: 20 N, range: [5 N, 40 N]", range_of(20, 5, 40));
+    if (task_ == "wall_align") damp_turn(text);
     if (task_ == "obstacle") replace(text, "value: 40 N, range: [10 N, 120 N]", range_of(40, 10, 120));
     if (task_ == "docking") {
       replace(text, "value: 20 N, range: [10 N, 25 N]", range_of(20, 10, 25));
@@ -193,6 +194,19 @@ class Fitting {
     }
   }
 
+  /// A base whose mass lies behind its axle, or beside it, turns by itself as it drives ahead:
+  ///   I w' = -m x v w + m y v'.
+  /// A moment that is bounded holds it. The wall still turns it: the least push has twice that moment about
+  /// the nearer end of the edge ahead.
+  void damp_turn(std::string& text) const {
+    const double moment = rounded(0.5 * force_of(5.0) * lever());
+    replace(
+        text, "        rz: free\n",
+        "        # A mass beside or behind the axle would turn the base on its way. The wall is stronger.\n"
+        "        rz: {velocity: 0 rad/s, force: +-" +
+            wording::figure(moment, "N m") + "}\n");
+  }
+
   /// The shipped time allows for the shipped way: 0.5 m at 0.08 m/s, 5 cm at 1 cm/s.
   void fit_times(std::string& text) const {
     const auto timeout = [](double seconds) {
@@ -204,13 +218,22 @@ class Fitting {
     if (task_ == "wall_align") replace(text, "for: 0.2 s", "for: " + wording::figure(still_for(), "s"));
     if (task_ == "wall_align")
       replace(text, "timeout: {value: 40 s",
-              timeout(turn + (2.0 * wall_gap + slack()) / 0.08 + 10.0 * ahead(askew)));
+              timeout(turn + (2.0 * wall_gap + slack()) / 0.08 + 10.0 * ahead(askew) + still_for() +
+                      2.0 * turning_time()));
     if (task_ == "feel_wall")
       replace(text, "timeout: {value: 20 s", timeout(15.0 + (felt_gap + slack()) / 0.01));
   }
 
   /// What the way may be longer while the outline is not known. [m]
   double slack() const { return fit_.outline_is_known ? 0.0 : ahead(0.0); }
+
+  double lever() const { return std::max(0.02, fit_.front_lever); }
+
+  /// From `askew` to square at the wall, without a bounce: t = sqrt(2 a I / (F d)). [s]
+  double turning_time() const {
+    constexpr double longest = 10.0;  // as of `still_for`
+    return std::min(longest, std::sqrt(2.0 * askew * fit_.effective_inertia / (force_of(20.0) * lever())));
+  }
 
   /// As the base bounces off the wall it is slower than the speeds v = 5 mm/s and w = 0.5 deg/s of the exit
   /// for
