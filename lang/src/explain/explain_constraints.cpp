@@ -28,19 +28,19 @@ will never fire.)~",
           .part = ExcerptOf::task_file,
           .example = R"~(always:
   constraints:
-    manners: {move: base_link, in: base_link, x: {velocity: +-0.5 m/s}}
+    manners: {move: base, in: base, x: {velocity: +-0.5 m/s}}
 tasks:
   go:
     constraints:
-      drive: {move: base_link, in: base_link, x: {velocity: 0.9 m/s}}
+      drive: {move: base, in: base, x: {velocity: 0.9 m/s}}
     timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(always:
   constraints:
-    manners: {move: base_link, in: base_link, x: {velocity: +-0.5 m/s}}
+    manners: {move: base, in: base, x: {velocity: +-0.5 m/s}}
 tasks:
   go:
     constraints:
-      drive: {move: base_link, in: base_link, x: {velocity: 0.4 m/s}}
+      drive: {move: base, in: base, x: {velocity: 0.4 m/s}}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{
           .code = "E403",
@@ -74,7 +74,7 @@ the base never bounds the base.)~",
               R"~(Give the position in a frame of the world. `here` is allowed: it means the place in the world at
 which the task was entered. Or drive a velocity. Give a region a parent in the world.)~",
           .part = ExcerptOf::group,
-          .example = "move: bumper\nin: base_link\nx: {position: 1 m}",
+          .example = "move: bumper\nin: base\nx: {position: 1 m}",
           .instead = "move: bumper\nin: world\nx: {position: 1 m}"},
       Explanation{
           .code = "E406",
@@ -87,14 +87,14 @@ level nothing says which row gives way, so all of them would miss their values a
 freedoms drive x and y of a frame ahead of the axle; the heading follows.)~",
           .part = ExcerptOf::task_file,
           .example = R"~(frames:
-  nose: {parent: base_link, at: [0.3 m, 0 m]}
+  nose: {parent: base, at: [0.3 m, 0 m]}
 tasks:
   go:
     constraints:
       come: {move: nose, in: world, x: {position: 1 m}, y: {position: 0 m}, rz: {position: 0 deg}}
     timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(frames:
-  nose: {parent: base_link, at: [0.3 m, 0 m]}
+  nose: {parent: base, at: [0.3 m, 0 m]}
 tasks:
   go:
     constraints:
@@ -109,11 +109,11 @@ nothing; with different ones neither is met.)~",
           .fix = "Leave one of them out, or write it as a range.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:
-  go: {move: base_link, in: base_link, x: {velocity: 0.1 m/s}}
-  too: {move: bumper, in: base_link, x: {velocity: 0.1 m/s}})~",
+  go: {move: base, in: base, x: {velocity: 0.1 m/s}}
+  too: {move: bumper, in: base, x: {velocity: 0.1 m/s}})~",
           .instead = R"~(constraints:
-  go: {move: base_link, in: base_link, x: {velocity: 0.1 m/s}}
-  too: {move: bumper, in: base_link, x: {velocity: +-0.2 m/s}})~"},
+  go: {move: base, in: base, x: {velocity: 0.1 m/s}}
+  too: {move: bumper, in: base, x: {velocity: +-0.2 m/s}})~"},
       Explanation{
           .code = "E408",
           .title = "a force range without zero",
@@ -135,8 +135,8 @@ that asks for them is decided before the run.)~",
           .fix = "Swap the two: move a frame of the robot, `in` this one. In a condition, name a frame of "
                  "the robot.",
           .part = ExcerptOf::group,
-          .example = "move: world\nin: base_link",
-          .instead = "move: base_link\nin: world"},
+          .example = "move: world\nin: base",
+          .instead = "move: base\nin: world"},
       Explanation{.code = "E410",
                   .title = "a region without area",
                   .why = "The corners lie on a line or are fewer than three: there is no inside to stay in.",
@@ -162,14 +162,14 @@ tasks:
                   .fix = "Give at least one of x, y, z, rx, ry, rz a coefficient that is not zero.",
                   .part = ExcerptOf::task_file,
                   .example = R"~(features:
-  slant: {direction: {move: base_link, in: world, x: 0, y: 0}}
+  slant: {direction: {move: base, in: world, x: 0, y: 0}}
 tasks:
   go:
     constraints:
       slide: {feature: slant, velocity: 0.1 m/s}
     timeout: {after: 10 s, goto: failed})~",
                   .instead = R"~(features:
-  slant: {direction: {move: base_link, in: world, x: 1, y: 1}}
+  slant: {direction: {move: base, in: world, x: 1, y: 1}}
 tasks:
   go:
     constraints:
@@ -184,7 +184,7 @@ robot is built. No motion can change it.)~",
           .fix = "Measure from a frame of the robot to a frame of the world, or of another link.",
           .part = ExcerptOf::task_file,
           .example = R"~(features:
-  gap: {distance: [base_link, bumper]}
+  gap: {distance: [base, bumper]}
 tasks:
   go:
     constraints:

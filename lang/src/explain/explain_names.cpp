@@ -16,8 +16,8 @@ that nobody declared. Frames come from the robot's URDF, from the robot file and
               R"~(Take the name that the help suggests, or declare it. An axis can be measured in a condition only if
 its group names it; `rz: free` does that and holds nothing.)~",
           .part = ExcerptOf::group,
-          .example = "move: bumpr\nin: base_link",
-          .instead = "move: bumper\nin: base_link"},
+          .example = "move: bumpr\nin: base",
+          .instead = "move: bumper\nin: base"},
       Explanation{
           .code = "W302",
           .title = "declared and never used",
@@ -33,7 +33,7 @@ which surprises whoever sets it.)~",
 tasks:
   go:
     constraints:
-      contact: {move: base_link, in: base_link, x: {force: $push}}
+      contact: {move: base, in: base, x: {force: $push}}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{
           .code = "E303",
@@ -48,7 +48,7 @@ and no other. A template that uses itself would never end.)~",
     args: {pace: velocity}
     body:
       constraints:
-        go: {move: base_link, in: base_link, x: {velocity: $pace}}
+        go: {move: base, in: base, x: {velocity: $pace}}
       timeout: {after: 3 s, goto: done}
 tasks:
   go: {use: drive, with: {pace: 3 N}})~",
@@ -57,7 +57,7 @@ tasks:
     args: {pace: velocity}
     body:
       constraints:
-        go: {move: base_link, in: base_link, x: {velocity: $pace}}
+        go: {move: base, in: base, x: {velocity: $pace}}
       timeout: {after: 3 s, goto: done}
 tasks:
   go: {use: drive, with: {pace: 0.1 m/s}})~"},
@@ -72,7 +72,7 @@ tasks:
 tasks:
   go:
     constraints:
-      reach: {move: base_link, in: shelf, x: {position: 0 m}}
+      reach: {move: base, in: shelf, x: {position: 0 m}}
     timeout: {after: 10 s, goto: failed})~",
                   .instead = R"~(frames:
   shelf: {parent: rack}
@@ -80,7 +80,7 @@ tasks:
 tasks:
   go:
     constraints:
-      reach: {move: base_link, in: shelf, x: {position: 0 m}}
+      reach: {move: base, in: shelf, x: {position: 0 m}}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{.code = "E305",
                   .title = "a name that is taken",
@@ -93,14 +93,14 @@ tasks:
 tasks:
   go:
     constraints:
-      reach: {move: base_link, in: bumper, y: {velocity: 0 m/s}}
+      reach: {move: base, in: bumper, y: {velocity: 0 m/s}}
     timeout: {after: 10 s, goto: failed})~",
                   .instead = R"~(frames:
   wall: {parent: world}
 tasks:
   go:
     constraints:
-      reach: {move: base_link, in: wall, y: {velocity: 0 m/s}}
+      reach: {move: base, in: wall, y: {velocity: 0 m/s}}
     timeout: {after: 10 s, goto: failed})~"},
   };
   return entries;

@@ -15,9 +15,8 @@ velocity passes zero whenever it changes its sign. Bool signals and `elapsed` do
 need none.)~",
           .fix = "Say how long the condition must hold without a break: `for: 0.1 s` is a hundred samples.",
           .part = ExcerptOf::task,
-          .example = "exits:\n  - {when: speed(base_link) < 5 mm/s and elapsed > 1 s, goto: done}",
-          .instead =
-              "exits:\n  - {when: speed(base_link) < 5 mm/s and elapsed > 1 s, for: 0.1 s, goto: done}"},
+          .example = "exits:\n  - {when: speed(base) < 5 mm/s and elapsed > 1 s, goto: done}",
+          .instead = "exits:\n  - {when: speed(base) < 5 mm/s and elapsed > 1 s, for: 0.1 s, goto: done}"},
       Explanation{
           .code = "W502",
           .title = "a task that no way leads to",
@@ -27,14 +26,14 @@ need none.)~",
           .example = R"~(tasks:
   go:
     constraints:
-      drive: {move: base_link, in: base_link, x: {velocity: 0.1 m/s}}
+      drive: {move: base, in: base, x: {velocity: 0.1 m/s}}
     timeout: {after: 3 s, goto: done}
   pause:
     timeout: {after: 1 s, goto: go})~",
           .instead = R"~(tasks:
   go:
     constraints:
-      drive: {move: base_link, in: base_link, x: {velocity: 0.1 m/s}}
+      drive: {move: base, in: base, x: {velocity: 0.1 m/s}}
     timeout: {after: 3 s, goto: pause}
   pause:
     timeout: {after: 1 s, goto: done})~"},
@@ -48,8 +47,8 @@ drives or waits until a person notices.)~",
               R"~(Give the task a timeout and say where it leads. If it shall really wait as long as it takes, say so:
 `timeout: never`.)~",
           .part = ExcerptOf::task,
-          .example = "exits:\n  - {when: moved(base_link) > 1 m, for: 0.1 s, goto: done}",
-          .instead = "exits:\n  - {when: moved(base_link) > 1 m, for: 0.1 s, goto: done}\ntimeout: {after: "
+          .example = "exits:\n  - {when: moved(base) > 1 m, for: 0.1 s, goto: done}",
+          .instead = "exits:\n  - {when: moved(base) > 1 m, for: 0.1 s, goto: done}\ntimeout: {after: "
                      "20 s, goto: failed}"},
       Explanation{
           .code = "E504",
@@ -105,9 +104,9 @@ true at every moment or at none. An exit that always fires hides the task, and o
 hides what was meant.)~",
           .fix = "Look at the direction of the comparison and at the sign of the number.",
           .part = ExcerptOf::task,
-          .example = "exits:\n  - {when: speed(base_link) < -1 cm/s, for: 1 s, goto: done}\ntimeout: {after: "
+          .example = "exits:\n  - {when: speed(base) < -1 cm/s, for: 1 s, goto: done}\ntimeout: {after: "
                      "10 s, goto: failed}",
-          .instead = "exits:\n  - {when: speed(base_link) < 1 cm/s, for: 1 s, goto: done}\ntimeout: {after: "
+          .instead = "exits:\n  - {when: speed(base) < 1 cm/s, for: 1 s, goto: done}\ntimeout: {after: "
                      "10 s, goto: failed}"},
       Explanation{
           .code = "E506",
@@ -120,9 +119,9 @@ condition would be taken back as soon as it is true.)~",
               R"~(After `<` write a release above the threshold, after `>` one below it. The condition must be a
 single comparison with a fixed value.)~",
           .part = ExcerptOf::task,
-          .example = "exits:\n  - {when: speed(base_link) < 5 cm/s, release: 3 cm/s, for: 1 s, goto: done}\n"
+          .example = "exits:\n  - {when: speed(base) < 5 cm/s, release: 3 cm/s, for: 1 s, goto: done}\n"
                      "timeout: {after: 10 s, goto: failed}",
-          .instead = "exits:\n  - {when: speed(base_link) < 5 cm/s, release: 8 cm/s, for: 1 s, goto: done}\n"
+          .instead = "exits:\n  - {when: speed(base) < 5 cm/s, release: 8 cm/s, for: 1 s, goto: done}\n"
                      "timeout: {after: 10 s, goto: failed}"},
       Explanation{
           .code = "W507",
@@ -136,7 +135,7 @@ condition and needs no longer for it, so this one never has its turn.)~",
   - {when: elapsed > 2 s, goto: done}
   - {when: elapsed > 2 s, goto: failed})~",
           .instead = R"~(exits:
-  - {when: moved(base_link) > 5 cm, for: 0.1 s, goto: done}
+  - {when: moved(base) > 5 cm, for: 0.1 s, goto: done}
   - {when: elapsed > 2 s, goto: failed})~"},
       Explanation{
           .code = "E508",

@@ -32,14 +32,14 @@ or the effective mass is smaller at other joint angles, or a spring is drawn far
 tasks:
   go:
     constraints:
-      press: {move: base_link, in: base_link, x: {force: $push, acceleration: +-0.3 m/s^2}}
+      press: {move: base, in: base, x: {force: $push, acceleration: +-0.3 m/s^2}}
     timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(params:
   push: {value: 5 N, range: [1 N, 6 N]}
 tasks:
   go:
     constraints:
-      press: {move: base_link, in: base_link, x: {force: $push, acceleration: +-0.3 m/s^2}}
+      press: {move: base, in: base, x: {force: $push, acceleration: +-0.3 m/s^2}}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{
           .code = "W602",
@@ -52,12 +52,12 @@ what the motors make.)~",
           .fix = "Narrow the force range or shorten the `time_constant`: the message has both numbers.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:
-  go: {move: base_link, in: base_link, x: {velocity: 0.05 m/s, force: +-20 N}}
+  go: {move: base, in: base, x: {velocity: 0.05 m/s, force: +-20 N}}
 exits:
   - {when: go.x.saturated, for: 0.1 s, goto: done}
 timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(constraints:
-  go: {move: base_link, in: base_link, x: {velocity: 0.05 m/s, force: +-20 N, time_constant: 50 ms}}
+  go: {move: base, in: base, x: {velocity: 0.05 m/s, force: +-20 N, time_constant: 50 ms}}
 exits:
   - {when: go.x.saturated, for: 0.1 s, goto: done}
 timeout: {after: 10 s, goto: failed})~"},
@@ -100,17 +100,17 @@ press as well, each within its own range.)~",
               R"~(Bound the sum: a force range alone on an axis, best under `always`, holds for all rows together.)~",
           .part = ExcerptOf::task_file,
           .example = R"~(frames:
-  askew: {parent: base_link, yaw: 30 deg}
+  askew: {parent: base, yaw: 30 deg}
 tasks:
   go:
     constraints:
-      go: {move: base_link, in: base_link, x: {velocity: 0.01 m/s, force: +-40 N, time_constant: 10 ms}}
-      stand: {move: base_link, in: askew, x: {velocity: 0 m/s}}
+      go: {move: base, in: base, x: {velocity: 0.01 m/s, force: +-40 N, time_constant: 10 ms}}
+      stand: {move: base, in: askew, x: {velocity: 0 m/s}}
     timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(tasks:
   go:
     constraints:
-      go: {move: base_link, in: base_link, x: {velocity: 0.01 m/s, force: +-40 N, time_constant: 10 ms}}
+      go: {move: base, in: base, x: {velocity: 0.01 m/s, force: +-40 N, time_constant: 10 ms}}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{
           .code = "W606",
@@ -204,7 +204,7 @@ point with all that its ranges allow.)~",
           .example = R"~(frames:
   goal: {parent: world, at: [1 m, 0 m]}
 features:
-  gap: {distance: [base_link, goal]}
+  gap: {distance: [base, goal]}
 tasks:
   go:
     constraints:
@@ -213,7 +213,7 @@ tasks:
           .instead = R"~(frames:
   goal: {parent: world, at: [1 m, 0 m]}
 features:
-  gap: {distance: [base_link, goal]}
+  gap: {distance: [base, goal]}
 tasks:
   go:
     constraints:
@@ -228,24 +228,23 @@ it cannot move along it, and to stand still there asks for nothing. Askew by a h
 along it, by v sin(psi). It can then stand still only by not moving at all. The row takes as much
 force as that needs, and a base that should press on a wall backs off. In its own axes sideways
 stays sideways.)~",
-          .fix =
-              "Stand still in the base's own axes, in a group of its own: `sideways: {move: base_link, in: "
-              "base_link, y: {velocity: 0 m/s}}`. Or give the axis a later `level`: it gives way then.",
+          .fix = "Stand still in the base's own axes, in a group of its own: `sideways: {move: base, in: "
+                 "base, y: {velocity: 0 m/s}}`. Or give the axis a later `level`: it gives way then.",
           .part = ExcerptOf::task_file,
           .example = R"~(frames:
   wall: {parent: world}
 tasks:
   go:
     constraints:
-      contact: {move: base_link, in: wall, x: {force: 5 N}, y: {velocity: 0 m/s}}
+      contact: {move: base, in: wall, x: {force: 5 N}, y: {velocity: 0 m/s}}
     timeout: {after: 10 s, goto: done})~",
           .instead = R"~(frames:
   wall: {parent: world}
 tasks:
   go:
     constraints:
-      contact: {move: base_link, in: wall, x: {force: 5 N}}
-      sideways: {move: base_link, in: base_link, y: {velocity: 0 m/s}}
+      contact: {move: base, in: wall, x: {force: 5 N}}
+      sideways: {move: base, in: base, y: {velocity: 0 m/s}}
     timeout: {after: 10 s, goto: done})~"},
       Explanation{
           .code = "E640",

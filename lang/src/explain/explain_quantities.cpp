@@ -54,14 +54,14 @@ through. A value from the command line, from `set` or from the file itself must 
 tasks:
   go:
     constraints:
-      contact: {move: base_link, in: base_link, x: {force: $push}}
+      contact: {move: base, in: base, x: {force: $push}}
     timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(params:
   push: {value: 20 N, range: [5 N, 40 N]}
 tasks:
   go:
     constraints:
-      contact: {move: base_link, in: base_link, x: {force: $push}}
+      contact: {move: base, in: base, x: {force: $push}}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{
           .code = "E205",
@@ -72,9 +72,9 @@ is true or false cannot be compared or added.)~",
           .fix = "Compare the quantity with a value, or take the comparison away from what is a condition "
                  "already.",
           .part = ExcerptOf::task,
-          .example = "exits:\n  - {when: moved(base_link), for: 0.1 s, goto: done}\ntimeout: {after: 10 s, "
+          .example = "exits:\n  - {when: moved(base), for: 0.1 s, goto: done}\ntimeout: {after: 10 s, "
                      "goto: failed}",
-          .instead = "exits:\n  - {when: moved(base_link) > 2 cm, for: 0.1 s, goto: done}\ntimeout: {after: "
+          .instead = "exits:\n  - {when: moved(base) > 2 cm, for: 0.1 s, goto: done}\ntimeout: {after: "
                      "10 s, goto: failed}"},
       Explanation{
           .code = "E206",
@@ -92,14 +92,14 @@ range, the values that the file sets count.)~",
 tasks:
   go:
     constraints:
-      drive: {move: base_link, in: base_link, x: {force: 10 N, velocity: +-$pace}}
+      drive: {move: base, in: base, x: {force: 10 N, velocity: +-$pace}}
     timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(params:
   pace: {value: 0.1 m/s, range: [0 m/s, 0.2 m/s]}
 tasks:
   go:
     constraints:
-      drive: {move: base_link, in: base_link, x: {force: 10 N, velocity: +-$pace}}
+      drive: {move: base, in: base, x: {force: 10 N, velocity: +-$pace}}
     timeout: {after: 10 s, goto: failed})~"},
   };
   return entries;

@@ -18,12 +18,12 @@ of the task and of the robot file count alike.)~",
           .fix = "Widen one of the two, take one out, or ask for a value that is in both.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:
-  go: {move: base_link, in: base_link, x: {velocity: [0.2 m/s, 0.5 m/s]}}
-  calm: {move: base_link, in: base_link, x: {velocity: +-0.1 m/s}}
+  go: {move: base, in: base, x: {velocity: [0.2 m/s, 0.5 m/s]}}
+  calm: {move: base, in: base, x: {velocity: +-0.1 m/s}}
 timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(constraints:
-  go: {move: base_link, in: base_link, x: {velocity: [0.2 m/s, 0.5 m/s]}}
-  calm: {move: base_link, in: base_link, x: {velocity: +-0.3 m/s}}
+  go: {move: base, in: base, x: {velocity: [0.2 m/s, 0.5 m/s]}}
+  calm: {move: base, in: base, x: {velocity: +-0.3 m/s}}
 timeout: {after: 10 s, goto: failed})~"},
       Explanation{
           .code = "W510",
@@ -55,12 +55,12 @@ a person may push the robot: that is no warning.)~",
           .fix = "Compare with a value that the ranges leave, or take the exit out.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:
-  go: {move: base_link, in: base_link, x: {velocity: 0.1 m/s, force: +-5 N}}
+  go: {move: base, in: base, x: {velocity: 0.1 m/s, force: +-5 N}}
 exits:
   - {when: go.x.force > 10 N, for: 0.1 s, goto: done}
 timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(constraints:
-  go: {move: base_link, in: base_link, x: {velocity: 0.1 m/s, force: +-5 N}}
+  go: {move: base, in: base, x: {velocity: 0.1 m/s, force: +-5 N}}
 exits:
   - {when: go.x.force > 4 N, for: 0.1 s, goto: done}
 timeout: {after: 10 s, goto: failed})~"},
@@ -106,7 +106,7 @@ it ends `failed` instead. The same is true of a set frame that hangs on such a s
 sets it on entry. The task before then waits for the signal; its timeout says for how long.)~",
           .part = ExcerptOf::task_file,
           .example = R"~(signals:
-  partner: {type: pose, in: base_link, stale_after: 300 ms}
+  partner: {type: pose, in: base, stale_after: 300 ms}
 frames:
   seen: {parent: partner}
   place: {parent: world}
@@ -117,10 +117,10 @@ tasks:
     timeout: {after: 10 s, goto: failed}
   drive:
     constraints:
-      go: {move: base_link, in: place, x: {position: -1 m, velocity: +-0.2 m/s}}
+      go: {move: base, in: place, x: {position: -1 m, velocity: +-0.2 m/s}}
     timeout: {after: 10 s, goto: done})~",
           .instead = R"~(signals:
-  partner: {type: pose, in: base_link, stale_after: 300 ms}
+  partner: {type: pose, in: base, stale_after: 300 ms}
 frames:
   seen: {parent: partner}
   place: {parent: world}
@@ -131,7 +131,7 @@ tasks:
     timeout: {after: 10 s, goto: failed}
   drive:
     constraints:
-      go: {move: base_link, in: place, x: {position: -1 m, velocity: +-0.2 m/s}}
+      go: {move: base, in: place, x: {position: -1 m, velocity: +-0.2 m/s}}
     timeout: {after: 10 s, goto: done})~"},
       Explanation{
           .code = "W619",
@@ -152,23 +152,24 @@ that holds it up for ever.)~",
           .why =
               R"~(A pose signal is taken to stand between two samples, and a position driver damps its motion against
 axes that stand. So it follows a target that goes on at v by 2 T v late.)~",
-          .fix = "Give the signal a `twist`: then its frame goes on between two samples, and velocities count against it.",
+          .fix = "Give the signal a `twist`: then its frame goes on between two samples, and velocities "
+                 "count against it.",
           .part = ExcerptOf::task_file,
           .example = R"~(signals:
-  guide: {type: pose, in: base_link, stale_after: 600 ms}
+  guide: {type: pose, in: base, stale_after: 600 ms}
 frames: {person: {parent: guide}}
 tasks:
   go:
     constraints:
-      gap: {move: base_link, in: person, x: {position: -0.9 m, velocity: +-0.6 m/s}}
+      gap: {move: base, in: person, x: {position: -0.9 m, velocity: +-0.6 m/s}}
     timeout: {after: 60 s, goto: done})~",
           .instead = R"~(signals:
-  guide: {type: pose, in: base_link, stale_after: 600 ms, twist: 0.5 s}
+  guide: {type: pose, in: base, stale_after: 600 ms, twist: 0.5 s}
 frames: {person: {parent: guide}}
 tasks:
   go:
     constraints:
-      gap: {move: base_link, in: person, x: {position: -0.9 m, velocity: +-0.6 m/s}}
+      gap: {move: base, in: person, x: {position: -0.9 m, velocity: +-0.6 m/s}}
     timeout: {after: 60 s, goto: done})~"},
       Explanation{
           .code = "N622",
@@ -214,26 +215,26 @@ the base's origin, so the footprint is added.)~",
 tasks:
   go:
     constraints:
-      go: {move: base_link, in: base_link, x: {velocity: 0.5 m/s, acceleration: +-0.5 m/s^2}}
+      go: {move: base, in: base, x: {velocity: 0.5 m/s, acceleration: +-0.5 m/s^2}}
     exits:
       - {when: nearest < 0.5 m, for: 0.1 s, goto: stand}
     timeout: {after: 10 s, goto: failed}
   stand:
     constraints:
-      still: {move: base_link, in: base_link, x: {velocity: 0 m/s, acceleration: +-0.5 m/s^2}}
+      still: {move: base, in: base, x: {velocity: 0 m/s, acceleration: +-0.5 m/s^2}}
     timeout: {after: 10 s, goto: failed})~",
           .instead = R"~(signals:
   nearest: {type: number, unit: m, stale_after: 200 ms}
 tasks:
   go:
     constraints:
-      go: {move: base_link, in: base_link, x: {velocity: 0.5 m/s, acceleration: +-0.5 m/s^2}}
+      go: {move: base, in: base, x: {velocity: 0.5 m/s, acceleration: +-0.5 m/s^2}}
     exits:
       - {when: nearest < 1.2 m, for: 0.1 s, goto: stand}
     timeout: {after: 10 s, goto: failed}
   stand:
     constraints:
-      still: {move: base_link, in: base_link, x: {velocity: 0 m/s, acceleration: +-0.5 m/s^2}}
+      still: {move: base, in: base, x: {velocity: 0 m/s, acceleration: +-0.5 m/s^2}}
     timeout: {after: 10 s, goto: failed})~"},
       Explanation{
           .code = "E621",
@@ -325,7 +326,7 @@ feels in its place.)~",
 this axis, and no driver of the base's own axes steers: nothing moves.)~",
           .fix =
               R"~(Turn the steering in an earlier task,
-`steer: {move: STEERED_LINK, in: base_link, rz: {position: 20 deg}}`, and drive ahead along `x`; or
+`steer: {move: STEERED_LINK, in: base, rz: {position: 20 deg}}`, and drive ahead along `x`; or
 start with it turned (`posture` in the robot file).)~"},
       Explanation{
           .code = "W868",

@@ -71,9 +71,8 @@ join comparisons (`<`, `<=`, `>`, `>=`) with `and`, `or`, `not`. There is no `==
 measured number never equals another one exactly.)~",
           .fix = "Write what the message asks for, at the mark.",
           .part = ExcerptOf::task,
-          .example = "exits:\n  - {when: elapsed > 2 s && speed(base_link) < 5 mm/s, for: 0.1 s, goto: done}",
-          .instead =
-              "exits:\n  - {when: elapsed > 2 s and speed(base_link) < 5 mm/s, for: 0.1 s, goto: done}"},
+          .example = "exits:\n  - {when: elapsed > 2 s && speed(base) < 5 mm/s, for: 0.1 s, goto: done}",
+          .instead = "exits:\n  - {when: elapsed > 2 s and speed(base) < 5 mm/s, for: 0.1 s, goto: done}"},
       Explanation{
           .code = "E106",
           .title = "tags, anchors and merge keys are not part of zwang",
@@ -169,10 +168,10 @@ code and the reason. The reason is not optional: the next reader has to know why
 not matter here.)~",
           .fix = "Write `# zwang: allow CODE the reason`, or take `zwang:` out of the comment.",
           .part = ExcerptOf::task,
-          .example = "constraints:\n  wait:  # zwang: allow W501\n    move: base_link\n    in: base_link\n"
+          .example = "constraints:\n  wait:  # zwang: allow W501\n    move: base\n    in: base\n"
                      "    x: {velocity: 0 m/s}",
-          .instead = "constraints:\n  wait:  # stands still for the operator\n    move: base_link\n    in: "
-                     "base_link\n"
+          .instead = "constraints:\n  wait:  # stands still for the operator\n    move: base\n    in: "
+                     "base\n"
                      "    x: {velocity: 0 m/s}"},
       Explanation{
           .code = "E119",
