@@ -82,6 +82,18 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
   EXPECT_EQ(hold.exits[0].target.kind, TargetKind::done);
 }
 
+/// 30 N brake the real base with 30 N / 57 kg = 0.5 m/s^2, and one that is led by a virtual robot of eight
+/// times its mass with 0.07 m/s^2: 2.7 m from 0.6 m/s.
+TEST(Hospital, warns_a_base_that_feels_late_that_it_stops_too_late) {
+  for (const auto& [robot, told] :
+       {std::pair{"mecanum_base", 0}, std::pair{"feels/mecanum_wrench_50_hz", 1}}) {
+    Diagnostics diagnostics;
+    const LoadOptions options{.robot = source_dir / "specs/robots" / (std::string(robot) + ".yaml")};
+    EXPECT_TRUE(load(source_dir / "specs/hospital.yaml", options, diagnostics));
+    EXPECT_EQ(count(diagnostics, "W620") > 0, told == 1) << robot << rendered(diagnostics);
+  }
+}
+
 TEST(WallAlign, conditions_keep_operands_before_operators) {
   Diagnostics diagnostics;
   const auto program = load(source_dir / "specs/wall_align.yaml", {}, diagnostics);

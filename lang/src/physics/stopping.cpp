@@ -159,14 +159,15 @@ class StoppingQuestion {
   }
 
   /// The least of what the ranges along the axis leave, whichever way the base goes. Casters that trail along
-  /// the motion weigh least.
+  /// the motion weigh least. Behind a drive that feels, forces brake a robot that is `mass_factor` as heavy.
   void add_axis(const PlannedTask& plan, const PlannedAxis& axis, double mass, Braking& braking) {
     double a = std::min(acceleration_limit(plan, axis, 1.0, true).most,
                         acceleration_limit(plan, axis, -1.0, true).most);
     for (const PlannedAxis& other : plan.axes) {
       const auto& force = other[Quantity::force];
       const bool bounds = force && (&other == &axis || (!other.driver && probe_.alignment(axis, other) != 0));
-      if (bounds) a = std::min(a, std::min(force->high, -force->low) / mass);
+      if (bounds)
+        a = std::min(a, std::min(force->high, -force->low) / (mass * probe_.robot().drive.mass_factor));
     }
     braking.deceleration = std::min(braking.deceleration, a);
     braking.time_constant = std::max(braking.time_constant, axis.time_constant);
