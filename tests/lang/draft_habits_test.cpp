@@ -29,7 +29,7 @@ class DraftOfHabits : public testing::Test {
   test::Folder folder_;
 };
 
-std::string inertial(const std::string& mass, const std::string& moments) {
+std::string inertial_element(const std::string& mass, const std::string& moments) {
   return "<inertial><mass value='" + mass + "'/><inertia " + moments +
          " ixy='0' ixz='0' iyz='0'/></inertial>";
 }
@@ -37,7 +37,7 @@ std::string inertial(const std::string& mass, const std::string& moments) {
 /// Of 1 kg and 80 mm, at `xyz` of its parent.
 std::string wheel_at(const std::string& name, const std::string& parent, const std::string& xyz,
                      const std::string& more = "<limit effort='8' velocity='9'/>") {
-  return "<link name='" + name + "'>" + inertial("1", "ixx='.002' iyy='.003' izz='.002'") +
+  return "<link name='" + name + "'>" + inertial_element("1", "ixx='.002' iyy='.003' izz='.002'") +
          "<collision><origin rpy='1.5707963 0 0'/><geometry><cylinder radius='.08' length='.04'/></geometry>"
          "</collision></link><joint name='" +
          name + "_joint' type='continuous'><parent link='" + parent + "'/><child link='" + name +
@@ -46,7 +46,7 @@ std::string wheel_at(const std::string& name, const std::string& parent, const s
 
 /// Of 20 kg, its middle at the height of the link.
 std::string chassis() {
-  return "<link name='chassis'>" + inertial("20", "ixx='.3' iyy='.5' izz='.6'") +
+  return "<link name='chassis'>" + inertial_element("20", "ixx='.3' iyy='.5' izz='.6'") +
          "<collision><geometry><box size='.6 .4 .1'/></geometry></collision></link>";
 }
 
@@ -86,8 +86,8 @@ TEST_F(DraftOfHabits, leaves_out_free_joints_above_the_base) {
 TEST_F(DraftOfHabits, refuses_a_free_joint_below_a_link_that_weighs) {
   const auto said = [&](const std::string& mass) {
     const std::string urdf =
-        below_world("<link name='odom'>" + inertial(mass, "ixx='1e-3' iyy='1e-3' izz='1e-3'") + "</link>" +
-                    joint_between("virtual", "floating", "odom", "chassis"));
+        below_world("<link name='odom'>" + inertial_element(mass, "ixx='1e-3' iyy='1e-3' izz='1e-3'") +
+                    "</link>" + joint_between("virtual", "floating", "odom", "chassis"));
     Diagnostics diagnostics;
     draft_robot(folder_.write("weighs.urdf", urdf), "weighs.urdf", diagnostics);
     return test::rendered(diagnostics);
@@ -99,8 +99,8 @@ TEST_F(DraftOfHabits, refuses_a_free_joint_below_a_link_that_weighs) {
 // Rails of 1 mg, as simulators want them, are rails.
 TEST_F(DraftOfHabits, takes_rails_of_a_milligram_for_rails) {
   const std::string urdf = below_world("<link name='map'/><link name='rail'>" +
-                                       inertial("1e-6", "ixx='1e-9' iyy='1e-9' izz='1e-9'") + "</link>" +
-                                       joint_between("slide", "prismatic", "map", "rail") +
+                                       inertial_element("1e-6", "ixx='1e-9' iyy='1e-9' izz='1e-9'") +
+                                       "</link>" + joint_between("slide", "prismatic", "map", "rail") +
                                        joint_between("turn", "continuous", "rail", "chassis"));
   const auto draft = this->draft(folder_.write("rails.urdf", urdf));
   ASSERT_TRUE(draft);
@@ -155,7 +155,7 @@ TEST_F(DraftOfHabits, does_not_couple_wheels_that_the_floor_turns_otherwise) {
 // One motor turns both pivots by a linkage. Here two do, and each wheel rolls as the other lets it.
 TEST_F(DraftOfHabits, steers_each_pivot_of_a_linkage) {
   const auto pivot = [](const std::string& name, const std::string& y, const std::string& mimic) {
-    return "<link name='" + name + "'>" + inertial(".5", "ixx='2e-3' iyy='2e-3' izz='2e-3'") +
+    return "<link name='" + name + "'>" + inertial_element(".5", "ixx='2e-3' iyy='2e-3' izz='2e-3'") +
            "</link><joint name='" + name + "_joint' type='revolute'><parent link='chassis'/><child link='" +
            name + "'/><origin rpy='0 -.09 0' xyz='.3 " + y +
            " 0'/><axis xyz='0 0 1'/><limit lower='-.6' upper='.6' "
