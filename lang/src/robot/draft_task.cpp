@@ -180,7 +180,7 @@ class Fitting {
 
   void fit_forces(std::string& text) const {
     if (task_ == "wall_align") replace(text, "value: 20 N, range: [5 N, 40 N]", range_of(20, 5, 40));
-    if (task_ == "wall_align") damp_turn(text);
+    if (task_ == "wall_align" && fit_.freedoms == Freedoms::two) damp_turn(text);
     if (task_ == "obstacle") replace(text, "value: 40 N, range: [10 N, 120 N]", range_of(40, 10, 120));
     if (task_ == "docking") {
       replace(text, "value: 20 N, range: [10 N, 25 N]", range_of(20, 10, 25));
@@ -194,7 +194,7 @@ class Fitting {
     }
   }
 
-  /// A base whose mass lies behind its axle, or beside it, turns by itself as it drives ahead:
+  /// A base on one axle whose mass lies behind it, or beside it, turns by itself as it drives ahead:
   ///   I w' = -m x v w + m y v'.
   /// A moment that is bounded holds it. The wall still turns it: the least push has twice that moment about
   /// the nearer end of the edge ahead.
