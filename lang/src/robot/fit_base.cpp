@@ -109,7 +109,7 @@ double front_lever_of(const std::vector<Eigen::Vector2d>& outline) {
 
 /// The frame of the base that tasks call so: turned about its origin, where its x is not ahead.
 void find_base_ahead(const Robot& robot, BaseFit& fit) {
-  for (const char* name : {"base", "ahead"}) {
+  for (const char* name : {"ahead", "base"}) {
     const auto frame = robot.model.find_frame(name);
     if (!frame) continue;
     const solver::Frame& found = robot.model.frames()[static_cast<std::size_t>(*frame)];
