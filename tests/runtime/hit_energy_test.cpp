@@ -144,6 +144,42 @@ double forecast_of(const lang::Diagnostics& diagnostics) {
   return 0.0;
 }
 
+// Drivers without a velocity range, from rest: what the way to the wall makes of them, or the robot's limits.
+TEST(HitForecast, WithoutARangeIsThePlantsPeakWithinAQuarter) {
+  const std::vector<const char*> drivers = {"in: base_link, x: {force: 30 N}",
+                                            "in: base_link, x: {acceleration: 0.3 m/s^2}",
+                                            "in: world, x: {position: 2 m}"};
+  const std::size_t count = test::is_long() ? drivers.size() : 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const zwang::test::TemporaryFolder temporary;
+    const fs::path& folder = temporary.path();
+    for (const char* name : {"mecanum_base.yaml", "mecanum_base.urdf"})
+      fs::copy_file(fs::path(ZWANG_SOURCE_DIR "/specs/robots") / name, folder / name);
+    std::ofstream(folder / "scene.yaml") << "zwang_scene: 1\nstart: {at: [0 m, 0 m], yaw: 0 deg}\nobjects:\n "
+                                            " o: {box: [0.2 m, 1 m, 0.5 m], at: "
+                                            "[1.2 m, 0 m], fixed: true, stiffness: 50 kN/m, damping: 0.1}\n";
+    std::ofstream(folder / "task.yaml")
+        << "zwang: 1\nrobot: mecanum_base.yaml\nscene: scene.yaml\nstart: go\ntasks:\n  go:\n    "
+           "constraints:\n      a: {move: base_link, "
+        << drivers[i]
+        << ", y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}\n    timeout: {after: 9 s, goto: done}\n";
+    lang::Diagnostics diagnostics;
+    const auto program = lang::load_with_notes(folder / "task.yaml", {}, diagnostics);
+    ASSERT_TRUE(program);
+    const double forecast = forecast_of(diagnostics);
+    ScenePlant plant(*program);
+    Runner runner(*program);
+    Sensed sensed(program->robot.model, program->signals.size());
+    while (plant.truth().time < 5.0 && (!plant.truth().objects[0].touched ||
+                                        plant.truth().time < *plant.truth().objects[0].touched + 0.2)) {
+      ASSERT_EQ(plant.sense(sensed), PlantStatus::ok);
+      ASSERT_EQ(plant.apply(runner.step(sensed)), PlantStatus::ok);
+    }
+    const double peak = plant.truth().objects[0].peak_force;
+    EXPECT_NEAR(forecast, peak, 0.25 * peak) << drivers[i];
+  }
+}
+
 // Square hits of shipped bases at drawn speeds, springs and force ranges.
 TEST(HitForecast, IsThePlantsPeakWithinAQuarter) {
   std::mt19937 random(603);

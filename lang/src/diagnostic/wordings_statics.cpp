@@ -87,10 +87,10 @@ Diagnostic first_hit(const Span& span, const std::string& axis, const Impact& hi
                      double gentle_speed) {
   const std::string points = hit.points == 1 ? " (1 point)" : " (" + std::to_string(hit.points) + " points)";
   return make("N603", Severity::note, span,
-              "`" + axis + "`: " + figure(hit.mass, "kg") + " at " + figure(hit.speed, "m/s") + " against " +
-                  figure(hit.stiffness / 1000.0, "kN/m") +
-                  (hit.object.empty() ? "" : " of `" + hit.object + "`" + points) + " peaks near " +
-                  figure(hit.peak, "N") + "; " +
+              "`" + axis + "`: " + figure(hit.mass, "kg") + (hit.is_bound ? " at up to " : " at ") +
+                  figure(hit.speed, "m/s") + " against " + figure(hit.stiffness / 1000.0, "kN/m") +
+                  (hit.object.empty() ? "" : " of `" + hit.object + "`" + points) +
+                  (hit.is_bound ? " peaks at most near " : " peaks near ") + figure(hit.peak, "N") + "; " +
                   (allowed > 0.0 ? "below " + figure(allowed, "N") + " from " + figure(gentle_speed, "m/s")
                                  : "no force range bounds what it presses with afterwards"),
               "");

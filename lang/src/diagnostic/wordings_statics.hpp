@@ -34,6 +34,7 @@ struct Impact {
   double peak = 0.0;       ///< [N]
   std::string object;      ///< that is struck; empty: the robot's own bumper
   int points = 1;          ///< that strike together
+  bool is_bound = false;   ///< speed and peak are the most that they may be
 };
 /// `allowed` [N] 0: nothing bounds the force.
 Diagnostic first_hit(const Span& span, const std::string& axis, const Impact& hit, double allowed,

@@ -70,7 +70,8 @@ the robot arrives: a mass m at the speed v runs into the springs and dampers of 
 corners that strike together count. Without a push the peak is v sqrt(K m) times 1 undamped, 0.81 at
 a damping ratio of 0.27, 1 at 0.5, and 2 at 1. The note names the object of the scene that is hit
 hardest, or else the robot file's bumper. With a force range F the note appears above 2.5 F, and
-gives the speed below which it is gone.)~",
+gives the speed below which it is gone. Without a velocity range the way to the object gives the
+speed, v = sqrt(2 a s). Where the way is unknown the robot file's limit does, and the note says "up to".)~",
           .fix = "Arrive more slowly, or put a softer bumper on and say so in the robot file.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.15 m/s, force: +-40 N, time_constant: 50 ms}",

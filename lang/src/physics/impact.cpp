@@ -2,7 +2,7 @@
 // peak is that of hit.hpp, with
 //
 //   m   the effective mass along the axis, less where the object gives way: 1/m = 1/m_axis + 1/m_object
-//   v   the speed that the axis may have
+//   v   the speed with which the axis arrives (arrival.hpp)
 //   K   n times the object's stiffness, c likewise: all n points of a flat side strike together
 //   F   what the driver presses with once it stands: m v / tau of a velocity, within its force range
 //
@@ -13,11 +13,13 @@
 //
 // of the object of the scene that makes it largest. Without one the robot file's bumper is the spring,
 // undamped. Where a force range bounds F the peak is told above 2.5 times that bound, with the speed at which
-// it comes down to it; without a range it is told as it is.
+// it comes down to it; without a range it is told as it is. Where v is a bound the peak is one, too: of all
+// such the hardest is told, in tasks in which no forecast is.
 #include <algorithm>
 #include <cmath>
 
 #include "diagnostic/wordings_statics.hpp"
+#include "physics/arrival.hpp"
 #include "physics/statics.hpp"
 #include "zwang/lang/hit.hpp"
 #include "zwang/lang/plane.hpp"
@@ -30,16 +32,6 @@ using solver::Vector3;
 
 constexpr double gentle = 2.5;  // of the force range
 
-/// How fast the axis may meet something that it does not know of: 0 where nothing says it. [m/s]
-double speed_of(const PlannedTask& plan, const PlannedAxis& axis) {
-  const std::optional<solver::Range>& range = axis[solver::Quantity::velocity];
-  double most = plan.speed_limit(axis);
-  if (axis.driver == solver::Quantity::velocity && axis.target) return std::min(most, std::abs(*axis.target));
-  if (axis.driver == solver::Quantity::force && axis.target && range)
-    most = std::min(most, *axis.target < 0.0 ? -range->low : range->high);
-  return std::isfinite(most) ? most : 0.0;
-}
-
 /// 0 where nothing bounds it. [N]
 double bound_of(const PlannedAxis& axis) {
   if (axis.driver == solver::Quantity::force) return std::abs(axis.target.value_or(0.0));
@@ -47,9 +39,12 @@ double bound_of(const PlannedAxis& axis) {
   return range ? std::max(range->high, -range->low) : 0.0;
 }
 
-/// What the driver presses with against something that stops it, `led` times as heavy as the robot. [N]
-double pressing(const PlannedAxis& axis, const AxisFigures& figures, double led, double speed, double bound) {
+/// What the driver presses with against something that stops it, `led` times as heavy as the robot. Other
+/// drivers than velocities press with `unbounded` times that at most. [N]
+double pressing(const PlannedAxis& axis, const AxisFigures& figures, double led, double speed, double bound,
+                double unbounded) {
   double most = bound > 0.0 ? std::min(bound, figures.force) : figures.force;
+  if (axis.driver != solver::Quantity::velocity) most = std::min(most, led * unbounded);
   if (axis.driver == solver::Quantity::velocity)
     most = std::min(most, led * figures.mass * speed / axis.time_constant);
   return most;
@@ -105,10 +100,12 @@ Struck struck_object(const SceneObject& object, const Robot& robot, const Hit& o
   return struck;
 }
 
-/// The object that is hit hardest; none when there is none.
-std::optional<Struck> hardest(const Scene& scene, const Robot& robot, const Hit& of_robot, int corners) {
+/// The object that is hit hardest, or the `only` one; none when there is none.
+std::optional<Struck> hardest(const Scene& scene, const Robot& robot, const Hit& of_robot, int corners,
+                              const SceneObject* only) {
   std::optional<Struck> worst;
   for (const SceneObject& object : scene.objects) {
+    if (only != nullptr && only != &object) continue;
     if (object.size[2] < robot.bumper_height) continue;  // it passes below
     const Struck struck = struck_object(object, robot, of_robot, corners);
     if (!worst || struck.hit.peak_force() > worst->hit.peak_force()) worst = struck;
@@ -126,34 +123,63 @@ double gentle_speed(Hit hit, double allowed) {
   return slow;
 }
 
+/// Of one axis; nullopt where nothing is struck, or gently.
+struct Forecast {
+  Span span;
+  std::string path;
+  wording::Impact impact;
+  double allowed = 0.0, gentle_speed = 0.0;
+};
+
+std::optional<Forecast> forecast(const PlannedTask& plan, const PlannedAxis& axis,
+                                 const std::optional<Scene>& scene, bool is_first, Probe& probe) {
+  const Robot& robot = probe.robot();
+  const AxisFigures* figures = probe.figures(axis);
+  if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) return std::nullopt;
+  const Arrival arrival = arrival_of(plan, axis, *figures, scene, is_first, probe);
+  const double bound = bound_of(axis);
+  if (!(arrival.speed > 0.0)) return std::nullopt;
+  const double push = pressing(axis, *figures, robot.drive.mass_factor, arrival.speed, bound,
+                               pressed_without_range(plan, axis, *figures));
+  const double sign = axis.target && *axis.target < 0.0 ? -1.0 : 1.0;
+  const int corners =
+      std::max(1, foremost_corners(robot.footprint, sign * direction_in_base(axis, probe, scene)));
+  const Hit of_robot{figures->mass, arrival.speed, 0.0, 0.0, push};
+  std::optional<Struck> struck;
+  if (scene && !robot.footprint.empty()) struck = hardest(*scene, robot, of_robot, corners, arrival.object);
+  if (!struck && bound > 0.0) struck = struck_bumper(robot, *figures, arrival.speed, push);
+  if (!struck) return std::nullopt;
+  const double peak = struck->hit.peak_force(), allowed = gentle * bound;
+  if (bound > 0.0 && peak <= allowed) return std::nullopt;
+  return Forecast{bound > 0.0 ? axis.span(solver::Quantity::force) : axis.driver_span(),
+                  axis.path,
+                  {struck->hit.mass, arrival.speed, struck->stiffness, peak, struck->name, struck->points,
+                   arrival.is_bound},
+                  allowed,
+                  bound > 0.0 ? gentle_speed(struck->hit, allowed) : 0.0};
+}
+
 }  // namespace
 
-void ask_hit(const PlannedTask& plan, const std::optional<Scene>& scene, Probe& probe, Remarks& remarks) {
-  const Robot& robot = probe.robot();
+void ask_hit(const PlannedTask& plan, const std::optional<Scene>& scene, bool is_first, Probe& probe,
+             Remarks& remarks) {
+  const auto tell = [&](const Forecast& f) {
+    remarks.add(wording::first_hit(f.span, f.path, f.impact, f.allowed, f.gentle_speed));
+  };
+  std::optional<Forecast> bound;
+  bool is_told = false;
   for (const PlannedAxis& axis : plan.axes) {
     if (!axis.driver || axis.turns() || axis.move.body != 0 || axis.is_spring) continue;
-    const AxisFigures* figures = probe.figures(axis);
-    if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
-    const double speed = speed_of(plan, axis);
-    const double bound = bound_of(axis);
-    if (!(speed > 0.0)) continue;
-    const double push = pressing(axis, *figures, robot.drive.mass_factor, speed, bound);
-    const double sign = axis.target && *axis.target < 0.0 ? -1.0 : 1.0;
-    const int corners =
-        std::max(1, foremost_corners(robot.footprint, sign * direction_in_base(axis, probe, scene)));
-    const Hit of_robot{figures->mass, speed, 0.0, 0.0, push};
-    std::optional<Struck> struck;
-    if (scene && !robot.footprint.empty()) struck = hardest(*scene, robot, of_robot, corners);
-    if (!struck && bound > 0.0) struck = struck_bumper(robot, *figures, speed, push);
-    if (!struck) continue;
-    const double peak = struck->hit.peak_force();
-    const double allowed = gentle * bound;
-    if (bound > 0.0 && peak <= allowed) continue;
-    const Span& span = bound > 0.0 ? axis.span(solver::Quantity::force) : axis.driver_span();
-    remarks.add(wording::first_hit(
-        span, axis.path, {struck->hit.mass, speed, struck->stiffness, peak, struck->name, struck->points},
-        allowed, bound > 0.0 ? gentle_speed(struck->hit, allowed) : 0.0));
+    std::optional<Forecast> one = forecast(plan, axis, scene, is_first, probe);
+    if (!one) continue;
+    if (!one->impact.is_bound) {
+      tell(*one);
+      is_told = true;
+    } else if (!bound || one->impact.peak > bound->impact.peak) {
+      bound = std::move(one);
+    }
   }
+  if (bound && !is_told) tell(*bound);
 }
 
 }  // namespace zwang::lang

@@ -94,7 +94,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   if (!context.with_notes) return;
   ask_trailing(context, plan, remarks);
   ask_heading(context, plan, probe, remarks);
-  ask_hit(plan, asked.scene, probe, remarks);
+  ask_hit(plan, asked.scene, plan.task->name.text == context.file.start.text, probe, remarks);
   ask_force_budget(plan, probe, remarks);
 }
 

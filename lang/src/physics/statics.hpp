@@ -5,8 +5,9 @@
 
 namespace zwang::lang {
 
-/// N603: the first hit.
-void ask_hit(const PlannedTask& plan, const std::optional<Scene>& scene, Probe& probe, Remarks& remarks);
+/// N603: the first hit. `is_first`: the task begins where the scene says.
+void ask_hit(const PlannedTask& plan, const std::optional<Scene>& scene, bool is_first, Probe& probe,
+             Remarks& remarks);
 /// W640: accelerations and pushes that could tip the base over.
 void ask_tipping(const PlannedTask& plan, const std::optional<Scene>& scene, Probe& probe, Remarks& remarks);
 /// W640 of the protective stop; `span` where the file names its robot.
