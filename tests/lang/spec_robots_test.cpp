@@ -160,6 +160,36 @@ class RollingState {
   State state;
 };
 
+// Whichever rollers of a base on four mecanum wheels are mirrored, they are named; all four are told by the
+// lever with which they turn the base. Omni wheels mirror into themselves.
+TEST(SpecRobots, mirrored_rollers_are_named) {
+  const test::Folder place;
+  place.write("mecanum_base.urdf", test::slurp(folder / "mecanum_base.urdf"));
+  const std::string text = test::slurp(folder / "mecanum_base.yaml");
+  const std::vector<std::string> wheels{"front_left_wheel", "front_right_wheel", "rear_left_wheel",
+                                        "rear_right_wheel"};
+  for (unsigned flipped = 1; flipped < 16; ++flipped) {
+    std::string changed = text;
+    int count = 0;
+    for (std::size_t i = 0; i < wheels.size(); ++i) {
+      if (((flipped >> i) & 1U) == 0U) continue;
+      ++count;
+      const std::size_t at = changed.find("roller: ", changed.find("joint: " + wheels[i])) + 8;
+      changed[at] == '-' ? changed.erase(at, 1) : changed.insert(at, "-");
+    }
+    Diagnostics diagnostics;
+    load_robot(place.write("mecanum_base.yaml", changed), diagnostics);
+    ASSERT_EQ(test::count(diagnostics, "W868"), 1) << flipped << rendered(diagnostics);
+    for (const Diagnostic& d : diagnostics.all()) {
+      if (d.code != "W868") continue;
+      for (std::size_t i = 0; i < wheels.size(); ++i) {
+        const bool is_named = d.message.find(wheels[i]) != std::string::npos;
+        EXPECT_EQ(is_named, count < 4 && ((flipped >> i) & 1U) != 0U) << flipped << " " << d.message;
+      }
+    }
+  }
+}
+
 // qd = u' [1 0 -y; 0 1 x] V / (R u_x), u the roller's axis at the ground.
 TEST(SpecRobots, rollers_turn_their_wheels_by_the_formula) {
   for (const char* name : {"mecanum_base", "omni_base"}) {

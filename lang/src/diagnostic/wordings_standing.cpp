@@ -179,6 +179,23 @@ Diagnostic mirrored_rollers(const Span& span, double lever, double mirrored) {
       "sign at every wheel");
 }
 
+Diagnostic mirrored_wheels(const std::vector<MirroredWheel>& wheels, int axis, double made, double other) {
+  std::string names;
+  for (std::size_t i = 0; i < wheels.size(); ++i)
+    names += (i == 0 ? "" : i + 1 < wheels.size() ? ", " : " and ") + in_ticks(wheels[i].joint);
+  const char* unit = axis == 2 ? "N m" : "N";
+  const char* words[] = {"along x", "along y", "to turn with"};
+  Diagnostic result = warning(
+      "W868", wheels.front().span,
+      "the rollers of " + names + " stand against the others: " + figure(made, unit) + " are left " +
+          words[axis] + ", with them mirrored it is " + figure(other, unit),
+      "change the sign of `roller` there: it is that of the roller on the ground, which seen from above is "
+      "mirrored");
+  for (std::size_t i = 1; i < wheels.size(); ++i)
+    result.related.push_back({wheels[i].span, "this roller, too"});
+  return result;
+}
+
 Diagnostic wheel_inertia_beyond_rim(const std::vector<HeavyWheel>& wheels) {
   const HeavyWheel& first = wheels.front();
   const std::string others =

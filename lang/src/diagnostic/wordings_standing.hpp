@@ -59,6 +59,13 @@ struct Deviation {
 Diagnostic nearly_exact_wheels(const Span& span, const std::vector<Deviation>& deviations);
 /// `lever`: with which the wheels turn the base, `mirrored`: that of the mirrored rollers. [m]
 Diagnostic mirrored_rollers(const Span& span, double lever, double mirrored);
+struct MirroredWheel {
+  Span span;
+  std::string joint;
+};
+/// Some wheels, not all. `axis`: 0 x, 1 y, 2 rz, of which most is lost; `made` of it and `other`, with those
+/// mirrored. [N], [N m]
+Diagnostic mirrored_wheels(const std::vector<MirroredWheel>& wheels, int axis, double made, double other);
 struct HeavyWheel {
   Span span;
   std::string joint;

@@ -335,7 +335,8 @@ start with it turned (`posture` in the robot file).)~"},
           .why =
               R"~(A base on mecanum wheels turns by the lever of its rollers, the sum of half its length and half its
 width. Mirrored, the two are taken from each other: x and y work, and a tenth of the torque is left
-to turn with.)~",
+to turn with. If single rollers are mirrored, half of the force along an axis may be lost: every
+arrangement is tried, and the one with the greatest forces along x, y and about z is taken as meant.)~",
           .fix =
               R"~(`roller` is the angle from the wheel's axis to the roller *on the ground*. Usual: 45 deg at front
 left and rear right, -45 deg at the others. Seen from above it is mirrored: change the sign at every
