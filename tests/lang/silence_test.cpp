@@ -3,78 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <random>
 
 #include "../is_long.hpp"
+#include "silence_draw.hpp"
 #include "support.hpp"
 #include "zwang/lang/program.hpp"
 
-namespace zwang::lang {
+namespace zwang::lang::silence {
 namespace {
 
 /// What the drawn files ask a mecanum base of 56.9 kg along x, and its limits of 1 m/s and 1 m/s^2.
 constexpr double mass = 56.9;
-
-/// The same on every machine: the standard fixes the generator, not its distributions.
-class Dice {
- public:
-  explicit Dice(unsigned seed) : generator_(seed) {}
-  double number(double low, double high) {
-    return low + (high - low) * static_cast<double>(generator_()) / 4294967296.0;
-  }
-  int whole(int low, int high) {
-    return low + static_cast<int>(generator_() % static_cast<unsigned>(high - low + 1));
-  }
-  template <typename T>
-  const T& of(const std::vector<T>& all) {
-    return all[generator_() % all.size()];
-  }
-
- private:
-  std::mt19937 generator_;
-};
-
-std::string q(double value, const char* unit) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g %s", value, unit);
-  return text;
-}
-
-std::string range(double low, double high, const char* unit) {
-  return "[" + q(low, unit) + ", " + q(high, unit) + "]";
-}
-
-/// A task file of `tasks`, each `name: body`.
-std::string file(const std::string& tasks, const std::string& head = "",
-                 const std::string& robot = "mecanum_base") {
-  return "zwang: 1\nrobot: robots/" + robot + ".yaml\nscene: scenes/open.yaml\n" + head +
-         "start: a\ntasks:\n" + tasks;
-}
-
-std::string drive(const std::string& x) {
-  return "constraints: {go: {move: base_link, in: base_link, x: {" + x +
-         "}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}";
-}
-
-std::string task(const std::string& name, const std::string& body, const std::string& exits,
-                 const std::string& timeout) {
-  return "  " + name + ":\n    " + body + "\n" + (exits.empty() ? "" : "    exits: [" + exits + "]\n") +
-         "    timeout: " + timeout + "\n";
-}
-
-std::string exit_when(const std::string& when, const std::string& to, double dwell = 0.1) {
-  return "{when: \"" + when + "\", for: " + q(dwell, "s") + ", goto: " + to + "}";
-}
-
-const std::string fails = "{after: 20 s, goto: failed}";
-
-/// A kind of fault: `fault` says whether the file that it draws has it.
-struct Kind {
-  const char* name;
-  std::vector<const char*> codes;
-  std::function<std::string(Dice&, bool)> draw;
-};
 
 /// Two ranges of one quantity, of the task and beside it or under `always`, apart or overlapping.
 std::string two_ranges(Dice& d, bool fault) {
@@ -276,22 +215,26 @@ std::string faster_than_a_norm(Dice& d, bool fault) {
 }
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all{
-      {"two_ranges", {"W416"}, two_ranges},
-      {"beyond_a_range", {"W416"}, beyond_a_range},
-      {"ring", {"W510"}, ring},
-      {"impossible_exit", {"W511", "E505"}, impossible_exit},
-      {"long_dwell", {"W511"}, long_dwell},
-      {"flutter", {"W512"}, flutter},
-      {"unreached_force", {"W619"}, unreached_force},
-      {"clipped_spring", {"W601"}, clipped_spring},
-      {"held_steering", {"W643", "E404"}, held_steering},
-      {"late_guard", {"W620"}, late_guard},
-      {"flutter_in_a_ring", {"W512"}, flutter_in_a_ring},
-      {"never_saturated", {"W602"}, never_saturated},
-      {"force_beyond_a_sum", {"W416"}, force_beyond_a_sum},
-      {"faster_than_a_norm", {"W416"}, faster_than_a_norm},
-  };
+  static const std::vector<Kind> all = [] {
+    std::vector<Kind> some{
+        {"two_ranges", {"W416"}, two_ranges},
+        {"beyond_a_range", {"W416"}, beyond_a_range},
+        {"ring", {"W510"}, ring},
+        {"impossible_exit", {"W511", "E505"}, impossible_exit},
+        {"long_dwell", {"W511"}, long_dwell},
+        {"flutter", {"W512"}, flutter},
+        {"unreached_force", {"W619"}, unreached_force},
+        {"clipped_spring", {"W601"}, clipped_spring},
+        {"held_steering", {"W643", "E404"}, held_steering},
+        {"late_guard", {"W620"}, late_guard},
+        {"flutter_in_a_ring", {"W512"}, flutter_in_a_ring},
+        {"never_saturated", {"W602"}, never_saturated},
+        {"force_beyond_a_sum", {"W416"}, force_beyond_a_sum},
+        {"faster_than_a_norm", {"W416"}, faster_than_a_norm},
+    };
+    for (Kind& kind : kinds_of_places()) some.push_back(std::move(kind));
+    return some;
+  }();
   return all;
 }
 
@@ -344,4 +287,4 @@ TEST_F(Silence, a_sound_file_gets_no_word) {
 }
 
 }  // namespace
-}  // namespace zwang::lang
+}  // namespace zwang::lang::silence

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace zwang::lang {
 
@@ -24,6 +25,16 @@ std::optional<double> certain(const CheckContext& context, const TaskText& task,
     if (waits) return std::max(0.0, one.begin()->second.bounds.low) + dwell_of(context, exit);
   }
   return std::nullopt;
+}
+
+/// Whether an exit of the task, or what ends it, leads on to the other one.
+bool leads_to(const CheckContext& context, const TaskText& task, const std::string& other) {
+  const auto any = [&](const std::vector<ExitText>& exits) {
+    return std::any_of(exits.begin(), exits.end(), [&](const ExitText& e) { return e.target.text == other; });
+  };
+  return any(task.exits) || any(context.file.always_exits) ||
+         (task.timeout && task.timeout->target.text == other) ||
+         (task.attempts && task.attempts->target.text == other);
 }
 
 }  // namespace
@@ -59,6 +70,29 @@ Ending ending_before(const CheckContext& context, const TaskText& task,
   }
   if (exit < task.exits.size()) ending.time -= dwell_of(context, task.exits[exit]);
   return ending;
+}
+
+bool is_entered_again(const CheckContext& context, const std::string& task) {
+  std::vector<std::string> open{task};
+  std::set<std::string> reached;
+  while (!open.empty()) {
+    const std::string name = open.back();
+    open.pop_back();
+    const std::optional<int> from = context.symbols.find_task(name);
+    if (!from) continue;
+    const TaskText& text = context.file.tasks[static_cast<std::size_t>(*from)];
+    if (leads_to(context, text, task)) return true;
+    for (const TaskText& other : context.file.tasks) {
+      if (leads_to(context, text, other.name.text) && reached.insert(other.name.text).second)
+        open.push_back(other.name.text);
+    }
+  }
+  return false;
+}
+
+bool leads_back(const CheckContext& context) {
+  return std::any_of(context.file.tasks.begin(), context.file.tasks.end(),
+                     [&](const TaskText& task) { return leads_to(context, task, "back"); });
 }
 
 }  // namespace zwang::lang

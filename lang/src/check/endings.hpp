@@ -24,6 +24,11 @@ Ending ending_before(const CheckContext& context, const TaskText& task,
 double earliest(const CheckContext& context, const TaskText& task, const ExitText& exit,
                 const Condition& condition);
 
+/// Whether a way leads from the task on and back to it.
+bool is_entered_again(const CheckContext& context, const std::string& task);
+/// Whether some exit leads `back`, to nobody knows which task.
+bool leads_back(const CheckContext& context);
+
 /// W510: tasks from which no way leads to `done` or `failed`. W512: exits that lead to and fro at once.
 /// `reached`: the tasks that a run can come to.
 void check_loops(CheckContext& context, const std::vector<std::vector<Condition>>& conditions,

@@ -41,6 +41,24 @@ Diagnostic excluding_ranges(const Span& span, const Bound& own, const Bound& oth
       other_span, "the other range is here");
 }
 
+Diagnostic excluding_regions(const Span& span, const std::string& own, const std::string& other, double apart,
+                             const Span& other_span) {
+  return related_where_known(
+      warning("W416", span,
+              ticked(own) + " and " + ticked(other) + " keep the base in regions that are " +
+                  figure(apart, "m") + " too far apart: no place is in both",
+              "move one of the two regions, or take it out"),
+      other_span, "the other region is asked for here");
+}
+
+Diagnostic beyond_the_motors(const Span& span, const Bound& range, double most) {
+  return warning("W416", span,
+                 ticked(range.path) + " keeps the " + range.quantity + " " +
+                     within(range.low, range.high, range.unit) + ", and the motors make " +
+                     figure(most, range.unit) + ": no value is in both",
+                 "let the range begin below that");
+}
+
 Diagnostic beyond_a_range(const Span& span, const Bound& asked, const Bound& range, const Span& range_span) {
   return related_where_known(
       warning("W416", span,

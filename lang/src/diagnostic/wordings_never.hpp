@@ -57,6 +57,11 @@ Diagnostic never_true(const Span& span, const std::string& what, double low, dou
 Diagnostic always_true(const Span& span, const std::string& what, double low, double high,
                        const std::string& unit, const std::string& by, const Span& range);
 Diagnostic contradicts_itself(const Span& span);
+/// Two regions that hold one base and are `apart` [m].
+Diagnostic excluding_regions(const Span& span, const std::string& own, const std::string& other, double apart,
+                             const Span& other_span);
+/// A range of accelerations above `most` [m/s^2] or [rad/s^2], what the motors make.
+Diagnostic beyond_the_motors(const Span& span, const Bound& range, double most);
 Diagnostic never_in_time(const Span& span, const std::string& by, const Span& end);
 
 /// The force of a blocked driver, and its force range. SI.

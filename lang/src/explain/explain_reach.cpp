@@ -14,7 +14,8 @@ std::span<const Explanation> reach() {
           .why =
               R"~(Two ranges in force exclude each other, or a driver asks for a value that a range on its axis never
 allows. The robot ends somewhere between, and the file says nothing about where. Ranges of `always`,
-of the task and of the robot file count alike.)~",
+of the task and of the robot file count alike. A region leaves a range of each position, two points of
+a base stay as far apart as they are on it, and the motors bound the acceleration.)~",
           .fix = "Widen one of the two, take one out, or ask for a value that is in both.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:
@@ -51,7 +52,8 @@ signal: `always: {exits: [{when: stop_key, goto: failed}]}`.)~",
           .why =
               R"~(Ranges exclude the value that the condition asks for, or the timeout comes first, or the condition
 is true at once on entry. An exit to `failed` may watch over a range of positions or speeds, because
-a person may push the robot: that is no warning.)~",
+a person may push the robot: that is no warning. Regions in force count as ranges of positions, and
+as the longest way of a base that drives straight on. `entries` is at most 1 without a way back.)~",
           .fix = "Compare with a value that the ranges leave, or take the exit out.",
           .part = ExcerptOf::task,
           .example = R"~(constraints:

@@ -3,14 +3,18 @@
 //   [l1, h1] and [l2, h2] of one quantity along one axis       h1 < l2 or h2 < l1: no value is in both
 //   target t beside [l, h]                                     t < l or t > h: never reached
 //
+// Regions in force leave a range of each position (confined.hpp). Two points of one base are at most as far
+// apart as they are on it, whatever its heading. No acceleration is above what the motors make, F / m.
+//
 // Two axes are one where their rows are alike, or opposite; positions also count from the same origin.
 // W402 tells of a driver beside a range of `always` with the same words for frames and axis.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "diagnostic/wordings_never.hpp"
-#include "physics/questions.hpp"
+#include "physics/confined.hpp"
 
 namespace zwang::lang {
 
@@ -112,10 +116,92 @@ void compare_with_norm(const PlannedAxis& axis, const PlannedSpeed& speed, Remar
                                         {speed.path, "velocity", "m/s", 0.0, speed.most}, speed.span));
 }
 
+bool is_along_world(const PlannedAxis& axis) {
+  return axis.in_world && axis.is_placed && !axis.is_set && !axis.is_on_path && axis.move.body >= 0 &&
+         !axis.is_feature() && (axis.axis == solver::Axis::x || axis.axis == solver::Axis::y) &&
+         axis[Quantity::position];
+}
+
+solver::Vector3 along_world(const PlannedAxis& axis) {
+  return axis.in.pose.rotation.col(axis.axis == solver::Axis::x ? 0 : 1);
+}
+
+/// Positions of two points of one body along one axis of the world.
+void compare_points(const PlannedAxis& axis, const PlannedAxis& earlier, Remarks& remarks) {
+  if (!is_along_world(axis) || !is_along_world(earlier) || axis.move.body != earlier.move.body) return;
+  const solver::Vector3 along = along_world(axis);
+  const double cosine = along.dot(along_world(earlier));
+  if (std::abs(std::abs(cosine) - 1.0) > 1e-9) return;
+  const double apart = (axis.move.pose.position - earlier.move.pose.position).head<2>().norm();
+  if (!(apart > 1e-9)) return;  // told as ranges of one axis
+  Range other = *earlier[Quantity::position];
+  if (cosine < 0.0) other = {-other.high, -other.low};
+  const double shift = along.dot(earlier.in.pose.position - axis.in.pose.position);
+  other = {other.low + shift - apart, other.high + shift + apart};
+  const Range& own = *axis[Quantity::position];
+  if (own.low <= other.high && other.low <= own.high) return;
+  remarks.add(wording::excluding_ranges(
+      axis.span(Quantity::position), bound_of(axis, Quantity::position, own),
+      bound_of(earlier, Quantity::position, other), earlier.span(Quantity::position)));
+}
+
+void compare_with_region(const PlannedAxis& axis, const Confinement& region, const Robot& robot,
+                         Remarks& remarks) {
+  const auto& own = axis[Quantity::position];
+  const std::optional<Range> left = own ? left_of_position(region, axis, robot) : std::nullopt;
+  if (!left || (own->low <= left->high && left->low <= own->high)) return;
+  remarks.add(wording::excluding_ranges(axis.span(Quantity::position),
+                                        bound_of(axis, Quantity::position, *own),
+                                        {region.path, "position", "m", left->low, left->high}, region.span));
+}
+
+/// The directions stand for all: where one of them parts the two, they are apart.
+void compare_regions(const Confinement& a, const Confinement& b, const Robot& robot, Remarks& remarks) {
+  constexpr int directions = 72;
+  const solver::Vector3 origin = solver::Vector3::Zero();
+  const double outside = most_outside(a, robot, origin) + most_outside(b, robot, origin);
+  double apart = 0.0;
+  for (int i = 0; i < directions; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / directions;
+    const solver::Vector3 along(std::cos(angle), std::sin(angle), 0.0);
+    apart = std::max(apart, -farthest_along(a, along) - farthest_along(b, -along) - outside);
+  }
+  if (apart > 1e-6) remarks.add(wording::excluding_regions(a.span, a.path, b.path, apart, b.span));
+}
+
+/// An acceleration that is to be kept above what the motors make.
+void compare_with_motors(const PlannedAxis& axis, Probe& probe, Remarks& remarks) {
+  const auto& range = axis[Quantity::acceleration];
+  if (!range || axis.text == nullptr || axis.is_norm) return;
+  const double least = std::max(range->low, -range->high);
+  const AxisFigures* figures = least > 0.0 ? probe.figures(axis) : nullptr;
+  if (figures == nullptr || !figures->is_reachable || axis.is_open()) return;
+  double most = 0.0;
+  for (std::size_t i = 0; i < figures->masses.size(); ++i) {
+    if (figures->masses[i] > 0.0) most = std::max(most, figures->forces[i] / figures->masses[i]);
+  }
+  if (!(most > 0.0) || least <= most * (1.0 + 1e-6)) return;
+  remarks.add(wording::beyond_the_motors(axis.span(Quantity::acceleration),
+                                         bound_of(axis, Quantity::acceleration, *range), most));
+}
+
+void ask_places(const CheckContext& context, const PlannedTask& plan, const Robot& robot, Remarks& remarks) {
+  const std::vector<Confinement> regions = confinements(context, plan);
+  for (std::size_t i = 0; i < plan.axes.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) compare_points(plan.axes[i], plan.axes[j], remarks);
+    for (const Confinement& region : regions) compare_with_region(plan.axes[i], region, robot, remarks);
+  }
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) compare_regions(regions[i], regions[j], robot, remarks);
+  }
+}
+
 }  // namespace
 
-void ask_contradiction(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
+void ask_contradiction(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks) {
   for (const solver::Quantity quantity : quantities) ask_ranges(plan, quantity, probe, remarks);
+  ask_places(context, plan, probe.robot(), remarks);
+  for (const PlannedAxis& axis : plan.axes) compare_with_motors(axis, probe, remarks);
   for (const PlannedAxis& axis : plan.axes) {
     if (probe.is_exhausted()) return;
     for (const PlannedAxis& limit : plan.axes) compare_driver(axis, limit, probe, remarks);

@@ -4,10 +4,16 @@
 //   group.axis.position         the ranges of positions on that axis; in the first task s0 +- v t, too
 //   group.axis.velocity         the ranges of velocities on it
 //   group.axis.force            0 and the driver's own force, or its force range
+//                               and the regions in force
 //   speed(frame)                what `speed` and the ranges of the base's axes leave
 //   moved(frame)                that speed times the time t until the task ends at the latest
-//   elapsed                     that time
+//                               on a straight way no longer than the region in force
+//   turned(frame)               the turning speed times the time
+//   elapsed, since(own task)    that time
+//   entries(task)               1 where no way leads back to it
 //   an output                   its start, and each value that the file sets it to
+//
+// A condition that also asks for `elapsed < t` has t in the place of the time.
 //
 // An exit to `failed` may watch over a range: whoever pushes the base can break it. So positions and speeds
 // count for other exits only.
@@ -17,6 +23,7 @@
 #include "check/endings.hpp"
 #include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_outputs.hpp"
+#include "physics/confined.hpp"
 #include "physics/questions.hpp"
 #include "zwang/lang/condition_function.hpp"
 
@@ -67,7 +74,11 @@ Known known_output(const CheckContext& context, int index) {
 class ExitQuestion {
  public:
   ExitQuestion(const CheckContext& context, const PlannedTask& plan, Probe& probe, bool is_first)
-      : context_(context), plan_(plan), probe_(probe), is_first_(is_first) {}
+      : context_(context),
+        plan_(plan),
+        probe_(probe),
+        is_first_(is_first),
+        regions_(confinements(context, plan)) {}
 
   /// `latest`: when the task ends at the latest. [s]
   void ask(const ExitText& exit, const Condition& condition, const Ending& latest, Remarks& remarks) {
@@ -123,6 +134,10 @@ class ExitQuestion {
 
   std::optional<Found> contradicted(const Case& demanded, const ExitText& exit) {
     const bool watches = exit.target.text == "failed";
+    until_ = latest_.time;
+    for (const auto& [key, demand] : demanded) {
+      if (demand.node->op == Op::elapsed) until_ = std::min(until_, demand.bounds.high);
+    }
     for (const auto& [key, demand] : demanded) {
       const Known known = known_of(*demand.node);
       if (watches && !known.holds_whatever_pushes) continue;
@@ -138,7 +153,10 @@ class ExitQuestion {
         return {{0.0, latest_.time}, latest_.by, latest_.span, true};
       case Op::of_frame:
         if (calls(node, "speed")) return known_speed(node);
+        if (calls(node, "turned")) return known_turn(node);
         return calls(node, "moved") ? known_way(node) : Known{};
+      case Op::of_task:
+        return calls(node, "entries") ? known_entries(node) : known_since(node);
       case Op::coordinate:
         return known_coordinate(node);
       case Op::feature:
@@ -156,9 +174,37 @@ class ExitQuestion {
   }
 
   Known known_way(const ExpressionNode& node) {
-    if (!std::isfinite(latest_.time)) return {};
-    const SpeedLimit limit = limit_of(node);
-    return {{0.0, limit.most * latest_.time}, limit.path, limit.span};
+    Known known;
+    if (std::isfinite(until_)) {
+      const SpeedLimit limit = limit_of(node);
+      known = {{0.0, limit.most * until_}, limit.path, limit.span};
+    }
+    if (!place_of(context_, node.index).is_known || place_of(context_, node.index).frame.body != 0)
+      return known;
+    for (const Confinement& region : regions_) {
+      const double longest = longest_way(region, plan_, probe_, is_first_);
+      if (longest < known.bounds.high) known = {{0.0, longest}, region.path, region.span};
+    }
+    return known;
+  }
+
+  Known known_turn(const ExpressionNode& node) {
+    const Place place = place_of(context_, node.index);
+    if (!std::isfinite(until_) || !place.is_known || place.frame.body != 0) return {};
+    const SpeedLimit limit = most_turning(plan_, probe_);
+    return {{0.0, limit.most * until_}, limit.path, limit.span};
+  }
+
+  Known known_since(const ExpressionNode& node) const {
+    const std::string& task = context_.symbols.tasks[static_cast<std::size_t>(node.index)];
+    const bool is_own = plan_.task != nullptr && plan_.task->name.text == task && !leads_back(context_);
+    return is_own ? Known{{0.0, latest_.time}, latest_.by, latest_.span, true} : Known{};
+  }
+
+  Known known_entries(const ExpressionNode& node) const {
+    const std::string& task = context_.symbols.tasks[static_cast<std::size_t>(node.index)];
+    if (leads_back(context_) || is_entered_again(context_, task)) return {};
+    return {{0.0, 1.0}, "a file without a way back to it", {}, true};
   }
 
   SpeedLimit limit_of(const ExpressionNode& node) {
@@ -206,6 +252,12 @@ class ExitQuestion {
     Known known;
     if (const auto& range = axis[Quantity::position])
       known = {{range->low, range->high}, axis.path, axis.span(Quantity::position)};
+    for (const Confinement& region : regions_) {
+      const auto left = left_of_position(region, axis, probe_.robot());
+      const Bounds rest = left ? both(known.bounds, {left->low, left->high}) : known.bounds;
+      if (rest.low > known.bounds.low || rest.high < known.bounds.high)
+        known = {rest, region.path, region.span};
+    }
     const bool is_measured_from_start = is_first_ && axis.is_placed && !axis.is_set && axis.in_world &&
                                         axis.move.body == 0 && axis.measure == solver::Measure::axis &&
                                         !axis.turns() && std::isfinite(latest_.time);
@@ -267,6 +319,9 @@ class ExitQuestion {
 
   std::string name_of(const ExpressionNode& node) const {
     switch (node.op) {
+      case Op::of_task:
+        return std::string(function_of(node).name) + "(" +
+               context_.symbols.tasks[static_cast<std::size_t>(node.index)] + ")";
       case Op::of_frame:
         return std::string(function_of(node).name) + "(" +
                context_.symbols.frames[static_cast<std::size_t>(node.index)].declaration.name + ")";
@@ -290,7 +345,7 @@ class ExitQuestion {
 
   std::string unit_of(const ExpressionNode& node) const {
     if (node.op == Op::elapsed) return "s";
-    if (node.op == Op::of_frame) {
+    if (node.op == Op::of_frame || node.op == Op::of_task) {
       const auto& powers = function_of(node).powers;
       return usual_unit({powers[0], powers[1], powers[2], powers[3]});
     }
@@ -309,20 +364,10 @@ class ExitQuestion {
   const PlannedTask& plan_;
   Probe& probe_;
   bool is_first_;
+  std::vector<Confinement> regions_;
   Ending latest_;
+  double until_ = solver::infinity;  ///< [s] since the task was entered, in the case that is looked at
 };
-
-bool is_entered_again(const CheckContext& context, const std::string& task) {
-  const auto leads_there = [&](const Word& target) { return target.text == task || target.text == "back"; };
-  const auto any = [&](const std::vector<ExitText>& exits) {
-    return std::any_of(exits.begin(), exits.end(), [&](const ExitText& e) { return leads_there(e.target); });
-  };
-  return any(context.file.always_exits) ||
-         std::any_of(context.file.tasks.begin(), context.file.tasks.end(), [&](const TaskText& other) {
-           return any(other.exits) || (other.timeout && leads_there(other.timeout->target)) ||
-                  (other.attempts && leads_there(other.attempts->target));
-         });
-}
 
 }  // namespace
 
@@ -330,7 +375,7 @@ void ask_exits(const CheckContext& context, const PlannedTask& plan, const std::
                const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks) {
   const bool is_of_task = plan.task != nullptr && &exits == &plan.task->exits;
   const bool is_first = is_of_task && plan.task->name.text == context.file.start.text &&
-                        !is_entered_again(context, plan.task->name.text);
+                        !is_entered_again(context, plan.task->name.text) && !leads_back(context);
   ExitQuestion question(context, plan, probe, is_first);
   for (std::size_t i = 0; i < exits.size(); ++i) {
     if (conditions[i].nodes.empty()) continue;

@@ -60,7 +60,7 @@ struct Asked {
 void ask_exits_of_task(const CheckContext& context, std::size_t index, const PlannedTask& plan,
                        const Asked& asked, Probe& probe, Remarks& remarks) {
   if (context.diagnostics.has_errors()) return;
-  ask_contradiction(plan, probe, remarks);
+  ask_contradiction(context, plan, probe, remarks);
   ask_exits(context, plan, plan.task->exits, asked.conditions.of_tasks[index], probe, remarks);
   ask_stopping(context, plan, asked.conditions, index, probe, remarks);
 }

@@ -78,7 +78,7 @@ void ask_wheel_torque(const PlannedTask& plan, Probe& probe, Remarks& remarks);
 void ask_boundary(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 
 /// W416: ranges that exclude each other, drivers beyond a range.
-void ask_contradiction(const PlannedTask& plan, Probe& probe, Remarks& remarks);
+void ask_contradiction(const CheckContext& context, const PlannedTask& plan, Probe& probe, Remarks& remarks);
 
 /// Joints that steer a wheel and that no row of any task turns, by their number.
 std::vector<int> held_steerings(const CheckContext& context, const solver::Model& model);
