@@ -96,6 +96,24 @@ std::string beyond_the_motors(Dice& d, bool fault) {
                    "", "{after: 5 s, goto: done}"));
 }
 
+/// As `late_guard`, at `done` with the robot's own stop of 1 m/s^2; beside the distance something that is
+/// true on the way, or a distance to a person.
+std::string late_joint_guard(Dice& d, bool fault) {
+  const double v = d.number(0.2, 0.8), way = v * (0.1 + 0.2) + v * v / 2.0;
+  const double asked = 0.4 + way * (fault ? d.number(0.3, 0.95) : d.number(1.05, 1.5));
+  const bool is_person = d.whole(0, 1) == 0;
+  const std::string head =
+      is_person ? "signals: {p: {type: pose, in: base_link, stale_after: 200 ms}}\nframes: {person: {parent: "
+                  "p}}\nfeatures: {gap: {distance: [base_link, person]}}\n"
+                : "signals: {gap: {type: number, unit: m, stale_after: 200 ms}}\n";
+  const std::string beside = is_person            ? ""
+                             : d.whole(0, 1) == 0 ? " and speed(base_link) > 5 cm/s"
+                                                  : " and elapsed > 0.5 s";
+  return file(task("a", drive("velocity: " + q(v, "m/s")),
+                   exit_when("gap < " + q(asked, "m") + beside, "done"), fails),
+              head);
+}
+
 }  // namespace
 
 std::vector<Kind> kinds_of_places() {
@@ -108,6 +126,7 @@ std::vector<Kind> kinds_of_places() {
       {"time_in_a_task", {"W511"}, time_in_a_task},
       {"way_back", {"W511"}, way_back},
       {"beyond_the_motors", {"W416"}, beyond_the_motors},
+      {"late_joint_guard", {"W620"}, late_joint_guard},
   };
 }
 

@@ -210,7 +210,8 @@ this is less.)~",
               R"~(Between the true distance and the brake lie the signal's `stale_after`, the exit's `for` and half of
 the blend. Then the base brakes with what its ranges leave: v^2/2a + a T^2/2. A distance counts from
 the base's origin, so the footprint is added. Behind a drive that feels, a force brakes a virtual robot
-that is several times as heavy.)~",
+that is several times as heavy. Conditions beside the distance that are true of a moving base, and
+distances to what a pose signal measures, are guards, too.)~",
           .fix = "Ask earlier, drive more slowly, or brake harder: the message has the numbers.",
           .part = ExcerptOf::task_file,
           .example = R"~(signals:

@@ -9,6 +9,10 @@
 //   reach  of the footprint from the base's origin, from where a distance counts. A guard nearer than that
 //          counts from the footprint.
 //
+// Beside the distance a condition may ask for more, as long as a base on its way meets it. That is a speed
+// above a limit, a time that has passed, a way moved. A distance feature counts like a signal where its other
+// end hangs on a pose signal, and where no position is driven: what is driven to arrives.
+//
 // Of two guards on one signal the wider one fires first: what it leads to is as fast as that task says.
 #include <algorithm>
 #include <cmath>
@@ -16,6 +20,7 @@
 #include "check/cases.hpp"
 #include "diagnostic/wordings_never.hpp"
 #include "physics/questions.hpp"
+#include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
 
@@ -47,30 +52,71 @@ double speed_for(double way, const Braking& braking, double most) {
   return low;
 }
 
-/// The number signal of a length that the exit compares, and with what; nullopt: it is no such guard.
+/// The distance that the exit compares, and with what.
 struct Guard {
-  int signal = -1;
+  int signal = -1;        ///< whose age counts
+  int feature = -1;       ///< -1: the signal itself is the distance
   double distance = 0.0;  ///< [m]
 };
 
+/// True of a base that drives on at `speed`, sooner or later.
+bool holds_on_the_way(const Demanded& demanded, double speed) {
+  const ExpressionNode& node = *demanded.node;
+  const bool has_no_end = std::isinf(demanded.bounds.high);
+  switch (node.op) {
+    case Op::signal:
+    case Op::valid:
+      return true;
+    case Op::elapsed:
+    case Op::of_task:
+      return has_no_end;
+    case Op::of_frame:
+      return has_no_end && (!calls(node, "speed") || demanded.bounds.low < speed);
+    default:
+      return false;
+  }
+}
+
+/// From the base to what a pose signal measures.
+std::optional<Guard> feature_guard(const CheckContext& context, int index) {
+  const FeatureSymbol& symbol = context.symbols.features[static_cast<std::size_t>(index)];
+  const Feature& feature = symbol.feature;
+  if (symbol.is_bad || feature.kind != FeatureKind::distance) return std::nullopt;
+  const int first = context.symbols.signal_of(feature.first),
+            second = context.symbols.signal_of(feature.second);
+  const bool is_first_measured = first >= 0;
+  if (is_first_measured == (second >= 0)) return std::nullopt;
+  const Place own = place_of(context, is_first_measured ? feature.second : feature.first);
+  const bool is_origin = own.frame.body == 0 && own.frame.pose.position.head<2>().norm() < 1e-9;
+  if (!is_origin) return std::nullopt;
+  return Guard{is_first_measured ? first : second, index, 0.0};
+}
+
+/// nullopt: it is no guard of a distance.
 std::optional<Guard> guard_of(const CheckContext& context, const Condition& condition,
-                              const std::vector<GroupText>& groups) {
+                              const std::vector<GroupText>& groups, double speed) {
   const auto cases = cases_of(context, condition, groups);
   if (!cases) return std::nullopt;
   for (const Case& one : *cases) {
     std::optional<Guard> guard;
-    bool is_alone = true;
+    bool is_met = true;
     for (const auto& [key, demanded] : one) {
       const ExpressionNode& node = *demanded.node;
-      const bool is_signal = node.op == Op::signal || node.op == Op::valid;
       const SignalSymbol* signal =
           node.op == Op::signal ? &context.symbols.signals[static_cast<std::size_t>(node.index)] : nullptr;
       const bool measures = signal != nullptr && signal->signal.type == SignalType::number &&
                             signal->dimension == dimension::length;
-      if (measures && std::isfinite(demanded.bounds.high)) guard = Guard{node.index, demanded.bounds.high};
-      is_alone = is_alone && is_signal;
+      std::optional<Guard> found = measures                 ? std::optional<Guard>(Guard{node.index, -1, 0.0})
+                                   : node.op == Op::feature ? feature_guard(context, node.index)
+                                                            : std::nullopt;
+      if (found && std::isfinite(demanded.bounds.high)) {
+        found->distance = demanded.bounds.high;
+        guard = found;
+      } else {
+        is_met = is_met && holds_on_the_way(demanded, speed);
+      }
     }
-    if (guard && is_alone && guard->distance > 0.0) return guard;
+    if (guard && is_met && guard->distance > 0.0) return guard;
   }
   return std::nullopt;
 }
@@ -85,10 +131,11 @@ class StoppingQuestion {
   void ask(const PlannedTask& plan, std::size_t index) {
     const SpeedLimit limit = fastest(plan);
     if (!std::isfinite(limit.most) || !(limit.most > 0.0)) return;
-    const std::vector<Guarded> guards = guards_of(plan, index);
+    const std::vector<Guarded> guards = guards_of(plan, index, limit.most);
     for (const Guarded& one : guards) {
       const bool comes_later = std::any_of(guards.begin(), guards.end(), [&](const Guarded& other) {
-        return other.guard.signal == one.guard.signal && other.guard.distance > one.guard.distance;
+        return other.guard.signal == one.guard.signal && other.guard.feature == one.guard.feature &&
+               other.guard.distance > one.guard.distance;
       });
       if (!comes_later && one.exit->target.text != plan.task->name.text) compare(one, limit);
     }
@@ -100,13 +147,16 @@ class StoppingQuestion {
     Guard guard;
   };
 
-  std::vector<Guarded> guards_of(const PlannedTask& plan, std::size_t index) const {
+  std::vector<Guarded> guards_of(const PlannedTask& plan, std::size_t index, double speed) const {
     std::vector<Guarded> guards;
+    const bool arrives = std::any_of(plan.axes.begin(), plan.axes.end(), [](const PlannedAxis& axis) {
+      return axis.driver == Quantity::position && !axis.turns();
+    });
     const auto add = [&](const std::vector<ExitText>& exits, const std::vector<Condition>& conditions,
                          const std::vector<GroupText>& groups) {
       for (std::size_t i = 0; i < exits.size(); ++i) {
-        if (const auto guard = guard_of(context_, conditions[i], groups))
-          guards.push_back({&exits[i], *guard});
+        const auto guard = guard_of(context_, conditions[i], groups, speed);
+        if (guard && (guard->feature < 0 || !arrives)) guards.push_back({&exits[i], *guard});
       }
     };
     static const std::vector<GroupText> none;
@@ -181,13 +231,17 @@ class StoppingQuestion {
     braking->delay +=
         dwell_of(context_, *one.exit) + (stale_after ? present_value(context_, *stale_after) : 0.0);
     const double outline = reach();
+    const bool is_feature = one.guard.feature >= 0;
+    if (is_feature && one.guard.distance <= outline) return;
     const double reach = one.guard.distance > outline ? outline : 0.0;
     const double way = way_to_stop(limit.most, *braking);
     if (way + reach <= one.guard.distance * (1.0 + 1e-6)) return;
     const double slow_enough = speed_for(one.guard.distance - reach, *braking, limit.most);
+    const std::string& name =
+        is_feature ? context_.symbols.features[static_cast<std::size_t>(one.guard.feature)].feature.name
+                   : context_.symbols.signals[signal].signal.name;
     remarks_.add(wording::stops_too_late(one.exit->when.span,
-                                         {context_.symbols.signals[signal].signal.name, one.guard.distance,
-                                          limit.most, way, reach, slow_enough},
+                                         {name, one.guard.distance, limit.most, way, reach, slow_enough},
                                          limit.path, limit.span));
   }
 
