@@ -56,7 +56,8 @@ void ask_circle(const PlannedTask& plan, Remarks& remarks) {
   }
 }
 
-/// Ranges of the same size to both sides, that nothing else on the axis asks for.
+/// Ranges of the same size to both sides, that nothing else on the axis asks for. A force range beside a
+/// driver is that row's own: who presses into a corner means both.
 bool is_half_of_a_norm(const PlannedAxis& axis, Quantity quantity) {
   const std::optional<solver::Range>& range = axis[quantity];
   if (axis.text == nullptr || axis.is_norm || axis.is_feature() || !range) return false;
@@ -69,8 +70,8 @@ void ask_box(const PlannedTask& plan, Quantity quantity, Remarks& remarks) {
     if (x.axis != Axis::x || !is_half_of_a_norm(x, quantity)) continue;
     for (const PlannedAxis& y : plan.axes) {
       const bool is_pair = y.axis == Axis::y && is_half_of_a_norm(y, quantity) &&
-                           x.move_name == y.move_name && x.in_name == y.in_name && x.group == y.group &&
-                           x.level == y.level && x[quantity]->high == y[quantity]->high;
+                           x.move_name == y.move_name && x.in_name == y.in_name && x.level == y.level &&
+                           x[quantity]->high == y[quantity]->high;
       if (is_pair)
         remarks.add(wording::box_for_norm(x.span(quantity),
                                           {x.path, y.path, quantity == Quantity::force, x[quantity]->high},
