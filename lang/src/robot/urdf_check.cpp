@@ -40,6 +40,24 @@ constexpr double least_inertia = 1e-18;  // [kg m^2]
 constexpr double most_inertia = 1e12;  // [kg m^2]
 constexpr double most_distance = 1e3;  // [m]
 
+/// No quantity of a robot lies beyond these two. Exporters write rounding errors of 1e-33, and 1e38 for no
+/// limit.
+constexpr double least_number = 1e-100;
+constexpr double most_number = 1e40;
+constexpr double most_angle = 1e3;  // [rad] of an `rpy`
+
+/// Numbers that only a size is asked of: a wheel's radius, a footprint and friction come from them.
+constexpr std::array sized_rules{
+    NumberRule{"cylinder", "radius", 1},  NumberRule{"cylinder", "length", 1},
+    NumberRule{"sphere", "radius", 1},    NumberRule{"box", "size", 3},
+    NumberRule{"dynamics", "damping", 1}, NumberRule{"dynamics", "friction", 1},
+};
+
+bool is_beyond_numbers(double number) {
+  const double size = std::abs(number);
+  return size > most_number || (size > 0.0 && size < least_number);
+}
+
 class UrdfChecker {
  public:
   UrdfChecker(const std::vector<XmlElement>& elements, Diagnostics& diagnostics)
@@ -54,6 +72,7 @@ class UrdfChecker {
       complain(wording::not_urdf(elements_[0].span, elements_[0].name));
       return std::nullopt;
     }
+    for (const XmlElement& element : elements_) check_sizes(element);
     for (const std::size_t i : children_[0]) {
       const XmlElement& element = elements_[i];
       if (element.name.starts_with("xacro:")) complain(wording::unexpanded_macro(element.span, element.name));
@@ -89,6 +108,21 @@ class UrdfChecker {
       return {};
     }
     return name->value;
+  }
+
+  /// E105, wherever in the file they stand. Text that is no number is told where it is used.
+  void check_sizes(const XmlElement& element) {
+    const auto check = [&](const NumberRule& rule) {
+      const XmlAttribute* attribute = element.name == rule.element ? element.find(rule.attribute) : nullptr;
+      if (attribute == nullptr) return;
+      const auto numbers = read_numbers(attribute->value, rule.count).value_or(std::vector<double>{});
+      if (std::any_of(numbers.begin(), numbers.end(), is_beyond_numbers))
+        complain(wording::number_out_of_range(attribute->span, attribute->value));
+    };
+    for (const NumberRule& rule : number_rules) {
+      if (rule.element != "mass") check(rule);  // E858 tells of masses
+    }
+    for (const NumberRule& rule : sized_rules) check(rule);
   }
 
   /// The numbers of the attributes that an element must or may have; false when one cannot be read.
@@ -143,6 +177,7 @@ class UrdfChecker {
     const bool mass_is_readable = check_numbers(*mass);
     const bool inertia_is_readable = check_numbers(*inertia);
     const bool origin_is_readable = !origin || check_numbers(*origin);
+    if (origin && origin_is_readable) check_distance(*origin, link);
     if (!mass_is_readable || !inertia_is_readable || !origin_is_readable) return;
     const double kilograms = number(*mass, "value", 0.0);
     const Span span = elements_[*mass].find("value")->span;
@@ -218,6 +253,13 @@ class UrdfChecker {
     for (const double number : numbers.value_or(std::vector<double>{})) {
       if (std::abs(number) <= most_distance) continue;
       complain(wording::beyond_all_bodies(xyz->span, link, "a place", format_number(number) + " m"));
+      return;
+    }
+    const XmlAttribute* rpy = elements_[origin].find("rpy");
+    const auto angles = rpy != nullptr ? read_numbers(rpy->value, 3) : std::nullopt;
+    for (const double angle : angles.value_or(std::vector<double>{})) {
+      if (std::abs(angle) <= most_angle) continue;
+      complain(wording::beyond_all_bodies(rpy->span, link, "an angle", format_number(angle) + " rad"));
       return;
     }
   }
