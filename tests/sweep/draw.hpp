@@ -51,6 +51,8 @@ enum class Which {
   all,
   healthy,
   faulty,
+  others,  ///< tasks with an arm, objects that give way, paths and people, with a fault: what docs/limits.md
+           ///< states
   starts,  ///< not drawn: encoders that fail 0 to 0.4 s after a base sets out to a wall, `start_count` runs
 };
 inline constexpr int start_count = 88;

@@ -1,4 +1,4 @@
-// sweep [--seed N] [--first N] [--runs N] [--threads N] [--healthy | --faulty | --starts]:
+// sweep [--seed N] [--first N] [--runs N] [--threads N] [--healthy | --faulty | --others | --starts]:
 // draws runs and prints what they came to.
 #include <cstdlib>
 #include <cstring>
@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     if (std::strcmp(argv[i], "--threads") == 0) number = &threads;
     if (std::strcmp(argv[i], "--healthy") == 0) which = Which::healthy;
     if (std::strcmp(argv[i], "--faulty") == 0) which = Which::faulty;
+    if (std::strcmp(argv[i], "--others") == 0) which = Which::others;
     if (std::strcmp(argv[i], "--starts") == 0) which = Which::starts;
     if (number != nullptr && i + 1 < argc) *number = std::atoi(argv[++i]);
   }

@@ -58,6 +58,20 @@ TEST(Sweep, EncodersThatFailAtAnyMomentKeepTheBounds) {
   if (test::is_long()) print(3, 0, Which::faulty, results, std::cout);
 }
 
+/// Tasks with an arm, objects that give way and the like. docs/limits.md states their bounds, which are
+/// wider: the arm's own speed is bounded by its joints' limits, and nothing hits harder than that.
+TEST(Sweep, EncodersThatFailInAnyOtherTaskAreMeasured) {
+  const int runs = test::is_long() ? 300 : 1;
+  const int threads = test::is_long() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
+  const auto results = run_all(3, 0, runs, Which::others, threads);
+  for (int i = 0; i < runs; ++i) {
+    const Result& result = results[static_cast<std::size_t>(i)];
+    EXPECT_LT(result.speed, 1.0) << i << " " << draw(3, i, Which::others).name;
+    EXPECT_FALSE(result.outcome.empty()) << i;
+  }
+  if (test::is_long()) print(3, 0, Which::others, results, std::cout);
+}
+
 /// With encoders of steps up to 5e-5 rad.
 TEST(Sweep, AHealthyRunIsNotFrozen) {
   const int runs = test::is_long() ? 1000 : 4;
