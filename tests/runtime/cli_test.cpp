@@ -131,9 +131,9 @@ TEST_F(Cli, RunsTheShippedTaskAndTellsTheStoryInJson) {
 TEST_F(Cli, TellsThePersonAtTheTerminalTheSame) {
   const Result r = zwang({"run", wall_align});
   EXPECT_EQ(r.code, 0) << r.err;
-  for (const char* words : {"press.contact.x.velocity at ", "done after ", "transitions", "press  -> hold",
-                            "limits", "worst", "margin", "truth, as the plant measured it", "pressed with ",
-                            "hold.contact.x for 20.000 N", "runs/wall_align-001/log.mcap"}) {
+  for (const char* words : {"  press -> hold  abs(contact.x.velocity) < 5 mm/s", "done after ", "transitions",
+                            "press  -> hold", "limits", "worst", "margin", "truth, as the plant measured it",
+                            "pressed with ", "hold.contact.x for 20.000 N", "runs/wall_align-001/log.mcap"}) {
     EXPECT_NE(r.out.find(words), std::string::npos) << words;
   }
   EXPECT_NE(r.out.find("(wall_align.yaml:" + std::to_string(line_of("abs(contact.x.velocity)")) + ")"),
