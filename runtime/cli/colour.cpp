@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 
 namespace zwang::cli {
 
