@@ -114,6 +114,15 @@ std::string late_joint_guard(Dice& d, bool fault) {
               head);
 }
 
+/// Two equal ranges are a box, wherever they stand.
+std::string box_in_two_groups(Dice& d, bool fault) {
+  const double most = d.number(10.0, 30.0), other = fault ? most : 0.8 * most;
+  const std::string frames = "{move: base_link, in: base_link, ";
+  return file(task("a", drive("velocity: 0.05 m/s"), "", "{after: 5 s, goto: done}"),
+              "always: {constraints: {one: " + frames + "x: {force: " + range(-most, most, "N") +
+                  "}}, two: " + frames + "y: {force: " + range(-other, other, "N") + "}}}}\n");
+}
+
 }  // namespace
 
 std::vector<Kind> kinds_of_places() {
@@ -126,6 +135,7 @@ std::vector<Kind> kinds_of_places() {
       {"time_in_a_task", {"W511"}, time_in_a_task},
       {"way_back", {"W511"}, way_back},
       {"beyond_the_motors", {"W416"}, beyond_the_motors},
+      {"box_in_two_groups", {"W641"}, box_in_two_groups},
       {"late_joint_guard", {"W620"}, late_joint_guard},
   };
 }
