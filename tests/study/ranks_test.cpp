@@ -20,9 +20,10 @@ namespace {
 /// One socket to each other rank that is spoken to.
 class SocketMessages : public Messages {
  public:
-  SocketMessages(int rank, std::map<int, int> sockets) : rank_(rank), sockets_(std::move(sockets)) {}
+  SocketMessages(int rank, std::map<int, int> sockets)
+      : rank_(rank), size_(static_cast<int>(sockets.size()) + 1), sockets_(std::move(sockets)) {}
   int rank() const override { return rank_; }
-  int size() const override { return static_cast<int>(sockets_.size()) + 1; }
+  int size() const override { return size_; }
   void send(int to, const std::string& text) override {
     ::send(sockets_.at(to), text.data(), text.size(), 0);
   }
@@ -37,14 +38,20 @@ class SocketMessages : public Messages {
     for (std::size_t i = 0; i < files.size(); ++i) {
       if ((files[i].revents & POLLIN) == 0) continue;
       std::string text(1 << 16, '\0');
-      text.resize(static_cast<std::size_t>(::recv(files[i].fd, text.data(), text.size(), 0)));
+      const ssize_t size = ::recv(files[i].fd, text.data(), text.size(), 0);
+      if (size <= 0) {  // it has ended
+        sockets_.erase(ranks[i]);
+        if (sockets_.empty() && rank_ > 0) throw std::runtime_error("rank 0 has ended");
+        continue;
+      }
+      text.resize(static_cast<std::size_t>(size));
       return Message{ranks[i], text};
     }
     return std::nullopt;
   }
 
  private:
-  int rank_;
+  int rank_, size_;
   std::map<int, int> sockets_;
 };
 
@@ -83,8 +90,12 @@ std::map<std::size_t, std::string> outcomes_with(const std::array<std::string, 2
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends) != 0) throw std::runtime_error("no sockets");
     const pid_t other = ::fork();
     if (other == 0) {
-      SocketMessages messages(rank, {{0, ends[1]}});
-      serve_rank({}, calls_into(outcomes), identities[static_cast<std::size_t>(rank) - 1], messages);
+      try {
+        SocketMessages messages(rank, {{0, ends[1]}});
+        serve_rank({}, calls_into(outcomes), identities[static_cast<std::size_t>(rank) - 1], messages);
+      } catch (const std::exception&) {
+        ::_exit(1);
+      }
       ::_exit(0);
     }
     ::close(ends[1]);
