@@ -69,6 +69,7 @@ zwang_package(python python3-zwang python "python3 (>= 3.11), python3 (<< 3.12),
 "task language and runtime for mobile robots - Python module" "Checks and runs task files, sweeps parameters, reads logs as numpy arrays,
 and steps a plant that is written in Python.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_MPI_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_ROS2_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
 
