@@ -96,10 +96,10 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer, co
 
 /// [m] that the force went along, as a rim of the wheel would: P = f qd_j of a motor; 0 where a spring as
 /// deep explains it.
-double ActuatorWatch::way_of(const Motor& motor, const Fit& fit, const Claim::Begin& since,
+double ActuatorWatch::way_of(const Motor& motor, const Fit& fit, const ContactDepth::Mark& since,
                              const ContactDepth& contact) noexcept {
-  if (!contact.is_no_spring(since.contact)) return 0.0;
-  return std::abs(contact.now().way - since.contact.way) * std::sqrt(fit.s) * motor.radius;
+  if (!contact.is_no_spring(since)) return 0.0;
+  return std::abs(contact.now().way - since.way) * std::sqrt(fit.s) * motor.radius;
 }
 
 /// Out of quiet, or closely, while the wheel rolls. A stuck motor needs a command that varies, and twice the
@@ -112,9 +112,9 @@ bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, doubl
   if (kind == stuck && !(told > varied * std::abs(fit.f))) return false;
   const bool is_even = motor.is_armed && claim.ticks >= dwell_ticks_;
   const bool is_apart = motor.ticks_since_hit >= after_a_hit_ticks_;
-  if (is_even && (is_apart || way_of(motor, fit, claim.any, contact) > least_way)) return true;
-  const bool has_rolled = std::abs(q - claim.close.q) * motor.radius > travel;
-  if (motor.obedience.is_seen() || !has_rolled || !contact.is_no_spring(claim.close.contact)) return false;
+  if (is_even && (is_apart || way_of(motor, fit, claim.contact, contact) > least_way)) return true;
+  const bool has_rolled = std::abs(q - claim.close_q) * motor.radius > travel;
+  if (motor.obedience.is_seen() || !has_rolled || !contact.is_no_spring(claim.close_contact)) return false;
   if (kind != stuck) return claim.close_ticks >= close_ticks_;
   const bool is_steady = motor.high_sum - motor.low_sum < closely * told;
   return std::min(claim.ticks, claim.close_ticks) >= 2 * close_ticks_ && is_steady;
@@ -131,9 +131,10 @@ void ActuatorWatch::follow_onset(Motor& motor, const Fit& fit) const noexcept {
     ++motor.loud_ticks;
     motor.told = std::max(motor.told, told);
     motor.hardest = std::max(motor.hardest, force);
-    if (force > most_told * motor.told + motor.threshold) motor.ticks_since_hit = 0;
+    const bool is_hit = force > most_told * motor.told + motor.threshold;
+    if (is_hit) motor.ticks_since_hit = 0;
     const bool begins = motor.is_armed && motor.loud_ticks <= entry_ticks_;
-    if (begins && force > most_told * motor.told + motor.threshold) {
+    if (begins && is_hit) {
       motor.is_met = true;
       motor.is_armed = false;
     }
@@ -154,14 +155,22 @@ void ActuatorWatch::follow(Motor& motor, Kind kind, const Fit& fit, double f, do
   const bool fits = is_felt && fit.rest < most_unexplained * fit.all && std::abs(f - fit.f) < slack;
   const double share = kind == stuck ? 1.0 : fit.f / f;
   const bool keeps = claim.ticks > 0 && std::abs(share - claim.share) < closely * claim.share;
-  if (!keeps) claim = {.close_ticks = claim.close_ticks, .close = claim.close, .share = share};
+  if (!keeps) {
+    claim = {.close_ticks = claim.close_ticks,
+             .close_q = claim.close_q,
+             .close_contact = claim.close_contact,
+             .share = share};
+  }
   claim.ticks = fits ? claim.ticks + 1 : 0;
-  if (claim.ticks <= 1) claim.any = {q, contact.now()};
+  if (claim.ticks <= 1) claim.contact = contact.now();
   const double left = fit.rest + fit.s * (f - fit.f) * (f - fit.f);
   claim.left = left;
   const bool is_close = std::abs(fit.f) > late * motor.threshold && left < closely * closely * fit.all;
   claim.close_ticks = is_close ? claim.close_ticks + 1 : 0;
-  if (claim.close_ticks <= 1) claim.close = {q, contact.now()};
+  if (claim.close_ticks <= 1) {
+    claim.close_q = q;
+    claim.close_contact = contact.now();
+  }
 }
 
 /// Its torque, tau + f, stays the same while the command changes.

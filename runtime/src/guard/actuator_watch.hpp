@@ -21,9 +21,10 @@ namespace zwang::runtime {
 /// from the instant on at which it differs from nothing. Contact can have that direction, too: the corner of
 /// a differential base, as far out as its wheel. Three things tell them apart.
 ///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
-///    began out of quiet, and keeps it `closely` for `dwell` while the wheel rolls on by `travel`, is a
-///    motor's. A base that turns about a corner at the wall leans on it with what the wheel beside it is
-///    told, evenly: that wheel stands.
+///    began out of quiet, and keeps it `closely` for `dwell`, is a motor's. Where something was hit less than
+///    `after_a_hit` ago it has to go along by `least_way` as well, as its wheel does: a base that turns about
+///    a corner at the wall leans on it with what the wheel beside it is told, evenly, and that force does no
+///    work.
 ///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
 ///    gives way or grows. A force that keeps to direction and size `closely` the while, farther than a spring
 ///    does that is as deep (ContactDepth), is a motor's, whenever it began: a motor that failed while it was
@@ -65,16 +66,13 @@ class ActuatorWatch {
  private:
   /// That a motor has one kind of fault.
   struct Claim {
-    /// Where it began to hold.
-    struct Begin {
-      double q = 0.0;  ///< [rad]
-      ContactDepth::Mark contact;
-    };
-    int ticks = 0;        ///< that it has held
-    int close_ticks = 0;  ///< that it has held closely
-    Begin any, close;     ///< of either
-    double left = 0.0;    ///< of |p|^2 that it does not explain
-    double share = 0.0;   ///< of the size that it tells, when it began to hold
+    int ticks = 0;                     ///< that it has held
+    int close_ticks = 0;               ///< that it has held closely
+    ContactDepth::Mark contact;        ///< when it began to hold
+    double close_q = 0.0;              ///< [rad] where it began to hold closely
+    ContactDepth::Mark close_contact;  ///< then
+    double left = 0.0;                 ///< of |p|^2 that it does not explain
+    double share = 0.0;                ///< of the size that it tells, when it began to hold
   };
   enum Kind { lost, flipped, stuck, kind_count };
   struct Motor {
@@ -106,7 +104,7 @@ class ActuatorWatch {
   void follow_stuck(Motor& motor, const Fit& fit, double q, const ContactDepth& contact) const noexcept;
   bool is_sure(const Motor& motor, Kind kind, const Fit& fit, double q,
                const ContactDepth& contact) const noexcept;
-  static double way_of(const Motor& motor, const Fit& fit, const Claim::Begin& since,
+  static double way_of(const Motor& motor, const Fit& fit, const ContactDepth::Mark& since,
                        const ContactDepth& contact) noexcept;
   bool is_distinct(const Motor& motor, const solver::FreeMotions& motions) const noexcept;
 

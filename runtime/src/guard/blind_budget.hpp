@@ -44,8 +44,8 @@ class BlindBudget {
 
   /// The wheels are to get the torques of `give_back`.
   bool takes_over() const noexcept { return phase_ != Phase::counts; }
-  /// Since the last sign of life nothing but a contact, by the model, has kept the motors from moving a rim
-  /// at `slowest`: whether that contact is still there, no encoder says.
+  /// The model's motors would have moved a rim at `slowest` since the last sign of life, but for a contact.
+  /// No encoder says whether that contact is still there.
   bool leans() noexcept;
   /// Rates are not to be believed.
   bool is_blind() const noexcept { return phase_ == Phase::blind; }

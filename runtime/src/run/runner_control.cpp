@@ -22,8 +22,7 @@ bool Runner::Parts::control() noexcept {
   const bool was_finished = scheduler.phase() == Phase::finished;
   scheduler.tick(sample);
   if (!was_finished && scheduler.phase() == Phase::finished) {
-    // What presses against the base when it lets go moves it a little: where nothing counts that, it may be
-    // gone.
+    // A base that lets go of a wall moves a little. Where no encoder counts that, the wall may be gone.
     is_end_doubted = !scheduler.has_stood() || blind_budget.leans();
     if (is_end_doubted) tell_doubt();
   }
