@@ -1,10 +1,12 @@
 #include "study/worker.hpp"
 
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
@@ -69,8 +71,13 @@ Worker::~Worker() {
   end();
 }
 
-double Worker::busy_for() const {
-  return std::chrono::duration<double>(Clock::now() - begin_).count();
+std::optional<CellRecord> Worker::outcome(double limit) {
+  if (is_free()) return std::nullopt;
+  pollfd file{answers_, POLLIN, 0};
+  if (::poll(&file, 1, 0) > 0) return answer();
+  const double busy_for = std::chrono::duration<double>(Clock::now() - begin_).count();
+  if (busy_for > limit) return give_up("took longer than " + std::to_string(std::lround(limit)) + " s");
+  return std::nullopt;
 }
 
 void Worker::ask(std::size_t cell) {
@@ -81,6 +88,7 @@ void Worker::ask(std::size_t cell) {
   static_cast<void>(write_all_of(questions_, &number, sizeof number));
 }
 
+/// The record that has come; of a process that has died, that it has.
 CellRecord Worker::answer() {
   const std::size_t cell = *std::exchange(cell_, std::nullopt);
   std::uint64_t size = 0;

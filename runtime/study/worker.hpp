@@ -21,18 +21,18 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   bool is_free() const { return !cell_; }
-  /// A file to wait at: there is something to read when the answer is there.
+  /// A file to wait at: there is something to read when the cell has ended.
   int answers() const { return answers_; }
-  double busy_for() const;  ///< [s] of real time
 
   void ask(std::size_t cell);
-  /// The record that has come; of a process that has died, that it has.
-  CellRecord answer();
-  /// Ends the process and its cell.
-  CellRecord give_up(const std::string& because);
+  /// The record of the cell, once it has ended: `crashed` with its process, or `hung`, and its process is
+  /// ended, after `limit` [s] of real time.
+  std::optional<CellRecord> outcome(double limit);
 
  private:
   using Clock = std::chrono::steady_clock;
+  CellRecord answer();
+  CellRecord give_up(const std::string& because);
   void start();
   int end();
 

@@ -23,9 +23,6 @@ struct WorkCalls {
   std::function<void()> wait;                   ///< called as often: for a progress line
 };
 
-/// Why a cell is `hung`.
-std::string too_long(double cell_limit);
-
 /// Runs the cells, each by the next process that is free. Must be called before the process has threads.
 /// Throws std::system_error where no process can be made.
 void run_all(const std::vector<std::size_t>& cells, const WorkSettings& settings, const WorkCalls& calls);
