@@ -16,13 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside `zwang` where it was built, in libexec/zwang where it was installed.
 fs::path program_for(const std::string& name) {
-  std::error_code error;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& path : {folder / name, folder.parent_path() / "libexec/zwang" / name}) {
-    if (!error && fs::exists(path, error)) return path;
-  }
+  if (const auto path = optional_part(name)) return *path;
   throw Impossible(
       "this zwang was built without ROS 2 topics: there is no " + name +
       "\nInstall Fast DDS (apt install libfastrtps-dev), and build again with -DZWANG_CONNECT=ON.");

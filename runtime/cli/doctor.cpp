@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <thread>
-#include <vector>
 
 #include "colour.hpp"
 #include "output.hpp"
@@ -92,16 +91,8 @@ Finding of_program(const std::string& subject, const std::string& program, const
   return path.empty() ? Finding{subject, "none", way_out} : Finding{subject, path, ""};
 }
 
-/// The first that is there. Places count from the folder of this program: installed, and built.
-Finding of_part(const std::string& subject, const std::vector<std::string>& places,
-                const std::string& way_out) {
-  std::error_code error;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const std::string& place : places) {
-    const fs::path path = (folder / place).lexically_normal();
-    if (fs::exists(path, error)) return {subject, path.string(), ""};
-  }
-  return {subject, "none", way_out};
+Finding of_part(const std::string& subject, const std::optional<fs::path>& path, const std::string& way_out) {
+  return path ? Finding{subject, path->string(), ""} : Finding{subject, "none", way_out};
 }
 
 Finding page() {
@@ -112,13 +103,14 @@ Finding page() {
 }
 
 Finding python_module() {
-  return of_part("Python module",
-                 {"../lib/python3/dist-packages/zwang/__init__.py", "python/zwang/__init__.py"},
-                 "install python3-zwang, or `./dev python` in a checkout; docs/python.md has the rest");
+  return of_part(
+      "Python module",
+      beside_program({"../lib/python3/dist-packages/zwang/__init__.py", "python/zwang/__init__.py"}),
+      "install python3-zwang, or `./dev python` in a checkout; docs/python.md has the rest");
 }
 
 Finding robot_program() {
-  return of_part("ROS 2 topics (DDS)", {"../libexec/zwang/zwang-drive", "zwang-drive"},
+  return of_part("ROS 2 topics (DDS)", optional_part("zwang-drive"),
                  "install zwang-ros2; in a checkout `apt install libfastrtps-dev` and build with "
                  "-DZWANG_CONNECT=ON");
 }

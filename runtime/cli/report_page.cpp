@@ -1,13 +1,13 @@
 #include "report_page.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "output.hpp"
+#include "shipped.hpp"
 
 namespace zwang::cli {
 
@@ -17,19 +17,10 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view place_of_data = "zwang-data-goes-here";
 
-/// From the folder of the program: installed, and built in a checkout as build/PRESET/zwang.
-constexpr std::array places{"../share/zwang/web/report.html", "../../web/dist/report.html"};
-
 }  // namespace
 
 std::optional<fs::path> page_parts_file() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  for (const char* place : places) {
-    const fs::path file = (program.parent_path() / place).lexically_normal();
-    if (fs::is_regular_file(file, error)) return file;
-  }
-  return std::nullopt;
+  return beside_program({"../share/zwang/web/report.html", "../../web/dist/report.html"});
 }
 
 std::string page_parts() {

@@ -26,15 +26,24 @@ std::vector<std::string> shipped_names(const fs::path& folder) {
 
 }  // namespace
 
-std::optional<fs::path> shipped_folder() {
+std::optional<fs::path> beside_program(std::initializer_list<const char*> ways) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return std::nullopt;
-  for (const char* way : {"../share/zwang/specs", "../../specs"}) {
-    const fs::path folder = (program.parent_path() / way).lexically_normal();
-    if (fs::exists(folder / "wall_align.yaml", error)) return folder;
+  for (const char* way : ways) {
+    const fs::path path = (program.parent_path() / way).lexically_normal();
+    if (fs::exists(path, error)) return path;
   }
   return std::nullopt;
+}
+
+std::optional<fs::path> optional_part(const std::string& name) {
+  return beside_program({("../libexec/zwang/" + name).c_str(), name.c_str()});
+}
+
+std::optional<fs::path> shipped_folder() {
+  const auto task = beside_program({"../share/zwang/specs/wall_align.yaml", "../../specs/wall_align.yaml"});
+  return task ? std::optional(task->parent_path()) : std::nullopt;
 }
 
 std::string file_or_shipped(const std::string& file, const std::string& below) {

@@ -2,10 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
 namespace zwang::cli {
+
+/// The first of these ways from the folder of this program that leads to something: where it was installed,
+/// where it was built. nullopt: none does.
+std::optional<std::filesystem::path> beside_program(std::initializer_list<const char*> ways);
+/// A program or a library that only some parts of zwang need; nullopt: it was not built, or not installed.
+std::optional<std::filesystem::path> optional_part(const std::string& name);
 
 /// `specs` of the installation or of the checkout that the program was built in; nullopt when neither is
 /// there.

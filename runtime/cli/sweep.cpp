@@ -13,6 +13,7 @@
 #include "output.hpp"
 #include "report_page.hpp"
 #include "scenario_choice.hpp"
+#include "shipped.hpp"
 #include "study/ranks.hpp"
 #include "study/result_store.hpp"
 #include "study/study_report.hpp"
@@ -173,7 +174,7 @@ study::WorkCalls calls_of(const lang::Study& study) {
 
 int sweep(const SweepArguments& arguments) {
   require_file(arguments.study);
-  const std::unique_ptr<study::Messages> others = study::messages_of_job();
+  const std::unique_ptr<study::Messages> others = study::messages_of_job(optional_part("zwang_mpi.so"));
   if (arguments.report) page_parts();  // missing ones are told before the runs, not behind them
   const Shard shard = shard_of(arguments.shard);
   lang::Diagnostics diagnostics;

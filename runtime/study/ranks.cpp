@@ -4,7 +4,6 @@
 #include <poll.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <stdexcept>
 
 #include "study/worker.hpp"
@@ -19,19 +18,6 @@ const char* const no_more = "no more";
 /// While cells run nobody is in a hurry: they take a tenth of a second and more.
 constexpr double busy_look = 5e-4, idle_look = 0.1;  // [s]
 
-bool has_answer(const Worker& worker) {
-  pollfd file{worker.answers(), POLLIN, 0};
-  return ::poll(&file, 1, 0) > 0;
-}
-
-/// The record of a cell that has ended, or that takes too long.
-std::optional<CellRecord> outcome_of(Worker& worker, const WorkSettings& settings) {
-  if (worker.is_free()) return std::nullopt;
-  if (has_answer(worker)) return worker.answer();
-  if (worker.busy_for() > settings.cell_limit) return worker.give_up(too_long(settings.cell_limit));
-  return std::nullopt;
-}
-
 /// Whether a starter of parallel jobs made this process: Open MPI's mpirun, or one that speaks PMI or PMIx.
 bool is_in_a_job() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"}) {
@@ -42,24 +28,19 @@ bool is_in_a_job() {
 
 }  // namespace
 
-std::unique_ptr<Messages> messages_of_job() {
+std::unique_ptr<Messages> messages_of_job(const std::optional<fs::path>& library) {
   if (!is_in_a_job()) return nullptr;
-  std::error_code error;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-  for (const fs::path& path :
-       {folder / "zwang_mpi.so", folder.parent_path() / "libexec/zwang/zwang_mpi.so"}) {
-    if (!fs::exists(path, error)) continue;
-    // Open MPI's own parts look for its names among those of all libraries.
-    void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_GLOBAL);
-    if (library == nullptr) throw std::runtime_error(::dlerror());
-    using Join = Messages* (*)();
-    const auto join = reinterpret_cast<Join>(::dlsym(library, "zwang_join_job"));
-    if (join == nullptr) throw std::runtime_error(::dlerror());
-    return std::unique_ptr<Messages>(join());
-  }
-  throw std::runtime_error(
-      "this zwang was built without MPI: install libopenmpi-dev and build again, or run parts of the study "
-      "by --shard");
+  if (!library)
+    throw std::runtime_error(
+        "this zwang was built without MPI: install libopenmpi-dev and build again, or run parts of the study "
+        "by --shard");
+  // Open MPI's own parts look for its names among those of all libraries.
+  void* loaded = ::dlopen(library->c_str(), RTLD_NOW | RTLD_GLOBAL);
+  if (loaded == nullptr) throw std::runtime_error(::dlerror());
+  using Join = Messages* (*)();
+  const auto join = reinterpret_cast<Join>(::dlsym(loaded, "zwang_join_job"));
+  if (join == nullptr) throw std::runtime_error(::dlerror());
+  return std::unique_ptr<Messages>(join());
 }
 
 void run_with_ranks(const std::vector<std::size_t>& cells, const WorkSettings& settings,
@@ -93,10 +74,9 @@ void run_with_ranks(const std::vector<std::size_t>& cells, const WorkSettings& s
   while (listening > 0 || (ended < cells.size() && !calls.wants_to_stop())) {
     for (const auto& worker : workers) {
       if (worker->is_free() && next < cells.size() && !calls.wants_to_stop()) worker->ask(cells[next++]);
-      if (const auto record = outcome_of(*worker, settings)) keep(*record);
+      if (const auto record = worker->outcome(settings.cell_limit)) keep(*record);
     }
-    while (const auto message = messages.receive(0.0)) take(*message);
-    if (const auto message = messages.receive(busy_look)) take(*message);
+    for (auto message = messages.receive(busy_look); message; message = messages.receive(0.0)) take(*message);
     calls.wait();
   }
 }
@@ -111,7 +91,7 @@ void serve_rank(const WorkSettings& settings, const WorkCalls& calls, const std:
     if (message->text == no_more) return;
     worker.ask(std::stoull(message->text));
     std::optional<CellRecord> record;
-    while (!(record = outcome_of(worker, settings))) {
+    while (!(record = worker.outcome(settings.cell_limit))) {
       pollfd file{worker.answers(), POLLIN, 0};
       ::poll(&file, 1, static_cast<int>(1e3 * idle_look));
     }

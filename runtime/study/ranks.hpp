@@ -1,6 +1,7 @@
 /// One study on many machines: rank 0 hands out cells, keeps what comes back, and runs cells itself.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,9 +26,10 @@ class Messages {
   virtual std::optional<Message> receive(double most) = 0;
 };
 
-/// The processes that `mpirun` or `srun` started together with this one; nullptr where neither did. Throws
-/// std::runtime_error where one of them did and zwang was built without MPI.
-std::unique_ptr<Messages> messages_of_job();
+/// The processes that `mpirun` or `srun` started together with this one; nullptr where neither did. `library`
+/// speaks MPI. Throws std::runtime_error where one of them did and there is no library, or it cannot be
+/// loaded.
+std::unique_ptr<Messages> messages_of_job(const std::optional<std::filesystem::path>& library);
 
 /// Rank 0: as `run_all`, with the processes of this machine and all other ranks. `identity` is that of the
 /// study and the program. Throws std::runtime_error where another rank has read another study.

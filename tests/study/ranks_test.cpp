@@ -11,8 +11,9 @@
 #include <array>
 #include <csignal>
 #include <map>
-#include <numeric>
 #include <stdexcept>
+
+#include "made_cells.hpp"
 
 namespace zwang::study {
 namespace {
@@ -55,27 +56,13 @@ class SocketMessages : public Messages {
   std::map<int, int> sockets_;
 };
 
-CellRecord ended_as(std::size_t cell, const std::string& outcome) {
-  CellRecord record;
-  record.cell = cell;
-  record.outcome = outcome;
-  return record;
-}
-
-WorkCalls calls_into(std::map<std::size_t, std::string>& outcomes) {
-  WorkCalls calls;
+/// Cells of which one takes its process along.
+WorkCalls calls_with_a_crash(std::map<std::size_t, std::string>& outcomes) {
+  WorkCalls calls = calls_of(outcomes);
   calls.run = [](std::size_t cell) {
     if (cell == 7) ::kill(::getpid(), SIGKILL);
-    return ended_as(cell, "done");
+    return made_outcome(cell, "done");
   };
-  calls.fail = [](std::size_t cell, const std::string& outcome, const std::string&) {
-    return ended_as(cell, outcome);
-  };
-  calls.done = [&](const CellRecord& record) {
-    EXPECT_TRUE(outcomes.emplace(record.cell, record.outcome).second) << record.cell << " came twice";
-  };
-  calls.wants_to_stop = [] { return false; };
-  calls.wait = [] {};
   return calls;
 }
 
@@ -92,7 +79,8 @@ std::map<std::size_t, std::string> outcomes_with(const std::array<std::string, 2
     if (other == 0) {
       try {
         SocketMessages messages(rank, {{0, ends[1]}});
-        serve_rank({}, calls_into(outcomes), identities[static_cast<std::size_t>(rank) - 1], messages);
+        serve_rank({}, calls_with_a_crash(outcomes), identities[static_cast<std::size_t>(rank) - 1],
+                   messages);
       } catch (const std::exception&) {
         ::_exit(1);
       }
@@ -102,12 +90,11 @@ std::map<std::size_t, std::string> outcomes_with(const std::array<std::string, 2
     sockets[rank] = ends[0];
     others.push_back(other);
   }
-  std::vector<std::size_t> cells(60);
-  std::iota(cells.begin(), cells.end(), std::size_t{0});
   SocketMessages messages(0, sockets);
   std::string problem;
   try {
-    run_with_ranks(cells, {.processes = own_processes}, calls_into(outcomes), "this study", messages);
+    run_with_ranks(first_cells(60), {.processes = own_processes}, calls_with_a_crash(outcomes), "this study",
+                   messages);
   } catch (const std::runtime_error& error) {
     problem = error.what();
     for (const pid_t other : others) ::kill(other, SIGKILL);
@@ -131,7 +118,7 @@ TEST(Ranks, RefuseOneThatHasReadAnotherStudy) {
 }
 
 TEST(Ranks, AreNoneWithoutAJob) {
-  EXPECT_EQ(messages_of_job(), nullptr);
+  EXPECT_EQ(messages_of_job(std::nullopt), nullptr);
 }
 
 }  // namespace

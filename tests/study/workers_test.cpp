@@ -7,39 +7,13 @@
 #include <chrono>
 #include <csignal>
 #include <map>
-#include <numeric>
 #include <stdexcept>
 #include <thread>
 
+#include "made_cells.hpp"
+
 namespace zwang::study {
 namespace {
-
-CellRecord made_outcome(std::size_t cell, const std::string& outcome) {
-  CellRecord record;
-  record.cell = cell;
-  record.outcome = outcome;
-  return record;
-}
-
-WorkCalls calls_of(std::map<std::size_t, std::string>& outcomes) {
-  WorkCalls calls;
-  calls.run = [](std::size_t cell) { return made_outcome(cell, "done"); };
-  calls.fail = [](std::size_t cell, const std::string& outcome, const std::string&) {
-    return made_outcome(cell, outcome);
-  };
-  calls.done = [&](const CellRecord& record) {
-    EXPECT_TRUE(outcomes.emplace(record.cell, record.outcome).second) << record.cell << " came twice";
-  };
-  calls.wants_to_stop = [] { return false; };
-  calls.wait = [] {};
-  return calls;
-}
-
-std::vector<std::size_t> first_cells(std::size_t count) {
-  std::vector<std::size_t> cells(count);
-  std::iota(cells.begin(), cells.end(), std::size_t{0});
-  return cells;
-}
 
 TEST(Workers, RunEachCellOnce) {
   for (const std::size_t processes : {1U, 3U}) {
