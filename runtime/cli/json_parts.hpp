@@ -1,6 +1,7 @@
 /// Parts of the JSON that the program writes, for whoever puts them together.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -30,6 +31,13 @@ nlohmann::ordered_json page_data(const std::filesystem::path& log, const runtime
 /// What two runs do not have alike.
 nlohmann::ordered_json comparison_of(const std::filesystem::path& first_log, const runtime::Series& first,
                                      const std::filesystem::path& second_log, const runtime::Series& second);
+
+/// Five digits: more than a page shows. 0 of what is not finite.
+inline double short_number(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return 0.0;
+  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 4.0);
+  return std::round(value / step) * step;
+}
 
 /// One line of ASCII letters.
 inline std::string text_of(const nlohmann::ordered_json& json) {

@@ -17,7 +17,8 @@ using study::CellRecord;
 /// A page draws a point for each of so many cells: 1 MB, and 0.1 s for a chart.
 constexpr std::size_t most_points = 20'000;
 
-/// Those that missed anything first, then the others, evenly: no extreme is lost as long as there is room.
+/// Cells that missed anything come first, then the others, evenly. No extreme is lost as long as there is
+/// room.
 std::vector<const CellRecord*> cells_to_draw(const std::vector<CellRecord>& records) {
   std::vector<const CellRecord*> drawn, others;
   for (const CellRecord& record : records) (record.holds() ? others : drawn).push_back(&record);
@@ -27,14 +28,6 @@ std::vector<const CellRecord*> cells_to_draw(const std::vector<CellRecord>& reco
   return drawn;
 }
 
-/// Five digits are more than a chart shows.
-ordered_json short_figure(double value) {
-  if (value == 0.0) return 0;
-  if (!std::isfinite(value)) return nullptr;
-  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 4.0);
-  return std::round(value / step) * step;
-}
-
 /// A list for each draw, and two for each expectation: figures of one kind stand together.
 ordered_json points_of(const lang::Study& study, const std::vector<const CellRecord*>& cells) {
   ordered_json numbers = ordered_json::array(), drawn = ordered_json::array(),
@@ -42,7 +35,7 @@ ordered_json points_of(const lang::Study& study, const std::vector<const CellRec
   for (const CellRecord* cell : cells) numbers.push_back(cell->cell);
   for (std::size_t d = 0; d < study.draws.size(); ++d) {
     ordered_json values = ordered_json::array();
-    for (const CellRecord* cell : cells) values.push_back(short_figure(cell->drawn[d]));
+    for (const CellRecord* cell : cells) values.push_back(short_number(cell->drawn[d]));
     drawn.push_back(std::move(values));
   }
   for (std::size_t e = 0; e < study.claims.size(); ++e) {
@@ -50,7 +43,8 @@ ordered_json points_of(const lang::Study& study, const std::vector<const CellRec
     for (const CellRecord* cell : cells) {
       const study::ExpectationRecord& one = cell->expectations[e];
       held.push_back(one.held ? 1 : 0);
-      margins.push_back(one.margin ? short_figure(*one.margin) : ordered_json(nullptr));
+      margins.push_back(one.margin && std::isfinite(*one.margin) ? ordered_json(short_number(*one.margin))
+                                                                 : ordered_json(nullptr));
     }
     expectations.push_back({{"held", std::move(held)}, {"margins", std::move(margins)}});
   }

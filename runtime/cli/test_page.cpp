@@ -53,13 +53,6 @@ std::vector<Place> worst_first(const std::vector<ScenarioReport>& reports) {
   return places;
 }
 
-/// Four digits: what the page shows. A whole number of them would fill half of it.
-double short_number(double value) {
-  if (value == 0.0 || !std::isfinite(value)) return 0.0;
-  const double step = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 4.0);
-  return std::round(value / step) * step;
-}
-
 double millimetres(double metres) {
   return std::round(metres * 1e3) / 1e3;
 }
