@@ -15,8 +15,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "physics/statics.hpp"
+#include "scene/outline.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
@@ -73,24 +75,16 @@ double way_between(const std::vector<Vector3>& outline, const std::vector<Vector
   return least;
 }
 
-std::vector<Vector3> outline_in_world(const SceneObject& object) {
+Outline outline_in_world(const SceneObject& object) {
   constexpr int sides = 32;
-  const Eigen::AngleAxisd turn(object.yaw, Vector3::UnitZ());
-  const Vector3 at(object.at[0], object.at[1], 0.0);
-  std::vector<Vector3> outline;
-  if (object.shape == ShapeKind::cylinder) {
-    for (int i = 0; i < sides; ++i) {
-      const double angle = 2.0 * std::numbers::pi * i / sides;
-      outline.push_back(at + object.size[0] * Vector3(std::cos(angle), std::sin(angle), 0.0));
-    }
-    return outline;
+  const Pose2 pose{object.at, object.yaw};
+  if (object.shape != ShapeKind::cylinder) return placed(outline_of(object), pose);
+  Outline outline;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / sides;
+    outline.push_back(object.size[0] * Vector3(std::cos(angle), std::sin(angle), 0.0));
   }
-  const bool is_wall = object.shape == ShapeKind::wall;
-  const double depth = object.size[is_wall ? 1 : 0], breadth = object.size[is_wall ? 0 : 1];
-  const double face = is_wall ? 0.0 : -0.5 * depth;
-  for (const auto& [x, y] : {std::pair(face, -0.5), {face + depth, -0.5}, {face + depth, 0.5}, {face, 0.5}})
-    outline.push_back(at + turn * Vector3(x, y * breadth, 0.0));
-  return outline;
+  return placed(std::move(outline), pose);
 }
 
 struct Ahead {

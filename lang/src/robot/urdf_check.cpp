@@ -248,18 +248,16 @@ class UrdfChecker {
   }
 
   void check_distance(std::size_t origin, const std::string& link) {
-    const XmlAttribute* xyz = elements_[origin].find("xyz");
-    const auto numbers = xyz != nullptr ? read_numbers(xyz->value, 3) : std::nullopt;
+    check_each_within(elements_[origin].find("xyz"), link, most_distance, "a place", "m");
+    check_each_within(elements_[origin].find("rpy"), link, most_angle, "an angle", "rad");
+  }
+
+  void check_each_within(const XmlAttribute* three, const std::string& link, double most, const char* what,
+                         const std::string& unit) {
+    const auto numbers = three != nullptr ? read_numbers(three->value, 3) : std::nullopt;
     for (const double number : numbers.value_or(std::vector<double>{})) {
-      if (std::abs(number) <= most_distance) continue;
-      complain(wording::beyond_all_bodies(xyz->span, link, "a place", format_number(number) + " m"));
-      return;
-    }
-    const XmlAttribute* rpy = elements_[origin].find("rpy");
-    const auto angles = rpy != nullptr ? read_numbers(rpy->value, 3) : std::nullopt;
-    for (const double angle : angles.value_or(std::vector<double>{})) {
-      if (std::abs(angle) <= most_angle) continue;
-      complain(wording::beyond_all_bodies(rpy->span, link, "an angle", format_number(angle) + " rad"));
+      if (std::abs(number) <= most) continue;
+      complain(wording::beyond_all_bodies(three->span, link, what, format_number(number) + " " + unit));
       return;
     }
   }

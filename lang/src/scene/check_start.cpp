@@ -11,6 +11,7 @@
 
 #include "diagnostic/wordings_standing.hpp"
 #include "diagnostic/wordings_statics.hpp"
+#include "scene/outline.hpp"
 #include "zwang/lang/footing.hpp"
 #include "zwang/lang/plane.hpp"
 #include "zwang/lang/program.hpp"
@@ -20,22 +21,8 @@ namespace zwang::lang {
 namespace {
 
 using solver::Vector3;
-using Outline = std::vector<Vector3>;
 
 constexpr double touching = 1e-4;  ///< [m] by so much what touches may overlap
-
-struct Pose2 {
-  std::array<double, 2> at{};
-  double yaw = 0.0;
-};
-
-Outline placed(Outline corners, const Pose2& pose) {
-  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
-  for (Vector3& p : corners) {
-    p = Vector3(pose.at[0] + c * p.x() - s * p.y(), pose.at[1] + s * p.x() + c * p.y(), 0.0);
-  }
-  return corners;
-}
 
 /// The least way over the edges of `a` only; below 0 they are apart.
 double depth_by_edges(const Outline& a, const Outline& b) {
@@ -59,14 +46,6 @@ double depth(const Outline& a, const Vector3& centre, double radius) {
   const double inside = depth_by_edges(a, {centre});
   if (inside >= 0.0) return inside + radius;
   return radius - plane::distance_to_edges(a, centre);
-}
-
-/// As large as the object is; a wall's `at` lies on the face that looks along its -x.
-Outline outline_of(const SceneObject& object) {
-  const bool is_wall = object.shape == ShapeKind::wall;
-  const double x = object.size[is_wall ? 1 : 0], y = object.size[is_wall ? 0 : 1];
-  const double back = is_wall ? 0.0 : -0.5 * x;
-  return {{back, -0.5 * y, 0.0}, {back + x, -0.5 * y, 0.0}, {back + x, 0.5 * y, 0.0}, {back, 0.5 * y, 0.0}};
 }
 
 /// Where it stands at the start: a script that begins later holds its first place.
