@@ -163,6 +163,40 @@ TEST(Slips, other_line_ends_and_a_byte_order_mark_change_nothing) {
   expect_once(test::replaced(windows, "0.1 m/s", "0.1 N"), "E202", 7);
 }
 
+/// What an editor may write in the place of a value: what was there, in a unit that fits.
+TEST(Slips, what_is_offered_keeps_the_sign_the_size_and_the_dimension) {
+  struct Offer {
+    const char* axis;
+    std::optional<std::string> written;
+  };
+  const Offer offers[] = {{"velocity: 5 mmps", "5 mm/s"},
+                          {"velocity: +-0.05 mps", "+-0.05 m/s"},
+                          {"velocity: -0.05 mps", "-0.05 m/s"},
+                          {"velocity: 3 ms-1", "3 m/s"},
+                          {"velocity: 3 met/s", "3 m/s"},
+                          {"velocity: 5 mmm", std::nullopt},  // a length is no velocity
+                          {"force: 20 Nm", "20 N"},
+                          {"force: +-5 newton", "+-5 N"},
+                          {"force: 20 kgf", std::nullopt},     // a mass is no force
+                          {"velocity: 3 rpm", std::nullopt}};  // 18 deg/s are not 3 deg/s
+  for (const Offer& offer : offers) {
+    const Diagnostics said = said_about(text_of({.axis = offer.axis}));
+    ASSERT_EQ(said.all().size(), 1u) << test::rendered(said);
+    EXPECT_EQ(said.all()[0].replacement, offer.written) << test::rendered(said);
+  }
+}
+
+TEST(Slips, the_name_that_was_meant_is_offered) {
+  const auto offered = [](const std::string& text) {
+    const Diagnostics said = said_about(text);
+    return said.all().empty() ? std::string("nothing is said") : said.all()[0].replacement.value_or("");
+  };
+  const std::string text = text_of({.axis = "velocity: 0.1 m/s"});
+  EXPECT_EQ(offered(test::replaced(text, "start: go\n", "start: goo\n")), "go");
+  EXPECT_EQ(offered(test::replaced(text, "elapsed > 2 s", "go.x.velocty > 0.1 m/s")), "go.x.velocity");
+  EXPECT_EQ(offered(test::replaced(text, "elapsed > 2 s", "goo.x.velocity > 0.1 m/s")), "go.x.velocity");
+}
+
 TEST(Slips, a_line_without_a_colon_is_told_wherever_it_stands) {
   for (const std::string end : {"", "\n", " # soon", " # soon\n", "  "}) {
     expect_once(head + body + "and so on" + end, "E100", 9);

@@ -157,7 +157,8 @@ class ConditionCheck {
   Type complain_of_argument(const ExpressionText& node, const char* kind,
                             const std::vector<std::string>& known) {
     Diagnostic diagnostic = wording::unknown_name(node.span, kind, node.argument, known);
-    if (diagnostic.replacement) diagnostic.replacement = node.word + "(" + *diagnostic.replacement + ")";
+    const std::string meant = nearest(node.argument, known);
+    if (!meant.empty()) diagnostic.replacement = node.word + "(" + meant + ")";
     return complain(std::move(diagnostic));
   }
 

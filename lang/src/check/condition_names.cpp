@@ -289,7 +289,10 @@ Type ConditionNames::check_coordinate(const ExpressionText& node, const std::vec
   if (found == nullptr && has_unread_group()) return bad_type;
   if (found == nullptr) {
     for (const GroupText& group : groups_) known.push_back(group.name.text);
-    return complain(wording::unknown_name(node.span, "group", parts[0], known));
+    Diagnostic unknown = wording::unknown_name(node.span, "group", parts[0], known);
+    const std::string near = nearest(parts[0], known);
+    if (!near.empty()) unknown.replacement = near + node.word.substr(parts[0].size());
+    return complain(std::move(unknown));
   }
   const GroupText& group = *found;
   if (group.kind == GroupKind::inside)
@@ -313,7 +316,10 @@ Type ConditionNames::check_coordinate(const ExpressionText& node, const std::vec
   }
   Diagnostic unknown = wording::unknown_name(node.span, "quantity", parts[2], known);
   const std::string meant = meant_key(parts[2], known);
-  if (!meant.empty()) unknown.help = "did you mean `" + meant + "`?";
+  if (!meant.empty()) {
+    unknown.help = "did you mean `" + meant + "`?";
+    unknown.replacement = parts[0] + "." + parts[1] + "." + meant;
+  }
   if (const auto word = wording::word_for_a_condition(node.span, node.word)) unknown.help = word->help;
   return complain(std::move(unknown));
 }

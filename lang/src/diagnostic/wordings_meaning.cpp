@@ -76,6 +76,8 @@ Diagnostic unknown_unit(const Span& span, const std::string& text, const std::st
   Diagnostic diagnostic = error("E203", span, in_ticks(unknown) + " is not a unit zwang knows");
   if (unknown == "tick" || unknown == "ticks")
     diagnostic.help = "write the time in `s` or `ms`; a tick is 1 ms unless the robot file says otherwise";
+  if (unknown == "rpm") diagnostic.help = "a turn has 360 deg: 1 rpm is `6 deg/s`";
+  if (unknown == "rps") diagnostic.help = "a turn has 360 deg: one a second is `360 deg/s`";
   if (meant.empty()) return diagnostic;
   diagnostic.help = "did you mean `" + meant + "`?";
   const std::size_t at = text.rfind(unknown);
@@ -119,10 +121,13 @@ Diagnostic misplaced_here(const Span& span, const std::string& what) {
 
 Diagnostic unknown_name(const Span& span, const std::string& kind, const std::string& name,
                         const std::vector<std::string>& known) {
-  // The span may hold more than the name (`speed(name)`): a replacement would not fit it.
   Diagnostic diagnostic = error("E301", span, "no " + kind + " named " + in_ticks(name));
   const std::string meant = nearest(name, known);
   diagnostic.help = meant.empty() ? known_here(known) : "did you mean `" + meant + "`?";
+  // The span may hold more than the name, as `speed(name)` or quotes do: a replacement would not fit it.
+  const bool is_the_name = span.begin.line == span.end.line &&
+                           span.end.column - span.begin.column == static_cast<int>(name.size());
+  if (!meant.empty() && is_the_name) diagnostic.replacement = meant;
   return diagnostic;
 }
 

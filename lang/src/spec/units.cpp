@@ -86,8 +86,10 @@ constexpr std::array other_names{
     OtherName{"meters", "m"},    OtherName{"metre", "m"},      OtherName{"newton", "N"},
     OtherName{"newtons", "N"},   OtherName{"Newton", "N"},     OtherName{"radian", "rad"},
     OtherName{"radians", "rad"}, OtherName{"kph", "km/h"},     OtherName{"kmh", "km/h"},
-    OtherName{"mps", "m/s"},     OtherName{"rps", "rad/s"},    OtherName{"percent", "%"},
-    OtherName{"rpm", "deg/s"},   OtherName{"S", "s"},          OtherName{"M", "m"},
+    OtherName{"mps", "m/s"},     OtherName{"mmps", "mm/s"},    OtherName{"cmps", "cm/s"},
+    OtherName{"ms-1", "m/s"},    OtherName{"ms-2", "m/s^2"},   OtherName{"N.m", "N m"},
+    OtherName{"N-m", "N m"},     OtherName{"percent", "%"},    OtherName{"S", "s"},
+    OtherName{"M", "m"},
 };
 
 bool is_letter(char c) {
@@ -122,6 +124,11 @@ int parse_power(std::string_view text, std::size_t& at) {
   return is_negative ? -power : power;
 }
 
+/// Two things to two people, and neither is a unit here.
+bool is_of_revolutions(std::string_view unit) {
+  return unit == "rpm" || unit == "rps" || unit == "rev";
+}
+
 }  // namespace
 
 std::string describe(const Dimension& dimension) {
@@ -150,6 +157,7 @@ std::vector<std::string> unit_names() {
 }
 
 std::string nearest_unit(std::string_view unknown) {
+  if (is_of_revolutions(unknown)) return {};  // what is near has another size
   for (const OtherName& other : other_names) {
     if (other.written == unknown) return std::string(other.meant);
   }

@@ -39,18 +39,45 @@ bool is_spelt_oddly(const std::string& text, const Span& span, Diagnostics& diag
   return true;
 }
 
-/// The unit that was meant; what an axis that does not turn presses with is no torque.
-std::string unit_meant(const std::string& unknown, const std::string& what,
-                       const std::optional<Dimension>& measured) {
-  const std::string meant = nearest_unit(unknown);
-  const bool is_force = measured == dimension::force || what.ends_with(".x.force") ||
-                        what.ends_with(".y.force") || what.ends_with(".z.force");
-  return is_force && meant == "N m" ? "N" : meant;
+/// What `GROUP.AXIS.QUANTITY` is measured in; none for another place.
+std::optional<Dimension> dimension_of_place(const std::string& what) {
+  struct Quantity {
+    std::string_view name;
+    Dimension along, about;
+  };
+  constexpr Quantity quantities[] = {
+      {"position", dimension::length, dimension::angle},
+      {"velocity", dimension::velocity, dimension::angular_velocity},
+      {"acceleration", dimension::acceleration, dimension::angular_acceleration},
+      {"force", dimension::force, dimension::torque}};
+  for (const Quantity& quantity : quantities) {
+    for (const char* axis : {"x", "y", "z"}) {
+      const std::string end = std::string(axis) + "." + std::string(quantity.name);
+      if (what.ends_with(".r" + end)) return quantity.about;
+      if (what.ends_with("." + end)) return quantity.along;
+    }
+  }
+  return std::nullopt;
 }
 
+/// The unit that was meant, where it can stand there; what an axis that does not turn presses with is no
+/// torque.
+std::string unit_meant(const std::string& text, const std::string& unknown, const std::string& what,
+                       const std::optional<Dimension>& measured) {
+  const std::string meant = nearest_unit(unknown);
+  const std::optional<Dimension> wanted = measured ? measured : dimension_of_place(what);
+  if (wanted == dimension::force && meant == "N m") return "N";
+  std::string replaced = text;
+  const QuantityResult result = parse_quantity(replaced.replace(text.rfind(unknown), unknown.size(), meant));
+  const bool can_stand =
+      !wanted || result.error != QuantityError::none || result.quantity.dimension == *wanted;
+  return can_stand ? meant : std::string();
+}
+
+/// `sign`: what stands before the text in the file, as `+-`.
 ValueText parse_value_text(const std::string& text, const std::string& what, const Span& span,
-                           Diagnostics& diagnostics,
-                           const std::optional<Dimension>& measured = std::nullopt) {
+                           Diagnostics& diagnostics, const std::optional<Dimension>& measured = std::nullopt,
+                           const std::string& sign = {}) {
   ValueText value;
   value.span = span;
   const bool has_braces = text.starts_with("${") || text.starts_with("-${");
@@ -88,8 +115,8 @@ ValueText parse_value_text(const std::string& text, const std::string& what, con
       case QuantityError::unknown_unit:
         diagnostics.add(result.unknown.find('+') != std::string::npos || result.unknown.starts_with('-')
                             ? wording::computed_value(span, text)
-                            : wording::unknown_unit(span, text, result.unknown,
-                                                    unit_meant(result.unknown, what, measured)));
+                            : wording::unknown_unit(span, sign + text, result.unknown,
+                                                    unit_meant(text, result.unknown, what, measured)));
         break;
       case QuantityError::too_large:
         diagnostics.add(wording::number_out_of_range(span, text));
@@ -209,7 +236,7 @@ StatementText parse_statement(const Node& node, const std::string& what, Diagnos
       diagnostics.add(wording::not_a_value(node.span, text));
       return statement;
     }
-    statement.high = parse_value_text(magnitude, what, node.span, diagnostics);
+    statement.high = parse_value_text(magnitude, what, node.span, diagnostics, std::nullopt, "+-");
     statement.low = negated(statement.high);
     // The unit that is missing is missing behind the sign of both.
     if (!statement.high.quantity.has_unit)
