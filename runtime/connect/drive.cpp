@@ -22,22 +22,26 @@ void pause() {
 }
 
 std::optional<std::string> what_is_missing(const lang::Connection& connection, const Inbox& inbox,
-                                           const Outbox& outbox) {
+                                           const Outbox& outbox, bool feels_by_effort) {
   if (!inbox.clock().has_come()) return "no time on " + connection.clock->name;
-  if (!inbox.has_joints()) return "no sample of every motor's joint on " + connection.joints.topic.name;
+  if (!inbox.has_joints())
+    return "no sample of every motor's joint" + std::string(feels_by_effort ? ", with its effort," : "") +
+           " on " + connection.joints.topic.name;
   if (!inbox.has_base()) return "no odometry on " + connection.base->name;
+  if (!inbox.has_wrench()) return "no wrench on " + connection.wrench->name;
   if (outbox.readers() <= 0) return "nobody listens to " + connection.command.topic.name;
   return std::nullopt;
 }
 
 /// Until samples come and somebody listens. Says what is missing where it gives up.
-bool wait_for_robot(const lang::Connection& connection, Inbox& inbox, const Outbox& outbox, double most,
-                    runtime::Sensed& sensed) {
+bool wait_for_robot(const lang::Connection& connection, const lang::Drive& drive, Inbox& inbox,
+                    const Outbox& outbox, double most, runtime::Sensed& sensed) {
+  const bool feels_by_effort = drive.feels.by == lang::Feels::By::effort;
   const double until = now() + most;
-  std::optional<std::string> missing = what_is_missing(connection, inbox, outbox);
+  std::optional<std::string> missing = what_is_missing(connection, inbox, outbox, feels_by_effort);
   for (; missing && now() < until && !cli::is_interrupted(); pause()) {
     inbox.fill(sensed);
-    missing = what_is_missing(connection, inbox, outbox);
+    missing = what_is_missing(connection, inbox, outbox, feels_by_effort);
   }
   if (!missing) return true;
   std::fprintf(stderr, "zwang drive: %s in domain %d within %g s; nothing was sent\n", missing->c_str(),
@@ -78,8 +82,9 @@ int drive(const Arguments& arguments) {
   runtime::Sensed sensed(loaded->program);
   Control control(connection, loaded->program, participant,
                   [&] { return inbox.silence() < connection.joints.stale_after; });
-  const bool is_ready = wait_for_robot(connection, inbox, outbox, arguments.wait, sensed) &&
-                        wait_for_start(connection, inbox, control, sensed);
+  const bool is_ready =
+      wait_for_robot(connection, loaded->program.robot.drive, inbox, outbox, arguments.wait, sensed) &&
+      wait_for_start(connection, inbox, control, sensed);
   if (!is_ready) return exit_impossible;
   if (const std::string trouble = clock_trouble(connection, inbox); !trouble.empty()) {
     std::fprintf(stderr, "zwang drive: %s; nothing was sent\n", trouble.c_str());

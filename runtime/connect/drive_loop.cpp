@@ -18,7 +18,7 @@ using runtime::EventCode;
 
 constexpr double blocked_for = 0.2;    // [s] without a tick: the thread hangs, and zeros go out without it
 constexpr double too_late = 0.1;       // [s] a tick that is so late is a stop
-constexpr double longest_brake = 2.0;  // [s] behind a signal
+constexpr double longest_brake = 2.0;  // [s] behind a signal, or where the robot is silent
 constexpr double nearly_a_period = 0.7;
 constexpr double told_rounding = 1e-3;  // of a period
 constexpr double look_again = 0.5e-3;   // [s] at a clock that is told
@@ -92,7 +92,10 @@ class Loop {
     }
     // What is told comes in steps: one that falls short by rounding is due.
     while (clock.time() < due_ - told_rounding * period_) {
-      if (clock.stands(now()) || cli::is_interrupted()) return false;
+      if (clock.stands(now()) || cli::is_interrupted()) {
+        sleep_until(now() + period_);  // the stop takes its time, though its clock does not
+        return false;
+      }
       sleep_until(now() + look_again);
       watchdog_->feed();
     }
@@ -146,7 +149,11 @@ class Loop {
   /// The guard does not know this process's own clock, by which nothing may come any more. Nor does it know
   /// that somebody asks for the end, by a signal or by the service `stop`.
   void judge() {
-    if (inbox_.silence() > connection_.joints.stale_after) stop(EventCode::lost_ticks);
+    if (inbox_.silence() > connection_.joints.stale_after) {
+      stop(EventCode::lost_ticks);
+      // Nobody will tell that it stands.
+      if (!give_up_) give_up_ = now() + longest_brake;
+    }
     judge_base();
     if ((cli::is_interrupted() || control_.wants_stop() || control_.wants_cancel()) && !give_up_) {
       give_up_ = now() + longest_brake;
@@ -174,6 +181,7 @@ class Loop {
   /// Of the active task's timeout; -1 without one.
   double progress() const {
     const runtime::Scheduler& scheduler = runner_.scheduler();
+    if (scheduler.task() < 0) return -1.0;  // stopped before the first one was entered
     const auto& timeout = scheduler.tasks()[static_cast<std::size_t>(scheduler.task())].timeout;
     const double after = timeout ? timeout->after.evaluate(scheduler.parameters()) : 0.0;
     return after > 0.0 ? std::clamp(scheduler.elapsed() / after, 0.0, 1.0) : -1.0;

@@ -23,6 +23,13 @@ SignalSample valid_sample(lang::SignalType type, double stamp) {
   return sample;
 }
 
+solver::ForceVector wrench_of(const SixFields& w) {
+  solver::ForceVector wrench;
+  wrench.linear = {w[0], w[1], w[2]};
+  wrench.angular = {w[3], w[4], w[5]};
+  return wrench;
+}
+
 // The signal's sample of a message; nullopt for numbers that cannot be. `arrival` is the stamp of messages
 // without one.
 std::optional<SignalSample> sample_of(const Bool& message, const lang::SignalSource&, double arrival) {
@@ -55,11 +62,9 @@ std::optional<SignalSample> sample_of(const PoseStamped& message, const lang::Si
 }
 
 std::optional<SignalSample> sample_of(const WrenchStamped& message, const lang::SignalSource&, double) {
-  const SixFields& w = message.wrench;
-  if (!are_finite(w)) return std::nullopt;
+  if (!are_finite(message.wrench)) return std::nullopt;
   SignalSample sample = valid_sample(lang::SignalType::wrench, message.header.stamp());
-  sample.wrench.linear = {w[0], w[1], w[2]};
-  sample.wrench.angular = {w[3], w[4], w[5]};
+  sample.wrench = wrench_of(message.wrench);
   return sample;
 }
 
@@ -69,6 +74,11 @@ void count(TopicCounts& counts, double arrival, double age) {
   counts.age_sum = counts.age_sum + age;
   counts.most_age = std::max(counts.most_age.load(), age);
 }
+
+struct WrenchSample {
+  double stamp = 0.0;  ///< [s]
+  solver::ForceVector wrench;
+};
 
 struct SignalBox {
   explicit SignalBox(const lang::SignalSource& from) : source(from) {}
@@ -97,6 +107,7 @@ struct Inbox::Parts {
   Mailbox<JointsSample> joints;
   Mailbox<BaseSample> base;
   Mailbox<runtime::MeasuredPose> fix;
+  Mailbox<WrenchSample> wrench;
   std::optional<TransformChain> transforms;  ///< that give the fix
   std::mutex fix_mutex;                      ///< of the threads of DDS: /tf and /tf_static have one each
   std::vector<std::unique_ptr<SignalBox>> signals;
@@ -104,18 +115,20 @@ struct Inbox::Parts {
   RobotClock clock;
   std::atomic<double> last_stamp{0.0};  ///< [s] of the joints
   sem_t arrivals{};
-  bool has_joints = false, has_base = false, has_fix = false, trusts_base = true;
+  bool has_joints = false, has_base = false, has_fix = false, has_wrench = false, trusts_base = true;
 
   Parts(const lang::Connection& c, const lang::Program& p)
       : connection(c),
         program(&p),
-        merger(c.joints, p.robot.model),
-        joints(JointsSample{0.0, 0.0, merger.q(), merger.qd()}),
+        merger(c.joints, p.robot),
+        joints(JointsSample{0.0, 0.0, merger.q(), merger.qd(), merger.effort()}),
         clock(c.clock.has_value(), c.joints.stale_after) {
     sem_init(&arrivals, 0, 0);
     if (c.fix_frames) transforms.emplace(c.fix_frames->parent, c.fix_frames->child);
   }
   ~Parts() { sem_destroy(&arrivals); }
+
+  bool feels_by_effort() const { return program->robot.drive.feels.by == lang::Feels::By::effort; }
 
   /// Listens to a topic. `admits` says whether the publisher of a message is obeyed. `take` keeps the message
   /// and gives its stamp [s], or nullopt for numbers that cannot be. Both are told the time of arrival [s].
@@ -165,6 +178,7 @@ struct Inbox::Parts {
     draft.arrival = arrival;
     draft.q = merger.q();
     draft.qd = merger.qd();
+    draft.effort = merger.effort();
     joints.put();
     sem_post(&arrivals);
     return stamp;
@@ -190,6 +204,14 @@ struct Inbox::Parts {
     const double stamp = message.header.stamp();
     fix.draft() = {stamp, *pose_there};
     fix.put();
+    return stamp;
+  }
+
+  std::optional<double> take_wrench(const WrenchStamped& message) {
+    if (!are_finite(message.wrench)) return std::nullopt;
+    const double stamp = message.header.stamp();
+    wrench.draft() = {stamp, wrench_of(message.wrench)};
+    wrench.put();
     return stamp;
   }
 
@@ -264,6 +286,14 @@ struct Inbox::Parts {
         });
   }
 
+  /// What presses on the robot. A wrench that is older than joints may be has not been measured.
+  void put_feeling(const JointsSample& from, runtime::Sensed& sensed) {
+    if (feels_by_effort()) sensed.effort = from.effort;
+    has_wrench = wrench.take() || has_wrench;
+    const bool is_young = has_wrench && from.stamp - wrench.value().stamp <= connection.joints.stale_after;
+    sensed.contact_wrench = is_young ? std::optional(wrench.value().wrench) : std::nullopt;
+  }
+
   /// The base goes on along its circle from its own stamp to that of the joints.
   void put_base(const BaseSample& from, double stamp, solver::State& state) const {
     const double age = std::clamp(stamp - from.stamp, 0.0, connection.joints.stale_after);
@@ -294,6 +324,10 @@ void Inbox::subscribe(Participant& participant) {
     p.listen_to_one<PoseWithCovarianceStamped>(
         participant, *p.connection.fix, MessageType::pose_with_covariance_stamped,
         [&p](const PoseWithCovarianceStamped& message, double) { return p.take_fix(message); });
+  if (p.connection.wrench)
+    p.listen_to_one<WrenchStamped>(
+        participant, *p.connection.wrench, MessageType::wrench_stamped,
+        [&p](const WrenchStamped& message, double) { return p.take_wrench(message); });
   if (p.transforms) {
     p.subscribe_transforms(participant, "/tf", false);
     p.subscribe_transforms(participant, "/tf_static", true);
@@ -340,6 +374,7 @@ void Inbox::fill(runtime::Sensed& sensed) noexcept {
   if (sensed.base_measured) p.put_base(p.base.value(), joints.stamp, sensed.state);
   p.has_fix = p.fix.take() || p.has_fix;
   if (p.has_fix) sensed.base_fix = p.fix.value();
+  p.put_feeling(joints, sensed);
   for (const auto& box : p.signals) {
     if (box->mail.take()) box->is_told = box->is_due = true;
     if (!box->is_due || !box->index) continue;
@@ -368,6 +403,9 @@ bool Inbox::has_joints() const noexcept {
 }
 bool Inbox::has_base() const noexcept {
   return parts_->has_base || !parts_->connection.base;
+}
+bool Inbox::has_wrench() const noexcept {
+  return parts_->has_wrench || !parts_->connection.wrench;
 }
 double Inbox::last_arrival() const noexcept {
   return parts_->counts.front()->last_arrival;

@@ -37,6 +37,7 @@ struct TopicCounts {
 struct JointsSample {
   double stamp = 0.0, arrival = 0.0;  ///< [s]
   Eigen::VectorXd q, qd;              ///< of every joint of the model; one that is never told stays at 0
+  Eigen::VectorXd effort;             ///< [N m] the same, of a robot that `feels` by effort
 };
 
 class Inbox {
@@ -70,6 +71,7 @@ class Inbox {
   void distrust_base() noexcept;
   bool has_joints() const noexcept;  ///< every motor's joint has been told of; as of the last `fill`
   bool has_base() const noexcept;    ///< or needs none
+  bool has_wrench() const noexcept;  ///< the same of what presses on the robot
   /// [s] when the newest sample of the joints has come, also of one that is not yet taken.
   double last_arrival() const noexcept;
   const std::vector<std::unique_ptr<TopicCounts>>& counts() const noexcept;

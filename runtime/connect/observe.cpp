@@ -1,7 +1,9 @@
 #include "observe.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <vector>
 
 #include "../cli/interruption.hpp"
@@ -16,6 +18,8 @@ constexpr double has_turned = 0.05;  // [rad] or [m]: enough to judge a sign by
 /// Of a joint: how far its positions say that it went, and how far its rates do. [rad] or [m]
 struct Way {
   double by_positions = 0.0, by_rates = 0.0, length = 0.0;
+  double least_step =
+      std::numeric_limits<double>::infinity();  ///< from a sample to the next one that differs
 };
 
 /// False where the rates contradict the positions.
@@ -30,6 +34,8 @@ bool print_joint(const std::string& name, const Way& way) {
   }
   std::printf("  %-24s moved %7.3f, by its rates %7.3f: %s\n", name.c_str(), way.by_positions, way.by_rates,
               verdict);
+  if (way.length > has_turned)
+    std::printf("  %-24s least step %.2g: `encoder_step` of the robot file\n", "", way.least_step);
   return is_good;
 }
 
@@ -65,13 +71,14 @@ int observe(const lang::Connection& connection, const lang::Program& program, In
       const double step = sample.q(i) - before->q(i), dt = sample.stamp - before->stamp;
       ways[j].by_positions += step;
       ways[j].length += std::abs(step);
+      if (step != 0.0) ways[j].least_step = std::min(ways[j].least_step, std::abs(step));
       ways[j].by_rates += 0.5 * (sample.qd(i) + before->qd(i)) * dt;
     }
     if (!before) first_pose = sensed.state.base_pose;
     before = sample;
   }
   print_topics(inbox);
-  bool is_good = inbox.has_joints() && inbox.has_base();
+  bool is_good = inbox.has_joints() && inbox.has_base() && inbox.has_wrench();
   if (!inbox.has_joints()) {
     std::printf("no sample of every motor's joint has come on %s in domain %d\n",
                 connection.joints.topic.name.c_str(), connection.domain);

@@ -50,6 +50,9 @@ void RobotSide::join(Participant& participant) {
                                  lang::to_string(lang::MessageType::pose_with_covariance_stamped));
   if (connection_.fix_frames)
     fix_ = participant.advertise("/tf", lang::to_string(lang::MessageType::tf_message));
+  if (connection_.wrench)
+    wrench_ =
+        participant.advertise(connection_.wrench->name, lang::to_string(lang::MessageType::wrench_stamped));
   for (const lang::SignalSource& source : connection_.signals) {
     for (std::size_t i = 0; i < program_.signals.size(); ++i) {
       if (program_.signals[i].name != source.name) continue;
@@ -96,7 +99,7 @@ void RobotSide::tell_time(double time) {
 }
 
 void RobotSide::leave() noexcept {
-  joints_.reset(), base_.reset(), fix_.reset(), clock_.reset();
+  joints_.reset(), base_.reset(), fix_.reset(), wrench_.reset(), clock_.reset();
   signals_.clear();
 }
 
@@ -120,10 +123,16 @@ void RobotSide::publish(const runtime::Sensed& sensed, double stamp, double shif
     signal.last_stamp = sample.stamp;
     publish_signal(*signal.source, sample, shift, *signal.writer);
   }
+  if (wrench_ && sensed.contact_wrench) {
+    encode(WrenchStamped{header_at(stamp, program_.robot.drive.feels.frame), six_of(*sensed.contact_wrench)},
+           bytes_);
+    wrench_->write(bytes_);
+  }
   // Last: they are what the other side ticks by.
   joint_state_.header = header_at(stamp);
   joint_state_.positions.assign(state.q.begin(), state.q.end());
   joint_state_.velocities.assign(state.qd.begin(), state.qd.end());
+  joint_state_.efforts.assign(sensed.effort.begin(), sensed.effort.end());
   encode(joint_state_, bytes_);
   joints_->write(bytes_);
 }

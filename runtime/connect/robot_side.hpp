@@ -65,7 +65,7 @@ class RobotSide {
   runtime::Command zeros_, given_;
   std::atomic<double> told_time_{0.0};
   std::vector<std::atomic<double>> outputs_;  ///< by Program::outputs
-  std::unique_ptr<Writer> joints_, base_, fix_, clock_;
+  std::unique_ptr<Writer> joints_, base_, fix_, wrench_, clock_;
   std::vector<SignalWriter> signals_;
   JointState joint_state_;
   Odometry odometry_;

@@ -107,6 +107,9 @@ void check_command(const CommandSink& command, const Program& program, Diagnosti
     diagnostics.add(wording::wrong_command(
         command.span, "the drive takes a torque limit with each velocity, and a Float64MultiArray has none",
         "give the robot file `torque_limit: fixed`"));
+  const double cycle = command.rate ? 1.0 / *command.rate : program.robot.control_period;
+  if (command.timeout && *command.timeout <= cycle)
+    diagnostics.add(wording::too_short_timeout(command.span, cycle));
   if (command.kind != CommandKind::twist) check_order(command, program, diagnostics);
 }
 
@@ -121,6 +124,8 @@ bool check_connection(const Connection& connection, const Program& program, Diag
   }
   check_signals(connection, program, diagnostics);
   check_outputs(connection, program, diagnostics);
+  if (program.robot.drive.feels.by == Feels::By::wrench && !connection.wrench)
+    diagnostics.add(wording::feeling_without_topic(connection.joints.topic.span));
   check_command(connection.command, program, diagnostics);
   diagnostics.settle();
   return diagnostics.error_count() == errors_before;

@@ -96,7 +96,12 @@ JointsSource parse_joints(const Node& node, Diagnostics& diagnostics) {
       names != nullptr && require_mapping(*names, "`names`", diagnostics)) {
     for (const Entry& entry : names->entries) {
       if (entry.key.is_bad) continue;
-      joints.names[entry.key.text] = parse_word(entry.value, "names." + entry.key.text, diagnostics).text;
+      const Word name = parse_word(entry.value, "names." + entry.key.text, diagnostics);
+      for (const auto& [joint, other] : joints.names) {
+        if (name.exists() && other == name.text)
+          diagnostics.add(wording::name_twice(name.span, name.text, joints.name_spans[joint]));
+      }
+      joints.names[entry.key.text] = name.text;
       joints.name_spans[entry.key.text] = entry.key.span;
     }
   }
@@ -119,6 +124,8 @@ void parse_fix(const Node& node, Connection& connection, Diagnostics& diagnostic
     if (const Node* child = tf_map.required("child"))
       frames.child = parse_word(*child, "`child`", diagnostics).text;
     tf_map.finish();
+    if (!frames.parent.empty() && frames.parent == frames.child)
+      diagnostics.add(wording::frame_in_itself(frames.span, frames.child));
     connection.fix_frames = frames;
   }
   map.finish();
@@ -130,6 +137,8 @@ void parse_state(const Node& node, Connection& connection, Diagnostics& diagnost
   if (const Node* base = map.optional("base"))
     connection.base = parse_topic_alone(*base, "`base`", diagnostics);
   if (const Node* fix = map.optional("fix")) parse_fix(*fix, connection, diagnostics);
+  if (const Node* wrench = map.optional("wrench"))
+    connection.wrench = parse_topic_alone(*wrench, "`wrench`", diagnostics);
   map.finish();
 }
 
@@ -154,6 +163,7 @@ SignalSource parse_signal(const Entry& entry, Diagnostics& diagnostics) {
     const auto range =
         parse_vector(*nearest, dimension::angle, 2, 2, map.what() + "'s `nearest`", diagnostics);
     if (range) signal.nearest = {(*range)[0], (*range)[1]};
+    if (range && (*range)[0] >= (*range)[1]) diagnostics.add(wording::nearest_of_nothing(nearest->span));
   }
   const bool is_scan = signal.type == MessageType::laser_scan;
   if (map.is_mapping() && is_scan != (nearest != nullptr) && !map.has_misspelt({"nearest", "type"}))
@@ -257,10 +267,45 @@ void parse_begin(MapReader& map, const std::filesystem::path& folder, Connection
   for (const Entry& entry : tasks->entries) {
     if (entry.key.is_bad) continue;
     const Word file = parse_word(entry.value, "tasks." + entry.key.text, diagnostics);
-    if (file.exists()) connection.tasks.push_back({entry.key.text, folder / file.text, entry.key.span});
+    if (!file.exists()) continue;
+    connection.tasks.push_back({entry.key.text, folder / file.text, entry.key.span});
+    std::error_code error;
+    if (!std::filesystem::exists(folder / file.text, error))
+      diagnostics.add(wording::unreadable_file(file.span, file.text, "no such file"));
   }
   if (connection.begin != Begin::goals && !map.has_misspelt({"start"}))
     diagnostics.add(wording::tasks_without_goals(tasks->span));
+}
+
+struct NamedTopic {
+  const Topic& topic;
+  MessageType type;
+  bool is_sent;
+};
+
+std::vector<NamedTopic> topics_of(const Connection& c) {
+  std::vector<NamedTopic> all{{c.joints.topic, MessageType::joint_state, false},
+                              {c.command.topic, c.command.type, true}};
+  if (c.base) all.push_back({*c.base, MessageType::odometry, false});
+  if (c.fix) all.push_back({*c.fix, MessageType::pose_with_covariance_stamped, false});
+  if (c.wrench) all.push_back({*c.wrench, MessageType::wrench_stamped, false});
+  if (c.clock) all.push_back({*c.clock, MessageType::clock, false});
+  for (const SignalSource& signal : c.signals) all.push_back({signal.topic, signal.type, false});
+  for (const OutputSink& output : c.outputs) all.push_back({output.topic, output.type, true});
+  return all;
+}
+
+/// Two signals may read one topic, as two sectors of a scan. What is sent has its own.
+void check_topics(const Connection& connection, Diagnostics& diagnostics) {
+  const std::vector<NamedTopic> all = topics_of(connection);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const bool can_share = all[i].type == all[j].type && !all[i].is_sent && !all[j].is_sent;
+      if (all[i].topic.name.empty() || all[i].topic.name != all[j].topic.name || can_share) continue;
+      diagnostics.add(wording::topic_twice(all[i].topic.span, all[i].topic.name, all[j].topic.span));
+      break;
+    }
+  }
 }
 
 std::optional<Connection> parse_connection(const Document& document, const std::filesystem::path& folder,
@@ -294,6 +339,7 @@ std::optional<Connection> parse_connection(const Document& document, const std::
     connection.command = parse_command(*command, diagnostics);
   parse_begin(map, folder, connection, diagnostics);  // last: `state` is no misspelt `start`
   map.finish();
+  check_topics(connection, diagnostics);
   return connection;
 }
 

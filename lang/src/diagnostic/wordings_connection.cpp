@@ -1,6 +1,7 @@
 #include "diagnostic/wordings_connection.hpp"
 
 #include "diagnostic/make.hpp"
+#include "spec/units.hpp"
 
 namespace zwang::lang::wording {
 
@@ -44,6 +45,29 @@ Diagnostic output_of_another_type(const Span& span, const std::string& name, con
                       declared, "declared here");
 }
 
+Diagnostic nearest_of_nothing(const Span& span) {
+  return error("E922", span, "`nearest` begins where it ends, or behind that: no range lies between",
+               "write the smaller angle first: `[-10 deg, 10 deg]`");
+}
+
+Diagnostic feeling_without_topic(const Span& span) {
+  return error("E922", span,
+               "the robot `feels` by a wrench, and no topic tells it: the robot would stop at its first tick",
+               "add `wrench: {topic: /bumper/wrench}` to `state`");
+}
+
+Diagnostic topic_twice(const Span& span, const std::string& name, const Span& first) {
+  return with_related(error("E922", span, "`" + name + "` carries two things: one topic has one type",
+                            "name the topic of each"),
+                      first, "the other one");
+}
+
+Diagnostic name_twice(const Span& span, const std::string& name, const Span& first) {
+  return with_related(
+      error("E922", span, "two joints are called `" + name + "` in the messages", "give each its own name"),
+      first, "the other one");
+}
+
 Diagnostic one_command(const Span& span) {
   return error("E923", span, "a connection has one command: `twist` or `joints`", "keep one of them");
 }
@@ -55,6 +79,19 @@ Diagnostic wrong_command(const Span& span, const std::string& what, const std::s
 Diagnostic two_fixes(const Span& span) {
   return error("E925", span, "`fix` has two sources: the base cannot be in two places",
                "keep `topic` or `tf`");
+}
+
+Diagnostic frame_in_itself(const Span& span, const std::string& frame) {
+  return error(
+      "E925", span, "frame `" + frame + "` stands in itself: that says nothing about the base",
+      "write the world's frame as `parent`, and the base's as `child`: `{parent: map, child: base_link}`");
+}
+
+Diagnostic too_short_timeout(const Span& span, double cycle) {
+  return error("E923", span,
+               "the receiver stops the motors between two commands: one comes each " +
+                   format_number(1e3 * cycle) + " ms",
+               "write the receiver's real `timeout`, or a higher `rate`; three cycles are usual");
 }
 
 Diagnostic tasks_without_goals(const Span& span) {

@@ -17,9 +17,17 @@ Diagnostic output_without_sink(const Span& span, const std::string& name, bool i
                                const std::string& connection);
 Diagnostic output_of_another_type(const Span& span, const std::string& name, const std::string& type,
                                   const Span& declared);
+/// `nearest` with its angles the wrong way round.
+Diagnostic nearest_of_nothing(const Span& span);
+Diagnostic feeling_without_topic(const Span& span);
+Diagnostic topic_twice(const Span& span, const std::string& name, const Span& first);
+Diagnostic name_twice(const Span& span, const std::string& name, const Span& first);
 Diagnostic one_command(const Span& span);
 Diagnostic wrong_command(const Span& span, const std::string& what, const std::string& help);
 Diagnostic two_fixes(const Span& span);
+Diagnostic frame_in_itself(const Span& span, const std::string& frame);
+/// `cycle` [s] between two commands.
+Diagnostic too_short_timeout(const Span& span, double cycle);
 Diagnostic tasks_without_goals(const Span& span);
 Diagnostic nothing_stops_it(const Span& span, const std::string& topic);
 

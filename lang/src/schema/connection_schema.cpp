@@ -24,6 +24,11 @@ Json joints_source() {
        {"names", named("the URDF's joints that have other names in the messages", word("the name there"))}});
 }
 
+Json wrench_source() {
+  return object("what presses on a robot that `feels` by a wrench, in the axes of the sensor's frame",
+                {{"topic", word("a topic of geometry_msgs/WrenchStamped"), true}});
+}
+
 Json fix_source() {
   const Json frames = object("of transforms on /tf and /tf_static",
                              {{"parent", word("as map"), true}, {"child", word("as base_link"), true}});
@@ -81,7 +86,8 @@ Json connection_file() {
        {"state",
         object("", {{"joints", joints_source(), true},
                     {"base", topic("nav_msgs/Odometry; without it the wheels tell how the base moves")},
-                    {"fix", fix_source()}}),
+                    {"fix", fix_source()},
+                    {"wrench", wrench_source()}}),
         true},
        {"clock", clock()},
        {"signals", named("the sources of the task's signals", signal())},

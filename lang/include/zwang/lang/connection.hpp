@@ -122,6 +122,8 @@ struct Connection {
   /// The base's pose in the world, now and then: geometry_msgs/PoseWithCovarianceStamped, or by transforms.
   std::optional<Topic> fix;
   std::optional<FramePair> fix_frames;  ///< instead of `fix`
+  /// geometry_msgs/WrenchStamped: what presses on a robot that `feels` by a wrench, in the sensor's frame.
+  std::optional<Topic> wrench;
   std::vector<SignalSource> signals;
   std::vector<OutputSink> outputs;
   CommandSink command;
