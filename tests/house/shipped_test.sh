@@ -14,13 +14,13 @@ for page in README.md CHANGELOG.md LICENSE {solver,lang,runtime,specs,tests}/REA
   if [[ ! -s $page ]]; then complain "$page is missing or empty"; fi
 done
 
-# `robot:`, `scene:`, `urdf:`, `task:` lead to files, seen from the file that says so; a matrix has lists of them.
+# `robot:`, `scene:`, `urdf:`, `task:`, `based_on:` lead to files, seen from the file that says so; a matrix has lists of them.
 referring=0
 while IFS= read -r file; do
   while IFS= read -r target; do
     referring=$((referring + 1))
     if [[ ! -f $(dirname "$file")/$target ]]; then complain "$file names $target, which does not exist"; fi
-  done < <(sed -nE 's/#.*//; /^[[:space:]]*((robot|scene|urdf|task):|-)[[:space:]]/p' "$file" |
+  done < <(sed -nE 's/#.*//; /^[[:space:]]*((robot|scene|urdf|task|based_on):|-)[[:space:]]/p' "$file" |
     grep -oE '[^][",[:space:]]+\.(yaml|urdf)\b' || true)
 done < <(find specs examples -name '*.yaml' 2>/dev/null)
 if ((referring == 0)); then complain 'no shipped file names another: the search above is broken'; fi

@@ -277,4 +277,19 @@ Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& 
       wheel, "this wheel, by the <limit velocity> of the URDF");
 }
 
+Diagnostic based_on_itself(const Span& span, const std::string& file, int most) {
+  if (most > 0)
+    return error("E816", span,
+                 "a chain of more than " + std::to_string(most) + " robot files, each based on the next",
+                 "base this file on one that says more itself");
+  return error("E816", span, "this robot file is based on itself, by " + in_ticks(file),
+               "remove this `based_on`");
+}
+
+Diagnostic update_of_based_on(const Span& span, const std::string& file) {
+  return error("E816", span,
+               "`--update` adds to one file, and this one leaves what is not said here to " + in_ticks(file),
+               "update that file, or a file without `based_on`");
+}
+
 }  // namespace zwang::lang::wording

@@ -119,4 +119,8 @@ struct TooFast {
 };
 Diagnostic beyond_the_wheels(const Span& span, const TooFast& fast, const Span& wheel);
 
+/// `most` 0: it leads back; else so many files are too many.
+Diagnostic based_on_itself(const Span& span, const std::string& file, int most);
+Diagnostic update_of_based_on(const Span& span, const std::string& file);
+
 }  // namespace zwang::lang::wording

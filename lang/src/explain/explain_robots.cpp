@@ -209,6 +209,14 @@ of `base`, name a link that stands on the axle as `base`.)~",
   <limit effort="5" velocity="10"/>
 </joint>)~"},
       Explanation{
+          .code = "E816",
+          .title = "a robot file that is based on itself",
+          .why =
+              R"~(`based_on` names another robot file, which says every key that is not said here. That file may be based on a third
+one, up to 8 in a row. A chain that leads back to one of its files never ends. `zwang robot init --update` changes files that
+stand by themselves.)~",
+          .fix = "Remove the `based_on` that leads back."},
+      Explanation{
           .code = "E813",
           .title = "encoders that are too coarse",
           .why =

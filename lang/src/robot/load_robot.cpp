@@ -11,6 +11,7 @@
 #include "diagnostic/wordings_standing.hpp"
 #include "diagnostic/wordings_statics.hpp"
 #include "robot/adapt_urdf.hpp"
+#include "robot/based_on.hpp"
 #include "robot/check_joints.hpp"
 #include "robot/check_push.hpp"
 #include "robot/drive_entry.hpp"
@@ -392,11 +393,13 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
     diagnostics.add(wording::urdf_for_robot_file({*source, {1, 1}, {1, 2}}));
     return std::nullopt;
   }
-  const std::optional<Document> document = read(*source, diagnostics);
+  std::optional<Document> document = read(*source, diagnostics);
   if (!document) return std::nullopt;
+  const auto urdf_from = add_based_on(*document, path, root, diagnostics);
+  if (!urdf_from) return std::nullopt;
   std::optional<RobotFile> file = parse_robot_file(*document, diagnostics);
   if (!file || !file->urdf.exists()) return std::nullopt;
-  const auto urdf_path = resolve_path(file->urdf.text, path, root, file->urdf.span, diagnostics);
+  const auto urdf_path = resolve_path(file->urdf.text, *urdf_from, root, file->urdf.span, diagnostics);
   if (!urdf_path) return std::nullopt;
   std::vector<std::string> ignored;
   for (const Word& link : file->ignored) ignored.push_back(link.text);

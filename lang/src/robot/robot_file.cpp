@@ -281,6 +281,7 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
       if (!entry.key.is_bad) use(entry);
     }
   };
+  map.optional("based_on");  // what that file says is here already
   if (const Node* urdf = map.required("urdf")) file.urdf = parse_word(*urdf, "`urdf`", diagnostics);
   if (const Node* base = map.required("base")) file.base = parse_word(*base, "`base`", diagnostics);
   if (const Node* lead = map.optional("lead")) file.lead = parse_word(*lead, "`lead`", diagnostics);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "diagnostic/wordings_standing.hpp"
 #include "robot/text_edits.hpp"
 #include "robot/urdf.hpp"
 #include "spec/units.hpp"
@@ -290,6 +291,10 @@ std::optional<RobotUpdate> update_robot_file(const std::filesystem::path& robot_
   const std::optional<int> source = read_file(robot_file, yaml_size_limit, {}, diagnostics);
   const std::optional<Document> old = source ? read(*source, diagnostics) : std::nullopt;
   if (!old) return std::nullopt;
+  if (const Entry* based_on = old->root.find("based_on")) {
+    diagnostics.add(wording::update_of_based_on(based_on->value.span, based_on->value.text));
+    return std::nullopt;
+  }
   const std::optional<DraftOptions> options = options_of(robot_file, diagnostics);
   const std::optional<Urdf> urdf = read_urdf(urdf_file, {}, diagnostics, options->ignored);
   const int drafted = diagnostics.add_source({"draft", draft.text});

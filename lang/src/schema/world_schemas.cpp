@@ -267,12 +267,13 @@ Json draw() {
 }  // namespace
 
 Json robot_file() {
-  return object(
+  Json schema = object(
       "The part of a robot that a URDF cannot say",
       {version("zwang_robot"),
-       {"urdf", word("the path of the URDF, from this file"), true},
-       {"base", word("the link that floats"), true},
-       {"wheels", list("the wheels; the drive follows from them", wheel()), true},
+       {"based_on", word("the path of another robot file, from this file: it says what is not said here")},
+       {"urdf", word("the path of the URDF, from this file")},
+       {"base", word("the link that floats")},
+       {"wheels", list("the wheels; the drive follows from them", wheel())},
        {"each_wheel", each_wheel()},
        {"inertias", named("bodies of links, in the place of the URDF's", link_inertia())},
        {"fixed", list("joints of the URDF that do not move here", word("a joint"))},
@@ -282,18 +283,16 @@ Json robot_file() {
        {"ignore", list("links of the URDF that are left out, with all that hangs on them", word("a link"))},
        {"lead", word("the link or frame that tasks drive, if not the base")},
        {"supports", list("links that stand on the ground and hold nothing", word("a link"))},
-       {"actuated", named("motors by their joints", actuator()), true},
+       {"actuated", named("motors by their joints", actuator())},
        {"limits", object("ranges of the base, if a task gives none",
                          {{"acceleration", base_ranges("")}, {"velocity", base_ranges("")}})},
        {"stop",
         object("the brake of `done`, `failed` and the protective stop",
-               {{"deceleration", reference("quantity"), true}, {"force", reference("quantity"), true}}),
-        true},
+               {{"deceleration", reference("quantity"), true}, {"force", reference("quantity"), true}})},
        {"posture", named("where joints stand at the start", reference("quantity"))},
        {"friction", named("by joint", joint_friction())},
        {"footprint",
-        object("the outline on the floor, in the base frame", {{"polygon", reference("polygon"), true}}),
-        true},
+        object("the outline on the floor, in the base frame", {{"polygon", reference("polygon"), true}})},
        {"bumper", object("", {{"stiffness", reference("quantity")}, {"height", reference("quantity")}})},
        {"control_period", reference("quantity")},
        {"encoder_step",
@@ -301,6 +300,9 @@ Json robot_file() {
        {"drive", drive()},
        {"feels", feels()},
        {"frames", named("places on the robot", robot_frame())}});
+  const Json whole = Json::array({"urdf", "base", "wheels", "actuated", "stop", "footprint"});
+  schema["anyOf"] = Json::array({Json{{"required", Json::array({"based_on"})}}, Json{{"required", whole}}});
+  return schema;
 }
 
 Json scene_file() {
