@@ -22,7 +22,7 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
   ASSERT_TRUE(program) << rendered(diagnostics);
   EXPECT_TRUE(diagnostics.all().empty()) << rendered(diagnostics);
 
-  ASSERT_EQ(program->parameters.size(), 2u);
+  ASSERT_EQ(program->parameters.size(), 3u);
   EXPECT_EQ(program->parameters[0].name, "push");
   EXPECT_DOUBLE_EQ(program->parameters[0].value, 20.0);
   EXPECT_DOUBLE_EQ(program->parameters[0].range->high, 40.0);

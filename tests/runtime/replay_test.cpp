@@ -77,7 +77,7 @@ TEST(Replay, ColumnsOfExitsAndParametersHaveTheirLines) {
     (is_exit ? exits : parameters) += 1;
   }
   EXPECT_GE(exits, 2);
-  EXPECT_EQ(parameters, 2) << "push, timeout";
+  EXPECT_EQ(parameters, 3) << "push, timeout, still";
 }
 
 TEST(Replay, KnowsWhenAHostResetTheStop) {

@@ -1,6 +1,7 @@
 #include "diagnostic/wordings_feeling.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings_physics.hpp"
@@ -48,6 +49,21 @@ Diagnostic slow_in_contact(const Span& span, double fades, double mass) {
       "W632", span,
       "in contact this robot moves slowly: 20 N push it with " + figure(20.0 / (mass * fades) * 1e3, "mm/s"),
       "give its tasks longer timeouts, or shorten delay, cycle and filter");
+}
+
+Diagnostic turned_slowly(const Span& exit, const SlowTurn& turn, const Span& push) {
+  const double in_degrees = 180.0 / std::numbers::pi;
+  const double slower = std::floor(0.95 * turn.turns * in_degrees * 100.0) / 100.0;
+  std::string help =
+      "press with `" + figure(std::ceil(1.05 * turn.force * turn.asked / turn.turns), "N") + "`, ";
+  if (slower > 0.0) help += "ask for less than `" + figure(slower, "deg/s") + "`, ";
+  return with_related(error("E633", exit,
+                            "`" + turn.axis + "` cannot tell square from slow: this robot feels late, and " +
+                                figure(turn.askew * in_degrees, "deg") + " askew a wall turns it with " +
+                                figure(turn.turns * in_degrees, "deg/s") + ", the exit holds below " +
+                                figure(turn.asked * in_degrees, "deg/s"),
+                            help + "or drive `rz` to a measured angle"),
+                      push, "it presses with " + figure(turn.force, "N"));
 }
 
 }  // namespace zwang::lang::wording

@@ -1,6 +1,7 @@
 #include "diagnostic/wordings_never.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "diagnostic/axis_units.hpp"
 #include "diagnostic/make.hpp"
@@ -286,6 +287,16 @@ Diagnostic cannot_square(const Span& span, const std::string& axis, double floor
   if (!exit.exists()) return warning("W621", span, "`" + axis + "` is free, but " + why, help);
   return with_related(error("E621", span, "`" + axis + "` cannot tell square from stuck: " + why, help), exit,
                       "this is true of a base that is stuck, too");
+}
+
+Diagnostic rests_askew(const Span& span, const std::string& axis, double askew, const Span& exit) {
+  return with_related(
+      error("E621", span,
+            "`" + axis +
+                "` cannot tell square from stuck: this outline is round ahead, and rests on a wall " +
+                figure(askew * 180.0 / std::numbers::pi, "deg") + " askew",
+            "drive `rz` to a measured angle, or take a base that is flat ahead"),
+      exit, "this is true of a base that rests askew, too");
 }
 
 Diagnostic steering_stands(const Span& span, const std::string& axis, const std::string& steering,

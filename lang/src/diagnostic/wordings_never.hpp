@@ -100,6 +100,8 @@ Diagnostic stops_too_late(const Span& span, const LateGuard& guard, const std::s
 /// `floor` 0: the wheels hold the heading. [N m]. `exit`: that asks for it; none: W621.
 Diagnostic cannot_square(const Span& span, const std::string& axis, double floor, double wall,
                          const Span& exit);
+/// `askew` [rad]: as far as that the outline rests on a wall.
+Diagnostic rests_askew(const Span& span, const std::string& axis, double askew, const Span& exit);
 
 /// A way around a circle that `plane` does not allow.
 struct Circle {

@@ -277,6 +277,17 @@ are known. On more points zwang takes the largest sum that statics allow. The pr
 with m a, and is asked, too.)~",
           .fix = "Ask for less force or acceleration, or correct `floor: {friction: ..}` of the scene."},
       Explanation{
+          .code = "E633",
+          .title = "a base that cannot tell square from slow",
+          .why =
+              R"~(The heading is free, the task presses, and an exit waits until the heading hardly turns. Behind a drive
+that feels, a wall turns the virtual robot with F b / (alpha gamma I), b beside the line of the push. The later
+a robot feels, the larger alpha gamma is. If that turn is slower than the exit asks for, the exit is true of a base
+that is still askew. zwang asks for a base that comes 25 deg askew.)~",
+          .fix =
+              "Press harder, ask for a slower turn, or drive `rz` to a measured angle: the message has the "
+              "numbers."},
+      Explanation{
           .code = "W644",
           .title = "an object that a bumper of unknown height may pass",
           .why =

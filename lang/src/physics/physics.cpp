@@ -72,6 +72,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_reach(plan, probe, remarks);
   ask_steering(plan, asked.held_steerings, probe, remarks);
   ask_square(plan, asked.held_steerings, asked.floor_friction, probe, remarks);
+  ask_turned_slowly(context, plan, asked.conditions.of_tasks[index], probe, remarks);
   ask_freedoms(plan, probe, remarks);
   ask_askew(plan, probe, remarks);
   ask_free(plan, probe, remarks);

@@ -87,6 +87,9 @@ void ask_steering(const PlannedTask& plan, const std::vector<int>& held, Probe& 
 /// E621, W621: a heading that a wall is to turn, and cannot. `floor_friction`: of the scene.
 void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings, double floor_friction,
                 Probe& probe, Remarks& remarks);
+/// E633: a heading that a wall turns more slowly than an exit asks for. `conditions`: of the task's exits.
+void ask_turned_slowly(const CheckContext& context, const PlannedTask& plan,
+                       const std::vector<Condition>& conditions, Probe& probe, Remarks& remarks);
 
 /// W511: exits that the ranges in force decide. `exits` are those of the plan's task, or of `always`.
 void ask_exits(const CheckContext& context, const PlannedTask& plan, const std::vector<ExitText>& exits,

@@ -2,6 +2,7 @@
 //
 //   held      the wheels hold the heading as they are steered, and nothing turns the steering
 //   scrubbed  mu g sum m_i |x_i - x| > F b
+//   round     the outline rests on another edge than the one ahead
 //
 // The right side is what a wall turns with: the push F at a corner of the footprint, b beside the line of the
 // push. The left side holds against it: wheels that slide sideways, each with its share m_i of the mass, x_i
@@ -11,50 +12,18 @@
 // A heading that a row keeps still within a force range is turned, too, once the wall is stronger than both.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "diagnostic/wordings_never.hpp"
+#include "physics/push.hpp"
 #include "physics/questions.hpp"
+#include "zwang/lang/task_draft.hpp"
 
 namespace zwang::lang {
 
 namespace {
 
 using solver::Quantity;
-
-/// What presses ahead or sideways, and how hard at most. [N]
-struct Push {
-  const PlannedAxis* axis = nullptr;
-  double force = 0.0;
-};
-
-Push push_of(const PlannedTask& plan, Probe& probe) {
-  Push push;
-  for (const PlannedAxis& axis : plan.axes) {
-    const bool is_asked = axis.driver && axis.text != nullptr && axis.move.body == 0 && !axis.turns() &&
-                          !axis.is_feature() && !axis.stands_still() && axis.is_placed;
-    if (!is_asked) continue;
-    const auto& range = axis[Quantity::force];
-    double force = 0.0;
-    if (axis.driver == Quantity::force) {
-      force = std::abs(axis.target.value_or(0.0));
-    } else if (range) {
-      force = std::max(range->high, -range->low);
-    } else if (const AxisFigures* figures = probe.figures(axis)) {
-      force = figures->force;
-    }
-    if (force > push.force) push = {&axis, force};
-  }
-  return push;
-}
-
-/// Beside the line of the push through the base's origin, the farthest corner of the footprint. [m]
-double lever(const Push& push, Probe& probe) {
-  const solver::Vector3 along = probe.direction(*push.axis);
-  double most = 0.0;
-  for (const solver::Vector3& corner : probe.robot().footprint)
-    most = std::max(most, std::abs(along.x() * corner.y() - along.y() * corner.x()));
-  return most;
-}
 
 /// What the floor holds a base with whose wheels slide sideways when it turns; 0 where none does. [N m]
 double scrub(const Robot& robot, double friction) {
@@ -93,6 +62,16 @@ std::optional<double> holds_back(const PlannedAxis& axis) {
   return std::max(range->high, -range->low);
 }
 
+/// How far from square the outline rests on a wall that it comes to askew. [rad]
+double rests_askew(const Push& push, Probe& probe) {
+  constexpr double come_askew = 20.0 * std::numbers::pi / 180.0;
+  const std::vector<Eigen::Vector2d> outline = outline_along(push, probe);
+  double most = 0.0;
+  for (const double yaw : {come_askew, -come_askew})
+    most = std::max(most, std::abs(resting_yaw(outline, yaw).value_or(come_askew)));
+  return most;
+}
+
 void ask_heading(const PlannedTask& plan, const PlannedAxis& axis, double own,
                  const std::vector<int>& held_steerings, double floor_friction, Probe& probe,
                  Remarks& remarks) {
@@ -102,10 +81,15 @@ void ask_heading(const PlannedTask& plan, const PlannedAxis& axis, double own,
   const AxisFigures* figures = push.axis != nullptr ? probe.figures(axis) : nullptr;
   if (figures == nullptr) return;
   const bool is_held = std::isinf(figures->mass) && (figures->is_held || !held_steerings.empty());
-  const double wall = push.force * lever(push, probe);
+  const double wall = push.force * longest_lever(push, probe);
   const double floor = scrub(probe.robot(), floor_friction) + own;
-  if (!is_held && floor <= wall) return;
   const std::optional<Span> exit = asked_by(*plan.task, axis);
+  if (!is_held && floor <= wall) {
+    const double askew = rests_askew(push, probe);
+    if (exit && own == 0.0 && askew > round_ahead)
+      remarks.add(wording::rests_askew(axis.text->name.span, axis.path, askew, *exit));
+    return;
+  }
   if ((is_held || own > 0.0) && !exit) return;  // W609, or a row that is meant to hold
   remarks.add(wording::cannot_square(axis.text->name.span, axis.path, is_held ? 0.0 : floor, wall,
                                      exit.value_or(Span{})));

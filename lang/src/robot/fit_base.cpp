@@ -27,10 +27,6 @@ constexpr double overhang = 0.3;
 /// An arm's point as far beyond the outline is told; outlines are no more exact. [m]
 constexpr double beyond_outline = 0.01;
 
-/// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
-/// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]
-constexpr double round_ahead = 2.0 * std::numbers::pi / 180.0;
-
 std::vector<Eigen::Vector2d> circle(double radius) {
   std::vector<Eigen::Vector2d> corners;
   for (int k = 0; k < 16; ++k)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,9 @@ BaseFit base_fit(const Robot& robot);
 /// The yaw [rad] at which the outline rests against a wall across x that it is pushed to from `yaw`, without
 /// friction; no value where it turns by more than 90 deg first.
 std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw);
+/// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
+/// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]
+inline constexpr double round_ahead = 2.0 * std::numbers::pi / 180.0;
 
 /// Why this base cannot do `task`; empty: it can, as far as is known.
 std::string why_unfit(const std::string& task, const BaseFit& fit);

@@ -1,0 +1,28 @@
+/// What a task presses with, and how a wall turns the base by it.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "physics/planned_axis.hpp"
+#include "physics/probe.hpp"
+
+namespace zwang::lang {
+
+/// What presses the base ahead or sideways, and how hard at most.
+struct Push {
+  const PlannedAxis* axis = nullptr;  ///< nullptr: nothing does
+  double force = 0.0;                 ///< [N]
+};
+Push push_of(const PlannedTask& plan, Probe& probe);
+
+/// The footprint's corners, turned so that the push goes along +x. [m]
+std::vector<Eigen::Vector2d> outline_along(const Push& push, Probe& probe);
+
+/// Beside the line of the push through the base's origin, the farthest corner of the footprint. [m]
+double longest_lever(const Push& push, Probe& probe);
+/// The same of the corner that touches a wall first, at which the base comes `askew` [rad] to either side:
+/// the shorter of both. [m]
+double lever_askew(const Push& push, double askew, Probe& probe);
+
+}  // namespace zwang::lang
