@@ -141,6 +141,19 @@ Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit) {
                 cap, limit);
 }
 
+Diagnostic too_slow_to_press(const Span& span, const Cap& cap, double horizon, const Span& range) {
+  const AxisUnits u = axis_units(cap.turns);
+  const double speed = cap.most * horizon / cap.mass, enough = cap.wanted * horizon / cap.mass;
+  return with_related(error("E601", span,
+                            "`" + cap.axis + "` can never press with " + figure(cap.wanted, u.force) +
+                                ": the velocity range caps it at " + figure(cap.most, u.force) + " (" +
+                                figure(cap.mass, u.mass) + " x " + figure(speed, u.speed) + " / " +
+                                figure(horizon, "s") + ", within which this drive keeps limits)",
+                            "ask for `" + at_most(cap.most, u.force) + "` or less, or allow `" +
+                                figure(rounded(enough, true), u.speed) + "`"),
+                      range, "the velocity is limited here");
+}
+
 Diagnostic cannot_press_everywhere(const Span& span, const Cap& least, const Span& limit) {
   const AxisUnits u = axis_units(least.turns);
   return capped(warning("W601", span,

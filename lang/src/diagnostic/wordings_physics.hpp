@@ -40,6 +40,8 @@ struct Cap {
   double mass = 0.0;    ///< effective [kg] or [kg m^2]
 };
 Diagnostic cannot_press(const Span& span, const Cap& cap, const Span& limit);
+/// By the range of velocities, which the drive keeps within `horizon` [s].
+Diagnostic too_slow_to_press(const Span& span, const Cap& cap, double horizon, const Span& range);
 Diagnostic cannot_press_everywhere(const Span& span, const Cap& least, const Span& limit);
 Diagnostic cannot_press_at_range_end(const Span& span, const Cap& cap, const Span& limit);
 

@@ -8,6 +8,9 @@
 // taken from the solver with the force row and all acceleration ranges in force, so that ranges on other axes
 // count with their direction. What the base cannot along axes of the world as it stands at the start it may
 // once it has turned.
+//
+// A drive that is sent torque limits keeps the range of velocities, too, within its horizon t: it presses
+// with m v_max / t at most.
 #include <algorithm>
 #include <cmath>
 
@@ -51,6 +54,20 @@ Pressing pressing(const PlannedTask& plan, const PlannedAxis& axis, double force
   return result;
 }
 
+/// What the axis's own range of velocities leaves of a force behind a drive that is sent torque limits.
+void ask_speed_of_press(const PlannedAxis& axis, const AxisFigures& figures, const Drive& drive,
+                        Remarks& remarks) {
+  const auto& range = axis[solver::Quantity::velocity];
+  if (!range || !drive.takes_velocity || drive.has_virtual_robot() || !std::isfinite(figures.most_mass))
+    return;
+  const double speed = *axis.target < 0.0 ? -range->low : range->high;
+  const double most = figures.most_mass * speed / drive.horizon();
+  if (most >= std::abs(*axis.target)) return;
+  remarks.add(wording::too_slow_to_press(
+      axis.driver_span(), {axis.path, axis.turns(), std::abs(*axis.target), most, figures.most_mass},
+      drive.horizon(), axis.span(solver::Quantity::velocity)));
+}
+
 }  // namespace
 
 void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
@@ -60,6 +77,7 @@ void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
     const Pressing now = pressing(plan, axis, *axis.target, probe);
     if (now.by_motors) continue;
+    ask_speed_of_press(axis, *figures, probe.robot().drive, remarks);
     const AccelerationLimit limit = acceleration_limit(plan, axis, *axis.target < 0.0 ? -1.0 : 1.0, true);
     const Span limited = limit.from != nullptr ? limit.from->span(solver::Quantity::acceleration) : Span{};
     const auto cap = [&](double wanted, const Pressed& pressed) {
