@@ -11,7 +11,7 @@ long=(blind_hospital blind_obstacle cradle_varied docking_casters docking_caster
   felt_wall_align_twins
   hospital_blind hospital_diff_blind hospital_diff_closed hospital_loaded limited_docking limited_docking_twins
   limited_hospital limited_hospital_diff limited_hospital_twins limited_obstacle_casters limited_obstacle_twins
-  limited_wall_align_twins obstacle_corner obstacle_gently obstacle_leaves_diff obstacle_light obstacle_rollers obstacle_stays_casters oncoming_fails pressed_on
+  limited_wall_align_twins obstacle_corner obstacle_gently obstacle_leaves_diff obstacle_light obstacle_rollers obstacle_stays_casters oncoming_fails owned_wall_align pressed_on
   switch_hospital_hard switch_obstacle_hard velocity_wall_align_casters wall_align_soft wipe_varied)
 
 is_long() { [[ " ${long[*]} " == *" $(basename "$1" .yaml) "* ]]; }
