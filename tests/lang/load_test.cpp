@@ -55,7 +55,7 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
   EXPECT_DOUBLE_EQ(x.velocity->high.constant, 0.08);
   EXPECT_FALSE(x.force);
   EXPECT_EQ(x.level, 1);
-  EXPECT_EQ(x.statement_spans[static_cast<std::size_t>(Quantity::force)].begin.line, 23);
+  EXPECT_EQ(x.statement_spans[static_cast<std::size_t>(Quantity::force)].begin.line, 24);
   EXPECT_EQ(contact.axes[1].driver, Quantity::velocity);
   EXPECT_EQ(contact.axes[2].axis, Axis::rz);
   EXPECT_FALSE(contact.axes[2].driver);
