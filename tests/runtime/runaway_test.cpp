@@ -30,10 +30,17 @@ class OneMass {
     limit.velocity = solver::Range{low, high};
     set_.add(limit);
   }
+  /// Where the driver has no force range, it yields.
+  void drive(const solver::Driver& driver) {
+    solver::AxisConstraint driven;
+    driven.move = driven.in = {.body = 0};
+    driven.driver = driver;
+    set_.add(driven);
+  }
   /// [s] of the event; -1: none.
   template <typename Speed, typename Force>
   double found(double until, const Speed& speed, const Force& force) {
-    RunawayWatch watch(1, period);
+    RunawayWatch watch(1, mass, period);
     ContactDepth contact(robot_, RunawayWatch::look_every);
     const solver::FreeMotions motions(model_);
     Eigen::VectorXd rate(1), told(1);
@@ -87,6 +94,42 @@ TEST(Runaway, OfAnyForceIsFoundOneDwellAfterTheMarginIsPassed) {
   while (speed(passed) < 0.1 + RunawayWatch::margin) passed += period;
   EXPECT_GT(at, passed + RunawayWatch::dwell * RunawayWatch::look_every);
   EXPECT_LT(at, passed + (RunawayWatch::dwell + 4) * RunawayWatch::look_every + RunawayWatch::quick);
+}
+
+constexpr solver::Driver yields{.quantity = solver::Quantity::acceleration};
+
+TEST(Runaway, OfABaseThatYieldsIsFoundFarBeyondTheSpeed) {
+  OneMass mass(-0.1, 0.1);
+  mass.drive(yields);
+  const auto speed = [](double t) { return 0.5 * std::max(0.0, t); };
+  const double at = mass.found(2.0, speed, [&](double t) { return brake(speed(t)); });
+  const double passed = (0.1 + RunawayWatch::far) / 0.5;
+  EXPECT_GT(at, passed + (RunawayWatch::dwell - 1) * RunawayWatch::look_every);
+  EXPECT_LT(at, passed + (RunawayWatch::dwell + 4) * RunawayWatch::look_every + RunawayWatch::quick);
+}
+
+/// Somebody pushes with `push` [N] a base that yields beside a driver of 0.2 m/s with 40 N and T = 0.5 s.
+double found_beside_a_driver(double push) {
+  constexpr double target = 0.2, most = 40.0, time_constant = 0.5;
+  OneMass mass(-10.0, 10.0);
+  mass.drive(yields);
+  mass.drive({.target = target, .time_constant = time_constant, .force = {-most, most}});
+  constexpr int steps = 5000;
+  std::vector<double> v{target}, told{0.0};
+  for (int i = 0; i < steps; ++i) {
+    told.push_back(std::clamp(OneMass::mass * (target - v.back()) / time_constant, -most, most));
+    v.push_back(v.back() + period * (push + told.back()) / OneMass::mass);
+  }
+  const auto at = [](const std::vector<double>& of) {
+    return [&of](double t) { return of[static_cast<std::size_t>(std::max(0.0, t) / period + 0.5)]; };
+  };
+  return mass.found(4.9, at(v), at(told));
+}
+
+TEST(Runaway, IsNoneWhereSomebodyPushesWithLessThanADriversForce) {
+  // It ends at 0.2 m/s + 35 N 0.5 s/m = 0.55 m/s, where 0.6 m/s take all of the driver's force.
+  EXPECT_EQ(found_beside_a_driver(35.0), -1.0);
+  EXPECT_GT(found_beside_a_driver(60.0), 0.0);
 }
 
 TEST(Runaway, IsNoneAsLongAsTheMotorsDoTheWork) {

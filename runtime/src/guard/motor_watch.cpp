@@ -6,7 +6,7 @@ MotorWatch::MotorWatch(const lang::Robot& robot, double period)
     : signs_(robot, period),
       actuators_(robot, period),
       beside_contact_(robot, period),
-      runaway_(robot.model.joint_count(), period),
+      runaway_(robot.model.joint_count(), robot.model.total_mass(), period),
       reversed_(robot, runaway_.period_of_looks()),
       contact_(robot, runaway_.period_of_looks()),
       pusher_(robot, runaway_.period_of_looks()) {}

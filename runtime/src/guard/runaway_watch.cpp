@@ -19,25 +19,35 @@ double outside(double velocity, double low, double high) noexcept {
 struct Margin {
   double speed, turn;  ///< [m/s], [rad/s]
   double share;        ///< of the speed that is driven or allowed, where that is more
+  double lightness;    ///< [1/kg] of a robot that somebody pushes; 0: nobody does
 };
-constexpr Margin near_margin{RunawayWatch::margin, RunawayWatch::turn_margin, RunawayWatch::share};
-constexpr Margin far_margin{RunawayWatch::far, RunawayWatch::turn_far, RunawayWatch::share_far};
+constexpr Margin near_margin{RunawayWatch::margin, RunawayWatch::turn_margin, RunawayWatch::share, 0.0};
+
+double margin_at(const AxisConstraint& c, double bound, const Margin& margin) noexcept {
+  return std::max(c.is_angle() ? margin.turn : margin.speed, margin.share * std::abs(bound));
+}
+
+/// The velocity that somebody who pushes gives a driver, m (s - v)/T < F, with no more than its force F.
+double given_way(const AxisConstraint& c, double velocity, const Margin& margin) noexcept {
+  const double force = velocity < 0.0 ? c.driver->force.high : -c.driver->force.low;
+  if (c.is_angle() || !std::isfinite(force)) return 0.0;
+  return margin.lightness * force * c.driver->time_constant;
+}
 
 /// How many margins the velocity is beyond what the constraint drives or allows.
 double excess(const AxisConstraint& c, double velocity, const Margin& margin) noexcept {
-  double low = -solver::infinity, high = solver::infinity;
-  if (c.velocity && c.measure != solver::Measure::turn) {
-    low = c.velocity->low;
-    high = c.velocity->high;
-  }
+  double most = -solver::infinity;
+  const auto compare = [&](double low, double high, double given) {
+    const double bound = velocity < 0.0 ? low : high;
+    if (std::isinf(bound)) return;
+    most = std::max(most, outside(velocity, low, high) / std::max(given, margin_at(c, bound, margin)));
+  };
+  if (c.velocity && c.measure != solver::Measure::turn) compare(c.velocity->low, c.velocity->high, 0.0);
   if (c.driver && c.driver->quantity == solver::Quantity::velocity) {
-    low = std::max(low, std::min(c.driver->target, 0.0));
-    high = std::min(high, std::max(c.driver->target, 0.0));
+    const double target = c.driver->target;
+    compare(std::min(target, 0.0), std::max(target, 0.0), given_way(c, velocity, margin));
   }
-  const double bound = velocity < 0.0 ? low : high;
-  if (std::isinf(bound)) return -solver::infinity;
-  const double least = c.is_angle() ? margin.turn : margin.speed;
-  return outside(velocity, low, high) / std::max(least, margin.share * std::abs(bound));
+  return most;
 }
 
 /// What says how the base moves. The tool of an arm that is led by hand is no base that runs away: an arm is
@@ -50,6 +60,14 @@ bool is_of_base(const AxisConstraint& c) noexcept {
 /// While a switch blends, a range that is not new is in force in every set; a driver is in force in one.
 bool is_wholly_in_force(const AxisConstraint& c, bool blends) noexcept {
   return !blends || (!c.driver && c.velocity_horizon <= solver::limit_horizon);
+}
+
+/// Whether a row asks for accelerations of the base: it yields to a hand. A hand has as much work for one
+/// motor as that motor would give if it were reversed, if the others hold less.
+bool yields(const solver::ConstraintSet& set) noexcept {
+  return std::ranges::any_of(set.constraints(), [](const AxisConstraint& c) {
+    return is_of_base(c) && c.driver && c.driver->quantity == solver::Quantity::acceleration;
+  });
 }
 
 /// The largest of the base's constraints that are wholly in force.
@@ -65,8 +83,9 @@ double largest_excess(const solver::ConstraintSet& set, const Margin& margin, bo
 
 }  // namespace
 
-RunawayWatch::RunawayWatch(int joints, double period)
-    : period_(period),
+RunawayWatch::RunawayWatch(int joints, double mass, double period)
+    : mass_(mass),
+      period_(period),
       part_(1.0 - std::exp(-period / quick)),
       ticks_between_looks_(ticks_of(look_every, period)),
       rates_(Eigen::VectorXd::Zero(joints)),
@@ -124,6 +143,8 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
   } else {
     steady_.forget(kinetic_energy, contact.now());
   }
+  const bool is_led = is_pushed || yields(set);
+  const Margin far_margin{far, turn_far, share_far, is_led ? 1.0 / mass_ : 0.0};
   const bool is_far = kinetic_energy > std::max(last_energy_, largest_before_) &&
                       largest_excess(set, far_margin, blends) > 1.0;
   if (!is_far) far_.forget(kinetic_energy, contact.now());
@@ -132,7 +153,7 @@ std::optional<Event> RunawayWatch::look(const solver::ConstraintSet& set, double
   last_energy_ = kinetic_energy;
   energies_[looks_++ % energies_.size()] = kinetic_energy;
   const auto is_at_work = [&](const Driver& driver) {
-    return !is_pushed && driver.rising >= dwell && driver.may_be_a_motor(kinetic_energy) &&
+    return !is_led && driver.rising >= dwell && driver.may_be_a_motor(kinetic_energy) &&
            contact.is_no_spring(driver.contact);
   };
   const bool is_driven = margins > driven && is_at_work(steady_);

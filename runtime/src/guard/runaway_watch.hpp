@@ -29,15 +29,17 @@ namespace zwang::runtime {
 /// it.) So of all the time since a speed was exceeded, and of that in which T grows alone: what motors took
 /// between two pushes none of them gave. But it is a fault where the base is far beyond what is allowed and
 /// still gets faster: whoever does that, several motors that are wired the wrong way round or somebody
-/// strong, the base is not to be moved so. Only constraints between base and world count: whoever leads an
-/// arm by hand does work on the robot, and its joints have limits of their own. A limit that is tightened
-/// under way, a contact that turns the base, a motion that rows bring about together: in each of them T
-/// falls, or W > 0. The hit of another robot is over before `dwell`. Does not allocate, lock, throw or print
-/// after construction.
+/// strong, the base is not to be moved so. A driver with a force range F and the time constant T gives way by
+/// F T/m to a push of F. While somebody pushes, that is no runaway. Only constraints
+/// between base and world count: whoever leads an arm by hand does work on the robot, and its joints have
+/// limits of their own. A limit that is tightened under way, a contact that turns the base, a motion that
+/// rows bring about together: in each of them T falls, or W > 0. The hit of another robot is over before
+/// `dwell`. Does not allocate, lock, throw or print after construction.
 class RunawayWatch {
  public:
   using Force = Eigen::Ref<const Eigen::VectorXd>;
-  RunawayWatch(int joints, double period);
+  /// `mass` [kg] of the robot.
+  RunawayWatch(int joints, double mass, double period);
 
   /// Forgets what was.
   void reset() noexcept;
@@ -48,9 +50,9 @@ class RunawayWatch {
   /// Low-passed: the rates whose kinetic energy `look` wants.
   const Eigen::VectorXd& rates() const noexcept { return rates_; }
   /// `force` is what the observer makes of the world's, in coordinates of free motion, and `contact` has
-  /// followed it; while somebody pushes the robot only what is far beyond its limits counts. The event names
-  /// the motor that brakes hardest by what it is told: a wheel that drives itself has the largest share of
-  /// the motion. Its value is that wheel's rate.
+  /// followed it. If somebody pushes the robot, or a row of the base yields, a base is a runaway only far
+  /// beyond its limits. The event names the motor that brakes hardest by what it is told: a wheel that drives
+  /// itself has the largest share of the motion. Its value is that wheel's rate.
   std::optional<Event> look(const solver::ConstraintSet& set, double kinetic_energy, Force force,
                             const ContactDepth& contact, bool is_pushed, bool blends = false) noexcept;
 
@@ -90,7 +92,7 @@ class RunawayWatch {
   };
   bool keeps(Force force) noexcept;
 
-  double period_, part_;
+  double mass_, period_, part_;
   int ticks_between_looks_, ticks_ = 0;
   Eigen::VectorXd rates_;
   Driver beyond_;  ///< since a speed was exceeded

@@ -140,6 +140,7 @@ struct Scheduler::Parts final : Facts {
   void list_axes(bool resumes) noexcept;
   void remember(TaskSnapshot& snapshot, int of_task) const noexcept;
   ActiveAxis active_axis(const Origin& origin) noexcept;
+  int base_direction(const lang::Group& group, const lang::AxisStatements& axis) const noexcept;
   int braking_direction(const lang::Group& group, const lang::AxisStatements& axis) const noexcept;
   void capture_here(ActiveAxis& a) noexcept;
 
@@ -158,6 +159,8 @@ struct Scheduler::Parts final : Facts {
   solver::Driver driver_of(const ActiveAxis& a) const noexcept;
   void yield(const ActiveAxis& a, solver::Driver& driver) const noexcept;
   double pushed_with(const ActiveAxis& a) const noexcept;
+  bool find_pushes() noexcept;
+  solver::Range with_what_pushes(solver::Range acceleration, int base_axis) const noexcept;
   void build_up(ActiveAxis& a) noexcept;
   double error_of(const ActiveAxis& a, const solver::Driver& driver,
                   const solver::Coordinate& now) const noexcept;
@@ -228,6 +231,8 @@ struct Scheduler::Parts final : Facts {
   const double radius;             ///< [m] of the footprint
   solver::Vector3 effective_mass;  ///< of the base along x, y and rz [kg, kg, kg m^2]
   solver::Vector3 braking;         ///< what the ranges in force leave along them [m/s^2, m/s^2, rad/s^2]
+  /// Accelerations along them by the forces that rows yield to, as far as the base moves with them.
+  solver::Vector3 pushes = solver::Vector3::Zero();
   std::vector<PathFollower> followers;
   std::vector<RegionFence> fences;
   std::vector<InReach> in_reach;  ///< of each fence

@@ -20,6 +20,7 @@ namespace zwang::runtime {
 namespace {
 
 using solver::Quantity;
+using solver::Range;
 
 /// What `force` has beyond the dead band around 0.
 double beyond(double force, double dead_band) {
@@ -83,6 +84,34 @@ void Scheduler::Parts::yield(const ActiveAxis& a, solver::Driver& driver) const 
   const double damping = says.damping.evaluate(parameters);
   driver.target = (beyond(force, says.dead_band.evaluate(parameters)) - damping * speed) / mass;
   if (feels_pushes) driver.target -= force * a.inverse_mass;
+}
+
+/// Whether a row of the base yields at all; then `pushes` is set. A base that goes against the force at
+/// `against` or faster, as before a hit, gets none of it.
+bool Scheduler::Parts::find_pushes() noexcept {
+  constexpr double against = 0.01, turns_against = 0.05;  // [m/s], [rad/s]
+  pushes.setZero();
+  if (!feels_pushes) return false;
+  bool yields = false;
+  const solver::Vector3 velocity{state->base_twist.linear.x(), state->base_twist.linear.y(),
+                                 state->base_twist.angular.z()};
+  for (const ActiveAxis& a : axes) {
+    const int i = a.says->yield ? base_direction(*a.group, *a.says) : -1;
+    if (i < 0 || i == both_axes) continue;
+    yields = true;
+    const double push = pushed_with(a) * a.inverse_mass;
+    const double with = std::copysign(1.0, push) * velocity(i) / (i == 2 ? turns_against : against);
+    if (std::isfinite(push)) pushes(i) += std::clamp(1.0 + with, 0.0, 1.0) * push;
+  }
+  return yields;
+}
+
+/// A range of accelerations is one of the base, and somebody who pushes it has a share of them: the motors
+/// may hold against that share on top. They may not push beyond the range along with it.
+Range Scheduler::Parts::with_what_pushes(Range acceleration, int base_axis) const noexcept {
+  if (base_axis < 0 || base_axis == both_axes) return acceleration;
+  const double push = pushes(base_axis);
+  return {acceleration.low - std::max(0.0, push), acceleration.high - std::min(0.0, push)};
 }
 
 /// The driver's error with what was built up: v + q - ds, or p + q - s.

@@ -131,7 +131,7 @@ void Scheduler::Parts::want_axis(const ActiveAxis& a) noexcept {
     if (s.velocity) want_motion_ranges(a, c);
     return;
   }
-  if (s.acceleration) c.acceleration = value(*s.acceleration);
+  if (s.acceleration) c.acceleration = with_what_pushes(value(*s.acceleration), a.brakes);
   c.driver.reset();
   if (s.driver && !is_left_to_the_end(a)) c.driver = driver_of(a);
   if (s.force && !s.driver) c.force = value(*s.force);
@@ -269,10 +269,14 @@ void Scheduler::Parts::list_wanted() noexcept {
 void Scheduler::Parts::want() noexcept {
   renewed.clear();
   if (values_are_due) find_braking();
+  const bool is_pushed = find_pushes();
   for (const ActiveAxis& a : axes) {
     if (a.fence >= 0) {
       want_fence(a, fences[static_cast<std::size_t>(a.fence)]);
-    } else if ((values_are_due || a.varies) && says_something(*a.says)) {
+      continue;
+    }
+    const bool varies = a.varies || (is_pushed && a.brakes >= 0 && a.says->acceleration);
+    if ((values_are_due || varies) && says_something(*a.says)) {
       want_axis(a);
       const int count = 1 + (a.plane < 0 ? 0 : planes[static_cast<std::size_t>(a.plane)].count());
       for (int i = 0; i < count; ++i) renewed.push_back(static_cast<int>(a.wanted) + i);

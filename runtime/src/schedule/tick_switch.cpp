@@ -232,7 +232,11 @@ ActiveAxis Scheduler::Parts::active_axis(const Origin& origin) noexcept {
 
 /// Acceleration and force ranges on the base itself leave less for braking along their axis.
 int Scheduler::Parts::braking_direction(const lang::Group& g, const lang::AxisStatements& s) const noexcept {
-  if (!(s.acceleration || (s.force && !s.driver))) return -1;
+  return s.acceleration || (s.force && !s.driver) ? base_direction(g, s) : -1;
+}
+
+/// Of the base's x, y and rz the one that an axis of the base itself speaks of; `both_axes`; -1: none.
+int Scheduler::Parts::base_direction(const lang::Group& g, const lang::AxisStatements& s) const noexcept {
   const bool on_base =
       g.kind == lang::GroupKind::axes && is_base(declarations, g.move) && is_base(declarations, g.in);
   if (!on_base) return -1;
