@@ -235,25 +235,43 @@ TEST(Wiring, AnEncoderThatDiesStopsTheBase) {
   }
 }
 
-/// A base on two wheels, of which one has been dead from the start: told to go on it would circle.
-TEST(Wiring, AnEncoderThatIsDeadStopsTheBaseWhenAnotherWheelHasRolledAGoodWay) {
+/// Three wheels set out after 1 s with 2 rad/s. The third of four is told 1 N m, and counts only when asked.
+struct StandingWheel {
+  double way, asked;  // [rad] of the others at the end, [s] that the wheel was told to turn back
+  std::optional<Event> event;
+};
+StandingWheel roll_beside_a_standing_wheel(bool answers, double until) {
   const lang::Robot robot = test::mecanum_robot();
   FrozenWheel frozen(robot);
   solver::State state(robot.model);
   Eigen::VectorXd sent = Eigen::VectorXd::Zero(4);
-  double way = 0.0, told = -1.0;
-  for (int i = 0; i < 3000 && told < 0.0; ++i) {
-    const double t = i * period;
-    const bool sets_out = t > 1.0;
+  StandingWheel of{};
+  for (int i = 0; i * period < until && !of.event; ++i) {
+    const bool sets_out = i * period > 1.0;
     sent(2) = sets_out ? 1.0 : 0.0;
-    way += sets_out ? 2.0 * period : 0.0;
-    for (const int wheel : {0, 1, 3}) state.q(wheel) = way;
-    if (const auto event = frozen.look(state, sent, t)) {
-      told = t;
-      EXPECT_EQ(event->signal, event_signal::of_joint(2, event_signal::q));
-    }
+    frozen.ask(sent);
+    of.asked += sent(2) < 0.0 ? period : 0.0;
+    state.q(2) += answers && sent(2) < 0.0 ? 1e-3 : 0.0;
+    of.way += sets_out ? 2.0 * period : 0.0;
+    for (const int wheel : {0, 1, 3}) state.q(wheel) = of.way;
+    of.event = frozen.look(state, sent, i * period);
   }
-  EXPECT_NEAR(way, FrozenWheel::good_way, 2.0 * 2.0 * FrozenWheel::window);
+  return of;
+}
+
+// Told to go on, a base on two wheels of which one is dead would circle.
+TEST(Wiring, AnEncoderThatIsDeadStopsTheBaseWhenAnotherWheelHasRolledAGoodWay) {
+  const StandingWheel dead = roll_beside_a_standing_wheel(false, 3.0);
+  EXPECT_TRUE(dead.event && dead.event->signal == event_signal::of_joint(2, event_signal::q));
+  EXPECT_NEAR(dead.asked, FrozenWheel::answers_within, 2.0 * period);
+  EXPECT_NEAR(dead.way, FrozenWheel::good_way + 2.0 * dead.asked, 2.0 * 2.0 * FrozenWheel::window);
+}
+
+/// A wall holds it, and it counts nothing there. It is asked after 1, 2, 4 and 8 rad, and then every 8 rad.
+TEST(Wiring, AWheelThatStandsAtAWallIsAskedAndAnswers) {
+  const StandingWheel held = roll_beside_a_standing_wheel(true, 1.0 + (1.0 + 2.0 + 4.0 + 8.0 + 4.0) / 2.0);
+  EXPECT_FALSE(held.event);
+  EXPECT_NEAR(held.asked, 4 * FrozenWheel::signs_of_life * period, 0.5 * period);
 }
 
 /// Another wheel rolls on, and this one has nothing to do: the rear wheel of an omni base that goes straight.

@@ -72,6 +72,12 @@ TEST(Sweep, EncodersThatFailInAnyOtherTaskAreMeasured) {
   if (test::is_long()) print(3, 0, Which::others, results, std::cout);
 }
 
+/// In the corner of two walls. Coarse encoders count nothing of a wheel that one of them holds; two walls
+/// press together along the direction of one motor for up to 53 ms.
+TEST(Sweep, ABaseBetweenTwoWallsIsNotStopped) {
+  for (const int index : {7, 22}) EXPECT_FALSE(run(draw(1, index, Which::healthy)).stopped) << index;
+}
+
 /// With encoders of steps up to 5e-5 rad.
 TEST(Sweep, AHealthyRunIsNotFrozen) {
   const int runs = test::is_long() ? 1000 : 4;

@@ -158,7 +158,16 @@ std::optional<Event> BlindBudget::spend(double dt) noexcept {
   is_fast_ = speed > look_below;
   spent_ = y_.head(motion_.freedoms()).norm();
   phase_ = Phase::looks;
+  motion_.to_rates(motion_.acceleration(), now_);
+  patience_ = answers_within + time_of_counts(rim_speed(now_));
   return std::nullopt;
+}
+
+/// [s] in which a contact moves a rim by as many counts as are an answer, where it was pressed with what
+/// gives that acceleration [m/s^2], and is let go.
+double BlindBudget::time_of_counts(double acceleration) const noexcept {
+  if (!std::isfinite(rim_step_) || !(acceleration > 0.0)) return 0.0;
+  return std::min(longest_count, std::sqrt(2.0 * (signs_of_life + 1) * rim_step_ / acceleration));
 }
 
 /// While the motors give back what the model says: it is of a base that nothing holds.
@@ -187,7 +196,7 @@ std::optional<Event> BlindBudget::wait_for_an_answer(bool is_alive, double dt) n
   looked_for_ += dt;
   if (phase_ == Phase::looks && looked_for_ > longest_look) gives_ = false;
   waited_for_ = gives_ ? 0.0 : waited_for_ + dt;
-  const bool is_over = is_fast_ ? looked_for_ >= ridden_through : waited_for_ >= answers_within;
+  const bool is_over = is_fast_ ? looked_for_ >= ridden_through : waited_for_ >= patience_;
   if (is_blind() || !is_over) return std::nullopt;
   phase_ = Phase::blind;
   answers_ = 0;

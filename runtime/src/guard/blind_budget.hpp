@@ -62,7 +62,8 @@ class BlindBudget {
   static constexpr double least_look = 0.1e-3;    ///< [m] of the way that is given back
   static constexpr double quickest_look = 0.005;  ///< [s] in which it is given back, e-fold
   static constexpr double longest_look = 0.15;    ///< [s]
-  static constexpr double answers_within = 0.02;  ///< [s] after that
+  static constexpr double answers_within = 0.02;  ///< [s] after that, and
+  static constexpr double longest_count = 0.1;    ///< [s] at most more for the counts of a coarse encoder
   static constexpr double held = 0.5;             ///< of what is given back: the world held it off
   static constexpr int signs_of_life = 2;         ///< that are an answer
   static constexpr double near = 2.0;             ///< budgets around where a look found a contact
@@ -79,6 +80,7 @@ class BlindBudget {
   void set_out_from(const Eigen::VectorXd& rates) noexcept;
   double rim_speed(const Eigen::VectorXd& rates) noexcept;
   double budget() const noexcept;
+  double time_of_counts(double acceleration) const noexcept;
   Event event(EventCode code) const noexcept;
   std::optional<Event> spend(double dt) noexcept;
   std::optional<Event> wait_for_an_answer(bool is_alive, double dt) noexcept;
@@ -106,6 +108,7 @@ class BlindBudget {
   // While it is given back.
   double time_constant_ = 0.0;                  ///< [s]
   double looked_for_ = 0.0, waited_for_ = 0.0;  ///< [s]
+  double patience_ = answers_within;            ///< [s] for an answer, after that
   double spent_ = 0.0;                          ///< |yd| that is to be given back
   bool is_fast_ = false;
   int answers_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "guard/wheel_motors.hpp"
 
@@ -14,6 +15,7 @@ FrozenWheel::FrozenWheel(const lang::Robot& robot) {
 
 /// The clock starts anew.
 void FrozenWheel::begin(const solver::State& state, double time) noexcept {
+  asked_ = -1;
   began_ = last_time_ = time;
   has_last_ = true;
   for (Wheel& wheel : wheels_) {
@@ -27,6 +29,7 @@ std::optional<Event> FrozenWheel::look(const solver::State& state, const Eigen::
   const double dt = time - last_time_;
   if (!has_last_ || dt <= 0.0 || dt > window) begin(state, time);
   last_time_ = time;
+  const bool is_dumb = asked_ >= 0 && is_left_unanswered(state, dt);
   for (Wheel& wheel : wheels_) {
     const double step = std::abs(state.q(wheel.joint) - wheel.q);
     if (step > 0.0) {
@@ -36,6 +39,7 @@ std::optional<Event> FrozenWheel::look(const solver::State& state, const Eigen::
     wheel.q = state.q(wheel.joint);
     wheel.impulse += sent(wheel.joint) * dt;
   }
+  if (is_dumb) return event_of(wheels_[static_cast<std::size_t>(std::exchange(asked_, -1))]);
   if (time - began_ < window) return std::nullopt;
   began_ = time;
   int rolling = 0;
@@ -50,12 +54,39 @@ std::optional<Event> FrozenWheel::look(const solver::State& state, const Eigen::
   for (Wheel& wheel : wheels_) {
     end_window(wheel, others_roll ? longest : 0.0);
     const bool has_died = wheel.still_windows >= windows && others_roll;
-    const bool is_dead = wheel.way_of_another > good_way;
-    if (has_died || is_dead) frozen = &wheel;
+    if (has_died) frozen = &wheel;
+    if (wheel.way_of_another > wheel.patience && asked_ < 0) begin_to_ask(wheel);
   }
   if (frozen == nullptr) return std::nullopt;
-  const int signal = event_signal::of_joint(frozen->joint, event_signal::q);
-  return Event{EventCode::frozen, time, signal, frozen->way_rolled() / window};
+  return event_of(*frozen);
+}
+
+Event FrozenWheel::event_of(const Wheel& frozen) const noexcept {
+  const int signal = event_signal::of_joint(frozen.joint, event_signal::q);
+  return {EventCode::frozen, last_time_, signal, frozen.way_rolled() / window};
+}
+
+void FrozenWheel::begin_to_ask(const Wheel& wheel) noexcept {
+  asked_ = static_cast<int>(&wheel - wheels_.data());
+  asked_torque_ = -std::copysign(std::max(std::abs(wheel.told), asked_with * wheel.threshold), wheel.told);
+  asked_for_ = 0.0;
+  answers_ = 0;
+}
+
+/// Ends the question where the wheel has moved often enough.
+bool FrozenWheel::is_left_unanswered(const solver::State& state, double dt) noexcept {
+  Wheel& wheel = wheels_[static_cast<std::size_t>(asked_)];
+  asked_for_ += dt;
+  answers_ += state.q(wheel.joint) != wheel.q ? 1 : 0;
+  if (answers_ < signs_of_life) return asked_for_ > answers_within;
+  wheel.way_of_another = 0.0;
+  wheel.patience = std::min(farthest, 2.0 * wheel.patience);
+  asked_ = -1;
+  return false;
+}
+
+void FrozenWheel::ask(Eigen::VectorXd& tau) const noexcept {
+  if (asked_ >= 0) tau(wheels_[static_cast<std::size_t>(asked_)].joint) = asked_torque_;
 }
 
 /// `longest` [rad] is the way of the wheel that rolled farthest, where the others roll.
@@ -71,6 +102,8 @@ void FrozenWheel::end_window(Wheel& wheel, double longest) noexcept {
   const bool is_passed = wheel.is_still && longest > rolled;
   const bool is_told = std::abs(wheel.impulse) > wheel.threshold * window;
   if (!wheel.is_still) wheel.way_of_another = 0.0;
+  if (way > rolled) wheel.patience = good_way;
+  wheel.told = wheel.impulse / window;
   if (is_passed && is_told) wheel.way_of_another += longest;
   wheel.began = wheel.q;
   wheel.is_still = true;

@@ -16,8 +16,10 @@ namespace zwang::runtime {
 ///  - that rolled evenly, and from one moment to the next has the same position to the bit, while half of the
 ///    others at least roll on: a hit that stops one wheel takes some time, and leaves it neither quite still
 ///    nor the others as they were;
-///  - or whose motor is told to turn it, and that is as still, while they roll a good way. One that spins
-///    alone is not told by those that stand.
+///  - or whose motor is told to turn it, and that is as still, while they roll a good way, and that does not
+///    answer when it is told the opposite for a moment. One that spins alone is not told by those that stand.
+/// A wheel that a wall holds stands for long between two counts of a coarse encoder, too: but it answers, and
+/// is asked again after twice the way.
 /// Does not allocate, lock, throw or print after construction.
 class FrozenWheel {
  public:
@@ -26,14 +28,20 @@ class FrozenWheel {
   /// Every good sample, as it was measured, and what was sent last. The event's value: the rate that the
   /// wheel had before.
   std::optional<Event> look(const solver::State& state, const Eigen::VectorXd& sent, double time) noexcept;
+  /// Sets the torque of a wheel that is asked.
+  void ask(Eigen::VectorXd& tau) const noexcept;
 
-  static constexpr double window = 0.05;    ///< [s]
-  static constexpr int windows = 2;         ///< in a row without a change
-  static constexpr double rolled = 0.02;    ///< [rad] in each of two windows before that,
-  static constexpr double steps = 2.0;      ///< and of its encoder
-  static constexpr double rolls_on = 0.5;   ///< of its own way before that, and of `rolled`: another wheel
-  static constexpr double good_way = 1.0;   ///< [rad] of another wheel
-  static constexpr double smallest = 0.03;  ///< torque that turns a wheel, of its motor's limit
+  static constexpr double window = 0.05;     ///< [s]
+  static constexpr int windows = 2;          ///< in a row without a change
+  static constexpr double rolled = 0.02;     ///< [rad] in each of two windows before that,
+  static constexpr double steps = 2.0;       ///< and of its encoder
+  static constexpr double rolls_on = 0.5;    ///< of its own way before that, and of `rolled`: another wheel
+  static constexpr double good_way = 1.0;    ///< [rad] of another wheel
+  static constexpr double farthest = 8.0;    ///< [rad] the same, of a wheel that has answered
+  static constexpr double smallest = 0.03;   ///< torque that turns a wheel, of its motor's limit
+  static constexpr double asked_with = 2.0;  ///< of that, at least
+  static constexpr double answers_within = 0.04;  ///< [s]
+  static constexpr int signs_of_life = 2;         ///< that are an answer
 
  private:
   struct Wheel {
@@ -50,12 +58,21 @@ class FrozenWheel {
     double way_before = 0.0, way_first = 0.0;  ///< [rad] the two before that
     int still_windows = 0;
     double way_of_another = 0.0;  ///< [rad] while it stood and was told to turn
+    double told = 0.0;            ///< [N m] in the last window
+    double patience = good_way;   ///< [rad] of another wheel, until it is asked
     double way_rolled() const { return way_before < way_first ? way_before : way_first; }
   };
   void begin(const solver::State& state, double time) noexcept;
+  Event event_of(const Wheel& frozen) const noexcept;
   static void end_window(Wheel& wheel, double longest) noexcept;
+  void begin_to_ask(const Wheel& wheel) noexcept;
+  bool is_left_unanswered(const solver::State& state, double dt) noexcept;
 
   std::vector<Wheel> wheels_;
+  int asked_ = -1;             ///< of `wheels_`; -1: none
+  double asked_torque_ = 0.0;  ///< [N m]
+  double asked_for_ = 0.0;     ///< [s]
+  int answers_ = 0;
   double last_time_ = 0.0;
   double began_ = 0.0;  ///< [s] the window
   bool has_last_ = false;

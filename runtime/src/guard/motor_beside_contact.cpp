@@ -25,6 +25,7 @@ MotorBesideContact::MotorBesideContact(const lang::Robot& robot, double period)
   const Obedience unseen(ticks_of(DisturbanceObserver::mean_over, period));
   for (const WheelMotor& of : wheel_motors(robot, smallest)) {
     motors_.push_back({.joint = of.joint,
+                       .radius = of.radius,
                        .threshold = of.threshold,
                        .T = Vector::Zero(),
                        .since = {},
@@ -104,7 +105,8 @@ double MotorBesideContact::find_gamma(const Since& since, const Motor& motor,
   return is_felt && explains ? gamma : 0.0;
 }
 
-std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observer) noexcept {
+std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observer,
+                                              const Eigen::VectorXd& q) noexcept {
   const solver::FreeMotions& motions = observer.motions();
   if (motions.count != freedoms || motors_.empty()) return std::nullopt;
   if (take_directions(motions)) forget_means();
@@ -126,7 +128,12 @@ std::optional<Event> MotorBesideContact::look(const DisturbanceObserver& observe
       const bool is_possible = i > 0 || !motor.obedience.is_seen();
       const double gamma = is_possible ? find_gamma(since, motor, T) : 0.0;
       since.ticks = gamma != 0.0 ? since.ticks + 1 : 0;
-      if (since.ticks < dwell_ticks_ || found) continue;
+      const double at = motor.radius * q(motor.joint);
+      if (since.ticks <= 1) since.least = since.most = at;
+      since.least = std::min(since.least, at);
+      since.most = std::max(since.most, at);
+      const bool lasts = since.ticks >= dwell_ticks_ && since.most - since.least > travel;
+      if (!lasts || found) continue;
       found =
           Event{kind_of(gamma), 0.0, event_signal::of_joint(motor.joint, event_signal::tau), -gamma * tau};
     }

@@ -30,12 +30,13 @@ class MotorBesideContact {
   MotorBesideContact(const lang::Robot& robot, double period);
 
   void reset() noexcept;
-  /// After each comparison of the observer.
-  std::optional<Event> look(const DisturbanceObserver& observer) noexcept;
+  /// After each comparison of the observer; `q` are the joints' positions.
+  std::optional<Event> look(const DisturbanceObserver& observer, const Eigen::VectorXd& q) noexcept;
 
   static constexpr double memory = 0.02;  ///< [s] of the means
   static constexpr double dwell =
-      0.045;  ///< [s] that a motor must explain the force: longer than the means remember a hit
+      0.06;  ///< [s] that a motor must explain the force: longer than the means remember a hit
+  static constexpr double travel = 0.5e-3;    ///< [m] of the wheel's rim meanwhile
   static constexpr double left = 1.0 / 30.0;  ///< of N0: the most that a motor may leave
   static constexpr double visible = 0.1;      ///< of the motor's own square: the least that is off the line
   static constexpr double least_gamma = 0.4;  ///< less may be the model's error,
@@ -52,12 +53,14 @@ class MotorBesideContact {
   using Matrix = Eigen::Matrix<double, freedoms, freedoms>;
   /// Over the time that a motor may have been broken.
   struct Since {
-    Vector p_tau = Vector::Zero();  ///< <p tau_j>
-    double tau_tau = 0.0;           ///< <tau_j^2>
-    int ticks = 0;                  ///< that it has explained the force
+    Vector p_tau = Vector::Zero();   ///< <p tau_j>
+    double tau_tau = 0.0;            ///< <tau_j^2>
+    int ticks = 0;                   ///< that it has explained the force
+    double least = 0.0, most = 0.0;  ///< [m] where its rim was meanwhile
   };
   struct Motor {
     int joint = 0;
+    double radius = 0.0;         ///< [m]
     double threshold = 0.0;      ///< [N m]
     Vector T = Vector::Zero();   ///< of the last tick
     std::array<Since, 2> since;  ///< all the while; since p left its line
