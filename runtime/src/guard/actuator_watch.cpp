@@ -22,6 +22,7 @@ ActuatorWatch::ActuatorWatch(const lang::Robot& robot, double period)
       entry_ticks_(ticks_of(entry, period)),
       quiet_ticks_(ticks_of(quiet, period)),
       close_ticks_(ticks_of(close_dwell, period)),
+      turning_ticks_(ticks_of(turning, period)),
       after_a_hit_ticks_(ticks_of(after_a_hit, period)) {
   for (const WheelMotor& of : wheel_motors(robot, smallest)) {
     motors_.push_back({.joint = of.joint,
@@ -114,7 +115,9 @@ bool ActuatorWatch::is_sure(const Motor& motor, Kind kind, const Fit& fit, doubl
   const bool is_apart = motor.ticks_since_hit >= after_a_hit_ticks_;
   if (is_even && (is_apart || way_of(motor, fit, claim.contact, contact) > least_way)) return true;
   const bool has_rolled = std::abs(q - claim.close_q) * motor.radius > travel;
-  if (motor.obedience.is_seen() || !has_rolled || !contact.is_no_spring(claim.close_contact)) return false;
+  const bool has_turned = claim.along_ticks - claim.close_ticks > turning_ticks_;
+  if (motor.obedience.is_seen() || has_turned || !has_rolled || !contact.is_no_spring(claim.close_contact))
+    return false;
   if (kind != stuck) return claim.close_ticks >= close_ticks_;
   const bool is_steady = motor.high_sum - motor.low_sum < closely * told;
   return std::min(claim.ticks, claim.close_ticks) >= 2 * close_ticks_ && is_steady;
@@ -156,12 +159,14 @@ void ActuatorWatch::follow(Motor& motor, Kind kind, const Fit& fit, double f, do
   const double share = kind == stuck ? 1.0 : fit.f / f;
   const bool keeps = claim.ticks > 0 && std::abs(share - claim.share) < closely * claim.share;
   if (!keeps) {
-    claim = {.close_ticks = claim.close_ticks,
+    claim = {.along_ticks = claim.along_ticks,
+             .close_ticks = claim.close_ticks,
              .close_q = claim.close_q,
              .close_contact = claim.close_contact,
              .share = share};
   }
   claim.ticks = fits ? claim.ticks + 1 : 0;
+  claim.along_ticks = is_felt && fit.rest < most_unexplained * fit.all ? claim.along_ticks + 1 : 0;
   if (claim.ticks <= 1) claim.contact = contact.now();
   const double left = fit.rest + fit.s * (f - fit.f) * (f - fit.f);
   claim.left = left;

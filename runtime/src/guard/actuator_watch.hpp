@@ -22,15 +22,16 @@ namespace zwang::runtime {
 /// a differential base, as far out as its wheel. Three things tell them apart.
 ///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
 ///    began out of quiet, and keeps it `closely` for `dwell`, is a motor's. Where something was hit less than
-///    `after_a_hit` ago it has to go along by `least_way` as well, as its wheel does: a base that turns about
-///    a corner at the wall leans on it with what the wheel beside it is told, evenly, and that force does no
-///    work.
+///    `after_a_hit` ago it has to go along by `least_way` as well, as its wheel does: a base that
+///    turns about a corner at the wall leans on it with what the wheel beside it is told, evenly, and that
+///    force does no work.
 ///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
 ///    gives way or grows. A force that keeps to direction and size `closely` the while, farther than a spring
 ///    does that is as deep (ContactDepth), is a motor's, whenever it began: a motor that failed while it was
-///    told nothing is so found between two hits.
-///    Not one that was seen to obey since it is told something (Obedience): what is as large as its command
-///    is something else then.
+///    told nothing is so found between two hits. A cart in tow moves along, too, and its pull turns slowly
+///    through all directions in a bend: a force that came into this one slower than in `turning` is no
+///    motor's. Not one that was seen to obey since it is told something (Obedience): what is as large as its
+///    command is something else then.
 ///  - Contact comes before the command that answers it: where p jumps out of quiet to more than any fault
 ///    makes of what the motor was told until then, 2 max|tau_j|, something is touched. However soft it is,
 ///    p stays its own until it has pressed `left_behind` times as hard as what is claimed, or is quiet again.
@@ -58,6 +59,7 @@ class ActuatorWatch {
   static constexpr double closely = 0.1;       ///< of the force, both in direction and size
   static constexpr double late = 4.0;          ///< thresholds that such a force is worth
   static constexpr double close_dwell = 0.03;  ///< [s] that a force keeps close
+  static constexpr double turning = 0.1;  ///< [s] until then: what takes longer turns, as a cart in a bend
   static constexpr double after_a_hit = 1.0;   ///< [s] in which a base still bounces, and squares up
   static constexpr double least_way = 0.2e-3;  ///< [m] at the wheel's rim
   static constexpr double travel = 0.5e-3;     ///< [m] of the wheel's rim
@@ -67,6 +69,7 @@ class ActuatorWatch {
   /// That a motor has one kind of fault.
   struct Claim {
     int ticks = 0;                     ///< that it has held
+    int along_ticks = 0;               ///< that the force has had its direction, whatever its size
     int close_ticks = 0;               ///< that it has held closely
     ContactDepth::Mark contact;        ///< when it began to hold
     double close_q = 0.0;              ///< [rad] where it began to hold closely
@@ -109,7 +112,8 @@ class ActuatorWatch {
   bool is_distinct(const Motor& motor, const solver::FreeMotions& motions) const noexcept;
 
   std::vector<Motor> motors_;
-  int dwell_ticks_ = 0, entry_ticks_ = 0, quiet_ticks_ = 0, close_ticks_ = 0, after_a_hit_ticks_ = 0;
+  int dwell_ticks_ = 0, entry_ticks_ = 0, quiet_ticks_ = 0, close_ticks_ = 0, turning_ticks_ = 0,
+      after_a_hit_ticks_ = 0;
 };
 
 }  // namespace zwang::runtime
