@@ -9,9 +9,9 @@ start: press
 tasks:
   press:
     constraints:
-      contact: {move: base_link, in: base_link, x: {force: 900 N, velocity: +-0.08 m/s}, y: {velocity: 0 m/s}, rz: free}
+      contact: {move: base, in: base, x: {force: 900 N, velocity: +-0.08 m/s}, y: {velocity: 0 m/s}, rz: free}
     exits:
-      - {when: abs(contact.x.velocity) < 5 mm/s and moved(base_link) > 2 cm, for: 0.5 s, goto: done}
+      - {when: abs(contact.x.velocity) < 5 mm/s and moved(base) > 2 cm, for: 0.5 s, goto: done}
     timeout: {after: 20 s, goto: failed}
 `;
 
