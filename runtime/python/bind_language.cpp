@@ -4,9 +4,18 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <sstream>
+#include <variant>
 
 #include "bind.hpp"
+#include "zwang/lang/connection.hpp"
+#include "zwang/lang/file_kind.hpp"
+#include "zwang/lang/open_texts.hpp"
 #include "zwang/lang/program.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/scenario.hpp"
+#include "zwang/lang/scene.hpp"
+#include "zwang/lang/study.hpp"
+#include "zwang/runtime/with_unit.hpp"
 
 namespace zwang::python {
 
@@ -37,13 +46,14 @@ const char* name_of(lang::Severity severity) {
 struct Told {
   std::string code, severity, message, help, path;
   int line = 0, column = 0;
+  std::optional<std::string> replacement;
 };
 
 std::vector<Told> told(const lang::Diagnostics& diagnostics, bool notes) {
   std::vector<Told> all;
   for (const lang::Diagnostic& d : diagnostics.sorted()) {
     if (d.severity == lang::Severity::note && !notes) continue;
-    Told one{d.code, name_of(d.severity), d.message, d.help, "", 0, 0};
+    Told one{d.code, name_of(d.severity), d.message, d.help, "", 0, 0, d.replacement};
     if (d.span.exists()) {
       one.path = diagnostics.source(d.span.source).path;
       one.line = d.span.begin.line;
@@ -54,28 +64,90 @@ std::vector<Told> told(const lang::Diagnostics& diagnostics, bool notes) {
   return all;
 }
 
-lang::LoadOptions options_of(const std::optional<fs::path>& robot, const std::optional<fs::path>& scene,
-                             const std::map<std::string, std::string>& params) {
+/// With its unit, or a number in SI.
+using Parameter = std::variant<std::string, double>;
+using Parameters = std::map<std::string, Parameter>;
+using Texts = std::map<fs::path, std::string>;
+
+/// A number is written in the unit of the file, which only the file knows.
+std::map<std::string, std::string> in_words(const Parameters& params, const fs::path& path,
+                                            lang::LoadOptions options) {
+  std::map<std::string, std::string> words;
+  std::optional<lang::Program> program;
+  for (const auto& [name, value] : params) {
+    if (const auto* text = std::get_if<std::string>(&value)) {
+      words[name] = *text;
+      continue;
+    }
+    lang::Diagnostics unheard;
+    if (!program) program = lang::load(path, options, unheard);
+    const double number = std::get<double>(value);
+    words[name] = runtime::exactly(number);
+    for (const lang::Parameter& p : program ? program->parameters : std::vector<lang::Parameter>()) {
+      if (p.name == name) words[name] = runtime::exactly(number / p.unit_scale) + " " + p.unit;
+    }
+  }
+  return words;
+}
+
+lang::LoadOptions options_of(const fs::path& path, const std::optional<fs::path>& robot,
+                             const std::optional<fs::path>& scene, const Parameters& params) {
   lang::LoadOptions options;
   options.robot = robot;
   options.scene = scene;
-  options.parameters = params;
+  options.parameters = in_words(params, path, options);
   return options;
 }
 
-lang::Program load(const fs::path& path, const std::optional<fs::path>& robot,
-                   const std::optional<fs::path>& scene, const std::map<std::string, std::string>& params) {
+lang::OpenTexts open_texts(const fs::path& path, const std::optional<std::string>& text, const Texts& files) {
+  lang::OpenTexts texts;
+  for (const auto& [file, open] : files) texts.put(file, open);
+  if (text) texts.put(path, *text);
+  return texts;
+}
+
+lang::Program load(const fs::path& path, const std::optional<std::string>& text, const Texts& open_files,
+                   const std::optional<fs::path>& robot, const std::optional<fs::path>& scene,
+                   const Parameters& params) {
+  const lang::OpenTexts texts = open_texts(path, text, open_files);
+  const lang::ReadsOpenTexts reading(texts);
   lang::Diagnostics diagnostics;
-  std::optional<lang::Program> program = lang::load(path, options_of(robot, scene, params), diagnostics);
+  std::optional<lang::Program> program =
+      lang::load(path, options_of(path, robot, scene, params), diagnostics);
   if (!program) throw LoadError(std::move(diagnostics));
   return *std::move(program);
 }
 
-std::vector<Told> validate(const fs::path& path, const std::optional<fs::path>& robot,
-                           const std::optional<fs::path>& scene,
-                           const std::map<std::string, std::string>& params, bool notes) {
+void look_at(const fs::path& path, const lang::LoadOptions& options, lang::Diagnostics& diagnostics) {
+  switch (lang::kind_of_file(path).value_or(lang::FileKind::task)) {
+    case lang::FileKind::task:
+      lang::load(path, options, diagnostics);
+      break;
+    case lang::FileKind::robot:
+      lang::load_robot(path, diagnostics);
+      break;
+    case lang::FileKind::scene:
+      lang::load_scene(path, diagnostics);
+      break;
+    case lang::FileKind::scenario:
+      lang::check_scenario(path, diagnostics);
+      break;
+    case lang::FileKind::connection:
+      lang::load_connection(path, diagnostics);
+      break;
+    case lang::FileKind::study:
+      lang::load_study(path, diagnostics);
+      break;
+  }
+}
+
+std::vector<Told> validate(const fs::path& path, const std::optional<std::string>& text,
+                           const Texts& open_files, const std::optional<fs::path>& robot,
+                           const std::optional<fs::path>& scene, const Parameters& params, bool notes) {
+  const lang::OpenTexts texts = open_texts(path, text, open_files);
+  const lang::ReadsOpenTexts reading(texts);
   lang::Diagnostics diagnostics;
-  lang::load(path, options_of(robot, scene, params), diagnostics);
+  look_at(path, options_of(path, robot, scene, params), diagnostics);
   return told(diagnostics, notes);
 }
 
@@ -121,6 +193,7 @@ void bind_language(py::module_& module) {
       .def_readonly("path", &Told::path)
       .def_readonly("line", &Told::line, "from 1")
       .def_readonly("column", &Told::column, "from 1, in code points")
+      .def_readonly("replacement", &Told::replacement, "what may stand in its place; None: nobody can tell")
       .def("__repr__", [](const Told& d) {
         return d.path + ":" + std::to_string(d.line) + ":" + std::to_string(d.column) + ": " + d.severity +
                " " + d.code + ": " + d.message;
@@ -158,14 +231,15 @@ void bind_language(py::module_& module) {
   });
 
   module.def(
-      "load", &load, arg("path"), py::kw_only(), arg("robot") = py::none(), arg("scene") = py::none(),
-      arg("params") = std::map<std::string, std::string>{}, py::call_guard<py::gil_scoped_release>(),
-      "Reads a task file with its robot and scene. `params`: values with units, {'push': '30 N'}. Raises "
-      "Error.");
-  module.def("validate", &validate, arg("path"), py::kw_only(), arg("robot") = py::none(),
-             arg("scene") = py::none(), arg("params") = std::map<std::string, std::string>{},
-             arg("notes") = false, py::call_guard<py::gil_scoped_release>(),
-             "What `zwang validate` says of a task file, in the order of the text.");
+      "load", &load, arg("path"), py::kw_only(), arg("text") = py::none(), arg("open_files") = Texts{},
+      arg("robot") = py::none(), arg("scene") = py::none(), arg("params") = Parameters{},
+      py::call_guard<py::gil_scoped_release>(),
+      "Reads a task file with its robot and scene. `text` is read in the file's place, `open_files` in the "
+      "place of those that it names. `params`: {'push': '30 N'}, or numbers in SI. Raises Error.");
+  module.def("validate", &validate, arg("path"), py::kw_only(), arg("text") = py::none(),
+             arg("open_files") = Texts{}, arg("robot") = py::none(), arg("scene") = py::none(),
+             arg("params") = Parameters{}, arg("notes") = false, py::call_guard<py::gil_scoped_release>(),
+             "What `zwang validate` says of a file of any kind, in the order of the text.");
 }
 
 }  // namespace zwang::python

@@ -25,17 +25,38 @@ SignalSample& sample_of(NamedSensed& self, const std::string& name) {
   throw py::key_error("the task has no signal `" + name + "`");
 }
 
-solver::Pose pose_of(const py::object& value) {
-  const auto [position, rotation] = value.cast<std::pair<solver::Vector3, solver::Matrix3>>();
+solver::Pose pose_of(const solver::Vector3& position, const solver::Matrix3& rotation) {
   solver::Pose pose;
   pose.position = position;
   pose.rotation = rotation;
   return pose;
 }
 
-void measure(NamedSensed& self, const std::string& name, const py::object& value,
-             const std::optional<double>& stamp) {
-  SignalSample& sample = sample_of(self, name);
+const char* kind_of(lang::SignalType type) {
+  switch (type) {
+    case lang::SignalType::boolean:
+      return "a bool";
+    case lang::SignalType::number:
+      return "a number in SI";
+    case lang::SignalType::pose:
+      return "a pose: (position, rotation), of (3,) and (3, 3)";
+    case lang::SignalType::wrench:
+      break;
+  }
+  return "a wrench: (6,), force [N] and moment [N m]";
+}
+
+using Six = Eigen::Matrix<double, 6, 1>;
+
+template <typename Vector>
+Vector spatial_of(const Six& linear_first) {
+  Vector vector;
+  vector.linear = linear_first.head<3>();
+  vector.angular = linear_first.tail<3>();
+  return vector;
+}
+
+void take(SignalSample& sample, const py::object& value) {
   switch (sample.type.value()) {
     case lang::SignalType::boolean:
       sample.boolean = value.cast<bool>();
@@ -43,16 +64,28 @@ void measure(NamedSensed& self, const std::string& name, const py::object& value
     case lang::SignalType::number:
       sample.number = value.cast<double>();
       break;
-    case lang::SignalType::pose:
-      sample.pose = pose_of(value);
-      break;
-    case lang::SignalType::wrench: {
-      const auto wrench = value.cast<Eigen::Matrix<double, 6, 1>>();
-      sample.wrench.linear = wrench.head<3>();
-      sample.wrench.angular = wrench.tail<3>();
+    case lang::SignalType::pose: {
+      const auto [position, rotation] = value.cast<std::pair<solver::Vector3, solver::Matrix3>>();
+      sample.pose = pose_of(position, rotation);
       break;
     }
+    case lang::SignalType::wrench:
+      sample.wrench = spatial_of<solver::ForceVector>(value.cast<Six>());
+      break;
   }
+}
+
+void measure(NamedSensed& self, const std::string& name, const py::object& value,
+             const std::optional<double>& stamp, const std::optional<Six>& twist) {
+  SignalSample& sample = sample_of(self, name);
+  try {
+    take(sample, value);
+  } catch (const py::cast_error&) {
+    throw py::type_error("signal `" + name + "` is " + kind_of(sample.type.value()));
+  }
+  if (twist && sample.type != lang::SignalType::pose)
+    throw py::type_error("signal `" + name + "` is " + kind_of(sample.type.value()) + ": no twist");
+  sample.twist = twist ? std::optional(spatial_of<solver::MotionVector>(*twist)) : std::nullopt;
   sample.valid = true;
   sample.stamp = stamp.value_or(self.sensed.time);
 }
@@ -100,9 +133,28 @@ void bind_sensed(py::module_& module) {
                              view([](solver::State& s) -> solver::Vector3& { return s.base_twist.angular; }),
                              internal, "(3,) [rad/s] of the base, in its axes")
       .def("measure", &measure, arg("signal"), arg("value"), arg("stamp") = py::none(),
+           arg("twist") = py::none(),
            "A sample of a signal, in SI: bool, float, (position, rotation) of a pose, or (6,) force and "
-           "moment. "
-           "`stamp` [s]; None: time.")
+           "moment. `stamp` [s]; None: time. `twist`: (6,) linear and angular, of a pose that moves.")
+      .def_property(
+          "effort", [](const NamedSensed& s) { return s.sensed.effort; },
+          [](NamedSensed& s, const Eigen::VectorXd& effort) { s.sensed.effort = effort; },
+          "(joints,) [N m] measured torques of the motors, of a robot that `feels` by effort; else empty")
+      .def(
+          "feel",
+          [](NamedSensed& s, const Six& wrench) {
+            s.sensed.contact_wrench = spatial_of<solver::ForceVector>(wrench);
+          },
+          arg("wrench"),
+          "(6,) force and moment that press on a robot that `feels` by a wrench, in the sensor's axes.")
+      .def(
+          "locate",
+          [](NamedSensed& s, const solver::Vector3& position, const solver::Matrix3& rotation,
+             const std::optional<double>& stamp) {
+            s.sensed.base_fix = {stamp.value_or(s.sensed.time), pose_of(position, rotation)};
+          },
+          arg("position"), arg("rotation"), arg("stamp") = py::none(),
+          "The base's pose in the world, where somebody measures it now and then: (3,) [m], (3, 3).")
       .def(
           "forget", [](NamedSensed& s, const std::string& name) { sample_of(s, name).valid = false; },
           arg("signal"), "No sample of it from now on.");
@@ -119,6 +171,13 @@ std::vector<py::dict> events_of(const runtime::Runner& runner) {
     events.push_back(event);
   }
   return events;
+}
+
+std::vector<std::pair<double, std::string>> transitions_of(const runtime::Runner& runner) {
+  std::vector<std::pair<double, std::string>> transitions;
+  for (const runtime::Transition& t : runner.transitions())
+    transitions.emplace_back(t.time, runner.scheduler().tasks()[static_cast<std::size_t>(t.to)].name);
+  return transitions;
 }
 
 /// The columns of the log name them, in the order of the program.
@@ -166,6 +225,8 @@ void bind_runner(py::module_& module) {
       .def(
           "step",
           [](runtime::Runner& runner, const NamedSensed& sensed) {
+            if (sensed.sensed.state.q.size() != runner.command().torque.size())
+              throw py::value_error("this Sensed is of a robot with other joints than the runner's");
             runner.step(sensed.sensed);
             return runner.command();
           },
@@ -188,6 +249,8 @@ void bind_runner(py::module_& module) {
             return why ? why->sentence : std::string();
           },
           "a sentence: why the run is not done; empty where it is")
+      .def_property_readonly("transitions", &transitions_of, "the tasks that were entered, and when [s]")
+      .def_property_readonly("limits", &runtime::Runner::limits, "as of Result")
       .def_property_readonly("events", &events_of, "code, time [s], signal and value of each")
       .def_property_readonly(
           "outputs", &outputs_of,

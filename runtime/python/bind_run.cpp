@@ -65,6 +65,14 @@ runtime::ScenePlantOptions options_of(std::uint64_t seed,
   return options;
 }
 
+/// Of the main thread; other threads hear nothing of them.
+void heed_interruptions() {
+  const py::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+constexpr int ticks_between_looks = 1000;
+
 /// As `zwang run` does it. `most`: [s] of simulated time.
 Result simulate(const lang::Program& program, double most, bool with_log, std::uint64_t seed,
                 std::optional<std::array<double, 2>> start_at, std::optional<double> start_yaw) {
@@ -86,11 +94,13 @@ Result simulate(const lang::Program& program, double most, bool with_log, std::u
   runtime::Sensed sensed(program);
   std::vector<double> truth(settings.extra_columns.size());
   PlantStatus status = PlantStatus::ok;
+  int ticks = 0;
   while (!runner.finished() && plant.truth().time < most && !plant.truth().base.fallen) {
     status = plant.sense(sensed);
     if (status == PlantStatus::diverged) break;
     if (recorder) recorder->wait_for_room();
     if (steps.tick_is_due()) {
+      if (++ticks % ticks_between_looks == 0) heed_interruptions();
       runtime::put_truth(plant.truth(), *program.scene, truth);
       runner.step(sensed, truth);
     }

@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import threading
 import time
@@ -148,6 +149,75 @@ def test_parameters_and_signals_are_told_by_name():
     sensed.measure("nearest", 1.5)
     with pytest.raises(KeyError, match="no signal `nearst`"):
         sensed.measure("nearst", 1.5)
+
+
+def test_a_parameter_may_be_a_number_in_si():
+    assert zwang.load(WALL_ALIGN, params={"push": 30.0}).params["push"] == 30.0
+    assert zwang.load(WALL_ALIGN, params={"still": np.float64(0.01)}).params["still"] == pytest.approx(0.01, rel=1e-15)
+    with pytest.raises(zwang.Error) as caught:
+        zwang.load(WALL_ALIGN, params={"psh": 30.0})
+    assert [d.code for d in caught.value.diagnostics] == ["E301"]
+
+
+def test_texts_are_read_in_the_place_of_files():
+    text = WALL_ALIGN.read_text()
+    assert zwang.load(WALL_ALIGN, text=text.replace("value: 20 N", "value: 25 N")).params["push"] == 25.0
+    wall = (SPECS / "scenes" / "wall.yaml").read_text()
+    told = zwang.validate(WALL_ALIGN, open_files={SPECS / "scenes" / "wall.yaml": wall.replace("stiffness", "stifness")})
+    assert [(d.code, d.replacement) for d in told if d.severity == "error"] == [("E101", "stiffness")]
+
+
+def test_files_of_each_kind_are_validated():
+    for path in ("wall_align.yaml", "robots/mecanum_base.yaml", "scenes/wall.yaml", "scenarios/wall_align.yaml",
+                 "connections/twist.yaml", "studies/docking.yaml"):
+        assert [d for d in zwang.validate(SPECS / path) if d.severity == "error"] == [], path
+
+
+def test_shipped_tasks_are_found_by_name(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert zwang.load("wall_align").path == str(WALL_ALIGN)
+    with pytest.raises(zwang.Error):
+        zwang.load("no_such_task")
+
+
+def test_samples_of_another_type_and_robot_are_refused():
+    sensed = zwang.Sensed(zwang.load(SPECS / "hospital.yaml"))
+    with pytest.raises(TypeError, match="signal `nearest` is a number in SI"):
+        sensed.measure("nearest", "far")
+    with pytest.raises(TypeError, match="no twist"):
+        sensed.measure("nearest", 1.0, twist=np.zeros(6))
+    runner = zwang.Runner(zwang.load(SPECS / "hospital.yaml", robot=SPECS / "robots" / "diff_base.yaml"))
+    with pytest.raises(ValueError, match="other joints"):
+        runner.step(sensed)
+    with pytest.raises(ValueError, match="on_tick"):
+        zwang.run(zwang.load(WALL_ALIGN), on_tick=lambda runner, sensed: None, log=True)
+
+
+def test_a_robot_that_feels_is_told_what_it_feels():
+    """Without its efforts it would be stopped after 20 ticks."""
+    program = zwang.load(WALL_ALIGN, robot=SPECS / "robots" / "feels" / "mecanum_effort_50_hz.yaml")
+    runner, sensed = zwang.Runner(program), zwang.Sensed(program)
+    for tick in range(200):
+        sensed.time = tick * runner.period
+        sensed.measured_at = sensed.time
+        sensed.effort = np.zeros(len(program.joints))
+        runner.step(sensed)
+    assert not [e for e in runner.events if e["code"] == "lost_ticks"]
+    assert runner.transitions[0][1] == "press"
+    assert "press.contact.x.force" in [limit.row for limit in runner.limits] or runner.limits
+
+
+def test_a_long_run_can_be_interrupted():
+    threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        zwang.run(zwang.load(SPECS / "patrol.yaml"), most=3600.0)
+
+
+def test_the_tour_runs(monkeypatch, capsys):
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    tour = SPECS.parent / "examples" / "python" / "tour.py"
+    exec(compile(tour.read_text(), str(tour), "exec"), {"__name__": "__main__"})
+    assert "largest push" in capsys.readouterr().out
 
 
 def test_a_host_reads_what_a_task_sets(tmp_path):
