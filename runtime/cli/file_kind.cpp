@@ -86,16 +86,25 @@ std::vector<std::string> yaml_files_below(const std::string& folder) {
   }
 }
 
+bool is_urdf_text(const std::string& text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c < 0; };
+  const auto first = std::find_if_not(text.begin(), text.end(), is_blank);
+  return first != text.end() && *first == '<';
+}
+
 bool is_urdf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  char first = ' ';
-  while (file.get(first) && (first == ' ' || first == '\n' || first == '\r' || first == '\t' || first < 0)) {
-  }
-  return first == '<';
+  std::string start(256, '\0');
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<std::size_t>(file.gcount()));
+  return is_urdf_text(start);
 }
 
 void refuse_urdf(const std::string& path) {
-  if (!is_urdf(path)) return;
+  if (is_urdf(path)) refuse_as_urdf(path);
+}
+
+void refuse_as_urdf(const std::string& path) {
   const std::string draft = fs::path(path).filename().replace_extension(".yaml").string();
   throw Impossible(path + ": is a URDF, not a file of zwang's; `zwang robot init " + path + " -o " + draft +
                    "` begins a robot file of it, which task files name");

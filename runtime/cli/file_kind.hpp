@@ -21,8 +21,11 @@ std::vector<std::string> yaml_files_below(const std::string& folder);
 
 /// Whether the first letter of a file is that of XML.
 bool is_urdf(const std::string& path);
+bool is_urdf_text(const std::string& text);
 /// Throws Impossible, with the way out, where a URDF is given in the place of a file of zwang's.
 void refuse_urdf(const std::string& path);
+/// As what it is known to be.
+[[noreturn]] void refuse_as_urdf(const std::string& path);
 
 struct Reading {
   lang::LoadOptions options = {};  ///< of a task file

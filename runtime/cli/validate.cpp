@@ -52,6 +52,7 @@ std::vector<std::string> files_of(const ValidateArguments& arguments, lang::Open
     std::error_code error;
     if (path == "-") {
       if (unsaved.find(arguments.stdin_path) == nullptr) unsaved.put(arguments.stdin_path, text_of_stdin());
+      if (is_urdf_text(*unsaved.find(arguments.stdin_path))) refuse_as_urdf(arguments.stdin_path);
       files.push_back(arguments.stdin_path);
     } else if (fs::is_directory(path, error)) {
       const std::vector<std::string> below = files_below(path);

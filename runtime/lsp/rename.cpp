@@ -67,7 +67,9 @@ void require_no_harm(const Asked& asked, const SharedName& shared, const std::st
     if (!is_harmed) continue;
     for (const lang::Diagnostic& d : after.diagnostics.sorted()) {
       if (d.severity != lang::Severity::note)
-        throw Refused("with `" + new_name + "`, " + path.filename().string() + " would say: " + d.message);
+        throw Refused("with `" + new_name + "`, " +
+                      (path.parent_path().filename() / path.filename()).string() +
+                      " would say: " + d.message);
     }
   }
 }

@@ -51,8 +51,10 @@ class Search {
     const std::vector<fs::path> around = files_around(home_);
     for (const fs::path& file : around) {
       const std::set<fs::path> named = named_in(file);
-      if (kind_of(file) != lang::FileKind::scenario || !named.contains(home_)) continue;
-      add(file, lang::FileKind::scenario, true, shared);
+      const auto kind = kind_of(file);
+      const bool runs_tasks = kind == lang::FileKind::scenario || kind == lang::FileKind::study;
+      if (!runs_tasks || !leads_home(named)) continue;
+      add(file, *kind, true, shared);
       scenes.insert(named.begin(), named.end());
     }
     for (const fs::path& file : around) {
@@ -64,6 +66,13 @@ class Search {
   }
 
  private:
+  /// A study names the task itself, or a scenario that does.
+  bool leads_home(const std::set<fs::path>& named) const {
+    return named.contains(home_) || std::any_of(named.begin(), named.end(), [this](const fs::path& file) {
+             return kind_of(file) == lang::FileKind::scenario && named_in(file).contains(home_);
+           });
+  }
+
   void add(const fs::path& path, lang::FileKind kind, bool names_home, SharedName& shared) {
     FileOfName file;
     file.path = path;

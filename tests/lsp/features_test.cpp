@@ -35,8 +35,10 @@ class Features : public ::testing::Test {
   Features() {
     const fs::path copy = folder_.path() / "specs";
     fs::create_directories(copy / "scenarios");
-    for (const char* part : {"robots", "scenes", "hospital.yaml", "wall_align.yaml",
-                             "scenarios/hospital.yaml", "scenarios/wall_align.yaml"})
+    fs::create_directories(copy / "studies");
+    for (const char* part :
+         {"robots", "scenes", "hospital.yaml", "wall_align.yaml", "scenarios/hospital.yaml",
+          "scenarios/wall_align.yaml", "studies/wall_align.yaml"})
       fs::copy(specs / part, copy / part, fs::copy_options::recursive);
     std::ofstream(copy / ".zwang-root");
   }
@@ -175,6 +177,13 @@ TEST_F(Features, ARenameThereAndBackIsNoChange) {
     for (const auto& [uri, text] : old) EXPECT_EQ(slurp(*path_of(uri)), text);
     editor_.open(task, slurp(task));
   }
+}
+
+TEST_F(Features, ARenameGoesOverStudies) {
+  const fs::path task = open("wall_align.yaml");
+  const json edit = rename(task, "$push", 1, "shove");
+  ASSERT_TRUE(edit.contains("changes")) << edit.dump(1);
+  EXPECT_TRUE(edit["changes"].contains(uri_of(task.parent_path() / "studies/wall_align.yaml")));
 }
 
 TEST_F(Features, ARenameThatWouldHarmIsRefused) {

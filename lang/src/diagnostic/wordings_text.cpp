@@ -202,6 +202,9 @@ Diagnostic another_kind_of_file(const Span& span, const std::string& what, const
   } else if (key == "zwang_scenario") {
     is = "a scenario file";
     if (is_task_wanted) help = "`zwang test` runs it";
+  } else if (key == "zwang_connection") {
+    is = "a connection file";
+    if (is_task_wanted) help = "give the task file; this one is for `zwang drive TASK --over`";
   } else if (key == "zwang_study") {
     is = "a study";
     if (is_task_wanted) help = "`zwang sweep` runs it";

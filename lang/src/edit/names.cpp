@@ -30,7 +30,7 @@ const NamePlace* given_for(const NamePlace& meant, const std::vector<NamePlace>&
 }
 
 void collect_files(const Node& node, const fs::path& path, std::vector<NamedFile>& files) {
-  static constexpr std::array keys{"robot", "scene", "task", "urdf", "based_on"};
+  static constexpr std::array keys{"robot", "scene", "task", "scenario", "urdf", "based_on"};
   const auto add = [&](const Node& scalar) {
     const std::string extension = fs::path(scalar.text).extension().string();
     if (scalar.is_scalar() && (extension == ".yaml" || extension == ".yml" || extension == ".urdf"))
