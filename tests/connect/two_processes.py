@@ -7,6 +7,7 @@ be killed or stopped: the other one brakes. Ends with 1 and says why when anythi
 """
 
 import concurrent.futures
+import json
 import os
 import pathlib
 import re
@@ -32,6 +33,24 @@ TWIST = """command:
 """
 
 
+VELOCITY = EFFORT.replace("what: effort", "what: velocity")
+
+# What each use case measures beside joints, on the robot that feels by its motors' efforts.
+SIGNALS = {
+    "wall_align": "",
+    "obstacle": "",
+    "docking": """signals:
+  partner: {topic: /partner, type: geometry_msgs/PoseStamped}
+  latch: {topic: /latch, type: std_msgs/Bool}
+""",
+    "hospital": """signals:
+  loaded: {topic: /loaded, type: std_msgs/Bool}
+  nearest: {topic: /nearest, type: std_msgs/Float64}
+  stop_key: {topic: /stop_key, type: std_msgs/Bool}
+""",
+}
+
+
 class Pair:
     """Both processes of a task, each with its own file of output."""
 
@@ -51,9 +70,9 @@ class Pair:
                 words = arguments + (list(simulated) if side == "simulate" else [])
                 setattr(self, side, subprocess.Popen(begin + words, stdout=out, stderr=out))
 
-    def end(self):
+    def end(self, within=40):
         """The exit code of `drive`, and what both have said."""
-        code = self.drive.wait(40)
+        code = self.drive.wait(within)
         self.simulate.wait(20)
         return code, self.text("drive"), self.text("simulate")
 
@@ -127,6 +146,30 @@ def wall_aligns_as_inside_one_process(program, root, folder):
     peak = number(r"wall: force [0-9.-]+ N, peak ([0-9.]+) N", simulate)
     expect(abs(peak - peak_alone) < 0.1 * peak_alone, f"peak {peak} N, alone {peak_alone} N", drive, simulate)
     expect(abs(number(r"yaw (-?[0-9.]+) deg", simulate)) < 0.1, "the wall has not squared it up", simulate)
+
+
+def ends_as_inside_one_process(name, number_of_pair):
+    """A use case by efforts and velocities at 50 Hz, by the clock of the simulation."""
+
+    def case(program, root, folder):
+        task = root / f"specs/{name}.yaml"
+        options = ["--robot", root / "specs/robots/feels/mecanum_effort_50_hz.yaml"]
+        alone = subprocess.run([program, "run", task, "--quiet", "--format", "json", "--log", folder / "log"] + options,
+                               capture_output=True, text=True, check=False)
+        report = json.loads(alone.stdout)
+        pair = Pair(program, folder, task, VELOCITY, options, number_of_pair,
+                    more="clock: {ros: /clock}\n" + SIGNALS[name])
+        _, drive, simulate = pair.end(within=240)
+        expect(report["outcome"] + " after" in drive, f"alone it is {report['outcome']}", drive, simulate)
+        for thing, truth in report["truth"].items():
+            peak_alone = truth.get("peak_force") or 0.0
+            if thing == "base" or peak_alone < 20.0:
+                continue
+            peak = number(thing + r": force [0-9.-]+ N, peak ([0-9.]+) N", simulate)
+            expect(abs(peak - peak_alone) < 0.1 * peak_alone, f"peak {peak} N, alone {peak_alone} N", drive, simulate)
+
+    case.__name__ = f"{name}_ends_as_inside_one_process"
+    return case
 
 
 def a_twist_drives_as_far(program, root, _folder):
@@ -349,7 +392,8 @@ def main(program, root, clients):
     cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, silence_of_the_robot_stops,
              a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros, services_start_and_stop_it,
              this_machine_alone_is_enough, a_stuck_odometry_stops, goals_run_tasks, ten_thousand_calls_are_answered,
-             a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered, transforms_tell_where_it_is)
+             a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered, transforms_tell_where_it_is,
+             *(ends_as_inside_one_process(name, 15 + i) for i, name in enumerate(SIGNALS)))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return 0 if all(list(pool.map(is_good, cases))) else 1
 
