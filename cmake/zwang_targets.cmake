@@ -62,6 +62,7 @@ set(zwang_no_false_alarms $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<CXX_COMPIL
 
 # zwang_precompiled(<target> [HEADER...]): the headers that most of its files include are read once for all of them. Every
 # file includes what it uses all the same: preset debug compiles without, and `./dev lint` reads the files by its commands.
+# zwang_precompiled(<target> REUSE_FROM <other>): those of another target with the same flags.
 set(zwang_headers_of_most <Eigen/Core> <Eigen/Geometry> <algorithm> <array> <cmath> <filesystem> <functional> <limits>
   <map> <memory> <numbers> <optional> <set> <span> <sstream> <string> <vector>)
 set(zwang_headers_of_solver <zwang/solver/constraint.hpp> <zwang/solver/frame.hpp> <zwang/solver/model.hpp>
@@ -69,9 +70,11 @@ set(zwang_headers_of_solver <zwang/solver/constraint.hpp> <zwang/solver/frame.hp
 set(zwang_headers_of_lang ${zwang_headers_of_solver} <zwang/lang/diagnostic.hpp> <zwang/lang/program.hpp>
   <zwang/lang/robot.hpp> <zwang/lang/scene.hpp>)
 set(zwang_headers_of_runtime ${zwang_headers_of_lang} <zwang/runtime/event.hpp> <zwang/runtime/plant.hpp>)
-set(zwang_headers_of_simulation ${zwang_headers_of_runtime})
+set(zwang_headers_of_simulation REUSE_FROM zwang_runtime)  # it has the same flags
 function(zwang_precompiled target)
-  if(ZWANG_PRECOMPILE)
+  if(ZWANG_PRECOMPILE AND "REUSE_FROM" IN_LIST ARGN)
+    target_precompile_headers(${target} ${ARGN})
+  elseif(ZWANG_PRECOMPILE)
     target_precompile_headers(${target} PRIVATE ${zwang_headers_of_most} ${ARGN})
   endif()
 endfunction()
