@@ -23,6 +23,7 @@ std::optional<Dimension> number_of(const SceneSignal& signal) {
 std::string measured_by(const SceneSignal& signal) {
   if (const auto number = number_of(signal)) return describe(*number);
   if (signal.kind == SceneSignalKind::pose) return "a pose";
+  if (signal.kind == SceneSignalKind::wrench) return "a wrench";
   return signal.script_kind == ScriptKind::lost && signal.kind == SceneSignalKind::script ? "nothing at all"
                                                                                           : "true or false";
 }
@@ -53,7 +54,7 @@ bool gives(const SceneSignal& signal, const SignalSymbol& declared) {
     case SignalType::pose:
       return signal.kind == SceneSignalKind::pose;
     case SignalType::wrench:
-      break;
+      return signal.kind == SceneSignalKind::wrench || is_lost;
   }
   return false;
 }

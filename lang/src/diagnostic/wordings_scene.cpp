@@ -161,8 +161,9 @@ Diagnostic times_not_rising(const Span& span, const std::string& what) {
 }
 
 Diagnostic one_signal_source(const Span& span, const std::string& signal) {
-  return error("E908", span, "signal " + in_ticks(signal) + " needs exactly one source",
-               "give it a `script`, `pose_of`, `distance_to`, `latch`, `force_of` or `travel_of`");
+  return error(
+      "E908", span, "signal " + in_ticks(signal) + " needs exactly one source",
+      "give it a `script`, `pose_of`, `distance_to`, `latch`, `force_of`, `travel_of` or `wrench_at`");
 }
 
 Diagnostic all_dropped(const Span& span) {

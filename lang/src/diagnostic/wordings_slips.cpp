@@ -264,9 +264,9 @@ Diagnostic unfed_signal(const Span& span, const std::string& name, UnfedUse use,
   const std::string help =
       use == UnfedUse::condition
           ? source + "it lets an exit of `always` fire once its `stale_after` is over, and any other never"
-      : use == UnfedUse::motion
-          ? source + "it lets the axis stand still, and a force be 0"
-          : "no source of a scene gives a wrench: ask for `estimated.FRAME` instead, which is simulated";
+      : use == UnfedUse::motion ? source + "it lets the axis stand still, and a force be 0"
+                                : "give it a sensor in the scene, as `" + name +
+                                      ": {wrench_at: base}`, or ask for `estimated.FRAME`";
   return with_related(
       warning("W509", span, "the scene gives nothing for the signal " + in_ticks(name) + ", which this reads",
               help),

@@ -157,7 +157,7 @@ signal's `stale_after` is over, in a task it never fires. An axis stands still, 
 way the run says nothing about what the signal is for.)~",
           .fix =
               R"~(Give the signal a source under `signals` of the scene. A condition that is about its absence asks
-`valid(signal)`. No source gives a wrench: `estimated.FRAME` is the force that is simulated.)~"},
+`valid(signal)`. A wrench comes from a sensor, `wrench_at`; `estimated.FRAME` needs none.)~"},
   };
   return entries;
 }

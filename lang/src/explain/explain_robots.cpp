@@ -216,6 +216,13 @@ of `base`, name a link that stands on the axle as `base`.)~",
 one, up to 8 in a row. A chain that leads back to one of its files never ends. `zwang robot init --update` changes files that
 stand by themselves.)~",
           .fix = "Remove the `based_on` that leads back."},
+          .code = "E873",
+          .title = "a pad that is not the end of an arm",
+          .why =
+              R"~(`pads` says how large the flat end of an arm is: its four corners touch objects in the place of a
+point. The base touches with its footprint and a wheel with the floor, so a pad there would touch
+nothing.)~",
+          .fix = "Name a frame of a link that a motor moves, whose x axis points out of the pad."},
       Explanation{
           .code = "E813",
           .title = "encoders that are too coarse",

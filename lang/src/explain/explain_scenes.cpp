@@ -93,6 +93,32 @@ range there is no end to press against, and the force would jump at 0.)~",
               "objects:\n  gate: {box: [4 cm, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg, hinge: {at: [0 m, 50 "
               "cm], range: +-90 deg, stiffness: 10 N m/rad}}"},
       Explanation{
+          .code = "E926",
+          .title = "an object that leans, and is not fixed",
+          .why =
+              R"~(`rpy` turns a box or a wall about its `at` on the floor, as a ramp or a desk stands. It stays as it
+was put: what moves on the floor, on a hinge or on a script is upright. `yaw` and `rpy` both say where
+an object looks, so an object has one of them.)~",
+          .fix = "Write `yaw` for what moves, is round or holds a hook, and `rpy` for what leans.",
+          .part = ExcerptOf::scene,
+          .example = "objects:\n  desk: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg, rpy: [0 deg, 20 "
+                     "deg, 0 deg]}",
+          .instead = "objects:\n  desk: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], rpy: [0 deg, 20 deg, 0 deg]}"},
+      Explanation{
+          .code = "E927",
+          .title = "a push that does nothing",
+          .why =
+              R"~(A hand presses on a frame of a robot or on a point of an object, with a force, a torque or both. An
+object that is fixed, locked or scripted takes no push. What slides on the floor moves along x and y,
+and turns about z.)~",
+          .fix = "Name something that moves, and give the parts of the wrench that move it.",
+          .part = ExcerptOf::scene,
+          .example =
+              "objects:\n  wall: {wall: {length: 2 m}, at: [2 m, 0 m]}\npushes:\n  - {at: 1 s, object: "
+              "wall, force: [30 N, 0 N]}",
+          .instead = "objects:\n  crate: {box: [1 m, 1 m, 1 m], at: [2 m, 0 m], mass: 20 kg}\npushes:\n  - "
+                     "{at: 1 s, object: crate, force: [30 N, 0 N]}"},
+      Explanation{
           .code = "E903",
           .title = "an outcome that no run can have",
           .why =

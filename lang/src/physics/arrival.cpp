@@ -19,6 +19,7 @@
 
 #include "physics/statics.hpp"
 #include "scene/outline.hpp"
+#include "zwang/lang/object_outline.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
@@ -75,10 +76,10 @@ double way_between(const std::vector<Vector3>& outline, const std::vector<Vector
   return least;
 }
 
-Outline outline_in_world(const SceneObject& object) {
+Outline outline_in_world(const SceneObject& object, double height) {
   constexpr int sides = 32;
   const Pose2 pose{object.at, object.yaw};
-  if (object.shape != ShapeKind::cylinder) return placed(outline_of(object), pose);
+  if (object.shape != ShapeKind::cylinder) return placed(outline_of(object, height), pose);
   Outline outline;
   for (int i = 0; i < sides; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / sides;
@@ -99,8 +100,8 @@ Ahead first_ahead(const Scene& scene, const Robot& robot, const Vector3& forward
   for (const Vector3& corner : robot.footprint) outline.push_back(pose * corner);
   Ahead ahead;
   for (const SceneObject& object : scene.objects) {
-    if (object.size[2] < robot.bumper_height || !object.motion.empty()) continue;
-    const double way = way_between(outline, outline_in_world(object), forward);
+    if (!reaches(object, robot.bumper_height) || !object.motion.empty()) continue;
+    const double way = way_between(outline, outline_in_world(object, robot.bumper_height), forward);
     if (way < ahead.way) ahead = {&object, way};
   }
   return ahead;

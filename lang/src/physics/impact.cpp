@@ -22,6 +22,7 @@
 #include "physics/arrival.hpp"
 #include "physics/statics.hpp"
 #include "zwang/lang/hit.hpp"
+#include "zwang/lang/object_outline.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
@@ -106,7 +107,7 @@ std::optional<Struck> hardest(const Scene& scene, const Robot& robot, const Hit&
   std::optional<Struck> worst;
   for (const SceneObject& object : scene.objects) {
     if (only != nullptr && only != &object) continue;
-    if (object.size[2] < robot.bumper_height) continue;  // it passes below
+    if (!reaches(object, robot.bumper_height)) continue;  // it passes
     const Struck struck = struck_object(object, robot, of_robot, corners);
     if (!worst || struck.hit.peak_force() > worst->hit.peak_force()) worst = struck;
   }

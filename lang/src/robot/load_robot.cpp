@@ -18,6 +18,7 @@
 #include "robot/each_wheel.hpp"
 #include "robot/exact_wheels.hpp"
 #include "robot/feels_entry.hpp"
+#include "robot/pads_entry.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_speed.hpp"
@@ -57,6 +58,7 @@ class RobotBuilder {
       if (!stands(robot)) return std::nullopt;
       check_twist(file_, robot.model, diagnostics_);
       check_feels(file_, robot.model, diagnostics_);
+      check_pads(file_, robot.model, diagnostics_);
       lead_by_contact(robot.drive, robot.model.total_mass(), file_.feels_span, diagnostics_);
       if (diagnostics_.error_count() > errors_before_) return std::nullopt;
       return robot;
@@ -311,6 +313,7 @@ class RobotBuilder {
     if (file_.control_period) robot.control_period = *file_.control_period;
     if (file_.encoder_step) robot.encoder_step = *file_.encoder_step;
     robot.drive = file_.drive;
+    for (const PadText& pad : file_.pads) robot.pads.push_back({pad.frame.text, pad.width, pad.height});
     add_joint_facts(robot);
     return robot;
   }

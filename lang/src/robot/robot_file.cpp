@@ -12,6 +12,7 @@
 #include "robot/each_wheel.hpp"
 #include "robot/feels_entry.hpp"
 #include "robot/inertias.hpp"
+#include "robot/pads_entry.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
 #include "tree/text.hpp"
@@ -344,6 +345,7 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
     file.drive.feels = parse_feels(*feels, diagnostics);
     file.feels_span = feels->span;
   }
+  each(map.optional("pads"), "pads", [&](const Entry& e) { file.pads.push_back(parse_pad(e, diagnostics)); });
   each(map.optional("frames"), "frames",
        [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
   map.finish();

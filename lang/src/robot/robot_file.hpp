@@ -68,6 +68,11 @@ struct MimicText {
   bool is_coupled = false;
 };
 
+struct PadText {
+  Word frame;
+  double width = 0.0, height = 0.0;  ///< [m]
+};
+
 struct RobotFile {
   Word urdf;
   Word base;
@@ -92,6 +97,7 @@ struct RobotFile {
   std::optional<double> encoder_step;
   Drive drive;
   Span drive_span, feels_span;
+  std::vector<PadText> pads;
   std::vector<FrameText> frames;
 };
 

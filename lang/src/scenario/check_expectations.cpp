@@ -27,12 +27,14 @@ constexpr TruthQuantity of_base[] = {{"truth.base.x", dimension::length},
                                      {"truth.base.acceleration", dimension::acceleration},
                                      {"truth.base.push", dimension::force},
                                      {"truth.base.slip", dimension::velocity},
+                                     {"truth.base.hand", dimension::force},
                                      {"run.stopped", dimension::time},
                                      {"run.slipped", dimension::time}};
-constexpr TruthQuantity of_object[] = {
-    {"force", dimension::force},  {"peak", dimension::force},   {"steady", dimension::force},
-    {"touched", dimension::time}, {"x", dimension::length},     {"y", dimension::length},
-    {"yaw", dimension::angle},    {"latched", dimension::time}, {"pull", dimension::force}};
+constexpr TruthQuantity of_object[] = {{"force", dimension::force},  {"peak", dimension::force},
+                                       {"steady", dimension::force}, {"touched", dimension::time},
+                                       {"x", dimension::length},     {"y", dimension::length},
+                                       {"yaw", dimension::angle},    {"latched", dimension::time},
+                                       {"pull", dimension::force},   {"hand", dimension::force}};
 constexpr TruthQuantity of_robot[] = {{"speed", dimension::velocity},
                                       {"turn", dimension::angular_velocity},
                                       {"torque", dimension::none},
@@ -65,6 +67,12 @@ Symbols truth_symbols(const Program& program) {
     const std::string prefix = "truth." + object.name + ".";
     if (object.guide && object.guide->turns) declare(symbols, prefix, {"angle", dimension::angle});
     if (object.guide && !object.guide->turns) declare(symbols, prefix, {"travel", dimension::length});
+  }
+  for (const SceneSignal& signal : scene.signals) {
+    if (signal.kind != SceneSignalKind::wrench) continue;
+    const std::string prefix = "truth.signal." + signal.name + ".";
+    for (const char* force : {"x", "y", "z"}) declare(symbols, prefix, {force, dimension::force});
+    for (const char* torque : {"rx", "ry", "rz"}) declare(symbols, prefix, {torque, dimension::torque});
   }
   for (const Output& output : program.outputs) {
     std::string unknown;

@@ -27,15 +27,21 @@ void check_hook(const std::optional<Dock>& dock, const Robot& robot, Diagnostics
   diagnostics.add(wording::unknown_hook(dock->hook_span, dock->hook, nearest(dock->hook, frames)));
 }
 
-/// A hand presses on the base alone.
-void check_push(const ScenePush& push, const Robot& robot, Diagnostics& diagnostics) {
-  if (push.frame.empty()) return;
-  std::vector<std::string> of_base;
-  for (const solver::Frame& frame : robot.model.frames()) {
-    if (frame.body == 0) of_base.push_back(frame.name);
+/// A frame of the robot, by its name; an empty one is the base's.
+void check_frame_of(const Robot& robot, const std::string& frame, const Span& span,
+                    Diagnostics& diagnostics) {
+  if (frame.empty() || robot.model.find_frame(frame)) return;
+  std::vector<std::string> frames;
+  for (const solver::Frame& each : robot.model.frames()) frames.push_back(each.name);
+  diagnostics.add(wording::unknown_name(span, "frame of the robot", frame, frames));
+}
+
+/// The frames at which sensors sit.
+void check_sensors(const std::vector<SceneSignal>& signals, const Robot& robot, Diagnostics& diagnostics) {
+  for (const SceneSignal& signal : signals) {
+    if (signal.kind == SceneSignalKind::wrench)
+      check_frame_of(robot, signal.frame, signal.source_span, diagnostics);
   }
-  if (std::find(of_base.begin(), of_base.end(), push.frame) != of_base.end()) return;
-  diagnostics.add(wording::unknown_name(push.frame_span, "frame of the base", push.frame, of_base));
 }
 
 /// Names of the joints that a motor turns.
@@ -107,11 +113,26 @@ void check_faults_of_partners(const std::vector<Fault>& faults, const Scene& sce
   }
 }
 
+void check_partners(const Scene& scene, Diagnostics& diagnostics) {
+  for (const SceneRobot& other : scene.robots) {
+    if (!other.program) continue;
+    check_sensors(other.signals, other.program->robot, diagnostics);
+    for (const ScenePush& push : scene.pushes) {
+      if (push.robot == other.name)
+        check_frame_of(other.program->robot, push.frame, push.frame_span, diagnostics);
+    }
+  }
+}
+
 void check_scene_for(const Scene& scene, const Robot& robot, Diagnostics& diagnostics) {
   check_rollers(scene, robot, diagnostics);
   for (const SceneObject& object : scene.objects) check_hook(object.dock, robot, diagnostics);
   for (const SceneRobot& other : scene.robots) check_hook(other.dock, robot, diagnostics);
-  for (const ScenePush& push : scene.pushes) check_push(push, robot, diagnostics);
+  for (const ScenePush& push : scene.pushes) {
+    if (push.object.empty() && push.robot.empty())
+      check_frame_of(robot, push.frame, push.frame_span, diagnostics);
+  }
+  check_sensors(scene.signals, robot, diagnostics);
   check_faults_for(scene.faults, robot, diagnostics);
   check_start(scene, robot, diagnostics);
 }

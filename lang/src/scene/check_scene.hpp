@@ -8,12 +8,14 @@
 
 namespace zwang::lang {
 
-/// Hooks, wheels that fail, real rollers, where the robots start: E301, E907, E911, E913. `robot` is the
-/// first one.
+/// Hooks, sensors, hands, wheels that fail, real rollers, where the robots start: E301, E907, E911, E913.
+/// `robot` is the first one.
 void check_scene_for(const Scene& scene, const Robot& robot, Diagnostics& diagnostics);
 /// The joints of the first robot's faults.
 void check_faults_for(const std::vector<Fault>& faults, const Robot& robot, Diagnostics& diagnostics);
 /// The same of the scene's other robots, which are loaded; and whether they are in the scene.
 void check_faults_of_partners(const std::vector<Fault>& faults, const Scene& scene, Diagnostics& diagnostics);
+/// The frames of the other robots that sensors and hands name: E301.
+void check_partners(const Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -13,6 +13,7 @@
 #include "diagnostic/wordings_statics.hpp"
 #include "scene/outline.hpp"
 #include "zwang/lang/footing.hpp"
+#include "zwang/lang/object_outline.hpp"
 #include "zwang/lang/plane.hpp"
 #include "zwang/lang/program.hpp"
 
@@ -54,10 +55,11 @@ Pose2 start_of(const SceneObject& object) {
   return {object.motion.front().at, object.motion.front().yaw};
 }
 
-double depth(const Outline& robot, const SceneObject& object) {
+/// `height` [m] is the bumper's.
+double depth(const Outline& robot, const SceneObject& object, double height) {
   const Pose2 pose = start_of(object);
   if (object.shape == ShapeKind::cylinder) return depth(robot, {pose.at[0], pose.at[1], 0.0}, object.size[0]);
-  return depth(robot, placed(outline_of(object), pose));
+  return depth(robot, placed(outline_of(object, height), pose));
 }
 
 /// [m] How high a bumper may be that the robot file says nothing of: an even body is twice as high as its
@@ -99,8 +101,9 @@ void check_start(const Scene& scene, const Robot& first, Diagnostics& diagnostic
       if (object.size[2] < highest)
         diagnostics.add(wording::meets_or_passes(object.span, robot.robot->name, object.name, object.size[2],
                                                  robot.robot->bumper_height));
-      if (object.size[2] < robot.robot->bumper_height) continue;  // it passes below
-      const double overlap = depth(robot.outline, object);
+      const double height = robot.robot->bumper_height;
+      if (!reaches(object, height)) continue;  // the robot passes
+      const double overlap = depth(robot.outline, object, height);
       if (overlap > touching)
         diagnostics.add(wording::starts_inside(object.span, robot.words, object.name, overlap));
     }

@@ -80,34 +80,7 @@ Fault parse_fault(const Node& node, Diagnostics& diagnostics) {
   return fault;
 }
 
-ScenePush parse_push(const Node& node, Diagnostics& diagnostics) {
-  ScenePush push;
-  MapReader map(node, "a push", diagnostics);
-  if (const Node* at = map.required("at"))
-    push.at = parse_positive(*at, dimension::time, "`at`", true, diagnostics).value_or(0.0);
-  if (const Node* duration = map.optional("for"))
-    push.duration =
-        parse_positive(*duration, dimension::time, "`for`", false, diagnostics).value_or(push.duration);
-  if (const Node* frame = map.optional("frame")) {
-    push.frame = parse_word(*frame, "`frame`", diagnostics).text;
-    push.frame_span = frame->span;
-  }
-  if (const Node* force = map.required("force")) {
-    const auto parts = parse_vector(*force, dimension::force, 2, 2, "`force`", diagnostics);
-    if (parts) push.force = {(*parts)[0], (*parts)[1]};
-  }
-  map.finish();
-  return push;
-}
-
 }  // namespace
-
-std::vector<ScenePush> parse_pushes(const Node& node, Diagnostics& diagnostics) {
-  std::vector<ScenePush> pushes;
-  if (!require_sequence(node, "`pushes`", diagnostics)) return pushes;
-  for (const Node& item : node.items) pushes.push_back(parse_push(item, diagnostics));
-  return pushes;
-}
 
 std::vector<Fault> parse_faults(const Node& node, Diagnostics& diagnostics) {
   std::vector<Fault> faults;

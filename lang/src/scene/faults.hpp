@@ -10,7 +10,6 @@
 namespace zwang::lang {
 
 /// `[{at: 2 s, wheel: left_wheel, torque: lost}, ..]`
-std::vector<ScenePush> parse_pushes(const Node& node, Diagnostics& diagnostics);
 std::vector<Fault> parse_faults(const Node& node, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -3,12 +3,14 @@
 #include "check/check.hpp"
 #include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
+#include "diagnostic/wordings_guides.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "scene/check_scene.hpp"
 #include "scene/faults.hpp"
 #include "scene/load_guide.hpp"
+#include "scene/load_pushes.hpp"
 #include "scene/load_robots.hpp"
 #include "scene/load_signals.hpp"
 #include "spec/in_one_line.hpp"
@@ -131,6 +133,26 @@ void parse_contact(MapReader& map, Touched& touched, Diagnostics& diagnostics) {
   }
 }
 
+/// `yaw`, or `rpy` of a fixed box or wall that leans.
+void parse_heading(MapReader& map, SceneObject& object, Diagnostics& diagnostics) {
+  const Node* yaw = map.optional("yaw");
+  const Node* rpy = map.optional("rpy");
+  if (yaw != nullptr)
+    object.yaw = parse_plain(*yaw, dimension::angle, map.what() + "'s `yaw`", diagnostics).value_or(0.0);
+  if (rpy == nullptr) return;
+  if (yaw != nullptr) diagnostics.add(wording::yaw_twice(rpy->span, map.what()));
+  const auto angles = parse_vector(*rpy, dimension::angle, 3, 3, map.what() + "'s `rpy`", diagnostics);
+  if (!angles) return;
+  object.roll = (*angles)[0];
+  object.pitch = (*angles)[1];
+  object.yaw = (*angles)[2];
+  for (const char* key : {"mass", "hinge", "slide", "motion", "dock", "cylinder"}) {
+    if (!object.leans() || map.optional(key) == nullptr) continue;
+    diagnostics.add(wording::leans_and(rpy->span, map.what(), key));
+    return;
+  }
+}
+
 SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   SceneObject object;
   object.name = parse_name(entry.key, "an object's name", diagnostics).text;
@@ -141,9 +163,7 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   const int shapes = parse_shape(map, object, diagnostics);
   if (const Node* at = map.required("at"))
     object.at = parse_place(*at, what + "'s `at`", "yaw", diagnostics).value_or(object.at);
-  if (const Node* yaw = map.optional("yaw")) {
-    object.yaw = parse_plain(*yaw, dimension::angle, what + "'s `yaw`", diagnostics).value_or(0.0);
-  }
+  parse_heading(map, object, diagnostics);
   const Node* mass = map.optional("mass");
   const Node* fixed = map.optional("fixed");
   if (mass != nullptr) {
@@ -292,7 +312,7 @@ std::optional<Scene> parse_scene(const Document& document, Diagnostics& diagnost
   // The plant's truth only where the scene says so.
   scene.state.wheels_only = scene.state.wheels_only || state == nullptr;
   if (const Node* node = map.optional("faults")) scene.faults = parse_faults(*node, diagnostics);
-  if (const Node* node = map.optional("pushes")) scene.pushes = parse_pushes(*node, diagnostics);
+  if (const Node* node = map.optional("pushes")) scene.pushes = parse_pushes(*node, scene, diagnostics);
   map.finish();
   return scene;
 }
@@ -308,6 +328,7 @@ std::optional<Scene> load_scene_from(const std::filesystem::path& path, const st
   if (scene && !load_robots_of(*scene, path, root, budget, diagnostics)) return std::nullopt;
   const int errors_before = diagnostics.error_count();
   if (scene) check_faults_of_partners(scene->faults, *scene, diagnostics);
+  if (scene) check_partners(*scene, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   return scene;
 }

@@ -133,7 +133,13 @@ void parse_threshold(MapReader& map, SceneSignal& signal, Diagnostics& diagnosti
 /// `noise`, `bias`, `angle_noise`, `delay`, `rate`, `dropouts`.
 void parse_quality(MapReader& map, SceneSignal& signal, double most_delay, Diagnostics& diagnostics) {
   const bool is_force = signal.kind == SceneSignalKind::force;
-  signal.noise = not_negative(map, "noise", is_force ? dimension::force : dimension::length, diagnostics);
+  const bool is_wrench = signal.kind == SceneSignalKind::wrench;
+  signal.noise =
+      not_negative(map, "noise", is_force || is_wrench ? dimension::force : dimension::length, diagnostics);
+  if (const Node* node = is_wrench ? map.optional("bias") : nullptr) {
+    const auto bias = parse_vector(*node, dimension::force, 3, 3, map.what() + "'s `bias`", diagnostics);
+    if (bias) signal.force_bias = {(*bias)[0], (*bias)[1], (*bias)[2]};
+  }
   if (const Node* node = is_force ? map.optional("bias") : nullptr)
     signal.bias = parse_plain(*node, dimension::force, map.what() + "'s `bias`", diagnostics).value_or(0.0);
   signal.angle_noise = not_negative(map, "angle_noise", dimension::angle, diagnostics);
@@ -167,7 +173,8 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, bool
   for (const Source& source :
        {Source{"script", SceneSignalKind::script}, Source{"pose_of", SceneSignalKind::pose},
         Source{"distance_to", SceneSignalKind::distance}, Source{"latch", SceneSignalKind::latch},
-        Source{"force_of", SceneSignalKind::force}, Source{"travel_of", SceneSignalKind::travel}}) {
+        Source{"force_of", SceneSignalKind::force}, Source{"travel_of", SceneSignalKind::travel},
+        Source{"wrench_at", SceneSignalKind::wrench}}) {
     const Node* node = map.optional(source.key);
     if (node == nullptr) continue;
     ++found;
@@ -177,6 +184,8 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, bool
   if (given != nullptr) signal.source_span = given->span;
   if (found == 1 && signal.kind == SceneSignalKind::script) {
     parse_script(*given, signal, diagnostics);
+  } else if (found == 1 && signal.kind == SceneSignalKind::wrench) {
+    signal.frame = parse_word(*given, "`wrench_at`", diagnostics).text;
   } else if (found == 1) {
     parse_object_name(*given, signal, seen, is_first, diagnostics);
   }

@@ -16,8 +16,8 @@ struct Seen {
   TravelOf travel = TravelOf::nothing;
 };
 
-/// `{name: {script: ..} | {pose_of: ..} | {distance_to: ..} | {latch: ..} | {force_of: ..} | {travel_of: ..},
-/// + how it is measured}` `seen` are the objects and robots of the scene, in the order of
+/// `{name: {script: ..} | {pose_of: ..} | {distance_to: ..} | {latch: ..} | {force_of: ..} | {travel_of: ..}
+/// | {wrench_at: ..}, + how it is measured}` `seen` are the objects and robots of the scene, in the order of
 /// SceneSignal::object. Only the first robot feels what it touches.
 std::vector<SceneSignal> parse_scene_signals(const Node& node, const std::vector<Seen>& seen, bool is_first,
                                              Diagnostics& diagnostics);

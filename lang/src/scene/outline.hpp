@@ -17,8 +17,5 @@ struct Pose2 {
 };
 
 Outline placed(Outline corners, const Pose2& pose);
-/// Of a box or a wall, in its own axes, as large as it is; a wall's `at` lies on the face that looks along
-/// its -x.
-Outline outline_of(const SceneObject& object);
 
 }  // namespace zwang::lang

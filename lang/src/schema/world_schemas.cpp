@@ -131,6 +131,7 @@ Json scene_object() {
        {"wall", sizes["wall"]},
        {"at", reference("point", "in the world; of a wall, a point of its face"), true},
        {"yaw", reference("quantity")},
+       {"rpy", tuple("roll, pitch and yaw of a fixed box or wall that leans", reference("quantity"), 3, 3)},
        {"mass", reference("quantity", "of an object that a push moves")},
        {"fixed", Json{{"type", "boolean"}}},
        {"hinge", object("an upright axis that it turns about",
@@ -150,20 +151,23 @@ Json scene_object() {
 }
 
 Json scene_signal() {
-  return object("has one source: script, pose_of, distance_to, latch, force_of or travel_of",
-                {{"script", filled(list("pairs of a time and a value", Json{{"type", "array"}}))},
-                 {"pose_of", word("an object or a robot; `base` is the first one")},
-                 {"distance_to", word("an object or a robot")},
-                 {"latch", word("an object or a robot with a dock")},
-                 {"force_of", word("an object or a robot that the first one touches")},
-                 {"travel_of", word("an object with a hinge or a slide")},
-                 {"beyond", reference("quantity", "of travel_of: true where the travel is as far from 0")},
-                 {"noise", reference("quantity", "standard deviation")},
-                 {"bias", reference("quantity", "added to a force")},
-                 {"angle_noise", reference("quantity", "standard deviation")},
-                 {"delay", reference("quantity")},
-                 {"rate", reference("quantity")},
-                 {"dropouts", reference("quantity", "the share that never arrives")}});
+  return object(
+      "has one source: script, pose_of, distance_to, latch, force_of, travel_of or wrench_at",
+      {{"script", filled(list("pairs of a time and a value", Json{{"type", "array"}}))},
+       {"pose_of", word("an object or a robot; `base` is the first one")},
+       {"distance_to", word("an object or a robot")},
+       {"latch", word("an object or a robot with a dock")},
+       {"force_of", word("an object or a robot that the first one touches")},
+       {"travel_of", word("an object with a hinge or a slide")},
+       {"wrench_at", word("a frame of the robot: a force-torque sensor sits there")},
+       {"beyond", reference("quantity", "of travel_of: true where the travel is as far from 0")},
+       {"noise", reference("quantity", "standard deviation")},
+       {"bias", any_of({reference("quantity", "added to a force"),
+                        tuple("added to a wrench, along the sensor's axes", reference("quantity"), 3, 3)})},
+       {"angle_noise", reference("quantity", "standard deviation")},
+       {"delay", reference("quantity")},
+       {"rate", reference("quantity")},
+       {"dropouts", reference("quantity", "the share that never arrives")}});
 }
 
 Json fix() {
@@ -218,12 +222,15 @@ Json fault() {
 }
 
 Json push() {
-  return object(
-      "a force for a while",
-      {{"at", reference("quantity", "when it begins"), true},
-       {"for", reference("quantity", "how long it lasts; default to the end")},
-       {"frame", word("of the base, at whose origin and in whose axes it presses; default the base's")},
-       {"force", tuple("along x and y of the frame", reference("quantity"), 2, 2), true}});
+  return object("a person's hand for a while; `force`, `torque` or both",
+                {{"at", reference("quantity", "when it begins"), true},
+                 {"for", reference("quantity", "how long it lasts; default to the end")},
+                 {"robot", word("one of `robots`; default the first robot")},
+                 {"frame", word("of the robot, at whose origin it presses; default its base's")},
+                 {"object", word("an object with a mass, pressed on in the place of a robot")},
+                 {"point", reference("point", "of the object, in its axes from its `at`")},
+                 {"force", tuple("in the axes of the frame or the object", reference("quantity"), 2, 3)},
+                 {"torque", tuple("about the same axes", reference("quantity"), 3, 3)}});
 }
 
 Json start_pose() {
@@ -299,6 +306,8 @@ Json robot_file() {
         reference("quantity", "an angle: the least by which a driven wheel's position changes")},
        {"drive", drive()},
        {"feels", feels()},
+       {"pads", named("flat ends of arms, by their frames",
+                      tuple("the lengths along y and z of the frame", reference("quantity"), 2, 2))},
        {"frames", named("places on the robot", robot_frame())}});
   const Json whole = Json::array({"urdf", "base", "wheels", "actuated", "stop", "footprint"});
   schema["anyOf"] = Json::array({Json{{"required", Json::array({"based_on"})}}, Json{{"required", whole}}});
@@ -317,7 +326,7 @@ Json scene_file() {
                  {"signals", named("the sources of the task's signals", scene_signal())},
                  {"state", base_state()},
                  {"faults", list("faults, and when they begin", fault())},
-                 {"pushes", list("a person's hand on the first robot's base", push())}});
+                 {"pushes", list("hands of persons on robots and objects", push())}});
 }
 
 Json scenario_file() {

@@ -72,8 +72,12 @@ bool is_seen(const SceneSignal& signal) {
   return signal.kind == SceneSignalKind::pose || signal.kind == SceneSignalKind::distance;
 }
 
+bool measures_force(const SceneSignal& signal) {
+  return signal.kind == SceneSignalKind::force || signal.kind == SceneSignalKind::wrench;
+}
+
 double* noise_of(SceneSignal& signal) {
-  return is_seen(signal) || signal.kind == SceneSignalKind::force ? &signal.noise : nullptr;
+  return is_seen(signal) || measures_force(signal) ? &signal.noise : nullptr;
 }
 
 constexpr std::array signal_numbers{
@@ -134,8 +138,7 @@ bool visit_number(const Drawable& d, Scene& scene, const Use& use) {
       if (d.key != "noise") return visit(signal_numbers, signal);
       double* noise = noise_of(signal);
       if (noise == nullptr) return false;
-      const bool is_force = signal.kind == SceneSignalKind::force;
-      use(is_force ? dimension::force : dimension::length, at_zero, positive, *noise);
+      use(measures_force(signal) ? dimension::force : dimension::length, at_zero, positive, *noise);
       return true;
     }
     return false;

@@ -2,6 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,8 +25,19 @@ double largest_swing(double force) {
 }  // namespace
 
 ContactReader::ContactReader(std::vector<GeomOwner> owners, std::vector<ContactSpring> springs,
-                             std::size_t robots, std::size_t objects)
-    : owners_(std::move(owners)), springs_(std::move(springs)), robots_(robots), objects_(objects) {}
+                             const std::vector<SimulatedRobot>& robots, std::size_t objects)
+    : owners_(std::move(owners)), springs_(std::move(springs)), robots_(robots.size()), objects_(objects) {
+  for (std::size_t r = 0; r < robots.size(); ++r)
+    robots_[r].on_body.resize(static_cast<std::size_t>(robots[r].robot.model.body_count()));
+}
+
+void ContactReader::add_push(std::size_t robot, int body, const Eigen::Vector3d& force,
+                             const Eigen::Vector3d& at, const Eigen::Vector3d& torque) noexcept {
+  RobotContacts& of = robots_[robot];
+  of.push += force.head<2>();
+  of.moment += at.x() * force.y() - at.y() * force.x() + torque.z();
+  of.on_body[static_cast<std::size_t>(body)] += solver::ForceVector{at.cross(force) + torque, force};
+}
 
 /// What the first robot's outline touches in this contact: an index into the truth's objects, or -1.
 int ContactReader::touched_object(int geom1, int geom2) const noexcept {
@@ -50,6 +62,7 @@ void ContactReader::read(const mjModel& model, const mjData& data, double before
   for (RobotContacts& robot : robots_) {
     robot.push.setZero();
     robot.moment = 0.0;
+    std::fill(robot.on_body.begin(), robot.on_body.end(), solver::ForceVector{});
     robot.lies_on_floor = false;
   }
   for (int c = 0; c < data.ncon; ++c) {
@@ -68,9 +81,8 @@ void ContactReader::read(const mjModel& model, const mjData& data, double before
     for (const auto& [owner, sign] : {std::pair(&one, -1.0), std::pair(&other, 1.0)}) {
       if (!owner->touches) continue;
       RobotContacts& robot = robots_[static_cast<std::size_t>(owner->robot)];
-      add_push(static_cast<std::size_t>(owner->robot),
-               sign * force * Eigen::Vector2d(contact.frame[0], contact.frame[1]),
-               {contact.pos[0], contact.pos[1]});
+      add_push(static_cast<std::size_t>(owner->robot), owner->part, sign * force * vector_of(contact.frame),
+               vector_of(contact.pos));
       if (swing > largest_swing(force))
         robot.hit_until = std::max(robot.hit_until, before + std::max(shortest_hit, spring->half_swing()));
       if (owner->robot == 0 && owner->corner >= 0)

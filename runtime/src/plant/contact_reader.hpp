@@ -16,23 +16,24 @@ struct RobotContacts {
   double moment = 0.0;                             ///< [N m] of the same, about the world's z
   double hit_until = -1.0;                         ///< [s] when its last hit is over
   bool lies_on_floor = false;                      ///< its body does
+  /// [N m], [N] of the same on each body of its model, in world axes and about the world's origin.
+  std::vector<solver::ForceVector> on_body;
 };
 
 class ContactReader {
  public:
   ContactReader() = default;
   /// `owners` by geom, `springs` by pair of geoms, `objects` of the scene.
-  ContactReader(std::vector<GeomOwner> owners, std::vector<ContactSpring> springs, std::size_t robots,
-                std::size_t objects);
+  ContactReader(std::vector<GeomOwner> owners, std::vector<ContactSpring> springs,
+                const std::vector<SimulatedRobot>& robots, std::size_t objects);
 
   const GeomOwner& owner_of(int geom) const { return owners_[static_cast<std::size_t>(geom)]; }
   /// The contacts of the step that was just made are those at its beginning, `before` [s].
   void read(const mjModel_& model, const mjData_& data, double before, Truth& truth) noexcept;
-  /// To `push`: what else presses on a robot [N], at a point of the world [m].
-  void add_push(std::size_t robot, const Eigen::Vector2d& force, const Eigen::Vector2d& at) noexcept {
-    robots_[robot].push += force;
-    robots_[robot].moment += at.x() * force.y() - at.y() * force.x();
-  }
+  /// What else presses on a robot: a force on a body of its model [N] at a point of the world [m], and a
+  /// torque [N m].
+  void add_push(std::size_t robot, int body, const Eigen::Vector3d& force, const Eigen::Vector3d& at,
+                const Eigen::Vector3d& torque = Eigen::Vector3d::Zero()) noexcept;
   /// A hook that catches is a hit.
   void note_catch(std::size_t robot, double time) noexcept;
   const RobotContacts& of_robot(std::size_t robot) const noexcept { return robots_[robot]; }

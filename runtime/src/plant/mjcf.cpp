@@ -8,6 +8,7 @@
 #include "outline.hpp"
 #include "pair_friction.hpp"
 #include "refuse.hpp"
+#include "zwang/lang/object_outline.hpp"
 
 namespace zwang::runtime {
 
@@ -16,6 +17,7 @@ namespace {
 using namespace mjcf;
 using lang::SceneObject;
 using lang::ShapeKind;
+using solver::Matrix3;
 using solver::RigidInertia;
 using solver::Vector3;
 
@@ -88,7 +90,7 @@ class MjcfWriter {
 
   /// Objects that do not reach the bumper's height are not met.
   static bool is_met(const SceneObject& object, const SimulatedRobot& robot) {
-    return object.size[2] >= robot.robot.bumper_height;
+    return lang::reaches(object, robot.robot.bumper_height);
   }
   bool is_met(const SceneObject& object) const {
     return std::any_of(robots_.begin(), robots_.end(),
@@ -100,7 +102,9 @@ class MjcfWriter {
     const ObjectGeometry g = geometry_of(object);
     const std::string name = numbered("object", k);
     text_ += "<body" + attribute("name", name) + attribute("pos", list_of(g.centre)) +
-             attribute("euler", list_of(0.0, 0.0, object.yaw)) + ">\n";
+             (object.leans() ? attribute("quat", quaternion_of(g.rotation))
+                             : attribute("euler", list_of(0.0, 0.0, object.yaw))) +
+             ">\n";
     if (object.guide) {
       if (!object.is_locked()) write_guide(*object.guide, object, g, name);
     } else if (object.moves()) {
@@ -111,7 +115,7 @@ class MjcfWriter {
       text_ += "<joint" + attribute("name", name + "_turn") + " type=\"hinge\" axis=\"0 0 1\"/>\n";
       text_ += inertial(inertia_of(mass, g));
     }
-    if (is_met(object)) write_faces(g, name);
+    if (is_met(object)) object.leans() ? write_leaning_faces(object, g, name) : write_faces(g, name);
     text_ += "</body>\n";
   }
 
@@ -147,6 +151,25 @@ class MjcfWriter {
     for (std::size_t c = 0; c < edges.size(); ++c) {
       text_ += corner_geom(numbered(name + "_edge", c), edges[c], plane);
     }
+  }
+
+  /// As large as it is, with corners where its edges pass through the bumper's plane.
+  void write_leaning_faces(const SceneObject& object, const ObjectGeometry& g, const std::string& name) {
+    text_ += "<geom" + attribute("name", name + "_face") + attribute("type", "box") +
+             attribute("size", list_of(g.half)) + "/>\n";
+    const Matrix3 back = lang::lean_of(object).transpose();
+    const auto edges = corners_of(outline_of_edges(object));
+    const Vector3 plane(0.0, 0.0, robots_.front().robot.bumper_height);
+    for (std::size_t c = 0; c < edges.size(); ++c) {
+      const Matrix3 outward = solver::rotation_from_rpy(0.0, 0.0, edges[c].outward);
+      text_ += corner_geom(numbered(name + "_edge", c), back * (edges[c].centre + plane) - g.shift,
+                           quaternion_of(back * outward), edges[c].half_angle);
+    }
+  }
+
+  /// Corners that touch sides, at the bumper's height.
+  std::vector<Vector3> outline_of_edges(const SceneObject& object) const {
+    return lang::outline_of(object, robots_.front().robot.bumper_height);
   }
 
   static RigidInertia inertia_of(double mass, const ObjectGeometry& g) {
@@ -229,7 +252,9 @@ class MjcfWriter {
     for (std::size_t c = 0; c < robot.outline.size(); ++c) {
       write_spring(face, robot.named("bumper", c), pair_friction(object.friction));
     }
-    for (std::size_t c = 0; c < 4; ++c) write_spring(edge_of(k, c), prism, pair_friction(object.friction));
+    const std::size_t edges = outline_of_edges(object).size();
+    for (std::size_t c = 0; c < edges; ++c)
+      write_spring(edge_of(k, c), prism, pair_friction(object.friction));
   }
 
   /// A round object is met in the bumper's plane only, where no arm reaches.
@@ -262,10 +287,10 @@ class MjcfWriter {
       write_spring(face, other_face, friction);
       return;
     }
-    for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t c = 0; c < outline_of_edges(scene_.objects[k]).size(); ++c)
       write_spring(edge_of(k, c), other_face, friction);
+    for (std::size_t c = 0; c < outline_of_edges(scene_.objects[other]).size(); ++c)
       write_spring(edge_of(other, c), face, friction);
-    }
   }
 
   static std::string edge_of(std::size_t k, std::size_t c) {

@@ -34,7 +34,7 @@ struct SimulatedRobot {
   double ground = 0.0;                   ///< [m] height of the ground in the base frame
   std::vector<double> wheel_lift;        ///< [m] each wheel's move upwards that makes the base stand level
   std::vector<solver::Vector3> outline;  ///< convex hull of the footprint, counter-clockwise
-  std::vector<solver::Frame> tips;       ///< of arms: where they touch objects
+  std::vector<solver::Frame> tips;       ///< of arms: where they touch objects; four of a pad
   std::vector<solver::Vector3> skids;    ///< points under the base; empty when the wheels carry it
   double top = 0.0;                      ///< [m] height of the body above the ground
 

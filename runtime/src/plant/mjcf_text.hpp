@@ -79,6 +79,14 @@ inline std::string corner_geom(const std::string& name, const Corner& corner, co
          attribute("user", text_of(corner.half_angle)) + "/>\n";
 }
 
+/// The same on a body that leans: `turn` is a quaternion, whose x axis points outwards.
+inline std::string corner_geom(const std::string& name, const solver::Vector3& at, const std::string& turn,
+                               double half_angle) {
+  return "<geom" + attribute("name", name) + attribute("type", "sphere") + attribute("pos", list_of(at)) +
+         attribute("quat", turn) + attribute("size", text_of(corner_radius)) +
+         attribute("user", text_of(half_angle)) + "/>\n";
+}
+
 /// Of contacts with the floor, and of ties.
 inline std::string stiff() {
   return "solref=\"0.004 1\" solimp=\"0.95 0.99 0.001\"";

@@ -62,9 +62,9 @@ void MujocoPlant::Simulation::read_pulls() noexcept {
       owner.pull = -(f[0] * std::cos(outwards) + f[1] * std::sin(outwards));
       const Vector3 hook = vector_of(data->xpos + 3 * dock.hook_body) +
                            matrix_of(data->xquat + 4 * dock.hook_body) * dock.hook;
-      contacts.add_push(0, {f[0], f[1]}, hook.head<2>());
+      contacts.add_push(0, dock.hook_part, vector_of(f), hook);
       if (dock.owner >= objects.size())
-        contacts.add_push(dock.owner - objects.size() + 1, {-f[0], -f[1]}, hook.head<2>());
+        contacts.add_push(dock.owner - objects.size() + 1, 0, -vector_of(f), hook);
     }
   }
 }
@@ -188,7 +188,7 @@ void MujocoPlant::Simulation::look_for_falls() noexcept {
 
 void MujocoPlant::Simulation::add_push(const GeomOwner& owner, const Vector3& force,
                                        const Vector3& at) noexcept {
-  contacts.add_push(static_cast<std::size_t>(owner.robot), force.head<2>(), at.head<2>());
+  contacts.add_push(static_cast<std::size_t>(owner.robot), owner.part, force, at);
 }
 
 double MujocoPlant::Simulation::time() const noexcept {
@@ -218,6 +218,7 @@ PlantStatus MujocoPlant::Simulation::apply(const Eigen::VectorXd& tau) noexcept 
   read_pulls();
   feel_hand();
   read_motion(before);
+  read_wrenches();
   look_for_falls();
   latch_hooks();
   return PlantStatus::ok;
@@ -232,19 +233,63 @@ PlantStatus MujocoPlant::Simulation::sense(std::size_t robot, Sensed& sensed) co
   return PlantStatus::ok;
 }
 
+template <typename Act>
+void MujocoPlant::Simulation::for_each_push(Act act) const {
+  for (const BodyPush& one : more_pushes) {
+    const auto number = static_cast<std::size_t>(one.body);
+    const int body =
+        one.robot < 0 ? objects[number].body : bodies[static_cast<std::size_t>(one.robot)][number];
+    const Matrix3 turned = matrix_of(data->xquat + 4 * body);
+    Vector3 place = one.pose.position;
+    if (one.robot < 0) place -= objects[number].geometry.shift;
+    const Matrix3 axes = turned * one.pose.rotation;
+    act(one, body, Vector3(vector_of(data->xpos + 3 * body) + turned * place),
+        Vector3(axes * one.wrench.linear), Vector3(axes * one.wrench.angular));
+  }
+}
+
 void MujocoPlant::Simulation::press_by_hand() noexcept {
   if (!push.force.isZero(0.0)) first().press(*model, *data, push.at, push.force);
-  for (const Push& more : more_pushes) first().press(*model, *data, more.at, more.force);
+  for_each_push([this](const BodyPush& /*one*/, int body, const Vector3& at, const Vector3& force,
+                       const Vector3& torque) {
+    const Vector3 arm = at - vector_of(data->xipos + 3 * body);
+    Eigen::Map<Vector3>(data->xfrc_applied + 6 * body) += force;
+    Eigen::Map<Vector3>(data->xfrc_applied + 6 * body + 3) += arm.cross(force) + torque;
+  });
 }
 
 void MujocoPlant::Simulation::feel_hand() noexcept {
-  const auto feel = [this](const Push& one) {
-    const Vector3 at = first().in_world(*model, *data, one.at);
-    contacts.add_push(0, one.force, at.head<2>());
-  };
-  if (!push.force.isZero(0.0)) feel(push);
-  for (const Push& more : more_pushes) feel(more);
+  for (ObjectTruth& object : truth.objects) object.hand = 0.0;
+  for (std::size_t r = 0; r < robots.size(); ++r) base_truth(r).hand = 0.0;
+  if (!push.force.isZero(0.0)) {
+    contacts.add_push(0, 0, {push.force.x(), push.force.y(), 0.0}, first().in_world(*model, *data, push.at));
+    truth.base.hand += push.force.norm();
+  }
+  for_each_push([this](const BodyPush& one, int /*body*/, const Vector3& at, const Vector3& force,
+                       const Vector3& torque) {
+    if (one.robot < 0) {
+      truth.objects[static_cast<std::size_t>(one.body)].hand += force.norm();
+      return;
+    }
+    const auto robot = static_cast<std::size_t>(one.robot);
+    contacts.add_push(robot, one.body, force, at, torque);
+    base_truth(robot).hand += force.norm();
+    if (robot > 0) truth.objects[objects.size() + robot - 1].hand += force.norm();
+  });
 }
+
+void MujocoPlant::Simulation::read_wrenches() noexcept {
+  for (const WrenchSensor& sensor : sensors) {
+    solver::ForceVector sum;
+    for (const std::size_t body : sensor.carried) sum += contacts.of_robot(sensor.robot).on_body[body];
+    const Matrix3 turned = matrix_of(data->xquat + 4 * sensor.body);
+    const Vector3 at = vector_of(data->xpos + 3 * sensor.body) + turned * sensor.pose.position;
+    const Matrix3 to_sensor = (turned * sensor.pose.rotation).transpose();
+    truth.wrenches[sensor.robot][sensor.signal] = {to_sensor * (sum.angular - at.cross(sum.linear)),
+                                                   to_sensor * sum.linear};
+  }
+}
+
 MujocoPlant::MujocoPlant(const lang::Robot& robot, const lang::Scene& scene,
                          const MujocoPlantOptions& options)
     : simulation_(std::make_unique<Simulation>(robot, scene, options)) {}
@@ -283,7 +328,7 @@ void MujocoPlant::set_push(const Push& push) noexcept {
   simulation_->push = push;
 }
 
-void MujocoPlant::set_more_pushes(std::span<const Push> pushes) noexcept {
+void MujocoPlant::set_more_pushes(std::span<const BodyPush> pushes) noexcept {
   simulation_->more_pushes.assign(pushes.begin(), pushes.end());
 }
 
@@ -317,7 +362,7 @@ void MujocoPlant::scale_inertia(std::size_t robot, double factor) noexcept {
 void MujocoPlant::move_object(std::size_t object, std::vector<lang::Waypoint> motion) {
   if (object >= simulation_->objects.size()) return;
   SimulatedObject& moved = simulation_->objects[object];
-  if (!moved.described.guide) moved.described.motion = std::move(motion);
+  if (!moved.described.guide && !moved.described.leans()) moved.described.motion = std::move(motion);
 }
 
 void MujocoPlant::set_dock(std::size_t owner, bool holds) noexcept {

@@ -6,7 +6,6 @@ namespace zwang::runtime {
 
 using lang::SceneObject;
 using lang::ShapeKind;
-using solver::Matrix3;
 using solver::Vector3;
 
 ObjectGeometry geometry_of(const SceneObject& object) {
@@ -24,8 +23,13 @@ ObjectGeometry geometry_of(const SceneObject& object) {
   }
   if (!(g.half.minCoeff() > 0.0))
     throw std::invalid_argument("plant: the object `" + object.name + "` has no size");
-  const Matrix3 turn = solver::rotation_from_rpy(0.0, 0.0, object.yaw);
-  g.centre = Vector3(object.at[0], object.at[1], g.half.z()) + turn * g.shift;
+  g.rotation = solver::rotation_from_rpy(object.roll, object.pitch, object.yaw);
+  if (object.leans()) {
+    g.shift.z() = g.half.z();
+    g.centre = Vector3(object.at[0], object.at[1], 0.0) + g.rotation * g.shift;
+  } else {
+    g.centre = Vector3(object.at[0], object.at[1], g.half.z()) + g.rotation * g.shift;
+  }
   return g;
 }
 

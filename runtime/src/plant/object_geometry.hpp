@@ -10,6 +10,7 @@ struct ObjectGeometry {
   solver::Vector3 centre;  ///< [m] world
   solver::Vector3 half;    ///< [m] half extents of a box; radius, radius, half height of a cylinder
   solver::Vector3 shift;   ///< [m] from the object's `at` to its centre, in its own axes
+  solver::Matrix3 rotation = solver::Matrix3::Identity();  ///< of its axes, in the world
   bool round = false;
 };
 

@@ -31,8 +31,17 @@ struct MujocoPlant::Simulation {
     int body = 0;  ///< that the hook is tied to
     int equality = -1;
     int hook_body = 0;
+    int hook_part = 0;                               ///< the same body of the robot's model
     solver::Vector3 hook = solver::Vector3::Zero();  ///< [m] in that body
     bool holds = true;
+  };
+
+  /// At a frame of a robot, in the place of a signal of the scene.
+  struct WrenchSensor {
+    std::size_t robot, signal;         ///< in the truth's wrenches
+    int body;                          ///< of the simulation
+    solver::Pose pose;                 ///< of the frame in it
+    std::vector<std::size_t> carried;  ///< bodies of the robot's model: the frame's and what hangs on it
   };
 
   // Set up, in plant_start.cpp.
@@ -44,6 +53,7 @@ struct MujocoPlant::Simulation {
   /// What an object with a mass stands on.
   void add_floor(double friction, SimulatedObject& object) const;
   void find_docks(const lang::Scene& scene);
+  void find_sensors(const lang::Scene& scene);
   /// Lets the robots sink into their wheels' contacts. Then puts them exactly where they start, at rest, at
   /// t = 0. Height and tilt of the settled base are kept.
   void start(const std::vector<Start>& starts);
@@ -90,6 +100,10 @@ struct MujocoPlant::Simulation {
   /// contacts.
   void press_by_hand() noexcept;
   void feel_hand() noexcept;
+  /// Where a push presses, and with what, in world axes: `act(body, point, force, torque)`.
+  template <typename Act>
+  void for_each_push(Act act) const;
+  void read_wrenches() noexcept;
 
   std::vector<MovingRobot> robots;  ///< the first, then the scene's
   std::string text;
@@ -102,7 +116,9 @@ struct MujocoPlant::Simulation {
   std::vector<SimulatedDock> docks;
   solver::Vector3 velocity = solver::Vector3::Zero();
   Push push;
-  std::vector<Push> more_pushes;
+  std::vector<BodyPush> more_pushes;
+  std::vector<WrenchSensor> sensors;
+  std::vector<std::vector<int>> bodies;  ///< the simulation's number of each body, by robot
   Truth truth;
   std::int64_t steps_since_start = 0;
   bool diverged = false;

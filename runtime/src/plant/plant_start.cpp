@@ -39,8 +39,8 @@ MujocoPlant::Simulation::Simulation(const lang::Robot& robot, const lang::Scene&
   find_addresses();
   for (const SimulatedRobot& one : described) require_as_written(*model, one);
   const std::vector<GeomOwner> owners = find_owners(*model, described);
-  contacts = ContactReader(owners, set_springs(*model, owners, scene, described), robots.size(),
-                           scene.objects.size());
+  contacts =
+      ContactReader(owners, set_springs(*model, owners, scene, described), described, scene.objects.size());
   contact_friction = ContactFriction(*model, owners);
   for (const MovingRobot& one : robots) watches.emplace_back(one, options.period);
   truth.corner_forces.assign(robot.footprint.size(), 0.0);
@@ -51,6 +51,7 @@ MujocoPlant::Simulation::Simulation(const lang::Robot& robot, const lang::Scene&
   }
   find_objects(scene);
   find_docks(scene);
+  find_sensors(scene);
   std::vector<Start> starts{
       {options.start_at.value_or(scene.start_at), options.start_yaw.value_or(scene.start_yaw)}};
   for (const lang::SceneRobot& other : scene.robots) starts.push_back({other.at, other.yaw});
@@ -122,7 +123,7 @@ void MujocoPlant::Simulation::find_docks(const lang::Scene& scene) {
   const auto add = [&](std::size_t owner, const std::string& name, const lang::Dock& dock, int body) {
     const solver::Frame& hook = hook_of(first().model(), dock, name);
     docks.push_back({owner, dock, body, id_of(mjOBJ_EQUALITY, numbered("dock", static_cast<int>(owner))),
-                     id_of(mjOBJ_BODY, numbered("body", hook.body)), hook.pose_in_body.position});
+                     id_of(mjOBJ_BODY, numbered("body", hook.body)), hook.body, hook.pose_in_body.position});
   };
   for (std::size_t k = 0; k < objects.size(); ++k) {
     if (scene.objects[k].dock) add(k, scene.objects[k].name, *scene.objects[k].dock, objects[k].body);
@@ -130,6 +131,31 @@ void MujocoPlant::Simulation::find_docks(const lang::Scene& scene) {
   for (std::size_t r = 0; r < scene.robots.size(); ++r) {
     const lang::SceneRobot& robot = scene.robots[r];
     if (robot.dock) add(objects.size() + r, robot.name, *robot.dock, robots[r + 1].base_body());
+  }
+}
+
+void MujocoPlant::Simulation::find_sensors(const lang::Scene& scene) {
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    const solver::Model& described = robots[r].model();
+    bodies.emplace_back();
+    for (int b = 0; b < described.body_count(); ++b)
+      bodies[r].push_back(
+          id_of(mjOBJ_BODY, robots[r].simulated().named("body", static_cast<std::size_t>(b))));
+    const std::vector<lang::SceneSignal>& signals = r == 0 ? scene.signals : scene.robots[r - 1].signals;
+    truth.wrenches.emplace_back(signals.size());
+    for (std::size_t i = 0; i < signals.size(); ++i) {
+      if (signals[i].kind != lang::SceneSignalKind::wrench) continue;
+      const auto frame = described.find_frame(signals[i].frame);
+      if (!frame) refuse("the robot has no frame `" + signals[i].frame + "` for a sensor");
+      const solver::Frame& at = described.frames()[static_cast<std::size_t>(*frame)];
+      WrenchSensor sensor{r, i, bodies[r][static_cast<std::size_t>(at.body)], at.pose_in_body, {}};
+      for (int b = 0; b < described.body_count(); ++b) {
+        int carrier = b;
+        while (carrier > at.body) carrier = described.bodies()[static_cast<std::size_t>(carrier)].parent;
+        if (carrier == at.body) sensor.carried.push_back(static_cast<std::size_t>(b));
+      }
+      sensors.push_back(std::move(sensor));
+    }
   }
 }
 

@@ -28,7 +28,7 @@ RobotSenses::RobotSenses(const lang::Program& program, const lang::Scene& scene,
                          const lang::Robot& first, std::uint64_t seed)
     : state_(number == 0 ? scene.state : partner(scene, number).state),
       signals_(program, scene, number == 0 ? scene.signals : partner(scene, number).signals,
-               footprints_of(scene, first), seed_of(seed, number)),
+               footprints_of(scene, first), seed_of(seed, number), number),
       noise_(seed_of(seed, number) ^ 0xD1B54A32D192ED03U),
       drive_(program.robot.drive),
       last_sample_(program.robot.model),

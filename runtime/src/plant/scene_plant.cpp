@@ -9,6 +9,7 @@
 #include "estimate/ticks.hpp"
 #include "injected_faults.hpp"
 #include "robot_senses.hpp"
+#include "scene_hands.hpp"
 #include "velocity_loop.hpp"
 
 namespace zwang::runtime {
@@ -181,7 +182,11 @@ struct ScenePlant::Parts {
         hand(idle_hand(program)),
         actual(program.robot.model),
         torque(Eigen::VectorXd::Zero(program.robot.model.joint_count())),
-        pushed(torque) {
+        pushed(torque),
+        hands(scene, program.robot.model) {
+    // As many as there ever are do not allocate afterwards.
+    simulation.set_more_pushes(std::vector<BodyPush>(hands.size()));
+    simulation.set_more_pushes({});
     static_cast<void>(sense());
     senses.start_at(actual);
     RunnerSettings settings;
@@ -252,29 +257,8 @@ struct ScenePlant::Parts {
     for (std::size_t r = 0; r < scene.robots.size(); ++r) add(scene.objects.size() + r, scene.robots[r].dock);
   }
 
-  /// Where the hands of the scene press, in the base's axes.
-  void find_hands(const solver::Model& model) {
-    for (const lang::ScenePush& push : scene.pushes) {
-      const auto frame = model.find_frame(push.frame);
-      hands.push_back(
-          {push, frame ? model.frames()[static_cast<std::size_t>(*frame)].pose_in_body : solver::Pose{}});
-    }
-    pressing.reserve(hands.size());
-    simulation.set_more_pushes(std::vector<Push>(hands.size()));
-    simulation.set_more_pushes({});
-  }
-
   void press_by_hands(double time) noexcept {
-    if (hands.empty()) return;
-    pressing.clear();
-    const double yaw = simulation.truth().yaw;
-    for (const SceneHand& one : hands) {
-      if (time < one.says.at || time >= one.says.at + one.says.duration) continue;
-      const solver::Vector3 force =
-          one.pose.rotation * solver::Vector3{one.says.force[0], one.says.force[1], 0.0};
-      pressing.push_back({one.pose.position.head<2>(), Eigen::Rotation2Dd(yaw) * force.head<2>()});
-    }
-    simulation.set_more_pushes(pressing);
+    if (hands.size() > 0) simulation.set_more_pushes(hands.at(time));
   }
 
   void hold_docks(const std::vector<double>& outputs) noexcept {
@@ -339,18 +323,12 @@ struct ScenePlant::Parts {
     std::size_t output;  ///< of the program
   };
   std::vector<HeldDock> held_docks;
-  struct SceneHand {
-    lang::ScenePush says;
-    solver::Pose pose;  ///< in the base
-  };
-  std::vector<SceneHand> hands;
-  std::vector<Push> pressing;  ///< now
+  SceneHands hands;
 };
 
 ScenePlant::ScenePlant(const lang::Program& program, const ScenePlantOptions& options)
     : parts_(std::make_unique<Parts>(program, options)) {
   parts_->find_held_docks(program);
-  parts_->find_hands(program.robot.model);
 }
 
 ScenePlant::~ScenePlant() = default;

@@ -8,6 +8,7 @@
 
 #include "outline.hpp"
 #include "schedule/frame_table.hpp"
+#include "zwang/lang/object_outline.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::runtime {
@@ -34,6 +35,8 @@ bool gives(SceneSignalKind kind, SignalType type) {
       return type == SignalType::boolean;
     case SceneSignalKind::travel:
       return type == SignalType::boolean || type == SignalType::number;
+    case SceneSignalKind::wrench:
+      return type == SignalType::wrench;
   }
   return false;
 }
@@ -77,6 +80,14 @@ const std::optional<lang::Dock>* dock_of(const lang::Scene& scene, int number) {
   return &scene.robots[static_cast<std::size_t>(number - objects - 1)].dock;
 }
 
+/// Throws std::invalid_argument where the robot has no such frame.
+solver::AttachedFrame frame_of(const solver::Model& model, const std::string& name) {
+  const auto number = model.find_frame(name);
+  if (!number) throw std::invalid_argument("scene: the robot has no frame `" + name + "` for a sensor");
+  const solver::Frame& frame = model.frames()[static_cast<std::size_t>(*number)];
+  return {frame.body, frame.pose_in_body, {}};
+}
+
 /// The robot's frame that latches in what is seen.
 std::optional<solver::AttachedFrame> hook_of(const lang::Scene& scene, const SceneSignal& signal,
                                              const solver::Model& model) {
@@ -91,10 +102,17 @@ std::optional<solver::AttachedFrame> hook_of(const lang::Scene& scene, const Sce
 
 SceneSignals::SceneSignals(const lang::Program& program, const lang::Scene& scene,
                            const std::vector<SceneSignal>& signals,
-                           std::vector<std::vector<solver::Vector3>> footprints, std::uint64_t seed)
-    : model_(program.robot.model), scene_(scene) {
+                           std::vector<std::vector<solver::Vector3>> footprints, std::uint64_t seed,
+                           int number)
+    : model_(program.robot.model), number_(static_cast<std::size_t>(number)), scene_(scene) {
   for (std::vector<solver::Vector3>& footprint : footprints)
     footprints_.push_back(lang::plane::convex_hull(std::move(footprint)));
+  for (const lang::SceneObject& object : scene.objects) {
+    leaning_.push_back(object.leans() ? lang::outline_of(object, program.robot.bumper_height)
+                                      : std::vector<solver::Vector3>{});
+    // One that is too low to be met is seen by its foot.
+    if (object.leans() && leaning_.back().empty()) leaning_.back() = lang::outline_of(object, 0.0);
+  }
   for (const SceneSignal& signal : signals) {
     for (std::size_t i = 0; i < program.signals.size(); ++i) {
       const lang::Signal& declared = program.signals[i];
@@ -105,8 +123,11 @@ SceneSignals::SceneSignals(const lang::Program& program, const lang::Scene& scen
       Source source;
       source.signal = signal;
       source.index = static_cast<int>(i);
+      source.in_scene = static_cast<std::size_t>(&signal - signals.data());
       source.type = declared.type;
-      if (declared.type == SignalType::pose) source.in = attached_frame(program, declared.in);
+      if (signal.kind == SceneSignalKind::wrench) source.sensor = frame_of(model_, signal.frame);
+      if (declared.type == SignalType::pose || signal.kind == SceneSignalKind::wrench)
+        source.in = attached_frame(program, declared.in);
       if (signal.kind == SceneSignalKind::pose) source.hook = hook_of(scene_, signal, model_);
       source.on_way.resize(ring);
       source.noise = Noise(seed * 0x9E3779B97F4A7C15U + i + 1);
@@ -165,6 +186,7 @@ double SceneSignals::distance(const Truth& truth, int number, const solver::Stat
   const auto objects = static_cast<int>(scene_.objects.size());
   if (number >= objects) return distance_to(footprints_[static_cast<std::size_t>(number - objects)], x, y);
   const lang::SceneObject& described = scene_.objects[static_cast<std::size_t>(number)];
+  if (described.leans()) return distance_to(leaning_[static_cast<std::size_t>(number)], x, y);
   if (described.shape == lang::ShapeKind::cylinder)
     return std::max(0.0, std::hypot(x, y) - described.size[0]);
   const bool is_wall = described.shape == lang::ShapeKind::wall;
@@ -172,6 +194,20 @@ double SceneSignals::distance(const Truth& truth, int number, const solver::Stat
   const double half_y = 0.5 * (is_wall ? described.size[0] : described.size[1]);
   const double centre = is_wall ? half_x : 0.0;
   return std::hypot(std::max(0.0, std::abs(x - centre) - half_x), std::max(0.0, std::abs(y) - half_y));
+}
+
+solver::ForceVector SceneSignals::wrench(Source& source, const Truth& truth,
+                                         const solver::State& state) const noexcept {
+  solver::ForceVector felt = truth.wrenches[number_][source.in_scene];
+  const double noise = source.signal.noise;
+  for (int k = 0; k < 3; ++k) {
+    felt.linear(k) += source.signal.force_bias[static_cast<std::size_t>(k)] + noise * source.noise.normal();
+    felt.angular(k) += noise * lang::Feels::moment_arm * source.noise.normal();
+  }
+  const solver::Pose from_sensor = solver::motion_of(source.in, model_, state).pose.inverse() *
+                                   solver::motion_of(source.sensor, model_, state).pose;
+  const solver::Vector3 force = from_sensor.rotation * felt.linear;
+  return {from_sensor.rotation * felt.angular + from_sensor.position.cross(force), force};
 }
 
 SignalSample SceneSignals::measured(Source& source, const Truth& truth,
@@ -205,6 +241,9 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
       if (signal.beyond)
         sample.boolean =
             *signal.beyond < 0.0 ? sample.number <= *signal.beyond : sample.number >= *signal.beyond;
+      break;
+    case SceneSignalKind::wrench:
+      sample.wrench = wrench(source, truth, state);
       break;
     case SceneSignalKind::distance:
       sample.number = std::max(0.0, distance(truth, number, state) + signal.noise * source.noise.normal());

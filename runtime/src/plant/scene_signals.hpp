@@ -26,12 +26,12 @@ class Noise {
 
 class SceneSignals {
  public:
-  /// Of a robot under `program`; `footprints` are those of all robots, the first one's first. Scene signals
-  /// that the program does not declare are left out. Throws std::invalid_argument on a source that cannot
-  /// give the declared type.
+  /// Of a robot under `program`, in the scene by its `number`, 0 the first one; `footprints` are those of all
+  /// robots, the first one's first. Scene signals that the program does not declare are left out. Throws
+  /// std::invalid_argument on a source that cannot give the declared type.
   SceneSignals(const lang::Program& program, const lang::Scene& scene,
                const std::vector<lang::SceneSignal>& signals,
-               std::vector<std::vector<solver::Vector3>> footprints, std::uint64_t seed);
+               std::vector<std::vector<solver::Vector3>> footprints, std::uint64_t seed, int number);
 
   /// From now on the base's own pose in the world is measured, too.
   void measure_base(const lang::SceneSignal& fix, std::uint64_t seed);
@@ -48,9 +48,11 @@ class SceneSignals {
  private:
   struct Source {
     lang::SceneSignal signal;
-    int index = 0;  ///< of the program's signal
+    int index = 0;             ///< of the program's signal
+    std::size_t in_scene = 0;  ///< of the robot's signals in the scene
     lang::SignalType type = lang::SignalType::boolean;
-    solver::AttachedFrame in;                   ///< of a pose
+    solver::AttachedFrame in;                   ///< of a pose or a wrench
+    solver::AttachedFrame sensor;               ///< of a wrench
     std::optional<solver::AttachedFrame> hook;  ///< of a pose: what latches in the object
     std::vector<SignalSample> on_way;           ///< a ring of the last measurements
     std::size_t next = 0;
@@ -74,9 +76,14 @@ class SceneSignals {
   bool is_latched(const Truth& truth, int number) const noexcept;
   double distance(const Truth& truth, int number, const solver::State& state) const noexcept;
 
+  /// Of a sensor, seen from the signal's frame.
+  solver::ForceVector wrench(Source& source, const Truth& truth, const solver::State& state) const noexcept;
+
   solver::Model model_;
+  std::size_t number_;  ///< of the seeing robot
   lang::Scene scene_;
   std::vector<std::vector<solver::Vector3>> footprints_;  ///< convex
+  std::vector<std::vector<solver::Vector3>> leaning_;     ///< by object: its outline, if it leans
   std::vector<Source> sources_;
   std::optional<Source> base_;  ///< of `measure_base`
 };

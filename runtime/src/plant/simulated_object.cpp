@@ -64,7 +64,7 @@ void add_resistance(SimulatedObject& object, double period, const double* qpos, 
 
 void place_truth(const SimulatedObject& object, const Vector3& centre, const Matrix3& rotation,
                  ObjectTruth& truth) noexcept {
-  const Vector3 at = centre - rotation * object.geometry.shift;
+  const Vector3 at = centre - rotation * object.geometry.shift;  // its z means nothing
   truth.x = at.x();
   truth.y = at.y();
   truth.yaw = std::atan2(rotation(1, 0), rotation(0, 0));

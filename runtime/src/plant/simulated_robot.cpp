@@ -67,6 +67,25 @@ std::vector<solver::Frame> find_tips(const Model& model) {
   return tips;
 }
 
+/// A pad touches with its corners, in the place of its link's tip.
+void spread_pads(const lang::Robot& robot, std::vector<solver::Frame>& tips) {
+  std::vector<solver::Frame> corners;
+  for (const lang::Pad& pad : robot.pads) {
+    const auto number = robot.model.find_frame(pad.frame);
+    if (!number) refuse("the robot has no frame `" + pad.frame + "` for a pad");
+    solver::Frame corner = robot.model.frames()[static_cast<std::size_t>(*number)];
+    std::erase_if(tips, [&corner](const solver::Frame& tip) { return tip.body == corner.body; });
+    const solver::Pose middle = corner.pose_in_body;
+    for (const double y : {-0.5 * pad.width, 0.5 * pad.width}) {
+      for (const double z : {-0.5 * pad.height, 0.5 * pad.height}) {
+        corner.pose_in_body.position = middle * Vector3(0.0, y, z);
+        corners.push_back(corner);
+      }
+    }
+  }
+  tips.insert(tips.end(), corners.begin(), corners.end());
+}
+
 }  // namespace
 
 const solver::Frame& hook_of(const Model& model, const lang::Dock& dock, const std::string& owner) {
@@ -83,6 +102,7 @@ SimulatedRobot prepare_robot(const lang::Robot& robot, bool real_rollers, int nu
     simulated.prefix += std::to_string(number) + "_";
   }
   simulated.tips = find_tips(robot.model);
+  spread_pads(robot, simulated.tips);
   const auto spheres = real_rollers ? std::nullopt : replace_wheels_by_spheres(robot.model);
   simulated.spheres = spheres.value_or(SphereBase{{}, robot.model.bodies().front().inertia});
   for (const solver::Wheel& wheel : robot.model.wheels()) {

@@ -244,6 +244,10 @@ std::vector<GeomOwner> find_owners(const mjModel& model, const std::vector<Simul
     if (std::strncmp(name, "wheel_", 6) == 0) owner.wheel = std::atoi(name + 6);
     const bool of_outline = std::strncmp(name, "bumper_", 7) == 0;
     owner.touches = of_outline || std::strncmp(name, "tip_", 4) == 0;
+    if (owner.touches) {
+      const char* body = mj_id2name(&model, mjOBJ_BODY, model.geom_bodyid[g]) + robot.prefix.size();
+      owner.part = std::atoi(body + std::strlen("body_"));
+    }
     if (of_outline && std::isdigit(static_cast<unsigned char>(name[7])) != 0) {
       const auto corner = static_cast<std::size_t>(std::atoi(name + 7));
       owner.corner = nearest_corner(robot.robot.footprint, robot.outline[corner]);

@@ -47,6 +47,7 @@ struct GeomOwner {
   int robot = -1;        ///< 0 the first one, then the scene's
   bool touches = false;  ///< of a robot: its outline or a tip
   bool body = false;     ///< of a robot: the body that never touches the floor while the base stands
+  int part = 0;          ///< of a robot: the body of its model, where it touches
   int corner = -1;       ///< of the robot's footprint
   int wheel = -1;
 

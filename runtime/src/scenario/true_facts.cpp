@@ -46,18 +46,25 @@ void TrueFacts::update(const Truth& truth, const solver::State& state, double to
   values_[lang::truth_acceleration] = truth.base.acceleration;
   values_[lang::truth_push] = truth.base.push;
   values_[lang::truth_slip] = truth.base.slip;
+  values_[lang::truth_hand] = truth.base.hand;
   const std::size_t objects = truth.objects.size() - truth.robots.size();
   for (std::size_t k = 0; k < objects; ++k)
     put_object(k, truth, values_.data() + lang::truth_base_count + k * lang::truth_object_count);
-  put_travels(truth);
+  put_travels_and_wrenches(truth);
   look_at_regions();
 }
 
-void TrueFacts::put_travels(const Truth& truth) noexcept {
+void TrueFacts::put_travels_and_wrenches(const Truth& truth) noexcept {
   if (!program_.scene) return;
   double* value = of_partner(truth.robots.size());
   for (std::size_t k = 0; k < program_.scene->objects.size(); ++k) {
     if (program_.scene->objects[k].guide) *value++ = truth.objects[k].travel;
+  }
+  for (std::size_t i = 0; i < program_.scene->signals.size(); ++i) {
+    if (program_.scene->signals[i].kind != lang::SceneSignalKind::wrench) continue;
+    const solver::ForceVector& felt = truth.wrenches[0][i];
+    value = std::copy(felt.linear.data(), felt.linear.data() + 3, value);
+    value = std::copy(felt.angular.data(), felt.angular.data() + 3, value);
   }
 }
 
@@ -74,6 +81,7 @@ void TrueFacts::put_object(std::size_t number, const Truth& truth, double* value
   values[lang::truth_object_yaw] = object.yaw;
   values[lang::truth_latched] = object.latched.value_or(unknown);
   values[lang::truth_pull] = object.pull;
+  values[lang::truth_object_hand] = object.hand;
 }
 
 void TrueFacts::look_at_regions() noexcept {

@@ -42,7 +42,7 @@ class TrueFacts {
   };
   double* of_partner(std::size_t number) noexcept;
   void put_object(std::size_t object, const Truth& truth, double* values) noexcept;
-  void put_travels(const Truth& truth) noexcept;
+  void put_travels_and_wrenches(const Truth& truth) noexcept;
   void look_at_regions() noexcept;
 
   const lang::Program& program_;

@@ -52,6 +52,12 @@ inline constexpr double longest_encoder_step = 0.1;
 /// Where a robot file gives no `slew`, a motor takes as long for all of its torque. [s]
 inline constexpr double full_torque_within = 5e-3;
 
+/// A flat end of an arm: a rectangle across the x axis of a frame, which touches with its four corners.
+struct Pad {
+  std::string frame;                 ///< of a link that a motor moves
+  double width = 0.0, height = 0.0;  ///< [m] along the frame's y and z
+};
+
 /// What tells a robot of the contacts that press on it. The sensor's low pass is of first order.
 struct Feels {
   enum class By {
@@ -125,6 +131,7 @@ struct Robot {
   double control_period = default_control_period;  ///< [s] from one torque to the next
   double encoder_step = 0.0;                       ///< [rad] of the driven wheels; 0: not known
   Drive drive;
+  std::vector<Pad> pads;
   std::vector<Span> joint_spans;  ///< where each joint's limits come from
 };
 

@@ -30,7 +30,7 @@ struct ScenarioCell {
   std::vector<Fault> faults;                      ///< beside the scene's own
   std::string fault_set;                          ///< whose they are; empty: nobody's
   RobotDeviation deviation;
-  bool shows_each_value = false;  ///< one of the few cells in which each value of the matrix occurs
+  bool shows_each_value = false;      ///< one of the few cells in which each value of the matrix occurs
   std::map<std::string, Span> spans;  ///< where `robot`, `scene`, `params.NAME` are written
 };
 
@@ -68,8 +68,9 @@ struct Expectation {
 /// What the plant measures, as expectations call it, and when the run told what. First come
 /// `truth_base_count` of the base, then `truth_object_count` of each object, then `truth_robot_count` of each
 /// robot of the scene, in the order of these enumerations; then the travel of each object with a guide,
-/// `angle` of a hinge and `travel` of a slide; then, of each output of the task file, what it is set to, of
-/// each region how far inside of it the footprint is [m], and of each task when it was entered first [s].
+/// `angle` of a hinge and `travel` of a slide, and the six parts of each wrench that the scene measures on
+/// the first robot, as they are; then, of each output of the task file, what it is set to, of each region how
+/// far inside of it the footprint is [m], and of each task when it was entered first [s].
 enum TruthOfBase {
   truth_x,
   truth_y,
@@ -85,6 +86,7 @@ enum TruthOfBase {
   truth_acceleration,  ///< [m/s^2] of its origin, mean of 20 ms without hits
   truth_push,          ///< [N] of the whole robot in the plane, mean of 20 ms without hits
   truth_slip,          ///< [m/s] of the wheel that slides fastest
+  truth_hand,          ///< [N] of all hands on the whole robot
   run_stopped,         ///< [s] when the protective stop latched
   run_slipped,         ///< [s] when slip was told first
   truth_base_count
@@ -97,8 +99,9 @@ enum TruthOfObject {
   truth_object_x,
   truth_object_y,
   truth_object_yaw,
-  truth_latched,  ///< [s] when a hook latched in its dock
-  truth_pull,     ///< [N] with which the hook pulls the dock outwards; 0 while it is not latched
+  truth_latched,      ///< [s] when a hook latched in its dock
+  truth_pull,         ///< [N] with which the hook pulls the dock outwards; 0 while it is not latched
+  truth_object_hand,  ///< [N] of all hands on it
   truth_object_count
 };
 /// Of another robot: what an object has, and

@@ -58,6 +58,8 @@ struct SceneObject {
   std::array<double, 2> at{};    ///< [m] world; a wall's `at` is a point of its face, midway along it
   double yaw = 0.0;  ///< [rad] a wall's face looks along its own -x: a robot that drives along +x meets it
                      ///< square at yaw 0
+  /// [rad] Of a fixed box or wall that leans: it is turned about its `at` on the floor, by the roll first.
+  double roll = 0.0, pitch = 0.0;
   std::optional<double> mass;      ///< [kg]; none: fixed to the world
   std::optional<Guide> guide;      ///< of one that has a mass, and does not stand on the floor
   std::optional<double> slides;    ///< Coulomb coefficient on the floor; none: by `friction` and the floor's
@@ -72,6 +74,7 @@ struct SceneObject {
   /// By pushes, or by its script; else it is fixed to the world.
   bool moves() const { return mass || !motion.empty(); }
   bool is_locked() const { return guide && guide->locked; }
+  bool leans() const { return roll != 0.0 || pitch != 0.0; }
   /// [1/kg] 0: nothing pushes it.
   double inverse_mass() const { return mass && !is_locked() ? 1.0 / *mass : 0.0; }
 };
@@ -96,6 +99,7 @@ enum class SceneSignalKind {
   latch,     ///< whether the hook holds in the dock of the object or robot
   force,     ///< that the first robot and the object or robot press each other with [N]
   travel,    ///< how far an object has gone in its guide [rad] or [m], or whether that is `beyond`
+  wrench,    ///< that presses on the link of a frame of the seeing robot, and on all that it carries
 };
 
 /// Where a signal of the task file with this name comes from, and how well it is measured.
@@ -109,12 +113,14 @@ struct SceneSignal {
   std::optional<double> beyond;  ///< [rad], [m] true where the travel is as far from 0, on its side
   Span source_span{};            ///< of what is seen; of a script its first value
   int object = -1;               ///< what is seen: an index into Scene::objects, or of a robot (`seen_robot`)
+  std::string frame;             ///< of a wrench: the sensor's axes and its origin
   double noise = 0.0;            ///< [m], [N] standard deviation of a distance, a pose's x and y, a force
   double bias = 0.0;             ///< [N] that a force is measured too large
-  double angle_noise = 0.0;      ///< [rad] of a pose's yaw
-  double delay = 0.0;            ///< [s] from the measurement to its arrival
-  double period = 0.0;           ///< [s] between measurements; 0: every tick
-  double dropouts = 0.0;         ///< the share of measurements that are lost, 0 to 1
+  std::array<double, 3> force_bias{};  ///< [N] of a wrench, along the sensor's axes
+  double angle_noise = 0.0;            ///< [rad] of a pose's yaw
+  double delay = 0.0;                  ///< [s] from the measurement to its arrival
+  double period = 0.0;                 ///< [s] between measurements; 0: every tick
+  double dropouts = 0.0;               ///< the share of measurements that are lost, 0 to 1
   Span span;
 };
 
@@ -162,13 +168,16 @@ struct Fault {
   Span span;
 };
 
-/// A person's hand on the first robot's base.
+/// A person's hand on a robot or on an object.
 struct ScenePush {
   double at = 0.0;                                            ///< [s]
   double duration = std::numeric_limits<double>::infinity();  ///< [s]
-  std::string frame;              ///< of the base, at whose origin it presses; empty: the base's own
-  std::array<double, 2> force{};  ///< [N] in the frame's axes
-  Span frame_span{};
+  std::string robot;                        ///< whose frame: one of Scene::robots; empty: the first one's
+  std::string object;                       ///< pressed on in the place of a robot; empty: none
+  std::string frame;                        ///< of the robot, at whose origin it presses; empty: its base's
+  std::array<double, 2> point{};            ///< [m] of the object, from its `at`
+  std::array<double, 3> force{}, torque{};  ///< [N], [N m] in the axes of the frame or the object
+  Span whose_span{}, frame_span{}, wrench_span{};
 };
 
 /// A parameter's value as a scene writes it.

@@ -25,6 +25,7 @@ struct ObjectTruth {
   std::optional<double> latched;       ///< [s] since when a hook holds in its dock
   double pull = 0.0;    ///< [N] with which that hook pulls the dock outwards, now; negative: inwards
   double travel = 0.0;  ///< [rad] about its hinge or [m] along its slide, from where it was written
+  double hand = 0.0;    ///< [N] how hard all hands press on it, now; of a robot on the whole of it
 };
 
 /// Of a robot's base, beside its place and its planar motion.
@@ -33,6 +34,7 @@ struct BaseTruth {
   /// Means over 20 ms. While a hit falls into them they keep their value.
   double acceleration = 0.0;  ///< [m/s^2] of its origin, in the plane
   double push = 0.0;          ///< [N] planar sum of all contacts and docks of the whole robot
+  double hand = 0.0;          ///< [N] how hard all hands press on the whole robot, now
   /// Of the same, at the base's origin and in its axes, now: x, y [N], rz [N m].
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   /// [m/s] with which its worst wheel slides over the floor, beyond a tenth of its rim's speed, low-passed
@@ -73,12 +75,25 @@ struct Truth {
   std::vector<double> corner_forces;  ///< [N] normal force on each corner of the footprint, now
   std::vector<ObjectTruth> objects;   ///< the scene's objects, then its robots
   std::vector<RobotTruth> robots;     ///< the scene's
+  /// By robot, the first one's first, and by its signals in the scene: what presses on the link of a wrench's
+  /// frame and on all that it carries, in the axes of the frame and about its origin. The floor and the
+  /// weight are left out. Zero of other signals.
+  std::vector<std::vector<solver::ForceVector>> wrenches;
 };
 
 /// What a hand presses with on the first robot's base, beside everything that the scene says.
 struct Push {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();     ///< [m] where, in the base's axes, as high as its origin
   Eigen::Vector2d force = Eigen::Vector2d::Zero();  ///< [N] in the world's axes
+};
+
+/// What a hand presses with on any body.
+struct BodyPush {
+  int robot = 0;      ///< 0 is the first one; -1: an object
+  int body = 0;       ///< of the robot's model; or the object, by its number in the scene
+  solver::Pose pose;  ///< of the place and the axes in which it presses: in the body; of an object in
+                      ///< its axes, from its `at`
+  solver::ForceVector wrench;  ///< [N m], [N] at that place and in those axes
 };
 
 /// Of the library that is loaded, as `2.3.7`.
@@ -133,7 +148,7 @@ class MujocoPlant : public Plant {
   /// From the next step on, until another one; finite.
   void set_push(const Push& push) noexcept;
   /// Beside that one; as many as there ever were do not allocate.
-  void set_more_pushes(std::span<const Push> pushes) noexcept;
+  void set_more_pushes(std::span<const BodyPush> pushes) noexcept;
   /// From now on an object of the scene, by its number, follows these points in time, whatever stands in its
   /// way, in the place of its own; at least one. After the last one an object with a mass is let go. One that
   /// is fixed meets the robot as if it stood: the dampers of its contacts do not see how fast it moves.
