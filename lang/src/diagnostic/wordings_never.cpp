@@ -308,6 +308,15 @@ Diagnostic steering_stands(const Span& span, const std::string& axis, const std:
                      ", rz: {position: 20 deg}}`, and drive ahead along `x`");
 }
 
+Diagnostic hops_along(const Span& span, const std::string& push, const std::string& way, const Span& driven) {
+  return with_related(
+      warning("W645", span,
+              "`" + push + "` presses across the way of `" + way +
+                  "`: the driven wheels swivel by themselves, and the base hops along a stiff wall",
+              "stand still while the base presses, or drive beside it with a `position` or `velocity`"),
+      driven, "the base drives here");
+}
+
 Diagnostic circle_beyond_norm(const Span& span, const Circle& c, const Span& norm) {
   return with_related(warning("W615", span,
                               figure(c.speed, "m/s") + " at " + figure(c.rate, "rad/s") + " needs " +

@@ -120,6 +120,8 @@ struct Box {
 };
 Diagnostic box_for_norm(const Span& span, const Box& box, const Span& other);
 
+/// Of driven wheels that swivel by themselves.
+Diagnostic hops_along(const Span& span, const std::string& push, const std::string& way, const Span& driven);
 Diagnostic steering_stands(const Span& span, const std::string& axis, const std::string& steering,
                            const std::string& link, const std::string& base);
 

@@ -333,6 +333,15 @@ this axis, and no driver of the base's own axes steers: nothing moves.)~",
 `steer: {move: STEERED_LINK, in: base, rz: {position: 20 deg}}`, and drive ahead along `x`; or
 start with it turned (`posture` in the robot file).)~"},
       Explanation{
+          .code = "W645",
+          .title = "a push across the way of driven casters",
+          .why =
+              R"~(A driven wheel on a free swivel turns its heading only as it rolls. A base on such wheels comes off a
+wall beside its way, comes back at an angle, and is driven into the wall. In the simulation it hops along
+walls of 5 kN/m and more: 10 N are 0 to 270 N there. A box that gives way is pressed evenly.)~",
+          .fix = "Press while the base stands, as `wall_align` does, or keep the side at a distance by a "
+                 "`position`. Mecanum and omni wheels press while they drive."},
+      Explanation{
           .code = "W868",
           .title = "rollers that are mirrored",
           .why =

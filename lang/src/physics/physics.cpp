@@ -71,6 +71,7 @@ void ask_task(const CheckContext& context, std::size_t index, const Asked& asked
   ask_exits_of_task(context, index, plan, asked, probe, remarks);
   ask_reach(plan, probe, remarks);
   ask_steering(plan, asked.held_steerings, probe, remarks);
+  ask_hopping(plan, asked.scene, probe, remarks);
   ask_square(plan, asked.held_steerings, asked.floor_friction, probe, remarks);
   ask_turned_slowly(context, plan, asked.conditions.of_tasks[index], probe, remarks);
   ask_freedoms(plan, probe, remarks);

@@ -16,7 +16,7 @@ namespace {
 using solver::Axis;
 using solver::Quantity;
 
-constexpr double rounding = 1.0 + 1e-9;
+constexpr double norm_rounding = 1.0 + 1e-9;
 
 /// Along axes that turn with the base: a velocity there goes on around a circle.
 bool is_on_base(const PlannedAxis& axis) {
@@ -50,7 +50,7 @@ void ask_circle(const PlannedTask& plan, Remarks& remarks) {
   if (turn == nullptr) return;
   for (const PlannedNorm& norm : plan.norms) {
     const double speed = driven_speed(plan, norm.move), rate = std::abs(*turn->target);
-    if (norm.move.body != 0 || !(norm.most > 0.0) || speed * rate <= norm.most * rounding) continue;
+    if (norm.move.body != 0 || !(norm.most > 0.0) || speed * rate <= norm.most * norm_rounding) continue;
     remarks.add(
         wording::circle_beyond_norm(turn->driver_span(), {speed, rate, norm.most, norm.path}, norm.span));
   }

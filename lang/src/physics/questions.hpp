@@ -84,6 +84,9 @@ void ask_contradiction(const CheckContext& context, const PlannedTask& plan, Pro
 std::vector<int> held_steerings(const CheckContext& context, const solver::Model& model);
 /// W643: motion that the wheels hold while nothing steers them.
 void ask_steering(const PlannedTask& plan, const std::vector<int>& held, Probe& probe, Remarks& remarks);
+/// W645: a push across the way of driven casters.
+void ask_hopping(const PlannedTask& plan, const std::optional<Scene>& scene, const Probe& probe,
+                 Remarks& remarks);
 /// E621, W621: a heading that a wall is to turn, and cannot. `floor_friction`: of the scene.
 void ask_square(const PlannedTask& plan, const std::vector<int>& held_steerings, double floor_friction,
                 Probe& probe, Remarks& remarks);
