@@ -7,6 +7,7 @@ import { axes } from './axes.mjs';
 import { launch } from './browser.mjs';
 import { runs, useCase } from './cases.mjs';
 import { graph, live, report } from './pages.mjs';
+import { quantities } from './quantities.mjs';
 import { diagnostic } from './terminal.mjs';
 import { turning } from './turning.mjs';
 
@@ -25,6 +26,7 @@ const browser = await launch(chromium);
 try {
   const [wall, hospital] = [made('wall_align'), made('hospital')];
   axes(zwang, specs, `${out}/axes.svg`, `${folder}/axes`);
+  quantities(zwang, specs, out, `${folder}/quantities`);
   writeFileSync(`${out}/row.svg`, execFileSync('python3', [`${out}/row.py`]));
   await diagnostic(browser, zwang, specs, `${out}/diagnostic.png`, `${folder}/diagnostic`);
   await report(browser, hospital, 0.5, `${out}/report.png`);

@@ -172,6 +172,52 @@ TEST(LanguageOfThePage, has_every_key_and_word_of_the_schemas) {
   }
 }
 
+/// The keys of a schema, without the words that are values.
+void gather_properties(const nlohmann::json& schema, std::set<std::string>& keys) {
+  if (schema.is_object() && schema.contains("properties")) {
+    for (const auto& [key, value] : schema["properties"].items()) keys.insert(key);
+  }
+  for (const auto& part : schema) {
+    if (part.is_structured()) gather_properties(part, keys);
+  }
+}
+
+/// `#the-base's-own-pose` of `### The base's own pose`, as pages of repositories make it.
+std::set<std::string> headings_of(const std::string& page) {
+  std::set<std::string> anchors;
+  std::istringstream lines(page);
+  bool is_code = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("```")) is_code = !is_code;
+    if (is_code || !line.starts_with("##")) continue;
+    std::string anchor = "#";
+    for (const char c : line.substr(line.find(' ') + 1)) {
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+        anchor += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      if (c == ' ' || c == '-' || c == '_') anchor += c == ' ' ? '-' : c;
+    }
+    anchors.insert(anchor);
+  }
+  return anchors;
+}
+
+TEST(LanguageOfThePage, has_an_index_of_every_key_whose_links_lead_to_sections) {
+  const std::string page = test::slurp(test::source_dir / "docs/language.md");
+  std::string index = page.substr(page.find("\n## Index\n"));
+  std::replace(index.begin(), index.end(), '\n', ' ');
+  std::set<std::string> keys;
+  for (const FileKind kind :
+       {FileKind::task, FileKind::robot, FileKind::scene, FileKind::scenario, FileKind::study})
+    gather_properties(nlohmann::json::parse(json_schema(kind)), keys);
+  EXPECT_GT(keys.size(), 150u);
+  for (const std::string& key : keys)
+    EXPECT_NE(index.find("`" + key + "` ["), std::string::npos) << key << " is not in the index";
+  const std::set<std::string> headings = headings_of(page);
+  const std::regex link("\\]\\((#[^)]*)\\)");
+  for (std::sregex_iterator at(page.begin(), page.end(), link), end; at != end; ++at)
+    EXPECT_TRUE(headings.contains((*at)[1])) << (*at)[1] << " is no section";
+}
+
 /// The line of the page's table, as the table of the functions has it.
 std::string row_of(const ConditionFunction& function) {
   static constexpr std::array arguments{"x", "signal", "frame", "task", "path"};
