@@ -179,8 +179,8 @@ ABSENT='chromium webp' try 'pictures' 0 "$place/dev" pictures
 has "$called" 'install -y --no-install-recommends chromium webp'
 has "$called" "node $place/docs/pictures/make.mjs $place/build/release/zwang $place/specs $place/docs/pictures $place/bin/chromium"
 has "$err" '30 bytes'
-PICTURE_BYTES=2000000 try 'pictures that are too large' 2 "$place/dev" pictures
-has "$err" 'more than 4000000'
+PICTURE_BYTES=700000 try 'pictures that are too large' 2 "$place/dev" pictures
+has "$err" 'more than 1500000'
 
 touch -d '+2 minutes' "$place/CMakePresets.json"
 try 'run after the presets changed' 1 "$place/dev" run a.yaml
