@@ -53,8 +53,11 @@ TEST(Sweep, EncodersThatFailAtAnyMomentKeepTheBounds) {
   const int runs = test::is_long() ? 1000 : 6;
   const int threads = test::is_long() ? static_cast<int>(std::thread::hardware_concurrency()) : 1;
   const auto results = run_all(3, 0, runs, Which::faulty, threads);
-  for (int i = 0; i < runs; ++i)
-    expect_bounds(results[static_cast<std::size_t>(i)], draw(3, i, Which::faulty), i);
+  for (int i = 0; i < runs; ++i) {
+    const Result& result = results[static_cast<std::size_t>(i)];
+    expect_bounds(result, draw(3, i, Which::faulty), i);
+    EXPECT_TRUE(result.reason.empty() || result.reason == "frozen") << i << ": " << result.reason;
+  }
   if (test::is_long()) print(3, 0, Which::faulty, results, std::cout);
 }
 

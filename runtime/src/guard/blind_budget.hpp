@@ -47,6 +47,8 @@ class BlindBudget {
   /// The model's motors would have moved a rim at `slowest` since the last sign of life, but for a contact.
   /// No encoder says whether that contact is still there.
   bool leans() noexcept;
+  /// [s] since the last sign of life.
+  double silent_for() const noexcept { return gap_; }
   /// Rates are not to be believed.
   bool is_blind() const noexcept { return phase_ == Phase::blind; }
   /// Sets the wheels' torques.

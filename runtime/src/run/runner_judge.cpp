@@ -8,8 +8,9 @@ namespace zwang::runtime {
 
 namespace {
 
-constexpr double start_window = 0.05;  // [s] in which a force sensor that touches nothing is judged
-constexpr double quiet_sensor = 5.0;   // [N] that it may read then
+constexpr double start_window = 0.05;     // [s] in which a force sensor that touches nothing is judged
+constexpr double longest_silence = 0.02;  // [s] of all encoders, for which motors are judged
+constexpr double quiet_sensor = 5.0;      // [N] that it may read then
 
 }  // namespace
 
@@ -51,7 +52,10 @@ void Runner::Parts::compare(const solver::State& measured) noexcept {
     motors.reset();
     return;
   }
-  stop(motors.look(disturbance, sample.state, tau, scheduler.constraints(), blends()));
+  const auto found = motors.look(disturbance, sample.state, tau, scheduler.constraints(), blends());
+  // All motors look lost to encoders that count nothing. The blind budget says which of the two it is.
+  const bool is_of_a_motor = found && found->code != EventCode::runaway;
+  if (!is_of_a_motor || blind_budget.silent_for() < longest_silence) stop(found);
 }
 
 /// A force that is measured before anything moved is the sensor's own.
