@@ -1,6 +1,7 @@
 // `each_wheel` and `inertias`: what a robot file says once for all wheels, and of bodies that the URDF lacks.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "support.hpp"
@@ -57,6 +58,56 @@ TEST(EachWheel, of_kind_mecanum_has_the_rollers_of_the_shipped_base) {
   ASSERT_EQ(robot.model.wheels().size(), 4U);
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_DOUBLE_EQ(*robot.model.wheels()[i].roller_angle, *shipped->model.wheels()[i].roller_angle) << i;
+}
+
+/// Wheels at the corners of a rectangle that is longer than it is wide, all turned about z by `angle`. Of
+/// each second one the axle points to the other side.
+std::string turned_rectangle(double angle) {
+  std::string urdf =
+      "<robot name='r'><link name='base_link'><inertial><mass value='20'/><inertia ixx='.5' iyy='.6' "
+      "izz='.8' "
+      "ixy='0' ixz='0' iyz='0'/></inertial></link>";
+  const double c = std::cos(angle), s = std::sin(angle);
+  int number = 0;
+  for (const double x : {0.3, -0.3}) {
+    for (const double y : {0.2, -0.2}) {
+      const std::string name = "wheel_" + std::to_string(number);
+      const double side = number % 2 == 0 ? 1.0 : -1.0;
+      urdf +=
+          "<link name='" + name +
+          "'><inertial><mass value='1'/><inertia ixx='.003' iyy='.003' izz='.003' ixy='0' ixz='0' iyz='0'/>"
+          "</inertial></link><joint name='" +
+          name + "_joint' type='continuous'><parent link='base_link'/><child link='" + name +
+          "'/><origin xyz='" + std::to_string(c * x - s * y) + " " + std::to_string(s * x + c * y) +
+          " -.1'/><axis xyz='" + std::to_string(-side * s) + " " + std::to_string(side * c) +
+          " 0'/><limit effort='5' velocity='10'/></joint>";
+      ++number;
+    }
+  }
+  return urdf + "</robot>";
+}
+
+// Which wheels lie on a diagonal is a matter of where they roll to: a base that looks along y has the
+// rollers of one that looks along x.
+TEST(EachWheel, of_kind_mecanum_has_the_same_rollers_whichever_way_the_base_looks) {
+  const test::Folder folder;
+  const std::string text =
+      mini +
+      "each_wheel: {kind: mecanum, radius: 80 mm}\nwheels: [{joint: wheel_0_joint}, {joint: wheel_1_joint}, "
+      "{joint: wheel_2_joint}, {joint: wheel_3_joint}]\nactuated: {wheel_0_joint: {}, wheel_1_joint: {}, "
+      "wheel_2_joint: {}, wheel_3_joint: {}}\n" +
+      rest;
+  const double eighth = std::numbers::pi / 4.0;
+  for (int turn = 0; turn < 8; ++turn) {
+    folder.write("robot.urdf", turned_rectangle(turn * eighth));
+    Diagnostics diagnostics;
+    const auto robot = load_robot(folder.write("robot.yaml", text), diagnostics);
+    ASSERT_TRUE(robot) << test::rendered(diagnostics);
+    EXPECT_EQ(test::count(diagnostics, "W868"), 0) << test::rendered(diagnostics);
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_DOUBLE_EQ(*robot->model.wheels()[i].roller_angle, (i == 0 || i == 3 ? 1.0 : -1.0) * eighth)
+          << turn << " eighths, wheel " << i;
+  }
 }
 
 TEST(EachWheel, of_kind_skid_slides_sideways) {

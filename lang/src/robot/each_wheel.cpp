@@ -84,22 +84,27 @@ void complete_wheels(RobotFile& file, Diagnostics& diagnostics) {
 }
 
 // From above, the rollers of a usual mecanum base form an X: at the ground, front left and rear right are
-// turned by 45 deg from the wheel's axis, the others by -45 deg.
+// turned by 45 deg from the wheel's axis, the others by -45 deg. Front is where the wheels roll to, forward
+// or back: both ways the same wheels lie on one diagonal.
 void place_rollers(RobotFile& file, const Urdf& urdf) {
   if (file.each_wheel.kind != WheelKind::mecanum) return;
   const solver::Pose to_base = pose_in_root(urdf, file.base.text).inverse();
-  std::map<std::size_t, solver::Vector3> places;
-  solver::Vector3 middle = solver::Vector3::Zero();
+  std::map<std::size_t, Eigen::Vector2d> places;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero(), left = Eigen::Vector2d::UnitY();
   for (std::size_t i = 0; i < file.wheels.size(); ++i) {
     const WheelText& wheel = file.wheels[i];
     const UrdfJoint* joint = urdf.find_joint(wheel.joint.text);
     if (joint == nullptr || wheel.roller || wheel.gives_holds || motor_of(file, wheel) == nullptr) continue;
-    places[i] = (to_base * pose_in_root(urdf, joint->child)).position;
+    const solver::Pose pose = to_base * pose_in_root(urdf, joint->child);
+    const Eigen::Vector2d axle = (pose.rotation * joint->joint.axis).head<2>();
+    if (places.empty() && axle.norm() > 0.5) left = axle.normalized();
+    places[i] = pose.position.head<2>();
     middle += places[i];
   }
   if (!places.empty()) middle /= static_cast<double>(places.size());
+  const Eigen::Vector2d ahead(left.y(), -left.x());
   for (const auto& [i, at] : places) {
-    const bool is_diagonal = (at.x() > middle.x()) == (at.y() > middle.y());
+    const bool is_diagonal = ((at - middle).dot(ahead) > 0.0) == ((at - middle).dot(left) > 0.0);
     file.wheels[i].roller = (is_diagonal ? 1.0 : -1.0) * std::numbers::pi / 4.0;
   }
 }
