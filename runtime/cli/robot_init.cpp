@@ -111,9 +111,13 @@ int refused(const lang::Diagnostics& diagnostics) {
 void require_wheels(const std::string& urdf, const lang::RobotDraft& draft) {
   if (!draft.wheels.empty()) return;
   std::string reason = ": no wheels found: a robot file needs some";
-  if (!draft.stuck.empty())
-    reason += "; `" + draft.stuck.front().joint + "` is " + draft.stuck.front().how +
-              ", a wheel's joint is `continuous`";
+  constexpr std::size_t most = 3;
+  const std::size_t count = draft.stuck.size();
+  for (std::size_t i = 0; i < std::min(count, most); ++i)
+    reason += "; `" + draft.stuck[i].joint + "` is " + draft.stuck[i].how;
+  if (count > most) reason += "; and " + std::to_string(count - most) + " more are no wheels";
+  reason += ". A wheel's joint is `continuous` about a level axle";
+  if (count == 0) reason += "; without a wheel's name or a round shape, another one like it stands beside it";
   throw Impossible(urdf + reason);
 }
 

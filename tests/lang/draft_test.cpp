@@ -130,8 +130,10 @@ TEST_F(Draft, of_shipped_robots_has_the_wheels_and_motors_of_their_files) {
 TEST_F(Draft, of_a_smaller_urdf_takes_its_efforts) {
   const auto draft = this->draft(test::source_dir / "tests/conformance/robots/mini.urdf");
   ASSERT_TRUE(draft);
-  EXPECT_EQ(draft->wheels.size(), 0U);  // no joint is called a wheel and no link is round
-  EXPECT_TRUE(draft->assumed.empty());
+  // No joint is called a wheel and no link is round: left and right stand beside each other.
+  ASSERT_EQ(draft->wheels.size(), 2U);
+  EXPECT_EQ(draft->wheels[0].effort, 5.0);
+  EXPECT_FALSE(draft->wheels[0].radius);
 }
 
 TEST_F(RealDraft, finds_two_wheels_and_what_only_supports) {

@@ -135,12 +135,19 @@ Diagnostic steered_skid(const Span& span, const std::string& wheel, const std::s
 }
 
 Diagnostic moving_support(const Span& span, const std::string& link, const std::string& carrier,
-                          const Span& declared) {
+                          SupportOn what, const Span& declared) {
+  std::string help =
+      "a caster's wheel is one of `wheels`, without a motor: `{joint: " + carrier + ", radius: 50 mm}`";
+  if (what == SupportOn::ball)
+    help = "a ball stands as well without its joints: list " + in_ticks(carrier) + " under `fixed`";
+  if (what == SupportOn::steered_link)
+    help =
+        "delete it: what a steered link carries is no support. Without supports, a base on two wheels "
+        "stands on its `footprint`";
   return with_related(error("E802", span,
                             "a support stands still on the base, but " + in_ticks(link) + " hangs on joint " +
                                 in_ticks(carrier),
-                            "a caster's wheel is one of `wheels`, without a motor: `{joint: " + carrier +
-                                ", radius: 50 mm}`"),
+                            help),
                       declared, "it is declared here");
 }
 

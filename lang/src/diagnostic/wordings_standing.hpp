@@ -42,9 +42,11 @@ Diagnostic holds_nothing(const Span& span, const std::string& what);
 /// The wheel slides sideways, `holds: [rolling]`, and hangs on the moving joint `carrier`.
 Diagnostic steered_skid(const Span& span, const std::string& wheel, const std::string& carrier,
                         const Span& declared);
+/// What a support that moves is, or hangs on.
+enum class SupportOn { caster_wheel, ball, steered_link };
 /// Of `supports`: a link that joint `carrier` moves.
 Diagnostic moving_support(const Span& span, const std::string& link, const std::string& carrier,
-                          const Span& declared);
+                          SupportOn what, const Span& declared);
 /// `above`: by how much the wheel's lowest point is higher than that of `other`. [m]
 Diagnostic uneven_wheels(const Span& span, const std::string& wheel, const std::string& other, double above,
                          const Span& other_span);

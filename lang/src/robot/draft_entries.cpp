@@ -5,6 +5,8 @@
 #include <cstdio>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "robot/placed_urdf.hpp"
+#include "robot/wheel_names.hpp"
 #include "zwang/lang/footing.hpp"
 #include "zwang/solver/base_analysis.hpp"
 
@@ -33,6 +35,56 @@ double two_digits_below(double value) {
 std::string in_millimetres(double metres) {
   char text[40];
   std::snprintf(text, sizeof text, "%.6g mm", metres * 1e3);
+  return text;
+}
+
+std::vector<std::string> missing_of_joints(const Urdf& urdf, const FoundWheels& found, bool has_none) {
+  std::vector<std::string> lines;
+  if (has_none)
+    lines.push_back(
+        "wheels: no joint turns without end about a level axle and is called a wheel, is round, or has "
+        "another "
+        "one beside it");
+  for (const StuckWheel& wheel : found.stuck)
+    lines.push_back("a `continuous` joint about a level axle where the URDF has `" + wheel.joint +
+                    "`, which is " + wheel.how);
+  for (const std::string& name : found.in_between) {
+    if (!is_called_steering(name)) continue;
+    const bool is_stiff = !has_travel(*urdf.find_joint(name));
+    lines.push_back("a joint that steers where the URDF has `" + name +
+                    "`: " + (is_stiff ? "its limits leave it no travel" : "its axis does not point up") +
+                    ", and it stands in `fixed`");
+  }
+  return lines;
+}
+
+std::string stuck_wheels_note(const FoundWheels& found) {
+  std::string lines;
+  for (const StuckWheel& wheel : found.stuck)
+    lines += "# `" + wheel.joint + stands_nowhere + wheel.how + ". If it rolls, make it `continuous`.\n";
+  return lines;
+}
+
+std::string inertias_entry(const Urdf& urdf, const FoundWheels& found, const std::vector<std::string>& links,
+                           const std::string& mass) {
+  if (links.empty()) return "";
+  std::string text =
+      "\n# Links that move, and to which the URDF gives no inertia, or one that no body has: a wheel counts "
+      "as "
+      "a solid disc,\n# another link as a solid ball. Without `mass` the URDF's, without `radius` the "
+      "wheel's.\ninertias:\n";
+  const auto is_wheel = [&](const std::string& link) {
+    const auto has_it = [&](const DraftWheel& wheel) { return wheel.link == link; };
+    return std::any_of(found.wheels.begin(), found.wheels.end(), has_it) ||
+           std::any_of(found.idle.begin(), found.idle.end(), has_it) ||
+           std::any_of(found.casters.begin(), found.casters.end(), has_it);
+  };
+  for (const std::string& link : links) {
+    std::string keys;
+    if (urdf.find_link(link)->inertia.mass <= 0.0) keys = "mass: " + mass;
+    if (!is_wheel(link)) keys += (keys.empty() ? "" : ", ") + std::string("radius: 50 mm");
+    text += "  " + link + ": {" + keys + "}\n";
+  }
   return text;
 }
 

@@ -12,6 +12,18 @@ namespace zwang::lang {
 /// As precise as a drawing.
 std::string in_millimetres(double metres);
 
+/// What the URDF lacks of wheels and of joints that steer, a line each. `has_none`: no wheel was found.
+std::vector<std::string> missing_of_joints(const Urdf& urdf, const FoundWheels& found, bool has_none);
+
+/// Of a joint in that comment: it stands nowhere in the file.
+inline constexpr const char* stands_nowhere = "` is not here: the URDF has it ";
+/// A comment for each joint that is called a wheel, where others turn.
+std::string stuck_wheels_note(const FoundWheels& found);
+
+/// The section `inertias` of these links. `mass`: of one that has none.
+std::string inertias_entry(const Urdf& urdf, const FoundWheels& found, const std::vector<std::string>& links,
+                           const std::string& mass);
+
 /// `mimic`: joints that the file names elsewhere, and that follow another one. Empty where none does.
 std::string mimic_entry(const Urdf& urdf, const FoundWheels& found);
 

@@ -181,14 +181,7 @@ class Drafter {
   }
 
   std::vector<std::string> missing() const {
-    std::vector<std::string> lines;
-    if (drive_ == DriveKind::none) {
-      lines.push_back(
-          "wheels: no joint turns without end about a level axle and is called a wheel or is round");
-      for (const StuckWheel& wheel : found_.stuck)
-        lines.push_back("a `continuous` joint where the URDF has `" + wheel.joint + "`, which is " +
-                        wheel.how);
-    }
+    std::vector<std::string> lines = missing_of_joints(urdf_, found_, drive_ == DriveKind::none);
     std::vector<DraftWheel> all = holding_wheels(found_);
     all.insert(all.end(), found_.casters.begin(), found_.casters.end());
     add_missing(lines, "the radius, where the shape is a mesh: ", all, lacks_radius);
@@ -269,29 +262,6 @@ class Drafter {
     return text;
   }
 
-  std::string inertias(const Filling& filling) const {
-    if (bodies_.empty()) return "";
-    std::string text =
-        "\n# Links that move, and to which the URDF gives no inertia, or one that no body has: a wheel "
-        "counts as a "
-        "solid disc,\n# another link as a solid ball. Without `mass` the URDF's, without `radius` the "
-        "wheel's.\n"
-        "inertias:\n";
-    for (const std::string& link : bodies_) {
-      std::string keys;
-      if (urdf_.find_link(link)->inertia.mass <= 0.0) keys = "mass: " + filling.mass;
-      if (!is_wheel(link)) keys += (keys.empty() ? "" : ", ") + std::string("radius: 50 mm");
-      text += "  " + link + ": {" + keys + "}\n";
-    }
-    return text;
-  }
-
-  bool is_wheel(const std::string& link) const {
-    const auto has_it = [&](const DraftWheel& wheel) { return wheel.link == link; };
-    return any(has_it) || std::any_of(found_.idle.begin(), found_.idle.end(), has_it) ||
-           std::any_of(found_.casters.begin(), found_.casters.end(), has_it);
-  }
-
   static std::string listed(const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -304,12 +274,11 @@ class Drafter {
       text +=
           "\n# They do not move here. They carry wheels and do not steer them, as rockers and springs do; "
           "follow "
-          "another joint\n# by a <mimic>; have no inertia behind them; or are stiff casters, or a "
-          "simulator's "
-          "rails.\nfixed: " +
+          "another joint\n# by a <mimic>; have no travel, no motor, or no inertia behind them; or are stiff "
+          "casters, balls and\n# rollers, or a simulator's rails.\nfixed: " +
           listed(held_);
     text += mimic_entry(urdf_, found_) + "\n";
-    text += each_wheel(filling) + "wheels:\n";
+    text += each_wheel(filling) + stuck_wheels_note(found_) + "wheels:\n";
     for (const DraftWheel& wheel : found_.wheels) text += wheel_entry(wheel, true, false, filling);
     if (!found_.idle.empty()) text += "  # They have no motor, and roll along.\n";
     const bool is_skid = drive_ == DriveKind::rollers_or_skid;
@@ -325,8 +294,9 @@ class Drafter {
         "# rotor_inertia, as {gear: 20, rotor_inertia: 2 kg mm^2}: they are often larger than the wheel's "
         "own inertia.\n";
     text += actuated(filling);
-    text += inertias(filling) + posture_entry(urdf_, folded_) + stop_entry(urdf_.mass(), deceleration_) +
-            frames_.footprint(filling.footprint) + frames_.frames(filling.back);
+    text += inertias_entry(urdf_, found_, bodies_, filling.mass) + posture_entry(urdf_, folded_) +
+            stop_entry(urdf_.mass(), deceleration_) + frames_.footprint(filling.footprint) +
+            frames_.frames(filling.back);
     text +=
         "\n# In force where a task gives none, as limits: {acceleration: {x: +-1 m/s^2}, velocity: {x: +-1 "
         "m/s}}.\n"

@@ -183,9 +183,20 @@ class RobotBuilder {
     for (const Word& support : file_.supports) {
       check_link(support);
       if (const UrdfJoint* carrier = moving_carrier(support.text))
-        diagnostics_.add(
-            wording::moving_support(support.span, support.text, carrier->joint.name, carrier->span));
+        diagnostics_.add(wording::moving_support(support.span, support.text, carrier->joint.name,
+                                                 what_moves(support.text, *carrier), carrier->span));
     }
+  }
+
+  wording::SupportOn what_moves(const std::string& support, const UrdfJoint& carrier) const {
+    for (const WheelText& wheel : file_.wheels) {
+      const UrdfJoint* joint = urdf_.find_joint(wheel.joint.text);
+      if (joint == nullptr || joint == &carrier) continue;
+      if (moving_carrier(joint->parent) == &carrier) return wording::SupportOn::steered_link;
+    }
+    const UrdfLink* link = urdf_.find_link(support);
+    const bool is_ball = link != nullptr && link->radius && !link->cylinder_axis;
+    return is_ball ? wording::SupportOn::ball : wording::SupportOn::caster_wheel;
   }
 
   /// The joint that a link moves about in the base, the nearest one; nullptr where it is fixed to the base.

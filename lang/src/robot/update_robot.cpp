@@ -6,6 +6,7 @@
 #include <set>
 
 #include "diagnostic/wordings_standing.hpp"
+#include "robot/draft_entries.hpp"
 #include "robot/text_edits.hpp"
 #include "robot/urdf.hpp"
 #include "spec/units.hpp"
@@ -25,7 +26,9 @@ bool is_of_a_name(char c) {
 bool mentions(const std::string& text, const std::string& name) {
   for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1)) {
     const std::size_t end = at + name.size();
-    if ((at == 0 || !is_of_a_name(text[at - 1])) && (end == text.size() || !is_of_a_name(text[end])))
+    const bool is_whole =
+        (at == 0 || !is_of_a_name(text[at - 1])) && (end == text.size() || !is_of_a_name(text[end]));
+    if (is_whole && text.compare(end, std::string_view(stands_nowhere).size(), stands_nowhere) != 0)
       return true;
   }
   return false;

@@ -16,6 +16,8 @@ constexpr std::array<std::string_view, 5> wheels{"wheel", "roue", "rueda", "ruot
 constexpr std::array<std::string_view, 12> casters{"caster",    "castor",   "lenkrolle",  "laufrolle",
                                                    "stuetzrad", "stützrad", "roulette",   "folle",
                                                    "loca",      "rotella",  "pivottante", "piroettante"};
+constexpr std::array<std::string_view, 4> sensors{"lidar", "laser", "velodyne", "scanner"};
+constexpr std::array<std::string_view, 3> steerings{"steer", "lenkung", "sterz"};
 constexpr std::array<std::string_view, 5> balls{"ball", "kugel", "bille", "bola", "sfera"};
 
 std::vector<std::string> words_of(const std::string& name) {
@@ -54,6 +56,14 @@ bool is_called_wheel(const std::string& name) {
 
 bool is_called_caster(const std::string& name) {
   return has_word(name, casters);
+}
+
+bool is_called_steering(const std::string& name) {
+  return has_word(name, steerings);
+}
+
+bool is_called_sensor(const std::string& name) {
+  return has_word(name, sensors);
 }
 
 bool is_called_ball(const std::string& name) {

@@ -1,4 +1,4 @@
-/// Names of wheels, casters and balls in English, German, French, Spanish and Italian.
+/// Names of wheels, and of what is beside them, in English, German, French, Spanish and Italian.
 #pragma once
 
 #include <string>
@@ -10,5 +10,9 @@ bool is_called_wheel(const std::string& name);
 bool is_called_caster(const std::string& name);
 /// Of a ball that rolls every way.
 bool is_called_ball(const std::string& name);
+/// Of a joint that steers a wheel.
+bool is_called_steering(const std::string& name);
+/// Of a sensor that may turn to look around.
+bool is_called_sensor(const std::string& name);
 
 }  // namespace zwang::lang

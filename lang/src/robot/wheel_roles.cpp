@@ -5,7 +5,8 @@
 //   on a swivel, and called a caster, while others are not                                       a caster
 //   stiff, and called a caster, while others are not                                             a ball
 //
-// Wheels on one axle, or on one swivel, are judged together. Where none would be left that drives, all do.
+// Wheels on one axle, or on one swivel, are judged together. Where none would be left that drives, all do;
+// but casters do not where the URDF holds wheels that are called otherwise.
 #include "robot/wheel_roles.hpp"
 
 #include <algorithm>
@@ -34,6 +35,11 @@ class Roles {
   }
 
   void assign() {
+    if (are_all_casters_beside_stuck_wheels()) {
+      found_.casters = std::move(found_.wheels);
+      found_.wheels.clear();
+      return;
+    }
     std::vector<Role> roles;
     for (const DraftWheel& wheel : wheels_) roles.push_back(role_of(wheel));
     if (std::find(roles.begin(), roles.end(), Role::driven) == roles.end())
@@ -55,6 +61,12 @@ class Roles {
   static bool is_called_caster(const DraftWheel& wheel) {
     return lang::is_called_caster(wheel.swivel) || lang::is_called_caster(wheel.joint) ||
            lang::is_called_caster(wheel.link);
+  }
+
+  bool are_all_casters_beside_stuck_wheels() const {
+    const bool is_caster = std::all_of(wheels_.begin(), wheels_.end(),
+                                       [](const DraftWheel& wheel) { return is_called_caster(wheel); });
+    return is_caster && !found_.stuck.empty();
   }
 
   /// On one swivel, or on one axle of what does not steer.
@@ -98,16 +110,21 @@ class Roles {
     found_.supports.push_back(wheel.link);
   }
 
-  /// A motor steers a swivel, or two driven wheels on it do by their difference.
+  /// A motor steers a swivel, or two driven wheels on it do by their difference. Above two of them, a limit
+  /// of effort alone is a habit, and so is a transmission for its encoder: a motor has both.
+  bool is_steered(const std::string& swivel) const {
+    const auto driven = std::count_if(found_.wheels.begin(), found_.wheels.end(),
+                                      [&](const DraftWheel& w) { return w.swivel == swivel; });
+    const UrdfJoint* joint = urdf_.find_joint(swivel);
+    return driven < 2 || (joint->has_transmission && std::isfinite(joint->joint.max_effort));
+  }
+
   void find_steering() {
-    std::vector<DraftWheel> holding = found_.wheels;
-    holding.insert(holding.end(), found_.idle.begin(), found_.idle.end());
-    for (const DraftWheel& wheel : holding) {
-      const auto driven = std::count_if(found_.wheels.begin(), found_.wheels.end(),
-                                        [&](const DraftWheel& w) { return w.swivel == wheel.swivel; });
+    for (const DraftWheel& wheel : holding_wheels(found_)) {
       const bool is_known =
           std::find(found_.steering.begin(), found_.steering.end(), wheel.swivel) != found_.steering.end();
-      if (!wheel.swivel.empty() && driven < 2 && !is_known) found_.steering.push_back(wheel.swivel);
+      if (!wheel.swivel.empty() && !is_known && is_steered(wheel.swivel))
+        found_.steering.push_back(wheel.swivel);
     }
   }
 

@@ -1,5 +1,5 @@
-// A wheel turns without end about a level axle, and nothing moves beyond it. It is called a wheel, or it is
-// round and stands on the ground. A wheel behind a joint about the vertical is on a swivel.
+// A wheel behind a joint about the vertical is on a swivel. Balls and stiff casters stand beside the wheels;
+// every other joint that moves has a motor, or is held.
 #include "robot/wheel_search.hpp"
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 
 #include "diagnostic/wordings_physics.hpp"
 #include "diagnostic/wordings_standing.hpp"
+#include "robot/placed_urdf.hpp"
+#include "robot/wheel_candidates.hpp"
 #include "robot/wheel_names.hpp"
 #include "robot/wheel_roles.hpp"
 
@@ -16,12 +18,42 @@ namespace zwang::lang {
 
 namespace {
 
-constexpr double level = 0.1;    // |z| of an axle's direction
-constexpr double upright = 0.9;  // |z| of a swivel's
-constexpr double slack = 0.2;    // of a radius: as far off a round shape is drawn beside its place
+constexpr double slack = PlacedUrdf::slack;
 
 bool moves(const UrdfJoint& joint) {
   return joint.joint.type != solver::JointType::fixed;
+}
+
+/// The joint below a link of negligible mass, where it is the only one.
+const UrdfJoint* only_joint_below(const Urdf& urdf, const std::string& link) {
+  if (!urdf.is_negligible(*urdf.find_link(link))) return nullptr;
+  const UrdfJoint* below = nullptr;
+  for (const UrdfJoint& joint : urdf.joints) {
+    if (joint.parent != link) continue;
+    if (below != nullptr) return nullptr;
+    below = &joint;
+  }
+  return below;
+}
+
+/// `base_link` where it is fixed to the root, as it often hangs on a footprint; else the root. Rails that
+/// lead to a base and weigh next to nothing are a simulator's.
+std::string base_below(const Urdf& urdf, std::vector<std::string>& rails) {
+  std::string root = urdf.root;
+  std::string link = root;
+  for (const UrdfJoint* below = only_joint_below(urdf, link); below != nullptr;
+       below = only_joint_below(urdf, link)) {
+    link = below->child;
+    if (!moves(*below)) continue;
+    rails.push_back(below->joint.name);
+    root = link;
+  }
+  if (urdf.find_link("base_link") == nullptr) return root;
+  for (const UrdfJoint* above = urdf.joint_above("base_link"); above != nullptr && above->child != root;
+       above = urdf.joint_above(above->parent)) {
+    if (moves(*above)) return root;
+  }
+  return "base_link";
 }
 
 /// Counter-clockwise (Andrew's monotone chain). Empty where the points span no area.
@@ -55,157 +87,39 @@ constexpr double most_wheel_radius = 3.0, most_reach = 30.0;  // [m]
 
 class WheelSearch {
  public:
-  explicit WheelSearch(const Urdf& urdf) : urdf_(urdf) {
-    found_.base = base();
-    place_links();
-  }
+  WheelSearch(const Urdf& urdf, FoundWheels found)
+      : urdf_(urdf), found_(std::move(found)), placed_(urdf, found_.base) {}
 
   FoundWheels find() {
-    for (const UrdfJoint* joint : candidates()) add(*joint);
+    candidates_ = wheel_candidates(placed_);
+    for (const UrdfJoint* joint : candidates_.wheels) add(*joint);
+    for (const std::string& roller : candidates_.rollers) note(found_.in_between, roller);
+    find_stuck_wheels();
     if (!found_.wheels.empty()) assign_roles(urdf_, found_);
     couple_wheels();
     find_balls();
     find_others();
-    if (found_.wheels.empty()) find_stuck_wheels();
     find_outline();
     return found_;
   }
 
  private:
-  /// `base_link` where it is fixed to the root, as it often hangs on a footprint; else the root. Rails that
-  /// lead to a base and weigh next to nothing are a simulator's.
-  std::string base() {
-    std::string root = urdf_.root;
-    std::string link = root;
-    for (const UrdfJoint* below = only_joint(link); below != nullptr; below = only_joint(link)) {
-      link = below->child;
-      if (!moves(*below)) continue;
-      found_.in_between.push_back(below->joint.name);
-      root = link;
-    }
-    if (urdf_.find_link("base_link") == nullptr) return root;
-    for (const UrdfJoint* above = urdf_.joint_above("base_link"); above != nullptr && above->child != root;
-         above = urdf_.joint_above(above->parent)) {
-      if (moves(*above)) return root;
-    }
-    return "base_link";
-  }
-
-  /// The joint below a link of negligible mass, where it is the only one.
-  const UrdfJoint* only_joint(const std::string& link) const {
-    if (!urdf_.is_negligible(*urdf_.find_link(link))) return nullptr;
-    const UrdfJoint* below = nullptr;
-    for (const UrdfJoint& joint : urdf_.joints) {
-      if (joint.parent != link) continue;
-      if (below != nullptr) return nullptr;
-      below = &joint;
-    }
-    return below;
-  }
-
-  void place_links() {
-    std::map<std::string, solver::Pose> in_root{{urdf_.root, {}}};
-    for (bool is_growing = true; is_growing;) {
-      is_growing = false;
-      for (const UrdfJoint& joint : urdf_.joints) {
-        const auto parent = in_root.find(joint.parent);
-        if (parent == in_root.end() || in_root.contains(joint.child)) continue;
-        in_root[joint.child] = parent->second * joint.origin;
-        is_growing = true;
-      }
-    }
-    const solver::Pose to_base = in_root.at(found_.base).inverse();
-    for (const auto& [name, pose] : in_root) in_base_[name] = to_base * pose;
-  }
-
-  solver::Vector3 axis_of(const UrdfJoint& joint) const {
-    return in_base_.at(joint.child).rotation * joint.joint.axis;
-  }
-
-  /// The nearest moving joint above a link; nullptr when it is fixed to the base.
-  const UrdfJoint* carrier(const std::string& link) const {
-    const auto next = [&](const std::string& l) { return l == found_.base ? nullptr : urdf_.joint_above(l); };
-    const UrdfJoint* above = next(link);
-    while (above != nullptr && !moves(*above)) above = next(above->parent);
-    return above;
-  }
-
-  bool is_last(const UrdfJoint& joint) const {
-    return std::none_of(urdf_.joints.begin(), urdf_.joints.end(), [&](const UrdfJoint& other) {
-      return moves(other) && carrier(other.parent) == &joint;
-    });
-  }
-
-  static bool is_named(const UrdfJoint& joint) {
-    return is_called_wheel(joint.joint.name) || is_called_wheel(joint.child) ||
-           is_called_caster(joint.joint.name);
-  }
-
-  /// A wheel has the name of one, or is round and stands as low as the named ones. Without names the lowest
-  /// round links are wheels.
-  std::vector<const UrdfJoint*> candidates() const {
-    std::vector<const UrdfJoint*> named, round, result;
-    for (const UrdfJoint& joint : urdf_.joints) {
-      const bool turns_for_ever = joint.joint.type == solver::JointType::continuous;
-      if (!turns_for_ever || std::abs(axis_of(joint).z()) > level || !is_last(joint)) continue;
-      if (is_named(joint)) named.push_back(&joint);
-      if (lowest_of(joint)) round.push_back(&joint);
-    }
-    std::optional<double> ground;
-    for (const UrdfJoint* joint : named.empty() ? round : named) {
-      const std::optional<double> low = lowest_of(*joint);
-      if (low) ground = std::min(*low, ground.value_or(*low));
-    }
-    for (const UrdfJoint& joint : urdf_.joints) {
-      const auto is_in = [&](const std::vector<const UrdfJoint*>& joints) {
-        return std::find(joints.begin(), joints.end(), &joint) != joints.end();
-      };
-      if (is_in(named) || (is_in(round) && ground && stands_at(*ground, joint))) result.push_back(&joint);
-    }
-    return result;
-  }
-
-  /// Its height in the base. [m]
-  std::optional<double> lowest_of(const UrdfJoint& joint) const {
-    const std::optional<double> radius = radius_of(joint);
-    if (!radius) return std::nullopt;
-    return in_base_.at(joint.child).position.z() - *radius;
-  }
-
-  bool stands_at(double ground, const UrdfJoint& joint) const {
-    return std::abs(*lowest_of(joint) - ground) < slack * *radius_of(joint);
-  }
-
-  /// Of a wheel, whose tyre may be a link of its own.
-  std::optional<double> radius_of(const UrdfJoint& joint) const {
-    std::optional<double> radius = urdf_.find_link(joint.child)->radius;
-    for (const UrdfLink& link : urdf_.links) {
-      if (link.name == joint.child || !link.radius || carrier(link.name) != &joint) continue;
-      const bool is_on_axle = (in_base_.at(link.name) * link.round_at - in_base_.at(joint.child).position)
-                                  .cross(axis_of(joint))
-                                  .norm() < slack * *link.radius;
-      const bool lies_flat =
-          link.cylinder_axis &&
-          (in_base_.at(link.name).rotation * *link.cylinder_axis).cross(axis_of(joint)).norm() > level;
-      if (is_on_axle && !lies_flat) radius = std::max(radius.value_or(0.0), *link.radius);
-    }
-    return radius;
-  }
-
   void add(const UrdfJoint& joint) {
     DraftWheel wheel;
     wheel.joint = joint.joint.name;
     wheel.link = joint.child;
-    const solver::Vector3& at = in_base_.at(joint.child).position;
+    const solver::Vector3& at = placed_.place_of(joint);
+    const solver::Vector3 axle = placed_.axis_of(joint);
     wheel.at = {at.x(), at.y(), at.z()};
-    wheel.axle = axis_of(joint).head<2>();
-    wheel.radius = radius_of(joint);
+    wheel.axle = axle.head<2>();
+    const auto rim = candidates_.rims.find(&joint);
+    wheel.radius = rim != candidates_.rims.end() ? std::optional(rim->second) : placed_.radius_of(joint);
     if (std::isfinite(joint.joint.max_effort)) wheel.effort = joint.joint.max_effort;
-    for (const UrdfJoint* above = carrier(joint.parent); above != nullptr; above = carrier(above->parent)) {
+    for (const UrdfJoint* above : placed_.carriers(joint.parent)) {
       const bool slides = above->joint.type == solver::JointType::prismatic;
-      if (!slides && std::abs(axis_of(*above).z()) > upright) {
+      if (!slides && std::abs(placed_.axis_of(*above).z()) > PlacedUrdf::upright) {
         wheel.swivel = above->joint.name;
-        wheel.trail = std::abs((at - in_base_.at(above->child).position).cross(axis_of(joint)).z());
+        wheel.trail = std::abs((at - placed_.place_of(*above)).cross(axle).z());
       } else {
         note(found_.in_between, above->joint.name);
       }
@@ -245,46 +159,125 @@ class WheelSearch {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
 
-  /// Fixed to the base, and called a ball or a caster; or a sphere as low as the wheels.
-  void find_balls() {
+  /// [m] The lowest end of a driven wheel, in the base.
+  std::optional<double> ground() const {
     std::optional<double> ground;
     for (const DraftWheel& wheel : found_.wheels) {
       const double low = wheel.at[2] - wheel.radius.value_or(0.0);
       if (wheel.radius) ground = std::min(low, ground.value_or(low));
     }
+    return ground;
+  }
+
+  /// Fixed to the base, and called a ball or a caster; or a sphere as low as the wheels. Some roll by joints
+  /// of their own.
+  void find_balls() {
+    const std::optional<double> ground = this->ground();
     for (const UrdfLink& link : urdf_.links) {
       const UrdfJoint* above = urdf_.joint_above(link.name);
-      if (above == nullptr || moves(*above) || carrier(link.name) != nullptr || link.name == found_.base)
+      if (above == nullptr || moves(*above) || placed_.carrier(link.name) != nullptr ||
+          link.name == found_.base)
         continue;
       const bool is_named = is_called_caster(link.name) || is_called_ball(link.name);
       const bool is_sphere = ground && link.radius && !link.cylinder_axis;
-      const double low = is_sphere ? (in_base_.at(link.name) * link.round_at).z() - *link.radius : 0.0;
+      const double low = is_sphere ? (placed_.pose_of(link.name) * link.round_at).z() - *link.radius : 0.0;
       if (is_named || (is_sphere && std::abs(low - *ground) < slack * *link.radius))
         found_.supports.push_back(link.name);
+    }
+    for (const BallCaster& ball : candidates_.balls) {
+      if (!ground || std::abs(ball.lowest - *ground) > slack * *urdf_.find_link(ball.link)->radius) continue;
+      for (const std::string& joint : ball.joints) note(found_.in_between, joint);
+      if (ball.is_on_base) found_.supports.push_back(ball.link);
     }
   }
 
   void find_others() {
+    for (const UrdfJoint& joint : urdf_.joints) {
+      if (moves(joint) && !has_travel(joint)) note(found_.in_between, joint.joint.name);
+    }
     std::set<std::string> known(found_.in_between.begin(), found_.in_between.end());
     for (const auto* wheels : {&found_.wheels, &found_.idle, &found_.casters}) {
       for (const DraftWheel& wheel : *wheels) known.insert({wheel.joint, wheel.swivel});
     }
+    const auto says_motor = [](const UrdfJoint& joint) {
+      return joint.has_transmission || std::isfinite(joint.joint.max_effort);
+    };
+    const bool some_say = std::any_of(urdf_.joints.begin(), urdf_.joints.end(), says_motor);
     for (const UrdfJoint& joint : urdf_.joints) {
-      if (moves(joint) && !known.contains(joint.joint.name)) found_.others.push_back(joint.joint.name);
+      if (!moves(joint) || known.contains(joint.joint.name)) continue;
+      // A gear, a screw, or what turns a lidar.
+      const bool says_nothing = some_say && !says_motor(joint) && !joint.mimic;
+      const bool turns_sensor = is_called_sensor(joint.child) && !std::isfinite(joint.joint.max_effort);
+      const bool is_idle =
+          joint.joint.type == solver::JointType::continuous && (says_nothing || turns_sensor);
+      (is_idle ? found_.in_between : found_.others).push_back(joint.joint.name);
     }
   }
 
+  /// Called a wheel, and no wheel of the draft. Beside wheels that drive, only what stands as they do: names
+  /// of sensors and covers have the word, too.
   void find_stuck_wheels() {
+    std::vector<StuckWheel> casters;
+    const bool are_all_casters =
+        std::all_of(candidates_.wheels.begin(), candidates_.wheels.end(),
+                    [](const UrdfJoint* wheel) { return is_called_caster(wheel->joint.name); });
     for (const UrdfJoint& joint : urdf_.joints) {
-      const bool turns = joint.joint.type == solver::JointType::continuous;
       const std::string& name = joint.joint.name;
-      const bool is_tyre = !moves(joint) && is_called_wheel(joint.parent);
-      if (turns || is_tyre || !is_called_wheel(name) || is_called_caster(name)) continue;
+      const bool is_part_of_wheel = (!moves(joint) && is_called_wheel(joint.parent)) || is_on_a_wheel(joint);
+      const bool is_named = is_called_wheel(name) || is_called_wheel(joint.child);
+      if (is_part_of_wheel || !is_named || is_a_wheel(joint)) continue;
+      const bool turns = joint.joint.type == solver::JointType::continuous;
+      if (turns || carries_a_wheel(joint)) continue;
+      if (are_all_casters ? !is_called_wheel(name) : !stands_beside_wheels(joint)) continue;
       const bool slides = joint.joint.type == solver::JointType::prismatic;
-      found_.stuck.push_back({name, !moves(joint) ? "`fixed`"
-                                    : slides      ? "`prismatic`"
-                                                  : "`revolute` with limits"});
+      (is_called_caster(name) ? casters : found_.stuck)
+          .push_back({name, !moves(joint) ? "`fixed`"
+                            : slides      ? "`prismatic`"
+                                          : "`revolute` with limits"});
     }
+    if (!found_.wheels.empty()) return;
+    if (found_.stuck.empty()) found_.stuck = casters;
+    if (found_.stuck.empty()) find_upright_wheels();
+  }
+
+  /// On the base, and turning without end about an axis that no wheel has.
+  void find_upright_wheels() {
+    for (const UrdfJoint& joint : urdf_.joints) {
+      const bool is_on_base = placed_.carriers(joint.parent).empty();
+      if (joint.joint.type != solver::JointType::continuous || !is_on_base) continue;
+      if (!placed_.turns_about_level_axle(joint))
+        found_.stuck.push_back({joint.joint.name, "`continuous` about an axis that is not level"});
+    }
+  }
+
+  bool is_a_wheel(const UrdfJoint& joint) const {
+    return std::find(candidates_.wheels.begin(), candidates_.wheels.end(), &joint) !=
+           candidates_.wheels.end();
+  }
+
+  bool is_on_a_wheel(const UrdfJoint& joint) const {
+    const std::vector<const UrdfJoint*> above = placed_.carriers(joint.parent);
+    return std::any_of(above.begin(), above.end(), [&](const UrdfJoint* j) { return is_a_wheel(*j); });
+  }
+
+  bool carries_a_wheel(const UrdfJoint& joint) const {
+    return std::any_of(candidates_.wheels.begin(), candidates_.wheels.end(), [&](const UrdfJoint* wheel) {
+      const UrdfJoint* above = urdf_.joint_above(wheel->parent);
+      for (std::size_t i = 0; above != nullptr && above != &joint && i < most_links; ++i)
+        above = urdf_.joint_above(above->parent);
+      return above == &joint;
+    });
+  }
+
+  /// Its middle is as high as a wheel's, or it is round and ends as low.
+  bool stands_beside_wheels(const UrdfJoint& joint) const {
+    const double height = placed_.place_of(joint).z();
+    const std::optional<double> low = placed_.lowest_of(joint), ground = this->ground();
+    const bool is_low = low && ground && std::abs(*low - *ground) < slack * *placed_.radius_of(joint);
+    return is_low || std::any_of(found_.wheels.begin(), found_.wheels.end(), [&](const DraftWheel& wheel) {
+             const double reach = std::hypot(wheel.at[0], wheel.at[1]);
+             return std::abs(wheel.at[2] - height) < wheel.radius.value_or(0.2 * reach) * slack;
+           });
   }
 
   /// Around what collides with the base and around the wheels. Where the heaviest link of the base is a mesh,
@@ -293,10 +286,10 @@ class WheelSearch {
     std::vector<Eigen::Vector2d> corners;
     const UrdfLink* heaviest = nullptr;
     for (const UrdfLink& link : urdf_.links) {
-      if (carrier(link.name) != carrier(found_.base)) continue;
+      if (placed_.carrier(link.name) != nullptr) continue;
       if (heaviest == nullptr || link.inertia.mass > heaviest->inertia.mass) heaviest = &link;
       for (const solver::Vector3& corner : link.corners)
-        corners.emplace_back((in_base_.at(link.name) * corner).head<2>());
+        corners.emplace_back((placed_.pose_of(link.name) * corner).head<2>());
     }
     if (heaviest == nullptr || heaviest->corners.empty()) return;
     for (const DraftWheel& wheel : holding_wheels(found_)) {
@@ -310,7 +303,8 @@ class WheelSearch {
 
   const Urdf& urdf_;
   FoundWheels found_;
-  std::map<std::string, solver::Pose> in_base_;
+  PlacedUrdf placed_;
+  WheelCandidates candidates_;
 };
 
 }  // namespace
@@ -335,7 +329,9 @@ bool has_wheels_in_metres(const FoundWheels& found, const Urdf& urdf, Diagnostic
 }
 
 FoundWheels find_wheels(const Urdf& urdf) {
-  return WheelSearch(urdf).find();
+  FoundWheels found;
+  found.base = base_below(urdf, found.in_between);
+  return WheelSearch(urdf, std::move(found)).find();
 }
 
 }  // namespace zwang::lang

@@ -1,0 +1,282 @@
+// Which joints a draft takes for wheels, for steering and for casters, and what it says of those that it
+// does not take.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support.hpp"
+#include "zwang/lang/robot.hpp"
+#include "zwang/lang/robot_draft.hpp"
+#include "zwang/lang/robot_update.hpp"
+#include "zwang/lang/task_draft.hpp"
+
+namespace zwang::lang {
+namespace {
+
+const std::string motor_limit = "<limit effort='5' velocity='10'/>";
+const std::string round_shape =
+    "<origin rpy='1.5707963 0 0'/><geometry><cylinder radius='.1' length='.05'/></geometry>";
+const std::string mesh_shape = "<geometry><mesh filename='w.stl'/></geometry>";
+const std::string ball_shape = "<geometry><sphere radius='.05'/></geometry>";
+
+/// A link of 1 kg below a joint. `axis` empty: the joint has none.
+struct DrawnPart {
+  std::string name, parent, type, at, axis;
+  std::string limit;
+  std::string shape;
+  std::string rpy = "0 0 0";
+};
+
+std::string part_text(const DrawnPart& part) {
+  const std::string geometry = part.shape.empty() ? "" : "<collision>" + part.shape + "</collision>";
+  const std::string axis = part.axis.empty() ? "" : "<axis xyz='" + part.axis + "'/>";
+  return "<link name='" + part.name +
+         "'><inertial><mass value='1'/><inertia ixx='.003' iyy='.005' izz='.003' ixy='0' ixz='0' iyz='0'/>"
+         "</inertial>" +
+         geometry + "</link><joint name='" + part.name + "_joint' type='" + part.type + "'><parent link='" +
+         part.parent + "'/><child link='" + part.name + "'/><origin xyz='" + part.at + "' rpy='" + part.rpy +
+         "'/>" + axis + part.limit + "</joint>";
+}
+
+std::string wheel_text(const std::string& name, const std::string& at, const std::string& shape = round_shape,
+                       const std::string& parent = "base_link") {
+  return part_text({name, parent, "continuous", at, "0 1 0", motor_limit, shape});
+}
+
+std::string robot_text(const std::string& parts) {
+  return "<robot name='r'><link name='base_link'><inertial><mass value='20'/><inertia ixx='.5' iyy='.6' "
+         "izz='.8' ixy='0' ixz='0' iyz='0'/></inertial><collision><geometry><box size='.6 .4 .2'/></geometry>"
+         "</collision></link>" +
+         parts + "</robot>";
+}
+
+std::string transmission_of(const std::string& joint) {
+  return "<transmission name='t_" + joint + "'><joint name='" + joint + "'/></transmission>";
+}
+
+class DraftOfWheels : public testing::Test {
+ protected:
+  RobotDraft drafted(const std::string& urdf) {
+    Diagnostics diagnostics;
+    const auto draft = draft_robot(folder_.write("robot.urdf", urdf), "robot.urdf", diagnostics);
+    EXPECT_TRUE(draft) << test::rendered(diagnostics);
+    return draft.value_or(RobotDraft{});
+  }
+  std::string said_of(const std::string& text) {
+    Diagnostics diagnostics;
+    load_robot(folder_.write("robot.yaml", text), diagnostics);
+    return test::rendered(diagnostics);
+  }
+  static bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+  static bool is_missing(const RobotDraft& draft, const std::string& part) {
+    return std::any_of(draft.missing.begin(), draft.missing.end(),
+                       [&](const std::string& line) { return has(line, part); });
+  }
+
+  test::Folder folder_;
+};
+
+std::string turret_text(const std::string& limit, const std::string& said) {
+  return robot_text(part_text({"turret", "base_link", "continuous", "0 0 -.1", "0 0 1", limit, ""}) +
+                    wheel_text("left_wheel", "-.1 .15 0", round_shape, "turret") +
+                    wheel_text("right_wheel", "-.1 -.15 0", round_shape, "turret") + said);
+}
+
+// Two driven wheels turn their swivel by themselves. A limit alone is a simulator's habit, and a
+// transmission alone reads an encoder: with both it has a motor.
+TEST_F(DraftOfWheels, has_a_motor_that_steers_above_two_wheels_where_the_file_says_both) {
+  const std::string said = transmission_of("turret_joint") + transmission_of("left_wheel_joint") +
+                           transmission_of("right_wheel_joint");
+  const std::string entry = "  turret_joint: {}\n";
+  const RobotDraft both = drafted(turret_text("<limit effort='30' velocity='3'/>", said));
+  EXPECT_TRUE(has(both.text, entry)) << both.text;
+  EXPECT_EQ(said_of(both.text), "");
+  ASSERT_EQ(both.assumed.size(), 1U);
+  EXPECT_TRUE(both.assumed.front().robot.model.joint(0).actuated);
+  EXPECT_EQ(base_fit(both).freedoms, Freedoms::all);
+  EXPECT_FALSE(has(drafted(turret_text("<limit effort='30' velocity='3'/>", "")).text, entry));
+  EXPECT_FALSE(has(drafted(turret_text("", said)).text, entry));
+}
+
+/// Joints about x, y and z in the middle of a ball.
+std::string ball_chain(const std::string& name, const std::string& parent, const std::string& at) {
+  return part_text({name + "_x", parent, "continuous", at, "1 0 0", motor_limit, ""}) +
+         part_text({name + "_y", name + "_x", "continuous", "0 0 0", "0 1 0", motor_limit, ""}) +
+         part_text({name + "_wheel", name + "_y", "continuous", "0 0 0", "0 0 1", motor_limit, ball_shape});
+}
+
+// A ball rolls every way: as it stands it is a support, and three motors turn nothing.
+TEST_F(DraftOfWheels, takes_a_ball_on_crossing_joints_for_a_support) {
+  const std::string urdf =
+      robot_text(wheel_text("left_wheel", "0 .25 -.1") + wheel_text("right_wheel", "0 -.25 -.1") +
+                 ball_chain("rear", "base_link", "-.25 0 -.15"));
+  const RobotDraft draft = drafted(urdf);
+  EXPECT_EQ(draft.wheels.size(), 2U);
+  EXPECT_EQ(draft.supports, std::vector<std::string>{"rear_wheel"});
+  EXPECT_TRUE(has(draft.text, "fixed: [rear_wheel_joint, rear_y_joint, rear_x_joint]")) << draft.text;
+  EXPECT_FALSE(has(draft.text, "rear_x_joint: {")) << draft.text;
+  EXPECT_EQ(said_of(draft.text).find("error"), std::string::npos) << said_of(draft.text);
+  const std::string loose =
+      test::replaced(draft.text, "fixed: [rear_wheel_joint, rear_y_joint, rear_x_joint]",
+                     "fixed: [rear_y_joint, rear_x_joint]");
+  EXPECT_TRUE(has(said_of(loose), "list `rear_wheel_joint` under `fixed`")) << said_of(loose);
+}
+
+// On a link that steers it moves with the wheels, and no support of the base does.
+TEST_F(DraftOfWheels, holds_balls_on_a_steered_link_and_names_no_support) {
+  const std::string urdf = test::replaced(turret_text("<limit effort='30' velocity='3'/>", ""), "</robot>",
+                                          ball_chain("front", "turret", ".15 0 -.05") + "</robot>");
+  const RobotDraft draft = drafted(urdf);
+  EXPECT_TRUE(draft.supports.empty());
+  EXPECT_FALSE(has(draft.text, "front_x_joint: {")) << draft.text;
+  EXPECT_EQ(said_of(draft.text).find("error"), std::string::npos) << said_of(draft.text);
+  EXPECT_TRUE(has(said_of(draft.text + "supports: [front_wheel]\n"), "what a steered link carries"));
+}
+
+std::string four_text(const std::string& rear_left, const std::string& rear_right, const std::string& rear_x,
+                      const std::string& more = "") {
+  return robot_text(wheel_text("front_left_wheel", ".2 .25 -.1", mesh_shape) +
+                    wheel_text("front_right_wheel", ".2 -.25 -.1", mesh_shape) +
+                    wheel_text(rear_left, rear_x + " .25 -.1", mesh_shape) +
+                    wheel_text(rear_right, rear_x + " -.25 -.1", mesh_shape) + more);
+}
+
+// The word for a wheel stands in half of the names, and the shapes are meshes: places tell.
+TEST_F(DraftOfWheels, takes_a_pair_as_high_as_the_named_wheels_for_wheels) {
+  const std::string gears =
+      part_text({"gear_a", "base_link", "continuous", "-.2 0 -.1", "0 1 0", motor_limit, ""}) +
+      part_text({"gear_b", "base_link", "continuous", "-.2 0 -.1", "0 1 0", motor_limit, ""});
+  for (const std::string& more : {std::string(), gears}) {
+    const RobotDraft draft = drafted(four_text("left_rear", "right_rear", "-.2", more));
+    EXPECT_EQ(draft.wheels.size(), 4U) << draft.text;
+    EXPECT_EQ(draft.drive, "four wheels that do not steer: mecanum or skid steering");
+  }
+  const std::string high = four_text("left_rear", "right_rear", "-.2");
+  const RobotDraft arms = drafted(
+      test::replaced(test::replaced(high, "-.2 .25 -.1", "-.2 .25 .1"), "-.2 -.25 -.1", "-.2 -.25 .1"));
+  EXPECT_EQ(arms.wheels.size(), 2U) << "0.2 m higher they are something else";
+}
+
+// No name and no shape tells anything: the lowest that are level with each other are wheels.
+TEST_F(DraftOfWheels, takes_the_lowest_pair_for_wheels_where_nothing_is_named) {
+  const std::string pair =
+      wheel_text("lf", "0 .25 -.1", mesh_shape) + wheel_text("rf", "0 -.25 -.1", mesh_shape);
+  const RobotDraft draft = drafted(
+      robot_text(pair + part_text({"elbow", "base_link", "continuous", "0 .1 .4", "0 1 0", motor_limit, ""}) +
+                 part_text({"jaw", "base_link", "continuous", "0 -.1 .4", "0 1 0", motor_limit, ""})));
+  ASSERT_EQ(draft.wheels.size(), 2U);
+  EXPECT_EQ(draft.wheels[0].joint, "lf_joint");
+  EXPECT_EQ(draft.wheels[1].joint, "rf_joint");
+  const RobotDraft legs = drafted(
+      robot_text(pair + part_text({"foot", "base_link", "revolute", ".3 0 -.5", "1 0 0",
+                                   "<limit lower='-1' upper='1' effort='1' velocity='1'/>", mesh_shape})));
+  EXPECT_TRUE(legs.wheels.empty()) << "a foot reaches lower";
+}
+
+TEST_F(DraftOfWheels, tells_of_wheels_that_the_urdf_holds_beside_those_that_turn) {
+  const std::string turns = four_text("rear_left_wheel", "rear_right_wheel", "-.2");
+  const std::string held = "<joint name='rear_left_wheel_joint' type='";
+  const RobotDraft draft = drafted(test::replaced(turns, held + "continuous'", held + "fixed'"));
+  EXPECT_EQ(draft.wheels.size(), 3U);
+  ASSERT_EQ(draft.stuck.size(), 1U);
+  EXPECT_EQ(draft.stuck.front().joint, "rear_left_wheel_joint");
+  EXPECT_TRUE(is_missing(draft, "`rear_left_wheel_joint`, which is `fixed`"));
+  EXPECT_TRUE(has(draft.text, "# `rear_left_wheel_joint` is not here: the URDF has it `fixed`"));
+  // Once it turns, an update has it.
+  const auto file = folder_.write("filled.yaml", draft.text);
+  const RobotDraft mended = drafted(turns);
+  Diagnostics diagnostics;
+  const auto update = update_robot_file(file, folder_.path() / "robot.urdf", mended, diagnostics);
+  ASSERT_TRUE(update) << test::rendered(diagnostics);
+  EXPECT_TRUE(has(update->text, "  - {joint: rear_left_wheel_joint}")) << update->text;
+  // A sensor of the word, a tyre, and what carries a wheel are none.
+  const std::string others =
+      part_text({"wheel_encoder", "base_link", "fixed", "0 0 .2", "", "", ""}) +
+      part_text({"tyre_of_wheel", "rear_left_wheel", "fixed", "0 0 0", "", "", mesh_shape}) +
+      part_text({"wheel_mount", "base_link", "fixed", "0 0 -.1", "", "", ""}) +
+      wheel_text("spare_wheel", "0 .25 0", mesh_shape, "wheel_mount");
+  EXPECT_TRUE(drafted(test::replaced(turns, "</robot>", others + "</robot>")).stuck.empty());
+}
+
+// A caster alone drives nothing: the wheels that drive are those that the URDF holds.
+TEST_F(DraftOfWheels, a_caster_does_not_drive_beside_wheels_that_are_fixed) {
+  const auto fixed = [](const std::string& name, const std::string& at) {
+    return part_text({name, "base_link", "fixed", at, "", "", round_shape});
+  };
+  const std::string caster = part_text({"swivel", "base_link", "continuous", "-.25 0 -.1", "0 0 1", "", ""}) +
+                             wheel_text("caster_wheel", "-.03 0 -.05", round_shape, "swivel");
+  const RobotDraft draft =
+      drafted(robot_text(fixed("left_wheel", ".1 .25 -.1") + fixed("right_wheel", ".1 -.25 -.1") + caster));
+  EXPECT_TRUE(draft.wheels.empty());
+  EXPECT_TRUE(is_missing(draft, "`left_wheel_joint`, which is `fixed`"));
+  EXPECT_TRUE(is_missing(draft, "`right_wheel_joint`, which is `fixed`"));
+  // All casters, and nothing else is called a wheel: they drive, as those of the PR2 do.
+  EXPECT_EQ(drafted(robot_text(caster)).wheels.size(), 1U);
+  // Casters that are fixed are told where there is nothing else.
+  const RobotDraft held = drafted(robot_text(fixed("caster_l_wheel", ".1 .2 -.1")));
+  ASSERT_EQ(held.stuck.size(), 1U);
+  EXPECT_EQ(held.stuck.front().joint, "caster_l_wheel_joint");
+}
+
+// 12 rollers in a ring across the axle: the wheel has the motor, and rollers at 90 deg.
+TEST_F(DraftOfWheels, finds_a_wheel_whose_rollers_are_joints) {
+  std::string parts;
+  for (int i = 0; i < 3; ++i) {
+    const double angle = 2.0 * std::numbers::pi / 3.0 * i;
+    const std::string wheel = "wheel_" + std::to_string(i);
+    parts += part_text(
+        {wheel, "base_link", "continuous",
+         std::to_string(0.2 * std::cos(angle)) + " " + std::to_string(0.2 * std::sin(angle)) + " -.1",
+         "1 0 0", motor_limit, mesh_shape, "0 0 " + std::to_string(angle)});
+    for (int k = 0; k < 12; ++k) {
+      const double turn = 2.0 * std::numbers::pi / 12.0 * k;
+      const std::string y = std::to_string(0.04 * std::cos(turn)), z = std::to_string(0.04 * std::sin(turn));
+      parts += part_text({wheel + "_roller_" + std::to_string(k), wheel, "continuous", "0 " + y + " " + z,
+                          "0 " + std::to_string(-std::sin(turn)) + " " + std::to_string(std::cos(turn)), "",
+                          "<geometry><sphere radius='.01'/></geometry>"});
+    }
+  }
+  const RobotDraft draft = drafted(robot_text(parts));
+  ASSERT_EQ(draft.wheels.size(), 3U) << draft.text;
+  for (const DraftWheel& wheel : draft.wheels) EXPECT_NEAR(*wheel.radius, 0.04 + 0.01, 1e-5);
+  EXPECT_TRUE(has(draft.text, "{joint: wheel_0_joint, radius: 50 mm, roller: 90 deg}")) << draft.text;
+  EXPECT_FALSE(has(draft.text, "roller_3_joint: {")) << draft.text;
+  EXPECT_EQ(said_of(draft.text).find("error"), std::string::npos) << said_of(draft.text);
+}
+
+// Limits of 0 to 0 leave a finger no travel. A joint without
+// limits has no motor where others have them, and one that turns a lidar drives nothing.
+TEST_F(DraftOfWheels, asks_for_no_motor_of_what_cannot_move_or_has_none) {
+  const std::string pair = wheel_text("left_wheel", "0 .25 -.1") + wheel_text("right_wheel", "0 -.25 -.1");
+  const RobotDraft draft =
+      drafted(robot_text(pair +
+                         part_text({"finger", "base_link", "revolute", "0 0 .3", "0 1 0",
+                                    "<limit lower='0' upper='0' effort='0' velocity='0'/>", ""}) +
+                         part_text({"gear", "base_link", "continuous", "0 0 .4", "0 0 1", "", ""}) +
+                         part_text({"lidar", "base_link", "continuous", "0 0 .4", "0 0 1", "", ""}) +
+                         transmission_of("lidar_joint")));
+  EXPECT_TRUE(has(draft.text, "fixed: [finger_joint, gear_joint, lidar_joint]")) << draft.text;
+  EXPECT_FALSE(has(draft.text, fill_in + std::string("}"))) << draft.text;
+  EXPECT_EQ(said_of(draft.text), "");
+}
+
+// A pivot that cannot turn steers nothing, and its wheel stands as the base does. It is told.
+TEST_F(DraftOfWheels, tells_of_steering_without_travel) {
+  const auto steered = [](const std::string& side, const std::string& y) {
+    return part_text({side + "_steer", "base_link", "revolute", ".2 " + y + " -.1", "0 0 1",
+                      "<limit lower='0' upper='0' effort='100' velocity='1'/>", ""}) +
+           wheel_text(side + "_wheel", "0 0 0", round_shape, side + "_steer");
+  };
+  const RobotDraft draft = drafted(robot_text(steered("left", ".25") + steered("right", "-.25") +
+                                              wheel_text("rear_left_wheel", "-.2 .25 -.1") +
+                                              wheel_text("rear_right_wheel", "-.2 -.25 -.1")));
+  EXPECT_EQ(draft.drive, "four wheels that do not steer: mecanum or skid steering");
+  EXPECT_TRUE(has(draft.text, "fixed: [left_steer_joint, right_steer_joint]")) << draft.text;
+  EXPECT_TRUE(is_missing(draft, "`left_steer_joint`: its limits leave it no travel"));
+}
+
+}  // namespace
+}  // namespace zwang::lang
