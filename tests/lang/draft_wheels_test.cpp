@@ -278,5 +278,109 @@ TEST_F(DraftOfWheels, tells_of_steering_without_travel) {
   EXPECT_TRUE(is_missing(draft, "`left_steer_joint`: its limits leave it no travel"));
 }
 
+/// Two wheels without an <axis> on cylinders along `y` of their links, and a ball.
+std::string axisless_text(const std::string& rpy, const std::string& shape) {
+  const auto wheel = [&](const std::string& name, const std::string& at) {
+    return part_text({name, "base_link", "continuous", at, "", motor_limit, shape, rpy});
+  };
+  return robot_text(wheel("left_wheel", "0 .25 -.1") + wheel("right_wheel", "0 -.25 -.1") +
+                    part_text({"ball", "base_link", "fixed", "-.25 0 -.15", "", "", ball_shape}));
+}
+
+// A URDF means 1 0 0 by no axis: ahead. The cylinder tells what was meant, in whatever frame the wheel is.
+TEST_F(DraftOfWheels, proposes_the_axis_of_the_cylinder_where_the_urdf_has_none) {
+  const std::string upright = "<geometry><cylinder radius='.1' length='.05'/></geometry>";
+  const std::string lines[] = {"  left_wheel_joint: [0, 1, 0]\n", "  left_wheel_joint: [0, 0, 1]\n"};
+  const std::string urdfs[] = {axisless_text("0 0 0", round_shape),
+                               axisless_text("-1.5707963267949 0 0", upright)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const RobotDraft draft = drafted(urdfs[i]);
+    EXPECT_TRUE(has(draft.text, lines[i])) << draft.text;
+    EXPECT_EQ(draft.drive, "differential: two plain wheels");
+    EXPECT_EQ(draft.heading, 0.0);
+    EXPECT_EQ(said_of(draft.text), "");
+    Diagnostics diagnostics;
+    const auto robot = load_robot(folder_.path() / "robot.yaml", diagnostics);
+    ASSERT_TRUE(robot);
+    EXPECT_EQ(base_fit(*robot).freedoms, Freedoms::two);
+    EXPECT_EQ(base_fit(*robot).heading, 0.0);
+  }
+}
+
+// A mesh does not tell it. What the owner gives is kept by an update.
+TEST_F(DraftOfWheels, names_a_wheel_of_which_nothing_tells_the_axis) {
+  const std::string urdf = axisless_text("0 0 0", mesh_shape);
+  const RobotDraft draft = drafted(urdf);
+  EXPECT_TRUE(is_missing(draft, "the axis of `left_wheel_joint`: without an <axis> it is 1 0 0"));
+  EXPECT_TRUE(is_missing(draft, "`axes: {left_wheel_joint: [0, 1, 0]}`"));
+  Diagnostics diagnostics;
+  const auto file = folder_.write(
+      "given.yaml", "zwang_robot: 1\naxes: {left_wheel_joint: [0, 2, 0], right_wheel_joint: [0, 1, 0]}\n");
+  const auto options = options_of(file, diagnostics);
+  ASSERT_TRUE(options) << test::rendered(diagnostics);
+  const auto given = draft_robot(folder_.path() / "robot.urdf", "robot.urdf", diagnostics, *options);
+  ASSERT_TRUE(given) << test::rendered(diagnostics);
+  EXPECT_EQ(given->drive, "differential: two plain wheels");
+  EXPECT_EQ(given->heading, 0.0);
+  EXPECT_FALSE(is_missing(*given, "the axis of"));
+}
+
+// A caster's swivel without an axis would be a rocker.
+TEST_F(DraftOfWheels, turns_a_swivel_without_an_axis_upwards) {
+  const std::string urdf = robot_text(
+      wheel_text("left_wheel", "0 .25 -.1") + wheel_text("right_wheel", "0 -.25 -.1") +
+      part_text(
+          {"caster_swivel", "base_link", "continuous", "-.25 0 -.1", "", "", ""}) +
+      part_text({"caster_wheel", "caster_swivel", "continuous", "-.05 0 -.05", "0 1 0", "",
+                 "<origin rpy='1.5707963 0 0'/><geometry><cylinder radius='.05' length='.03'/></geometry>"}));
+  const RobotDraft draft = drafted(urdf);
+  EXPECT_TRUE(has(draft.text, "axes:\n  caster_swivel_joint: [0, 0, 1]\n")) << draft.text;
+  ASSERT_EQ(draft.casters.size(), 1U) << draft.text;
+  EXPECT_EQ(draft.casters.front().swivel, "caster_swivel_joint");
+}
+
+TEST_F(DraftOfWheels, complains_of_axes_that_are_none) {
+  const RobotDraft draft = drafted(axisless_text("0 0 0", round_shape));
+  const std::string line = "  left_wheel_joint: [0, 1, 0]\n";
+  const auto with = [&](const std::string& text) { return said_of(test::replaced(draft.text, line, text)); };
+  EXPECT_TRUE(has(with("  left_wheel_joint: [0, 0, 0]\n"), "has no direction"));
+  EXPECT_TRUE(has(with("  left_wheel: [0, 1, 0]\n"), "left_wheel_joint"))
+      << with("  left_wheel: [0, 1, 0]\n");
+  EXPECT_TRUE(has(with("  ball_joint: [0, 1, 0]\n"), "`ball_joint`"));
+  EXPECT_TRUE(has(with("  left_wheel_joint: [0, 1]\n"), "error"));
+}
+
+// One torque is asked for, of all joints of an arm that are alike.
+TEST_F(DraftOfWheels, asks_once_for_the_torque_of_an_arm) {
+  const std::string unknown = "<limit lower='-1' upper='1' effort='0' velocity='1'/>";
+  const std::string pair = wheel_text("left_wheel", "0 .25 -.1") + wheel_text("right_wheel", "0 -.25 -.1");
+  const RobotDraft draft = drafted(
+      robot_text(pair + part_text({"shoulder", "base_link", "revolute", "0 0 .3", "0 1 0", unknown, ""}) +
+                 part_text({"elbow", "shoulder", "revolute", ".1 0 0", "0 1 0", unknown, ""}) +
+                 part_text({"hand", "elbow", "prismatic", ".1 0 0", "1 0 0", unknown, ""}) +
+                 part_text({"wrist", "elbow", "revolute", ".1 0 0", "1 0 0",
+                            "<limit lower='-1' upper='1' effort='7' velocity='1'/>", ""})));
+  EXPECT_TRUE(has(draft.text, "each_joint: {effort: FILL_IN}")) << draft.text;
+  EXPECT_TRUE(has(draft.text, "  shoulder_joint: {}\n  elbow_joint: {}\n  hand_joint: {effort: FILL_IN}\n"))
+      << draft.text;
+  std::string filled =
+      test::replaced(draft.text, "each_joint: {effort: FILL_IN}", "each_joint: {effort: 3 N m}");
+  filled = test::replaced(filled, "hand_joint: {effort: FILL_IN}", "hand_joint: {effort: 20 N}");
+  Diagnostics diagnostics;
+  const auto robot = load_robot(folder_.write("robot.yaml", filled), diagnostics);
+  ASSERT_TRUE(robot) << test::rendered(diagnostics);
+  const auto effort_of = [&](const char* joint) {
+    return robot->model.joint(*robot->model.find_joint(joint)).max_effort;
+  };
+  EXPECT_EQ(effort_of("shoulder_joint"), 3.0);
+  EXPECT_EQ(effort_of("elbow_joint"), 3.0);
+  EXPECT_EQ(effort_of("hand_joint"), 20.0);
+  EXPECT_EQ(effort_of("wrist_joint"), 7.0) << "the URDF's";
+  EXPECT_EQ(effort_of("left_wheel_joint"), 5.0);
+  EXPECT_TRUE(has(said_of(test::replaced(filled, "effort: 3 N m", "effort: 3 kg")), "each_joint.effort"));
+  EXPECT_TRUE(has(said_of(test::replaced(filled, "effort: 20 N", "gear: 2")), "hand_joint"))
+      << "a torque is for joints that turn";
+}
+
 }  // namespace
 }  // namespace zwang::lang

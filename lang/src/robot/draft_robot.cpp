@@ -9,6 +9,7 @@
 #include "robot/drive_kind.hpp"
 #include "robot/each_wheel.hpp"
 #include "robot/folded_arm.hpp"
+#include "robot/joint_axes.hpp"
 #include "robot/load_robot.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
@@ -33,8 +34,10 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 class Drafter {
  public:
-  Drafter(const Urdf& urdf, FoundWheels found, std::string named_as, const DraftOptions& options)
+  Drafter(const Urdf& urdf, std::vector<JointAxis> axes, FoundWheels found, std::string named_as,
+          const DraftOptions& options)
       : urdf_(urdf),
+        axes_(std::move(axes)),
         found_(std::move(found)),
         named_as_(std::move(named_as)),
         drive_(drive_of(holding_wheels(found_))),
@@ -189,6 +192,10 @@ class Drafter {
     if (is_kind_open()) {
       lines.push_back("whether the wheels have rollers (mecanum) or skid: a URDF does not tell");
     }
+    for (const std::string& joint : wheels_without_axis(urdf_))
+      lines.push_back("the axis of `" + joint +
+                      "`: without an <axis> it is 1 0 0; if it is another, add `axes: {" + joint +
+                      ": [0, 1, 0]}`");
     std::string links;
     for (const std::string& link : bodies_) links += (links.empty() ? "`" : ", `") + link + "`";
     if (!links.empty()) lines.push_back("inertias that a body can have, of links that move: " + links);
@@ -225,6 +232,27 @@ class Drafter {
            "each_wheel: {" + keys + "}\n";
   }
 
+  /// Joints that turn, are no wheels, and whose torque the URDF does not say, where there are several.
+  std::vector<std::string> alike() const {
+    std::vector<std::string> names;
+    for (const auto* joints : {&found_.steering, &found_.others}) {
+      for (const std::string& name : *joints) {
+        const solver::Joint& joint = urdf_.find_joint(name)->joint;
+        const bool turns = joint.type != solver::JointType::prismatic;
+        if (turns && !contains(held_, name) && !std::isfinite(joint.max_effort)) names.push_back(name);
+      }
+    }
+    return names.size() > 1 ? names : std::vector<std::string>{};
+  }
+
+  std::string each_joint(const Filling& filling) const {
+    if (alike().empty()) return "";
+    return "\n# each_joint: of every motor that turns no wheel, where neither its own entry nor the URDF "
+           "says "
+           "it.\n# effort: the largest torque, as `2 N m`.\neach_joint: {effort: " +
+           filling.effort + "}\n";
+  }
+
   std::string wheel_entry(const DraftWheel& wheel, bool is_driven, bool slides_sideways,
                           const Filling& filling) const {
     std::string entry = "  - {joint: " + wheel.joint;
@@ -240,9 +268,10 @@ class Drafter {
 
   std::string actuated(const Filling& filling) const {
     std::string text = "actuated:\n";
+    const std::vector<std::string> shared = alike();
     const auto line = [&](const std::string& name, const std::string& open) {
-      const UrdfJoint* joint = urdf_.find_joint(name);
-      const bool is_known = joint != nullptr && std::isfinite(joint->joint.max_effort);
+      const solver::Joint& joint = urdf_.find_joint(name)->joint;
+      const bool is_known = std::isfinite(joint.max_effort) || contains(shared, name);
       text += "  " + name + ": {" + (is_known ? "" : "effort: " + open) + "}\n";
     };
     for (const DraftWheel& wheel : found_.wheels) {
@@ -277,7 +306,7 @@ class Drafter {
           "another joint\n# by a <mimic>; have no travel, no motor, or no inertia behind them; or are stiff "
           "casters, balls and\n# rollers, or a simulator's rails.\nfixed: " +
           listed(held_);
-    text += mimic_entry(urdf_, found_) + "\n";
+    text += mimic_entry(urdf_, found_) + axes_entry(axes_) + "\n";
     text += each_wheel(filling) + stuck_wheels_note(found_) + "wheels:\n";
     for (const DraftWheel& wheel : found_.wheels) text += wheel_entry(wheel, true, false, filling);
     if (!found_.idle.empty()) text += "  # They have no motor, and roll along.\n";
@@ -288,6 +317,7 @@ class Drafter {
     for (const DraftWheel& caster : found_.casters) text += wheel_entry(caster, false, false, filling);
     if (!found_.supports.empty())
       text += "\n# They stand on the ground and hold nothing.\nsupports: " + listed(found_.supports);
+    text += each_joint(filling);
     text +=
         "\n# effort: the largest torque on the joint's side, as `2 N m`; without it the URDF's. Add gear "
         "and\n"
@@ -312,6 +342,7 @@ class Drafter {
   }
 
   const Urdf& urdf_;
+  std::vector<JointAxis> axes_;  ///< that the URDF lacks
   FoundWheels found_;
   std::string named_as_;
   DriveKind drive_;
@@ -353,11 +384,12 @@ RobotDraft with_assumptions(Drafter& drafter, const Urdf& urdf) {
 
 std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const std::string& named_as,
                                       Diagnostics& diagnostics, const DraftOptions& options) {
-  const std::optional<Urdf> urdf = read_urdf(path, {}, diagnostics, options.ignored);
+  std::optional<Urdf> urdf = read_urdf(path, {}, diagnostics, options.ignored);
   if (!urdf) return std::nullopt;
+  const std::vector<JointAxis> axes = find_axes_of(*urdf, options.axes);
   const FoundWheels found = find_wheels(*urdf);
   if (!has_wheels_in_metres(found, *urdf, diagnostics)) return std::nullopt;
-  Drafter drafter(*urdf, found, named_as, options);
+  Drafter drafter(*urdf, axes, found, named_as, options);
   RobotDraft draft = with_assumptions(drafter, *urdf);
   const double steady = steady_deceleration(draft);
   if (steady >= 1.0) return draft;

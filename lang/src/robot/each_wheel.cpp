@@ -1,6 +1,7 @@
 #include "robot/each_wheel.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -65,6 +66,24 @@ EachWheel parse_each_wheel(const Node& node, Diagnostics& diagnostics) {
   return each;
 }
 
+EachJoint parse_each_joint(const Node& node, Diagnostics& diagnostics) {
+  EachJoint each;
+  MapReader map(node, "`each_joint`", diagnostics, "{effort: 2 N m}");
+  if (const Node* effort = map.optional("effort")) {
+    each.effort = parse_value(*effort, "each_joint.effort", diagnostics);
+    const bool is_force = each.effort->quantity.dimension == dimension::force;
+    require_positive(*each.effort, is_force ? dimension::force : dimension::torque, "each_joint.effort",
+                     false, diagnostics);
+  }
+  if (const Node* gear = map.optional("gear"))
+    each.gear = parse_positive(*gear, dimension::none, "each_joint.gear", false, diagnostics);
+  if (const Node* inertia = map.optional("rotor_inertia"))
+    each.rotor_inertia =
+        parse_positive(*inertia, dimension::inertia, "each_joint.rotor_inertia", true, diagnostics);
+  map.finish();
+  return each;
+}
+
 void complete_wheels(RobotFile& file, Diagnostics& diagnostics) {
   const EachWheel& each = file.each_wheel;
   for (WheelText& wheel : file.wheels) {
@@ -76,11 +95,27 @@ void complete_wheels(RobotFile& file, Diagnostics& diagnostics) {
     if (each.kind == WheelKind::skid && is_driven && says_nothing) wheel.holds_sideways = false;
   }
   for (ActuatorText& motor : file.actuators) {
-    if (!is_wheel(file, motor)) continue;
+    if (!is_wheel(file, motor)) {
+      if (!motor.gear) motor.gear = file.each_joint.gear;
+      if (!motor.rotor_inertia) motor.rotor_inertia = file.each_joint.rotor_inertia;
+      continue;
+    }
     if (!motor.effort_text) motor.effort_text = each.effort;
     if (!motor.gear) motor.gear = each.gear;
     if (!motor.rotor_inertia) motor.rotor_inertia = each.rotor_inertia;
   }
+}
+
+const ValueText* effort_of_each_joint(const RobotFile& file, const UrdfJoint& joint,
+                                      const Dimension& expected) {
+  const std::optional<ValueText>& effort = file.each_joint.effort;
+  const bool is_wheel = std::any_of(file.wheels.begin(), file.wheels.end(), [&](const WheelText& wheel) {
+    return wheel.joint.text == joint.joint.name;
+  });
+  if (!effort || is_wheel || std::isfinite(joint.joint.max_effort)) return nullptr;
+  // What is neither was told.
+  const Dimension& other = expected == dimension::force ? dimension::torque : dimension::force;
+  return effort->quantity.dimension == other ? nullptr : &*effort;
 }
 
 // From above, the rollers of a usual mecanum base form an X: at the ground, front left and rear right are

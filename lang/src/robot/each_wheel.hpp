@@ -1,4 +1,5 @@
-/// `each_wheel`: what every wheel with a motor is, where the wheel or its motor says nothing.
+/// `each_wheel`: what every wheel with a motor is, where the wheel or its motor says nothing. `each_joint`:
+/// the same of motors that turn no wheel.
 #pragma once
 
 #include <optional>
@@ -9,9 +10,16 @@
 namespace zwang::lang {
 
 EachWheel parse_each_wheel(const Node& node, Diagnostics& diagnostics);
+EachJoint parse_each_joint(const Node& node, Diagnostics& diagnostics);
 
-/// Radii and motors from `each_wheel`. A wheel that has no radius then is told.
+/// Radii and motors from `each_wheel`, gears and rotors of the others from `each_joint`. A wheel that has no
+/// radius then is told.
 void complete_wheels(RobotFile& file, Diagnostics& diagnostics);
+
+/// Of a joint that turns no wheel and has no effort in the URDF, where that of `each_joint` is of this
+/// dimension: a torque is for joints that turn, a force for those that slide. Else nullptr.
+const ValueText* effort_of_each_joint(const RobotFile& file, const UrdfJoint& joint,
+                                      const Dimension& expected);
 
 /// `kind: mecanum` as an angle of each wheel's rollers, from where it stands.
 void place_rollers(RobotFile& file, const Urdf& urdf);

@@ -18,6 +18,7 @@
 #include "robot/each_wheel.hpp"
 #include "robot/exact_wheels.hpp"
 #include "robot/feels_entry.hpp"
+#include "robot/joint_axes.hpp"
 #include "robot/pads_entry.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
@@ -125,6 +126,8 @@ class RobotBuilder {
       if (actuator.effort_text) {
         if (require_positive(*actuator.effort_text, expected, whose + "effort", false, diagnostics_))
           joint->joint.max_effort = actuator.effort_text->quantity.value;
+      } else if (const ValueText* each = effort_of_each_joint(file_, *joint, expected)) {
+        joint->joint.max_effort = each->quantity.value;
       } else if (!std::isfinite(joint->joint.max_effort)) {
         diagnostics_.add(wording::no_effort(actuator.joint.span, actuator.joint.text, joint->span));
       }
@@ -417,8 +420,9 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   if (!urdf_path) return std::nullopt;
   std::vector<std::string> ignored;
   for (const Word& link : file->ignored) ignored.push_back(link.text);
-  const std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics, ignored);
+  std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics, ignored);
   if (!urdf) return std::nullopt;
+  apply_axes(*file, *urdf, diagnostics);
   place_rollers(*file, *urdf);
   std::optional<Robot> robot = build_robot(*file, *urdf, errors_before, diagnostics);
   if (!robot) return std::nullopt;

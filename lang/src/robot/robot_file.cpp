@@ -12,6 +12,7 @@
 #include "robot/each_wheel.hpp"
 #include "robot/feels_entry.hpp"
 #include "robot/inertias.hpp"
+#include "robot/joint_axes.hpp"
 #include "robot/pads_entry.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
@@ -288,6 +289,8 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
   if (const Node* lead = map.optional("lead")) file.lead = parse_word(*lead, "`lead`", diagnostics);
   if (const Node* each_wheel = map.optional("each_wheel"))
     file.each_wheel = parse_each_wheel(*each_wheel, diagnostics);
+  if (const Node* each_joint = map.optional("each_joint"))
+    file.each_joint = parse_each_joint(*each_joint, diagnostics);
   const Node* wheels = map.required("wheels");
   if (wheels != nullptr && require_sequence(*wheels, "`wheels`", diagnostics)) {
     for (const Node& item : wheels->items) {
@@ -321,6 +324,9 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
     }
   }
   complete_wheels(file, diagnostics);
+  each(map.optional("axes"), "axes", [&](const Entry& e) {
+    if (auto axis = parse_axis_of_joint(e, diagnostics)) file.axes.push_back(std::move(*axis));
+  });
   each(map.optional("inertias"), "inertias",
        [&](const Entry& e) { file.inertias.push_back(parse_inertia(e, diagnostics)); });
   each(map.optional("posture"), "posture", [&](const Entry& e) {

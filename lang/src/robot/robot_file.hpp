@@ -41,6 +41,19 @@ struct InertiaText {
   std::optional<double> radius;  ///< [m]; not given: the wheel's
 };
 
+/// In the place of the URDF's <axis>.
+struct JointAxisText {
+  Word joint;
+  solver::Vector3 axis;  ///< a unit vector in the frame of the joint
+};
+
+/// Of every motor that turns no wheel, where neither its own entry nor the URDF says it.
+struct EachJoint {
+  std::optional<ValueText> effort;  ///< of joints that turn, or of those that slide, as its dimension says
+  std::optional<double> gear;
+  std::optional<double> rotor_inertia;  ///< [kg m^2]
+};
+
 struct ActuatorText {
   Word joint;
   std::optional<ValueText> effort_text;  ///< a torque or a force, as the joint says
@@ -79,6 +92,8 @@ struct RobotFile {
   Word lead;  ///< the link or frame that tasks drive; not given: the base
   std::vector<WheelText> wheels;
   EachWheel each_wheel;
+  EachJoint each_joint;
+  std::vector<JointAxisText> axes;
   std::vector<InertiaText> inertias;
   std::vector<Word> fixed;  ///< joints that do not move, whatever the URDF says
   std::vector<MimicText> mimics;

@@ -7,6 +7,7 @@
 
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/draft_entries.hpp"
+#include "robot/joint_axes.hpp"
 #include "robot/text_edits.hpp"
 #include "robot/urdf.hpp"
 #include "spec/units.hpp"
@@ -119,7 +120,8 @@ class Update {
   }
 
   void add_items() {
-    for (const char* key : {"fixed", "mimic", "wheels", "supports", "actuated", "inertias", "frames"}) {
+    for (const char* key :
+         {"fixed", "mimic", "axes", "wheels", "supports", "actuated", "inertias", "frames"}) {
       const Node* section = old_.find(key);
       const Node* drafted = draft_.find(key);
       if (section == nullptr || drafted == nullptr) continue;
@@ -157,7 +159,8 @@ class Update {
     static const std::set<std::string> required = {"zwang_robot", "urdf", "base",     "wheels",
                                                    "actuated",    "stop", "footprint"};
     if (required.contains(key)) return true;
-    if (key == "each_wheel") return false;  // its wheels have their own values
+    if (key == "each_wheel" || key == "each_joint") return false;  // they have their own values
+    if (key == "axes") return true;
     if (key == "lead") return !mentions(old_.text, "lead");
     const std::vector<Item> items = items_of(draft_, section.value);
     return std::any_of(items.begin(), items.end(),
@@ -224,7 +227,7 @@ class Update {
         gone(joint != nullptr ? joint->value : item, std::string(key) + ": ");
       }
     }
-    for (const char* key : {"mimic", "actuated", "posture", "friction", "inertias"}) {
+    for (const char* key : {"mimic", "axes", "actuated", "posture", "friction", "inertias"}) {
       const Node* section = old_.find(key);
       if (section == nullptr) continue;
       for (const Entry& entry : section->entries) gone(entry.key, std::string(key) + ": ");
@@ -284,6 +287,12 @@ std::optional<DraftOptions> options_of(const std::filesystem::path& robot_file, 
   DraftOptions options;
   if (const Entry* ignored = document->root.find("ignore")) {
     for (const Node& link : ignored->value.items) options.ignored.push_back(link.text);
+  }
+  if (const Entry* axes = document->root.find("axes")) {
+    for (const Entry& entry : axes->value.entries) {
+      if (const auto text = parse_axis_of_joint(entry, diagnostics))
+        options.axes.push_back({text->joint.text, text->axis});
+    }
   }
   return options;
 }

@@ -175,6 +175,15 @@ std::map<int, UrdfMimic> find_mimics(const std::vector<XmlElement>& elements) {
   return mimics;
 }
 
+/// By the index of its joint.
+std::set<int> find_axes(const std::vector<XmlElement>& elements) {
+  std::set<int> joints;
+  for (const XmlElement& element : elements) {
+    if (element.name == "axis" && element.find("xyz") != nullptr) joints.insert(element.parent);
+  }
+  return joints;
+}
+
 /// The joints that motors are said to turn.
 std::set<std::string> find_transmissions(const std::vector<XmlElement>& elements) {
   std::set<std::string> joints;
@@ -291,6 +300,7 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
   std::set<std::string> done;
   const std::map<int, UrdfMimic> mimics = find_mimics(*elements);
   const std::set<std::string> driven = find_transmissions(*elements);
+  const std::set<int> with_axis = find_axes(*elements);
   for (const XmlElement& element : *elements) {
     if (element.parent != 0 || element.name != "joint") continue;
     const auto joint = model->joints_.find(element.find("name")->value);
@@ -298,7 +308,9 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
     urdf.joints.push_back(to_joint(*joint->second));
     urdf.joints.back().span = element.span;
     urdf.joints.back().has_transmission = driven.contains(joint->first);
-    const auto mimic = mimics.find(static_cast<int>(&element - elements->data()));
+    const int index = static_cast<int>(&element - elements->data());
+    urdf.joints.back().has_axis = with_axis.contains(index);
+    const auto mimic = mimics.find(index);
     if (mimic != mimics.end()) urdf.joints.back().mimic = mimic->second;
   }
   correct_inertias(urdf, diagnostics);

@@ -41,6 +41,7 @@ struct UrdfJoint {
   solver::Pose origin;  ///< X_PC at q = 0
   solver::Joint joint;  ///< named; not actuated; max_effort infinite where the file gives none
   std::optional<UrdfMimic> mimic;
+  bool has_axis = false;          ///< false: the file has no <axis>, which means 1 0 0
   bool has_transmission = false;  ///< a <transmission> or <ros2_control> names it, with a motor
   Span span;
 };

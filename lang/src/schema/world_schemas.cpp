@@ -47,6 +47,14 @@ Json each_wheel() {
        {"rotor_inertia", reference("quantity", "the inertia of the rotor alone, before the gear")}});
 }
 
+Json each_joint() {
+  return object(
+      "of every motor that turns no wheel, where neither its own entry nor the URDF says it",
+      {{"effort", reference("quantity", "largest torque or force on the joint's side")},
+       {"gear", reference("quantity", "turns of the motor for one of the joint")},
+       {"rotor_inertia", reference("quantity", "the inertia of the rotor alone, before the gear")}});
+}
+
 Json link_inertia() {
   return object("a solid disc of a wheel, else a solid ball",
                 {{"mass", reference("quantity", "default the URDF's")},
@@ -282,6 +290,9 @@ Json robot_file() {
        {"base", word("the link that floats")},
        {"wheels", list("the wheels; the drive follows from them", wheel())},
        {"each_wheel", each_wheel()},
+       {"each_joint", each_joint()},
+       {"axes", named("axes of joints in their own frames, in the place of the URDF's",
+                      tuple("x, y, z", Json{{"type", "number"}}, 3, 3))},
        {"inertias", named("bodies of links, in the place of the URDF's", link_inertia())},
        {"fixed", list("joints of the URDF that do not move here", word("a joint"))},
        {"mimic",

@@ -28,6 +28,12 @@ struct StuckWheel {
   std::string how;  ///< "`fixed`", for example
 };
 
+/// In the place of an <axis> that a URDF lacks.
+struct JointAxis {
+  std::string joint;
+  solver::Vector3 axis;  ///< a unit vector in the frame of the joint
+};
+
 /// The draft with its open places filled by assumption, to be looked at and not to be run.
 struct AssumedRobot {
   std::string as;  ///< "differential", "skid steering", "mecanum", ...
@@ -66,6 +72,7 @@ struct DraftOptions {
       false;  ///< the frame `hook` is in the draft, to be filled in where nobody knows the outline
   std::optional<double> back;        ///< x of the outline's back in the base [m], where the owner measured it
   std::vector<std::string> ignored;  ///< links that are left out
+  std::vector<JointAxis> axes;       ///< that the owner gave
 };
 
 /// `named_as` is how the robot file names the URDF, relative to itself. nullopt on a URDF that is refused.
