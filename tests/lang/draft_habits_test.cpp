@@ -200,6 +200,19 @@ TEST_F(DraftOfHabits, brakes_no_harder_than_what_tips_it) {
   EXPECT_NEAR(stop.force, 22.0 * stop.deceleration, 0.1 * stop.force);
 }
 
+// A ball without the name of one, on a joint that is called a caster.
+TEST_F(DraftOfHabits, stands_on_the_ball_of_a_joint_that_is_called_a_caster) {
+  const std::string parts = wheel_at("left_wheel", "chassis", ".1 .2 0") +
+                            wheel_at("right_wheel", "chassis", ".1 -.2 0") +
+                            "<link name='rear_link'><collision><geometry><sphere radius='.015'/></geometry>"
+                            "</collision></link><joint name='rear_castor_joint' type='fixed'><parent "
+                            "link='chassis'/><child link='rear_link'/><origin xyz='-.13 0 0'/></joint>";
+  const auto draft =
+      this->draft(folder_.write("ball.urdf", "<robot name='r'>" + chassis() + parts + "</robot>"));
+  ASSERT_TRUE(draft);
+  EXPECT_EQ(draft->supports, std::vector<std::string>{"rear_link"});
+}
+
 /// Two wheels of `chassis` that roll along y, and a ball behind.
 std::string sideways(const std::string& base) {
   std::string text = "<robot name='r'>" + chassis() + wheel_at("left_wheel", "chassis", "-.22 0 0") +

@@ -16,7 +16,9 @@ constexpr double g = 9.81;
 
 /// 20 kg at `com`, two wheels of 1 kg beside it, 10 cm above the floor; a support of no mass 0.3 m ahead.
 std::optional<Footing> footing_with(const std::string& com, const std::string& supports,
-                                    std::string* code = nullptr) {
+                                    std::string* code = nullptr,
+                                    const std::string& ball = R"(<link name="ball"/>)",
+                                    const std::string& ball_at = "0.3 0 0") {
   const zwang::test::TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
   std::ofstream urdf(folder / "base.urdf");
@@ -32,9 +34,9 @@ std::optional<Footing> footing_with(const std::string& com, const std::string& s
         << R"(_link"/><axis xyz="0 1 0"/><limit effort="5" velocity="10"/><origin xyz="0 )" << y
         << " 0.1\"/></joint>";
   }
-  urdf
-      << R"(<link name="ball"/><joint name="ball" type="fixed"><parent link="base_link"/><child link="ball"/>)"
-      << R"(<origin xyz="0.3 0 0"/></joint></robot>)";
+  urdf << ball
+       << R"(<joint name="ball" type="fixed"><parent link="base_link"/><child link="ball"/><origin xyz=")"
+       << ball_at << R"("/></joint></robot>)";
   urdf.close();
   std::ofstream(folder / "base.yaml")
       << "zwang_robot: 1\nurdf: base.urdf\nbase: base_link\n"
@@ -91,6 +93,30 @@ TEST(Footing, AMassBehindTheSupportsIsRefused) {
   EXPECT_EQ(code, "E640");
   code.clear();
   EXPECT_TRUE(footing_with("0.011 0 0.1", "ball", &code));
+  EXPECT_EQ(code, "");
+}
+
+// Many URDFs leave a caster's link at the base's origin and draw its ball where it is.
+TEST(Footing, ASupportStandsBelowItsBall) {
+  const std::string ball =
+      R"(<link name="ball"><collision><origin xyz="0.3 0 0.02"/><geometry><sphere radius="0.02"/></geometry>)"
+      "</collision></link>";
+  const auto at_origin = footing_with("0.11 0 0.32", "ball"),
+             aside = footing_with("0.11 0 0.32", "ball", nullptr, ball, "0 0 0");
+  ASSERT_TRUE(at_origin && aside);
+  ASSERT_EQ(aside->points.size(), 3U);
+  EXPECT_NEAR((aside->points[2] - at_origin->points[2]).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(aside->inside, at_origin->inside, 1e-9);
+}
+
+// A ball on the axle: three points on a line carry a mass above it, and no other.
+TEST(Footing, AMassBesideALineOfPointsIsRefused) {
+  const std::string ball = R"(<link name="ball"/>)";
+  std::string code;
+  EXPECT_FALSE(footing_with("-0.1 0 0.1", "ball", &code, ball, "0 0 0"));
+  EXPECT_EQ(code, "E640");
+  code.clear();
+  EXPECT_TRUE(footing_with("0 0 0.1", "ball", &code, ball, "0 0 0"));
   EXPECT_EQ(code, "");
 }
 

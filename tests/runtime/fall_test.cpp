@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
 
+#include "../temporary_folder.hpp"
 #include "plant_robots.hpp"
 #include "zwang/lang/footing.hpp"
 #include "zwang/lang/program.hpp"
@@ -46,6 +48,42 @@ TEST(Fall, NoneOfABaseThatStands) {
     EXPECT_FALSE(plant.truth().base.fallen);
     EXPECT_LT(std::hypot(plant.truth().base.roll, plant.truth().base.pitch), 0.01);
   }
+}
+
+// The ball is drawn 0.25 m behind its link, which lies at the base's origin; the mass is 0.1 m behind the
+// axle.
+TEST(Fall, NoneOfABaseOnABallThatIsDrawnBesideItsLink) {
+  const zwang::test::TemporaryFolder folder;
+  std::ofstream urdf(folder.path() / "ball.urdf");
+  const auto inertial = [](const char* at, const char* mass, const char* moment) {
+    return std::string("<inertial><origin xyz='") + at + "'/><mass value='" + mass + "'/><inertia ixx='" +
+           moment + "' iyy='" + moment + "' izz='" + moment + "' ixy='0' ixz='0' iyz='0'/></inertial>";
+  };
+  urdf << "<robot name='r'><link name='base_link'>" << inertial("-0.1 0 0", "20", "0.5") << "</link>";
+  for (const auto& [name, y] : {std::pair("left", "0.2"), {"right", "-0.2"}})
+    urdf << "<link name='" << name << "_link'>" << inertial("0 0 0", "1", "0.004") << "</link><joint name='"
+         << name << "' type='continuous'><parent link='base_link'/><child link='" << name
+         << "_link'/><origin xyz='0 " << y
+         << " -0.1'/><axis xyz='0 1 0'/><limit effort='5' velocity='9'/></joint>";
+  urdf << "<link name='ball'><collision><origin xyz='-0.25 0 -0.15'/><geometry><sphere "
+          "radius='0.05'/></geometry>"
+          "</collision></link><joint name='b' type='fixed'><parent link='base_link'/><child "
+          "link='ball'/></joint>"
+          "</robot>";
+  urdf.close();
+  std::ofstream(folder.path() / "ball.yaml")
+      << "zwang_robot: 1\nurdf: ball.urdf\nbase: base_link\nsupports: [ball]\n"
+         "wheels: [{joint: left, radius: 0.1 m}, {joint: right, radius: 0.1 m}]\nactuated: {left: {}, right: "
+         "{}}\n"
+         "stop: {deceleration: 1 m/s^2, force: 30 N}\n"
+         "footprint: {polygon: [[0.3 m, 0.2 m], [-0.3 m, 0.2 m], [-0.3 m, -0.2 m], [0.3 m, -0.2 m]]}\n";
+  lang::Diagnostics diagnostics;
+  const auto robot = lang::load_robot(folder.path() / "ball.yaml", diagnostics);
+  ASSERT_TRUE(robot);
+  MujocoPlant plant(*robot, {});
+  for (int i = 0; i < 500; ++i) ASSERT_EQ(plant.apply(Eigen::VectorXd::Zero(2)), PlantStatus::ok);
+  EXPECT_FALSE(plant.truth().base.fallen);
+  EXPECT_LT(std::abs(plant.truth().base.pitch), 0.01);
 }
 
 // Sped up along x for 1 s: at 0.85 of the limit of statics it stays down, at 1.2 it goes over backwards.

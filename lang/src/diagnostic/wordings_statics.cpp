@@ -18,11 +18,14 @@ double rounded_down(double value) {
 
 }  // namespace
 
-Diagnostic falls_over(const Span& span, const std::string& base, double outside) {
-  return error("E640", span,
-               "`" + base + "` falls over as it stands: its mass lies " + figure(outside * 1e3, "mm") +
-                   " outside its wheels and supports",
-               "name the links that also carry it in `supports`, or mend the masses and places in the URDF");
+Diagnostic falls_over(const Span& span, const std::string& base, double outside, bool has_supports) {
+  return error(
+      "E640", span,
+      "`" + base + "` falls over as it stands: its mass lies " + figure(outside * 1e3, "mm") +
+          " outside its wheels and supports",
+      std::string("name the links that also carry it in `supports`, or mend the masses and places in "
+                  "the URDF") +
+          (has_supports ? "; a base on two wheels that names none stands on its footprint" : ""));
 }
 
 Diagnostic tips_by_acceleration(const Span& span, const std::string& axis, double asked, double tips,

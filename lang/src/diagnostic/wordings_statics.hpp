@@ -7,8 +7,8 @@
 
 namespace zwang::lang::wording {
 
-/// `outside`: of the mass beyond the supports [m], above 0.
-Diagnostic falls_over(const Span& span, const std::string& base, double outside);
+/// `outside`: of the mass beyond the supports [m], above 0. `has_supports`: the robot file names some.
+Diagnostic falls_over(const Span& span, const std::string& base, double outside, bool has_supports);
 /// `asked`, `tips` [m/s^2]; the mass lies `inside` [m] its supports and `height` [m] above the floor.
 Diagnostic tips_by_acceleration(const Span& span, const std::string& axis, double asked, double tips,
                                 double inside, double height);

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <string>
 
 #include "zwang/lang/plane.hpp"
@@ -35,13 +34,11 @@ void add_points(const Robot& robot, const Eigen::VectorXd& q, double ground, Foo
   for (const solver::Wheel& wheel : robot.model.wheels())
     footing.points.push_back(pose_in_base(robot.model, wheel.body, q).position);
   footing.wheels = footing.points.size();
-  std::set<std::string> stood_on;  // however often the file names it
   for (const std::string& support : robot.supports) {
-    if (!stood_on.insert(support).second) continue;
     const auto frame = robot.model.find_frame(support);
     if (!frame) continue;
-    const solver::Frame& link = robot.model.frames()[static_cast<std::size_t>(*frame)];
-    footing.points.push_back((pose_in_base(robot.model, link.body, q) * link.pose_in_body).position);
+    const solver::Frame& above = robot.model.frames()[static_cast<std::size_t>(*frame)];
+    footing.points.push_back((pose_in_base(robot.model, above.body, q) * above.pose_in_body).position);
   }
   if (robot.supports.empty() && footing.wheels < 3)
     footing.points.insert(footing.points.end(), robot.footprint.begin(), robot.footprint.end());

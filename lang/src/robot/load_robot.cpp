@@ -21,6 +21,7 @@
 #include "robot/joint_axes.hpp"
 #include "robot/pads_entry.hpp"
 #include "robot/robot_file.hpp"
+#include "robot/supports.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_speed.hpp"
 #include "spec/parse_task.hpp"
@@ -48,7 +49,7 @@ class RobotBuilder {
     check_friction();
     check_starts(file_, urdf_, diagnostics_);
     check_wheels();
-    check_supports();
+    check_supports(file_, urdf_, diagnostics_);
     check_frames();
     check_footprint();
     check_drive(file_, diagnostics_);
@@ -90,11 +91,6 @@ class RobotBuilder {
 
   /// False once the name was complained of: a joint is named as a wheel and as an actuator.
   bool good_name(const std::string& name) const { return !bad_names_.contains(name); }
-
-  void check_link(const Word& name) {
-    if (!name.exists() || urdf_.find_link(name.text) != nullptr) return;
-    diagnostics_.add(wording::unknown_name(name.span, "link", name.text, urdf_.link_names()));
-  }
 
   /// The base floats: everything above it, up to the URDF's root, must be fixed to it.
   void check_base() {
@@ -182,37 +178,6 @@ class RobotBuilder {
     }
   }
 
-  void check_supports() {
-    for (const Word& support : file_.supports) {
-      check_link(support);
-      if (const UrdfJoint* carrier = moving_carrier(support.text))
-        diagnostics_.add(wording::moving_support(support.span, support.text, carrier->joint.name,
-                                                 what_moves(support.text, *carrier), carrier->span));
-    }
-  }
-
-  wording::SupportOn what_moves(const std::string& support, const UrdfJoint& carrier) const {
-    for (const WheelText& wheel : file_.wheels) {
-      const UrdfJoint* joint = urdf_.find_joint(wheel.joint.text);
-      if (joint == nullptr || joint == &carrier) continue;
-      if (moving_carrier(joint->parent) == &carrier) return wording::SupportOn::steered_link;
-    }
-    const UrdfLink* link = urdf_.find_link(support);
-    const bool is_ball = link != nullptr && link->radius && !link->cylinder_axis;
-    return is_ball ? wording::SupportOn::ball : wording::SupportOn::caster_wheel;
-  }
-
-  /// The joint that a link moves about in the base, the nearest one; nullptr where it is fixed to the base.
-  const UrdfJoint* moving_carrier(const std::string& link) const {
-    std::set<std::string> seen;
-    for (const UrdfJoint* above = urdf_.joint_above(link);
-         above != nullptr && above->child != file_.base.text && seen.insert(above->child).second;
-         above = urdf_.joint_above(above->parent)) {
-      if (above->joint.type != solver::JointType::fixed) return above;
-    }
-    return nullptr;
-  }
-
   void check_frames() {
     std::vector<std::string> known = urdf_.link_names();
     for (const FrameText& frame : file_.frames) {
@@ -285,12 +250,12 @@ class RobotBuilder {
     return frames;
   }
 
-  /// E640 where the mass lies outside of what carries it.
+  /// E640 where the mass lies outside of what carries it, or beside points on a line.
   bool stands(const Robot& robot) {
     const std::optional<Footing> footing = footing_of(robot);
-    if (!footing || plane::convex_hull(footing->points).empty() || footing->inside >= -rounding) return true;
+    if (!footing || footing->inside >= -rounding) return true;
     const Span& span = file_.supports.empty() ? file_.base.span : file_.supports.front().span;
-    diagnostics_.add(wording::falls_over(span, robot.name, -footing->inside));
+    diagnostics_.add(wording::falls_over(span, robot.name, -footing->inside, !file_.supports.empty()));
     return false;
   }
 
@@ -300,6 +265,10 @@ class RobotBuilder {
       builder.add_frame(frame.name.text, frame.parent.text, pose_of(frame));
     }
     for (const auto& [name, same_as] : implied_frames()) builder.add_frame(name, same_as, {});
+    for (const SupportFrame& support : support_frames(file_, urdf_)) {
+      if (support.is_new())
+        builder.add_frame(support.name, support.link, {solver::Matrix3::Identity(), support.at});
+    }
     for (const WheelText& wheel : file_.wheels) {
       builder.add_wheel(wheel.joint.text, {.body = 0,
                                            .radius = *wheel.radius,
@@ -320,7 +289,7 @@ class RobotBuilder {
     robot.stop = file_.stop;
     robot.footprint = file_.footprint;
     if (is_clockwise_) std::reverse(robot.footprint.begin(), robot.footprint.end());
-    for (const Word& support : file_.supports) robot.supports.push_back(support.text);
+    for (const SupportFrame& support : support_frames(file_, urdf_)) robot.supports.push_back(support.name);
     robot.bumper_height_said = file_.bumper_height.has_value();
     if (file_.bumper_height) robot.bumper_height = *file_.bumper_height;
     if (file_.bumper_stiffness) robot.bumper_stiffness = *file_.bumper_stiffness;

@@ -178,7 +178,9 @@ class WheelSearch {
       if (above == nullptr || moves(*above) || placed_.carrier(link.name) != nullptr ||
           link.name == found_.base)
         continue;
-      const bool is_named = is_called_caster(link.name) || is_called_ball(link.name);
+      // A joint's name counts for what is round: `caster_mount_joint` may hold a bracket.
+      const bool is_named = is_called_caster(link.name) || is_called_ball(link.name) ||
+                            (link.radius && is_called_caster(above->joint.name));
       const bool is_sphere = ground && link.radius && !link.cylinder_axis;
       const double low = is_sphere ? (placed_.pose_of(link.name) * link.round_at).z() - *link.radius : 0.0;
       if (is_named || (is_sphere && std::abs(low - *ground) < slack * *link.radius))

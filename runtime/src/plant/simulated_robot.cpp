@@ -37,10 +37,10 @@ void level_wheels(const Model& model, SimulatedRobot& simulated) {
          in_millimetres(level.spread()) + " above " + name(level.lowest));
 }
 
-/// A support stands on the ground straight below its link's origin.
+/// A support stands on the ground straight below its frame.
 Vector3 point_below(const lang::Robot& robot, const std::string& support) {
   const auto frame = robot.model.find_frame(support);
-  if (!frame) refuse("the model has no link `" + support + "` to support the base");
+  if (!frame) refuse("the model has no frame `" + support + "` to support the base");
   const solver::Frame& link = robot.model.frames()[static_cast<std::size_t>(*frame)];
   if (link.body != 0) refuse("the support `" + support + "` is not fixed to the base");
   return link.pose_in_body.position;
