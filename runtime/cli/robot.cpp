@@ -214,10 +214,15 @@ std::vector<std::string> gaps(const lang::Robot& robot) {
   if (robot.limits.empty()) lines.push_back("limits: nothing bounds the base where a task says nothing");
   if (!robot.bumper_height_said)
     lines.push_back("bumper: {height: ..}: taken as " + with_unit(robot.bumper_height * 1e3, "mm"));
+  std::vector<int> told;  // bodies: a swivel carries two wheels
   for (const solver::Wheel& wheel : robot.model.wheels()) {
-    const solver::Joint& joint = robot.model.joint(wheel.body - 1);
-    if (joint.actuated && joint.rotor_inertia == 0.0) {
-      lines.push_back("rotor_inertia of `" + joint.name + "`: taken as 0");
+    const int carrier = robot.model.bodies()[static_cast<std::size_t>(wheel.body)].parent;
+    for (const int body : {wheel.body, carrier}) {
+      if (body == 0 || std::find(told.begin(), told.end(), body) != told.end()) continue;
+      told.push_back(body);
+      const solver::Joint& joint = robot.model.joint(body - 1);
+      if (joint.actuated && joint.rotor_inertia == 0.0)
+        lines.push_back("rotor_inertia of `" + joint.name + "`: taken as 0");
     }
   }
   return lines;

@@ -162,9 +162,39 @@ void add_task(const std::string& task, const lang::BaseFit& fit, const Files& fi
   add(files.scene, texts.scene);
 }
 
-std::string what_next(bool has_task, const Files& files) {
+/// The folder that a robot file reads from: the nearest above it with a `.zwang-root`, else its own.
+fs::path root_for(const fs::path& robot_file) {
+  const fs::path own = fs::absolute(robot_file).lexically_normal().parent_path();
+  std::error_code error;
+  for (fs::path folder = own;; folder = folder.parent_path()) {
+    if (fs::exists(folder / ".zwang-root", error)) return folder;
+    if (folder == folder.root_path()) return own;
+  }
+}
+
+bool is_below(const fs::path& file, const fs::path& folder) {
+  const fs::path way = fs::absolute(file).lexically_normal().lexically_relative(folder);
+  return !way.empty() && *way.begin() != "..";
+}
+
+/// A robot file reads no URDF outside of its root (E109): what to do first.
+std::string how_to_reach(const fs::path& robot_file, const std::string& urdf) {
+  const fs::path root = root_for(robot_file);
+  if (is_below(urdf, root)) return "";
+  fs::path common = root;
+  while (!is_below(urdf, common)) common = common.parent_path();
+  if (common == common.root_path())
+    return "  copy the URDF beside " + robot_file.string() + " and name it there: it may not read " + urdf +
+           "\n";
+  const std::string way = common.lexically_proximate(fs::current_path()).generic_string();
+  return "  touch " + (way == "." ? "" : way + "/") +
+         ".zwang-root    the robot file may read files below that folder then, as the URDF\n";
+}
+
+std::string what_next(bool has_task, const Files& files, const std::string& urdf) {
   const std::string file = (has_task ? files.task : files.robot).string();
-  return "\nthen\n  zwang validate " + file + "\n" + (has_task ? "  zwang run " + file + "\n" : "");
+  return "\nthen\n" + how_to_reach(files.robot, urdf) + "  zwang validate " + file + "\n" +
+         (has_task ? "  zwang run " + file + "\n" : "");
 }
 
 std::string listed(const std::string& title, const std::vector<lang::UpdateNote>& notes) {
@@ -190,22 +220,19 @@ int write_new(const RobotInitArguments& arguments) {
   if (has_task) add_task(*arguments.task, fit, files, written);
   written.write();
   print(written.report + "\n" + to_decide(files.robot.string(), draft->text) +
-        titled_list("not in the URDF", draft->missing) + what_next(has_task, files));
+        titled_list("not in the URDF", draft->missing) + what_next(has_task, files, arguments.urdf));
   if (!why_not.empty()) refuse_task(*arguments.task, fit, why_not);
   return exit_good;
 }
 
-/// The robot as it is filled in, where it is; else as it was drafted.
-lang::BaseFit fit_of(const Files& files, const lang::RobotDraft& draft) {
-  lang::Diagnostics unheard;  // of what is still open; `validate` tells it
-  const auto robot = lang::load_robot(files.robot, unheard);
-  return robot ? lang::base_fit(*robot) : lang::base_fit(draft);
+/// The robot as it is filled in; nullopt where something is still open, which `validate` tells.
+std::optional<lang::Robot> filled_robot(const fs::path& robot_file) {
+  lang::Diagnostics unheard;
+  return lang::load_robot(robot_file, unheard);
 }
 
 /// x of the back of a robot that is filled in. [m]
-std::optional<double> back_of(const fs::path& robot_file) {
-  lang::Diagnostics unheard;
-  const auto robot = lang::load_robot(robot_file, unheard);
+std::optional<double> back_of(const std::optional<lang::Robot>& robot) {
   if (!robot || robot->footprint.empty()) return std::nullopt;
   double back = 0.0;
   for (const auto& corner : robot->footprint) back = std::min(back, corner.x());
@@ -217,7 +244,8 @@ int update(const RobotInitArguments& arguments, const Files& files) {
   lang::Diagnostics diagnostics;
   auto options = lang::options_of(files.robot, diagnostics);
   if (!options) return refused(diagnostics);
-  options->back = back_of(files.robot);
+  const std::optional<lang::Robot> robot = filled_robot(files.robot);
+  options->back = back_of(robot);
   const auto draft = drafted(arguments, files.robot.string(), *options, diagnostics);
   if (!draft) return refused(diagnostics);
   const auto changed = lang::update_robot_file(files.robot, arguments.urdf, *draft, diagnostics);
@@ -228,15 +256,18 @@ int update(const RobotInitArguments& arguments, const Files& files) {
   } else {
     written.add(files.robot.string(), changed->text, "updated; every line of it was kept");
   }
-  const lang::BaseFit fit = fit_of(files, *draft);
-  const std::string why_not = arguments.task ? why_no_task(*arguments.task, fit, *draft) : "";
+  const lang::BaseFit fit = robot ? lang::base_fit(*robot) : lang::base_fit(*draft);
+  std::string why_not;
+  if (arguments.task)
+    why_not = robot ? lang::why_unfit(*arguments.task, fit) : why_no_task(*arguments.task, fit, *draft);
   const bool has_task = arguments.task && why_not.empty();
   if (has_task) add_task(*arguments.task, fit, files, written);
   written.write();
   print(written.report + "\n" + listed("added, in " + files.robot.string(), changed->added) +
         listed("the URDF has no such joint or link any more: remove it", changed->vanished) +
         listed("kept, and the URDF says otherwise", changed->differ) +
-        listed("to fill in", lang::open_places(changed->text).to_fill_in) + what_next(has_task, files));
+        listed("to fill in", lang::open_places(changed->text).to_fill_in) +
+        what_next(has_task, files, arguments.urdf));
   if (!why_not.empty()) refuse_task(*arguments.task, fit, why_not);
   return exit_good;
 }

@@ -349,6 +349,41 @@ TEST_F(CliPlan, init_overwrites_nothing_and_updates_what_it_is_told_to) {
   EXPECT_EQ(read(folder_ / "robots/mine_obstacle_scene.yaml"), scene + "# mine\n");
 }
 
+// The robot file may not read it (E109) before a folder above both is marked: that is the first of what to
+// do.
+TEST_F(CliPlan, init_tells_how_to_reach_a_urdf_in_another_folder) {
+  fs::remove(folder_ / ".zwang-root");
+  for (const char* part : {"away/u", "away/r"}) fs::create_directories(folder_ / part);
+  write("away/u/base.urdf", read(folder_ / "robots/diff_base.urdf"));
+  const Result made = zwang("robot init away/u/base.urdf --task wall_align -o away/r/base.yaml");
+  ASSERT_EQ(made.code, 0) << made.out;
+  EXPECT_NE(made.out.find("then\n  touch away/.zwang-root "), std::string::npos) << made.out;
+  EXPECT_EQ(zwang("validate away/r/base_wall_align.yaml").code, 1);
+  write("away/.zwang-root", "");
+  EXPECT_EQ(zwang("validate away/r/base_wall_align.yaml").code, 0);
+  const Result again = zwang("robot init away/u/base.urdf --update away/r/base.yaml");
+  EXPECT_EQ(again.out.find("touch"), std::string::npos) << again.out;
+}
+
+// As drafted it falls over its ball; with the skid that its owner names it stands.
+TEST_F(CliPlan, update_judges_the_robot_as_it_is_filled_in) {
+  const std::string skid =
+      "<link name='runner'/><joint name='runner_joint' type='fixed'><parent link='base_link'/><child "
+      "link='runner'/><origin xyz='-.9 0 -.08'/></joint></robot>";
+  std::string urdf = loaded_base("60", "-.6 0 .1");
+  write("loaded.urdf", urdf.replace(urdf.find("</robot>"), 8, skid));
+  const Result made = zwang("robot init loaded.urdf --task wall_align");
+  EXPECT_EQ(made.code, 2) << made.out;
+  EXPECT_NE(made.out.find("falls over"), std::string::npos) << made.out;
+  std::string text = read(folder_ / "loaded.yaml");
+  const std::string ball = "supports: [caster_ball]";
+  ASSERT_NE(text.find(ball), std::string::npos) << text;
+  write("loaded.yaml", text.replace(text.find(ball), ball.size(), "supports: [caster_ball, runner]"));
+  const Result updated = zwang("robot init loaded.urdf --update loaded.yaml --task wall_align");
+  EXPECT_EQ(updated.code, 0) << updated.out;
+  EXPECT_TRUE(fs::exists(folder_ / "loaded_wall_align.yaml"));
+}
+
 TEST_F(CliPlan, init_refuses_a_task_that_the_base_cannot_do) {
   const Result refused = zwang("robot init robots/tricycle_base.urdf --task wall_align -o robots/mine.yaml");
   EXPECT_EQ(refused.code, 2) << refused.out;

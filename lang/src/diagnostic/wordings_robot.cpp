@@ -303,8 +303,8 @@ Diagnostic unordered_limits(const Span& span, const std::string& joint) {
 }
 
 Diagnostic negative_limit(const Span& span, const std::string& joint) {
-  return error("E859", span,
-               "effort and velocity limits of joint " + in_ticks(joint) + " cannot be negative");
+  return error("E859", span, "effort and velocity limits of joint " + in_ticks(joint) + " cannot be negative",
+               "give the largest torque and speed; where there is no limit, 0 or -1");
 }
 
 Diagnostic urdf_refused(const Span& span, const std::string& message) {

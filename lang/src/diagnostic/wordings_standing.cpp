@@ -216,6 +216,38 @@ Diagnostic wheel_inertia_beyond_rim(const std::vector<HeavyWheel>& wheels) {
           figure(0.5 * first.on_the_rim, "kg m^2"));
 }
 
+Diagnostic negligible_masses(const std::vector<TinyMass>& links) {
+  const TinyMass& first = links.front();
+  const std::string others =
+      links.size() > 1 ? "; so it is with " + std::to_string(links.size() - 1) + " more" : std::string();
+  return warning("W863", first.span,
+                 "link " + in_ticks(first.link) + " has " + figure(first.mass, "kg") +
+                     ", less than a grain of dust: it counts as none" + others,
+                 "list it under `ignore` in the robot file, and it is not there at all");
+}
+
+Diagnostic impossible_body(const Span& span, const std::string& reason, const InertiaEntry& entry) {
+  std::string keys = entry.lacks_mass ? "mass: 1 kg" : "";
+  if (entry.lacks_radius) keys += (keys.empty() ? "" : ", ") + std::string("radius: 0.1 m");
+  return error("E808", span, "this robot cannot move as described: " + reason,
+               "list the link under `inertias` in the robot file, as `" + entry.link + ": {" + keys +
+                   "}`: it counts as a solid " + (entry.lacks_radius ? "ball" : "disc") +
+                   " then; or mend its <inertial> in the URDF");
+}
+
+Diagnostic swivel_inertia_beyond_reach(const std::vector<HeavySwivel>& swivels) {
+  const HeavySwivel& first = swivels.front();
+  const std::string others =
+      swivels.size() > 1 ? "; so it is with " + std::to_string(swivels.size() - 1) + " more" : std::string();
+  return warning(
+      "W870", first.span,
+      "swivel " + in_ticks(first.joint) + " has " + figure(first.about_axis, "kg m^2") +
+          " about its axis, and its mass, all of it " + in_length(first.reach) + " off, has " +
+          figure(first.within, "kg m^2") + others,
+      "list its link under `inertias` in the robot file, as `LINK: {radius: 50 mm}`: it counts as a "
+      "solid ball then; the base seems much heavier while it turns such swivels");
+}
+
 Diagnostic push_beyond_floor(const Span& span, const std::string& joint, const Push& push) {
   const double slips = push.effort * push.holds / push.push;
   return warning("W872", span,

@@ -76,6 +76,32 @@ struct HeavyWheel {
 };
 /// Not empty: who draws one so draws all so.
 Diagnostic wheel_inertia_beyond_rim(const std::vector<HeavyWheel>& wheels);
+/// Of a link in the URDF.
+struct TinyMass {
+  std::string link;
+  Span span;
+  double mass = 0.0;  ///< [kg]
+};
+/// Not empty.
+Diagnostic negligible_masses(const std::vector<TinyMass>& links);
+/// What `inertias` of the robot file has to say of a link.
+struct InertiaEntry {
+  std::string link;
+  bool lacks_mass = false;
+  bool lacks_radius = false;  ///< it is no wheel, whose radius the file has
+};
+/// E808 of a link in the URDF that moves, or that is fixed to what does. `reason`: why no model can move it.
+Diagnostic impossible_body(const Span& span, const std::string& reason, const InertiaEntry& entry);
+/// A joint that swivels a wheel and has more inertia than its mass can have.
+struct HeavySwivel {
+  Span span;
+  std::string joint;
+  double about_axis;  ///< [kg m^2]
+  double within;      ///< [kg m^2] what its mass has that far from the axis:
+  double reach;       ///< [m]
+};
+/// Not empty.
+Diagnostic swivel_inertia_beyond_reach(const std::vector<HeavySwivel>& swivels);
 struct Push {
   double effort = 0.0;  ///< [N m] of the first wheel
   double push = 0.0;    ///< [N] of all wheels at the floor

@@ -363,14 +363,16 @@ gives the axis in the link's axes; this one may be in the parent's.)~",
           .fix = "Let the joint's `<axis>` point along the cylinder, or turn the shape's `<origin rpy>`."},
       Explanation{
           .code = "W870",
-          .title = "a wheel with more inertia than its mass can have",
+          .title = "a wheel or a swivel with more inertia than its mass can have",
           .why =
               R"~(A wheel of mass m and radius R has at most m R^2 about its axle, if all of it is on the rim. URDFs that
 were written for a picture have 1 kg m^2 everywhere. The base then seems many times as heavy along the floor, and every force
-and acceleration is computed for that.)~",
+and acceleration is computed for that. The mass of a swivel lies within three times the reach of its wheel
+from its axis.)~",
           .fix = "List the wheel's link under `inertias` in the robot file, as `left_wheel_link: {}`. It "
                  "counts as a solid "
-                 "disc then, 1/2 m R^2 about the axle. Or mend the URDF."},
+                 "disc then, 1/2 m R^2 about the axle; a swivel's, as `fork: {radius: 50 mm}`, as a solid "
+                 "ball. Or mend the URDF."},
       Explanation{
           .code = "W871",
           .title = "an inertia that is nearly a body's",

@@ -115,8 +115,9 @@ the robot then keeps rolling by itself.)~",
 three inertias is at most the sum of the other two. With other numbers the robot's accelerations
 would be nonsense, or infinite.)~",
           .fix =
-              R"~(Correct the link in the URDF. The inertia of a box of mass m and sides a, b, c about its centre is m
-(b^2 + c^2) / 12, and so on.)~",
+              R"~(List the link under `inertias` in the robot file. It counts as a solid disc or ball then, and the URDF
+stays as it is. `zwang robot init` drafts that section. Or correct the link in the URDF: the inertia of a
+box of mass m and sides a, b, c about its centre is m (b^2 + c^2) / 12, and so on.)~",
           .part = ExcerptOf::urdf,
           .example = R"~(<link name="left_link">
   <inertial>

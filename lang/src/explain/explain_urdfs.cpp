@@ -196,7 +196,7 @@ that nothing drives swing as if they were loose. Mostly nobody minds: a finger w
           .why =
               R"~(About some axis the inertia is negative, or it is smaller than that of a grain of dust. A body that
 moves cannot have it (E858). This link is fixed to another one and has less than 0.1 % of the robot's mass. It counts as
-a point.)~",
+a point. A mass below that of a grain of dust, 1e-9 kg, counts as none.)~",
           .fix = "Nothing needs to be done. `ignore: [LINK]` in the robot file leaves the link out."},
   };
   return entries;

@@ -35,10 +35,7 @@ void hold_joints(const std::vector<Word>& fixed, Urdf& urdf, Diagnostics& diagno
       continue;
     }
     if (joint->joint.type == solver::JointType::fixed) continue;
-    joint->origin = at_rest(*joint);
-    joint->joint = solver::Joint{};
-    joint->joint.name = name.text;
-    joint->mimic.reset();
+    hold(*joint);
     joint->span = name.span;  // where a wheel or a motor on it finds out
   }
 }
@@ -71,6 +68,14 @@ void check_left_out(const RobotFile& file, const Urdf& urdf, Diagnostics& diagno
 }
 
 }  // namespace
+
+void hold(UrdfJoint& joint) {
+  joint.origin = at_rest(joint);
+  const std::string name = joint.joint.name;
+  joint.joint = solver::Joint{};
+  joint.joint.name = name;
+  joint.mimic.reset();
+}
 
 void adapt_urdf(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics) {
   apply_inertias(file, urdf, diagnostics);

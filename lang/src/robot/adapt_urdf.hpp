@@ -7,6 +7,9 @@
 
 namespace zwang::lang {
 
+/// The joint stands still from now on, at 0 or at the end of its travel that is nearest to it.
+void hold(UrdfJoint& joint);
+
 /// Joints of `fixed` stand at 0, or at the end of their travel that is nearest to it. Complains of names in
 /// `fixed` and `ignore` that are unknown, and of parts that the file leaves out and uses.
 void adapt_urdf(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics);

@@ -1,6 +1,5 @@
 #include "robot/check_joints.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -46,13 +45,6 @@ std::optional<Eigen::RowVector3d> rate_of_wheel(const Robot& robot, const std::s
     return Eigen::RowVector3d(ahead.x(), ahead.y(), ahead.y() * p.x() - ahead.x() * p.y()) / wheel.radius;
   }
   return std::nullopt;
-}
-
-bool is_possible(const solver::RigidInertia& inertia) {
-  if (!(inertia.mass > 0.0)) return true;  // what it is fixed to may have the mass
-  const solver::Vector3 moments =
-      Eigen::SelfAdjointEigenSolver<solver::Matrix3>(inertia.rotational_at_com()).eigenvalues();
-  return moments(0) + moments(1) >= moments(2) - 1e-6 * moments.cwiseAbs().maxCoeff();
 }
 
 void check_mimic_names(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics) {
@@ -182,26 +174,6 @@ void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& ro
   const Word& lowest = text_of(wheels[level.lowest])->joint;
   diagnostics.add(
       wording::uneven_wheels(highest.span, highest.text, lowest.text, level.spread(), lowest.span));
-}
-
-const UrdfLink* impossible_part(const Urdf& urdf, const std::string& link) {
-  std::vector<std::string> open{link};
-  std::set<std::string> seen{link};
-  const auto reach = [&](const std::string& next) {
-    if (seen.insert(next).second) open.push_back(next);
-  };
-  while (!open.empty()) {
-    const UrdfLink* part = urdf.find_link(open.back());
-    open.pop_back();
-    if (part == nullptr) continue;
-    if (!is_possible(part->inertia)) return part;
-    for (const UrdfJoint& joint : urdf.joints) {
-      if (joint.joint.type != solver::JointType::fixed) continue;
-      if (joint.parent == part->name) reach(joint.child);
-      if (joint.child == part->name) reach(joint.parent);
-    }
-  }
-  return nullptr;
 }
 
 }  // namespace zwang::lang

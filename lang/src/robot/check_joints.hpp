@@ -20,10 +20,8 @@ void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& ro
 void check_rollers(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics);
 /// W869: wheels that turn across their own cylinder.
 void check_wheel_shapes(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics);
-/// That a wheel turns as its mass can: URDFs that only draw a robot have 1 kg m^2 everywhere.
+/// W870: that a wheel, and what swivels it, turn as their mass can. URDFs that only draw a robot have 1 kg
+/// m^2 everywhere.
 void check_wheel_inertias(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics);
-/// Of a link and those fixed to it the one whose own inertia no body can have, or nullptr. A model merges
-/// them, and complains of the merged body by its first link's name.
-const UrdfLink* impossible_part(const Urdf& urdf, const std::string& link);
 
 }  // namespace zwang::lang

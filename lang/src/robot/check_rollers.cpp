@@ -10,6 +10,7 @@
 
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/check_joints.hpp"
+#include "robot/possible_inertia.hpp"
 #include "zwang/lang/wheel_level.hpp"
 
 namespace zwang::lang {
@@ -121,6 +122,30 @@ unsigned best_arrangement(const Rollers& rollers) {
 
 }  // namespace
 
+namespace {
+
+/// m r^2 of all of a swivel's mass at r, `swivel_reaches` as far off its axis as its wheel reaches.
+void check_swivel_inertias(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics) {
+  std::vector<wording::HeavySwivel> heavy;
+  for (const solver::Wheel& wheel : robot.model.wheels()) {
+    const solver::Body& body = robot.model.bodies()[static_cast<std::size_t>(wheel.body)];
+    if (body.parent == 0) continue;
+    const solver::Body& swivel = robot.model.bodies()[static_cast<std::size_t>(body.parent)];
+    const solver::Vector3& axis = swivel.joint.axis;
+    const double trail = axis.cross(body.pose_in_parent.position).norm();
+    const double reach = swivel_reaches * (trail + wheel.radius);
+    const double about_axis = axis.dot(swivel.inertia.rotational * axis);
+    const double within = swivel.inertia.mass * reach * reach;
+    if (about_axis <= within) continue;
+    const auto text = std::find_if(file.wheels.begin(), file.wheels.end(),
+                                   [&](const WheelText& w) { return w.joint.text == body.joint.name; });
+    heavy.push_back({text->joint.span, swivel.joint.name, about_axis, within, reach});
+  }
+  if (!heavy.empty()) diagnostics.add(wording::swivel_inertia_beyond_reach(heavy));
+}
+
+}  // namespace
+
 void check_rollers(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics) {
   const Rollers rollers(robot.model);
   const std::size_t count = rollers.wheels().size();
@@ -172,6 +197,7 @@ void check_wheel_inertias(const RobotFile& file, const Robot& robot, Diagnostics
     heavy.push_back({text->joint.span, body.joint.name, about_axle, on_the_rim});
   }
   if (!heavy.empty()) diagnostics.add(wording::wheel_inertia_beyond_rim(heavy));
+  check_swivel_inertias(file, robot, diagnostics);
 }
 
 }  // namespace zwang::lang

@@ -65,29 +65,6 @@ std::string stuck_wheels_note(const FoundWheels& found) {
   return lines;
 }
 
-std::string inertias_entry(const Urdf& urdf, const FoundWheels& found, const std::vector<std::string>& links,
-                           const std::string& mass) {
-  if (links.empty()) return "";
-  std::string text =
-      "\n# Links that move, and to which the URDF gives no inertia, or one that no body has: a wheel counts "
-      "as "
-      "a solid disc,\n# another link as a solid ball. Without `mass` the URDF's, without `radius` the "
-      "wheel's.\ninertias:\n";
-  const auto is_wheel = [&](const std::string& link) {
-    const auto has_it = [&](const DraftWheel& wheel) { return wheel.link == link; };
-    return std::any_of(found.wheels.begin(), found.wheels.end(), has_it) ||
-           std::any_of(found.idle.begin(), found.idle.end(), has_it) ||
-           std::any_of(found.casters.begin(), found.casters.end(), has_it);
-  };
-  for (const std::string& link : links) {
-    std::string keys;
-    if (urdf.find_link(link)->inertia.mass <= 0.0) keys = "mass: " + mass;
-    if (!is_wheel(link)) keys += (keys.empty() ? "" : ", ") + std::string("radius: 50 mm");
-    text += "  " + link + ": {" + keys + "}\n";
-  }
-  return text;
-}
-
 std::string mimic_entry(const Urdf& urdf, const FoundWheels& found) {
   std::string entries;
   const auto add = [&](const std::string& joint, const char* word) {
@@ -113,14 +90,13 @@ std::string mimic_entry(const Urdf& urdf, const FoundWheels& found) {
          entries + "}\n";
 }
 
-std::string stop_entry(double mass, double deceleration) {
+std::string stop_entry(double mass, double deceleration, const std::string& open) {
   const std::string a = wording::figure(deceleration, "m/s^2");
-  const std::string force =
-      mass > 0.0 ? wording::figure(two_digits_above(mass * deceleration), "N") : fill_in;
+  const std::string force = mass > 0.0 ? wording::figure(two_digits_above(mass * deceleration), "N") : open;
   const std::string why = deceleration < 1.0 ? ": harder, and the base could tip (W640);" : ",";
   return "\n# The one brake of `done`, `failed` and the protective stop. Proposed: " + a + why +
-         " and the force that it takes,\n# " + wording::figure(mass, "kg") + " x " + a +
-         ".\nstop: {deceleration: " + a + ", force: " + force + "}\n";
+         " and the force that it takes,\n# " + (mass > 0.0 ? wording::figure(mass, "kg") : "mass") + " x " +
+         a + ".\nstop: {deceleration: " + a + ", force: " + force + "}\n";
 }
 
 double steady_deceleration(const RobotDraft& draft) {

@@ -20,15 +20,11 @@ inline constexpr const char* stands_nowhere = "` is not here: the URDF has it ";
 /// A comment for each joint that is called a wheel, where others turn.
 std::string stuck_wheels_note(const FoundWheels& found);
 
-/// The section `inertias` of these links. `mass`: of one that has none.
-std::string inertias_entry(const Urdf& urdf, const FoundWheels& found, const std::vector<std::string>& links,
-                           const std::string& mass);
-
 /// `mimic`: joints that the file names elsewhere, and that follow another one. Empty where none does.
 std::string mimic_entry(const Urdf& urdf, const FoundWheels& found);
 
-/// `stop`, at this deceleration [m/s^2], of a mass [kg]; 0: not known.
-std::string stop_entry(double mass, double deceleration);
+/// `stop`, at this deceleration [m/s^2], of a mass [kg]; 0: not known, and the force is `open`.
+std::string stop_entry(double mass, double deceleration, const std::string& open);
 
 /// The deceleration [m/s^2], rounded down, within which no model of the draft tips over (W640). Infinite
 /// where nothing is known to carry the base.

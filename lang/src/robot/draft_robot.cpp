@@ -4,6 +4,7 @@
 
 #include "diagnostic/wordings_physics.hpp"
 #include "robot/check_push.hpp"
+#include "robot/draft_bodies.hpp"
 #include "robot/draft_entries.hpp"
 #include "robot/draft_frames.hpp"
 #include "robot/drive_kind.hpp"
@@ -11,9 +12,9 @@
 #include "robot/folded_arm.hpp"
 #include "robot/joint_axes.hpp"
 #include "robot/load_robot.hpp"
+#include "robot/possible_bodies.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
-#include "robot/weightless_links.hpp"
 #include "robot/wheel_search.hpp"
 #include "zwang/lang/robot_draft.hpp"
 
@@ -24,8 +25,9 @@ namespace {
 /// What stands in the open places.
 struct Filling {
   std::string radius = fill_in, effort = fill_in, footprint = fill_in, back = fill_in;
-  std::string kind = fill_in;  ///< of four wheels that may have rollers
-  std::string mass = fill_in;  ///< of a link that moves
+  std::string kind = fill_in;                       ///< of four wheels that may have rollers
+  std::string base_mass = fill_in, mass = fill_in;  ///< of the base, of another link that moves
+  std::string force = fill_in;                      ///< of the brake, where no mass is known
 };
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -59,14 +61,7 @@ class Drafter {
       if (!contains(held_, name)) arms.push_back(name);
     }
     folded_ = fold_arm(urdf_, found_.base, arms, frames_.outline());
-    for (const std::string& link : open) {
-      if (!contains(held_, urdf_.joint_above(link)->joint.name)) bodies_.push_back(link);
-    }
-    for (const auto* wheels : {&found_.wheels, &found_.idle, &found_.casters}) {
-      for (const DraftWheel& wheel : *wheels) {
-        if (!contains(bodies_, wheel.link) && is_beyond_rim(wheel)) bodies_.push_back(wheel.link);
-      }
-    }
+    bodies_ = find_draft_bodies(urdf_, found_, open, held_, frames_.outline());
   }
 
   /// Proposes as hard a brake [m/s^2], where it is less.
@@ -102,7 +97,9 @@ class Drafter {
     filling.effort = "1 N m";
     filling.footprint = frames_.around_wheels();
     filling.back = "-0.5 m";
+    filling.base_mass = "10 kg";
     filling.mass = "0.1 kg";
+    filling.force = "100 N";
     if (!is_kind_open()) return {{drive_in_words(), text(filling)}};
     std::vector<std::pair<std::string, std::string>> texts;
     filling.kind = "skid";
@@ -119,6 +116,9 @@ class Drafter {
     for (const std::string& joint : held_) lines.push_back("`" + joint + "` does not move");
     if (!bodies_.empty())
       lines.push_back("discs and balls for links that move and have no inertia, or none that a body has");
+    const auto lacks_mass = [](const DraftBody& body) { return body.lacks_mass; };
+    if (std::any_of(bodies_.begin(), bodies_.end(), lacks_mass))
+      lines.push_back("10 kg of the base and 0.1 kg of another link where the URDF gives no mass");
     return lines;
   }
 
@@ -131,14 +131,6 @@ class Drafter {
   template <typename Test>
   bool all(const Test& test) const {
     return std::all_of(found_.wheels.begin(), found_.wheels.end(), test);
-  }
-
-  /// I > m r^2 about the axle: more than all of its mass has on its rim. No wheel here is larger than 0.3 m.
-  bool is_beyond_rim(const DraftWheel& wheel) const {
-    const UrdfLink& link = *urdf_.find_link(wheel.link);
-    const solver::Vector3& axle = urdf_.find_joint(wheel.joint)->joint.axis;
-    const double radius = wheel.radius.value_or(0.3);
-    return axle.dot(link.inertia.rotational * axle) > link.inertia.mass * radius * radius;
   }
 
   /// Wheels with rollers are never coupled: each turns as it must.
@@ -197,7 +189,7 @@ class Drafter {
                       "`: without an <axis> it is 1 0 0; if it is another, add `axes: {" + joint +
                       ": [0, 1, 0]}`");
     std::string links;
-    for (const std::string& link : bodies_) links += (links.empty() ? "`" : ", `") + link + "`";
+    for (const DraftBody& body : bodies_) links += (links.empty() ? "`" : ", `") + body.link + "`";
     if (!links.empty()) lines.push_back("inertias that a body can have, of links that move: " + links);
     if (urdf_.mass() > 0.0 && push() > floor_holds(urdf_.mass()))
       lines.push_back("the wheels' own torques: the URDF's press with " + wording::figure(push(), "N") +
@@ -324,9 +316,9 @@ class Drafter {
         "# rotor_inertia, as {gear: 20, rotor_inertia: 2 kg mm^2}: they are often larger than the wheel's "
         "own inertia.\n";
     text += actuated(filling);
-    text += inertias_entry(urdf_, found_, bodies_, filling.mass) + posture_entry(urdf_, folded_) +
-            stop_entry(urdf_.mass(), deceleration_) + frames_.footprint(filling.footprint) +
-            frames_.frames(filling.back);
+    text += inertias_entry(bodies_, found_.base, filling.base_mass, filling.mass) +
+            posture_entry(urdf_, folded_) + stop_entry(urdf_.mass(), deceleration_, filling.force) +
+            frames_.footprint(filling.footprint) + frames_.frames(filling.back);
     text +=
         "\n# In force where a task gives none, as limits: {acceleration: {x: +-1 m/s^2}, velocity: {x: +-1 "
         "m/s}}.\n"
@@ -347,8 +339,8 @@ class Drafter {
   std::string named_as_;
   DriveKind drive_;
   DraftFrames frames_;
-  std::vector<std::string> held_;    ///< joints of `fixed`
-  std::vector<std::string> bodies_;  ///< links whose inertia is in the draft
+  std::vector<std::string> held_;  ///< joints of `fixed`
+  std::vector<DraftBody> bodies_;  ///< links whose inertia is in the draft
   FoldedArm folded_;
   double deceleration_ = 1.0;  ///< [m/s^2] as hard as most bases brake
 };

@@ -20,6 +20,7 @@
 #include "robot/feels_entry.hpp"
 #include "robot/joint_axes.hpp"
 #include "robot/pads_entry.hpp"
+#include "robot/possible_bodies.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/supports.hpp"
 #include "robot/urdf.hpp"
@@ -53,6 +54,8 @@ class RobotBuilder {
     check_frames();
     check_footprint();
     check_drive(file_, diagnostics_);
+    if (diagnostics_.error_count() > errors_before_) return std::nullopt;
+    check_bodies(file_, urdf_, diagnostics_);
     if (diagnostics_.error_count() > errors_before_) return std::nullopt;
     try {
       stand_wheels_exactly(build_model(), file_, urdf_, diagnostics_);
@@ -331,16 +334,13 @@ class RobotBuilder {
     return {number(text->coulomb), number(text->presliding), number(text->viscous), text->compensate};
   }
 
-  /// Of a body that is made of several links the builder knows the first: the one at fault is named instead.
-  void complain(std::string complaint) {
+  /// What the model builder says of the first thing that it names.
+  void complain(const std::string& complaint) {
     const std::size_t open = complaint.find('`');
     const std::size_t close = complaint.find('`', open + 1);
     std::string name;
     if (close != std::string::npos) name = complaint.substr(open + 1, close - open - 1);
-    const bool is_of_inertia = complaint.find("triangle rule") != std::string::npos;
-    const UrdfLink* part = is_of_inertia ? impossible_part(urdf_, name) : nullptr;
-    if (part != nullptr) complaint.replace(open + 1, name.size(), part->name);
-    diagnostics_.add(wording::impossible_model(part != nullptr ? part->span : span_of(name), complaint));
+    diagnostics_.add(wording::impossible_model(span_of(name), complaint));
   }
 
   /// The link that the model builder names in its complaint, else the robot file's base.

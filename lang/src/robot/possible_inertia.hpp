@@ -10,6 +10,9 @@ namespace zwang::lang {
 /// Of the largest moment: by as much parts of a drawing and of a robot differ anyway.
 inline constexpr double most_inertia_correction = 0.1;
 
+/// A swivel with its fork and motors lies within so many times the reach of its wheel.
+inline constexpr double swivel_reaches = 3.0;
+
 struct CorrectedInertia {
   solver::RigidInertia inertia;
   double share = 0.0;  ///< of the largest moment, by which each moment was moved

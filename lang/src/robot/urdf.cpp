@@ -293,7 +293,8 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
     }
     find_round_shape(link->collision_array, result);
     if (!result.radius) find_round_shape(link->visual_array, result);
-    if (link->inertial) result.inertia = to_inertia(*link->inertial, findings->point_masses.contains(name));
+    if (link->inertial && !findings->weightless.contains(name))
+      result.inertia = to_inertia(*link->inertial, findings->point_masses.contains(name));
     urdf.links.push_back(std::move(result));
   }
   // In the order of the text, which is the author's order of joints.

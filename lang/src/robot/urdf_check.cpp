@@ -81,6 +81,7 @@ class UrdfChecker {
     }
     if (links_.size() > most_links) complain(wording::too_many_links(elements_[0].span, most_links));
     if (links_.empty()) complain(wording::no_links(elements_[0].span));
+    judge_tiny_masses();
     judge_impossible_inertias();
     if (is_good_) check_tree();
     if (!is_good_) return std::nullopt;
@@ -182,8 +183,10 @@ class UrdfChecker {
     const double kilograms = number(*mass, "value", 0.0);
     const Span span = elements_[*mass].find("value")->span;
     if (kilograms < 0.0 || kilograms > 1e6) return complain(wording::impossible_mass(span, link, kilograms));
-    if (kilograms > 0.0 && kilograms < least_mass)
-      return complain(wording::beyond_all_bodies(span, link, "a mass", format_number(kilograms) + " kg"));
+    if (kilograms > 0.0 && kilograms < least_mass) {
+      tiny_masses_.push_back({link, span, kilograms});
+      return;
+    }
     solver::Matrix3 m;
     const auto entry = [&](std::string_view key) { return number(*inertia, key, 0.0); };
     m << entry("ixx"), entry("ixy"), entry("ixz"), entry("ixy"), entry("iyy"), entry("iyz"), entry("ixz"),
@@ -206,6 +209,21 @@ class UrdfChecker {
     const double tolerance = 1e-6 * moments.cwiseAbs().maxCoeff();
     if (moments(0) < -tolerance)
       impossible_inertias_.push_back({link, span, mass, wording::impossible_inertia(span, link)});
+  }
+
+  /// Of a place that something is seen from it does not matter. A number that no robot has is a slip.
+  void judge_tiny_masses() {
+    std::vector<wording::TinyMass> negligible;
+    for (const wording::TinyMass& tiny : tiny_masses_) {
+      if (tiny.mass < least_number) {
+        complain(
+            wording::beyond_all_bodies(tiny.span, tiny.link, "a mass", format_number(tiny.mass) + " kg"));
+        continue;
+      }
+      negligible.push_back(tiny);
+      findings_.weightless.insert(tiny.link);
+    }
+    if (!negligible.empty()) diagnostics_.add(wording::negligible_masses(negligible));
   }
 
   /// No body has them. Of an antenna it does not matter.
@@ -289,7 +307,9 @@ class UrdfChecker {
     if (number(*limit, "lower", 0.0) > number(*limit, "upper", 0.0) && type != "continuous") {
       complain(wording::unordered_limits(span, name));
     }
-    if (number(*limit, "effort", 0.0) < 0.0 || number(*limit, "velocity", 0.0) < 0.0) {
+    // Simulators write -1 where there is no limit.
+    const auto is_negative = [](double value) { return value < 0.0 && value != -1.0; };
+    if (is_negative(number(*limit, "effort", 0.0)) || is_negative(number(*limit, "velocity", 0.0))) {
       complain(wording::negative_limit(span, name));
     }
   }
@@ -353,6 +373,7 @@ class UrdfChecker {
   std::vector<Edge> edges_;
   double total_mass_ = 0.0;  ///< [kg]
   std::vector<ImpossibleInertia> impossible_inertias_;
+  std::vector<wording::TinyMass> tiny_masses_;
   UrdfFindings findings_;
   bool is_good_ = true;
 };

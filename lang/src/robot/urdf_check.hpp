@@ -12,6 +12,7 @@ namespace zwang::lang {
 
 struct UrdfFindings {
   std::set<std::string> point_masses;  ///< links whose inertia no body has, too light for it to matter
+  std::set<std::string> weightless;    ///< links with less mass than dust, which count as none
 };
 
 /// Numbers readable and finite, macros expanded, links and joints named and of known types, masses and

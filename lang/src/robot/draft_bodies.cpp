@@ -1,0 +1,137 @@
+#include "robot/draft_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "robot/adapt_urdf.hpp"
+#include "robot/draft_entries.hpp"
+#include "robot/possible_bodies.hpp"
+#include "robot/possible_inertia.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+bool is_listed(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// A solid ball of the radius r has 2/5 m r^2 about each axis. A box of the sides a, b, c has in the mean
+///   m (a^2 + b^2 + c^2) / 18.
+double ball_like_box(const solver::Vector3& sides) {
+  return sides.norm() / std::sqrt(0.4 * 18.0);
+}
+
+class DraftBodies {
+ public:
+  DraftBodies(const Urdf& urdf, const FoundWheels& found, const std::vector<Eigen::Vector2d>& outline)
+      : urdf_(urdf), found_(found), outline_(outline) {
+    for (const auto* some : {&found.wheels, &found.idle, &found.casters})
+      wheels_.insert(wheels_.end(), some->begin(), some->end());
+  }
+
+  std::vector<DraftBody> find(const std::vector<std::string>& open, const std::vector<std::string>& held) {
+    for (const std::string& link : open) {
+      if (!is_listed(held, urdf_.joint_above(link)->joint.name)) add(link);
+    }
+    for (const DraftWheel& wheel : wheels_) {
+      if (is_beyond_rim(wheel)) add(wheel.link);
+      if (!wheel.swivel.empty() && is_beyond_reach(wheel)) add(urdf_.find_joint(wheel.swivel)->child);
+    }
+    Urdf standing = urdf_;
+    for (UrdfJoint& joint : standing.joints) {
+      if (is_listed(held, joint.joint.name)) hold(joint);
+    }
+    for (const ImpossibleBody& body : impossible_bodies(standing, found_.base)) {
+      for (const std::string& part : body.parts) add(part);
+    }
+    return std::move(bodies_);
+  }
+
+ private:
+  void add(const std::string& link) {
+    const auto is_it = [&](const DraftBody& body) { return body.link == link; };
+    if (std::any_of(bodies_.begin(), bodies_.end(), is_it)) return;
+    const bool is_wheel = std::any_of(wheels_.begin(), wheels_.end(),
+                                      [&](const DraftWheel& wheel) { return wheel.link == link; });
+    const UrdfLink& drawn = *urdf_.find_link(link);
+    bodies_.push_back({link, !(drawn.inertia.mass > 0.0), is_wheel ? 0.0 : ball_radius(drawn)});
+  }
+
+  double moment_about(const std::string& joint, const UrdfLink& link) const {
+    const solver::Vector3& axis = urdf_.find_joint(joint)->joint.axis;
+    return axis.dot(link.inertia.rotational * axis);
+  }
+
+  /// I > m r^2 about the axle: more than all of its mass has on its rim. No wheel here is larger than 0.3 m.
+  bool is_beyond_rim(const DraftWheel& wheel) const {
+    const UrdfLink& link = *urdf_.find_link(wheel.link);
+    const double radius = wheel.radius.value_or(0.3);
+    return moment_about(wheel.joint, link) > link.inertia.mass * radius * radius;
+  }
+
+  static double reach_of(const DraftWheel& wheel) { return wheel.trail + wheel.radius.value_or(0.3); }
+
+  bool is_beyond_reach(const DraftWheel& wheel) const {
+    const UrdfLink& link = *urdf_.find_link(urdf_.find_joint(wheel.swivel)->child);
+    const double reach = swivel_reaches * reach_of(wheel);
+    return moment_about(wheel.swivel, link) > link.inertia.mass * reach * reach;
+  }
+
+  /// Of what is drawn of the link; of the outline, where the base is a mesh; else that of a hand.
+  double ball_radius(const UrdfLink& link) const {
+    if (!link.corners.empty()) {
+      solver::Vector3 low = link.corners.front(), high = low;
+      for (const solver::Vector3& corner : link.corners)
+        low = low.cwiseMin(corner), high = high.cwiseMax(corner);
+      return ball_like_box(high - low);
+    }
+    if (link.radius) return *link.radius;
+    if (link.name == found_.base && !outline_.empty()) {
+      Eigen::Vector2d low = outline_.front(), high = low;
+      for (const Eigen::Vector2d& corner : outline_) low = low.cwiseMin(corner), high = high.cwiseMax(corner);
+      return ball_like_box({high.x() - low.x(), high.y() - low.y(), 0.0});
+    }
+    for (const DraftWheel& wheel : wheels_) {
+      if (!wheel.swivel.empty() && wheel.radius && urdf_.find_joint(wheel.swivel)->child == link.name)
+        return reach_of(wheel);
+    }
+    return 0.05;
+  }
+
+  const Urdf& urdf_;
+  const FoundWheels& found_;
+  const std::vector<Eigen::Vector2d>& outline_;
+  std::vector<DraftWheel> wheels_;
+  std::vector<DraftBody> bodies_;
+};
+
+}  // namespace
+
+std::vector<DraftBody> find_draft_bodies(const Urdf& urdf, const FoundWheels& found,
+                                         const std::vector<std::string>& open,
+                                         const std::vector<std::string>& held,
+                                         const std::vector<Eigen::Vector2d>& outline) {
+  return DraftBodies(urdf, found, outline).find(open, held);
+}
+
+std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::string& base,
+                           const std::string& base_mass, const std::string& mass) {
+  if (bodies.empty()) return "";
+  std::string text =
+      "\n# Links to which the URDF gives no inertia, or one that no body has: a wheel counts as a solid "
+      "disc,\n"
+      "# another link as a solid ball. Without `mass` the URDF's, without `radius` the wheel's.\n"
+      "inertias:\n";
+  for (const DraftBody& body : bodies) {
+    std::string keys;
+    if (body.lacks_mass) keys = "mass: " + (body.link == base ? base_mass : mass);
+    if (body.radius > 0.0)
+      keys += (keys.empty() ? "" : ", ") + std::string("radius: ") +
+              in_millimetres(std::ceil(body.radius * 1e3) / 1e3);
+    text += "  " + body.link + ": {" + keys + "}\n";
+  }
+  return text;
+}
+
+}  // namespace zwang::lang

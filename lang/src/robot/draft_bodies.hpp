@@ -1,0 +1,26 @@
+/// `inertias` of a first robot file: links whose inertia the URDF does not give, or gives as no body has it.
+#pragma once
+
+#include "robot/urdf.hpp"
+#include "robot/wheel_search.hpp"
+
+namespace zwang::lang {
+
+struct DraftBody {
+  std::string link;
+  bool lacks_mass = false;
+  double radius = 0.0;  ///< [m] of a solid ball; 0: of a wheel, which counts as a disc of its own radius
+};
+
+/// `open`: links behind moving joints without an inertia. `held`: joints that do not move. `outline`: of the
+/// base, from above [m].
+std::vector<DraftBody> find_draft_bodies(const Urdf& urdf, const FoundWheels& found,
+                                         const std::vector<std::string>& open,
+                                         const std::vector<std::string>& held,
+                                         const std::vector<Eigen::Vector2d>& outline);
+
+/// The section. Masses that the URDF does not give stand as `base_mass` of the base, else as `mass`.
+std::string inertias_entry(const std::vector<DraftBody>& bodies, const std::string& base,
+                           const std::string& base_mass, const std::string& mass);
+
+}  // namespace zwang::lang
