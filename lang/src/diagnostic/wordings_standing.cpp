@@ -102,6 +102,25 @@ Diagnostic start_outside(const Span& span, const std::string& joint, bool slides
                       declared, "its travel is given here");
 }
 
+Diagnostic starts_near_an_end(const Span& span, const NearEnd& start) {
+  const auto text = [&](double q) { return start.slides ? in_length(q) : in_degrees(q); };
+  return warning("W809", span,
+                 "joint " + in_ticks(start.joint) + " starts " + text(start.left) +
+                     " from an end of its travel, " + text(start.end) +
+                     ": the guard stops the robot as soon as the arm sways",
+                 "start farther inside, as `posture: {" + start.joint + ": " + text(start.inside) + "}`");
+}
+
+Diagnostic arm_too_heavy(const Span& span, const std::string& joint, double borne, double effort,
+                         bool slides) {
+  const char* unit = slides ? "N" : "N m";
+  return warning("W873", span,
+                 "the motor of " + in_ticks(joint) + " cannot hold what hangs on it: that is " +
+                     figure(borne, unit) + " at the start, and the motor has " + figure(effort, unit),
+                 "write the motor's own torque, as `" + joint + ": {effort: " + figure(1.5 * borne, unit) +
+                     "}`; or start the joint elsewhere by `posture`, or hold it under `fixed`");
+}
+
 Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span& declared) {
   return with_related(
       error("E802", span, "a wheel rolls about a level axis, but joint " + in_ticks(joint) + "'s points up",

@@ -33,6 +33,17 @@ Diagnostic loose_couplings(const Span& span, const std::vector<Coupling>& coupli
 /// slides
 Diagnostic start_outside(const Span& span, const std::string& joint, bool slides, double lower, double upper,
                          const Span& declared);
+/// A joint of an arm at the start. [rad], or [m] where it slides
+struct NearEnd {
+  std::string joint;
+  bool slides = false;
+  double left = 0.0, end = 0.0;
+  double inside = 0.0;  ///< a place that is far enough
+};
+Diagnostic starts_near_an_end(const Span& span, const NearEnd& start);
+/// `borne` by the joint at the start, more than its motor's `effort`. [N m], or [N] where it slides
+Diagnostic arm_too_heavy(const Span& span, const std::string& joint, double borne, double effort,
+                         bool slides);
 Diagnostic upright_wheel(const Span& span, const std::string& joint, const Span& declared);
 /// `carrier`: a joint between the base and the wheel that does not steer it.
 Diagnostic loose_wheel(const Span& span, const std::string& wheel, const std::string& carrier,

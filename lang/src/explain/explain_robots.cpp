@@ -138,6 +138,14 @@ box of mass m and sides a, b, c about its centre is m (b^2 + c^2) / 12, and so o
                          "its limits a joint cannot stand: a simulation would throw it to its stop.",
                   .fix = "Choose a value between the joint's limits in the URDF, or correct these."},
       Explanation{
+          .code = "W809",
+          .title = "an arm's joint that starts close to an end of its travel",
+          .why =
+              R"~(The guard stops the robot before a joint of an arm leaves its travel. An arm that is held sways a little
+while the base speeds up and presses. Closer to an end than 2 deg, or 5 mm where the joint slides, that
+little is enough. A joint that stands at the end itself rests on it.)~",
+          .fix = "Choose a `posture` farther inside."},
+      Explanation{
           .code = "E810",
           .title = "wheels that do not stand on one level",
           .why =

@@ -198,6 +198,15 @@ that nothing drives swing as if they were loose. Mostly nobody minds: a finger w
 moves cannot have it (E858). This link is fixed to another one and has less than 0.1 % of the robot's mass. It counts as
 a point. A mass below that of a grain of dust, 1e-9 kg, counts as none.)~",
           .fix = "Nothing needs to be done. `ignore: [LINK]` in the robot file leaves the link out."},
+      Explanation{
+          .code = "W873",
+          .title = "a motor that cannot hold its arm",
+          .why =
+              R"~(Gravity pulls at all that hangs on the joint. With the posture of the start that is more torque than the
+motor has, or more force where the joint slides. The arm sinks from the first moment on, and the guard
+stops the robot.)~",
+          .fix = "Write the motor's own torque into `actuated`, choose another `posture`, or hold the joint "
+                 "under `fixed`. A motor needs more than that to move the arm."},
   };
   return entries;
 }

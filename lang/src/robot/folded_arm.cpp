@@ -13,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "diagnostic/wordings_physics.hpp"
 #include "zwang/lang/plane.hpp"
@@ -29,6 +30,8 @@ constexpr double weight_of_zero = 1e-4;   // [m^2] e
 constexpr double least_way = 0.1;         // [m] joints that move less than this stay
 constexpr double beyond = 0.01;           // [m] an outline is as exact
 constexpr double gravity = 9.81;          // [m/s^2]
+constexpr double kept_free = 0.05;        // of a joint's travel at each end: the guard stops an arm near it,
+constexpr double start_inside = 0.08;     // and where 0 is no place to start, as far inside
 constexpr int steps_of_travel = 24, most_sweeps = 6;
 constexpr double degree = std::numbers::pi / 180.0;
 
@@ -99,17 +102,28 @@ class ArmFold {
     return {static_cast<int>(parts_.size()) - 1, Pose{}};
   }
 
+  /// The travel without its ends. Where a joint stands at an end at 0, a gripper or a lift, it rests on it.
+  std::pair<double, double> free_travel(std::size_t j, double share) const {
+    const solver::Joint& joint = moving_[j]->joint;
+    if (!std::isfinite(joint.lower) || !std::isfinite(joint.upper)) return {joint.lower, joint.upper};
+    const double margin = share * (joint.upper - joint.lower);
+    constexpr double rounding = 1e-6;
+    return {std::abs(joint.lower) < rounding ? joint.lower : joint.lower + margin,
+            std::abs(joint.upper) < rounding ? joint.upper : joint.upper - margin};
+  }
+
   double clamped(std::size_t j, double q) const {
-    return std::clamp(q, moving_[j]->joint.lower, moving_[j]->joint.upper);
+    const auto [low, high] = free_travel(j, start_inside);
+    return std::clamp(q, low, high);
   }
 
   /// To a degree or a millimetre, inside of the travel.
   double rounded(std::size_t j, double q) const {
     const double step = moving_[j]->joint.type == solver::JointType::prismatic ? 1e-3 : degree;
-    const solver::Joint& joint = moving_[j]->joint;
+    const auto [low, high] = free_travel(j, kept_free);
     double value = std::round(q / step);
-    while (value * step > joint.upper && (value - 1.0) * step >= joint.lower) --value;
-    while (value * step < joint.lower && (value + 1.0) * step <= joint.upper) ++value;
+    while (value * step > high && (value - 1.0) * step >= low) --value;
+    while (value * step < low && (value + 1.0) * step <= high) ++value;
     return value == 0.0 ? 0.0 : value * step;
   }
 
@@ -217,7 +231,7 @@ class ArmFold {
     const solver::Joint& joint = moving_[j]->joint;
     double low = joint.lower, high = joint.upper;
     if (!std::isfinite(low) || !std::isfinite(high)) low = -std::numbers::pi, high = std::numbers::pi;
-    const double margin = 0.05 * (high - low), span = (high - low - 2.0 * margin) * width;
+    const double margin = kept_free * (high - low), span = (high - low - 2.0 * margin) * width;
     std::vector<double> values;
     for (int k = 0; k <= steps_of_travel; ++k) {
       const double value = (width < 1.0 ? q - 0.5 * span : low + margin) + span * k / steps_of_travel;

@@ -401,6 +401,7 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   check_wheel_shapes(*file, *urdf, diagnostics);
   check_wheel_inertias(*file, *robot, diagnostics);
   check_push(*file, *robot, diagnostics);
+  check_arms(*file, *robot, diagnostics);
   if (diagnostics.error_count() > errors_before) return std::nullopt;
   check_speed_limits(*robot, diagnostics);
   return robot;

@@ -1,0 +1,101 @@
+// Bases with arms that are drafted from a URDF: how they start and what is said
+// of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support.hpp"
+#include "urdf_text.hpp"
+#include "zwang/lang/robot_draft.hpp"
+
+namespace zwang::lang {
+namespace {
+
+using test::JointShape;
+using test::LinkShape;
+using test::UrdfText;
+
+constexpr double pi = std::numbers::pi;
+
+void add_driven_wheel(UrdfText& urdf, const std::string& name, const std::string& parent,
+                      const std::array<double, 3>& at) {
+  urdf.add(LinkShape{name, 1.0, {}, {2e-3, 3e-3, 2e-3}, urdf.cylinder(0.08, 0.04, {pi / 2.0, 0.0, 0.0})});
+  urdf.add(JointShape{
+      name + "_joint", "continuous", parent, name, at, {}, {0, 1, 0}, "effort='8' velocity='9'", ""});
+}
+
+/// A base of 20 kg on two wheels, and 1 kg on a joint about y that is 0.3 m long and stands up at 0.
+std::string with_shoulder(double lower, double upper, double effort) {
+  UrdfText urdf(7, 1.0);
+  urdf.add(LinkShape{"base_link", 20.0, {}, {0.3, 0.5, 0.6}, urdf.box(0.6, 0.4, 0.1)});
+  add_driven_wheel(urdf, "left_wheel", "base_link", {0.0, 0.2, 0.0});
+  add_driven_wheel(urdf, "right_wheel", "base_link", {0.0, -0.2, 0.0});
+  urdf.add(LinkShape{"upper_arm", 1.0, {0.0, 0.0, 0.3}, {1e-3, 1e-3, 1e-3}, ""});
+  const std::string limit = "lower='" + UrdfText::number(lower) + "' upper='" + UrdfText::number(upper) +
+                            "' effort='" + UrdfText::number(effort) + "' velocity='2'";
+  urdf.add(JointShape{
+      "shoulder", "revolute", "base_link", "upper_arm", {0.1, 0.0, 0.1}, {}, {0, 1, 0}, limit, ""});
+  return urdf.robot("r");
+}
+
+struct Drafted {
+  std::string text, said;
+  std::optional<Robot> robot;
+};
+
+Drafted drafted_from(const std::string& urdf, const std::string& extra = "") {
+  const test::Folder folder;
+  Diagnostics diagnostics;
+  const auto draft = draft_robot(folder.write("r.urdf", urdf), "r.urdf", diagnostics);
+  EXPECT_TRUE(draft) << test::rendered(diagnostics);
+  Drafted drafted{draft->text + extra, "", {}};
+  drafted.robot = load_robot(folder.write("r.yaml", drafted.text), diagnostics);
+  drafted.said = test::rendered(diagnostics);
+  return drafted;
+}
+
+double start_of(const Drafted& drafted, const char* joint) {
+  EXPECT_TRUE(drafted.robot) << drafted.said;
+  return drafted.robot ? drafted.robot->posture(*drafted.robot->model.find_joint(joint)) : -1e9;
+}
+
+// Travel that does not hold 0: the joint starts as far inside as the guard wants it.
+TEST(DraftOfAnArm, keeps_away_from_the_end_of_its_travel) {
+  constexpr double lower = 0.0087, upper = 1.56;
+  const Drafted above = drafted_from(with_shoulder(lower, upper, 10.0)),
+                below = drafted_from(with_shoulder(-upper, -lower, 10.0));
+  const double least = 0.05 * (upper - lower), most = 0.1 * (upper - lower);
+  EXPECT_GE(start_of(above, "shoulder"), lower + least);
+  EXPECT_LE(start_of(above, "shoulder"), lower + most);
+  EXPECT_NEAR(start_of(below, "shoulder"), -start_of(above, "shoulder"), 1e-9);
+  EXPECT_EQ(above.said + below.said, "");
+}
+
+// At an end it rests, as a gripper that is closed; near to it the guard would stop it.
+TEST(DraftOfAnArm, stands_still_at_the_end_where_0_is_the_end) {
+  const std::string urdf = with_shoulder(0.0, 1.5, 10.0);
+  const Drafted resting = drafted_from(urdf);
+  EXPECT_EQ(resting.text.find("posture"), std::string::npos) << resting.text;
+  EXPECT_EQ(resting.said, "");
+  EXPECT_EQ(start_of(resting, "shoulder"), 0.0);
+  const Drafted near = drafted_from(urdf, "posture: {shoulder: 1 deg}\n");
+  EXPECT_NE(near.said.find("W809: joint `shoulder` starts 1 deg from an end of its travel, 0 deg"),
+            std::string::npos)
+      << near.said;
+  EXPECT_EQ(drafted_from(urdf, "posture: {shoulder: 5 deg}\n").said, "");
+}
+
+// 1 kg at 0.3 m, leaned over by 30 deg: 9.81 x 0.3 x sin 30 deg = 1.47 N m.
+TEST(DraftOfAnArm, tells_of_a_motor_that_cannot_hold_it) {
+  const std::string leaned = "posture: {shoulder: 30 deg}\n";
+  const std::string said = drafted_from(with_shoulder(-1.0, 1.0, 1.4), leaned).said;
+  EXPECT_NE(said.find("W873: the motor of `shoulder` cannot hold what hangs on it: that is 1.47 N m at the "
+                      "start, and the motor has 1.4 N m"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(drafted_from(with_shoulder(-1.0, 1.0, 1.5), leaned).said, "");
+}
+
+}  // namespace
+}  // namespace zwang::lang
