@@ -148,6 +148,37 @@ TEST(TaskDraft, aligns_no_base_whose_arm_touches_first) {
   EXPECT_EQ(why_unfit("wall_align", base_fit(shipped("mecanum_arm_folded"))), "");
 }
 
+// A flat front 124 mm wide, 253 mm ahead: its ends lie on both sides of the origin up to atan(62 / 253)
+// = 13.8 deg.
+TEST(TaskDraft, starts_less_askew_where_the_front_is_narrow) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  BaseFit fit = base_fit(shipped("mecanum_base"));
+  EXPECT_NEAR(*start_askew(fit), 20.0 * degree, 1e-12);
+  fit.outline = {{0.253, -0.062}, {0.253, 0.062}, {0.15, 0.25}, {-0.25, 0.25}, {-0.25, -0.25}, {0.15, -0.25}};
+  EXPECT_NEAR(*start_askew(fit), 10.0 * degree, 1e-12);
+  EXPECT_EQ(why_unfit("wall_align", fit), "");
+  const TaskTexts texts = drafted("wall_align", fit);
+  EXPECT_NE(texts.scene.find("the base 10 deg askew"), std::string::npos) << texts.scene;
+  EXPECT_NE(texts.scene.find("yaw: 10 deg"), std::string::npos) << texts.scene;
+  for (Eigen::Vector2d& corner : fit.outline) {
+    if (corner.x() > 0.2) corner.y() *= 0.3;  // up to 4.2 deg
+  }
+  EXPECT_NE(why_unfit("wall_align", fit).find("narrow ahead: pressed to a wall from 5 deg"),
+            std::string::npos)
+      << why_unfit("wall_align", fit);
+}
+
+// A mass d beside the origin turns a free base by m d s / I on its way of 0.5 m: 1 deg at m d = 0.0349 I / m.
+TEST(TaskDraft, holds_the_heading_of_a_base_that_its_mass_turns) {
+  BaseFit fit = base_fit(shipped("mecanum_base"));
+  ASSERT_EQ(fit.freedoms, Freedoms::all);
+  const double turns = std::numbers::pi / 180.0 * fit.effective_inertia / (0.5 * fit.mass);
+  fit.centre = {0.0, 0.9 * turns};
+  EXPECT_NE(drafted("wall_align", fit).task.find("rz: free"), std::string::npos);
+  fit.centre = {-1.1 * turns, 0.0};
+  EXPECT_NE(drafted("wall_align", fit).task.find("rz: {velocity: 0 rad/s, force: +-"), std::string::npos);
+}
+
 // Round ahead: the shipped omni base is a hexagon or the like; a circle of 16 corners is none that a wall
 // turns.
 TEST(TaskDraft, aligns_no_round_base) {

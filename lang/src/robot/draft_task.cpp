@@ -3,6 +3,7 @@
 // proportion to the weight of a light base. Distances: from the edge of the outline.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "diagnostic/wordings_physics.hpp"
@@ -21,6 +22,11 @@ std::string to_the_millimetre(double value) {
 
 /// By as much a hand may reach beyond its joint. [m]
 constexpr double hand = 0.2;
+
+constexpr double degree_of_start = std::numbers::pi / 180.0;
+
+/// As little a base may turn on its way to a wall by its own mass: nobody sees it. [rad]
+constexpr double most_turn_by_itself = 1.0 * degree_of_start;
 
 /// Two digits.
 double rounded(double value) {
@@ -60,7 +66,8 @@ void replace_line(std::string& text, const std::string& begin, const std::string
 
 class Fitting {
  public:
-  Fitting(const std::string& task, const BaseFit& fit) : task_(task), fit_(fit) {}
+  Fitting(const std::string& task, const BaseFit& fit)
+      : task_(task), fit_(fit), askew_(start_askew(fit).value_or(20.0 * degree_of_start)) {}
 
   std::string scene() const {
     if (task_ == "wall_align") return wall_scene();
@@ -105,7 +112,7 @@ class Fitting {
 
   /// Of the URDF's base, whose x may not be ahead. [deg]
   std::string start_yaw(double degrees) const {
-    return wording::figure(degrees - std::round(fit_.heading * 180.0 / 3.14159265358979323846), "deg");
+    return wording::figure(degrees - std::round(fit_.heading / degree_of_start), "deg");
   }
 
   std::string head(const std::string& about) const {
@@ -120,13 +127,14 @@ class Fitting {
            "one\n    friction: 0\n";
   }
 
-  static constexpr double askew = 20.0 * 3.14159265358979323846 / 180.0;                    // [rad]
   static constexpr double wall_gap = 0.5, felt_gap = 0.05, cart_gap = 2.0, dock_gap = 1.0;  // [m]
 
   std::string wall_scene() const {
-    return head("a wall, " + gap_text(wall_gap) + ", and the base 20 deg askew.") +
-           "start: {at: [0 m, 0 m], yaw: " + start_yaw(20.0) + "}\nfloor: {friction: 0.9}\n\n" +
-           wall(ahead(askew) + wall_gap, std::max(4.0, 8.0 * ahead(askew)));
+    const double degrees = std::round(askew_ / degree_of_start);
+    return head("a wall, " + gap_text(wall_gap) + ", and the base " + wording::figure(degrees, "deg") +
+                " askew.") +
+           "start: {at: [0 m, 0 m], yaw: " + start_yaw(degrees) + "}\nfloor: {friction: 0.9}\n\n" +
+           wall(ahead(askew_) + wall_gap, std::max(4.0, 8.0 * ahead(askew_)));
   }
 
   std::string felt_wall_scene() const {
@@ -180,7 +188,7 @@ class Fitting {
 
   void fit_forces(std::string& text) const {
     if (task_ == "wall_align") replace(text, "value: 20 N, range: [5 N, 40 N]", range_of(20, 5, 40));
-    if (task_ == "wall_align" && fit_.freedoms == Freedoms::two) damp_turn(text);
+    if (task_ == "wall_align" && (fit_.freedoms == Freedoms::two || is_turned_by_its_mass())) damp_turn(text);
     if (task_ == "obstacle") replace(text, "value: 40 N, range: [10 N, 120 N]", range_of(40, 10, 120));
     if (task_ == "docking") {
       replace(text, "value: 20 N, range: [10 N, 25 N]", range_of(20, 10, 25));
@@ -194,17 +202,24 @@ class Fitting {
     }
   }
 
+  /// By I w' = m d v' a mass that lies d beside the base's origin turns a base that nothing holds by m d s /
+  /// I on its way s.
+  bool is_turned_by_its_mass() const {
+    if (!(fit_.mass > 0.0) || !(fit_.effective_inertia > 0.0)) return false;
+    return fit_.mass * fit_.centre.norm() * wall_gap / fit_.effective_inertia > most_turn_by_itself;
+  }
+
   /// A base on one axle whose mass lies behind it, or beside it, turns by itself as it drives ahead:
   ///   I w' = -m x v w + m y v'.
   /// A moment that is bounded holds it. The wall still turns it: the least push has twice that moment about
   /// the nearer end of the edge ahead.
   void damp_turn(std::string& text) const {
     const double moment = rounded(0.5 * force_of(5.0) * lever());
-    replace(
-        text, "        rz: free\n",
-        "        # A mass beside or behind the axle would turn the base on its way. The wall is stronger.\n"
-        "        rz: {velocity: 0 rad/s, force: +-" +
-            wording::figure(moment, "N m") + "}\n");
+    replace(text, "        rz: free\n",
+            "        # A mass beside or behind the base's origin would turn the base on its way. The wall is "
+            "stronger.\n"
+            "        rz: {velocity: 0 rad/s, force: +-" +
+                wording::figure(moment, "N m") + "}\n");
   }
 
   /// The shipped time allows for the shipped way: 0.5 m at 0.08 m/s, 5 cm at 1 cm/s.
@@ -218,7 +233,7 @@ class Fitting {
     if (task_ == "wall_align") replace(text, "for: 0.2 s", "for: " + wording::figure(still_for(), "s"));
     if (task_ == "wall_align")
       replace(text, "timeout: {value: 40 s",
-              timeout(turn + (2.0 * wall_gap + slack()) / 0.08 + 10.0 * ahead(askew) + still_for() +
+              timeout(turn + (2.0 * wall_gap + slack()) / 0.08 + 10.0 * ahead(askew_) + still_for() +
                       2.0 * turning_time()));
     if (task_ == "feel_wall")
       replace(text, "timeout: {value: 20 s", timeout(15.0 + (felt_gap + slack()) / 0.01));
@@ -229,10 +244,10 @@ class Fitting {
 
   double lever() const { return std::max(0.02, fit_.front_lever); }
 
-  /// From `askew` to square at the wall, without a bounce: t = sqrt(2 a I / (F d)). [s]
+  /// From `askew_` to square at the wall, without a bounce: t = sqrt(2 a I / (F d)). [s]
   double turning_time() const {
     constexpr double longest = 10.0;  // as of `still_for`
-    return std::min(longest, std::sqrt(2.0 * askew * fit_.effective_inertia / (force_of(20.0) * lever())));
+    return std::min(longest, std::sqrt(2.0 * askew_ * fit_.effective_inertia / (force_of(20.0) * lever())));
   }
 
   /// As the base bounces off the wall it is slower than the speeds v = 5 mm/s and w = 0.5 deg/s of the exit
@@ -240,10 +255,10 @@ class Fitting {
   ///   t = 2 v m / F   and   t = 2 w I / (F d),
   /// with the force F at the corner that touches first, d beside the origin. Half as much again tells rest.
   double still_for() const {
-    constexpr double v = 5e-3, w = 0.5 * 3.14159265358979323846 / 180.0, shipped = 0.2;
+    constexpr double v = 5e-3, w = 0.5 * degree_of_start, shipped = 0.2;
     Eigen::Vector2d first{0.0, 0.0};
     for (const Eigen::Vector2d& corner : fit_.outline) {
-      const Eigen::Vector2d at = Eigen::Rotation2Dd(askew) * corner;
+      const Eigen::Vector2d at = Eigen::Rotation2Dd(askew_) * corner;
       if (at.x() > first.x()) first = at;
     }
     const double push = force_of(20.0), lever = std::max(0.05, std::abs(first.y()));
@@ -255,6 +270,7 @@ class Fitting {
 
   const std::string& task_;
   const BaseFit& fit_;
+  double askew_;  ///< [rad] of the base at the start, before a wall squares it up
 };
 
 }  // namespace

@@ -1,11 +1,13 @@
 // What of a base a use case has to fit, from its robot file or from the draft of one.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
 
 #include "diagnostic/wordings_physics.hpp"
 #include "zwang/lang/configurations.hpp"
+#include "zwang/lang/footing.hpp"
 #include "zwang/lang/plane.hpp"
 #include "zwang/lang/task_draft.hpp"
 #include "zwang/lang/wheel_level.hpp"
@@ -26,6 +28,12 @@ constexpr double overhang = 0.3;
 
 /// An arm's point as far beyond the outline is told; outlines are no more exact. [m]
 constexpr double beyond_outline = 0.01;
+
+constexpr double degree_of_yaw = std::numbers::pi / 180.0;
+
+/// From which the tasks begin at a wall [deg], and by how much more the way there may turn the base.
+constexpr std::array start_yaws{20.0, 15.0, 10.0, 5.0};
+constexpr double swing = 2.0;
 
 std::vector<Eigen::Vector2d> circle(double radius) {
   std::vector<Eigen::Vector2d> corners;
@@ -84,6 +92,8 @@ void add_masses(const Robot& robot, BaseFit& fit) {
   const bool goes_along_y = std::abs(std::sin(fit.heading)) > 0.7;
   fit.effective_mass = known(analysis.axes[goes_along_y ? y_axis : x_axis].effective_mass);
   fit.effective_inertia = known(analysis.axes[yaw_axis].effective_mass);
+  const std::optional<Footing> footing = footing_of(robot);
+  if (footing) fit.centre = Eigen::Rotation2Dd(-fit.heading) * footing->centre.head<2>();
 }
 
 void turn(std::vector<Eigen::Vector2d>& outline, double heading) {
@@ -182,6 +192,19 @@ std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, d
   return std::nullopt;
 }
 
+std::optional<double> start_askew(const BaseFit& fit) {
+  if (!fit.outline_is_known) return start_yaws.front() * degree_of_yaw;
+  const auto rests_square = [&](double yaw) {
+    const std::optional<double> rests = resting_yaw(fit.outline, yaw);
+    return rests && std::abs(*rests) <= round_ahead;
+  };
+  for (const double yaw : start_yaws) {
+    if (rests_square(yaw * degree_of_yaw) && rests_square((yaw + swing) * degree_of_yaw))
+      return yaw * degree_of_yaw;
+  }
+  return std::nullopt;
+}
+
 std::string why_unfit(const std::string& task, const BaseFit& fit) {
   if (task == "feel_wall") return "";
   if (fit.freedoms == Freedoms::skid)
@@ -191,12 +214,11 @@ std::string why_unfit(const std::string& task, const BaseFit& fit) {
   if (fit.freedoms == Freedoms::steered)
     return task == "wall_align" ? "no wall turns a base on steered wheels: they hold its heading (E621)"
                                 : "a base on steered wheels cannot drive along x, y and rz at once (E406)";
-  if (task == "wall_align" && fit.outline_is_known) {
-    constexpr double askew = 20.0 * std::numbers::pi / 180.0;
-    const std::optional<double> rests = resting_yaw(fit.outline, askew);
-    if (!rests || std::abs(*rests) > round_ahead)
-      return "its outline is round ahead: pressed to a wall it rests " +
-             wording::figure(rests.value_or(askew) * 180.0 / std::numbers::pi, "deg") + " askew";
+  if (task == "wall_align" && !start_askew(fit)) {
+    const std::optional<double> rests = resting_yaw(fit.outline, start_yaws.back() * degree_of_yaw);
+    return "its outline is round or narrow ahead: pressed to a wall from " +
+           wording::figure(start_yaws.back(), "deg") + " askew it " +
+           (rests ? "rests " + wording::figure(*rests / degree_of_yaw, "deg") + " askew" : "turns away");
   }
   if (task == "wall_align" && fit.outline_is_known && fit.arm_ahead > 0.0)
     return "its arm reaches " + wording::figure(fit.arm_ahead, "m") +

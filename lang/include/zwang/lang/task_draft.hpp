@@ -34,7 +34,8 @@ struct BaseFit {
   double arm_ahead = 0.0;  ///< [m] in the base, the foremost of those points; 0: none is ahead
   double mass = 0.0;       ///< [kg]; 0: not known
   double effective_mass = 0.0;  ///< [kg] that a force along x moves, wheels and rotors included; 0: not known
-  double effective_inertia = 0.0;  ///< [kg m^2] of a turn, likewise
+  double effective_inertia = 0.0;    ///< [kg m^2] of a turn, likewise
+  Eigen::Vector2d centre{0.0, 0.0};  ///< [m] of the mass, in the axes of `base`
   Freedoms freedoms = Freedoms::all;
   std::string base = "base";  ///< what a task calls it
 };
@@ -48,6 +49,10 @@ std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, d
 /// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
 /// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]
 inline constexpr double round_ahead = 2.0 * std::numbers::pi / 180.0;
+
+/// The yaw [rad] from which a wall squares the base up: 20 deg, or the largest of 15, 10 and 5 deg from which
+/// its outline comes to rest square; no value where it does from none.
+std::optional<double> start_askew(const BaseFit& fit);
 
 /// Why this base cannot do `task`; empty: it can, as far as is known.
 std::string why_unfit(const std::string& task, const BaseFit& fit);
