@@ -1,13 +1,16 @@
-// Bases with arms that are drafted from a URDF: how they start and what is said
+// Bases with arms, and with wheels on rockers, that are drafted from a URDF: how they start and what is said
 // of it.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "support.hpp"
 #include "urdf_text.hpp"
+#include "zwang/lang/program.hpp"
 #include "zwang/lang/robot_draft.hpp"
+#include "zwang/lang/task_draft.hpp"
 
 namespace zwang::lang {
 namespace {
@@ -95,6 +98,33 @@ TEST(DraftOfAnArm, tells_of_a_motor_that_cannot_hold_it) {
             std::string::npos)
       << said;
   EXPECT_EQ(drafted_from(with_shoulder(-1.0, 1.0, 1.5), leaned).said, "");
+}
+
+// Wheels that slide sideways, on rockers that are turned by pi, rounded to four digits: what is left of their
+// direction sideways is no grip that a stop could keep to.
+TEST(DraftOfABase, on_turned_rockers_is_told_of_no_grip_that_rounding_leaves) {
+  UrdfText urdf(4, 1.0);
+  urdf.add(LinkShape{"base_link", 10.0, {}, {0.2, 0.3, 0.4}, urdf.box(0.4, 0.3, 0.1)});
+  for (const auto& [side, y] : {std::pair("left", 0.2), {"right", -0.2}}) {
+    const std::string rocker = std::string(side) + "_rocker";
+    urdf.add(LinkShape{rocker, 1.0, {}, {1e-2, 1e-2, 1e-2}, ""});
+    urdf.add(JointShape{
+        rocker + "_joint", "fixed", "base_link", rocker, {0.0, y, 0.0}, {pi, 0.0, pi}, {}, "", ""});
+    add_driven_wheel(urdf, std::string("front_") + side + "_wheel", rocker, {-0.15, 0.0, 0.0});
+    add_driven_wheel(urdf, std::string("rear_") + side + "_wheel", rocker, {0.15, 0.0, 0.0});
+  }
+  const test::Folder folder;
+  Diagnostics diagnostics;
+  const auto draft = draft_robot(folder.write("r.urdf", urdf.robot("r")), "r.urdf", diagnostics);
+  ASSERT_TRUE(draft) << test::rendered(diagnostics);
+  const std::string text = std::regex_replace(draft->text, std::regex("kind: FILL_IN"), "kind: skid");
+  folder.write("robot.yaml", text);
+  const auto specs = test::source_dir / "specs";
+  const TaskTexts shipped{test::slurp(specs / "feel_wall.yaml"), test::slurp(specs / "scenes/corridor.yaml")};
+  const TaskTexts texts = draft_task("feel_wall", shipped, base_fit(*draft), "robot.yaml", "scene.yaml");
+  folder.write("scene.yaml", texts.scene);
+  EXPECT_TRUE(load(folder.write("task.yaml", texts.task), {}, diagnostics)) << test::rendered(diagnostics);
+  EXPECT_EQ(test::rendered(diagnostics).find("W642"), std::string::npos) << test::rendered(diagnostics);
 }
 
 }  // namespace

@@ -40,14 +40,17 @@ double share_along(const Robot& robot, const solver::Wheel& wheel, const Vector3
   return std::abs(held.dot(axis));
 }
 
-/// What the floor holds along the axis with mu = 1. [N]
+/// What the floor holds along the axis with mu = 1; 0: no motor pushes along it. [N]
 double grip(const Robot& robot, const Footing& footing, const Vector3& axis) {
   std::vector<double> shares(footing.points.size(), 0.0);
   for (std::size_t w = 0; w < footing.wheels; ++w) {
     const solver::Wheel& wheel = robot.model.wheels()[w];
     if (is_driven(robot.model, wheel)) shares[w] = share_along(robot, wheel, axis);
   }
-  return footing.most_carried(shares);
+  const double held = footing.most_carried(shares);
+  constexpr double rounding =
+      1e-6;  // of the weight: what is left of an axis that a wheel holds nothing along
+  return held > rounding * footing.weight ? held : 0.0;
 }
 
 /// What a position driver asks for while it is far off: all that the ranges in force leave it. 0 where
@@ -101,11 +104,11 @@ void ask_grip_of_stop(const Span& span, const std::optional<Scene>& scene, Probe
   double held = solver::infinity;
   for (const Vector3& direction : {Vector3(1.0, 0.0, 0.0), Vector3(0.0, 1.0, 0.0)}) {
     if (direction.y() > 0.5 && probe.base_mobility() < 3) continue;
-    held = std::min(held, scene->floor_friction * grip(robot, *footing, direction) / footing->mass);
+    const double force = scene->floor_friction * grip(robot, *footing, direction);
+    if (force > 0.0) held = std::min(held, force / footing->mass);
   }
   const double asked = robot.stop.deceleration;
-  if (held > 0.0 && asked > held)
-    remarks.add(wording::stops_beyond_the_floor(span, asked, held, scene->floor_friction));
+  if (asked > held) remarks.add(wording::stops_beyond_the_floor(span, asked, held, scene->floor_friction));
 }
 
 }  // namespace zwang::lang
