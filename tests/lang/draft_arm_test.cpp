@@ -93,7 +93,7 @@ TEST(DraftOfAnArm, stands_still_at_the_end_where_0_is_the_end) {
 TEST(DraftOfAnArm, tells_of_a_motor_that_cannot_hold_it) {
   const std::string leaned = "posture: {shoulder: 30 deg}\n";
   const std::string said = drafted_from(with_shoulder(-1.0, 1.0, 1.4), leaned).said;
-  EXPECT_NE(said.find("W873: the motor of `shoulder` cannot hold what hangs on it: that is 1.47 N m at the "
+  EXPECT_NE(said.find("W874: the motor of `shoulder` cannot hold what hangs on it: that is 1.47 N m at the "
                       "start, and the motor has 1.4 N m"),
             std::string::npos)
       << said;

@@ -329,8 +329,7 @@ TEST_F(DraftOfWheels, names_a_wheel_of_which_nothing_tells_the_axis) {
 TEST_F(DraftOfWheels, turns_a_swivel_without_an_axis_upwards) {
   const std::string urdf = robot_text(
       wheel_text("left_wheel", "0 .25 -.1") + wheel_text("right_wheel", "0 -.25 -.1") +
-      part_text(
-          {"caster_swivel", "base_link", "continuous", "-.25 0 -.1", "", "", ""}) +
+      part_text({"caster_swivel", "base_link", "continuous", "-.25 0 -.1", "", "", ""}) +
       part_text({"caster_wheel", "caster_swivel", "continuous", "-.05 0 -.05", "0 1 0", "",
                  "<origin rpy='1.5707963 0 0'/><geometry><cylinder radius='.05' length='.03'/></geometry>"}));
   const RobotDraft draft = drafted(urdf);

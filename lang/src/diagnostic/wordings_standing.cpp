@@ -114,7 +114,7 @@ Diagnostic starts_near_an_end(const Span& span, const NearEnd& start) {
 Diagnostic arm_too_heavy(const Span& span, const std::string& joint, double borne, double effort,
                          bool slides) {
   const char* unit = slides ? "N" : "N m";
-  return warning("W873", span,
+  return warning("W874", span,
                  "the motor of " + in_ticks(joint) + " cannot hold what hangs on it: that is " +
                      figure(borne, unit) + " at the start, and the motor has " + figure(effort, unit),
                  "write the motor's own torque, as `" + joint + ": {effort: " + figure(1.5 * borne, unit) +

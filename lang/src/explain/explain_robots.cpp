@@ -225,6 +225,7 @@ of `base`, name a link that stands on the axle as `base`.)~",
 one, up to 8 in a row. A chain that leads back to one of its files never ends. `zwang robot init --update` changes files that
 stand by themselves.)~",
           .fix = "Remove the `based_on` that leads back."},
+      Explanation{
           .code = "E873",
           .title = "a pad that is not the end of an arm",
           .why =

@@ -199,7 +199,7 @@ moves cannot have it (E858). This link is fixed to another one and has less than
 a point. A mass below that of a grain of dust, 1e-9 kg, counts as none.)~",
           .fix = "Nothing needs to be done. `ignore: [LINK]` in the robot file leaves the link out."},
       Explanation{
-          .code = "W873",
+          .code = "W874",
           .title = "a motor that cannot hold its arm",
           .why =
               R"~(Gravity pulls at all that hangs on the joint. With the posture of the start that is more torque than the

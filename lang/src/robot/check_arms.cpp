@@ -1,4 +1,4 @@
-// W809 and W873: joints with motors that turn no wheel and carry none, as the robot starts.
+// W809 and W874: joints with motors that turn no wheel and carry none, as the robot starts.
 //
 // The guard stops an arm before a joint leaves its travel, so one that starts close to an end is stopped by
 // the least sway. At an end it rests: a closed gripper, a lift that is down.

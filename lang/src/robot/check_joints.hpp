@@ -16,7 +16,7 @@ void check_starts(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnost
 /// not end at one height.
 void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& robot,
                         Diagnostics& diagnostics);
-/// W809, W873: an arm's joint that starts close to an end of its travel, or whose motor cannot hold it.
+/// W809, W874: an arm's joint that starts close to an end of its travel, or whose motor cannot hold it.
 void check_arms(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics);
 /// W868: rollers that are mirrored.
 void check_rollers(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics);
