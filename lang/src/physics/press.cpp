@@ -22,6 +22,8 @@ namespace zwang::lang {
 namespace {
 
 constexpr double tolerance = 1e-6;  // relative
+/// Masses and time constants are known no better: behind a late drive so much of the force is enough.
+constexpr double enough_of_force = 0.95;
 
 bool falls_short(const Pressed& pressed, double force) {
   return pressed.force < std::abs(force) * (1.0 - tolerance);
@@ -62,7 +64,7 @@ void ask_speed_of_press(const PlannedAxis& axis, const AxisFigures& figures, con
     return;
   const double speed = *axis.target < 0.0 ? -range->low : range->high;
   const double most = figures.most_mass * speed / drive.horizon();
-  if (most >= std::abs(*axis.target)) return;
+  if (most >= enough_of_force * std::abs(*axis.target)) return;
   remarks.add(wording::too_slow_to_press(
       axis.driver_span(), {axis.path, axis.turns(), std::abs(*axis.target), most, figures.most_mass},
       drive.horizon(), axis.span(solver::Quantity::velocity)));
