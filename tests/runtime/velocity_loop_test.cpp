@@ -60,6 +60,25 @@ TEST(VelocityLoop, AFreeBaseFollowsAStepByItsClosedForm) {
   }
 }
 
+// Of three omni wheels each turns for half of a way, in the mean of its directions.
+TEST(VelocityLoop, ABaseOnOmniWheelsFollowsAStepAsSoon) {
+  lang::Program program = aligning("omni_1_khz");
+  program.robot.drive.takes_twist = program.robot.drive.limit_is_fixed = true;
+  ScenePlantOptions options;
+  options.simulation.period = 0.25 * ms;
+  for (const int axis : {0, 1}) {
+    ScenePlant plant(program, options);
+    const double V = 5e-3;
+    Command command(program.robot.model.joint_count());
+    command.twist(axis) = V;
+    for (int i = 0; i < 600; ++i) {
+      ASSERT_EQ(plant.follow(command), PlantStatus::ok);
+      const double speed = plant.truth().velocity(axis);
+      ASSERT_NEAR(speed, speed_after(plant.truth().time, V, program.robot.drive), V / 80.0) << axis;
+    }
+  }
+}
+
 TEST(VelocityLoop, AtABlockedWheelTheTorqueRestsOnItsLimit) {
   const lang::Program program = aligning("mecanum_1_khz");
   VelocityLoop loop(program.robot);

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 
 #include "guard/wheel_motors.hpp"
 
@@ -23,17 +24,48 @@ Eigen::Vector3d rate_per_twist(const solver::Model& model, const solver::Wheel& 
   return -Eigen::Vector3d(u.x(), u.y(), u.dot(turn)) / u.dot(axis.cross(down));
 }
 
+/// [rad/s] For a twist of the base; none: the wheel swivels.
+std::optional<Eigen::Vector3d> rate_of(const solver::Model& model, const WheelMotor& motor) {
+  for (const solver::Wheel& wheel : model.wheels()) {
+    const bool is_it = wheel.body == motor.joint + 1;
+    if (is_it && model.bodies()[static_cast<std::size_t>(wheel.body)].parent == 0)
+      return rate_per_twist(model, wheel);
+  }
+  return std::nullopt;
+}
+
+/// What each motor's wheel counts: R^2 (V_x^2 + V_y^2) for 1 m/s, in the mean of x and y as far as wheels
+/// turn for them.
+std::vector<double> shares(const solver::Model& model, const std::vector<WheelMotor>& motors) {
+  Eigen::Vector2d all = Eigen::Vector2d::Zero();
+  std::vector<double> share;
+  for (const WheelMotor& motor : motors) {
+    const std::optional<Eigen::Vector3d> rate = rate_of(model, motor);
+    const Eigen::Vector2d way =
+        rate ? (motor.radius * rate->head<2>()).cwiseAbs2() : Eigen::Vector2d(1.0, 0.0);
+    all += way;
+    share.push_back(way.sum());
+  }
+  constexpr double none = 1e-9;
+  const double directions = (all.x() > none ? 1.0 : 0.0) + (all.y() > none ? 1.0 : 0.0);
+  for (double& one : share) one /= std::max(1.0, directions);
+  return share;
+}
+
+double spin_of(const solver::Model& model, const WheelMotor& motor) {
+  const solver::Body& body = model.bodies()[static_cast<std::size_t>(motor.joint) + 1];
+  const solver::Vector3& axis = body.joint.axis;
+  return axis.dot(body.inertia.rotational * axis) + body.joint.rotor_inertia;
+}
+
 }  // namespace
 
 double VelocityLoop::driven_mass(const lang::Robot& robot) {
-  double mass = 0.0;
-  for (const solver::Body& body : robot.model.bodies()) mass += body.inertia.mass;
-  for (const WheelMotor& motor : wheel_motors(robot, 0.0)) {
-    const solver::Body& body = robot.model.bodies()[static_cast<std::size_t>(motor.joint) + 1];
-    const solver::Vector3& axis = body.joint.axis;
-    const double spin = axis.dot(body.inertia.rotational * axis) + body.joint.rotor_inertia;
-    mass += spin / (motor.radius * motor.radius);
-  }
+  const std::vector<WheelMotor> motors = wheel_motors(robot, 0.0);
+  const std::vector<double> share = shares(robot.model, motors);
+  double mass = robot.model.total_mass();
+  for (std::size_t i = 0; i < motors.size(); ++i)
+    mass += share[i] * spin_of(robot.model, motors[i]) / (motors[i].radius * motors[i].radius);
   return mass;
 }
 
@@ -42,15 +74,14 @@ VelocityLoop::VelocityLoop(const lang::Robot& robot)
       limit_is_fixed_(robot.drive.limit_is_fixed),
       torque_(Eigen::VectorXd::Zero(robot.model.joint_count())) {
   const std::vector<WheelMotor> motors = wheel_motors(robot, 0.0);
-  const double mass = driven_mass(robot) / static_cast<double>(motors.size());
+  double count = 0.0;
+  for (const double share : shares(robot.model, motors)) count += share;
+  const double mass = driven_mass(robot) / std::max(count, 1e-9);
   for (const WheelMotor& motor : motors) {
     const double k_p = mass * motor.radius * motor.radius / robot.drive.time_constant;
     const double k_i = robot.drive.integral_time ? k_p / *robot.drive.integral_time : 0.0;
-    Wheel wheel{motor.joint, robot.model.joint(motor.joint).max_effort, k_p, k_i, 0.0};
-    for (const solver::Wheel& of : robot.model.wheels()) {
-      if (takes_twist_ && of.body == motor.joint + 1) wheel.per_twist = rate_per_twist(robot.model, of);
-    }
-    wheels_.push_back(wheel);
+    wheels_.push_back({motor.joint, robot.model.joint(motor.joint).max_effort, k_p, k_i, 0.0,
+                       rate_of(robot.model, motor).value_or(Eigen::Vector3d::Zero())});
   }
 }
 

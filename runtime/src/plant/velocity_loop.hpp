@@ -57,8 +57,10 @@ class SampledLine {
 /// A PI loop at each driven wheel, in each step of the simulation:
 ///     torque = k_p (V - v) + k_i sum (V - v) dt,   k_p = m R^2 / (n T_c),   k_i = k_p / T_i,
 /// inside the command's bounds and the motor's limit. m is the mass that n wheels of the radius R drive,
-/// rotors included: alone on the floor the base follows a step as 1 - e^(-t/T_c), but for the integral. That
-/// stands still while the torque is at a bound and the error would push it farther.
+/// rotors included: alone on the floor the base follows a step as 1 - e^(-t/T_c), but for the integral. A
+/// wheel counts by what it turns for a way of the base, in the mean of the directions in which motors drive
+/// it: an omni wheel half. The integral stands still while the torque is at a bound and the error would push
+/// it farther.
 ///
 /// A drive with torque limits of its own takes the motors' limits, whatever the command says. One that takes
 /// the base's twist turns it into V as drivers do, by where the wheels stand: with u the direction that the
