@@ -56,18 +56,27 @@ Pressing pressing(const PlannedTask& plan, const PlannedAxis& axis, double force
   return result;
 }
 
+/// Of a point beside the middle, whose mass is less while nothing holds the heading, that of the base itself.
+double most_mass(const PlannedAxis& axis, const AxisFigures& figures, Probe& probe) {
+  PlannedAxis of_base = axis;
+  if (axis.move.body == 0) of_base.move.pose = {};
+  const AxisFigures* whole = probe.figures(of_base);
+  return std::max(figures.most_mass, whole != nullptr ? whole->most_mass : 0.0);
+}
+
 /// What the axis's own range of velocities leaves of a force behind a drive that is sent torque limits.
-void ask_speed_of_press(const PlannedAxis& axis, const AxisFigures& figures, const Drive& drive,
-                        Remarks& remarks) {
+void ask_speed_of_press(const PlannedAxis& axis, const AxisFigures& figures, Probe& probe, Remarks& remarks) {
+  const Drive& drive = probe.robot().drive;
   const auto& range = axis[solver::Quantity::velocity];
-  if (!range || !drive.takes_velocity || drive.has_virtual_robot() || !std::isfinite(figures.most_mass))
-    return;
+  if (!range || !drive.takes_velocity || drive.has_virtual_robot()) return;
+  const double mass = most_mass(axis, figures, probe);
+  if (!std::isfinite(mass)) return;
   const double speed = *axis.target < 0.0 ? -range->low : range->high;
-  const double most = figures.most_mass * speed / drive.horizon();
+  const double most = mass * speed / drive.horizon();
   if (most >= enough_of_force * std::abs(*axis.target)) return;
-  remarks.add(wording::too_slow_to_press(
-      axis.driver_span(), {axis.path, axis.turns(), std::abs(*axis.target), most, figures.most_mass},
-      drive.horizon(), axis.span(solver::Quantity::velocity)));
+  remarks.add(wording::too_slow_to_press(axis.driver_span(),
+                                         {axis.path, axis.turns(), std::abs(*axis.target), most, mass},
+                                         drive.horizon(), axis.span(solver::Quantity::velocity)));
 }
 
 }  // namespace
@@ -79,7 +88,7 @@ void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     if (figures == nullptr || !figures->is_reachable || !std::isfinite(figures->mass)) continue;
     const Pressing now = pressing(plan, axis, *axis.target, probe);
     if (now.by_motors) continue;
-    ask_speed_of_press(axis, *figures, probe.robot().drive, remarks);
+    ask_speed_of_press(axis, *figures, probe, remarks);
     const AccelerationLimit limit = acceleration_limit(plan, axis, *axis.target < 0.0 ? -1.0 : 1.0, true);
     const Span limited = limit.from != nullptr ? limit.from->span(solver::Quantity::acceleration) : Span{};
     const auto cap = [&](double wanted, const Pressed& pressed) {
