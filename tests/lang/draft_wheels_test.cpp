@@ -307,7 +307,7 @@ TEST_F(DraftOfWheels, proposes_the_axis_of_the_cylinder_where_the_urdf_has_none)
   }
 }
 
-// A mesh does not tell it. What the owner gives is kept by an update.
+// A mesh does not tell it. An update keeps the axis that the owner gives.
 TEST_F(DraftOfWheels, names_a_wheel_of_which_nothing_tells_the_axis) {
   const std::string urdf = axisless_text("0 0 0", mesh_shape);
   const RobotDraft draft = drafted(urdf);

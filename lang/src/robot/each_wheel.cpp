@@ -118,7 +118,7 @@ const ValueText* effort_of_each_joint(const RobotFile& file, const UrdfJoint& jo
   return effort->quantity.dimension == other ? nullptr : &*effort;
 }
 
-// From above, the rollers of a usual mecanum base form an X: at the ground, front left and rear right are
+// From above, the rollers of a usual mecanum base form an X. At the ground, front left and rear right are
 // turned by 45 deg from the wheel's axis, the others by -45 deg. Front is where the wheels roll to, forward
 // or back: both ways the same wheels lie on one diagonal.
 void place_rollers(RobotFile& file, const Urdf& urdf) {

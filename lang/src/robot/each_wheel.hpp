@@ -16,8 +16,8 @@ EachJoint parse_each_joint(const Node& node, Diagnostics& diagnostics);
 /// radius then is told.
 void complete_wheels(RobotFile& file, Diagnostics& diagnostics);
 
-/// Of a joint that turns no wheel and has no effort in the URDF, where that of `each_joint` is of this
-/// dimension: a torque is for joints that turn, a force for those that slide. Else nullptr.
+/// That of `each_joint`, for a joint that turns no wheel and has no effort in the URDF. A torque is for
+/// joints that turn, a force for those that slide. nullptr where it is not for this joint.
 const ValueText* effort_of_each_joint(const RobotFile& file, const UrdfJoint& joint,
                                       const Dimension& expected);
 

@@ -20,7 +20,7 @@ struct FoundWheels {
   std::vector<std::string> supports;    ///< links of balls
   std::vector<std::string> others;      ///< moving joints that are neither wheels, nor swivels, nor casters
   std::vector<std::string> in_between;  ///< moving joints between base and wheels that do not steer
-  std::vector<StuckWheel> stuck;        ///< joints that are called wheels, where none turns without end
+  std::vector<StuckWheel> stuck;        ///< joints that are called wheels, and are none of the draft
   /// [m] Corners in the base, counter-clockwise, of the convex hull of its collision shapes and the wheels.
   /// Empty: its body is a mesh.
   std::vector<Eigen::Vector2d> outline;

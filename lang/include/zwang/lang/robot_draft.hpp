@@ -49,7 +49,7 @@ struct RobotDraft {
   std::vector<DraftWheel> idle;               ///< wheels without a motor that hold the base
   std::vector<DraftWheel> casters;            ///< wheels on swivels, and no motor of either
   std::vector<std::string> supports;          ///< links
-  std::vector<StuckWheel> stuck;              ///< where no wheel was found
+  std::vector<StuckWheel> stuck;              ///< called wheels, and none of the above
   std::vector<std::string> missing;           ///< what could not be known, a line each
   std::vector<AssumedRobot> assumed;          ///< one for each kind of wheel that it may have; empty where no
                                               ///< assumption makes a model of it
