@@ -154,7 +154,7 @@ TEST(TaskDraft, starts_less_askew_where_the_front_is_narrow) {
   constexpr double degree = std::numbers::pi / 180.0;
   BaseFit fit = base_fit(shipped("mecanum_base"));
   EXPECT_NEAR(*start_askew(fit), 20.0 * degree, 1e-12);
-  fit.outline = {{0.253, -0.062}, {0.253, 0.062}, {0.15, 0.25}, {-0.25, 0.25}, {-0.25, -0.25}, {0.15, -0.25}};
+  fit.outline = {{0.253, -0.062}, {0.253, 0.062}, {-0.2, 0.2}, {-0.2, -0.2}};
   EXPECT_NEAR(*start_askew(fit), 10.0 * degree, 1e-12);
   EXPECT_EQ(why_unfit("wall_align", fit), "");
   const TaskTexts texts = drafted("wall_align", fit);
@@ -163,7 +163,7 @@ TEST(TaskDraft, starts_less_askew_where_the_front_is_narrow) {
   for (Eigen::Vector2d& corner : fit.outline) {
     if (corner.x() > 0.2) corner.y() *= 0.3;  // up to 4.2 deg
   }
-  EXPECT_NE(why_unfit("wall_align", fit).find("narrow ahead: pressed to a wall from 5 deg"),
+  EXPECT_NE(why_unfit("wall_align", fit).find("its front is too narrow: pressed to a wall from 5 deg"),
             std::string::npos)
       << why_unfit("wall_align", fit);
 }
@@ -186,6 +186,11 @@ TEST(TaskDraft, aligns_no_round_base) {
   EXPECT_EQ(why_unfit("wall_align", fit), "");
   fit.outline = regular(16, 0.0);
   EXPECT_NE(why_unfit("wall_align", fit).find("11.3 deg"), std::string::npos) << why_unfit("wall_align", fit);
+  // However its corners lie: from a smaller angle a polygon would rest on a side that a round base does not
+  // have.
+  fit.outline = regular(16, std::numbers::pi / 16.0);
+  EXPECT_NE(why_unfit("wall_align", fit).find("round ahead"), std::string::npos)
+      << why_unfit("wall_align", fit);
 }
 
 }  // namespace

@@ -129,6 +129,28 @@ void find_base_ahead(const Robot& robot, BaseFit& fit) {
   fit.base = robot.base_frame;
 }
 
+/// Where a round outline rests, near to whatever heading it comes with. None of one that comes to rest
+/// square, or turns away to one of its sides.
+std::optional<double> rests_askew_ahead(const std::vector<Eigen::Vector2d>& outline) {
+  constexpr double to_a_side = 45.0 * degree_of_yaw;
+  const std::optional<double> rests = resting_yaw(outline, start_yaws.front() * degree_of_yaw);
+  const bool is_ahead = rests && std::abs(*rests) > round_ahead && std::abs(*rests) < to_a_side;
+  return is_ahead ? rests : std::nullopt;
+}
+
+/// Of a base that no start squares up.
+std::string why_never_square(const std::vector<Eigen::Vector2d>& outline) {
+  const std::optional<double> askew = rests_askew_ahead(outline);
+  if (askew)
+    return "its outline is round ahead: pressed to a wall it rests " +
+           wording::figure(*askew / degree_of_yaw, "deg") + " askew";
+  const std::optional<double> rests = resting_yaw(outline, start_yaws.back() * degree_of_yaw);
+  return "its front is too narrow: pressed to a wall from " + wording::figure(start_yaws.back(), "deg") +
+         " askew it " +
+         (rests ? "comes to rest " + wording::figure(*rests / degree_of_yaw, "deg") + " askew"
+                : "turns away from it");
+}
+
 }  // namespace
 
 BaseFit base_fit(const RobotDraft& draft) {
@@ -194,6 +216,7 @@ std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, d
 
 std::optional<double> start_askew(const BaseFit& fit) {
   if (!fit.outline_is_known) return start_yaws.front() * degree_of_yaw;
+  if (rests_askew_ahead(fit.outline)) return std::nullopt;
   const auto rests_square = [&](double yaw) {
     const std::optional<double> rests = resting_yaw(fit.outline, yaw);
     return rests && std::abs(*rests) <= round_ahead;
@@ -214,12 +237,7 @@ std::string why_unfit(const std::string& task, const BaseFit& fit) {
   if (fit.freedoms == Freedoms::steered)
     return task == "wall_align" ? "no wall turns a base on steered wheels: they hold its heading (E621)"
                                 : "a base on steered wheels cannot drive along x, y and rz at once (E406)";
-  if (task == "wall_align" && !start_askew(fit)) {
-    const std::optional<double> rests = resting_yaw(fit.outline, start_yaws.back() * degree_of_yaw);
-    return "its outline is round or narrow ahead: pressed to a wall from " +
-           wording::figure(start_yaws.back(), "deg") + " askew it " +
-           (rests ? "rests " + wording::figure(*rests / degree_of_yaw, "deg") + " askew" : "turns away");
-  }
+  if (task == "wall_align" && !start_askew(fit)) return why_never_square(fit.outline);
   if (task == "wall_align" && fit.outline_is_known && fit.arm_ahead > 0.0)
     return "its arm reaches " + wording::figure(fit.arm_ahead, "m") +
            " ahead, beyond the outline, and would touch the wall first: fold it by `posture`";
