@@ -28,7 +28,7 @@ struct StuckWheel {
   std::string how;  ///< "`fixed`", for example
 };
 
-/// In the place of an <axis> that a URDF lacks.
+/// In the place of an `<axis>` that a URDF lacks.
 struct JointAxis {
   std::string joint;
   solver::Vector3 axis;  ///< a unit vector in the frame of the joint
