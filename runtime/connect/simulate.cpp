@@ -1,5 +1,6 @@
 // The program behind `zwang simulate`: the scene's robot behind the topics of a connection, at the pace of
 // real time. The world begins to move with the first command.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -20,6 +21,8 @@ constexpr double most_behind = 0.1;     // [s] a world that is farther behind go
 constexpr double silent_for = 0.5;      // [s] without a command, at rest: the other side has ended
 constexpr double longest_silent = 5.0;  // [s] the same of a world that still moves
 constexpr double at_rest = 1e-3;        // [m/s]
+constexpr double longest_wait = 0.5;    // [s] of this computer, for a command that is due
+constexpr double look_again = 0.2e-3;   // [s]
 
 struct World {
   runtime::ScenePlant plant;
@@ -77,10 +80,38 @@ void wait_for_command(RobotSide& side, World& world, double period, Happenings& 
   }
 }
 
-runtime::PlantStatus run(const lang::Connection& connection, RobotSide& side, World& world,
-                         const std::optional<double>& stuck_odometry, Happenings& happenings) {
+/// With a clock of its own the world stands while a command is due, so that a busy machine is slow and not
+/// late. Who says nothing for `longest_wait` is waited for no more until he speaks again.
+class InStep {
+ public:
+  InStep(const lang::Connection& connection, double period)
+      : is_on_(connection.clock.has_value()),
+        most_(1.5 * std::max(period, 1.0 / connection.command.rate.value_or(1.0 / period))) {}
+
+  void wait(RobotSide& side) {
+    if (!is_on_) return;
+    side.command(side.time());
+    if (side.newest().arrival != given_up_at_) given_up_at_ = -1.0;
+    const double begin = now();
+    while (given_up_at_ < 0.0 && side.time() - side.newest().arrival > most_ && !cli::is_interrupted()) {
+      if (now() - begin > longest_wait) given_up_at_ = side.newest().arrival;
+      sleep_until(now() + look_again);
+      side.command(side.time());
+    }
+  }
+
+ private:
+  bool is_on_;
+  double most_;                // [s] of the world, between two commands
+  double given_up_at_ = -1.0;  // [s] the command behind which nobody came
+};
+
+runtime::PlantStatus run(const lang::Connection& connection, const lang::Program& program, RobotSide& side,
+                         World& world, const std::optional<double>& stuck_odometry, Happenings& happenings) {
   double shift = side.time() - world.plant.truth().time;
+  InStep in_step(connection, program.robot.control_period);
   for (double due = now(); !cli::is_interrupted(); due += world.steps.period()) {
+    in_step.wait(side);
     sleep_until(due);
     happenings.lateness.add(std::max(0.0, now() - due));
     if (now() - due > most_behind) {
@@ -142,7 +173,7 @@ int simulate(const Arguments& arguments) {
                    happenings);
   runtime::PlantStatus status = runtime::PlantStatus::ok;
   if (!cli::is_interrupted()) {
-    status = run(loaded->connection, side, world, arguments.stuck_odometry, happenings);
+    status = run(loaded->connection, loaded->program, side, world, arguments.stuck_odometry, happenings);
   }
   side.leave();
   participant.close();
