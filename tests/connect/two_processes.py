@@ -1,6 +1,6 @@
 """`zwang drive` and `zwang simulate` as two processes, over DDS on this machine.
 
-    two_processes.py PROGRAM ROOT FOLDER_OF_CLIENTS
+    two_processes.py PROGRAM ROOT FOLDER_OF_CLIENTS [docking]
 
 A run ends as the same run inside one process does, with its peak force within 10 %. Either side may
 be killed or stopped: the other one brakes. Ends with 1 and says why when anything is otherwise.
@@ -52,6 +52,10 @@ SIGNALS = {
 
 
 CLOCK = "clock: {ros: /clock}\n"  # the world waits for commands: a busy machine is slow and not late
+
+
+class Unreachable(Exception):
+    """Two processes do not hear each other here."""
 
 
 class Pair:
@@ -162,7 +166,14 @@ def ends_as_inside_one_process(name, number_of_pair):
         report = json.loads(alone.stdout)
         pair = Pair(program, folder, task, VELOCITY, options, number_of_pair,
                     more=CLOCK + SIGNALS[name])
-        _, drive, simulate = pair.end(within=240)
+        try:
+            _, drive, simulate = pair.end(within=240)
+        except subprocess.TimeoutExpired:  # nobody has commanded it, or it hangs
+            pair.drive.kill()
+            pair.simulate.kill()
+            drive, simulate = pair.text("drive"), pair.text("simulate")
+        if "no time on /clock" in drive:
+            raise Unreachable(drive)
         expect(report["outcome"] + " after" in drive, f"alone it is {report['outcome']}", drive, simulate)
         for thing, truth in report["truth"].items():
             peak_alone = truth.get("peak_force") or 0.0
@@ -402,7 +413,20 @@ def main(program, root, clients):
         return 0 if all(list(pool.map(is_good, cases))) else 1
 
 
+def docking_alone(program, root, _clients):
+    """The one that every run of the tests has: it waits for its commands, and takes little of a processor."""
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            ends_as_inside_one_process("docking", 30)(program, pathlib.Path(root), pathlib.Path(folder))
+        except Unreachable as error:
+            print(f"skipped: DDS finds no peer here\n{error}")
+            return 77
+    return 0
+
+
 if __name__ == "__main__":
+    if sys.argv[4:] == ["docking"]:
+        sys.exit(docking_alone(*sys.argv[1:4]))
     if "ZWANG_LONG" not in os.environ:
         print("skipped: ./dev test --long runs it")
         sys.exit(77)
