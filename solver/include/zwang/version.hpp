@@ -1,5 +1,5 @@
-/// The version of zwang, of all its rooms. Before 1.0 another minor version may have other interfaces. CMakeLists.txt, the
-/// packages and `zwang --version` read it here.
+/// The version of zwang, of all its rooms. Before 1.0 another minor version may have other interfaces.
+/// CMakeLists.txt, the packages and `zwang --version` read it here.
 #pragma once
 
 #define ZWANG_VERSION_MAJOR 0
