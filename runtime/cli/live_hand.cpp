@@ -53,7 +53,8 @@ LiveHand::LiveHand(const lang::Program& program)
 }
 
 ordered_json LiveHand::choices() const {
-  ordered_json signals = ordered_json::array(), faults = ordered_json::array(), objects = ordered_json::array();
+  ordered_json signals = ordered_json::array(), faults = ordered_json::array(),
+               objects = ordered_json::array();
   for (const std::string& signal : signals_) {
     if (!signal.empty()) signals.push_back(signal);
   }

@@ -1,4 +1,5 @@
-/// What the program can be asked, as data: completions of three shells and the manual page are printed from it.
+/// What the program can be asked, as data: completions of three shells and the manual page are printed from
+/// it.
 #pragma once
 
 #include <string>

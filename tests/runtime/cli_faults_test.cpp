@@ -41,11 +41,12 @@ tasks:
     timeout: {after: 100000 s, goto: failed}
 )");
     write("scene.yaml", wall);
-    std::vector<std::string> words{"run",      (folder_ / "task.yaml").string(),
-                                   "--robot",  specs + "robots/mecanum_base.yaml",
-                                   "--scene",  (folder_ / "scene.yaml").string(),
-                                   "--log",    "log",           "--csv",
-                                   "--format", "json"};
+    std::vector<std::string> words{"run",     (folder_ / "task.yaml").string(),
+                                   "--robot", specs + "robots/mecanum_base.yaml",
+                                   "--scene", (folder_ / "scene.yaml").string(),
+                                   "--log",   "log",
+                                   "--csv",   "--format",
+                                   "json"};
     words.insert(words.end(), options.begin(), options.end());
     const pid_t child = start(words);
     for (int i = 0; i < 4000 && read(folder_ / "log/log.csv").size() < 100'000; ++i) {

@@ -1,5 +1,3 @@
-#include "spec/shape.hpp"
-
 #include <algorithm>
 #include <set>
 
@@ -9,6 +7,7 @@
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/in_one_line.hpp"
+#include "spec/shape.hpp"
 #include "spec/task_file.hpp"
 #include "tree/text.hpp"
 

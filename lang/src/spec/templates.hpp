@@ -36,7 +36,7 @@ class Templates {
   struct Template {
     std::map<std::string, std::string> arguments;      ///< name -> kind
     std::vector<std::pair<std::string, Span>> unused;  ///< arguments that the body does not name
-    const Node* body = nullptr;  ///< or the group
+    const Node* body = nullptr;                        ///< or the group
     bool is_group = false;
     int nodes = 0;  ///< of the body
     Span span;

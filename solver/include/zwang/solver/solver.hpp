@@ -116,7 +116,8 @@ class Solver {
   bool free_motions(FreeMotions& out) const noexcept;
 
   /// What a unit force along row `row` of Solution::rows is as the p of FreeMotions, into `p`'s
-  /// first numbers; 0 where nothing moves the robot along the row; before the next `project_velocity`. Does not allocate, lock, throw or print.
+  /// first numbers; 0 where nothing moves the robot along the row; before the next `project_velocity`. Does
+  /// not allocate, lock, throw or print.
   void force_on_motions(int row, Eigen::VectorXd& p) const noexcept;
 
   /// Takes out of the measured velocities what the ground does not allow (in the metric of kinetic energy).
