@@ -4,6 +4,7 @@
 
 #include "compare_files.hpp"
 #include "json_parts.hpp"
+#include "run_log.hpp"
 #include "zwang/runtime/log_difference.hpp"
 
 namespace zwang::cli {
@@ -16,9 +17,8 @@ using runtime::Happening;
 using runtime::LogDifference;
 using runtime::Series;
 
-constexpr const char* from_command_line = "-p";  // what a log calls the text of that option, which facts tell
-constexpr std::size_t most_lines = 12;           // of a file's difference
-constexpr std::size_t most_happenings = 500;     // of a run
+constexpr std::size_t most_lines = 12;        // of a file's difference
+constexpr std::size_t most_happenings = 500;  // of a run
 
 ordered_json value_or_null(const std::map<std::string, std::string>& facts, const std::string& name) {
   const auto fact = facts.find(name);
@@ -58,7 +58,7 @@ ordered_json files_that_differ(const runtime::LogContext& first, const runtime::
   return files;
 }
 
-ordered_json json_of(const ColumnDifference& d) {
+ordered_json as_json(const ColumnDifference& d) {
   ordered_json json = {{"name", d.name},   {"unit", d.unit},     {"input", d.is_input}, {"time", d.time},
                        {"first", d.first}, {"second", d.second}, {"records", d.records}};
   json["largest"] = d.largest ? ordered_json(*d.largest) : ordered_json(nullptr);
@@ -93,7 +93,7 @@ std::vector<Happening> events_of(const Series& series) {
   return all;
 }
 
-ordered_json json_of(const std::vector<Happening>& all) {
+ordered_json as_json(const std::vector<Happening>& all) {
   ordered_json json = ordered_json::array();
   for (const Happening& one : all) {
     if (json.size() >= most_happenings) break;
@@ -102,11 +102,11 @@ ordered_json json_of(const std::vector<Happening>& all) {
   return json;
 }
 
-ordered_json json_of(const std::vector<Happening>& first, const std::vector<Happening>& second,
+ordered_json as_json(const std::vector<Happening>& first, const std::vector<Happening>& second,
                      double tolerance) {
   const auto differs = runtime::first_difference(first, second, tolerance);
-  return {{"first", json_of(first)},
-          {"second", json_of(second)},
+  return {{"first", as_json(first)},
+          {"second", as_json(second)},
           {"counts", {first.size(), second.size()}},
           {"differs", differs ? ordered_json(*differs) : ordered_json(nullptr)}};
 }
@@ -121,7 +121,7 @@ ordered_json comparison_of(const std::filesystem::path& first_log, const Series&
                            const std::filesystem::path& second_log, const Series& second) {
   const LogDifference difference = runtime::difference(first_log, second_log);
   ordered_json columns = ordered_json::array();
-  for (const ColumnDifference& one : difference.columns) columns.push_back(json_of(one));
+  for (const ColumnDifference& one : difference.columns) columns.push_back(as_json(one));
   const double first_period = runtime::period_of(first.log.context),
                second_period = runtime::period_of(second.log.context);
   const bool with_reasons = has_report(first) && has_report(second);
@@ -136,8 +136,8 @@ ordered_json comparison_of(const std::filesystem::path& first_log, const Series&
           {"only_first", difference.only_first},
           {"only_second", difference.only_second},
           {"transitions",
-           json_of(transitions_of(first, with_reasons), transitions_of(second, with_reasons), tolerance)},
-          {"events", json_of(events_of(first), events_of(second), tolerance)}};
+           as_json(transitions_of(first, with_reasons), transitions_of(second, with_reasons), tolerance)},
+          {"events", as_json(events_of(first), events_of(second), tolerance)}};
 }
 
 }  // namespace zwang::cli

@@ -14,8 +14,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t narrowest = 20;            // of the column of names
-constexpr const char* from_command_line = "-p";  // what a log calls the text of that option
+constexpr std::size_t narrowest = 20;  // of the column of names
 
 struct TaskBegin {
   double time = 0.0;  ///< [s]

@@ -9,21 +9,20 @@ namespace zwang::cli {
 
 namespace {
 
-using nlohmann::json;
 using nlohmann::ordered_json;
 
 constexpr double strongest_push = 500.0;   // [N]
 constexpr double farthest_push = 5.0;      // [m] from the base's origin
 constexpr double farthest_object = 100.0;  // [m] from the world's origin
 
-double number_at(const json& request, const char* key) {
+double number_at(const nlohmann::json& request, const char* key) {
   const auto found = request.find(key);
   return found != request.end() && found->is_number() ? found->get<double>()
                                                       : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// NaN where there is none.
-std::array<double, 2> pair_at(const json& request, const char* key) {
+std::array<double, 2> pair_at(const nlohmann::json& request, const char* key) {
   std::array<double, 2> two{std::nan(""), std::nan("")};
   const auto found = request.find(key);
   if (found == request.end() || !found->is_array() || found->size() != 2) return two;
@@ -34,7 +33,7 @@ std::array<double, 2> pair_at(const json& request, const char* key) {
 }
 
 /// The place of the name that a request has; as many as there are: none has it.
-std::size_t named_by(const json& request, const std::vector<std::string>& names) {
+std::size_t named_by(const nlohmann::json& request, const std::vector<std::string>& names) {
   const auto name = request.find("name");
   if (name == request.end() || !name->is_string() || name->get<std::string>().empty()) return names.size();
   return static_cast<std::size_t>(std::ranges::find(names, name->get<std::string>()) - names.begin());
@@ -89,7 +88,7 @@ ordered_json LiveHand::in_force() const {
   return {{"blocked", blocked}, {"faults", faults}};
 }
 
-std::string LiveHand::obey(const json& request) {
+std::string LiveHand::obey(const nlohmann::json& request) {
   const auto what = request.find("do");
   if (what == request.end()) return {};
   if (*what == "push") return press(request);
@@ -99,7 +98,7 @@ std::string LiveHand::obey(const json& request) {
   return {};
 }
 
-std::string LiveHand::press(const json& request) {
+std::string LiveHand::press(const nlohmann::json& request) {
   const auto at = pair_at(request, "at"), force = pair_at(request, "force");
   const bool is_near = std::hypot(at[0], at[1]) <= farthest_push;
   if (!is_near || !(std::hypot(force[0], force[1]) <= strongest_push))
@@ -108,7 +107,7 @@ std::string LiveHand::press(const json& request) {
   return {};
 }
 
-std::string LiveHand::block(const json& request) {
+std::string LiveHand::block(const nlohmann::json& request) {
   const std::size_t signal = named_by(request, signals_);
   const auto value = request.find("value");
   if (signal == signals_.size() || value == request.end() || !value->is_boolean())
@@ -117,7 +116,7 @@ std::string LiveHand::block(const json& request) {
   return {};
 }
 
-std::string LiveHand::put_fault(const json& request) {
+std::string LiveHand::put_fault(const nlohmann::json& request) {
   const auto name = request.find("name"), value = request.find("value");
   const auto is_it = [&](const runtime::FaultSwitch& one) { return *name == one.name; };
   const auto found = name == request.end() ? switches_.end() : std::ranges::find_if(switches_, is_it);
@@ -136,7 +135,7 @@ std::string LiveHand::put_fault(const json& request) {
   return {};
 }
 
-std::string LiveHand::move_object(const json& request) {
+std::string LiveHand::move_object(const nlohmann::json& request) {
   const std::size_t object = named_by(request, objects_);
   if (object == objects_.size()) return "the scene has no object of this name that can be moved";
   const auto to = pair_at(request, "to");

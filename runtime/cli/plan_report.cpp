@@ -146,15 +146,15 @@ ordered_json finite(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-ordered_json json_of(const Spread& spread) {
+ordered_json as_json(const Spread& spread) {
   return spread.exists() ? ordered_json({spread.least, spread.most}) : ordered_json(nullptr);
 }
 
-ordered_json json_of(const solver::ForceVector& a) {
+ordered_json as_json(const solver::ForceVector& a) {
   return {a.angular.x(), a.angular.y(), a.angular.z(), a.linear.x(), a.linear.y(), a.linear.z()};
 }
 
-ordered_json json_of(const TaskPlan& plan, const lang::Diagnostics& diagnostics) {
+ordered_json as_json(const TaskPlan& plan, const lang::Diagnostics& diagnostics) {
   ordered_json rows = ordered_json::array();
   for (const PlannedRow& p : plan.rows) {
     const bool is_force = p.row.kind == solver::RowKind::force;
@@ -162,7 +162,7 @@ ordered_json json_of(const TaskPlan& plan, const lang::Diagnostics& diagnostics)
                     {"kind", word(p.row.kind)},
                     {"quantity", word(p.row.quantity)},
                     {"level", p.row.level},
-                    {"a", json_of(p.row.a)},
+                    {"a", as_json(p.row.a)},
                     {"body", p.row.body},
                     {"reference_body", p.row.reference_body},
                     {"b", asks_for_acceleration(p.row.kind) ? ordered_json(p.row.b) : ordered_json(nullptr)},
@@ -172,17 +172,17 @@ ordered_json json_of(const TaskPlan& plan, const lang::Diagnostics& diagnostics)
                     {"weight", p.weight ? ordered_json(*p.weight) : ordered_json(nullptr)},
                     {"fraction", p.fraction ? ordered_json(*p.fraction) : ordered_json(nullptr)},
                     {"from", place(diagnostics, p.span)}});
-    if (p.row.reference_body >= 0) rows.back()["a_reference"] = json_of(p.row.a_reference);
+    if (p.row.reference_body >= 0) rows.back()["a_reference"] = as_json(p.row.a_reference);
   }
   ordered_json axes = ordered_json::array();
   for (const PlannedAxis& axis : plan.axes) {
     axes.push_back({{"axis", axis.name},
                     {"reachable", axis.analysis.reachable},
                     {"effective_mass", finite(axis.analysis.effective_mass)},
-                    {"effective_mass_range", json_of(axis.mass)},
+                    {"effective_mass_range", as_json(axis.mass)},
                     {"sometimes_held", axis.is_sometimes_held},
                     {"largest_force", finite(axis.analysis.largest_force)},
-                    {"largest_force_range", json_of(axis.force)}});
+                    {"largest_force_range", as_json(axis.force)}});
   }
   ordered_json dormant = ordered_json::array();
   for (const runtime::DormantRow& row : plan.dormant) {
@@ -227,7 +227,7 @@ std::string human(const TaskPlan& plan, int mobility, const Configurations& conf
 std::string json(const std::vector<TaskPlan>& plans, int mobility, const Configurations& configurations,
                  const lang::Diagnostics& diagnostics) {
   ordered_json tasks = ordered_json::array();
-  for (const TaskPlan& plan : plans) tasks.push_back(json_of(plan, diagnostics));
+  for (const TaskPlan& plan : plans) tasks.push_back(as_json(plan, diagnostics));
   const ordered_json whole = {{"ok", true},
                               {"mobility", mobility},
                               {"configurations", configurations.count},

@@ -139,7 +139,7 @@ std::string verdicts(const Analysis& a) {
   return text;
 }
 
-ordered_json json(const Analysis& a) {
+ordered_json analysis_json(const Analysis& a) {
   ordered_json axes = ordered_json::object();
   const auto spread = [](const Spread& s) {
     return s.exists() ? ordered_json({s.least, s.most}) : ordered_json(nullptr);
@@ -244,8 +244,8 @@ void show(const lang::Robot& robot, Format format) {
     ordered_json wheels = ordered_json::array();
     for (const solver::Wheel& wheel : robot.model.wheels()) wheels.push_back(wheel_json(robot, wheel));
     const ordered_json whole = {
-        {"robot", robot.name},   {"drive", drive_of(robot.model)}, {"mass", robot.model.total_mass()},
-        {"wheels", wheels},      {"analysis", json(analysis)},     {"statics", statics_json(robot)},
+        {"robot", robot.name},   {"drive", drive_of(robot.model)},      {"mass", robot.model.total_mass()},
+        {"wheels", wheels},      {"analysis", analysis_json(analysis)}, {"statics", statics_json(robot)},
         {"missing", gaps(robot)}};
     print_data(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
     return;
@@ -280,7 +280,7 @@ void show(const lang::RobotDraft& draft, Format format) {
     for (const lang::DraftWheel& caster : draft.casters) casters.push_back(caster.joint);
     ordered_json assumed = ordered_json::array();
     for (const lang::AssumedRobot& a : draft.assumed) {
-      assumed.push_back({{"as", a.as}, {"analysis", json(analyse(a.robot))}});
+      assumed.push_back({{"as", a.as}, {"analysis", analysis_json(analyse(a.robot))}});
     }
     const ordered_json whole = {
         {"robot", draft.name},        {"base", draft.base},       {"drive", draft.drive},

@@ -15,6 +15,9 @@ namespace zwang::cli {
 
 using Recorders = std::vector<std::unique_ptr<runtime::Recorder>>;
 
+/// What a log calls the text of the option `-p`, which facts tell.
+constexpr const char* from_command_line = "-p";
+
 /// A folder of its own for the run: the given one, else the first free `runs/<task>-NNN`.
 std::filesystem::path make_log_folder(const RunArguments& arguments);
 

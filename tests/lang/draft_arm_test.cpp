@@ -19,11 +19,10 @@ using test::JointShape;
 using test::LinkShape;
 using test::UrdfText;
 
-constexpr double pi = std::numbers::pi;
-
 void add_driven_wheel(UrdfText& urdf, const std::string& name, const std::string& parent,
                       const std::array<double, 3>& at) {
-  urdf.add(LinkShape{name, 1.0, {}, {2e-3, 3e-3, 2e-3}, urdf.cylinder(0.08, 0.04, {pi / 2.0, 0.0, 0.0})});
+  urdf.add(LinkShape{
+      name, 1.0, {}, {2e-3, 3e-3, 2e-3}, urdf.cylinder(0.08, 0.04, {std::numbers::pi / 2.0, 0.0, 0.0})});
   urdf.add(JointShape{
       name + "_joint", "continuous", parent, name, at, {}, {0, 1, 0}, "effort='8' velocity='9'", ""});
 }
@@ -108,8 +107,15 @@ TEST(DraftOfABase, on_turned_rockers_is_told_of_no_grip_that_rounding_leaves) {
   for (const auto& [side, y] : {std::pair("left", 0.2), {"right", -0.2}}) {
     const std::string rocker = std::string(side) + "_rocker";
     urdf.add(LinkShape{rocker, 1.0, {}, {1e-2, 1e-2, 1e-2}, ""});
-    urdf.add(JointShape{
-        rocker + "_joint", "fixed", "base_link", rocker, {0.0, y, 0.0}, {pi, 0.0, pi}, {}, "", ""});
+    urdf.add(JointShape{rocker + "_joint",
+                        "fixed",
+                        "base_link",
+                        rocker,
+                        {0.0, y, 0.0},
+                        {std::numbers::pi, 0.0, std::numbers::pi},
+                        {},
+                        "",
+                        ""});
     add_driven_wheel(urdf, std::string("front_") + side + "_wheel", rocker, {-0.15, 0.0, 0.0});
     add_driven_wheel(urdf, std::string("rear_") + side + "_wheel", rocker, {0.15, 0.0, 0.0});
   }

@@ -11,7 +11,6 @@ namespace zwang::lang {
 namespace {
 
 using solver::Axis;
-using solver::Quantity;
 using test::count;
 using test::rendered;
 using test::source_dir;
@@ -48,15 +47,15 @@ TEST(WallAlign, becomes_the_program_that_it_describes) {
   ASSERT_EQ(contact.axes.size(), 3u);
   const AxisStatements& x = contact.axes[0];
   EXPECT_EQ(x.name, "contact.x");
-  EXPECT_EQ(x.driver, Quantity::force);
+  EXPECT_EQ(x.driver, solver::Quantity::force);
   EXPECT_EQ(x.target.parameter, 0);
   ASSERT_TRUE(x.velocity);
   EXPECT_DOUBLE_EQ(x.velocity->low.constant, -0.05);
   EXPECT_DOUBLE_EQ(x.velocity->high.constant, 0.08);
   EXPECT_FALSE(x.force);
   EXPECT_EQ(x.level, 1);
-  EXPECT_EQ(x.statement_spans[static_cast<std::size_t>(Quantity::force)].begin.line, 24);
-  EXPECT_EQ(contact.axes[1].driver, Quantity::velocity);
+  EXPECT_EQ(x.statement_spans[static_cast<std::size_t>(solver::Quantity::force)].begin.line, 24);
+  EXPECT_EQ(contact.axes[1].driver, solver::Quantity::velocity);
   EXPECT_EQ(contact.axes[2].axis, Axis::rz);
   EXPECT_FALSE(contact.axes[2].driver);
 

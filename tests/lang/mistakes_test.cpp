@@ -244,7 +244,7 @@ std::string text_of(const std::string& file) {
       std::filesystem::exists(shipped) ? shipped : test::source_dir / "../shared/cases" / (file + ".yaml"));
 }
 
-Diagnostics said_about(const std::string& text) {
+Diagnostics told_of(const std::string& text) {
   const test::Folder folder;
   for (const char* file :
        {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "robots/mecanum_arm_base.yaml",
@@ -274,11 +274,11 @@ TEST_P(MistakeOf, is_found_in_its_place_and_told_once) {
   const Mistake& mistake = GetParam();
   const std::string good = text_of(mistake.file);
   if (good.empty()) GTEST_SKIP() << "the draft " << mistake.file << " is not here";
-  ASSERT_TRUE(said_about(good).all().empty()) << test::rendered(said_about(good));
+  ASSERT_TRUE(told_of(good).all().empty()) << test::rendered(told_of(good));
   const std::size_t at = good.find(mistake.from);
   ASSERT_NE(at, std::string::npos) << mistake.from;
   const std::string bad = test::replaced(good, mistake.from, mistake.to);
-  const Diagnostics diagnostics = said_about(bad);
+  const Diagnostics diagnostics = told_of(bad);
   ASSERT_EQ(diagnostics.all().size(), 1u) << test::rendered(diagnostics);
   const Diagnostic& said = diagnostics.all()[0];
   EXPECT_EQ(said.code, mistake.code) << test::rendered(diagnostics);

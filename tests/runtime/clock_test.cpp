@@ -42,9 +42,9 @@ const Clock clocks[] = {
 };
 
 #ifdef ZWANG_SANITIZED  // on the others it is the same code with other numbers
-const char* const robots[] = {"mecanum"};
+const char* const clocked_robots[] = {"mecanum"};
 #else
-const char* const robots[] = {"mecanum", "omni", "diff", "kelo"};
+const char* const clocked_robots[] = {"mecanum", "omni", "diff", "kelo"};
 #endif
 
 struct Loop {
@@ -73,7 +73,7 @@ double as_it_is(double time) {
 /// The brake takes v / (F / m), 0.3 to 0.7 s from 0.5 m/s; 1000 periods are for both, finding and braking.
 /// (Two active casters still roll at 2.5 cm/s then, of whatever the stop is: docs/limits.md.)
 TEST(Clock, ThatIsWrongStopsTheBaseWhichStandsWithinAThousandCalls) {
-  for (const char* robot : robots) {
+  for (const char* robot : clocked_robots) {
     for (const Clock& clock : clocks) {
       Loop loop(shipped_program("laws/straight_on.yaml", robot));
       while (loop.plant.truth().time < begin - 0.5 * period) loop.step(as_it_is);

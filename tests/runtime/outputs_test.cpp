@@ -17,7 +17,7 @@ lang::Program with_outputs(std::vector<lang::Task> tasks) {
   return p;
 }
 
-std::vector<AxisStatements> standing() {
+std::vector<AxisStatements> stands() {
   return {drive("go.x", Axis::x, Quantity::velocity, 0.0), drive("go.y", Axis::y, Quantity::velocity, 0.0),
           drive("go.rz", Axis::rz, Quantity::velocity, 0.0)};
 }
@@ -31,7 +31,7 @@ std::vector<double> outputs_of(const Scheduler& scheduler) {
 }
 
 TEST(Outputs, AreSetByTasksAndKept) {
-  lang::Task a = task("a", standing()), b = task("b", standing()), c = task("c", standing());
+  lang::Task a = task("a", stands()), b = task("b", stands()), c = task("c", stands());
   a.set_on_entry = {to(0, 1.0)};
   a.exits = {exit(after(0.010), to_task(1))};
   a.exits[0].set = {to(1, 0.5)};
@@ -49,7 +49,7 @@ TEST(Outputs, AreSetByTasksAndKept) {
 }
 
 TEST(Outputs, AreWhatTheirStopSaysFromTheEndOn) {
-  lang::Task a = task("a", standing());
+  lang::Task a = task("a", stands());
   a.exits = {exit(after(0.010), to_done)};
   a.exits[0].set = {to(0, 1.0), to(1, 0.5)};
   Bench bench(with_outputs({a}));
@@ -59,7 +59,7 @@ TEST(Outputs, AreWhatTheirStopSaysFromTheEndOn) {
 }
 
 TEST(Outputs, AreWhatTheirStopSaysAfterAProtectiveStop) {
-  lang::Task a = task("a", standing());
+  lang::Task a = task("a", stands());
   a.set_on_entry = {to(0, 1.0), to(1, 0.5)};
   Runner runner(with_outputs({a}));
   PlanarBase base;
@@ -80,10 +80,10 @@ TEST(Outputs, AreWhatTheirStopSaysAfterAProtectiveStop) {
 
 // A gripper does not open because a file was saved.
 TEST(Outputs, OfTheSameNameStayOverASwapOfPrograms) {
-  lang::Task a = task("a", standing());
+  lang::Task a = task("a", stands());
   a.set_on_entry = {to(0, 1.0)};
   Runner runner(with_outputs({a}));
-  lang::Program other = program({task("b", standing())});
+  lang::Program other = program({task("b", stands())});
   other.outputs = {{.name = "horn", .start = 0.3}, {.name = "gripper", .start = 0.0}};
   Runner next(other);
   PlanarBase base;

@@ -12,7 +12,7 @@ using namespace testing;
 
 constexpr double front = 0.40;  ///< [m] of the test bases' footprint
 
-lang::SceneObject wall_at(double x) {
+lang::SceneObject wall_with_face_at(double x) {
   lang::SceneObject wall;
   wall.name = "wall";
   wall.shape = lang::ShapeKind::wall;
@@ -87,11 +87,11 @@ struct StaticCase {
 
 std::vector<StaticCase> static_cases() {
   const double face = front + 0.002;
-  return {{"wall, two corners", wall_at(face), mecanum_base(), 2},
-          {"wall, differential base", wall_at(face), differential_base(symmetric_design()), 2},
+  return {{"wall, two corners", wall_with_face_at(face), mecanum_base(), 2},
+          {"wall, differential base", wall_with_face_at(face), differential_base(symmetric_design()), 2},
           {"post, one point", post_at(face), mecanum_base(), 1},
           {"crate, its two edges", crate_at(face), mecanum_base(), 2},
-          {"wall, round base", wall_at(face), round_base(), 1},
+          {"wall, round base", wall_with_face_at(face), round_base(), 1},
           {"post, round base", post_at(face), round_base(), 1},
           {"crate, round base", crate_at(face), round_base(), 1}};
 }
@@ -118,7 +118,7 @@ TEST(PlantContact, StaticPushGivesThePushAndItsSpringsDeflection) {
 // A soft wall takes both corners of a side that presses on it askew, each as deep as it lies in the wall. The
 // way out of its other faces, metres off, is none.
 TEST(PlantContact, ASoftWallTakesASideThatIsAskew) {
-  lang::SceneObject wall = wall_at(front + 0.002);
+  lang::SceneObject wall = wall_with_face_at(front + 0.002);
   wall.stiffness = 1e3;
   wall.damping = 1.0;
   for (const double yaw : {-0.05, -0.03, 0.025, 0.04}) {
@@ -155,7 +155,7 @@ struct Slide {
     torque = reference.torque_of_wrench({press, pull, 0.0});
   }
   static lang::SceneObject rough(double damping) {
-    lang::SceneObject wall = wall_at(front + 0.002);
+    lang::SceneObject wall = wall_with_face_at(front + 0.002);
     wall.stiffness = 5e4;
     wall.damping = damping;
     wall.friction = 0.3;
@@ -209,7 +209,7 @@ TEST(PlantContact, UndampedImpactPeakIsThatOfTheSpring) {
     for (const double push : {5.0, 20.0}) {
       const lang::Robot robot = mecanum_base(symmetric_design());
       const PlanarReference reference(robot.model);
-      lang::SceneObject wall = wall_at(front + 0.05);
+      lang::SceneObject wall = wall_with_face_at(front + 0.05);
       wall.stiffness = stiffness;
       wall.damping = 0.0;
       MujocoPlant plant(robot, scene_of(wall));
@@ -239,7 +239,7 @@ TEST(PlantContact, CornerImpactFeelsTheMassAtTheCorner) {
   const lang::Robot robot = mecanum_base();
   const PlanarReference reference(robot.model);
   const double yaw = 20.0 * std::numbers::pi / 180.0;
-  lang::SceneObject wall = wall_at(0.62);
+  lang::SceneObject wall = wall_with_face_at(0.62);
   wall.stiffness = 1e5;
   wall.damping = 0.0;
   MujocoPlantOptions options;
@@ -272,7 +272,7 @@ TEST(PlantContact, CornerImpactFeelsTheMassAtTheCorner) {
 TEST(PlantContact, FirstTouchIsWhenTheFootprintReachesTheWall) {
   const lang::Robot robot = mecanum_base(symmetric_design());
   const PlanarReference reference(robot.model);
-  MujocoPlant plant(robot, scene_of(wall_at(front + 0.1)));
+  MujocoPlant plant(robot, scene_of(wall_with_face_at(front + 0.1)));
   const Eigen::VectorXd tau = reference.torque_of_wrench({20.0, 0.0, 0.0});
   run(plant, tau, 2.0);
   // From rest under a constant force: t = sqrt(2 s m / F).
@@ -285,7 +285,7 @@ TEST(PlantContact, FirstTouchIsWhenTheFootprintReachesTheWall) {
 TEST(PlantContact, WallFrictionHoldsAndThenSlides) {
   const lang::Robot robot = mecanum_base(symmetric_design());
   const PlanarReference reference(robot.model);
-  lang::SceneObject wall = wall_at(front + 0.001);
+  lang::SceneObject wall = wall_with_face_at(front + 0.001);
   wall.friction = 0.1;
   MujocoPlant plant(robot, scene_of(wall));
   run(plant, reference.torque_of_wrench({20.0, 0.0, 0.0}), 3.0);
@@ -335,7 +335,7 @@ TEST(PlantContact, CrateAgainstAWallIsBlocked) {
   crate.mass = 5.0;
   crate.damping = 1.0;
   lang::Scene scene = scene_of(crate);
-  scene.objects.push_back(wall_at(front + 0.35));
+  scene.objects.push_back(wall_with_face_at(front + 0.35));
   MujocoPlant plant(robot, scene);
   run(plant, reference.torque_of_wrench({80.0, 0.0, 0.0}), 4.0);
   EXPECT_NEAR(plant.truth().objects[0].force, 80.0, 0.4);
@@ -347,7 +347,7 @@ TEST(PlantContact, CrateAgainstAWallIsBlocked) {
 TEST(PlantContact, ObjectsBelowTheBumperAreNotTouched) {
   const lang::Robot robot = mecanum_base();
   const PlanarReference reference(robot.model);
-  lang::SceneObject kerb = wall_at(front + 0.01);
+  lang::SceneObject kerb = wall_with_face_at(front + 0.01);
   kerb.size[2] = 0.1;
   MujocoPlant plant(robot, scene_of(kerb));
   run(plant, reference.torque_of_wrench({20.0, 0.0, 0.0}), 1.0);

@@ -159,8 +159,8 @@ TEST(Runaway, IsNoBounce) {
 }
 
 /// Pressed into a spring of 1 kN/m by 20 N, quasi-statically, for 1 s; from 1.3 s on something else.
-constexpr double stiffness = 1e3;  // [N/m]
-constexpr double depth = 0.02;     // [m]
+constexpr double bumper_stiffness = 1e3;  // [N/m]
+constexpr double depth = 0.02;            // [m]
 double pressing_in(double t) {
   return t < 1.0 ? depth : 0.0;
 }
@@ -169,11 +169,11 @@ TEST(Runaway, IsNoSoftSpringThatGivesBack) {
   // Told to brake with 12 N it goes back as m v' = K (x0 - s) - 12 N says: with up to 0.036 m/s where 0.02
   // are allowed, and the force takes 35 ms for a tenth less.
   OneMass mass(-0.02, 0.02);
-  const double rate = std::sqrt(stiffness / OneMass::mass), swing = depth - 12.0 / stiffness;
+  const double rate = std::sqrt(bumper_stiffness / OneMass::mass), swing = depth - 12.0 / bumper_stiffness;
   const auto speed = [&](double t) {
     return t < 1.3 ? pressing_in(t) : -swing * rate * std::sin(rate * (t - 1.3));
   };
-  const auto told = [](double t) { return t < 1.3 ? stiffness * std::min(t, 1.0) * depth : 12.0; };
+  const auto told = [](double t) { return t < 1.3 ? bumper_stiffness * std::min(t, 1.0) * depth : 12.0; };
   EXPECT_EQ(mass.found(1.3 + 0.5 * M_PI / rate, speed, told), -1.0);
 }
 
@@ -181,7 +181,7 @@ TEST(Runaway, IsFoundBesideASoftSpring) {
   // What drives it on does not slacken: 0.2 m/s^2 back against 12 N.
   OneMass mass(-0.02, 0.02);
   const auto speed = [](double t) { return t < 1.3 ? pressing_in(t) : -0.2 * (t - 1.3); };
-  const auto told = [](double t) { return t < 1.3 ? stiffness * std::min(t, 1.0) * depth : 12.0; };
+  const auto told = [](double t) { return t < 1.3 ? bumper_stiffness * std::min(t, 1.0) * depth : 12.0; };
   const double at = mass.found(3.0, speed, told);
   const double passed = 1.3 + (0.02 + RunawayWatch::driven * RunawayWatch::margin) / 0.2;
   EXPECT_GE(at, passed - period);

@@ -46,7 +46,7 @@ lang::Robot sledge_with_tool() {
   return robot;
 }
 
-lang::SceneObject wall_at(double x, double pitch = 0.0) {
+lang::SceneObject leaning_wall(double x, double pitch = 0.0) {
   lang::SceneObject wall;
   wall.name = "wall";
   wall.size = {2.0, 0.1, 1.0};
@@ -86,7 +86,7 @@ TEST(SceneHands, APadHoldsATorqueAndTheSensorMeasuresIt) {
   constexpr double push = 20.0, torque = 0.2, width = 0.06, stiffness = 1e5;
   const lang::Robot robot = sledge_with_tool();
   lang::Scene scene;
-  scene.objects = {wall_at(ahead + 1e-4)};
+  scene.objects = {leaning_wall(ahead + 1e-4)};
   lang::SceneSignal felt;
   felt.name = "felt";
   felt.kind = lang::SceneSignalKind::wrench;
@@ -144,7 +144,7 @@ TEST(SceneHands, APadTipsOverItsEdge) {
   const lang::Robot robot = sledge_with_tool();
   for (const double share : {0.9, 1.1}) {
     lang::Scene scene;
-    scene.objects = {wall_at(ahead + 1e-4)};
+    scene.objects = {leaning_wall(ahead + 1e-4)};
     MujocoPlant plant(robot, scene);
     run_for(plant, {push, 0.0}, 0.3);
     run_for(plant, {push, share * limit}, 0.4);
@@ -158,7 +158,7 @@ TEST(SceneHands, AWallThatLeansTakesMoreThanThePush) {
   lang::Robot robot = sledge_with_tool();
   robot.pads.clear();
   lang::Scene scene;
-  scene.objects = {wall_at(ahead - height * std::tan(pitch) + 1e-3, pitch)};
+  scene.objects = {leaning_wall(ahead - height * std::tan(pitch) + 1e-3, pitch)};
   MujocoPlant plant(robot, scene);
   run_for(plant, {push, 0.0}, 1.0);
   EXPECT_NEAR(plant.truth().objects[0].force, push / std::cos(pitch), 0.02);
@@ -168,7 +168,7 @@ TEST(SceneHands, AWallThatLeansTakesMoreThanThePush) {
 }
 
 TEST(SceneHands, ABlockThatLeansIsCutAtTheHeight) {
-  lang::SceneObject wall = wall_at(1.0, 0.3);
+  lang::SceneObject wall = leaning_wall(1.0, 0.3);
   const auto outline = lang::outline_of(wall, 0.15);
   ASSERT_EQ(outline.size(), 4U);
   double nearest = 1.0, farthest = -1.0;

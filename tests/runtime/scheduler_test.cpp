@@ -12,10 +12,10 @@ namespace {
 
 using namespace test;
 
-const std::vector<AxisStatements> forward = {drive("go.x", Axis::x, Quantity::velocity, 0.1)};
+const std::vector<AxisStatements> ahead = {drive("go.x", Axis::x, Quantity::velocity, 0.1)};
 
 TEST(Tick, TheStartTaskIsEnteredOnTheFirstTick) {
-  lang::Program p = program({task("a", forward), task("b", forward)});
+  lang::Program p = program({task("a", ahead), task("b", ahead)});
   p.start = 1;
   Bench bench(p);
   bench.tick();
@@ -27,7 +27,7 @@ TEST(Tick, TheStartTaskIsEnteredOnTheFirstTick) {
 }
 
 TEST(Tick, TaskGuardsAreNotEvaluatedOnTheEntryTickAndElapsedIsZeroThere) {
-  lang::Task a = task("a", forward), b = task("b", forward);
+  lang::Task a = task("a", ahead), b = task("b", ahead);
   a.exits = {exit(always_true(), to_task(1))};
   b.exits = {exit(always_true(), to_task(0))};
   Bench bench(program({a, b}));
@@ -42,7 +42,7 @@ TEST(Tick, TaskGuardsAreNotEvaluatedOnTheEntryTickAndElapsedIsZeroThere) {
 
 TEST(Tick, ForCountsConsecutiveTrueTicks) {
   for (const double dwell : {0.0, 0.001, 0.0101, 0.2}) {
-    lang::Task a = task("a", forward);
+    lang::Task a = task("a", ahead);
     a.exits = {exit(always_true(), to_done, dwell)};
     Bench bench(program({a}));
     bench.tick();
@@ -52,7 +52,7 @@ TEST(Tick, ForCountsConsecutiveTrueTicks) {
 }
 
 TEST(Tick, ASwitchRestartsForInTheTaskThatIsEntered) {
-  lang::Task a = task("a", forward), b = task("b", forward);
+  lang::Task a = task("a", ahead), b = task("b", ahead);
   a.exits = {exit(always_true(), to_task(1), 0.005)};
   b.exits = {exit(always_true(), to_done, 0.005)};
   Bench bench(program({a, b}));
@@ -64,7 +64,7 @@ TEST(Tick, ASwitchRestartsForInTheTaskThatIsEntered) {
 TEST(Tick, FalseRestartsForAndSoDoesUnknown) {
   for (const bool to_unknown : {false, true}) {
     // True while x > 0; 0/0 is unknown.
-    lang::Task a = task("a", forward, base_link, world_frame);
+    lang::Task a = task("a", ahead, base_link, world_frame);
     const Nodes x = coordinate(0, 0, CoordinateQuantity::position);
     const Nodes value = to_unknown ? apply(Op::divide, x, x) : x;
     a.exits = {exit(when(apply(Op::greater, value, number(0.0))), to_done, 0.010)};
@@ -81,7 +81,7 @@ TEST(Tick, FalseRestartsForAndSoDoesUnknown) {
 }
 
 TEST(Tick, OrderIsPriorityTimeoutThenExitsTopToBottomAndTheRestIsAlsoTrue) {
-  lang::Task a = task("a", forward), b = task("b", forward);
+  lang::Task a = task("a", ahead), b = task("b", ahead);
   a.exits = {exit(when(apply(Op::less, number(1.0), number(0.0))), to_failed), exit(after(0.003), to_task(1)),
              exit(after(0.002), to_done, 0.002), exit(after(0.003), to_failed)};
   Bench bench(program({a, b}));
@@ -104,7 +104,7 @@ TEST(Tick, OrderIsPriorityTimeoutThenExitsTopToBottomAndTheRestIsAlsoTrue) {
 TEST(Tick, GuardsReadLastTicksSolution) {
   for (const auto what :
        {CoordinateQuantity::force, CoordinateQuantity::residual, CoordinateQuantity::saturated}) {
-    lang::Task a = task("a", forward);
+    lang::Task a = task("a", ahead);
     a.exits = {exit(when(apply(Op::greater, coordinate(0, 0, what), number(0.5))), to_done)};
     Bench bench(program({a}));
     bench.tick();
@@ -153,7 +153,7 @@ TEST(Tick, TheResidualOfARangeIsThatOfTheSideThatIsMissed) {
 }
 
 TEST(Tick, SpeedAndMovedFollowTheFrameAndMovedStartsAtEntry) {
-  lang::Task a = task("a", forward), b = a;
+  lang::Task a = task("a", ahead), b = a;
   a.exits = {exit(after(0.010), to_task(1))};
   // A quarter circle of the bumper about the base, then the same way back: the path, not the distance.
   b.exits = {exit(when(apply(Op::greater, call("moved", bumper), number(0.4 * 3.1))), to_done)};
@@ -173,7 +173,7 @@ TEST(Tick, SpeedAndMovedFollowTheFrameAndMovedStartsAtEntry) {
   }
   EXPECT_EQ(bench.scheduler.outcome(), Outcome::done);
 
-  lang::Task c = task("c", forward);
+  lang::Task c = task("c", ahead);
   c.exits = {exit(when(apply(Op::greater, call("speed", bumper), number(0.499))), to_done)};
   Bench turning(program({c}));
   turning.sensed.state.base_twist.linear = {0.3, 0, 0};
@@ -187,7 +187,7 @@ TEST(Tick, SpeedAndMovedFollowTheFrameAndMovedStartsAtEntry) {
 
 // To and fro by a quarter turn each: half a turn in all.
 TEST(Tick, TurnedIsTheSumOfTheAnglesSinceEntry) {
-  lang::Task a = task("a", forward), b = a;
+  lang::Task a = task("a", ahead), b = a;
   a.exits = {exit(after(0.010), to_task(1))};
   b.exits = {
       exit(when(apply(Op::greater, call("turned", bumper), number(0.9905 * std::numbers::pi))), to_done)};
@@ -211,7 +211,7 @@ TEST(Tick, TurnedIsTheSumOfTheAnglesSinceEntry) {
 
 // a and b take turns, 5 ms each; a task that was never entered is unknown, and decides nothing.
 TEST(Tick, EntriesAndSinceCountTheEntriesOfATask) {
-  lang::Task a = task("a", forward), b = a, never = a;
+  lang::Task a = task("a", ahead), b = a, never = a;
   a.exits = {exit(when(apply(Op::greater, call("entries", 1), number(2.5))), to_done),
              exit(when(apply(Op::greater, call("since", 2), number(-1.0))), to_failed),
              exit(after(0.005), to_task(1))};
@@ -228,8 +228,7 @@ TEST(Tick, EntriesAndSinceCountTheEntriesOfATask) {
 }
 
 TEST(Set, TheExitsSetRunsBeforeTheEntrys) {
-  lang::Program p =
-      program({task("a", forward), task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.0)})});
+  lang::Program p = program({task("a", ahead), task("b", {drive("go.x", Axis::x, Quantity::velocity, 0.0)})});
   p.parameters.resize(1);
   p.parameters[0].name = "v";
   p.parameters[0].value = 1.0;
@@ -248,7 +247,7 @@ TEST(Set, TheExitsSetRunsBeforeTheEntrys) {
 
 TEST(Set, AFrameTakesThePoseOfAnotherAndKeepsItsParent) {
   lang::Program p =
-      program({task("a", forward), task("b", forward, base_link, 3), task("c", forward, base_link, 4)});
+      program({task("a", ahead), task("b", ahead, base_link, 3), task("c", ahead, base_link, 4)});
   lang::FrameDeclaration in_world, on_base;
   in_world.name = "in_world";
   on_base.name = "on_base";
@@ -279,7 +278,7 @@ TEST(Set, AFrameTakesThePoseOfAnotherAndKeepsItsParent) {
 
 TEST(Set, FramesAreRecomputedBeforeHereIsTaken) {
   for (const bool on_entry : {false, true}) {
-    lang::Program p = program({task("a", forward), task("b", forward, base_link, 3)});
+    lang::Program p = program({task("a", ahead), task("b", ahead, base_link, 3)});
     lang::FrameDeclaration touch;
     touch.name = "touch";
     touch.pose.position = {10, 0, 0};
@@ -313,7 +312,7 @@ TEST(Here, InAxesOfTheMovedBodyItMeansTheWorldPoseAtEntry) {
 }
 
 TEST(Stop, DoneBrakesWithTheRobotsStopUntilTheBaseStands) {
-  lang::Task a = task("a", forward);
+  lang::Task a = task("a", ahead);
   a.exits = {exit(after(0.001), to_done)};
   Bench bench(program({a}));
   bench.sensed.state.base_twist.linear = {0.0, 0.05, 0.0};
@@ -344,7 +343,7 @@ TEST(Stop, DoneBrakesWithTheRobotsStopUntilTheBaseStands) {
 }
 
 TEST(Stop, ABaseThatDoesNotComeToRestHasFailed) {
-  lang::Task a = task("a", forward);
+  lang::Task a = task("a", ahead);
   a.exits = {exit(after(0.001), to_done)};
   Bench bench(program({a}));
   bench.sensed.state.base_twist.angular = {0.0, 0.0, 0.1};
@@ -354,7 +353,7 @@ TEST(Stop, ABaseThatDoesNotComeToRestHasFailed) {
 }
 
 TEST(Limits, TheRobotsAreLevelZeroRowsOnTheBaseWhereTheTaskGivesNone) {
-  lang::Program p = program({task("a", forward), task("b", forward)});
+  lang::Program p = program({task("a", ahead), task("b", ahead)});
   p.robot.limits = {{Axis::x, Quantity::velocity, {-1, 1}, {}},
                     {Axis::x, Quantity::acceleration, {-2, 2}, {}},
                     {Axis::rz, Quantity::velocity, {-3, 3}, {}}};
@@ -376,11 +375,11 @@ TEST(Limits, TheRobotsAreLevelZeroRowsOnTheBaseWhereTheTaskGivesNone) {
 TEST(Construction, RefusesProgramsThatCannotRun) {
   lang::Program p = program({});
   EXPECT_THROW(Scheduler(p, period), std::invalid_argument);
-  p = program({task("a", forward)});
+  p = program({task("a", ahead)});
   EXPECT_THROW(Scheduler(p, 0.0), std::invalid_argument);
   p.tasks[0].exits = {exit(after(1.0), to_task(3))};
   EXPECT_THROW(Scheduler(p, period), std::invalid_argument);
-  p = program({task("a", forward, world_frame)});
+  p = program({task("a", ahead, world_frame)});
   EXPECT_THROW(Scheduler(p, period), std::invalid_argument);
 }
 
@@ -390,7 +389,7 @@ TEST(Conditions, AreThreeValued) {
   const Nodes no = apply(Op::less, number(1), number(0));
   const Nodes maybe = apply(Op::less, unknown(), number(1));
   const auto fires = [](const Nodes& nodes) {
-    lang::Task a = task("a", forward);
+    lang::Task a = task("a", ahead);
     a.exits = {exit(when(nodes), to_done)};
     Bench bench(program({a}));
     bench.tick();
@@ -419,7 +418,7 @@ TEST(Conditions, CalculateInTheOrderOfTheTree) {
                   apply(Op::divide, apply(Op::negate, apply(Op::subtract, number(2), number(5))), number(2)),
                   number(4)),
             number(1)));
-  lang::Task a = task("a", forward);
+  lang::Task a = task("a", ahead);
   a.exits = {exit(when(apply(Op::logical_and, apply(Op::greater_equal, value, number(7)),
                              apply(Op::less_equal, value, number(7)))),
                   to_done)};

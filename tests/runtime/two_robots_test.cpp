@@ -22,14 +22,14 @@ tasks:
     timeout: never
 )";
 
-lang::Program program_with(const std::string& scene) {
+lang::Program idle_program_in(const std::string& scene) {
   return zwang::test::program_in_scene(idle_task, scene);
 }
 
 // Equal robots that roll freely, and a contact without damping: they change their speeds. The force of four
 // wheels is 4 tau / R, so the acceleration tells the mass, wheels included, and the impulse must fit it.
 TEST(TwoRobots, WhatOneLosesInAHitTheOtherGains) {
-  const lang::Program program = program_with(R"(robots:
+  const lang::Program program = idle_program_in(R"(robots:
   partner: {task: task.yaml, at: [1.2 m, 0 m], stiffness: 100 kN/m, damping: 0}
 )");
   ScenePlant plant(program);
@@ -56,7 +56,7 @@ TEST(TwoRobots, WhatOneLosesInAHitTheOtherGains) {
 // A hit without damping: v2 = 2 m1 / (m1 + m2) v1. The payload is the partner's alone.
 TEST(TwoRobots, APayloadIsThePartnersOwn) {
   const double payload = 30.0;
-  const lang::Program program = program_with(R"(robots:
+  const lang::Program program = idle_program_in(R"(robots:
   partner: {task: task.yaml, at: [1.2 m, 0 m], stiffness: 100 kN/m, damping: 0}
 faults:
   - {at: 0 s, robot: partner, payload: 30 kg}
@@ -79,13 +79,13 @@ faults:
 TEST(TwoRobots, NobodyStartsInsideAnother) {
   const std::string partner = "robots: {partner: {task: task.yaml, yaw: 90 deg, at: ";
   try {
-    program_with(partner + "[0.6 m, 0 m]}}\n");
+    idle_program_in(partner + "[0.6 m, 0 m]}}\n");
     FAIL() << "0.4 m and 0.28 m reach farther than 0.6 m";
   } catch (const std::runtime_error& refusal) {
     EXPECT_NE(std::string(refusal.what()).find("E913"), std::string::npos) << refusal.what();
     EXPECT_NE(std::string(refusal.what()).find("overlap by"), std::string::npos) << refusal.what();
   }
-  lang::Program program = program_with(partner + "[1 m, 0 m]}}\n");
+  lang::Program program = idle_program_in(partner + "[1 m, 0 m]}}\n");
   program.scene->robots[0].at = {0.6, 0.0};  // as `--start-at` may put them
   try {
     const ScenePlant plant(program);
@@ -96,7 +96,7 @@ TEST(TwoRobots, NobodyStartsInsideAnother) {
 }
 
 TEST(TwoRobots, RealRollersAreTheScenesToAsk) {
-  lang::Program program = program_with("real_rollers: true\n");
+  lang::Program program = idle_program_in("real_rollers: true\n");
   EXPECT_NE(MujocoPlant(program.robot, *program.scene).mjcf().find("roller_3_17"), std::string::npos);
   program.scene->real_rollers = false;
   EXPECT_EQ(MujocoPlant(program.robot, *program.scene).mjcf().find("roller_3_17"), std::string::npos);

@@ -60,9 +60,9 @@ Trial drive(const char* task, const char* robot, const Mistake& mistake, double 
 }
 
 #ifdef ZWANG_SANITIZED  // on the others it is the same code with other numbers
-const char* const robots[] = {"mecanum"};
+const char* const wired_robots[] = {"mecanum"};
 #else
-const char* const robots[] = {"mecanum", "omni", "diff", "kelo_two", "kelo"};
+const char* const wired_robots[] = {"mecanum", "omni", "diff", "kelo_two", "kelo"};
 #endif
 const char* task_of(const std::string& robot) {
   return robot == "diff" ? "wall_align.yaml" : "obstacle.yaml";
@@ -71,7 +71,7 @@ const char* task_of(const std::string& robot) {
 /// Believed to stand it would be sped up for ever. Until it is found it speeds up with what the tasks allow,
 /// 0.5 m/s^2: the rates count from 0.04 rad in a window on, which may be under way then, and three follow.
 TEST(Wiring, RatesThatAreNeverFilledInStopTheBase) {
-  for (const char* robot : robots) {
+  for (const char* robot : wired_robots) {
     const Trial run =
         drive(task_of(robot), robot, {.sensed = [](solver::State& state) { state.qd.setZero(); }});
     EXPECT_EQ(run.reason, EventCode::rate_contradicts) << robot;
@@ -85,7 +85,7 @@ TEST(Wiring, RatesThatAreNeverFilledInStopTheBase) {
 /// All encoders at once, under way: their driver repeats the last positions, and the rates are 0 then. A base
 /// that pushes blindly looks like one that stands at the wall, and got to 0.25 m/s and `done`.
 TEST(Wiring, EncodersThatAllDieUnderWayStopTheBase) {
-  for (const char* robot : robots) {
+  for (const char* robot : wired_robots) {
     int tick = 0;
     Eigen::VectorXd kept;
     const Trial run = drive(task_of(robot), robot, {.sensed = [&](solver::State& state) {
@@ -105,7 +105,7 @@ TEST(Wiring, EncodersThatAllDieUnderWayStopTheBase) {
 
 /// From a standstill, v^2 = 2 a S, a what the task drives with at most.
 TEST(Wiring, EncodersThatAreDeadFromTheStartStopTheBase) {
-  for (const char* robot : robots) {
+  for (const char* robot : wired_robots) {
     const Trial run = drive(task_of(robot), robot, {.sensed = [](solver::State& state) {
                               state.q.setZero();
                               state.qd.setZero();
@@ -178,7 +178,7 @@ TEST(Wiring, MotorsThatAllTurnTheOtherWayStopTheBase) {
     state.q = -state.q;
     state.qd = -state.qd;
   }};
-  for (const char* robot : robots) {
+  for (const char* robot : wired_robots) {
     for (const Mistake& mistake : {torques, encoders}) {
       const Trial run = drive(task_of(robot), robot, mistake);
       EXPECT_EQ(run.reason, EventCode::motors_reversed) << robot;

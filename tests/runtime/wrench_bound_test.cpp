@@ -14,9 +14,9 @@ namespace {
 
 using namespace test;
 
-constexpr double mass = body_mass + 4.0 * wheel_mass;
-constexpr double at_rest = mass * 9.81 + 4.0 * effort / wheel_radius;  // [N] m g + sum tau_max / r
-constexpr double radius = 0.5;                                         // [m] of the footprint
+constexpr double whole_mass = body_mass + 4.0 * wheel_mass;
+constexpr double at_rest = whole_mass * 9.81 + 4.0 * effort / wheel_radius;  // [N] m g + sum tau_max / r
+constexpr double footprint_radius = 0.5;                                     // [m] of the footprint
 constexpr int longest = 20;
 
 /// The base stands softly, and feels a wrench at its bumper.
@@ -44,7 +44,7 @@ TEST(WrenchBound, IsWeightAndMotorsAtRest) {
   BoundBench bench;
   EXPECT_FALSE(bench.look());
   EXPECT_NEAR(bench.bound.force(), at_rest, 1e-9);
-  EXPECT_NEAR(bench.bound.moment(), at_rest * radius, 1e-9);
+  EXPECT_NEAR(bench.bound.moment(), at_rest * footprint_radius, 1e-9);
 }
 
 /// 1.5 v sqrt(K m): a hit presses hardest when the base stands already.
@@ -52,13 +52,13 @@ TEST(WrenchBound, KnowsTheHitOfTheSpeedThatTheBaseHad) {
   BoundBench bench;
   bench.sensed.state.base_twist.linear = {0.3, 0.4, 0.0};
   bench.look();
-  const double hit = 1.5 * 0.5 * std::sqrt(1e6 * mass);
+  const double hit = 1.5 * 0.5 * std::sqrt(1e6 * whole_mass);
   EXPECT_NEAR(bench.bound.force(), at_rest + hit, 1e-6);
   bench.sensed.state.base_twist = {};
   // pi/2 sqrt(m / K) until the largest force, on 2 kN/m.
-  const double compresses = 0.5 * M_PI * std::sqrt(mass / 2e3);
+  const double compresses = 0.5 * M_PI * std::sqrt(whole_mass / 2e3);
   for (double t = 0.0; t < compresses; t += period) bench.look();
-  EXPECT_GT(bench.bound.force(), at_rest + 0.5 * std::sqrt(2e3 * mass)) << "what that hit presses with";
+  EXPECT_GT(bench.bound.force(), at_rest + 0.5 * std::sqrt(2e3 * whole_mass)) << "what that hit presses with";
   for (int i = 0; i < 5000; ++i) bench.look();
   EXPECT_NEAR(bench.bound.force(), at_rest, 1.0) << "forgotten";
 }
@@ -72,7 +72,7 @@ TEST(WrenchBound, RefusesWhatIsBeyondItAndNothingElse) {
     for (const double share : {0.99, 1.01, 1e3}) {
       BoundBench force, moment;
       place(force.sensed).linear = share * at_rest * solver::Vector3(0.6, 0.0, 0.8);
-      place(moment.sensed).angular.z() = -share * at_rest * radius;
+      place(moment.sensed).angular.z() = -share * at_rest * footprint_radius;
       for (BoundBench* bench : {&force, &moment}) {
         const auto told = bench->look();
         EXPECT_EQ(told.has_value(), share > 1.0) << share;

@@ -9,8 +9,6 @@ namespace zwang::lang {
 
 namespace {
 
-using solver::Quantity;
-
 /// What a driver asks for, where it is known before the run.
 std::optional<double> asked(const CheckContext& context, const StatementText& statement) {
   if (statement.is_range) return std::nullopt;
@@ -21,7 +19,7 @@ std::optional<double> asked(const CheckContext& context, const StatementText& st
 }
 
 void compare_with_limit(CheckContext& context, const std::string& group, const AxisText& axis,
-                        Quantity quantity, const GroupText& limiting, const AxisText& limit) {
+                        solver::Quantity quantity, const GroupText& limiting, const AxisText& limit) {
   const std::optional<StatementText>& driver = axis[quantity];
   const std::optional<StatementText>& range = limit[quantity];
   if (!driver || !range || !range->is_range) return;

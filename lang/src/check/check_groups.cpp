@@ -15,10 +15,9 @@ namespace zwang::lang {
 namespace {
 
 using solver::Axis;
-using solver::Quantity;
 
-constexpr std::array quantities{Quantity::position, Quantity::velocity, Quantity::acceleration,
-                                Quantity::force};
+constexpr std::array quantities{solver::Quantity::position, solver::Quantity::velocity,
+                                solver::Quantity::acceleration, solver::Quantity::force};
 
 std::string axis_path(const GroupText& group, const AxisText& axis) {
   return group.kind == GroupKind::feature ? group.name.text : group.name.text + "." + axis.name.text;
@@ -31,7 +30,7 @@ void check_return_speed(CheckContext& context, const ValueText& value, const Dim
 }
 
 bool has_position_range(const AxisText& text) {
-  const std::optional<StatementText>& position = text[Quantity::position];
+  const std::optional<StatementText>& position = text[solver::Quantity::position];
   return position && position->is_range;
 }
 
@@ -39,8 +38,9 @@ bool has_position_range(const AxisText& text) {
 void check_return(CheckContext& context, const AxisText& text, Axis axis, const std::string& path,
                   const std::optional<ValueText>& return_speed) {
   if (!return_speed) return;
-  check_return_speed(context, *return_speed, dimension_of(axis, Quantity::velocity), path + ".return");
-  const std::optional<StatementText>& position = text[Quantity::position];
+  check_return_speed(context, *return_speed, dimension_of(axis, solver::Quantity::velocity),
+                     path + ".return");
+  const std::optional<StatementText>& position = text[solver::Quantity::position];
   const bool is_unread = position && !position->is_range && position->value.kind == ValueKind::bad;
   if (!has_position_range(text) && !is_unread)
     context.diagnostics.add(wording::return_without_range(return_speed->span, path));
@@ -62,7 +62,7 @@ class AxisCheck {
         is_incomplete_(group.is_incomplete) {}
 
   void check() {
-    for (const Quantity quantity : quantities) check_statement(quantity);
+    for (const solver::Quantity quantity : quantities) check_statement(quantity);
     check_single_driver();
     check_place_on_feature();
     check_force_range();
@@ -93,7 +93,8 @@ class AxisCheck {
   /// A norm begins at 0.
   void check_norms() {
     if (!text_.is_norm() || feature_ != nullptr) return;
-    for (const Quantity quantity : {Quantity::velocity, Quantity::acceleration, Quantity::force}) {
+    for (const solver::Quantity quantity :
+         {solver::Quantity::velocity, solver::Quantity::acceleration, solver::Quantity::force}) {
       const std::optional<StatementText>& range = text_[quantity];
       if (!range || !range->is_range || !known_value(context_, range->low, dimension_of(axis_, quantity)))
         continue;
@@ -110,15 +111,15 @@ class AxisCheck {
     if (!text_.yield) return;
     const std::string what = path_ + ".yield";
     if (!text_.yield->is_bad) {
-      auto force =
-          check_expression(context_, *text_.yield, groups_, what, dimension_of(axis_, Quantity::force));
+      auto force = check_expression(context_, *text_.yield, groups_, what,
+                                    dimension_of(axis_, solver::Quantity::force));
       if (force && context_.yields != nullptr) (*context_.yields)[&text_] = std::move(*force);
     }
     if (text_.mass) check_positive(*text_.mass, turns() ? dimension::inertia : dimension::mass, "mass");
     if (text_.damping)
       check_positive(*text_.damping, turns() ? dimension::angular_damping : dimension::damping, "damping");
-    if (text_.dead_band &&
-        check_value(context_, *text_.dead_band, dimension_of(axis_, Quantity::force), path_ + ".dead_band"))
+    if (text_.dead_band && check_value(context_, *text_.dead_band,
+                                       dimension_of(axis_, solver::Quantity::force), path_ + ".dead_band"))
       lang::check_positive(context_, *text_.dead_band, path_ + ".dead_band", true);
     if (text_.time_constant)
       context_.diagnostics.add(wording::yield_with_time_constant(text_.time_constant->span, path_));
@@ -128,8 +129,10 @@ class AxisCheck {
   void check_build_up() {
     if (!text_.build_up) return;
     check_time(context_, *text_.build_up, path_ + ".build_up", false);
-    const auto drives = [&](Quantity quantity) { return text_[quantity] && !text_[quantity]->is_range; };
-    const bool has_error = drives(Quantity::position) || drives(Quantity::velocity);
+    const auto drives = [&](solver::Quantity quantity) {
+      return text_[quantity] && !text_[quantity]->is_range;
+    };
+    const bool has_error = drives(solver::Quantity::position) || drives(solver::Quantity::velocity);
     if (!has_error && !is_incomplete_) {
       context_.diagnostics.add(wording::build_up_without_driver(text_.build_up->span, path_));
     } else if (text_.stiffness && !text_.yield) {
@@ -140,7 +143,7 @@ class AxisCheck {
   /// `stiffness` and `damping` make a spring of a position driver, in the place of the time constant.
   void check_compliance() {
     if (text_.yield || (!text_.stiffness && !text_.damping)) return;
-    const std::optional<StatementText>& position = text_[Quantity::position];
+    const std::optional<StatementText>& position = text_[solver::Quantity::position];
     const int errors_before = context_.diagnostics.error_count();
     if (text_.stiffness) {
       check_positive(*text_.stiffness, turns() ? dimension::angular_stiffness : dimension::stiffness,
@@ -160,7 +163,7 @@ class AxisCheck {
     }
   }
 
-  void check_statement(Quantity quantity) {
+  void check_statement(solver::Quantity quantity) {
     const std::optional<StatementText>& statement = text_[quantity];
     if (!statement) return;
     const std::string what = path_ + "." + word_of(quantity);
@@ -178,14 +181,14 @@ class AxisCheck {
       }
       return;
     }
-    const bool is_here = statement->value.kind == ValueKind::here && quantity == Quantity::position;
+    const bool is_here = statement->value.kind == ValueKind::here && quantity == solver::Quantity::position;
     if (is_here) return;
     check_driver_value(context_, statement->value, expected, what);
   }
 
   /// A distance is never negative, an angle between two axes never more than half a turn.
   void check_place_on_feature() {
-    const std::optional<StatementText>& position = text_[Quantity::position];
+    const std::optional<StatementText>& position = text_[solver::Quantity::position];
     if (feature_ == nullptr || !position || feature_->kind == FeatureKind::direction ||
         feature_->kind == FeatureKind::bearing)
       return;
@@ -212,7 +215,7 @@ class AxisCheck {
     const StatementText* first = nullptr;
     std::string first_word;
     if (text_.yield) {
-      for (const Quantity quantity : quantities) {
+      for (const solver::Quantity quantity : quantities) {
         const std::optional<StatementText>& other = text_[quantity];
         if (!other || other->is_range || other->value.kind == ValueKind::bad) continue;
         context_.diagnostics.add(
@@ -220,7 +223,7 @@ class AxisCheck {
         return;
       }
     }
-    for (const Quantity quantity : quantities) {
+    for (const solver::Quantity quantity : quantities) {
       const std::optional<StatementText>& statement = text_[quantity];
       if (!statement || statement->is_range || statement->value.kind == ValueKind::bad) continue;
       if (first == nullptr) {
@@ -236,7 +239,7 @@ class AxisCheck {
 
   /// A force range bounds a motion driver or the whole axis: it must leave room for no force at all.
   void check_force_range() {
-    const std::optional<StatementText>& force = text_[Quantity::force];
+    const std::optional<StatementText>& force = text_[solver::Quantity::force];
     if (!force || !force->is_range) return;
     const auto is_known = [&](const ValueText& v) {
       return v.kind == ValueKind::quantity ||
@@ -278,7 +281,7 @@ void check_positions(CheckContext& context, const GroupText& group, const std::o
   const FrameSymbol& in = context.symbols.frames[static_cast<std::size_t>(*in_index)];
   if (in.body < 0 || move.body != in.body) return;
   for (const AxisText& axis : group.axes) {
-    const std::optional<StatementText>& position = axis[Quantity::position];
+    const std::optional<StatementText>& position = axis[solver::Quantity::position];
     if (!position || (!position->is_range && position->value.kind == ValueKind::here)) continue;
     const bool is_unknown = !position->is_range && position->value.kind == ValueKind::name &&
                             !context.symbols.find_signal(position->value.name);
@@ -327,7 +330,7 @@ void check_group_return(CheckContext& context, const GroupText& group) {
     if (!has_position_range(axis) || axis.return_speed) continue;
     is_used = true;
     check_return_speed(context, *group.return_speed,
-                       dimension_of(axis_named(axis.name.text).value_or(Axis::x), Quantity::velocity),
+                       dimension_of(axis_named(axis.name.text).value_or(Axis::x), solver::Quantity::velocity),
                        group.name.text + ".return, that of `" + axis.name.text + "`,");
   }
   if (!is_used && !group.is_incomplete)

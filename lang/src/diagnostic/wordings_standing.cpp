@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "diagnostic/make.hpp"
+#include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_physics.hpp"
 #include "robot/exact_wheels.hpp"
 #include "tree/text.hpp"

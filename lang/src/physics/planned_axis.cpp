@@ -9,8 +9,8 @@ namespace {
 
 using solver::Quantity;
 
-constexpr std::array quantities{Quantity::position, Quantity::velocity, Quantity::acceleration,
-                                Quantity::force};
+constexpr std::array quantities_of_axis{Quantity::position, Quantity::velocity, Quantity::acceleration,
+                                        Quantity::force};
 
 std::optional<int> good_frame(const Symbols& symbols, const Word& name) {
   const std::optional<int> index = symbols.find_frame(name.text);
@@ -36,8 +36,8 @@ std::optional<double> known(const CheckContext& context, const ValueText& value,
   return std::nullopt;
 }
 
-std::optional<double> farthest(const CheckContext& context, const ValueText& value,
-                               const Dimension& expected) {
+std::optional<double> farthest_value(const CheckContext& context, const ValueText& value,
+                                     const Dimension& expected) {
   const ParameterSymbol* symbol = good_parameter(context, value, expected);
   if (symbol == nullptr || !symbol->parameter.range) return known(context, value, expected);
   const solver::Range& range = *symbol->parameter.range;
@@ -46,7 +46,7 @@ std::optional<double> farthest(const CheckContext& context, const ValueText& val
 
 /// False when the axis has a driver that cannot be read: nothing is known of it then.
 bool read_statements(const CheckContext& context, const AxisText& text, PlannedAxis& axis) {
-  for (const Quantity quantity : quantities) {
+  for (const Quantity quantity : quantities_of_axis) {
     const std::optional<StatementText>& statement = text[quantity];
     if (!statement) continue;
     const auto index = static_cast<std::size_t>(quantity);
@@ -61,7 +61,7 @@ bool read_statements(const CheckContext& context, const AxisText& text, PlannedA
     if (axis.driver) return false;
     axis.driver = quantity;
     axis.target = known(context, statement->value, expected);
-    axis.farthest_target = farthest(context, statement->value, expected);
+    axis.farthest_target = farthest_value(context, statement->value, expected);
     const bool is_open = statement->value.kind == ValueKind::here || statement->value.kind == ValueKind::name;
     if (!axis.target && !is_open) return false;
   }

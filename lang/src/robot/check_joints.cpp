@@ -6,6 +6,7 @@
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_standing.hpp"
+#include "robot/placed_urdf.hpp"
 #include "zwang/lang/wheel_level.hpp"
 
 namespace zwang::lang {
@@ -14,8 +15,6 @@ namespace {
 
 /// Of a wheel's axis: the sine of its slope from which it counts as pointing up, 80 deg.
 constexpr double steepest_axis = 0.985;
-/// Of the axis of a joint that carries a wheel: the sine of its slope from which it steers.
-constexpr double upright = 0.9;
 
 /// The link, and the joints above it that move, up to the base.
 void add_movers_above(const Urdf& urdf, const std::string& joint, std::set<std::string>& names) {
@@ -160,7 +159,8 @@ void check_wheels_stand(const RobotFile& file, const Urdf& urdf, const Robot& ro
          b = bodies[static_cast<std::size_t>(b)].parent) {
       const solver::Joint& carrier = robot.model.joint(b - 1);
       const double slope = (pose_in_base(robot.model, b).rotation * carrier.axis).z();
-      const bool steers = carrier.type != solver::JointType::prismatic && std::abs(slope) >= upright;
+      const bool steers =
+          carrier.type != solver::JointType::prismatic && std::abs(slope) >= PlacedUrdf::upright;
       if (steers || !told.insert(b).second) continue;
       const Word& named = text_of(wheel)->joint;
       diagnostics.add(

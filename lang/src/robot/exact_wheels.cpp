@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnostic/wordings_standing.hpp"
+#include "robot/placed_urdf.hpp"
 
 namespace zwang::lang {
 
@@ -17,7 +18,6 @@ using solver::Vector3;
 using solver::Wheel;
 
 constexpr double rounding = 1e-9;  ///< [m] and [rad]: of numbers that are written with ten digits
-constexpr double upright = 0.9;    ///< sine of the slope from which a joint's axis steers
 
 std::size_t at(int index) {
   return static_cast<std::size_t>(index);
@@ -58,7 +58,7 @@ class ExactWheels {
   /// The body hangs on the base by an upright joint and carries a wheel.
   bool steers(int body) const {
     return body > 0 && on_base(body) && model_.joint(body - 1).type != solver::JointType::prismatic &&
-           std::abs(axis_in_base(body).z()) >= upright &&
+           std::abs(axis_in_base(body).z()) >= PlacedUrdf::upright &&
            std::any_of(model_.wheels().begin(), model_.wheels().end(),
                        [&](const Wheel& wheel) { return model_.bodies()[at(wheel.body)].parent == body; });
   }
