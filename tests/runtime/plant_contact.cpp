@@ -3,6 +3,7 @@
 
 #include <cstdio>
 
+#include "../is_long.hpp"
 #include "plant_robots.hpp"
 
 namespace zwang::runtime {
@@ -98,8 +99,9 @@ std::vector<StaticCase> static_cases() {
 
 // Blocked, the object feels the push exactly, and gives way by F / (n K).
 TEST(PlantContact, StaticPushGivesThePushAndItsSpringsDeflection) {
+  std::vector<double> stiffnesses{1e4, 1e5, 1e6};
   for (StaticCase& c : static_cases()) {
-    for (const double stiffness : {1e4, 1e5, 1e6}) {
+    for (const double stiffness : stiffnesses) {
       c.object.stiffness = stiffness;
       c.object.damping = 1.0;
       MujocoPlant plant(c.robot, scene_of(c.object));
@@ -112,6 +114,7 @@ TEST(PlantContact, StaticPushGivesThePushAndItsSpringsDeflection) {
                   plant.truth().objects[0].force, measured / expected, plant.truth().yaw);
       EXPECT_NEAR(measured, expected, 0.01 * expected) << c.what;
     }
+    if (!zwang::test::is_long()) stiffnesses = {1e5};  // all three of the first contact
   }
 }
 
