@@ -44,7 +44,7 @@ std::string transitions_table(const runtime::Runner& runner, const lang::Diagnos
   const runtime::Scheduler& scheduler = runner.scheduler();
   Table table({true, false, false, false});
   for (const Transition& t : runner.transitions()) {
-    std::string why = scheduler.why(t);
+    std::string why = scheduler.why_with_note(t);
     const std::string where = place(diagnostics, scheduler.where(t));
     if (!where.empty()) why += "  (" + where + ")";
     for (const std::string& words : also_true(scheduler, t)) why += ", also true: " + words;
@@ -129,7 +129,7 @@ ordered_json json_transitions(const runtime::Runner& runner, const lang::Diagnos
   const runtime::Scheduler& scheduler = runner.scheduler();
   ordered_json all = ordered_json::array();
   for (const Transition& t : runner.transitions()) {
-    std::string why = scheduler.why(t);
+    std::string why = scheduler.why_with_note(t);
     const std::string where = place(diagnostics, scheduler.where(t));
     if (!where.empty()) why += " (" + where + ")";
     ordered_json one = {
@@ -223,7 +223,7 @@ std::string live_line(const runtime::Runner& runner, double time) {
 
 std::string transition_line(const runtime::Scheduler& scheduler, const Transition& t) {
   return padded_left(seconds(t.time), 9) + "  " + task_name(scheduler, t.from) + " -> " +
-         task_name(scheduler, t.to) + "  " + scheduler.why(t);
+         task_name(scheduler, t.to) + "  " + scheduler.why_with_note(t);
 }
 
 std::string verdict(const RunReport& report) {

@@ -107,6 +107,28 @@ tasks:
                        "`go.go.x.nu` was at its limit, 25.00 N"});
 }
 
+TEST(Why, TheNoteComesFirst) {
+  const std::string standing = R"(
+start: wait
+tasks:
+  wait:
+    constraints: {stand: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
+)";
+  const Ended left =
+      run(standing + "    exits: [{when: elapsed > 0.1 s, goto: failed, note: nobody came}]\n", open_floor);
+  EXPECT_EQ(left.sentence().find("nobody came: `wait` was ended by the exit `elapsed > 0.1 s`"), 0u);
+  const Ended late =
+      run(standing + "    timeout: {after: 0.1 s, goto: failed, note: the door is shut}\n", open_floor);
+  EXPECT_EQ(late.sentence().find("the door is shut: `wait` waited 0.1"), 0u) << late.sentence();
+  const Ended tried = run(standing + "    timeout: {after: 0.1 s, goto: again}\n" + R"(  again:
+    timeout: {after: 0.1 s, goto: wait}
+    constraints: {stand: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
+    attempts: {max: 1, goto: failed, note: twice in vain}
+)",
+                          open_floor);
+  EXPECT_EQ(tried.sentence().find("twice in vain: `wait` led to `again`"), 0u) << tried.sentence();
+}
+
 TEST(Why, ADeadScanner) {
   const Ended ended =
       run(R"(

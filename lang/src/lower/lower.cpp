@@ -201,10 +201,12 @@ class Lowering {
       task.exits.push_back(lower_exit(text.exits[i], conditions[i]));
     }
     if (text.attempts) {
-      task.attempts = Attempts{text.attempts->most, target(text.attempts->target), text.attempts->span};
+      task.attempts = Attempts{text.attempts->most, target(text.attempts->target), text.attempts->note,
+                               text.attempts->span};
     }
     if (text.timeout && !text.timeout->is_never) {
-      task.timeout = Timeout{value(text.timeout->after), target(text.timeout->target), text.timeout->span};
+      task.timeout = Timeout{value(text.timeout->after), target(text.timeout->target), text.timeout->note,
+                             text.timeout->span};
     }
     return task;
   }

@@ -132,25 +132,26 @@ Json exit() {
             reference("value", "once true, the comparison stays true until its left side passes this value")},
            {"goto", leads_to("a task, `done`, `failed`, or `back`"), true},
            {"set", reference("set")},
-           {"note", word("for the log")}});
+           {"note", word("why, for reports and the log")}});
 }
 
 std::vector<Property> task_keys() {
-  return {
-      {"about", word("a sentence for reports")},
-      {"enter", object("on entry", {{"require", reference("condition", "false on entry: `failed`")},
-                                    {"blend", reference("value", "how long the switch takes")},
-                                    {"set", reference("set")}})},
-      {"constraints", named("groups by their names", reference("group"))},
-      {"exits", list("evaluated from top to bottom; the first true exit fires", reference("exit"))},
-      {"timeout",
-       any_of({one_of_words("the task may run for ever", {"never"}),
-               object("", {{"after", reference("value"), true},
-                           {"goto", leads_to("a task, `done`, `failed`; `back` in a task that interrupts"),
-                            true}})})},
-      {"attempts", object("how often the task may be entered",
-                          {{"max", Json{{"type", "integer"}, {"minimum", 1}}, true},
-                           {"goto", leads_to("where entry max + 1 leads instead"), true}})}};
+  return {{"about", word("a sentence for reports")},
+          {"enter", object("on entry", {{"require", reference("condition", "false on entry: `failed`")},
+                                        {"blend", reference("value", "how long the switch takes")},
+                                        {"set", reference("set")}})},
+          {"constraints", named("groups by their names", reference("group"))},
+          {"exits", list("evaluated from top to bottom; the first true exit fires", reference("exit"))},
+          {"timeout",
+           any_of({one_of_words("the task may run for ever", {"never"}),
+                   object("", {{"after", reference("value"), true},
+                               {"goto",
+                                leads_to("a task, `done`, `failed`; `back` in a task that interrupts"), true},
+                               {"note", word("why, for reports and the log")}})})},
+          {"attempts", object("how often the task may be entered",
+                              {{"max", Json{{"type", "integer"}, {"minimum", 1}}, true},
+                               {"goto", leads_to("where entry max + 1 leads instead"), true},
+                               {"note", word("why, for reports and the log")}})}};
 }
 
 Json task_use() {

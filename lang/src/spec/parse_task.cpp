@@ -324,6 +324,7 @@ TimeoutText parse_timeout(const Node& node, Diagnostics& diagnostics) {
     timeout.after = parse_value(*after, "timeout.after", diagnostics);
   }
   if (const Node* target = map.required("goto")) timeout.target = parse_word(*target, "`goto`", diagnostics);
+  if (const Node* note = map.optional("note")) timeout.note = parse_text(*note, "`note`", diagnostics);
   map.finish();
   return timeout;
 }
@@ -437,6 +438,7 @@ TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnosti
     if (const Node* target = attempts.required("goto")) {
       text.target = parse_word(*target, "`goto`", diagnostics);
     }
+    if (const Node* note = attempts.optional("note")) text.note = parse_text(*note, "`note`", diagnostics);
     attempts.finish();
     task.attempts = std::move(text);
   }

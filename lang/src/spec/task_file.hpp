@@ -128,12 +128,14 @@ struct TimeoutText {
   bool is_never = false;
   ValueText after;
   Word target;
+  std::string note;
   Span span;
 };
 
 struct AttemptsText {
   int most = 1;
   Word target;
+  std::string note;
   Span span;
 };
 

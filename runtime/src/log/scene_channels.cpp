@@ -7,6 +7,7 @@
 
 #include "log/foxglove.hpp"
 #include "log/pace.hpp"
+#include "zwang/runtime/scheduler.hpp"
 
 namespace zwang::runtime {
 
@@ -62,7 +63,8 @@ class SceneChannels : public LogChannels {
       for (const lang::SceneObject& object : program_.scene->objects) add_mover(object.name);
       for (const lang::SceneRobot& robot : program_.scene->robots) add_mover(robot.name);
     }
-    for (const char* name : {"task", "event", "event.signal"}) words_.push_back(place_of(name));
+    for (const char* name : {"task", "event", "event.signal", "switch", "switch.exit", "switch.refusal"})
+      words_.push_back(place_of(name));
   }
 
   void take(std::span<const double> values, const Put& put) override {
@@ -189,9 +191,25 @@ class SceneChannels : public LogChannels {
   void tell_task(std::span<const double> values, const Put& put) {
     const std::string task = word(values, words_[0]);
     if (task.empty() || task == task_) return;
-    tell(task == "failed" ? Level::error : Level::info, task_.empty() ? task : task_ + " -> " + task, "task",
-         put);
+    const std::string note = note_of_switch(values);
+    tell(task == "failed" ? Level::error : Level::info,
+         (task_.empty() ? task : task_ + " -> " + task) + (note.empty() ? "" : ": " + note), "task", put);
     task_ = task;
+  }
+
+  /// Of the exit or the timeout that ended `task_`. The log does not have the task that refused to be
+  /// entered.
+  std::string note_of_switch(std::span<const double> values) const {
+    const std::string cause = word(values, words_[3]), refusal = word(values, words_[5]);
+    const auto from = std::ranges::find(program_.tasks, task_, &lang::Task::name);
+    if (from == program_.tasks.end() || refusal != to_string(Refusal::none)) return "";
+    if (cause == to_string(Cause::timeout)) return from->timeout ? from->timeout->note : "";
+    const std::vector<lang::Exit>& exits =
+        cause == to_string(Cause::always) ? program_.always.exits : from->exits;
+    const double number = value(values, words_[4]);  // counted from 1
+    return number >= 1.0 && number <= static_cast<double>(exits.size())
+               ? exits[static_cast<std::size_t>(number) - 1].note
+               : "";
   }
 
   void tell_event(std::span<const double> values, const Put& put) const {

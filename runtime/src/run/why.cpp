@@ -73,7 +73,8 @@ class Sentence {
 
   std::string text(const Transition* t) const {
     const std::string of = t != nullptr ? of_transition(*t) : of_the_end();
-    return of + told() + at_limit();
+    const std::string note = t != nullptr ? end_.scheduler.note(*t) : "";
+    return (note.empty() ? "" : note + ": ") + of + told() + at_limit();
   }
 
  private:

@@ -43,7 +43,7 @@ CellStory story_of(const Runner& runner, const PathWatch& watch) {
   for (const Transition& t : runner.transitions()) {
     if (story.transitions.size() >= most_told) break;
     story.transitions.push_back(
-        {t.time, name_of(scheduler, t.from), name_of(scheduler, t.to), scheduler.why(t)});
+        {t.time, name_of(scheduler, t.from), name_of(scheduler, t.to), scheduler.why_with_note(t)});
   }
   for (const Event& e : runner.events()) {
     if (story.events.size() >= most_told) break;

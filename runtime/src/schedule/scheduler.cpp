@@ -362,6 +362,22 @@ std::string Scheduler::why(const Transition& transition) const {
   return words + "was entered " + std::to_string(refused.attempts->most) + " times";
 }
 
+const std::string& Scheduler::note(const Transition& transition) const noexcept {
+  static const std::string none;
+  const TaskList& tasks = parts_->tasks;
+  if (transition.refusal == Refusal::attempts) return tasks[transition.refused].attempts->note;
+  if (transition.refusal != Refusal::none) return none;
+  if (transition.cause == Cause::timeout) return tasks[transition.from].timeout->note;
+  if (transition.cause != Cause::exit && transition.cause != Cause::always) return none;
+  const int owner = transition.cause == Cause::always ? tasks.always() : transition.from;
+  return tasks[owner].exits[static_cast<std::size_t>(transition.exit)].note;
+}
+
+std::string Scheduler::why_with_note(const Transition& transition) const {
+  const std::string& text = note(transition);
+  return why(transition) + (text.empty() ? "" : ": " + text);
+}
+
 const std::string& Scheduler::unknown_frame(const Transition& transition) const noexcept {
   return parts_->declarations[static_cast<std::size_t>(transition.unknown_frame)].name;
 }

@@ -265,6 +265,7 @@ struct Exit {
 struct Timeout {
   Value after;  ///< [s]
   Target target;
+  std::string note;
   Span span;
 };
 
@@ -272,6 +273,7 @@ struct Timeout {
 struct Attempts {
   int most = 1;
   Target target;
+  std::string note;
   Span span;
 };
 

@@ -183,6 +183,10 @@ class Scheduler {
   std::string part_name(const Origin& origin) const;
   /// Why a transition was taken, in the words of the task file. Allocates.
   std::string why(const Transition& transition) const;
+  /// The `note` of the exit, the timeout or the attempts that it came from; empty without one.
+  const std::string& note(const Transition& transition) const noexcept;
+  /// `why`, and the note behind a colon. Allocates.
+  std::string why_with_note(const Transition& transition) const;
   /// Where those words stand. Allocates nothing; the span may not exist.
   lang::Span where(const Transition& transition) const noexcept;
   /// Of a refused `set`: the frame whose pose is not known.
