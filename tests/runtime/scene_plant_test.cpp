@@ -243,6 +243,27 @@ TEST(ScenePlant, AForceIsFeltAsBadlyAsTheSceneSays) {
   EXPECT_NEAR(noisy.share_valid, 0.8, 0.026);
 }
 
+// A switch that closes at 10 N is closed while 20 N press it; one that closes at 30 N stays open.
+TEST(ScenePlant, ASwitchClosesAtTheForceThatTheSceneSays) {
+  for (const char* source : {"force_of: wall", "wrench_at: base_link"}) {
+    for (const double beyond : {10.0, 30.0}) {
+      const lang::Program program = program_with(R"(objects:
+  wall: {wall: {length: 4 m, thickness: 0.1 m, height: 1 m}, at: [0.42 m, 0 m], fixed: true, damping: 1}
+signals: {latch: {)" + std::string(source) +
+                                                 ", beyond: " + std::to_string(beyond) + " N}}\n");
+      ScenePlant plant(program);
+      bool before = true, at_rest = false;
+      follow(plant, program, 4.0, Eigen::VectorXd::Constant(4, 20.0 * 0.0759 / 4.0),
+             [&](const Sensed& sensed, PlantStatus) {
+               if (sensed.time < 0.05) before = sensed.signals[2].boolean;
+               at_rest = sensed.signals[2].boolean;
+             });
+      EXPECT_FALSE(before) << source;
+      EXPECT_EQ(at_rest, beyond < 20.0) << source << " " << beyond;
+    }
+  }
+}
+
 // The first contact is felt as late as the scene says.
 TEST(ScenePlant, AForceIsFeltAfterItsDelay) {
   const lang::Program program = program_with(R"(objects:

@@ -12,10 +12,11 @@ namespace {
 
 /// What a number of the scene's signal measures; nullopt where it gives none.
 std::optional<Dimension> number_of(const SceneSignal& signal) {
+  if (signal.beyond) return std::nullopt;
   if (signal.kind == SceneSignalKind::distance) return dimension::length;
   if (signal.kind == SceneSignalKind::force) return dimension::force;
   const bool is_script = signal.kind == SceneSignalKind::script && signal.script_kind == ScriptKind::number;
-  const bool is_travel = signal.kind == SceneSignalKind::travel && !signal.beyond;
+  const bool is_travel = signal.kind == SceneSignalKind::travel;
   if (!is_script && !is_travel) return std::nullopt;
   return Dimension{signal.powers[0], signal.powers[1], signal.powers[2], signal.powers[3]};
 }
@@ -23,7 +24,7 @@ std::optional<Dimension> number_of(const SceneSignal& signal) {
 std::string measured_by(const SceneSignal& signal) {
   if (const auto number = number_of(signal)) return describe(*number);
   if (signal.kind == SceneSignalKind::pose) return "a pose";
-  if (signal.kind == SceneSignalKind::wrench) return "a wrench";
+  if (signal.kind == SceneSignalKind::wrench && !signal.beyond) return "a wrench";
   return signal.script_kind == ScriptKind::lost && signal.kind == SceneSignalKind::script ? "nothing at all"
                                                                                           : "true or false";
 }
@@ -54,7 +55,7 @@ bool gives(const SceneSignal& signal, const SignalSymbol& declared) {
     case SignalType::pose:
       return signal.kind == SceneSignalKind::pose;
     case SignalType::wrench:
-      return signal.kind == SceneSignalKind::wrench || is_lost;
+      return (signal.kind == SceneSignalKind::wrench && !signal.beyond) || is_lost;
   }
   return false;
 }
@@ -71,6 +72,14 @@ std::string remedy(const SceneSignal& signal, const SignalSymbol& declared) {
   if (is_script && declared.signal.type == SignalType::number)
     return unit.empty() ? "write plain numbers in the script, or give the signal its `unit`"
                         : "write the script in `" + unit + "`, or mend the signal's `unit`";
+  const bool is_force = signal.kind == SceneSignalKind::force || signal.kind == SceneSignalKind::wrench;
+  const bool is_travel = signal.kind == SceneSignalKind::travel && !signal.beyond;
+  if (declared.signal.type == SignalType::boolean && (is_force || is_travel)) {
+    const std::string least = is_force ? "1 N" : signal.powers[3] != 0 ? "1 deg" : "1 mm";
+    return "write `beyond: " + least + "` beside it: true from there on; or declare it as what it is";
+  }
+  if (signal.beyond && declared.signal.type != SignalType::boolean)
+    return "leave `beyond` out, or declare the signal as `type: bool`";
   return "give it another source, or declare it as what it is";
 }
 

@@ -122,12 +122,17 @@ void parse_object_name(const Node& node, SceneSignal& signal, const std::vector<
   }
 }
 
-/// `beyond` of a travel.
+/// `beyond` of a travel, which has a sign, and of the magnitude of a force: a switch.
 void parse_threshold(MapReader& map, SceneSignal& signal, Diagnostics& diagnostics) {
   const Node* beyond = map.optional("beyond");
-  if (beyond == nullptr || signal.object < 0) return;
-  const Dimension measured = signal.powers[3] != 0 ? dimension::angle : dimension::length;
-  signal.beyond = parse_plain(*beyond, measured, map.what() + "'s `beyond`", diagnostics);
+  if (beyond == nullptr) return;
+  const std::string what = map.what() + "'s `beyond`";
+  if (signal.kind != SceneSignalKind::travel) {
+    signal.beyond = parse_positive(*beyond, dimension::force, what, false, diagnostics);
+  } else if (signal.object >= 0) {
+    const Dimension measured = signal.powers[3] != 0 ? dimension::angle : dimension::length;
+    signal.beyond = parse_plain(*beyond, measured, what, diagnostics);
+  }
 }
 
 /// `noise`, `bias`, `angle_noise`, `delay`, `rate`, `dropouts`.
@@ -189,7 +194,9 @@ SceneSignal parse_signal(const Entry& entry, const std::vector<Seen>& seen, bool
   } else if (found == 1) {
     parse_object_name(*given, signal, seen, is_first, diagnostics);
   }
-  if (signal.kind == SceneSignalKind::travel) parse_threshold(map, signal, diagnostics);
+  if (signal.kind == SceneSignalKind::travel || signal.kind == SceneSignalKind::force ||
+      signal.kind == SceneSignalKind::wrench)
+    parse_threshold(map, signal, diagnostics);
   parse_quality(map, signal, longest_delay, diagnostics);
   // An unknown key may have been the source's.
   if (found > 1 || (found == 0 && !map.has_unread_keys()))

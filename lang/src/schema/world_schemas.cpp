@@ -168,7 +168,10 @@ Json scene_signal() {
        {"force_of", word("an object or a robot that the first one touches")},
        {"travel_of", word("an object with a hinge or a slide")},
        {"wrench_at", word("a frame of the robot: a force-torque sensor sits there")},
-       {"beyond", reference("quantity", "of travel_of: true where the travel is as far from 0")},
+       {"beyond",
+        reference(
+            "quantity",
+            "of travel_of, force_of, wrench_at: true where the travel, or the force, is as far from 0")},
        {"noise", reference("quantity", "standard deviation")},
        {"bias", any_of({reference("quantity", "added to a force"),
                         tuple("added to a wrench, along the sensor's axes", reference("quantity"), 3, 3)})},

@@ -29,14 +29,14 @@ bool gives(SceneSignalKind kind, SignalType type) {
     case SceneSignalKind::pose:
       return type == SignalType::pose;
     case SceneSignalKind::distance:
-    case SceneSignalKind::force:
       return type == SignalType::number;
     case SceneSignalKind::latch:
       return type == SignalType::boolean;
+    case SceneSignalKind::force:
     case SceneSignalKind::travel:
       return type == SignalType::boolean || type == SignalType::number;
     case SceneSignalKind::wrench:
-      return type == SignalType::wrench;
+      return type == SignalType::boolean || type == SignalType::wrench;
   }
   return false;
 }
@@ -126,7 +126,7 @@ SceneSignals::SceneSignals(const lang::Program& program, const lang::Scene& scen
       source.in_scene = static_cast<std::size_t>(&signal - signals.data());
       source.type = declared.type;
       if (signal.kind == SceneSignalKind::wrench) source.sensor = frame_of(model_, signal.frame);
-      if (declared.type == SignalType::pose || signal.kind == SceneSignalKind::wrench)
+      if (declared.type == SignalType::pose || declared.type == SignalType::wrench)
         source.in = attached_frame(program, declared.in);
       if (signal.kind == SceneSignalKind::pose) source.hook = hook_of(scene_, signal, model_);
       source.on_way.resize(ring);
@@ -234,6 +234,7 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
       break;
     case SceneSignalKind::force:
       sample.number = force(truth, number) + signal.bias + signal.noise * source.noise.normal();
+      if (signal.beyond) sample.boolean = std::abs(sample.number) >= *signal.beyond;
       break;
     case SceneSignalKind::travel:
       sample.number = truth.objects[static_cast<std::size_t>(number)].travel +
@@ -244,6 +245,7 @@ SignalSample SceneSignals::measured(Source& source, const Truth& truth,
       break;
     case SceneSignalKind::wrench:
       sample.wrench = wrench(source, truth, state);
+      if (signal.beyond) sample.boolean = sample.wrench.linear.norm() >= *signal.beyond;
       break;
     case SceneSignalKind::distance:
       sample.number = std::max(0.0, distance(truth, number, state) + signal.noise * source.noise.normal());
