@@ -8,6 +8,7 @@
 
 #include "file_kind.hpp"
 #include "output.hpp"
+#include "robot_frames.hpp"
 #include "verbs.hpp"
 #include "zwang/lang/configurations.hpp"
 #include "zwang/lang/footing.hpp"
@@ -243,10 +244,14 @@ void show(const lang::Robot& robot, Format format) {
   if (format == Format::json) {
     ordered_json wheels = ordered_json::array();
     for (const solver::Wheel& wheel : robot.model.wheels()) wheels.push_back(wheel_json(robot, wheel));
-    const ordered_json whole = {
-        {"robot", robot.name},   {"drive", drive_of(robot.model)},      {"mass", robot.model.total_mass()},
-        {"wheels", wheels},      {"analysis", analysis_json(analysis)}, {"statics", statics_json(robot)},
-        {"missing", gaps(robot)}};
+    const ordered_json whole = {{"robot", robot.name},
+                                {"drive", drive_of(robot.model)},
+                                {"mass", robot.model.total_mass()},
+                                {"wheels", wheels},
+                                {"analysis", analysis_json(analysis)},
+                                {"statics", statics_json(robot)},
+                                {"frames", frames_json(robot)},
+                                {"missing", gaps(robot)}};
     print_data(whole.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n");
     return;
   }
@@ -262,7 +267,7 @@ void show(const lang::Robot& robot, Format format) {
             "\n";
   }
   text += "\nthe base, in its own axes\n" + axes_text(analysis) + verdicts(analysis) + statics_text(robot) +
-          "\n" + titled_list("missing", gaps(robot));
+          frames_text(robot) + "\n" + titled_list("missing", gaps(robot));
   print(text);
 }
 

@@ -233,6 +233,16 @@ TEST_F(CliPlan, inspect_says_what_tips_the_base_over) {
             std::string::npos);
 }
 
+// The hook of the robot file: 0.40 m behind, turned by 180 deg about the vertical.
+TEST_F(CliPlan, inspect_says_where_frames_point) {
+  const json hook = zwang_json("robot inspect robots/mecanum_base.yaml").at("frames").at("hook");
+  EXPECT_NEAR(hook.at("at")[0].get<double>(), -0.40, 1e-12);
+  EXPECT_NEAR(hook.at("x")[0].get<double>(), -1.0, 1e-12);
+  EXPECT_NEAR(hook.at("y")[1].get<double>(), -1.0, 1e-12);
+  EXPECT_NE(zwang("robot inspect robots/mecanum_base.yaml").out.find(" m, x back, y right, z up\n"),
+            std::string::npos);
+}
+
 TEST_F(CliPlan, inspect_finds_rollers_that_were_read_from_above) {
   std::string file = read(folder_ / "robots/mecanum_base.yaml");
   for (std::size_t at = 0; (at = file.find("roller: ", at)) != std::string::npos; ++at) {
