@@ -317,6 +317,17 @@ Diagnostic hops_along(const Span& span, const std::string& push, const std::stri
       driven, "the base drives here");
 }
 
+Diagnostic leaves_freedoms(const Span& span, const std::string& path, int left, int all) {
+  const std::string freedoms = left == 1 ? " freedom" : " freedoms";
+  return warning("W646", span,
+                 "beside `" + path + "` nothing drives " + std::to_string(left) + " of the base's " +
+                     std::to_string(all) + " freedoms: motion along " + (left == 1 ? "it" : "them") +
+                     " goes on, and nothing stops it",
+                 "hold the other" + freedoms +
+                     " by `still: {move: base, in: base, level: 2, x: {velocity: 0 m/s}, "
+                     "y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}`, or write an axis as `free`");
+}
+
 Diagnostic circle_beyond_norm(const Span& span, const Circle& c, const Span& norm) {
   return with_related(warning("W615", span,
                               figure(c.speed, "m/s") + " at " + figure(c.rate, "rad/s") + " needs " +

@@ -122,6 +122,8 @@ Diagnostic box_for_norm(const Span& span, const Box& box, const Span& other);
 
 /// Of driven wheels that swivel by themselves.
 Diagnostic hops_along(const Span& span, const std::string& push, const std::string& way, const Span& driven);
+/// `left` of `all` freedoms of the base have no row beside the feature's.
+Diagnostic leaves_freedoms(const Span& span, const std::string& path, int left, int all);
 Diagnostic steering_stands(const Span& span, const std::string& axis, const std::string& steering,
                            const std::string& link, const std::string& base);
 

@@ -345,6 +345,17 @@ keeps the base at its heading keeps the axes together, too.)~",
               "move: base_link\nin: world\nx: {yield: estimated.force.x, mass: 60 kg, damping: 80 N s/m}",
           .instead = "move: base_link\nin: base_link\nx: {yield: estimated.force.x, mass: 60 kg, damping: 80 "
                      "N s/m}"},
+      Explanation{
+          .code = "W646",
+          .title = "a freedom that a distance or a bearing leaves to nothing",
+          .why =
+              R"~(A distance to a point is one row, and so is a bearing. A base of three freedoms can circle the point
+with both of them met. No row asks for this motion, and no row stops it. Noise of a camera sets it
+going, and the base goes round a person who stands.)~",
+          .fix = R"~(Hold the other freedoms on a later level. Its rows use only what the features leave:
+`still: {move: base, in: base, level: 2, x: {velocity: 0 m/s}, y: {velocity: 0 m/s},
+rz: {velocity: 0 rad/s}}`. If something else moves the base along an axis, write the axis as
+`free`.)~"},
   };
   return entries;
 }

@@ -17,12 +17,6 @@ using solver::Quantity;
 
 constexpr double rounding = 1.0 + 1e-9;
 
-const Path* path_of(const CheckContext& context, const PlannedAxis& axis) {
-  const std::optional<int> frame = axis.is_on_path ? context.symbols.find_frame(axis.in_name) : std::nullopt;
-  const int path = frame ? context.symbols.frames[static_cast<std::size_t>(*frame)].path : -1;
-  return path < 0 ? nullptr : &context.file.paths[static_cast<std::size_t>(path)];
-}
-
 /// [m/s] that is driven along the path; of a position what its range allows.
 double driven_along(const PlannedTask& plan, const PlannedAxis& axis) {
   if (axis.driver == Quantity::velocity) return std::abs(axis.target.value_or(0.0));
@@ -44,6 +38,12 @@ bool is_taken_above(const PlannedTask& plan, const PlannedAxis& axis, Axis which
 }
 
 }  // namespace
+
+const Path* path_of(const CheckContext& context, const PlannedAxis& axis) {
+  const std::optional<int> frame = axis.is_on_path ? context.symbols.find_frame(axis.in_name) : std::nullopt;
+  const int path = frame ? context.symbols.frames[static_cast<std::size_t>(*frame)].path : -1;
+  return path < 0 ? nullptr : &context.file.paths[static_cast<std::size_t>(path)];
+}
 
 void ask_path(const CheckContext& context, const PlannedTask& plan, Remarks& remarks) {
   for (const PlannedAxis& axis : plan.axes) {

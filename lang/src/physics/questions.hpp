@@ -32,6 +32,9 @@ class Remarks {
   std::map<Place, std::set<std::string>> said_;
 };
 
+/// The path that the axis turns with; nullptr without one.
+const Path* path_of(const CheckContext& context, const PlannedAxis& axis);
+
 /// E404 for an axis alone. Takes it out of the plan: what cannot be driven is not asked about again.
 void ask_reach(PlannedTask& plan, Probe& probe, Remarks& remarks);
 /// E406, W407, and E404 for axes that the wheels tie together.
@@ -68,6 +71,9 @@ void ask_yields(const CheckContext& context, const PlannedTask& plan, const std:
 /// W617: yields along an axis that is not the one along which their force is measured.
 void ask_yield_axes(const CheckContext& context, const PlannedTask& plan, const Probe& probe,
                     Remarks& remarks);
+/// W646: freedoms of the base that a task of features leaves to nothing.
+void ask_left_over(const CheckContext& context, const PlannedTask& plan, const Probe& probe,
+                   Remarks& remarks);
 /// N616: targets on a pose signal that are trailed.
 void ask_trailing(const CheckContext& context, const PlannedTask& plan, Remarks& remarks);
 /// N605: what other rows may add along a limited direction.
@@ -83,7 +89,8 @@ void ask_contradiction(const CheckContext& context, const PlannedTask& plan, Pro
 /// Joints that steer a wheel and that no row of any task turns, by their number.
 std::vector<int> held_steerings(const CheckContext& context, const solver::Model& model);
 /// W643: motion that the wheels hold while nothing steers them.
-void ask_steering(const PlannedTask& plan, const std::vector<int>& held, Probe& probe, Remarks& remarks);
+void ask_steering(const CheckContext& context, const PlannedTask& plan, const std::vector<int>& held,
+                  Probe& probe, Remarks& remarks);
 /// W645: a push across the way of driven casters.
 void ask_hopping(const PlannedTask& plan, const std::optional<Scene>& scene, const Probe& probe,
                  Remarks& remarks);

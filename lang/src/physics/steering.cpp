@@ -32,12 +32,14 @@ bool is_own_rest(const PlannedAxis& axis, int level) {
          axis.level <= level;
 }
 
-/// A position that the axis has at the start already asks for nothing.
-bool asks_for_motion(const PlannedAxis& axis, Probe& probe) {
+/// A position that the axis has at the start already asks for nothing, unless its path turns away from there.
+bool asks_for_motion(const CheckContext& context, const PlannedAxis& axis, Probe& probe) {
   const bool is_asked = axis.driver && axis.text != nullptr && !axis.is_soft && axis.move.body == 0 &&
                         axis.is_placed && !probe.is_out_of_plane(axis);
   if (!is_asked) return false;
   if (axis.is_yield) return true;
+  const Path* path = path_of(context, axis);
+  if (path != nullptr && std::isfinite(path->least_radius())) return !axis.stands_still();
   const StatementText& statement = *(*axis.text)[*axis.driver];
   if (statement.value.kind == ValueKind::here) return false;
   if (!axis.target || (axis.driver == solver::Quantity::position && axis.is_set)) return !axis.is_set;
@@ -65,11 +67,12 @@ std::vector<int> held_steerings(const CheckContext& context, const solver::Model
   return steerings;
 }
 
-void ask_steering(const PlannedTask& plan, const std::vector<int>& held, Probe& probe, Remarks& remarks) {
+void ask_steering(const CheckContext& context, const PlannedTask& plan, const std::vector<int>& held,
+                  Probe& probe, Remarks& remarks) {
   if (held.empty()) return;
   const solver::Body& steered = probe.robot().model.bodies()[static_cast<std::size_t>(held.front()) + 1];
   for (const PlannedAxis& axis : plan.axes) {
-    if (!asks_for_motion(axis, probe)) continue;
+    if (!asks_for_motion(context, axis, probe)) continue;
     std::vector<const PlannedAxis*> rows;
     for (const PlannedAxis& other : plan.axes) {
       if (&other != &axis && is_own_rest(other, axis.level)) rows.push_back(&other);
