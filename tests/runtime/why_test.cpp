@@ -122,6 +122,7 @@ tasks:
   EXPECT_EQ(late.sentence().find("the door is shut: `wait` waited 0.1"), 0u) << late.sentence();
   const Ended tried = run(standing + "    timeout: {after: 0.1 s, goto: again}\n" + R"(  again:
     timeout: {after: 0.1 s, goto: wait}
+    exits: [{when: speed(base_link) > 10 cm/s, goto: done}]
     constraints: {stand: {move: base_link, in: base_link, x: {velocity: 0 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}}
     attempts: {max: 1, goto: failed, note: twice in vain}
 )",
