@@ -210,6 +210,19 @@ ordered_json statics_json(const lang::Robot& robot) {
           {"tips_beyond", tipping_accelerations(*footing)}};
 }
 
+ordered_json frames_json(const lang::Robot& robot) {
+  ordered_json all = ordered_json::object();
+  for (const SeenFrame& frame : frames_at_start(robot)) {
+    const auto three = [](const solver::Vector3& v) { return ordered_json::array({v.x(), v.y(), v.z()}); };
+    const solver::Matrix3& axes = frame.pose.rotation;
+    all[frame.name] = {{"at", three(frame.pose.position)},
+                       {"x", three(axes.col(0))},
+                       {"y", three(axes.col(1))},
+                       {"z", three(axes.col(2))}};
+  }
+  return all;
+}
+
 std::vector<std::string> gaps(const lang::Robot& robot) {
   std::vector<std::string> lines;
   if (robot.limits.empty()) lines.push_back("limits: nothing bounds the base where a task says nothing");

@@ -11,15 +11,8 @@
 
 namespace zwang::cli {
 
-namespace {
-
-struct SeenFrame {
-  std::string name;
-  solver::Pose pose;  ///< in the base, at the start
-};
-
 /// Frames of wheels turn with them, and a link's own frame is one of a joint: only what is fixed beside.
-std::vector<SeenFrame> frames_of(const lang::Robot& robot) {
+std::vector<SeenFrame> frames_at_start(const lang::Robot& robot) {
   const solver::State state = lang::start_state(robot);
   const solver::Pose to_base = state.base_pose.inverse();
   std::vector<SeenFrame> all;
@@ -34,6 +27,8 @@ std::vector<SeenFrame> frames_of(const lang::Robot& robot) {
   }
   return all;
 }
+
+namespace {
 
 std::string figure(double value) {
   char text[32];
@@ -59,26 +54,12 @@ std::string pointing(const solver::Vector3& axis) {
 
 std::string frames_text(const lang::Robot& robot) {
   std::string text;
-  for (const SeenFrame& frame : frames_of(robot)) {
+  for (const SeenFrame& frame : frames_at_start(robot)) {
     text += "  " + frame.name + ": at " + triple(frame.pose.position) + " m, x " +
             pointing(frame.pose.rotation.col(0)) + ", y " + pointing(frame.pose.rotation.col(1)) + ", z " +
             pointing(frame.pose.rotation.col(2)) + "\n";
   }
   return text.empty() ? "" : "\nframes, in the base at the start\n" + text;
-}
-
-nlohmann::ordered_json frames_json(const lang::Robot& robot) {
-  nlohmann::ordered_json all = nlohmann::ordered_json::object();
-  for (const SeenFrame& frame : frames_of(robot)) {
-    const auto triple_of = [](const solver::Vector3& v) {
-      return nlohmann::ordered_json::array({v.x(), v.y(), v.z()});
-    };
-    all[frame.name] = {{"at", triple_of(frame.pose.position)},
-                       {"x", triple_of(frame.pose.rotation.col(0))},
-                       {"y", triple_of(frame.pose.rotation.col(1))},
-                       {"z", triple_of(frame.pose.rotation.col(2))}};
-  }
-  return all;
 }
 
 }  // namespace zwang::cli

@@ -1,15 +1,21 @@
 /// Where the frames of a robot sit and point, as `zwang robot inspect` prints them.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "zwang/lang/robot.hpp"
 
 namespace zwang::cli {
 
-/// A line for each frame that tasks move or measure at, seen from the base at the start; empty without any.
+struct SeenFrame {
+  std::string name;
+  solver::Pose pose;  ///< in the base, at the start
+};
+
+/// Those that tasks move or measure at.
+std::vector<SeenFrame> frames_at_start(const lang::Robot& robot);
+/// A line for each; empty without any.
 std::string frames_text(const lang::Robot& robot);
-nlohmann::ordered_json frames_json(const lang::Robot& robot);
 
 }  // namespace zwang::cli
