@@ -62,15 +62,17 @@ class Pair:
     """Both processes of a task, each with its own file of output."""
 
     def __init__(self, program, folder, task, command, options, number, ros2="reach: loopback", more="", base="",
-                 simulated=()):
-        connection = folder / f"connection_{number}.yaml"
+                 simulated=(), motors_apart=0):
         self.domain = domain = 100 + (os.getpid() + number) % 100  # another one than that of a test beside this one
-        connection.write_text(
-            f"zwang_connection: 1\nros2: {{domain: {domain}, {ros2}}}\n{more}loop: {{priority: 40}}\n"
-            f"state:\n  joints: {{topic: /joint_states, stale_after: 100 ms}}\n{base}" + command)
-        arguments = [task, "--over", connection] + options
         self.files = {side: folder / f"{side}_{number}" for side in ("simulate", "drive")}
         for side in ("simulate", "drive"):
+            connection = folder / f"connection_{number}{'_of_motors' if motors_apart and side == 'simulate' else ''}.yaml"
+            # `motors_apart`: the simulation is in a domain of its own, that many further.
+            in_domain = domain + (motors_apart if side == "simulate" else 0)
+            connection.write_text(
+                f"zwang_connection: 1\nros2: {{domain: {in_domain}, {ros2}}}\n{more}loop: {{priority: 40}}\n"
+                f"state:\n  joints: {{topic: /joint_states, stale_after: 100 ms}}\n{base}" + command)
+            arguments = [task, "--over", connection] + options
             with open(self.files[side], "w", encoding="utf-8") as out:
                 # `--stuck-odometry` is for tests: the program behind `zwang simulate` takes it, `zwang` does not.
                 begin = [program, side] if side == "drive" else [program + "-simulate"]
@@ -155,8 +157,11 @@ def wall_aligns_as_inside_one_process(program, root, folder):
     expect(abs(number(r"yaw (-?[0-9.]+) deg", simulate)) < 0.1, "the wall has not squared it up", simulate)
 
 
-def ends_as_inside_one_process(name, number_of_pair):
-    """A use case by efforts and velocities at 50 Hz, by the clock of the simulation."""
+def ends_as_inside_one_process(name, number_of_pair, by_cyclone=False):
+    """A use case by efforts and velocities at 50 Hz, by the clock of the simulation.
+
+    `by_cyclone`: all that the task hears comes from Cyclone DDS, and all that it says goes there.
+    """
 
     def case(program, root, folder):
         task = root / f"specs/{name}.yaml"
@@ -164,14 +169,28 @@ def ends_as_inside_one_process(name, number_of_pair):
         alone = subprocess.run([program, "run", task, "--quiet", "--format", "json", "--log", folder / "log"] + options,
                                capture_output=True, text=True, check=False)
         report = json.loads(alone.stdout)
-        pair = Pair(program, folder, task, VELOCITY, options, number_of_pair,
-                    more=CLOCK + SIGNALS[name])
+        more = CLOCK + SIGNALS[name]
+        robot = None
+        if by_cyclone:
+            if not (CLIENTS / "cyclone_robot").exists():
+                print("skipped: Cyclone DDS is not installed (cyclonedds-dev, cyclonedds-tools)", flush=True)
+                return
+            pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, "reach: machine", more, motors_apart=32)
+            robot = subprocess.Popen([CLIENTS / "cyclone_robot", str(pair.domain), str(pair.domain + 32)],
+                                     stdout=subprocess.PIPE, text=True)
+        else:
+            pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, more=more)
         try:
             _, drive, simulate = pair.end(within=240)
         except subprocess.TimeoutExpired:  # nobody has commanded it, or it hangs
             pair.drive.kill()
             pair.simulate.kill()
             drive, simulate = pair.text("drive"), pair.text("simulate")
+        if robot:
+            robot.terminate()
+            passed = robot.communicate(timeout=20)[0]
+            expect(number(r"rt/joint_states: (\d+) passed", passed) > 100, "the robot has told nothing", passed, drive)
+            expect(number(r"commands: (\d+) passed", passed) > 100, "the robot was told nothing", passed, drive)
         if "no time on /clock" in drive:
             raise Unreachable(drive)
         expect(report["outcome"] + " after" in drive, f"alone it is {report['outcome']}", drive, simulate)
@@ -182,7 +201,7 @@ def ends_as_inside_one_process(name, number_of_pair):
             peak = number(thing + r": force [0-9.-]+ N, peak ([0-9.]+) N", simulate)
             expect(abs(peak - peak_alone) < 0.1 * peak_alone, f"peak {peak} N, alone {peak_alone} N", drive, simulate)
 
-    case.__name__ = f"{name}_ends_as_inside_one_process"
+    case.__name__ = f"{name}_ends_as_inside_one_process" + ("_by_cyclone" if by_cyclone else "")
     return case
 
 
@@ -408,7 +427,8 @@ def main(program, root, clients):
              a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros, services_start_and_stop_it,
              this_machine_alone_is_enough, a_stuck_odometry_stops, goals_run_tasks, ten_thousand_calls_are_answered,
              a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered, transforms_tell_where_it_is,
-             *(ends_as_inside_one_process(name, 15 + i) for i, name in enumerate(SIGNALS)))
+             *(ends_as_inside_one_process(name, 15 + i) for i, name in enumerate(SIGNALS)),
+             *(ends_as_inside_one_process(name, 20 + i, by_cyclone=True) for i, name in enumerate(SIGNALS)))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return 0 if all(list(pool.map(is_good, cases))) else 1
 
