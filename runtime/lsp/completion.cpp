@@ -1,6 +1,9 @@
 #include "zwang/lang/completion.hpp"
 
+#include <algorithm>
+
 #include "features.hpp"
+#include "shared_name.hpp"
 
 namespace zwang::lsp {
 
@@ -17,6 +20,8 @@ int number_of(lang::ProposalKind kind) {
       return 11;  // Unit
     case lang::ProposalKind::function:
       return 3;  // Function
+    case lang::ProposalKind::file:
+      return 17;  // File
     case lang::ProposalKind::name:
       break;
   }
@@ -34,9 +39,24 @@ std::vector<lang::NamePlace> names_of_tasks_in(const std::filesystem::path& file
   return names;
 }
 
+/// As the asked file would name them. Those below its folder come first.
+std::vector<lang::KnownFile> files_to_name(const Asked& asked) {
+  std::vector<lang::KnownFile> files;
+  const auto add = [&](const std::filesystem::path& path, std::optional<lang::FileKind> kind) {
+    if (path != asked.file)
+      files.push_back({path.lexically_relative(asked.file.parent_path()).generic_string(), kind});
+  };
+  for (const std::filesystem::path& path : files_around(asked.file)) add(path, kind_of(path));
+  for (const std::filesystem::path& path : urdfs_around(asked.file)) add(path, std::nullopt);
+  std::stable_partition(files.begin(), files.end(),
+                        [](const lang::KnownFile& file) { return !file.name.starts_with(".."); });
+  return files;
+}
+
 /// By the last text that could be read. Scenarios and scenes know the names of the tasks that they name.
 lang::KnownNames known_to(const Asked& asked) {
   lang::KnownNames known;
+  known.files = [&asked] { return files_to_name(asked); };
   const Judgement* judgement = asked.workspace.judgement(asked.file);
   if (judgement != nullptr) known.given = judgement->last_names;
   if (asked.kind != lang::FileKind::task) {
@@ -48,24 +68,34 @@ lang::KnownNames known_to(const Asked& asked) {
   return known;
 }
 
+/// UTF-16 units of a text within a line.
+int units_of(std::string_view text) {
+  return Lines(text).end().character;
+}
+
 }  // namespace
 
 Json completion(const Asked& asked) {
   const Lines lines(asked.document.text);
   const std::size_t offset = lines.offset(asked.position);
-  const std::size_t begin = lang::place_at(asked.document.text, offset).word_begin;
-  EditorPosition start = asked.position;
-  start.character -= static_cast<int>(offset - begin);  // a word is of letters of one unit each
-  const Json range = {{"start", json_of(start)}, {"end", json_of(asked.position)}};
+  const lang::TextPlace place = lang::place_at(asked.document.text, offset);
+  const auto range_from = [&](std::size_t begin) -> Json {
+    EditorPosition start = asked.position;
+    start.character -= units_of(std::string_view(asked.document.text).substr(begin, offset - begin));
+    return {{"start", json_of(start)}, {"end", json_of(asked.position)}};
+  };
+  const Json of_word = range_from(place.word_begin), of_value = range_from(place.value_begin);
   Json items = Json::array();
   for (const lang::Proposal& p : lang::proposals(asked.kind, asked.document.text, offset, known_to(asked))) {
     const bool is_key = p.kind == lang::ProposalKind::key;
     char order[16];
     std::snprintf(order, sizeof order, "%04zu", items.size());
-    Json item = {{"label", p.text},
-                 {"kind", number_of(p.kind)},
-                 {"sortText", order},
-                 {"textEdit", {{"range", range}, {"newText", is_key ? p.text + ": " : p.text}}}};
+    Json item = {
+        {"label", p.text},
+        {"kind", number_of(p.kind)},
+        {"sortText", order},
+        {"textEdit",
+         {{"range", p.is_whole ? of_value : of_word}, {"newText", is_key ? p.text + ": " : p.text}}}};
     if (!p.about.empty()) item["detail"] = p.about;
     items.push_back(std::move(item));
   }

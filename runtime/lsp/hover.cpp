@@ -174,18 +174,29 @@ bool is_in_a_quantity(char c) {
          std::string_view(" .+-/^%").find(c) != std::string_view::npos;
 }
 
-/// The number with its unit around the place.
+/// The longest quantity around the place: a number with its unit, in a condition, too.
+std::string quantity_around(const std::string& text, std::size_t at) {
+  std::size_t first = at, last = at;
+  while (first > 0 && is_in_a_quantity(text[first - 1])) --first;
+  while (last < text.size() && is_in_a_quantity(text[last])) ++last;
+  for (std::size_t begin = first; begin <= at && begin < last; ++begin) {
+    const bool is_within_a_word = begin > first && text[begin - 1] != ' ' && text[begin - 1] != '-';
+    if (text[begin] == ' ' || is_within_a_word) continue;
+    for (std::size_t end = last; end > at; --end) {
+      const std::string written = text.substr(begin, end - begin);
+      if (text[end - 1] != ' ' && !lang::kind_of_quantity(written).empty()) return written;
+    }
+  }
+  return {};
+}
+
+/// The number with its unit: in SI, and what is measured.
 std::string about_quantity(const Asked& asked) {
-  const std::string& text = asked.document.text;
-  const std::size_t at = Lines(text).offset(asked.position);
-  std::size_t begin = at, end = at;
-  while (begin > 0 && is_in_a_quantity(text[begin - 1])) --begin;
-  while (end < text.size() && is_in_a_quantity(text[end])) ++end;
-  while (begin < end && text[begin] == ' ') ++begin;
-  while (end > begin && text[end - 1] == ' ') --end;
-  const std::string written = text.substr(begin, end - begin);
+  const std::string written =
+      quantity_around(asked.document.text, Lines(asked.document.text).offset(asked.position));
+  if (written.empty()) return {};
   const std::string si = lang::in_si(written);
-  return si.empty() ? "" : "`" + written + "` = " + si + "\n";
+  return "`" + written + "`" + (si.empty() ? "" : " = " + si) + ": " + lang::kind_of_quantity(written) + "\n";
 }
 
 std::string about_place(const Asked& asked) {

@@ -122,8 +122,12 @@ std::vector<fs::path> homes_of(const fs::path& file) {
   return homes;
 }
 
-std::vector<fs::path> files_around(const fs::path& file) {
-  std::vector<fs::path> files;
+namespace {
+
+/// Below the root folder, in the order of their names. At most `most_files` are looked at.
+template <typename IsWanted>
+std::vector<fs::path> paths_around(const fs::path& file, IsWanted&& is_wanted) {
+  std::vector<fs::path> paths;
   std::error_code error;
   int seen = 0;
   for (auto entry = fs::recursive_directory_iterator(root_above(file),
@@ -133,12 +137,26 @@ std::vector<fs::path> files_around(const fs::path& file) {
     // Hidden folders, and those of builds and packages, hold no files of an author's.
     if (path.filename().string().starts_with(".") || path.filename() == "node_modules")
       entry.disable_recursion_pending();
-    const bool is_yaml = path.extension() == ".yaml" || path.extension() == ".yml";
-    seen += is_yaml ? 1 : 0;
-    if (is_yaml && kind_of(path)) files.push_back(lang::canonical_name(path));
+    const std::string extension = path.extension().string();
+    const bool is_known = extension == ".yaml" || extension == ".yml" || extension == ".urdf";
+    seen += is_known ? 1 : 0;
+    if (is_known && is_wanted(path, extension)) paths.push_back(lang::canonical_name(path));
   }
-  std::sort(files.begin(), files.end());
-  return files;
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+}  // namespace
+
+std::vector<fs::path> files_around(const fs::path& file) {
+  return paths_around(file, [](const fs::path& path, const std::string& extension) {
+    return extension != ".urdf" && kind_of(path);
+  });
+}
+
+std::vector<fs::path> urdfs_around(const fs::path& file) {
+  return paths_around(file,
+                      [](const fs::path&, const std::string& extension) { return extension == ".urdf"; });
 }
 
 std::optional<SharedName> shared_name(const fs::path& file, lang::FileKind kind,

@@ -39,5 +39,6 @@ std::optional<SharedName> shared_name(const std::filesystem::path& file, lang::F
 
 /// zwang's files below the root folder of a file, which read it or may do so.
 std::vector<std::filesystem::path> files_around(const std::filesystem::path& file);
+std::vector<std::filesystem::path> urdfs_around(const std::filesystem::path& file);
 
 }  // namespace zwang::lsp

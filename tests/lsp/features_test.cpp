@@ -114,6 +114,57 @@ TEST_F(Features, CompletionKnowsKeysNamesAndUnits) {
   EXPECT_TRUE(proposed(task, "rz: {velocity: 0 rad/s", "rz: {velocity: 0 r").contains("deg/s"));
 }
 
+TEST_F(Features, CompletionKnowsFilesTypesAndWhatIsSet) {
+  const fs::path task = open("wall_align.yaml");
+  const auto robots = proposed(task, "robot: robots/mecanum_base.yaml", "robot: robots/mec");
+  EXPECT_TRUE(robots.contains("robots/mecanum_base.yaml"));
+  EXPECT_TRUE(robots.contains("robots/feels/mecanum_effort_50_hz.yaml"));
+  EXPECT_FALSE(robots.contains("scenes/wall.yaml"));
+  EXPECT_TRUE(proposed(task, "scene: scenes/wall.yaml", "scene: ").contains("scenes/wall.yaml"));
+  const auto keys = proposed(task, "set: {frames.wall: base}", "set: {fra");
+  EXPECT_EQ(keys, (std::set<std::string>{"frames.wall", "params.push", "params.timeout", "params.still"}));
+  EXPECT_TRUE(proposed(task, "set: {frames.wall: base}", "set: {frames.wall: ").contains("base_link"));
+  const fs::path scenario = open("scenarios/wall_align.yaml");
+  EXPECT_TRUE(proposed(scenario, "task: ../wall_align.yaml", "task: ").contains("../hospital.yaml"));
+  const std::string connection = "zwang_connection: 1\nsignals:\n  bump: {topic: /bump, type: std_msgs/Bo";
+  const fs::path path = scenario.parent_path().parent_path() / "connection.yaml";
+  editor_.open(path, connection);
+  const json answer =
+      editor_.ask("textDocument/completion", {{"textDocument", {{"uri", uri_of(path)}}},
+                                              {"position", Editor::position(connection, connection.size())}});
+  EXPECT_TRUE(labels(answer).contains("std_msgs/Bool"));
+  // The whole type stands in the place of what is written of it.
+  for (const json& item : answer["items"]) {
+    if (item["label"] == "std_msgs/Bool")
+      EXPECT_EQ(Editor::edited(connection, json::array({item["textEdit"]})),
+                "zwang_connection: 1\nsignals:\n  bump: {topic: /bump, type: std_msgs/Bool");
+  }
+}
+
+TEST_F(Features, HoverTellsWhatAQuantityIs) {
+  const fs::path task = open("wall_align.yaml");
+  EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "0.08 m/s", 6), "`0.08 m/s`: a velocity"));
+  EXPECT_TRUE(
+      contains(editor_.at("textDocument/hover", task, "5 mm/s", 3), "`5 mm/s` = 0.005 m/s: a velocity"));
+  EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "rz: free", 1), "`free`: no statement"));
+  EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "push:", 1), "how hard to press"));
+}
+
+TEST_F(Features, AnUnknownNameInACallHasAnEdit) {
+  const fs::path task = open("wall_align.yaml");
+  const std::string text = replaced(slurp(task), "moved(base)", "moved( bse )");
+  editor_.change(task, text);
+  const std::size_t at = text.find("bse");
+  const json place = Editor::position(text, at);
+  const json actions =
+      editor_.ask("textDocument/codeAction", {{"textDocument", {{"uri", uri_of(task)}}},
+                                              {"range", {{"start", place}, {"end", place}}},
+                                              {"context", {{"diagnostics", json::array()}}}});
+  ASSERT_EQ(actions.size(), 1U) << actions.dump(1);
+  const std::string fixed = Editor::edited(text, actions[0]["edit"]["changes"][uri_of(task)]);
+  EXPECT_EQ(fixed, replaced(text, "bse", "base"));
+}
+
 TEST_F(Features, ACompletionIsNoMistake) {
   // Each proposal for a `goto` leaves the file without an error, but for `back`.
   const fs::path task = open("hospital.yaml");

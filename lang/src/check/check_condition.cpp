@@ -143,7 +143,7 @@ class ConditionCheck {
       return boolean_type;
     }
     if (function.argument == FunctionArgument::path) return check_call_of_path(node, lowered);
-    const std::optional<int> frame = check_frame(context_, {node.argument, node.span});
+    const std::optional<int> frame = check_frame(context_, {node.argument, node.argument_span});
     if (!frame) return bad_type;
     if (context_.symbols.stands_in_world(*frame)) {
       const std::string base = context_.robot ? context_.robot->base_frame : "base_link";
@@ -153,13 +153,9 @@ class ConditionCheck {
     return type_of_function(function);
   }
 
-  /// The call with the name that was meant may stand in its place.
   Type complain_of_argument(const ExpressionText& node, const char* kind,
                             const std::vector<std::string>& known) {
-    Diagnostic diagnostic = wording::unknown_name(node.span, kind, node.argument, known);
-    const std::string meant = nearest(node.argument, known);
-    if (!meant.empty()) diagnostic.replacement = node.word + "(" + meant + ")";
-    return complain(std::move(diagnostic));
+    return complain(wording::unknown_name(node.argument_span, kind, node.argument, known));
   }
 
   /// Nothing changes its length: a constant.

@@ -35,6 +35,7 @@ class Proposer {
     if (place_.is_key) {
       for (const SchemaKey& key : schema.keys) add(key.name, ProposalKind::key, key.about);
       add_arguments();
+      add_what_is_set();
       return std::move(all_);
     }
     if (is_behind_number()) {
@@ -46,7 +47,8 @@ class Proposer {
       add_names(NameKind::parameter);
       return std::move(all_);
     }
-    for (const std::string& word : schema.words) add(word, ProposalKind::word, "");
+    for (const std::string& word : schema.words) add(word, ProposalKind::word, "", true);
+    add_files();
     is_condition() ? add_condition() : add_by_key();
     return std::move(all_);
   }
@@ -75,8 +77,39 @@ class Proposer {
            (kind_ == FileKind::scenario && key_ == "always");
   }
 
-  void add(const std::string& text, ProposalKind kind, const std::string& about) {
-    if (seen_.insert(text).second) all_.push_back({text, kind, about});
+  void add(const std::string& text, ProposalKind kind, const std::string& about, bool is_whole = false) {
+    if (seen_.insert(text).second) all_.push_back({text, kind, about, is_whole});
+  }
+
+  /// Below a key that names a file: those of its kind. none: the key names no file; inner none: a URDF.
+  std::optional<std::optional<FileKind>> kind_of_named_file() const {
+    if (is_one_of(key_, {"robot", "based_on"})) return FileKind::robot;
+    if (key_ == "scene") return FileKind::scene;
+    if (key_ == "task" || (kind_ == FileKind::connection && is_below("tasks"))) return FileKind::task;
+    if (key_ == "scenario") return FileKind::scenario;
+    if (key_ == "urdf") return std::optional<FileKind>();
+    return std::nullopt;
+  }
+
+  void add_files() {
+    const auto wanted = kind_of_named_file();
+    if (!wanted || !known_.files) return;
+    for (const KnownFile& file : known_.files()) {
+      if (file.kind == *wanted) add(file.name, ProposalKind::file, "", true);
+    }
+  }
+
+  /// Keys of `set`.
+  void add_what_is_set() {
+    if (key_ != "set") return;
+    for (const auto& [kind, section] : {std::pair(NameKind::frame, "frames."),
+                                        {NameKind::parameter, "params."},
+                                        {NameKind::output, "outputs."}}) {
+      for (const NamePlace& given : known_.given) {
+        if (given.is_given && given.kinds.front() == kind)
+          add(section + given.name, ProposalKind::key, word_of(kind), true);
+      }
+    }
   }
 
   void add_names(NameKind kind) {
@@ -114,13 +147,19 @@ class Proposer {
     if (key_ == "use") add_names(NameKind::task_template);
     if (key_ == "inside") add_names(NameKind::region);
     if (key_ == "feature") add_names(NameKind::feature);
-    if (is_below("set")) add_frames();
+    if (is_below("set")) add_set_value();
     if (is_below("with")) {
       add_frames();
       for (const NameKind kind : {NameKind::task, NameKind::region, NameKind::signal, NameKind::feature})
         add_names(kind);
     }
     if (is_one_of(key_, {"pose_of", "distance_to", "force_on", "latch"})) add_names(NameKind::object);
+  }
+
+  void add_set_value() {
+    if (key_.starts_with("frames.")) return add_frames();
+    if (!key_.starts_with("outputs.")) return;
+    for (const char* word : {"true", "false"}) add(word, ProposalKind::word, "");
   }
 
   bool is_below(const char* key) const {

@@ -37,6 +37,11 @@ class PlaceFinder {
     if (place.is_key && !is_in_brackets() && !is_behind_dash_) drop_deeper(place);
     const std::size_t begin = text_.find_first_not_of(" \t", value_begin_);
     place.value = begin == std::string_view::npos ? "" : std::string(text_.substr(begin));
+    const bool is_quoted = place.value.starts_with('"') || place.value.starts_with('\'');
+    place.value_begin = text_.size() - place.value.size() + (is_quoted ? 1 : 0);
+    // Between brackets a line may end, with a comment, before the value begins.
+    const std::size_t line = text_.find_first_not_of(" \t", line_begin_);
+    place.value_begin = std::max(place.value_begin, std::min(line, text_.size()));
     place.word_begin = text_.size();
     while (place.word_begin > value_begin_ && is_word_part(text_[place.word_begin - 1])) --place.word_begin;
     return place;

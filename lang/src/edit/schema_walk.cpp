@@ -94,6 +94,18 @@ Choices below(const Choices& choices, const Json& root, const std::string& key) 
 
 }  // namespace
 
+namespace {
+
+/// A line for each choice: what `free` means, and what statements are.
+void add_about(const Json& word, const std::string& about, SchemaPlace& place) {
+  if (about.empty() || place.about.find(about) != std::string::npos) return;
+  if (!place.about.empty()) place.about += "  \n";
+  if (word.is_string()) place.about += "`" + word.get<std::string>() + "`: ";
+  place.about += about;
+}
+
+}  // namespace
+
 SchemaPlace schema_place(FileKind kind, const std::vector<std::string>& keys) {
   const Json& root = schema_of(kind);
   Choices choices(root);
@@ -101,8 +113,9 @@ SchemaPlace schema_place(FileKind kind, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) choices = below(choices, root, key);
   SchemaPlace place;
   for (const auto& [schema, about] : choices.all) {
-    if (place.about.empty()) place.about = about;
-    if (const auto words = schema->find("enum"); words != schema->end()) {
+    const auto words = schema->find("enum");
+    add_about(words != schema->end() && choices.all.size() > 1 ? words->front() : Json(), about, place);
+    if (words != schema->end()) {
       for (const Json& word : *words)
         place.words.push_back(word.is_string() ? word.get<std::string>() : word.dump());
     }

@@ -98,4 +98,10 @@ std::string in_si(std::string_view text) {
   return format_number(quantity.value) + (unit.empty() ? "" : " " + unit);
 }
 
+std::string kind_of_quantity(std::string_view text) {
+  const QuantityResult read = parse_quantity(text);
+  if (read.error != QuantityError::none || !read.quantity.has_unit) return {};
+  return describe(read.quantity.dimension);
+}
+
 }  // namespace zwang::lang

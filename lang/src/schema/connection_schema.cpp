@@ -36,19 +36,34 @@ Json fix_source() {
                 {{"topic", word("a topic of geometry_msgs/PoseWithCovarianceStamped")}, {"tf", frames}});
 }
 
+/// ROS 2 itself prints `std_msgs/msg/Bool`, which is the same type as `std_msgs/Bool`.
+Json message_type(const char* description, std::vector<std::string> types) {
+  std::string pattern;
+  for (const std::string& type : types) {
+    const std::size_t slash = type.find('/');
+    pattern += (pattern.empty() ? "^(" : "|") + type.substr(0, slash) + "/msg" + type.substr(slash);
+  }
+  Json schema =
+      any_of({one_of_words("", std::move(types)), Json{{"type", "string"}, {"pattern", pattern + ")$"}}});
+  schema["description"] = description;
+  return schema;
+}
+
 Json signal() {
   return object(
       "", {{"topic", word("a ROS 2 topic, with its namespace"), true},
            {"type",
-            word("std_msgs/Bool, std_msgs/Float64, geometry_msgs/PoseStamped, "
-                 "geometry_msgs/WrenchStamped or sensor_msgs/LaserScan"),
+            message_type("the message, which gives the signal's type",
+                         {"std_msgs/Bool", "std_msgs/Float64", "geometry_msgs/PoseStamped",
+                          "geometry_msgs/WrenchStamped", "sensor_msgs/LaserScan"}),
             true},
            {"nearest", reference("vector", "of a LaserScan: the angles between which a range counts")}});
 }
 
 Json output() {
-  return object("", {{"topic", word("a ROS 2 topic, with its namespace"), true},
-                     {"type", word("std_msgs/Bool or std_msgs/Float64, in SI"), true}});
+  return object(
+      "", {{"topic", word("a ROS 2 topic, with its namespace"), true},
+           {"type", message_type("a number is sent in SI", {"std_msgs/Bool", "std_msgs/Float64"}), true}});
 }
 
 Json clock() {
@@ -57,10 +72,13 @@ Json clock() {
 }
 
 Json command() {
-  const Json twist = object("", {{"topic", word(""), true},
-                                 {"type", word("geometry_msgs/Twist or geometry_msgs/TwistStamped"), true},
-                                 {"rate", reference("quantity", "default: once a control period")},
-                                 {"timeout", timeout()}});
+  const Json twist = object(
+      "", {{"topic", word(""), true},
+           {"type",
+            message_type("as the receiver reads it", {"geometry_msgs/Twist", "geometry_msgs/TwistStamped"}),
+            true},
+           {"rate", reference("quantity", "default: once a control period")},
+           {"timeout", timeout()}});
   const Json joints =
       object("std_msgs/Float64MultiArray", {{"topic", word(""), true},
                                             {"what", one_of_words("", {"effort", "velocity"}), true},

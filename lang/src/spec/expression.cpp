@@ -336,6 +336,8 @@ class ConditionParser {
       const std::size_t close = text_.find(')', at_);
       if (close == std::string::npos) stop(wording::missing_parenthesis(span(opened, opened + 1)));
       node.argument = trimmed(std::string_view(text_).substr(at_, close - at_));
+      const std::size_t written = text_.find(node.argument, at_);
+      node.argument_span = span(written, written + node.argument.size());
       at_ = close + 1;
       if (node.argument.empty()) stop(wording::missing_argument(span(begin, at_), function));
     } else {

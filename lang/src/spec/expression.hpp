@@ -26,6 +26,7 @@ struct ExpressionText {
   ExpressionKind kind = ExpressionKind::quantity;
   std::string word;      ///< of a parameter, a name, a function; the operator of `binary`
   std::string argument;  ///< of a function that takes a name
+  Span argument_span;
   Quantity quantity;
   int left = -1;  ///< operand of negate, logical_not and abs()
   int right = -1;
