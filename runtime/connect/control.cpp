@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clock.hpp"
 #include "message.hpp"
 
 namespace zwang::connect {
@@ -37,6 +38,7 @@ Control::Control(const lang::Connection& connection, const lang::Program& progra
       participant_(participant),
       is_alive_(std::move(is_alive)),
       writer_(participant.advertise(connection.name + "/state", "std_msgs/String", Late::gets_last)),
+      health_writer_(participant.advertise("/diagnostics", "diagnostic_msgs/DiagnosticArray")),
       program_(&program) {
   serve("/start", &Control::start);
   serve("/stop", &Control::stop);
@@ -135,6 +137,26 @@ std::string Control::state() const {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+/// For `diagnostic_aggregator` and `rqt_robot_monitor`. Silence of the robot is `stale` while a task runs.
+DiagnosticArray Control::health() const {
+  const std::lock_guard lock(mutex_);
+  const Phase phase = phase_;
+  const bool has_failed = phase == Phase::latched || outcome_ == "stopped" || outcome_ == "failed";
+  DiagnosticStatus status;
+  status.name = connection_.name.substr(1) + ": task";
+  status.hardware = program_->robot.name;
+  status.message = phase == Phase::ended && !outcome_.empty() ? outcome_ : word_of(phase);
+  if (!reason_.empty()) status.message += ": " + reason_;
+  if (has_failed) {
+    status.level = DiagnosticStatus::error;
+  } else if (phase != Phase::ended && !is_alive_()) {
+    status.level = phase == Phase::waiting ? DiagnosticStatus::warn : DiagnosticStatus::stale;
+    status.message += "; no samples come from the robot";
+  }
+  status.values = {{"task", task_name()}, {"elapsed [s]", std::to_string(elapsed_.load())}};
+  return {header_at(now()), {status}};
+}
+
 void Control::end(const std::string& outcome, const std::string& reason) {
   const std::lock_guard lock(mutex_);
   outcome_ = outcome;
@@ -163,6 +185,8 @@ void Control::tell_changes() {
     last_phase = phase, last_task = task, since = 0;
     encode(String{state()}, bytes);
     writer_->write(bytes);
+    encode(health(), bytes);
+    health_writer_->write(bytes);
   }
 }
 

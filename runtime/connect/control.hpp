@@ -11,6 +11,7 @@
 
 #include "action.hpp"
 #include "dds.hpp"
+#include "message.hpp"
 #include "parameters.hpp"
 #include "zwang/lang/program.hpp"
 
@@ -66,11 +67,12 @@ class Control {
   void tell_changes();
   std::string task_name() const;
   std::string state() const;
+  DiagnosticArray health() const;
 
   const lang::Connection& connection_;
   Participant& participant_;
   std::function<bool()> is_alive_;
-  std::unique_ptr<Writer> writer_, status_writer_, feedback_writer_;
+  std::unique_ptr<Writer> writer_, health_writer_, status_writer_, feedback_writer_;
   std::unique_ptr<RunTaskServer> goals_;
   ParameterServer parameters_;
   std::atomic<bool> wants_start_{false}, wants_stop_{false}, is_over_{false};

@@ -16,9 +16,9 @@ namespace {
 
 using runtime::EventCode;
 
-constexpr double blocked_for = 0.2;    // [s] without a tick: the thread hangs, and zeros go out without it
-constexpr double too_late = 0.1;       // [s] a tick that is so late is a stop
-constexpr double longest_brake = 2.0;  // [s] behind a signal, or where the robot is silent
+constexpr double blocked_for = 0.2;  // [s] without a tick: the thread hangs, and zeros go out without it
+constexpr double too_late = 0.1;     // [s] a tick that is so late is a stop
+constexpr double longest_brake = lang::given_up_after;  // [s] behind a signal, or where the robot is silent
 constexpr double nearly_a_period = 0.7;
 constexpr double told_rounding = 1e-3;  // of a period
 constexpr double look_again = 0.5e-3;   // [s] at a clock that is told

@@ -83,6 +83,16 @@ void describe(CdrReader& way, TransformsMessage& m) {
   }
 }
 
+void describe(CdrWriter& way, const DiagnosticArray& m) {
+  pass(way, m.header);
+  way(static_cast<std::uint32_t>(m.status.size()));
+  for (const DiagnosticStatus& s : m.status) {
+    pass(way, s.level, s.name, s.message, s.hardware);
+    way(static_cast<std::uint32_t>(s.values.size()));
+    for (const KeyValue& v : s.values) pass(way, v.key, v.value);
+  }
+}
+
 }  // namespace
 
 template <typename Message>
@@ -118,6 +128,7 @@ ZWANG_BOTH_WAYS(LaserScan);
 ZWANG_BOTH_WAYS(ClockMessage);
 ZWANG_BOTH_WAYS(TransformsMessage);
 #undef ZWANG_BOTH_WAYS
+template void encode(const DiagnosticArray&, Bytes&);
 
 Header header_at(double stamp, const std::string& frame) {
   const double seconds = std::floor(stamp);

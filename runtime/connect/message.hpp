@@ -93,6 +93,20 @@ struct Float64MultiArray {
   std::uint32_t offset = 0;
   std::vector<double> data;
 };
+struct KeyValue {
+  std::string key, value;
+};
+/// diagnostic_msgs/DiagnosticStatus.
+struct DiagnosticStatus {
+  enum Level : std::uint8_t { ok, warn, error, stale };
+  std::uint8_t level = ok;
+  std::string name, message, hardware;
+  std::vector<KeyValue> values;
+};
+struct DiagnosticArray {
+  Header header;
+  std::vector<DiagnosticStatus> status;
+};
 struct LaserScan {
   Header header;
   /// angle_min, angle_max, angle_increment [rad], time_increment, scan_time [s], range_min, range_max [m]

@@ -8,6 +8,7 @@
 
 #include "../cli/interruption.hpp"
 #include "arguments.hpp"
+#include "task_run.hpp"
 
 namespace zwang::connect {
 
@@ -83,6 +84,11 @@ int observe(const lang::Connection& connection, const lang::Program& program, In
     std::printf("no sample of every motor's joint has come on %s in domain %d\n",
                 connection.joints.topic.name.c_str(), connection.domain);
     return exit_bad;
+  }
+  // `zwang drive` would not begin.
+  if (const std::string trouble = clock_trouble(connection, inbox); !trouble.empty()) {
+    std::printf("%s\n", trouble.c_str());
+    is_good = false;
   }
   for (std::size_t j = 0; j < ways.size(); ++j)
     is_good = print_joint(model.joint(static_cast<int>(j)).name, ways[j]) && is_good;

@@ -62,7 +62,7 @@ class Pair:
     """Both processes of a task, each with its own file of output."""
 
     def __init__(self, program, folder, task, command, options, number, ros2="reach: loopback", more="", base="",
-                 simulated=(), motors_apart=0):
+                 simulated=(), motors_apart=0, stale_after="100 ms"):
         self.domain = domain = 100 + (os.getpid() + number) % 100  # another one than that of a test beside this one
         self.files = {side: folder / f"{side}_{number}" for side in ("simulate", "drive")}
         for side in ("simulate", "drive"):
@@ -71,7 +71,7 @@ class Pair:
             in_domain = domain + (motors_apart if side == "simulate" else 0)
             connection.write_text(
                 f"zwang_connection: 1\nros2: {{domain: {in_domain}, {ros2}}}\n{more}loop: {{priority: 40}}\n"
-                f"state:\n  joints: {{topic: /joint_states, stale_after: 100 ms}}\n{base}" + command)
+                f"state:\n  joints: {{topic: /joint_states, stale_after: {stale_after}}}\n{base}" + command)
             arguments = [task, "--over", connection] + options
             with open(self.files[side], "w", encoding="utf-8") as out:
                 # `--stuck-odometry` is for tests: the program behind `zwang simulate` takes it, `zwang` does not.
@@ -373,10 +373,25 @@ def cyclone_is_answered(program, root, folder):
     pair.wait_for("waiting for the service /zwang/start")
     said = pair.client("cyclone_client", "/zwang/start", "0")
     expect('state {"state":"ready"' in said, "the state does not reach a late subscriber", said)
+    expect("health 0 zwang: task: ready (mecanum_base, 2 values)" in said, "the diagnostics do not come", said)
     said = pair.client("cyclone_client", "/zwang/start", "50")
     code, drive, _ = pair.end()
     expect("50 of 50 answered: the task" in said, "a call is not answered", said)
     expect(code == 0 and "done after" in drive, "the first call has not started it", drive)
+
+
+def observing_tells_clocks_that_differ(program, root, folder):
+    options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
+    for number_of_pair, ahead, wanted in ((41, "0", 0), (42, "3600", 1)):
+        pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options + ["--wait", "30"],
+                    number_of_pair, simulated=["--stamps-ahead", ahead], more="start: wait\n")
+        pair.drive.kill()  # another process looks
+        words = [program, "drive", root / "specs/laws/speed_limit.yaml", "--over",
+                 folder / f"connection_{number_of_pair}.yaml", "--observe", "3"] + options
+        said = subprocess.run(words, capture_output=True, text=True, check=False)
+        pair.simulate.kill()
+        expect(said.returncode == wanted, f"exit code {said.returncode}, not {wanted}", said.stdout, said.stderr)
+        expect(("more than stale_after" in said.stdout) == (wanted == 1), "the clocks", said.stdout)
 
 
 def resident(pid):
@@ -426,7 +441,7 @@ def main(program, root, clients):
     cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, silence_of_the_robot_stops,
              a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros, services_start_and_stop_it,
              this_machine_alone_is_enough, a_stuck_odometry_stops, goals_run_tasks, ten_thousand_calls_are_answered,
-             a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered, transforms_tell_where_it_is,
+             a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered, observing_tells_clocks_that_differ, transforms_tell_where_it_is,
              *(ends_as_inside_one_process(name, 15 + i) for i, name in enumerate(SIGNALS)),
              *(ends_as_inside_one_process(name, 20 + i, by_cyclone=True) for i, name in enumerate(SIGNALS)))
     with concurrent.futures.ThreadPoolExecutor(2) as pool:

@@ -9,6 +9,8 @@ namespace zwang::lang {
 
 namespace {
 
+constexpr double rounding_of_rates = 1e-9;  // 1 / (1 / 3 Hz) is not 3 Hz to the last bit
+
 SignalType measured_by(MessageType type) {
   switch (type) {
     case MessageType::pose_stamped:
@@ -113,6 +115,22 @@ void check_command(const CommandSink& command, const Program& program, Diagnosti
   if (command.kind != CommandKind::twist) check_order(command, program, diagnostics);
 }
 
+/// Samples come once a cycle of the robot at most, commands leave once a control period at most. A stop is a
+/// command: with a slower rate it comes later than `stale_after` promises.
+void check_times(const Connection& connection, const Program& program, Diagnostics& diagnostics) {
+  const Drive& drive = program.robot.drive;
+  const JointsSource& joints = connection.joints;
+  const double sampled = drive.takes_velocity ? 1.0 / drive.rate : program.robot.control_period;
+  if (joints.stale_span.exists() && joints.stale_after <= sampled)
+    diagnostics.add(wording::stale_at_once(joints.stale_span, joints.stale_after, sampled));
+  const CommandSink& command = connection.command;
+  if (!command.rate) return;
+  if (1.0 / *command.rate < (1.0 - rounding_of_rates) * program.robot.control_period)
+    diagnostics.add(wording::rate_too_high(command.rate_span, *command.rate, program.robot.control_period));
+  if (1.0 / *command.rate > joints.stale_after)
+    diagnostics.add(wording::rate_too_low(command.rate_span, *command.rate, joints.stale_after));
+}
+
 }  // namespace
 
 bool check_connection(const Connection& connection, const Program& program, Diagnostics& diagnostics) {
@@ -127,6 +145,7 @@ bool check_connection(const Connection& connection, const Program& program, Diag
   if (program.robot.drive.feels.by == Feels::By::wrench && !connection.wrench)
     diagnostics.add(wording::feeling_without_topic(connection.joints.topic.span));
   check_command(connection.command, program, diagnostics);
+  check_times(connection, program, diagnostics);
   diagnostics.settle();
   return diagnostics.error_count() == errors_before;
 }

@@ -89,9 +89,13 @@ JointsSource parse_joints(const Node& node, Diagnostics& diagnostics) {
   MapReader map(node, "`joints`", diagnostics,
                 "{topic: " + (node.is_scalar() ? node.text : "/joint_states") + "}");
   joints.topic = parse_topic(map, diagnostics);
-  if (const Node* age = map.optional("stale_after"))
-    joints.stale_after =
-        parse_positive(*age, dimension::time, "joints.stale_after", false, diagnostics).value_or(1.0);
+  if (const Node* age = map.optional("stale_after")) {
+    joints.stale_span = age->span;
+    joints.stale_after = parse_positive(*age, dimension::time, "joints.stale_after", false, diagnostics)
+                             .value_or(default_joints_age);
+    if (joints.stale_after > given_up_after)
+      diagnostics.add(wording::stale_too_late(age->span, joints.stale_after));
+  }
   if (const Node* names = map.optional("names");
       names != nullptr && require_mapping(*names, "`names`", diagnostics)) {
     for (const Entry& entry : names->entries) {
@@ -209,8 +213,10 @@ void parse_twist_sink(const Node& node, CommandSink& command, Diagnostics& diagn
   constexpr MessageType types[] = {MessageType::twist, MessageType::twist_stamped};
   if (const Node* type = map.required("type"))
     command.type = parse_type(*type, "`type`", types, diagnostics).value_or(command.type);
-  if (const Node* rate = map.optional("rate"))
+  if (const Node* rate = map.optional("rate")) {
+    command.rate_span = rate->span;
     command.rate = parse_positive(*rate, dimension::frequency, "`rate`", false, diagnostics);
+  }
   parse_timeout(map, command, diagnostics);
   map.finish();
 }

@@ -1,7 +1,10 @@
 #include "diagnostic/wordings_connection.hpp"
 
+#include <cmath>
+
 #include "diagnostic/make.hpp"
 #include "spec/units.hpp"
+#include "zwang/lang/connection.hpp"
 
 namespace zwang::lang::wording {
 
@@ -92,6 +95,37 @@ Diagnostic too_short_timeout(const Span& span, double cycle) {
                "the receiver stops the motors between two commands: one comes each " +
                    format_number(1e3 * cycle) + " ms",
                "write the receiver's real `timeout`, or a higher `rate`; three cycles are usual");
+}
+
+Diagnostic stale_too_late(const Span& span, double stale_after) {
+  return error(
+      "E928", span,
+      "the base would drive on for " + format_number(stale_after) + " s without a sample of its robot",
+      "write three to five times the period of the topic, as `100 ms`; " + format_number(given_up_after) +
+          " s is the most");
+}
+
+Diagnostic stale_at_once(const Span& span, double stale_after, double sampled) {
+  return error("E928", span,
+               "each sample is too old when the next one comes: the robot has one each " +
+                   format_number(1e3 * sampled) + " ms, and they may be " + format_number(1e3 * stale_after) +
+                   " ms old",
+               "write three to five times that period: `" + format_number(5e3 * sampled) + " ms`");
+}
+
+Diagnostic rate_too_high(const Span& span, double rate, double period) {
+  return error("E928", span,
+               "commands cannot leave with " + format_number(rate) + " Hz: there is one each " +
+                   format_number(1e3 * period) + " ms, the control period",
+               "leave `rate` out, or write the rate at which the receiver reads");
+}
+
+Diagnostic rate_too_low(const Span& span, double rate, double stale_after) {
+  return error("E928", span,
+               "a stop would wait for up to " + format_number(std::ceil(1e3 / rate)) +
+                   " ms, until the next command leaves; `stale_after` promises " +
+                   format_number(1e3 * stale_after) + " ms",
+               "write a `rate` of 1 / `stale_after` or more; 50 Hz is usual");
 }
 
 Diagnostic tasks_without_goals(const Span& span) {

@@ -28,6 +28,14 @@ Diagnostic two_fixes(const Span& span);
 Diagnostic frame_in_itself(const Span& span, const std::string& frame);
 /// `cycle` [s] between two commands.
 Diagnostic too_short_timeout(const Span& span, double cycle);
+/// `stale_after` [s] beyond `given_up_after`.
+Diagnostic stale_too_late(const Span& span, double stale_after);
+/// `sampled` [s] between two samples of the robot, at least.
+Diagnostic stale_at_once(const Span& span, double stale_after, double sampled);
+/// `rate` [1/s] above that of the ticks, `period` [s].
+Diagnostic rate_too_high(const Span& span, double rate, double period);
+/// `rate` [1/s] so low that a stop leaves later than `stale_after` [s].
+Diagnostic rate_too_low(const Span& span, double rate, double stale_after);
 Diagnostic tasks_without_goals(const Span& span);
 Diagnostic nothing_stops_it(const Span& span, const std::string& topic);
 

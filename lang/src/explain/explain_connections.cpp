@@ -54,6 +54,16 @@ another one.)~",
               R"~(`fix` tells where the base is in the world, now and then. A localisation tells it on a topic of its own
 or by transforms, mostly by both. They differ by their delays, so zwang takes one of them.)~",
           .fix = "Keep `topic: /amcl_pose`, or `tf: {parent: map, child: base_link}`."},
+      Explanation{
+          .code = "E928",
+          .title = "a time of the connection that stops the robot at once, or too late",
+          .why =
+              R"~(`stale_after` says how long the robot may be silent before it is stopped. Below the period of its
+samples it stops at once. Above 2 s the base drives on blindly, and `zwang drive` has given it up.
+A stop is a command, too: with a low `rate` it leaves later than `stale_after` promises. Commands leave
+once a control period at most.)~",
+          .fix = "Write three to five periods of the topic as `stale_after`, and the receiver's own rate as "
+                 "`rate`."},
   };
   return entries;
 }

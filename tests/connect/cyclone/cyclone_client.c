@@ -1,9 +1,9 @@
-/* A peer by Cyclone DDS, which shares nothing with zwang: it reads /zwang/state, then calls a service of the type
+/* A peer by Cyclone DDS, which shares nothing with zwang: it reads /zwang/state and /diagnostics, then calls a service of the type
    std_srvs/Trigger as rmw_cyclonedds does.
 
      cyclone_client DOMAIN SERVICE CALLS
 
-   Prints the state, then how many calls were answered and the last answer. Ends with 0 if all were. */
+   Prints the state and the health, then how many calls were answered and the last answer. Ends with 0 if all were. */
 #include <dds/dds.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,6 +46,21 @@ static void print_state(void) {
   printf("state %s\n", state != NULL ? state->data : "did not come");
 }
 
+static void print_health(void) {
+  dds_entity_t reader = dds_create_reader(
+      participant,
+      dds_create_topic(participant, &diagnostic_msgs_msg_dds__DiagnosticArray__desc, "rt/diagnostics", NULL, NULL),
+      like_ros(0), NULL);
+  const diagnostic_msgs_msg_dds__DiagnosticArray_* health = next_sample(reader, 10.0);
+  if (health == NULL || health->status._length != 1) {
+    printf("health did not come\n");
+    return;
+  }
+  const diagnostic_msgs_msg_dds__DiagnosticStatus_* status = health->status._buffer;
+  printf("health %d %s: %s (%s, %u values)\n", status->level, status->name, status->message, status->hardware_id,
+         (unsigned)status->values._length);
+}
+
 static int call(const char* service, int calls) {
   char request[256], reply[256];
   snprintf(request, sizeof request, "rq%sRequest", service);
@@ -81,6 +96,7 @@ int main(int argc, char** argv) {
   participant = dds_create_participant((dds_domainid_t)atoi(argv[1]), NULL, NULL);
   if (participant < 0) return 2;
   print_state();
+  print_health();
   const int code = call(argv[2], atoi(argv[3]));
   dds_delete(participant);
   return code;

@@ -45,10 +45,14 @@ struct Topic {
   Span span;
 };
 
+/// [s] A robot that has said nothing for so long is given up: the run ends, and nobody brakes any more.
+inline constexpr double given_up_after = 2.0;
+
 /// sensor_msgs/JointState.
 struct JointsSource {
   Topic topic;
   double stale_after = 0.0;                  ///< [s] without a new sample until the robot is stopped
+  Span stale_span;                           ///< where the file says it
   std::map<std::string, std::string> names;  ///< the URDF's joint -> its name in the messages
   std::map<std::string, Span> name_spans;    ///< by the URDF's joint
 
@@ -88,7 +92,8 @@ struct CommandSink {
   CommandKind kind = CommandKind::twist;
   MessageType type = MessageType::twist;  ///< of a twist; joints take a Float64MultiArray
   Topic topic;
-  std::optional<double> rate;      ///< [1/s] of a twist; none: once a control period
+  std::optional<double> rate;  ///< [1/s] of a twist; none: once a control period
+  Span rate_span;
   std::optional<double> timeout;   ///< [s] after which the receiver stops by itself; none: it does not
   std::vector<std::string> order;  ///< joints of a Float64MultiArray
   std::vector<Span> order_spans;
