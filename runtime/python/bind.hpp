@@ -19,5 +19,6 @@ void bind_language(pybind11::module_& module);
 void bind_loop(pybind11::module_& module);
 void bind_log(pybind11::module_& module);
 void bind_run(pybind11::module_& module);
+void bind_solver(pybind11::module_& module);
 
 }  // namespace zwang::python

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "bind.hpp"
+#include "read_program.hpp"
 #include "zwang/lang/connection.hpp"
 #include "zwang/lang/file_kind.hpp"
 #include "zwang/lang/open_texts.hpp"
@@ -106,16 +107,19 @@ lang::OpenTexts open_texts(const fs::path& path, const std::optional<std::string
   return texts;
 }
 
-lang::Program load(const fs::path& path, const std::optional<std::string>& text, const Texts& open_files,
-                   const std::optional<fs::path>& robot, const std::optional<fs::path>& scene,
-                   const Parameters& params) {
+ReadProgram load(const fs::path& path, const std::optional<std::string>& text, const Texts& open_files,
+                 const std::optional<fs::path>& robot, const std::optional<fs::path>& scene,
+                 const Parameters& params) {
   const lang::OpenTexts texts = open_texts(path, text, open_files);
   const lang::ReadsOpenTexts reading(texts);
   lang::Diagnostics diagnostics;
   std::optional<lang::Program> program =
       lang::load(path, options_of(path, robot, scene, params), diagnostics);
   if (!program) throw LoadError(std::move(diagnostics));
-  return *std::move(program);
+  ReadProgram read{*std::move(program), diagnostics.sources(), {}};
+  if (robot) read.facts["robot"] = robot->string();
+  if (scene) read.facts["scene"] = scene->string();
+  return read;
 }
 
 void look_at(const fs::path& path, const lang::LoadOptions& options, lang::Diagnostics& diagnostics) {
@@ -199,7 +203,7 @@ void bind_language(py::module_& module) {
                " " + d.code + ": " + d.message;
       });
 
-  py::class_<lang::Program>(module, "Program", "A task file, checked against its robot and scene. Immutable.")
+  py::class_<lang::Program>(module, "_Program")
       .def_readonly("path", &lang::Program::path)
       .def_property_readonly(
           "robot", [](const lang::Program& p) { return p.robot.name; }, "the robot's name, of its URDF")
@@ -218,6 +222,8 @@ void bind_language(py::module_& module) {
       .def("__repr__", [](const lang::Program& p) {
         return "<zwang.Program " + p.path + ", robot " + p.robot.name + ">";
       });
+  py::class_<ReadProgram, lang::Program>(module, "Program",
+                                         "A task file, checked against its robot and scene. Immutable.");
 
   static py::object error = py::reinterpret_steal<py::object>(PyErr_NewExceptionWithDoc(
       "zwang.Error", "A file that cannot be run; `diagnostics` says why.", PyExc_ValueError, nullptr));

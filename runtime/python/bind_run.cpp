@@ -6,6 +6,7 @@
 #include <map>
 
 #include "bind.hpp"
+#include "log_file.hpp"
 #include "log_table.hpp"
 #include "named_sensed.hpp"
 #include "zwang/runtime/scene_plant.hpp"
@@ -74,8 +75,9 @@ void heed_interruptions() {
 constexpr int ticks_between_looks = 1000;
 
 /// As `zwang run` does it. `most`: [s] of simulated time.
-Result simulate(const lang::Program& program, double most, bool with_log, std::uint64_t seed,
-                std::optional<std::array<double, 2>> start_at, std::optional<double> start_yaw) {
+Result simulate(const ReadProgram& program, double most, bool with_log, std::uint64_t seed,
+                std::optional<std::array<double, 2>> start_at, std::optional<double> start_yaw,
+                const std::optional<std::filesystem::path>& file) {
   if (!program.scene) throw std::invalid_argument("the task names no scene to run in: load(.., scene=..)");
   runtime::RunnerSettings settings;
   settings.extra_columns = runtime::truth_columns(*program.scene);
@@ -83,10 +85,11 @@ Result simulate(const lang::Program& program, double most, bool with_log, std::u
   runtime::ScenePlant plant(program, options_of(seed, start_at, start_yaw, runner.period()));
   Result result;
   std::optional<runtime::Recorder> recorder;
-  if (with_log) {
-    result.log = std::make_shared<LogTable>(runner.columns());
+  if (with_log || file) {
     std::vector<std::unique_ptr<runtime::LogSink>> sinks;
-    sinks.push_back(table_sink(result.log));
+    if (with_log) result.log = std::make_shared<LogTable>(runner.columns());
+    if (with_log) sinks.push_back(table_sink(result.log));
+    if (file) sinks.push_back(log_file(*file, program, runner));
     recorder.emplace(std::move(sinks), runner.columns());
     runner.record_to(&*recorder);
   }
@@ -108,7 +111,10 @@ Result simulate(const lang::Program& program, double most, bool with_log, std::u
     if (status != PlantStatus::ok) break;
   }
   if (runner.finished() && status == PlantStatus::ok) plant.end_lean();
-  if (recorder) recorder->close();
+  if (recorder) {
+    recorder->close();
+    require_complete(*recorder);
+  }
   result.time = plant.truth().time;
   result.truth = truths_of(plant.truth());
   result.limits = runner.limits();
@@ -185,12 +191,17 @@ void bind_run(py::module_& module) {
       .def("sense", &TickedPlant::sense, arg("sensed"), "Raises RuntimeError where a sample is lost.")
       .def("apply", &TickedPlant::apply, arg("command"), "For one control period.")
       .def_property_readonly("truth", &TickedPlant::truth, "what the plant measured, as Result.truth");
-  module.def(
-      "simulate", &simulate, arg("program"), py::kw_only(), arg("most") = 600.0, arg("log") = false,
-      arg("seed") = 0, arg("start_at") = py::none(), arg("start_yaw") = py::none(),
-      py::call_guard<py::gil_scoped_release>(),
-      "Runs the task on the simulated robot. `most` [s]; `log`: keep every tick; `start_at` (x, y) [m] and "
-      "`start_yaw` [rad] in the place of the scene's.");
+  py::class_<FileRecorder>(module, "_FileRecorder", "Writes each step of a runner into a file.")
+      .def(py::init<runtime::Runner&, const ReadProgram&, const std::filesystem::path&>(), arg("runner"),
+           arg("program"), arg("file"), py::keep_alive<1, 2>(), py::keep_alive<1, 3>())
+      .def("wait", &FileRecorder::wait, py::call_guard<py::gil_scoped_release>())
+      .def("close", &FileRecorder::close, py::call_guard<py::gil_scoped_release>());
+  module.def("simulate", &simulate, arg("program"), py::kw_only(), arg("most") = 600.0, arg("log") = false,
+             arg("seed") = 0, arg("start_at") = py::none(), arg("start_yaw") = py::none(),
+             arg("file") = py::none(), py::call_guard<py::gil_scoped_release>(),
+             "Runs the task on the simulated robot. `most` [s]; `log`: keep every tick; `file`: write them; "
+             "`start_at` (x, y) [m] and "
+             "`start_yaw` [rad] in the place of the scene's.");
 }
 
 }  // namespace zwang::python

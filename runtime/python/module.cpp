@@ -6,4 +6,5 @@ PYBIND11_MODULE(_zwang, module) {
   zwang::python::bind_log(module);
   zwang::python::bind_loop(module);
   zwang::python::bind_run(module);
+  zwang::python::bind_solver(module);
 }

@@ -81,7 +81,7 @@ keep_library 'libwebsockets' 'runtime/cli/.*\.cpp' 1
 keep_library 'mpi\.h' 'runtime/study/mpi/.*\.cpp' 1
 keep_library 'mujoco/' 'runtime/src/plant/.*\.cpp' 6
 keep_library 'nlohmann/' '(lang|runtime)/.*\.cpp|lang/src/schema/parts\.hpp|runtime/(cli/json_parts|lsp/json|src/log/foxglove)\.hpp' 20
-keep_library 'pybind11/' 'runtime/python/.*\.[ch]pp' 5
+keep_library 'pybind11/' 'runtime/python/.*\.[ch]pp' 6
 keep_library 'zstd|zlib' 'runtime/src/log/.*\.cpp' 1
 keep_library 'sqlite3' 'runtime/study/.*\.cpp' 1
 keep_library 'kdl/' 'tests/.*' 0

@@ -101,6 +101,48 @@ def test_an_own_plant_is_driven_to_what_the_task_asks():
     assert np.all(plant.qd > 1.0)
 
 
+def test_the_log_of_an_own_plant_is_replayed_to_the_last_bit(tmp_path):
+    program = zwang.load(SPECS / "laws" / "straight_on.yaml")
+    speeds = []
+    zwang.run(program, Integrator(program), most=0.5, log=tmp_path / "own",
+              on_tick=lambda runner, sensed: speeds.append(np.array(sensed.qd)))
+    log = zwang.read_log(tmp_path / "own")
+    joint = program.joints[0]
+    column = next(name for name in log.columns if joint in name and "velocity" in name or name == f"qd.{joint}")
+    assert np.array_equal(log[column], [qd[0] for qd in speeds])
+    said = subprocess.run([PROGRAM, "replay", tmp_path / "own"], capture_output=True, text=True)
+    assert said.returncode == 0, said.stdout + said.stderr
+    assert f"{len(speeds)} of {len(speeds)} records" in said.stdout
+
+
+def test_a_simulated_run_is_written_as_by_the_program(tmp_path):
+    kept = zwang.run(zwang.load(WALL_ALIGN), log=True, most=0.2).log
+    zwang.run(zwang.load(WALL_ALIGN), log=tmp_path / "a.mcap", most=0.2)
+    written = zwang.read_log(tmp_path / "a.mcap")
+    assert written.columns == kept.columns
+    assert all(np.array_equal(written[name], kept[name], equal_nan=True) for name in kept.columns)
+
+
+def test_the_torques_of_a_force_row_are_its_lever_arms():
+    program = zwang.load(WALL_ALIGN)
+    rows, solver = program.plan("press"), zwang.Solver(program)
+    row = int(np.flatnonzero(rows.force)[0])
+    assert rows.name[row] == "contact.x" and rows.force[row] == 20.0
+    assert np.allclose(rows.A[:, row], [1, 0, 0, 0, 0, 0])
+    assert rows.where[row].startswith(str(WALL_ALIGN)) and rows.A.shape == (6, len(rows))
+    solution = solver.solve(rows)
+    assert solution.status == "ok" and abs(solution.nu[row] - 20.0) < 1e-9
+    # Power at rest: ahead, each of four equal wheels takes the same, and the sum of tau / r is the force.
+    assert np.allclose(solution.tau, solution.tau[0])
+    rows.force = 2.0 * rows.force
+    assert np.allclose(solver.solve(rows).tau, 2.0 * solution.tau)
+    with pytest.raises(KeyError):
+        program.plan("nothing")
+    rows.b = np.full(len(rows), np.nan)
+    with pytest.raises(ValueError):
+        solver.solve(rows)
+
+
 def test_what_an_own_plant_raises_comes_out():
     class Broken(zwang.Plant):
         def sense(self, sensed):

@@ -13,11 +13,11 @@ import itertools
 import pathlib
 
 from . import _zwang
-from ._zwang import (Command, Diagnostic, Error, Limit, Log, Program, Result, Runner, ScenePlant, Sensed, read_log,
-                     simulate)
+from ._zwang import (Command, Diagnostic, Error, Limit, Log, Program, Result, Rows, Runner, ScenePlant, Sensed, Solution,
+                     Solver, read_log, simulate)
 
-__all__ = ["Command", "Diagnostic", "Error", "Limit", "Log", "Plant", "Program", "Result", "Runner", "ScenePlant",
-           "Sensed", "load", "read_log", "run", "sweep", "validate"]
+__all__ = ["Command", "Diagnostic", "Error", "Limit", "Log", "Plant", "Program", "Result", "Rows", "Runner",
+           "ScenePlant", "Sensed", "Solution", "Solver", "load", "read_log", "run", "sweep", "validate"]
 
 
 def _shipped(path):
@@ -53,6 +53,14 @@ def _to_pandas(self):
 Log.to_pandas = _to_pandas
 
 
+def _plan(self, task):
+    """The Rows of a task at the start of its scene, as `zwang plan` prints them."""
+    return _zwang._plan(self, task)
+
+
+Program.plan = _plan
+
+
 class Plant:
     """Your own robot. `sense` fills the snapshot, `apply` sends the command; each is called once a period."""
 
@@ -68,26 +76,48 @@ def run(program, plant=None, *, most=600.0, log=False, seed=0, start_at=None, st
 
     Without a plant it runs on the simulated robot, and returns a Result. With one it calls `plant.sense`,
     `Runner.step` and `plant.apply` until the task is over, and returns the Runner: the plant sets the pace.
-    `on_tick(runner, sensed)` is called once a tick. `log` is of the simulated robot, without `on_tick`.
+    `on_tick(runner, sensed)` is called once a tick. `log="runs/a"` writes `runs/a/log.mcap` for `zwang report`,
+    `zwang replay` and `read_log`; `log=True` keeps a run on the simulated robot, without `on_tick`, in memory.
     """
-    if log and (plant is not None or on_tick is not None):
-        raise ValueError("log=True keeps a run on the simulated robot without on_tick; else keep what you need in on_tick")
+    if log is True and (plant is not None or on_tick is not None):
+        raise ValueError('log=True keeps a run on the simulated robot without on_tick; else write a file: log="runs/a"')
+    file = None if isinstance(log, bool) or log is None else _log_file(log)
     if plant is None and on_tick is None:
-        return simulate(program, most=most, log=log, seed=seed, start_at=start_at, start_yaw=start_yaw)
+        return simulate(program, most=most, log=log is True, seed=seed, start_at=start_at, start_yaw=start_yaw, file=file)
     if plant is None:
         plant = ScenePlant(program, seed=seed, start_at=start_at, start_yaw=start_yaw)
-    runner, sensed = Runner(program), Sensed(program)
-    begin = None
+    runner = Runner(program)
+    if file is None:
+        _step(program, runner, plant, most, on_tick, lambda: None)
+        return runner
+    recorder = _zwang._FileRecorder(runner, program, file)
+    try:
+        _step(program, runner, plant, most, on_tick, recorder.wait)
+    finally:
+        recorder.close()
+    return runner
+
+
+def _log_file(log):
+    """`runs/a` is a folder, as of `zwang run`; `a.mcap` is the file itself."""
+    path = pathlib.Path(log)
+    path = path if path.suffix == ".mcap" else path / "log.mcap"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path
+
+
+def _step(program, runner, plant, most, on_tick, wait):
+    sensed, begin = Sensed(program), None
     while not runner.finished:
         plant.sense(sensed)
         begin = sensed.time if begin is None else begin
         if sensed.time - begin > most:
             break
+        wait()
         command = runner.step(sensed)
         if on_tick is not None:
             on_tick(runner, sensed)
         plant.apply(command)
-    return runner
 
 
 def sweep(path, grid, *, jobs=1, text=None, robot=None, scene=None, most=600.0, log=False):
