@@ -135,9 +135,9 @@ TEST_F(Features, CompletionKnowsFilesTypesAndWhatIsSet) {
   EXPECT_TRUE(labels(answer).contains("std_msgs/Bool"));
   // The whole type stands in the place of what is written of it.
   for (const json& item : answer["items"]) {
-    if (item["label"] == "std_msgs/Bool")
-      EXPECT_EQ(Editor::edited(connection, json::array({item["textEdit"]})),
-                "zwang_connection: 1\nsignals:\n  bump: {topic: /bump, type: std_msgs/Bool");
+    if (item["label"] != "std_msgs/Bool") continue;
+    EXPECT_EQ(Editor::edited(connection, json::array({item["textEdit"]})),
+              "zwang_connection: 1\nsignals:\n  bump: {topic: /bump, type: std_msgs/Bool");
   }
 }
 
