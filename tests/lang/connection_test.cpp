@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The first code that a connection has on a base that takes twists at 50 Hz, with ticks of 1 ms.
-std::string code_of(const std::string& joints, const std::string& twist) {
+std::string code_of_times(const std::string& joints, const std::string& twist) {
   const zwang::test::TemporaryFolder folder;
   const fs::path path = folder.path() / "connection.yaml";
   std::ofstream(path) << "zwang_connection: 1\nstate:\n  joints: {topic: /joint_states" << joints
@@ -33,18 +33,18 @@ std::string code_of(const std::string& joints, const std::string& twist) {
 }
 
 TEST(ConnectionTimes, TheRobotsPeriodBoundsStaleAfter) {
-  EXPECT_EQ(code_of(", stale_after: 19 ms", ""), "E928");  // 50 Hz: a sample each 20 ms
-  EXPECT_EQ(code_of(", stale_after: 21 ms", ""), "");
-  EXPECT_EQ(code_of(", stale_after: 2 s", ""), "");
-  EXPECT_EQ(code_of(", stale_after: 2.001 s", ""), "E928");
+  EXPECT_EQ(code_of_times(", stale_after: 19 ms", ""), "E928");  // 50 Hz: a sample each 20 ms
+  EXPECT_EQ(code_of_times(", stale_after: 21 ms", ""), "");
+  EXPECT_EQ(code_of_times(", stale_after: 2 s", ""), "");
+  EXPECT_EQ(code_of_times(", stale_after: 2.001 s", ""), "E928");
 }
 
 TEST(ConnectionTimes, CommandsLeaveBetweenOnceATickAndOnceInStaleAfter) {
-  EXPECT_EQ(code_of("", ", rate: 1000 Hz"), "");  // ticks of 1 ms
-  EXPECT_EQ(code_of("", ", rate: 1001 Hz"), "E928");
-  EXPECT_EQ(code_of("", ", rate: 10 Hz"), "");  // 100 ms, the default of `stale_after`
-  EXPECT_EQ(code_of("", ", rate: 9.9 Hz"), "E928");
-  EXPECT_EQ(code_of(", stale_after: 50 ms", ", rate: 19 Hz"), "E928");
+  EXPECT_EQ(code_of_times("", ", rate: 1000 Hz"), "");  // ticks of 1 ms
+  EXPECT_EQ(code_of_times("", ", rate: 1001 Hz"), "E928");
+  EXPECT_EQ(code_of_times("", ", rate: 10 Hz"), "");  // 100 ms, the default of `stale_after`
+  EXPECT_EQ(code_of_times("", ", rate: 9.9 Hz"), "E928");
+  EXPECT_EQ(code_of_times(", stale_after: 50 ms", ", rate: 19 Hz"), "E928");
 }
 
 }  // namespace
