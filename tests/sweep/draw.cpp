@@ -94,6 +94,8 @@ constexpr double softest = 2e3, stiffest = 1e6;       // [N/m] of a wall
 constexpr double another_mass = 0.2;                  // of runs have one, up to
 constexpr double mass_error = 0.3;                    // of the base's own
 constexpr double soon = 0.1;                          // [s] after an entry
+constexpr int pressing_jobs = 4;                      // the first ones of `jobs`: a wall, a crate, a corner
+constexpr double longest_press = 1.0;                 // [s] until what is pressed on goes away
 constexpr std::array steps = {0.0, 0.0, 5e-5, 1e-3};  // [rad] of encoders
 
 std::string specs(const std::string& name) {
@@ -176,8 +178,10 @@ Drawn draw(std::uint64_t seed, int index, Which which) {
     return all[static_cast<std::size_t>(dice.below(static_cast<int>(all.size())))];
   };
   const std::vector<Job>& all = which == Which::others ? other_jobs() : jobs();
-  const Job& job = all[static_cast<std::size_t>(dice.below(static_cast<int>(all.size())))];
-  const std::string robot = one_of(job.robots), scene = one_of(job.scenes);
+  const int count = which == Which::released ? pressing_jobs : static_cast<int>(all.size());
+  const Job& job = all[static_cast<std::size_t>(dice.below(count))];
+  const std::string robot = one_of(job.robots);
+  const std::string scene = which == Which::released ? job.scenes.front() : one_of(job.scenes);
   Drawn drawn;
   drawn.program = load(job, robot, scene);
   drawn.name = std::string(job.task) + " on " + robot + ", " + scene;
@@ -187,8 +191,12 @@ Drawn draw(std::uint64_t seed, int index, Which which) {
   draw_world(dice, job, drawn.program);
   drawn.encoder_step = one_of(steps);
   drawn.seed = seed;
-  const bool is_faulty =
-      which == Which::faulty || which == Which::others || (which == Which::all && dice.below(3) > 0);
+  if (which == Which::released) {
+    drawn.leaves_after = dice.uniform(0.0, longest_press);
+    drawn.press_share = dice.uniform(0.0, 1.0);
+  }
+  const bool is_faulty = which == Which::faulty || which == Which::others || which == Which::released ||
+                         (which == Which::all && dice.below(3) > 0);
   if (!is_faulty) return drawn;
   drawn.fault = dice.below(2) == 0 ? EncoderFault::dead : EncoderFault::frozen;
   if (dice.below(2) == 0) {

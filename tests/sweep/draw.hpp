@@ -45,6 +45,10 @@ struct Drawn {
   EncoderFault fault = EncoderFault::none;
   Onset onset;
   std::uint64_t seed = 0;  ///< of the plant's noise
+  /// [s] from the onset on until the pressed object is gone; the onset lies in a press, at this share of all
+  /// the presses of a healthy run. Negative: objects stay.
+  double leaves_after = -1.0;
+  double press_share = 0.0;
 };
 
 enum class Which {
@@ -53,7 +57,8 @@ enum class Which {
   faulty,
   others,  ///< tasks with an arm, objects that give way, paths and people, with a fault: what docs/limits.md
            ///< states
-  starts,  ///< not drawn: encoders that fail 0 to 0.4 s after a base sets out to a wall, `start_count` runs
+  released,  ///< encoders fail in a held press, and up to 1 s later nothing is left to press on
+  starts,    ///< not drawn: encoders that fail 0 to 0.4 s after a base sets out to a wall, `start_count` runs
 };
 inline constexpr int start_count = 88;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "release.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
@@ -74,6 +75,7 @@ void note_onset(const Drawn& drawn, const Runner& runner, const Truth& truth, Re
 }  // namespace
 
 Result run(const Drawn& drawn) {
+  if (drawn.leaves_after >= 0.0) return run(released(drawn));
   const lang::Program& program = drawn.program;
   SimulationSteps steps(program.robot.control_period);
   ScenePlantOptions options;

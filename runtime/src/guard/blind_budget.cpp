@@ -26,7 +26,7 @@ void BlindBudget::begin(const Eigen::VectorXd& q) noexcept {
   change_.setZero();
   v_.setZero();
   lean_.setZero();
-  gap_ = s_ = 0.0;
+  gap_ = s_ = asked_for_ = 0.0;
   phase_ = Phase::counts;
   contact_.forget();
   contact_.untie();
@@ -90,7 +90,7 @@ void BlindBudget::set_out_from(const Eigen::VectorXd& rates) noexcept {
   rates_ = now_;
   change_.setZero();
   lean_.setZero();
-  gap_ = s_ = 0.0;
+  gap_ = s_ = asked_for_ = 0.0;
 }
 
 /// How far a rim is from where a look was answered.
@@ -149,18 +149,48 @@ std::optional<Event> BlindBudget::spend(double dt) noexcept {
   motion_.to_rates(y_, v_);
   const double speed = rim_speed(v_);
   s_ += speed * dt;
-  if (!(s_ > budget())) return std::nullopt;
+  if (s_ > budget()) {
+    motion_.to_rates(motion_.acceleration(), now_);
+    begin_look(speed, rim_speed(now_));
+  } else {
+    ask_the_contact(dt);
+  }
+  return std::nullopt;
+}
+
+/// `v_` is to be given back. `acceleration` [m/s^2] at a rim of what pressed.
+void BlindBudget::begin_look(double speed, double acceleration) noexcept {
   const double way = std::isfinite(rim_step_) ? std::max(least_look, steps * rim_step_) : least_look;
   time_constant_ = std::max(quickest_look, way / speed);
   gives_ = true;
   looked_for_ = waited_for_ = 0.0;
   answers_ = 0;
   is_fast_ = speed > look_below;
+  motion_.to_motions(v_, y_);
   spent_ = y_.head(motion_.freedoms()).norm();
   phase_ = Phase::looks;
-  motion_.to_rates(motion_.acceleration(), now_);
-  patience_ = answers_within + time_of_counts(rim_speed(now_));
-  return std::nullopt;
+  patience_ = answers_within + time_of_counts(acceleration);
+}
+
+/// If the contact went away with the last sign of life, the base goes as fast as `lean_` by now. Beyond
+/// `most_lean` the press slackens, and a contact that is there moves the wheels. If none counts, the base
+/// is to come off it. A free base gains, at the acceleration a of the press,
+///   most_lean + a integral of 1 - (t / T)^2 dt = most_lean + 2/3 a T.
+void BlindBudget::ask_the_contact(double dt) noexcept {
+  const double lean = rim_speed(lean_);
+  if (!asks() && lean <= most_lean) return;
+  asked_for_ += dt;
+  if (asked_for_ <= slackens_for) return;
+  v_ = lean_ * (comes_off / lean);
+  begin_look(comes_off, lean / gap_);
+}
+
+void BlindBudget::slacken(Eigen::VectorXd& tau) const noexcept {
+  // The slower it begins, the less a stiff contact rings: a count of d needs K d r of the force.
+  const double share = std::max(0.0, 1.0 - std::pow(asked_for_ / slackens_for, 2.0));
+  for (const BlindMotion::DrivenJoint& driven : motion_.joints()) {
+    if (driven.radius > 0.0) tau(driven.joint) *= share;
+  }
 }
 
 /// [s] in which a contact moves a rim by as many counts as are an answer, where it was pressed with what

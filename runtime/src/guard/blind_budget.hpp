@@ -47,6 +47,9 @@ class BlindBudget {
   /// The model's motors would have moved a rim at `slowest` since the last sign of life, but for a contact.
   /// No encoder says whether that contact is still there.
   bool leans() noexcept;
+  /// The wheels are to get the torques of `slacken`.
+  bool asks() const noexcept { return phase_ == Phase::counts && asked_for_ > 0.0; }
+  void slacken(Eigen::VectorXd& tau) const noexcept;
   /// [s] since the last sign of life.
   double silent_for() const noexcept { return gap_; }
   /// Rates are not to be believed.
@@ -56,7 +59,7 @@ class BlindBudget {
 
   static constexpr double least_budget = lang::least_blind_way;  ///< [m]
   static constexpr double steps = lang::blind_steps;             ///< of the encoder, at the rim
-  static constexpr double least_change = 1e-5;    ///< [rad] of a position: less is noise of its arithmetic
+  static constexpr double least_change = 1e-7;    ///< [rad] of a position: an encoder of 25 bits counts 2e-7
   static constexpr double slowest = 0.01;         ///< [m/s] at a rim: rolling on at that harms nobody
   static constexpr double rate_low_pass = 0.005;  ///< [s]
   static constexpr double look_below = 0.05;      ///< [m/s] at a rim: above it nobody waits for long
@@ -66,6 +69,9 @@ class BlindBudget {
   static constexpr double longest_look = 0.15;    ///< [s]
   static constexpr double answers_within = 0.02;  ///< [s] after that, and
   static constexpr double longest_count = 0.1;    ///< [s] at most more for the counts of a coarse encoder
+  static constexpr double most_lean = 0.04;       ///< [m/s] at a rim, if the contact has gone
+  static constexpr double slackens_for = 0.06;    ///< [s] from all of the press to none of it
+  static constexpr double comes_off = 0.02;       ///< [m/s] at a rim: 0.4 mm within `answers_within`
   static constexpr double held = 0.5;             ///< of what is given back: the world held it off
   static constexpr int signs_of_life = 2;         ///< that are an answer
   static constexpr double near = 2.0;             ///< budgets around where a look found a contact
@@ -85,6 +91,8 @@ class BlindBudget {
   double time_of_counts(double acceleration) const noexcept;
   Event event(EventCode code) const noexcept;
   std::optional<Event> spend(double dt) noexcept;
+  void begin_look(double speed, double acceleration) noexcept;
+  void ask_the_contact(double dt) noexcept;
   std::optional<Event> wait_for_an_answer(bool is_alive, double dt) noexcept;
 
   BlindMotion motion_;
@@ -101,8 +109,9 @@ class BlindBudget {
   Eigen::VectorXd lean_;    ///< that contacts took from the model, since the last sign of life
   Eigen::VectorXd y_, p_, told_;
   double time_ = 0.0;
-  double gap_ = 0.0;  ///< [s] since the last sign of life
-  double s_ = 0.0;    ///< [m]
+  double gap_ = 0.0;        ///< [s] since the last sign of life
+  double s_ = 0.0;          ///< [m]
+  double asked_for_ = 0.0;  ///< [s] that the press has slackened; 0: it does not
   double rim_step_ =
       std::numeric_limits<double>::infinity();  ///< [m] the least that was ever counted, or told
   int fastest_ = 0;                             ///< the joint whose rim is

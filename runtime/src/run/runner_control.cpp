@@ -81,6 +81,7 @@ void Runner::Parts::send(bool good, bool solved) noexcept {
     if (guard.stopped()) wanted.setZero();
     blind_budget.give_back(wanted);
   }
+  if (good && !guard.stopped() && !drive && blind_budget.asks()) blind_budget.slacken(wanted);
   if (good && !guard.stopped() && !drive) frozen_wheel.ask(wanted);
   guard_status = good ? guard.output(estimated, wanted, tau) : guard.output_blind(tau);
   put_command(good, solved);
