@@ -90,6 +90,12 @@ TEST(Sweep, ABaseBetweenTwoWallsIsNotStopped) {
   for (const int index : {7, 22}) EXPECT_FALSE(run(draw(1, index, Which::healthy)).stopped) << index;
 }
 
+/// A padded wall in line with a wheel resists as its damper first and as its spring then: together for 40 ms
+/// as evenly as the wheel's command grows. What takes energy only is no motor.
+TEST(Sweep, APaddedWallIsNoReversedMotor) {
+  EXPECT_FALSE(run(draw(7, 55, Which::healthy)).stopped);
+}
+
 /// With encoders of steps up to 5e-5 rad.
 TEST(Sweep, AHealthyRunIsNotFrozen) {
   const int runs = test::is_long() ? 1000 : 4;

@@ -95,12 +95,13 @@ std::optional<Event> ActuatorWatch::look(const DisturbanceObserver& observer, co
   return Event{codes[*sure], 0.0, event_signal::of_joint(best->joint, event_signal::tau), best->f};
 }
 
-/// [m] that the force went along, as a rim of the wheel would: P = f qd_j of a motor; 0 where a spring as
-/// deep explains it.
+/// [m] that the force drove the robot, as a rim of the wheel would: P = f qd_j of a motor; 0 where a spring
+/// as deep explains it. A way against the force says nothing: a padded wall that is hit damps at once, and
+/// goes on as a spring, so evenly as a command grows.
 double ActuatorWatch::way_of(const Motor& motor, const Fit& fit, const ContactDepth::Mark& since,
                              const ContactDepth& contact) noexcept {
   if (!contact.is_no_spring(since)) return 0.0;
-  return std::abs(contact.now().way - since.way) * std::sqrt(fit.s) * motor.radius;
+  return std::max(0.0, contact.now().way - since.way) * std::sqrt(fit.s) * motor.radius;
 }
 
 /// Out of quiet, or closely, while the wheel rolls. A stuck motor needs a command that varies, and twice the

@@ -22,9 +22,9 @@ namespace zwang::runtime {
 /// a differential base, as far out as its wheel. Three things tell them apart.
 ///  - Contact grows from nothing through that size to another one: a force that had the size `entry` after it
 ///    began out of quiet, and keeps it `closely` for `dwell`, is a motor's. Where something was hit less than
-///    `after_a_hit` ago it has to go along by `least_way` as well, as its wheel does: a base that
-///    turns about a corner at the wall leans on it with what the wheel beside it is told, evenly, and that
-///    force does no work.
+///    `after_a_hit` ago it has to drive the robot by `least_way` as well: a base that turns about a corner at
+///    the wall leans on it with what the wheel beside it is told, evenly, and that force does no work. That
+///    of a padded wall takes work, first by its damper, then by its spring, and is even in between.
 ///  - Contact has a place: where the wheel rolls on by `travel`, a contact between the robot and what stands
 ///    gives way or grows. A force that keeps to direction and size `closely` the while, farther than a spring
 ///    does that is as deep (ContactDepth), is a motor's, whenever it began: a motor that failed while it was
