@@ -214,6 +214,28 @@ std::string faster_than_a_norm(Dice& d, bool fault) {
       "", "{after: 5 s, goto: done}"));
 }
 
+/// v along x and along y are v sqrt(2).
+std::string diagonal_beyond_a_norm(Dice& d, bool fault) {
+  const double most = d.number(0.1, 0.4), v = most * (fault ? d.number(0.72, 0.98) : d.number(0.2, 0.7));
+  const std::string along = q(v, "m/s"), across = q(d.whole(0, 1) == 0 ? v : -v, "m/s");
+  return file(task("a",
+                   "constraints: {go: {move: base_link, in: base_link, x: {velocity: " + along +
+                       "}, y: {velocity: " + across +
+                       "}, rz: {velocity: 0 rad/s}}, calm: {move: base_link, " +
+                       "in: base_link, speed: {velocity: " + range(0.0, most, "m/s") + "}}}",
+                   "", "{after: 5 s, goto: done}"));
+}
+
+/// A task that comes later has neither been entered nor is the time since then known.
+std::string before_it_is_entered(Dice& d, bool fault) {
+  const std::string asked = fault ? "b" : "a", dwell = q(d.number(0.2, 3.0), "s");
+  const bool counts = d.whole(0, 1) == 0;
+  const std::string when = counts ? "entries(" + asked + ") > 0 and elapsed > " + dwell
+                                  : "since(" + asked + ") > " + dwell + " and moved(base_link) > 1 cm";
+  return file(task("a", drive("velocity: 0.05 m/s"), exit_when(when, "b"), fails) +
+              task("b", drive("velocity: 0 m/s"), "", "{after: 2 s, goto: done}"));
+}
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = [] {
     std::vector<Kind> some{
@@ -231,6 +253,8 @@ const std::vector<Kind>& kinds() {
         {"never_saturated", {"W602"}, never_saturated},
         {"force_beyond_a_sum", {"W416"}, force_beyond_a_sum},
         {"faster_than_a_norm", {"W416"}, faster_than_a_norm},
+        {"diagonal_beyond_a_norm", {"W416"}, diagonal_beyond_a_norm},
+        {"before_it_is_entered", {"W511"}, before_it_is_entered},
     };
     for (Kind& kind : kinds_of_places()) some.push_back(std::move(kind));
     return some;

@@ -72,8 +72,8 @@ Ending ending_before(const CheckContext& context, const TaskText& task,
   return ending;
 }
 
-bool is_entered_again(const CheckContext& context, const std::string& task) {
-  std::vector<std::string> open{task};
+bool is_entered_after(const CheckContext& context, const std::string& task, const std::string& earlier) {
+  std::vector<std::string> open{earlier};
   std::set<std::string> reached;
   while (!open.empty()) {
     const std::string name = open.back();
@@ -88,6 +88,10 @@ bool is_entered_again(const CheckContext& context, const std::string& task) {
     }
   }
   return false;
+}
+
+bool is_entered_again(const CheckContext& context, const std::string& task) {
+  return is_entered_after(context, task, task);
 }
 
 bool leads_back(const CheckContext& context) {

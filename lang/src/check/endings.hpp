@@ -24,6 +24,8 @@ Ending ending_before(const CheckContext& context, const TaskText& task,
 double earliest(const CheckContext& context, const TaskText& task, const ExitText& exit,
                 const Condition& condition);
 
+/// Whether a way leads from the earlier task to this one.
+bool is_entered_after(const CheckContext& context, const std::string& task, const std::string& earlier);
 /// Whether a way leads from the task on and back to it.
 bool is_entered_again(const CheckContext& context, const std::string& task);
 /// Whether some exit leads `back`, to nobody knows which task.

@@ -71,6 +71,17 @@ Diagnostic beyond_a_range(const Span& span, const Bound& asked, const Bound& ran
       range_span, "the range is here");
 }
 
+Diagnostic beyond_a_norm(const Span& span, const std::string& one, const std::string& other, double together,
+                         const Bound& norm, const Span& norm_span) {
+  return related_where_known(
+      warning("W416", span,
+              ticked(one) + " and " + ticked(other) + " ask for " + figure(together, norm.unit) +
+                  " together, " + ticked(norm.path) + " keeps the norm " +
+                  within(norm.low, norm.high, norm.unit) + ": it never gets there",
+              "ask for less along one of the two axes, or widen the range"),
+      norm_span, "the range is here");
+}
+
 Diagnostic no_way_out(const Span& span, const std::vector<std::string>& tasks) {
   std::string names;
   for (std::size_t i = 0; i < tasks.size() && i < 4; ++i) names += (i == 0 ? "`" : ", `") + tasks[i] + "`";
@@ -176,6 +187,13 @@ Diagnostic never_true(const Span& span, const std::string& what, double low, dou
                                          ", as " + by_the_range(by),
                                      "compare with a value that it can come to, or take the exit out"),
                              range, "it is bounded here");
+}
+
+Diagnostic not_entered_yet(const Span& span, const std::string& what, const std::string& task) {
+  return warning(
+      "W511", span,
+      "this is never true: no way leads from " + ticked(task) + " to this task, so `" + what + "` is unknown",
+      "ask for a task that comes earlier, or take the exit out");
 }
 
 Diagnostic always_true(const Span& span, const std::string& what, double low, double high,

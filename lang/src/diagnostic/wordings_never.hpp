@@ -19,6 +19,9 @@ struct Bound {
   double low = 0.0, high = 0.0;
 };
 Diagnostic excluding_ranges(const Span& span, const Bound& own, const Bound& other, const Span& other_span);
+/// Velocities along two axes of one frame, whose norm is beyond a range.
+Diagnostic beyond_a_norm(const Span& span, const std::string& one, const std::string& other, double together,
+                         const Bound& norm, const Span& norm_span);
 Diagnostic beyond_a_range(const Span& span, const Bound& asked, const Bound& range, const Span& range_span);
 
 /// `task` comes first in the text; the names of all that follow each other. Not empty.
@@ -52,6 +55,7 @@ Diagnostic set_from_unknown(const Span& span, const std::string& frame, const st
                             const std::string& condition);
 
 /// `what` lies within [low, high] by the range `by`. SI.
+Diagnostic not_entered_yet(const Span& span, const std::string& what, const std::string& task);
 Diagnostic never_true(const Span& span, const std::string& what, double low, double high,
                       const std::string& unit, const std::string& by, const Span& range);
 Diagnostic always_true(const Span& span, const std::string& what, double low, double high,

@@ -116,6 +116,23 @@ void compare_with_norm(const PlannedAxis& axis, const PlannedSpeed& speed, Remar
                                         {speed.path, "velocity", "m/s", 0.0, speed.most}, speed.span));
 }
 
+bool drives_speed(const PlannedAxis& axis, const PlannedSpeed& speed) {
+  return axis.driver == Quantity::velocity && axis.target && !axis.turns() && !axis.is_feature() &&
+         axis.move.body == speed.body && axis.text != nullptr;
+}
+
+/// Drivers of x and y of one frame that are each within the norm, and not together.
+void compare_two_with_norm(const PlannedAxis& x, const PlannedAxis& y, const PlannedSpeed& speed,
+                           Remarks& remarks) {
+  const bool is_a_pair = x.axis == solver::Axis::x && y.axis == solver::Axis::y && drives_speed(x, speed) &&
+                         drives_speed(y, speed) && is_alike(x.in, y.in) && is_alike(x.move, y.move);
+  if (!is_a_pair || std::max(std::abs(*x.target), std::abs(*y.target)) > speed.most) return;
+  const double together = std::hypot(*x.target, *y.target);
+  if (together <= speed.most * (1.0 + 1e-3)) return;
+  remarks.add(wording::beyond_a_norm(y.driver_span(), x.path, y.path, together,
+                                     {speed.path, "velocity", "m/s", 0.0, speed.most}, speed.span));
+}
+
 bool is_along_world(const PlannedAxis& axis) {
   return axis.in_world && axis.is_placed && !axis.is_set && !axis.is_on_path && axis.move.body >= 0 &&
          !axis.is_feature() && (axis.axis == solver::Axis::x || axis.axis == solver::Axis::y) &&
@@ -207,6 +224,7 @@ void ask_contradiction(const CheckContext& context, const PlannedTask& plan, Pro
     for (const PlannedAxis& limit : plan.axes) compare_driver(axis, limit, probe, remarks);
     for (const PlannedSpeed& speed : plan.speeds) {
       compare_with_norm(axis, speed, remarks);
+      for (const PlannedAxis& other : plan.axes) compare_two_with_norm(other, axis, speed, remarks);
       const bool is_asked = axis.driver == solver::Quantity::velocity && axis.target && !axis.turns() &&
                             axis.move.body == speed.body && !speed.path.starts_with("always.");
       if (!is_asked || std::abs(*axis.target) <= speed.most) continue;

@@ -10,7 +10,8 @@
 //                               on a straight way no longer than the region in force
 //   turned(frame)               the turning speed times the time
 //   elapsed, since(own task)    that time
-//   entries(task)               1 where no way leads back to it
+//   entries(task)               1 where no way leads back to it, 0 where none leads from it to this task
+//   since(task)                 nothing where no way leads from it to this task
 //   an output                   its start, and each value that the file sets it to
 //
 // A condition that also asks for `elapsed < t` has t in the place of the time.
@@ -40,6 +41,7 @@ struct Known {
   Span span;
   bool holds_whatever_pushes = false;
   int output = -1;  ///< whose values they are
+  bool is_unknown = false;
 };
 
 /// What the file sets an output to, wherever.
@@ -100,6 +102,8 @@ class ExitQuestion {
       if (!why) why = found;
     }
     if (why->known.output >= 0) return tell_output(exit, why->known, false, remarks);
+    if (why->known.is_unknown)
+      return remarks.add(wording::not_entered_yet(exit.when.span, why->what, why->known.by));
     remarks.add(wording::never_true(exit.when.span, why->what, why->known.bounds.low, why->known.bounds.high,
                                     why->unit, why->known.by, why->known.span));
   }
@@ -197,12 +201,20 @@ class ExitQuestion {
 
   Known known_since(const ExpressionNode& node) const {
     const std::string& task = context_.symbols.tasks[static_cast<std::size_t>(node.index)];
+    if (is_yet_to_come(task)) return {{solver::infinity, -solver::infinity}, task, {}, true, -1, true};
     const bool is_own = plan_.task != nullptr && plan_.task->name.text == task && !leads_back(context_);
     return is_own ? Known{{0.0, latest_.time}, latest_.by, latest_.span, true} : Known{};
   }
 
+  /// No way leads from it to the task whose exits are looked at.
+  bool is_yet_to_come(const std::string& task) const {
+    return plan_.task != nullptr && plan_.task->name.text != task && !leads_back(context_) &&
+           !is_entered_after(context_, plan_.task->name.text, task);
+  }
+
   Known known_entries(const ExpressionNode& node) const {
     const std::string& task = context_.symbols.tasks[static_cast<std::size_t>(node.index)];
+    if (is_yet_to_come(task)) return {{0.0, 0.0}, "a file without a way from it to this task", {}, true};
     if (leads_back(context_) || is_entered_again(context_, task)) return {};
     return {{0.0, 1.0}, "a file without a way back to it", {}, true};
   }
