@@ -178,7 +178,8 @@ void BlindBudget::begin_look(double speed, double acceleration) noexcept {
 ///   most_lean + a integral of 1 - (t / T)^2 dt = most_lean + 2/3 a T.
 void BlindBudget::ask_the_contact(double dt) noexcept {
   const double lean = rim_speed(lean_);
-  if (!asks() && lean <= most_lean) return;
+  if (contact_.is_tied()) asked_for_ = 0.0;  // a held hook answers nothing
+  if (contact_.is_tied() || (!asks() && lean <= most_lean)) return;
   asked_for_ += dt;
   if (asked_for_ <= slackens_for) return;
   v_ = lean_ * (comes_off / lean);
