@@ -27,10 +27,15 @@ std::filesystem::path make_log_folder(const RunArguments& arguments) {
       throw Impossible(*arguments.log + ": cannot make this folder: " + error.message());
     // A script that runs again with the same folder goes on; whom it surprises is told.
     const fs::path folder = *arguments.log;
-    const bool has_one = fs::exists(folder / "log.mcap", error) || fs::exists(folder / "log_0.mcap", error);
-    if (has_one) print_error("zwang: " + *arguments.log + ": the log that was here is written over\n");
-    const std::string hindrance = has_one ? runtime::remove_log(folder, "log") : "";
+    const auto has_log = [&] {
+      return fs::exists(folder / "log.mcap", error) || fs::exists(folder / "log_0.mcap", error);
+    };
+    const bool had_one = has_log();
+    const std::string hindrance = had_one ? runtime::remove_log(folder, "log") : "";
     if (!hindrance.empty()) throw Impossible(hindrance);
+    // A link or a pipe is still there: the run refuses it, and writes nothing over.
+    if (had_one && !has_log())
+      print_error("zwang: " + *arguments.log + ": the log that was here is written over\n");
     return *arguments.log;
   }
   fs::create_directories("runs", error);

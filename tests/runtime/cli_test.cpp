@@ -162,6 +162,16 @@ TEST_F(Cli, ALogThatIsWrittenOverIsToldOf) {
   EXPECT_EQ(second.err, "zwang: log: the log that was here is written over\n");
 }
 
+TEST_F(Cli, ALogThatIsRefusedIsNotSaidToBeWrittenOver) {
+  fs::create_directory(folder_ / "log");
+  const fs::path target = write("target", "not a log");
+  fs::create_symlink(target, folder_ / "log/log.mcap");
+  const Result run = zwang({"run", wall_align, "--quiet", "--log", "log"});
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err, "zwang: log/log.mcap: is a symbolic link\n");
+  EXPECT_EQ(read(target), "not a log");
+}
+
 TEST_F(Cli, TakesTheStartPoseFromTheCommandLine) {
   const Result r = run_task(std::string(stand) + "    exits: [{when: elapsed > 0.1 s, goto: done}]\n",
                             {"--format", "json", "--start-yaw", "-35 deg", "--start-at", "-1 m, 25 cm"});
