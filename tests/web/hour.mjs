@@ -22,7 +22,9 @@ function runAnHour() {
   const scenario = `${folder}/specs/scenarios/patrol_hour.yaml`;
   const text = readFileSync(`${specs}/scenarios/patrol.yaml`, 'utf8');
   writeFileSync(scenario, text.replace(/time_limit: .*/, `time_limit: ${seconds} s`));
-  took('run of an hour', () => spawnSync(zwang, ['run', scenario, '--log', `${folder}/hour`, '--quiet'], { stdio: 'ignore' }));
+  const run = took('run of an hour', () => spawnSync(zwang,
+    ['run', scenario, '--cell', 'robot mecanum_base', '--log', `${folder}/hour`, '--quiet'], { encoding: 'utf8' }));
+  assert.notEqual(run.status, 2, run.stderr);
   return `${folder}/hour`;
 }
 
