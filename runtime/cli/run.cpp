@@ -144,6 +144,8 @@ void control(runtime::ScenePlant& plant, runtime::Runner& runner, const Recorder
   if (status == PlantStatus::ok && plant.truth().base.fallen) {
     report.outcome = "fallen";
     report.because = describe_fall(plant.truth().base);
+    if (runner.state() == runtime::RunState::running)
+      report.because += ", in `" + task_name(runner.scheduler(), runner.scheduler().task()) + "`";
     report.why.reset();
   }
   report.elapsed = sensed.time;

@@ -11,6 +11,10 @@
 
 namespace zwang::cli {
 
+std::string task_name(const runtime::Scheduler& scheduler, int task) {
+  return task < 0 ? "-" : scheduler.tasks()[static_cast<std::size_t>(task)].name;
+}
+
 namespace {
 
 using nlohmann::ordered_json;
@@ -19,10 +23,6 @@ using runtime::Transition;
 
 std::string seconds(double time) {
   return with_unit(time, "s", 4);
-}
-
-std::string task_name(const runtime::Scheduler& scheduler, int task) {
-  return task < 0 ? "-" : scheduler.tasks()[static_cast<std::size_t>(task)].name;
 }
 
 /// What would have switched too on that tick, in the words of the task file.

@@ -317,6 +317,9 @@ TEST_F(Cli, ABaseThatFallsEndsWithOneAndIsNeverDone) {
   EXPECT_EQ(r.code, 1) << r.err;
   const json j = json::parse(r.out);
   EXPECT_EQ(j["outcome"], "fallen");
+  const std::string verdict = j["verdict"];
+  EXPECT_NE(verdict.find(": the base tipped over its front, pitch "), std::string::npos) << verdict;
+  EXPECT_TRUE(verdict.ends_with(" deg, in `stand`")) << verdict;
   EXPECT_GT(j["truth"]["base"]["pitch"].get<double>(), 5.0 * std::numbers::pi / 180.0);
   EXPECT_GT(j["truth"]["base"]["fallen"].get<double>(), 0.1);
 }

@@ -3,6 +3,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <numbers>
 
@@ -298,9 +299,15 @@ MujocoPlant::~MujocoPlant() = default;
 
 std::string describe_fall(const BaseTruth& base) {
   constexpr double degree = std::numbers::pi / 180.0;
+  // Roll turns about x, which points ahead, pitch about y, which points left: positive ones lower the right
+  // and the front.
+  const bool ahead_or_back = std::abs(base.pitch) >= std::abs(base.roll);
+  const double angle = ahead_or_back ? base.pitch : base.roll;
+  const char* side =
+      ahead_or_back ? (angle > 0.0 ? "front" : "back") : (angle > 0.0 ? "right side" : "left side");
   std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "fell over: roll %.0f deg, pitch %.0f deg", base.roll / degree,
-                base.pitch / degree);
+  std::snprintf(text.data(), text.size(), "the base tipped over its %s, %s %.0f deg", side,
+                ahead_or_back ? "pitch" : "roll", angle / degree);
   return text.data();
 }
 
