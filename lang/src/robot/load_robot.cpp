@@ -11,6 +11,7 @@
 #include "diagnostic/wordings_standing.hpp"
 #include "diagnostic/wordings_statics.hpp"
 #include "robot/adapt_urdf.hpp"
+#include "robot/assemble_robot.hpp"
 #include "robot/based_on.hpp"
 #include "robot/check_joints.hpp"
 #include "robot/check_push.hpp"
@@ -34,7 +35,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// Builds the solver's model from a robot file and its URDF.
+/// Checks a robot file against its URDF before and after both become a robot.
 class RobotBuilder {
  public:
   RobotBuilder(const RobotFile& file, Urdf urdf, int errors_before, Diagnostics& diagnostics)
@@ -58,8 +59,8 @@ class RobotBuilder {
     check_bodies(file_, urdf_, diagnostics_);
     if (diagnostics_.error_count() > errors_before_) return std::nullopt;
     try {
-      stand_wheels_exactly(build_model(), file_, urdf_, diagnostics_);
-      Robot robot = assemble();
+      stand_wheels_exactly(model_of(file_, urdf_), file_, urdf_, diagnostics_);
+      Robot robot = assemble_robot(file_, urdf_);
       if (!stands(robot)) return std::nullopt;
       check_twist(file_, robot.model, diagnostics_);
       check_feels(file_, robot.model, diagnostics_);
@@ -201,56 +202,11 @@ class RobotBuilder {
 
   void check_footprint() {
     const auto& corners = file_.footprint;
-    double area = 0.0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const auto& next = corners[(i + 1) % corners.size()];
-      area += 0.5 * (corners[i].x() * next.y() - next.x() * corners[i].y());
-    }
-    is_clockwise_ = area < 0.0;
-    if (corners.size() >= 3 && std::abs(area) < 1e-6) {
+    if (corners.size() >= 3 && std::abs(plane::signed_area(corners)) < 1e-6) {
       diagnostics_.add(wording::flat_polygon(file_.footprint_span, "footprint"));
     } else if (plane::crosses_itself(corners)) {
       diagnostics_.add(wording::crossing_edges("E807", file_.footprint_span, "the footprint"));
     }
-  }
-
-  /// Links outward from the base, whatever the URDF's root is.
-  solver::ModelBuilder add_links() const {
-    const UrdfLink& base = *urdf_.find_link(file_.base.text);
-    solver::ModelBuilder builder(solver::BaseType::ground, base.name, base.inertia);
-    std::set<std::string> added{base.name};
-    const solver::Joint fixed;
-    for (const UrdfJoint* above = urdf_.joint_above(base.name); above != nullptr;
-         above = urdf_.joint_above(above->parent)) {
-      const UrdfLink& parent = *urdf_.find_link(above->parent);
-      builder.add_link(parent.name, above->child, above->origin.inverse(), fixed, parent.inertia);
-      added.insert(parent.name);
-    }
-    for (bool is_growing = true; is_growing;) {
-      is_growing = false;
-      for (const UrdfJoint& joint : urdf_.joints) {
-        if (!added.contains(joint.parent) || added.contains(joint.child)) continue;
-        builder.add_link(joint.child, joint.parent, joint.origin, joint.joint,
-                         urdf_.find_link(joint.child)->inertia);
-        added.insert(joint.child);
-        is_growing = true;
-      }
-    }
-    return builder;
-  }
-
-  bool has_link_or_frame(const std::string& name) const {
-    return urdf_.find_link(name) != nullptr ||
-           std::any_of(file_.frames.begin(), file_.frames.end(),
-                       [&](const FrameText& frame) { return frame.name.text == name; });
-  }
-
-  /// Names under which a task finds the base, and the point to drive, of any robot.
-  std::vector<std::pair<std::string, std::string>> implied_frames() const {
-    const std::string lead = file_.lead.exists() ? file_.lead.text : file_.base.text;
-    std::vector<std::pair<std::string, std::string>> frames = {{"base", file_.base.text}, {"lead", lead}};
-    std::erase_if(frames, [&](const auto& frame) { return has_link_or_frame(frame.first); });
-    return frames;
   }
 
   /// E640 where the mass lies outside of what carries it, or beside points on a line.
@@ -260,78 +216,6 @@ class RobotBuilder {
     const Span& span = file_.supports.empty() ? file_.base.span : file_.supports.front().span;
     diagnostics_.add(wording::falls_over(span, robot.name, -footing->inside, !file_.supports.empty()));
     return false;
-  }
-
-  solver::Model build_model() const {
-    solver::ModelBuilder builder = add_links();
-    for (const FrameText& frame : file_.frames) {
-      builder.add_frame(frame.name.text, frame.parent.text, pose_of(frame));
-    }
-    for (const auto& [name, same_as] : implied_frames()) builder.add_frame(name, same_as, {});
-    for (const SupportFrame& support : support_frames(file_, urdf_)) {
-      if (support.is_new())
-        builder.add_frame(support.name, support.link, {solver::Matrix3::Identity(), support.at});
-    }
-    for (const WheelText& wheel : file_.wheels) {
-      builder.add_wheel(wheel.joint.text, {.body = 0,
-                                           .radius = *wheel.radius,
-                                           .holds_rolling = wheel.holds_rolling,
-                                           .holds_sideways = wheel.holds_sideways,
-                                           .roller_angle = wheel.roller});
-    }
-    return builder.build();
-  }
-
-  Robot assemble() const {
-    Robot robot;
-    robot.name = urdf_.name;
-    robot.model = build_model();
-    robot.base_frame = file_.base.text;
-    for (const auto& [name, same_as] : implied_frames()) robot.implied_frames.push_back(name);
-    robot.limits = file_.limits;
-    robot.stop = file_.stop;
-    robot.footprint = file_.footprint;
-    if (is_clockwise_) std::reverse(robot.footprint.begin(), robot.footprint.end());
-    for (const SupportFrame& support : support_frames(file_, urdf_)) robot.supports.push_back(support.name);
-    robot.bumper_height_said = file_.bumper_height.has_value();
-    if (file_.bumper_height) robot.bumper_height = *file_.bumper_height;
-    if (file_.bumper_stiffness) robot.bumper_stiffness = *file_.bumper_stiffness;
-    if (file_.control_period) robot.control_period = *file_.control_period;
-    if (file_.encoder_step) robot.encoder_step = *file_.encoder_step;
-    robot.drive = file_.drive;
-    for (const PadText& pad : file_.pads) robot.pads.push_back({pad.frame.text, pad.width, pad.height});
-    add_joint_facts(robot);
-    return robot;
-  }
-
-  void add_joint_facts(Robot& robot) const {
-    robot.posture = Eigen::VectorXd::Zero(robot.model.joint_count());
-    for (const PostureText& posture : file_.posture) {
-      robot.posture(*robot.model.find_joint(posture.joint.text)) = posture.value.quantity.value;
-    }
-    robot.slew = Eigen::VectorXd::Constant(robot.model.joint_count(), solver::infinity);
-    for (int j = 0; j < robot.model.joint_count(); ++j) {
-      const std::string& name = robot.model.joint(j).name;
-      if (robot.model.joint(j).actuated) robot.slew(j) = robot.model.joint(j).max_effort / full_torque_within;
-      Span span = urdf_.find_joint(name)->span;
-      for (const ActuatorText& actuator : file_.actuators) {
-        if (actuator.joint.text != name) continue;
-        span = actuator.joint.span;
-        if (actuator.slew_text) robot.slew(j) = actuator.slew_text->quantity.value;
-      }
-      robot.joint_spans.push_back(span);
-      robot.friction.push_back(friction_of(name));
-    }
-  }
-
-  JointFriction friction_of(const std::string& joint) const {
-    const auto text = std::find_if(file_.friction.begin(), file_.friction.end(),
-                                   [&](const FrictionText& f) { return f.joint.text == joint; });
-    if (text == file_.friction.end()) return {};
-    const auto number = [](const std::optional<ValueText>& value) {
-      return value ? value->quantity.value : 0.0;
-    };
-    return {number(text->coulomb), number(text->presliding), number(text->viscous), text->compensate};
   }
 
   /// What the model builder says of the first thing that it names.
@@ -359,7 +243,6 @@ class RobotBuilder {
   Urdf urdf_;
   int errors_before_;  ///< of other files
   Diagnostics& diagnostics_;
-  bool is_clockwise_ = false;
   std::set<std::string> bad_names_;
 };
 

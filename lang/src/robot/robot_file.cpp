@@ -261,6 +261,82 @@ std::optional<double> parse_encoder_step(const Node& node, const RobotFile& file
   return step;
 }
 
+/// Each entry of the mapping below `key`.
+template <typename Use>
+void for_each_entry(MapReader& map, const char* key, Diagnostics& diagnostics, const Use& use) {
+  const Node* node = map.optional(key);
+  if (node == nullptr || !require_mapping(*node, "`" + std::string(key) + "`", diagnostics)) return;
+  for (const Entry& entry : node->entries) {
+    if (!entry.key.is_bad) use(entry);
+  }
+}
+
+std::vector<Word> parse_words(MapReader& map, const char* key, Diagnostics& diagnostics) {
+  std::vector<Word> list;
+  const Node* node = map.optional(key);
+  const std::string what = std::string("`") + key + "`";
+  if (node == nullptr || !require_sequence(*node, what, diagnostics)) return list;
+  for (const Node& item : node->items) list.push_back(parse_word(item, what, diagnostics));
+  return list;
+}
+
+void parse_wheels(MapReader& map, RobotFile& file, Diagnostics& diagnostics) {
+  if (const Node* each_wheel = map.optional("each_wheel"))
+    file.each_wheel = parse_each_wheel(*each_wheel, diagnostics);
+  if (const Node* each_joint = map.optional("each_joint"))
+    file.each_joint = parse_each_joint(*each_joint, diagnostics);
+  const Node* wheels = map.required("wheels");
+  if (wheels == nullptr || !require_sequence(*wheels, "`wheels`", diagnostics)) return;
+  for (const Node& item : wheels->items) {
+    file.wheels.push_back(parse_wheel(item, file.each_wheel.gives_radius, diagnostics));
+    // Who writes one by its name writes all so.
+    if (item.is_scalar()) break;
+  }
+  if (wheels->items.empty()) diagnostics.add(wording::no_wheels(wheels->span));
+}
+
+void parse_actuated(MapReader& map, RobotFile& file, Diagnostics& diagnostics) {
+  const Node* actuated = map.required("actuated");
+  if (actuated == nullptr ||
+      !require_mapping(*actuated, "`actuated`", diagnostics, actuators_example(*actuated)))
+    return;
+  bool is_told = false;
+  for (const Entry& entry : actuated->entries) {
+    if (entry.key.is_bad) continue;
+    file.actuators.push_back(parse_actuator(entry, is_told, diagnostics));
+    is_told = is_told || !entry.value.is_mapping();
+  }
+}
+
+/// What joints and links have beside wheels and motors.
+void parse_joints_and_links(MapReader& map, RobotFile& file, Diagnostics& diagnostics) {
+  for_each_entry(map, "axes", diagnostics, [&](const Entry& e) {
+    if (auto axis = parse_axis_of_joint(e, diagnostics)) file.axes.push_back(std::move(*axis));
+  });
+  for_each_entry(map, "inertias", diagnostics,
+                 [&](const Entry& e) { file.inertias.push_back(parse_inertia(e, diagnostics)); });
+  for_each_entry(map, "posture", diagnostics, [&](const Entry& e) {
+    file.posture.push_back(
+        {{e.key.text, e.key.span}, parse_value(e.value, posture_name(e.key.text), diagnostics)});
+  });
+}
+
+/// How fast the robot is told and told of, and what it feels.
+void parse_control(MapReader& map, RobotFile& file, Diagnostics& diagnostics) {
+  if (const Node* period = map.optional("control_period"))
+    file.control_period = parse_control_period(*period, diagnostics);
+  if (const Node* step = map.optional("encoder_step"))
+    file.encoder_step = parse_encoder_step(*step, file, diagnostics);
+  if (const Node* drive = map.optional("drive")) {
+    file.drive = parse_drive(*drive, diagnostics);
+    file.drive_span = drive->span;
+  }
+  if (const Node* feels = map.optional("feels")) {
+    file.drive.feels = parse_feels(*feels, diagnostics);
+    file.feels_span = feels->span;
+  }
+}
+
 }  // namespace
 
 std::string posture_name(const std::string& joint) {
@@ -277,83 +353,30 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
     return std::nullopt;
   }
   RobotFile file;
-  const auto each = [&](const Node* node, const char* key, const auto& use) {
-    if (node == nullptr || !require_mapping(*node, "`" + std::string(key) + "`", diagnostics)) return;
-    for (const Entry& entry : node->entries) {
-      if (!entry.key.is_bad) use(entry);
-    }
-  };
   map.optional("based_on");  // what that file says is here already
   if (const Node* urdf = map.required("urdf")) file.urdf = parse_word(*urdf, "`urdf`", diagnostics);
   if (const Node* base = map.required("base")) file.base = parse_word(*base, "`base`", diagnostics);
   if (const Node* lead = map.optional("lead")) file.lead = parse_word(*lead, "`lead`", diagnostics);
-  if (const Node* each_wheel = map.optional("each_wheel"))
-    file.each_wheel = parse_each_wheel(*each_wheel, diagnostics);
-  if (const Node* each_joint = map.optional("each_joint"))
-    file.each_joint = parse_each_joint(*each_joint, diagnostics);
-  const Node* wheels = map.required("wheels");
-  if (wheels != nullptr && require_sequence(*wheels, "`wheels`", diagnostics)) {
-    for (const Node& item : wheels->items) {
-      file.wheels.push_back(parse_wheel(item, file.each_wheel.gives_radius, diagnostics));
-      // Who writes one by its name writes all so.
-      if (item.is_scalar()) break;
-    }
-    if (wheels->items.empty()) diagnostics.add(wording::no_wheels(wheels->span));
-  }
-  const auto words = [&](const char* key) {
-    std::vector<Word> list;
-    const Node* node = map.optional(key);
-    const std::string what = std::string("`") + key + "`";
-    if (node == nullptr || !require_sequence(*node, what, diagnostics)) return list;
-    for (const Node& item : node->items) list.push_back(parse_word(item, what, diagnostics));
-    return list;
-  };
-  file.fixed = words("fixed");
-  each(map.optional("mimic"), "mimic",
-       [&](const Entry& e) { file.mimics.push_back(parse_mimic(e, diagnostics)); });
-  file.ignored = words("ignore");
-  file.supports = words("supports");
-  const Node* actuated = map.required("actuated");
-  if (actuated != nullptr &&
-      require_mapping(*actuated, "`actuated`", diagnostics, actuators_example(*actuated))) {
-    bool is_told = false;
-    for (const Entry& entry : actuated->entries) {
-      if (entry.key.is_bad) continue;
-      file.actuators.push_back(parse_actuator(entry, is_told, diagnostics));
-      is_told = is_told || !entry.value.is_mapping();
-    }
-  }
+  parse_wheels(map, file, diagnostics);
+  file.fixed = parse_words(map, "fixed", diagnostics);
+  for_each_entry(map, "mimic", diagnostics,
+                 [&](const Entry& e) { file.mimics.push_back(parse_mimic(e, diagnostics)); });
+  file.ignored = parse_words(map, "ignore", diagnostics);
+  file.supports = parse_words(map, "supports", diagnostics);
+  parse_actuated(map, file, diagnostics);
   complete_wheels(file, diagnostics);
-  each(map.optional("axes"), "axes", [&](const Entry& e) {
-    if (auto axis = parse_axis_of_joint(e, diagnostics)) file.axes.push_back(std::move(*axis));
-  });
-  each(map.optional("inertias"), "inertias",
-       [&](const Entry& e) { file.inertias.push_back(parse_inertia(e, diagnostics)); });
-  each(map.optional("posture"), "posture", [&](const Entry& e) {
-    file.posture.push_back(
-        {{e.key.text, e.key.span}, parse_value(e.value, posture_name(e.key.text), diagnostics)});
-  });
+  parse_joints_and_links(map, file, diagnostics);
   if (const Node* limits = map.optional("limits")) parse_limits(*limits, file, diagnostics);
   if (const Node* stop = map.required("stop")) parse_stop(*stop, file, diagnostics);
-  each(map.optional("friction"), "friction",
-       [&](const Entry& e) { file.friction.push_back(parse_friction(e, diagnostics)); });
+  for_each_entry(map, "friction", diagnostics,
+                 [&](const Entry& e) { file.friction.push_back(parse_friction(e, diagnostics)); });
   if (const Node* footprint = map.required("footprint")) parse_footprint(*footprint, file, diagnostics);
   if (const Node* bumper = map.optional("bumper")) parse_bumper(*bumper, file, diagnostics);
-  if (const Node* period = map.optional("control_period"))
-    file.control_period = parse_control_period(*period, diagnostics);
-  if (const Node* step = map.optional("encoder_step"))
-    file.encoder_step = parse_encoder_step(*step, file, diagnostics);
-  if (const Node* drive = map.optional("drive")) {
-    file.drive = parse_drive(*drive, diagnostics);
-    file.drive_span = drive->span;
-  }
-  if (const Node* feels = map.optional("feels")) {
-    file.drive.feels = parse_feels(*feels, diagnostics);
-    file.feels_span = feels->span;
-  }
-  each(map.optional("pads"), "pads", [&](const Entry& e) { file.pads.push_back(parse_pad(e, diagnostics)); });
-  each(map.optional("frames"), "frames",
-       [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
+  parse_control(map, file, diagnostics);
+  for_each_entry(map, "pads", diagnostics,
+                 [&](const Entry& e) { file.pads.push_back(parse_pad(e, diagnostics)); });
+  for_each_entry(map, "frames", diagnostics,
+                 [&](const Entry& e) { file.frames.push_back(parse_frame(e, diagnostics)); });
   map.finish();
   return file;
 }

@@ -4,6 +4,7 @@
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/measured_value.hpp"
+#include "spec/parse_group.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
 #include "spec/task_file.hpp"

@@ -8,8 +8,6 @@ namespace zwang::lang {
 
 /// `body` is what the task says: the entry's own value, or a template's body put in its place.
 TaskText parse_task(const Entry& entry, const Node& body, Diagnostics& diagnostics);
-/// `{name: group, ..}`
-std::vector<GroupText> parse_groups(const Node& node, int lowest_level, Diagnostics& diagnostics);
 /// `[exit, ..]`
 std::vector<ExitText> parse_exits(const Node& node, Diagnostics& diagnostics);
 std::vector<SignalText> parse_signals(const Node& node, Diagnostics& diagnostics);
@@ -25,9 +23,5 @@ void parse_pose(MapReader& map, std::vector<double>& at, std::vector<double>& rp
 FrameText parse_frame(const Entry& entry, Diagnostics& diagnostics);
 /// Where the frame lies in its parent.
 solver::Pose pose_of(const FrameText& frame);
-
-/// The `constraints` of a task or of `always`. Where the key is misspelt, a group without a name stands for
-/// those that nobody has read.
-std::vector<GroupText> parse_constraints(MapReader& map, int lowest_level, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -15,6 +15,17 @@ double side(const Point& a, const Point& b, const Point& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
+/// Above 0 where the corners go counter-clockwise. [m^2]
+template <typename Point>
+double signed_area(const std::vector<Point>& corners) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point& next = corners[(i + 1) % corners.size()];
+    area += 0.5 * (corners[i][0] * next[1] - next[0] * corners[i][1]);
+  }
+  return area;
+}
+
 /// From p to the nearest point between a and b. [m]
 template <typename Point>
 double distance_to_segment(const Point& p, const Point& a, const Point& b) {
