@@ -8,58 +8,10 @@
 #include "base/whitened_rows.hpp"
 #include "constraint/add_rows.hpp"
 #include "input_check.hpp"
-#include "pairs.hpp"
+#include "row_axes.hpp"
 #include "sweep/sweeps.hpp"
 
 namespace zwang::solver {
-
-const char* to_string(Status status) noexcept {
-  switch (status) {
-    case Status::ok:
-      return "ok";
-    case Status::invalid_input:
-      return "invalid input";
-    case Status::wrong_size:
-      return "wrong size";
-    case Status::capacity_exceeded:
-      return "capacity exceeded";
-    case Status::iteration_limit:
-      return "iteration limit";
-    case Status::degenerate_model:
-      return "degenerate model";
-  }
-  return "unknown";
-}
-
-const char* to_string(RowStatus status) noexcept {
-  switch (status) {
-    case RowStatus::held:
-      return "held";
-    case RowStatus::force_limited:
-      return "force limited";
-    case RowStatus::torque_limited:
-      return "torque limited";
-    case RowStatus::unreachable:
-      return "unreachable";
-    case RowStatus::blocked:
-      return "blocked";
-    case RowStatus::conflict:
-      return "conflict";
-  }
-  return "unknown";
-}
-
-Solution::Solution(const Model& model, int row_capacity)
-    : tau(Eigen::VectorXd::Zero(model.joint_count())),
-      qdd(Eigen::VectorXd::Zero(model.joint_count())),
-      acceleration(static_cast<std::size_t>(model.body_count())) {
-  if (row_capacity < 1) throw std::invalid_argument("solution: row_capacity must be at least 1");
-  rows.reserve(static_cast<std::size_t>(row_capacity));
-}
-
-FreeMotions::FreeMotions(const Model& model)
-    : joint(Eigen::MatrixXd::Zero(model.joint_count(), model.joint_count() + 6)),
-      base(Eigen::MatrixXd::Zero(3, model.joint_count() + 6)) {}
 
 namespace {
 
@@ -80,28 +32,6 @@ int base_freedoms(const Model& model, bool wanted) {
 /// A unit force along a freedom of the base: on the ground rz, x, y, else all six.
 Vector6 base_freedom(const Model& model, int index) {
   return Vector6::Unit(model.base_type() == BaseType::ground ? index + 2 : index);
-}
-
-bool is_same(const ForceVector& one, const ForceVector& other) {
-  return one.linear == other.linear && one.angular == other.angular;
-}
-
-bool has_same_axis(const Row& one, const Row& other) {
-  return one.body == other.body && one.reference_body == other.reference_body && is_same(one.a, other.a) &&
-         (one.reference_body < 0 || is_same(one.a_reference, other.a_reference));
-}
-
-/// One number to tell axes by: equal for equal ones, and for few others.
-double key_of(const Row& row) {
-  const double* const a = row.a.angular.data();
-  const Two sum = two(a) * Two{1.0, 1.1} + two(a + 2) * Two{1.3, 1.7} + two(a + 4) * Two{1.9, 2.3};
-  return sum[0] + sum[1];
-}
-
-/// Whatever its axis is.
-bool has_valid_numbers(const Row& row) {
-  return row.b * 0.0 + row.force * 0.0 == 0.0 && row.weight > 0.0 && row.lo <= 0.0 &&
-         row.hi >= 0.0;  // false for NaN, too
 }
 
 int set_capacity(const Settings& settings) {

@@ -6,11 +6,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "body_faults.hpp"
 #include "estimate/ticks.hpp"
 #include "injected_faults.hpp"
+#include "motor_drive.hpp"
 #include "robot_senses.hpp"
 #include "scene_hands.hpp"
-#include "velocity_loop.hpp"
 
 namespace zwang::runtime {
 
@@ -28,71 +29,6 @@ std::vector<lang::Fault> faults_of(const std::string& robot, const lang::Scene& 
   }
   return faults;
 }
-
-/// What faults made of a robot's body and of the floor below it, kept to tell a change.
-class Changes {
- public:
-  /// `robot` is its number in the simulation.
-  Changes(std::size_t robot, const solver::Model& model, double floor_friction)
-      : robot_(robot), friction_(model.wheels().size(), floor_friction) {
-    for (const solver::Wheel& wheel : model.wheels()) joints_.push_back(wheel.body - 1);
-  }
-
-  void make(MujocoPlant& simulation, const InjectedFaults& faults, double floor_friction,
-            double time) noexcept {
-    const lang::Fault* payload = faults.find(FaultKind::payload, time);
-    const double mass = payload != nullptr ? payload->value : 0.0;
-    if (mass != payload_ && robot_ == 0) simulation.set_payload(mass);
-    if (mass != payload_ && robot_ > 0) simulation.set_partner_payload(robot_ - 1, mass);
-    payload_ = mass;
-    const lang::Fault* shifted = faults.find(FaultKind::centre_of_mass, time);
-    const double ahead = shifted != nullptr ? shifted->value : 0.0;
-    if (ahead != ahead_) simulation.shift_centre_of_mass(robot_, ahead);
-    ahead_ = ahead;
-    const lang::Fault* turns_otherwise = faults.find(FaultKind::inertia, time);
-    const double more = turns_otherwise != nullptr ? turns_otherwise->value : 0.0;
-    if (more != inertia_more_) simulation.scale_inertia(robot_, 1.0 + more);
-    inertia_more_ = more;
-    for (std::size_t w = 0; w < friction_.size(); ++w) {
-      const lang::Fault* slip = faults.find(FaultKind::floor_friction, time, joints_[w]);
-      const double friction = slip != nullptr ? slip->value : floor_friction;
-      if (friction != friction_[w]) simulation.set_wheel_friction(robot_, w, friction);
-      friction_[w] = friction;
-    }
-  }
-
- private:
-  std::size_t robot_;
-  std::vector<Eigen::Index> joints_;  ///< of the wheels
-  std::vector<double> friction_;      ///< under them
-  double payload_ = 0.0;              ///< [kg]
-  double ahead_ = 0.0;                ///< [m] of the centre of mass
-  double inertia_more_ = 0.0;         ///< of the base's own
-};
-
-/// From a robot's command to its motors' torques.
-class MotorDrive {
- public:
-  explicit MotorDrive(const lang::Robot& robot) {
-    const Command nothing(robot.model.joint_count());
-    if (!robot.drive.takes_velocity) return;
-    line_.emplace(1.0 / robot.drive.rate, 0.5 * robot.drive.delay, nothing);
-    loop_.emplace(robot);
-  }
-  bool takes_velocity() const noexcept { return loop_.has_value(); }
-  /// `now` is the robot's true state, `period` [s] the step of the simulation.
-  void drive(const Command& command, const Sensed& now, double period, Eigen::VectorXd& torque) noexcept {
-    if (loop_) {
-      torque = loop_->step(line_->pass(command, now.time), now.state.qd, period);
-    } else {
-      torque = command.torque;
-    }
-  }
-
- private:
-  std::optional<SampledLine<Command>> line_;
-  std::optional<VelocityLoop> loop_;
-};
 
 lang::Robot with_friction(lang::Robot robot, double factor) {
   for (lang::JointFriction& joint : robot.friction) {
@@ -163,7 +99,7 @@ struct ScenePlant::Parts {
     InjectedFaults faults;
     Sensed actual, sensed;
     Eigen::VectorXd torque;  ///< what its motors make of the command
-    Changes changes;
+    BodyFaults changes;
     SimulationSteps steps;
     MotorDrive motors;
   };
@@ -199,7 +135,7 @@ struct ScenePlant::Parts {
       told.push_back({RobotSenses(own, scene, static_cast<int>(i) + 1, program.robot, options.seed),
                       InjectedFaults(faults_of(partners.back().name, scene, options.faults), own.robot.model),
                       Sensed(own.robot.model), Sensed(own.robot.model, own.signals.size()),
-                      partners.back().torque, Changes(i + 1, own.robot.model, scene.floor_friction), steps,
+                      partners.back().torque, BodyFaults(i + 1, own.robot.model, scene.floor_friction), steps,
                       MotorDrive(own.robot)});
       static_cast<void>(simulation.sense_partner(i, told.back().actual));
       told.back().senses.start_at(told.back().actual);
@@ -308,7 +244,7 @@ struct ScenePlant::Parts {
   MujocoPlant simulation;
   RobotSenses senses;
   InjectedFaults faults;
-  Changes changes;
+  BodyFaults changes;
   MotorDrive motors;
   double period;  ///< [s] of a step
   std::vector<FaultSwitch> switches;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "schedule/edge_braking.hpp"
-#include "schedule/frame_table.hpp"
+#include "schedule/in_plane.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::runtime {
@@ -24,26 +24,8 @@ constexpr double turn_step = 0.26;  // [rad] of 15 deg, in which braking on the 
 constexpr double quarter_turn = 1.5708;  // [rad]
 constexpr double no_direction = 1e-6;    // [m] between points that are one
 
-Eigen::Vector2d flat(const Vector3& v) {
-  return v.head<2>();
-}
-
-Vector3 high(const Eigen::Vector2d& v) {
-  return {v.x(), v.y(), 0.0};
-}
-
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
-}
-
-/// A frame whose y points along the side's left (or right) and whose x-y plane is the ground.
-solver::Pose side_pose(const Eigen::Vector2d& begin, const Eigen::Vector2d& y) {
-  solver::Pose pose;
-  pose.position = high(begin);
-  pose.rotation.col(0) = Vector3(y.y(), -y.x(), 0.0);
-  pose.rotation.col(1) = high(y);
-  pose.rotation.col(2) = Vector3::UnitZ();
-  return pose;
 }
 
 /// The motion of `f` against `t`, in the axes of `t`: of a point at `arm` from the origin of `f`
@@ -54,12 +36,6 @@ solver::FrameMotion seen_from(const solver::FrameMotion& t, const solver::FrameM
   return {{to_axes * f.pose.rotation, to_axes * offset},
           to_axes * (f.angular - t.angular),
           to_axes * (f.linear - t.linear - t.angular.cross(offset))};
-}
-
-solver::Pose point_pose(const Vector3& p) {
-  solver::Pose pose;
-  pose.position = p;
-  return pose;
 }
 
 }  // namespace
@@ -354,58 +330,6 @@ Vector3 RegionFence::normal(std::size_t index) const noexcept {
   }
   const Point offset = corner_now_[first].place - centre();
   return to_world_ * high(-offset / offset.norm());
-}
-
-std::string RegionFence::name(std::size_t index) const {
-  const Pair& pair = pairs_[index];
-  switch (pair.kind) {
-    case PairKind::corner_edge:
-      return "edge" + std::to_string(pair.second + 1);
-    case PairKind::corner_vertex:
-      return "vertex" + std::to_string(reflex_[static_cast<std::size_t>(pair.second)] + 1);
-    case PairKind::vertex_side:
-      return "vertex" + std::to_string(reflex_[static_cast<std::size_t>(pair.first)] + 1);
-    case PairKind::corner_circle:
-      break;
-  }
-  return "circle";
-}
-
-/// At the height of a corner, so that the distance is one in the plane.
-solver::Pose RegionFence::level_with(std::size_t corner, const Point& p) const noexcept {
-  return point_pose({p.x(), p.y(), corner_now_[corner].height});
-}
-
-solver::AxisConstraint RegionFence::constraint(std::size_t index, const solver::AttachedFrame& move,
-                                               const solver::AttachedFrame& in) const noexcept {
-  const Pair& pair = pairs_[index];
-  const auto first = static_cast<std::size_t>(pair.first);
-  const auto second = static_cast<std::size_t>(pair.second);
-  solver::AxisConstraint c;
-  c.axis = solver::Axis::y;
-  c.position = solver::Range{margin_, solver::infinity};
-  switch (pair.kind) {
-    case PairKind::corner_edge:
-      c.move = carried(move, point_pose(corners_[first]));
-      c.in = carried(in, side_pose(edges_[second].begin, edges_[second].left));
-      break;
-    case PairKind::corner_vertex:
-      c.measure = solver::Measure::distance;
-      c.move = carried(move, point_pose(corners_[first]));
-      c.in = carried(in, level_with(first, polygon_[static_cast<std::size_t>(reflex_[second])]));
-      break;
-    case PairKind::vertex_side:
-      c.move = carried(in, point_pose(high(polygon_[static_cast<std::size_t>(reflex_[first])])));
-      c.in = carried(move, side_pose(sides_[second].begin, -sides_[second].left));
-      break;
-    case PairKind::corner_circle:
-      c.measure = solver::Measure::distance;
-      c.move = carried(move, point_pose(corners_[first]));
-      c.in = carried(in, level_with(first, centre()));
-      c.position = solver::Range{-solver::infinity, region_.radius - margin_};
-      break;
-  }
-  return c;
 }
 
 }  // namespace zwang::runtime

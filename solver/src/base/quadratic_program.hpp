@@ -108,6 +108,7 @@ class QuadraticProgram {
   void set_direction() noexcept;
   bool goes_down() noexcept;
   int longest_step(double& length) const noexcept;
+  bool take_step(double length, int blocking) noexcept;
   void replace_basic(int leaving) noexcept;
   void park(int variable) noexcept;
 

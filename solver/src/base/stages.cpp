@@ -6,43 +6,6 @@
 
 namespace zwang::solver {
 
-namespace {
-
-constexpr double sum_rounding = 1e-12;  // relative: what sums may show at a limit
-
-}  // namespace
-
-/// From its level on a sum counts what is added to p.
-void BoundedProblem::start_sums(int level) noexcept {
-  for (const int i : sums_) {
-    Entry& e = entry(i);
-    if (e.level != level || e.out) continue;
-    e.above = 0.0;
-    e.above = sum_of(i, p_);
-  }
-}
-
-bool BoundedProblem::sum_counts(int i, int level) const noexcept {
-  const Entry& e = entries_[static_cast<std::size_t>(i)];
-  return e.kind == RowKind::sum && e.level <= level && !e.out;
-}
-
-double BoundedProblem::sum_of(int i, const Vector& p) noexcept {
-  const Entry& e = entry(i);
-  return along(i, p) / (e.length * e.length) - e.above;
-}
-
-bool BoundedProblem::sums_hold(int level, const Vector& p) noexcept {
-  for (const int i : sums_) {
-    if (!sum_counts(i, level)) continue;
-    const Entry& e = entry(i);
-    const double sum = sum_of(i, p);
-    if (sum < e.lo - sum_rounding * std::abs(e.lo) || sum > e.hi + sum_rounding * std::abs(e.hi))
-      return false;
-  }
-  return true;
-}
-
 /// min sum (1 - phi)^2 with torques that make the motion, the limits above braking as they must. Mostly
 /// phi = 1 is possible: tried first with the limits as they are, then with what they need.
 bool BoundedProblem::solve_forces(int level, int max_iterations) noexcept {
@@ -198,24 +161,6 @@ void BoundedProblem::pose_motors(int n, int level) noexcept {
   pose_sums(n, level, n + motors_ + limit, dimension_ + limit);
 }
 
-/// The variable sigma = |B_S| (the sum): B_S.p / |B_S| = sigma + what the levels above made of it.
-void BoundedProblem::pose_sums(int n, int level, int variable, int equation) noexcept {
-  for (const int i : sums_) {
-    if (!sum_counts(i, level)) continue;
-    const double length = entry(i).length;
-    for (int k = 0; k < n; ++k) {
-      const double share = dot(dimension_, B(i), P(posed_[static_cast<std::size_t>(k)])) / length;
-      program_.E(k)[equation] = share * units_[static_cast<std::size_t>(k)];
-    }
-    program_.E(variable)[equation] = -1.0;
-    program_.lo(variable) = entry(i).lo * length;
-    program_.hi(variable) = entry(i).hi * length;
-    program_.z(variable) = std::clamp(sum_of(i, p_), entry(i).lo, entry(i).hi) * length;
-    ++variable;
-    ++equation;
-  }
-}
-
 void BoundedProblem::take_motors(int first) noexcept {
   for (int j = 0; j < motors_; ++j) {
     tau_(j) = std::clamp(program_.z(first + j) / nonzero(motor_length(j)), tau_lo_(j), tau_hi_(j));
@@ -345,63 +290,6 @@ bool BoundedProblem::least_multipliers(int level, int max_iterations) noexcept {
     entry(i).nu = program_.z(k) * entry(i).inverse_reach;
   }
   return exact;
-}
-
-/// Into candidate_; false beyond a limit.
-inline bool BoundedProblem::take_torque(int motor, double torque) noexcept {
-  const double lowest = tau_lo_(motor), highest = tau_hi_(motor), slack = tau_slack_(motor);
-  if (torque < lowest - slack || torque > highest + slack) return false;
-  candidate_(motor) = std::clamp(torque, lowest, highest);
-  return true;
-}
-
-/// Least-norm torques for p into candidate_: those of the sole motors one after the other, then tau = T
-/// (T'T)^-1 p. False when the motors do not reach p or a limit is in the way.
-bool BoundedProblem::torques_for(const Vector& p) noexcept {
-  if (!motors_reach_all_) return false;
-  solver::copy(dimension_, p.data(), solved_.data());
-  double* const rest = solved_.data();
-  int open = dimension_;
-  for (const Sole& sole : soles_) {
-    const double torque = rest[--open] * sole.inverse;
-    if (!take_torque(sole.motor, torque)) return false;
-    add_multiple(open, -torque, T(sole.motor), rest);
-  }
-  return shared_dimensions_ == 3 ? share_three(rest) : share(rest);
-}
-
-/// tau = T (W' D^-1 W) p of the shared motors, no sum waiting for another one. Writes over p.
-bool BoundedProblem::share(double* rest) noexcept {
-  for (int k = shared_dimensions_ - 1; k >= 0; --k) {
-    double sum = rest[k];
-    for (int c = 0; c < k; ++c) sum += gram_(k, c) * rest[c];
-    rest[k] = sum * inverse_pivots_(k);
-  }
-  for (int c = 0; c < shared_dimensions_; ++c) {
-    for (int k = c + 1; k < shared_dimensions_; ++k) rest[c] += gram_(k, c) * rest[k];
-  }
-  for (const int j : shared_motors_) {
-    const double* const own = T(j);
-    const int extent = motor_extents_[static_cast<std::size_t>(j)];
-    double torque = 0.0;  // number by number, as they were written
-    for (int k = 0; k < extent; ++k) torque += own[k] * rest[k];
-    if (!take_torque(j, torque)) return false;
-  }
-  return true;
-}
-
-/// The same of the three motions of a base that goes everywhere.
-bool BoundedProblem::share_three(const double* p) noexcept {
-  const double W10 = gram_(1, 0), W20 = gram_(2, 0), W21 = gram_(2, 1);
-  const double y = (p[1] + W10 * p[0]) * inverse_pivots_(1);
-  const double z = (p[2] + W20 * p[0] + W21 * p[1]) * inverse_pivots_(2);
-  const double x0 = p[0] * inverse_pivots_(0) + W10 * y + W20 * z;
-  const double x1 = y + W21 * z;
-  for (const int j : shared_motors_) {
-    const double* const own = T(j);
-    if (!take_torque(j, own[0] * x0 + own[1] * x1 + own[2] * z)) return false;
-  }
-  return true;
 }
 
 /// The last stage: of all torques that make p, the smallest; p is what they make then.
