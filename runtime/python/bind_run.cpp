@@ -9,7 +9,7 @@
 #include "log_file.hpp"
 #include "log_table.hpp"
 #include "named_sensed.hpp"
-#include "zwang/runtime/scene_plant.hpp"
+#include "zwang/runtime/simulated_run.hpp"
 
 namespace zwang::python {
 
@@ -74,6 +74,33 @@ void heed_interruptions() {
 
 constexpr int ticks_between_looks = 1000;
 
+/// Keeps a log with the truth, and lets the main thread of Python interrupt.
+class PythonRun final : public runtime::SimulatedRunHost {
+ public:
+  PythonRun(const lang::Program& program, const runtime::ScenePlant& plant, runtime::Runner& runner,
+            runtime::Recorder* recorder)
+      : scene_(*program.scene),
+        plant_(plant),
+        runner_(runner),
+        recorder_(recorder),
+        truth_(runtime::truth_columns(scene_).size()) {}
+  bool tick(const runtime::Sensed& sensed) override {
+    if (recorder_ != nullptr) recorder_->wait_for_room();
+    if (++ticks_ % ticks_between_looks == 0) heed_interruptions();
+    runtime::put_truth(plant_.truth(), scene_, truth_);
+    runner_.step(sensed, truth_);
+    return true;
+  }
+
+ private:
+  const lang::Scene& scene_;
+  const runtime::ScenePlant& plant_;
+  runtime::Runner& runner_;
+  runtime::Recorder* recorder_;
+  std::vector<double> truth_;
+  int ticks_ = 0;
+};
+
 /// As `zwang run` does it. `most`: [s] of simulated time.
 Result simulate(const ReadProgram& program, double most, bool with_log, std::uint64_t seed,
                 std::optional<std::array<double, 2>> start_at, std::optional<double> start_yaw,
@@ -93,24 +120,9 @@ Result simulate(const ReadProgram& program, double most, bool with_log, std::uin
     recorder.emplace(std::move(sinks), runner.columns());
     runner.record_to(&*recorder);
   }
-  runtime::SimulationSteps steps(runner.period());
   runtime::Sensed sensed(program);
-  std::vector<double> truth(settings.extra_columns.size());
-  PlantStatus status = PlantStatus::ok;
-  int ticks = 0;
-  while (!runner.finished() && plant.truth().time < most && !plant.truth().base.fallen) {
-    status = plant.sense(sensed);
-    if (status == PlantStatus::diverged) break;
-    if (recorder) recorder->wait_for_room();
-    if (steps.tick_is_due()) {
-      if (++ticks % ticks_between_looks == 0) heed_interruptions();
-      runtime::put_truth(plant.truth(), *program.scene, truth);
-      runner.step(sensed, truth);
-    }
-    status = plant.follow(runner.command());
-    if (status != PlantStatus::ok) break;
-  }
-  if (runner.finished() && status == PlantStatus::ok) plant.end_lean();
+  PythonRun host(program, plant, runner, recorder ? &*recorder : nullptr);
+  const PlantStatus status = runtime::run_simulated(plant, runner, sensed, most, host);
   if (recorder) {
     recorder->close();
     require_complete(*recorder);

@@ -25,6 +25,31 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
                      const lang::Program& program, const std::vector<std::string>& event_signals,
                      const std::vector<Column>& extra)
     : inputs_(model, program.signals, program.parameters, program.robot.drive) {
+  add_first(statements, scheduler, event_signals);
+  add_joints(model, program.robot.drive);
+  for (const lang::Signal& signal : program.signals) add_signal(signal);
+  first_output_ = static_cast<int>(columns_.size());
+  for (const lang::Output& output : program.outputs) {
+    add("output." + output.name, "");
+    columns_.back().span = output.span;
+  }
+  for (const Statement& s : statements.all()) add_statement(s);
+  for (const lang::Task& t : scheduler.tasks()) {
+    guards_.emplace_back();
+    for (std::size_t i = 0; i < t.exits.size(); ++i) {
+      guards_.back().push_back(add(t.name + ".exit" + std::to_string(i + 1) + ".true_for", "s"));
+      columns_.back().span = t.exits[i].span;
+    }
+  }
+  first_input_ = static_cast<int>(columns_.size());
+  columns_.insert(columns_.end(), inputs_.columns().begin(), inputs_.columns().end());
+  first_extra_ = static_cast<int>(columns_.size());
+  columns_.insert(columns_.end(), extra.begin(), extra.end());
+  values_.resize(columns_.size(), log_column::blank);
+}
+
+void LogLayout::add_first(const StatementTable& statements, const Scheduler& scheduler,
+                          const std::vector<std::string>& event_signals) {
   // In the order of `log_column::First`.
   add("time", "s");
   add("task", "", task_names(scheduler));
@@ -57,6 +82,9 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
   add("estimated.force.y", "N");
   add("estimated.force.rz", "N m");
   add("slip", "m/s");
+}
+
+void LogLayout::add_joints(const solver::Model& model, const lang::Drive& drive) {
   first_joint_ = static_cast<int>(columns_.size());
   for (int j = 0; j < model.joint_count(); ++j) {
     const solver::Joint& joint = model.joint(j);
@@ -65,35 +93,16 @@ LogLayout::LogLayout(const StatementTable& statements, const Scheduler& schedule
     add(joint.name + ".qd", slides ? "m/s" : "rad/s");
     add(joint.name + ".tau", slides ? "N" : "N m");
   }
-  if (program.robot.drive.takes_velocity) {
+  if (drive.takes_velocity) {
     first_command_ = static_cast<int>(columns_.size());
     for (int j = 0; j < model.joint_count(); ++j) {
       for (const CommandColumn& column : command_columns(model.joint(j))) add(column.name, column.unit);
     }
   }
-  if (program.robot.drive.takes_twist) {
+  if (drive.takes_twist) {
     first_twist_ = static_cast<int>(columns_.size());
     for (const auto& [name, unit] : twist_columns) add(name, unit);
   }
-  for (const lang::Signal& signal : program.signals) add_signal(signal);
-  first_output_ = static_cast<int>(columns_.size());
-  for (const lang::Output& output : program.outputs) {
-    add("output." + output.name, "");
-    columns_.back().span = output.span;
-  }
-  for (const Statement& s : statements.all()) add_statement(s);
-  for (const lang::Task& t : scheduler.tasks()) {
-    guards_.emplace_back();
-    for (std::size_t i = 0; i < t.exits.size(); ++i) {
-      guards_.back().push_back(add(t.name + ".exit" + std::to_string(i + 1) + ".true_for", "s"));
-      columns_.back().span = t.exits[i].span;
-    }
-  }
-  first_input_ = static_cast<int>(columns_.size());
-  columns_.insert(columns_.end(), inputs_.columns().begin(), inputs_.columns().end());
-  first_extra_ = static_cast<int>(columns_.size());
-  columns_.insert(columns_.end(), extra.begin(), extra.end());
-  values_.resize(columns_.size(), log_column::blank);
 }
 
 void LogLayout::add_signal(const lang::Signal& signal) {

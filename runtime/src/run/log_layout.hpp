@@ -58,6 +58,9 @@ class LogLayout {
   };
   int add(std::string name, std::string unit, std::vector<std::string> words = {});
   void put(int column, double value) noexcept;
+  void add_first(const StatementTable& statements, const Scheduler& scheduler,
+                 const std::vector<std::string>& event_signals);
+  void add_joints(const solver::Model& model, const lang::Drive& drive);
   void add_statement(const Statement& statement);
   void add_signal(const lang::Signal& signal);
   void put_command(const Command& command) noexcept;

@@ -45,6 +45,15 @@ bool is_shut(const Reading& a, const Reading& b) {
   return a.is_of_time != b.is_of_time && (a.is_of_time ? a : b).margin >= 0.0;
 }
 
+/// What the plant measured, or what the run is given.
+void read_fact(const lang::ExpressionNode& node, const TrueFacts& facts, Reading& out) noexcept {
+  out.value = facts.look_up(node);
+  out.margin = out.value > 0.5 ? std::numeric_limits<double>::infinity() : not_at_all;  // of a truth value
+  out.decisive = -1;
+  out.is_fixed = node.op == Op::parameter;
+  out.is_of_time = node.op == Op::elapsed || out.is_fixed;
+}
+
 Reading read_node(const lang::ExpressionNode& node, int number, const Reading& a, const Reading& b,
                   const TrueFacts& facts) noexcept {
   Reading out;
@@ -97,12 +106,7 @@ Reading read_node(const lang::ExpressionNode& node, int number, const Reading& a
       out.decisive = a.decisive;
       break;
     default:
-      out.value = facts.look_up(node);
-      out.margin =
-          out.value > 0.5 ? std::numeric_limits<double>::infinity() : not_at_all;  // of a truth value
-      out.decisive = -1;
-      out.is_fixed = node.op == Op::parameter;
-      out.is_of_time = node.op == Op::elapsed || out.is_fixed;
+      read_fact(node, facts, out);
       break;
   }
   return out;

@@ -4,11 +4,12 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "scenario/cell_story.hpp"
 #include "scenario/expectation.hpp"
 #include "zwang/runtime/runner.hpp"
-#include "zwang/runtime/scene_plant.hpp"
+#include "zwang/runtime/simulated_run.hpp"
 
 namespace zwang::runtime {
 
@@ -109,51 +110,77 @@ const Eigen::VectorXd& step(Runner& runner, const lang::Program& program, const 
   return tau;
 }
 
+/// Looks at the truth in each step of a cell's run, and asks what the scenario expects.
+class CellWatch final : public SimulatedRunHost {
+ public:
+  CellWatch(const lang::Program& program, ScenePlant& plant, Runner& runner,
+            std::vector<ExpectationWatch>& watches, const std::atomic<bool>* interrupted, CellResult& result)
+      : program_(program),
+        plant_(plant),
+        runner_(runner),
+        watches_(watches),
+        interrupted_(interrupted),
+        result_(result),
+        facts_(program),
+        had_stopped_(plant.partners().size(), false) {}
+
+  bool is_interrupted() const noexcept { return interrupted_ != nullptr && interrupted_->load(); }
+  const PathWatch& path() const noexcept { return path_; }
+
+  bool goes_on() override { return !is_interrupted(); }
+  bool tick(const Sensed& sensed) override {
+    tau_ = step(runner_, program_, sensed, plant_.truth().time, facts_);
+    has_ticked_ = true;
+    return true;
+  }
+  void look_before_step() override {
+    const bool ends = std::exchange(has_ticked_, false) && ends_by_itself(runner_);
+    const bool in_task = runner_.state() == RunState::running || ends;
+    const double share = torque_share(program_.robot, tau_);
+    facts_.update(plant_.truth(), plant_.true_state(), share);
+    path_.look(plant_.truth());
+    result_.torque = std::max({result_.torque, share, look_at_partners(plant_, facts_)});
+    for (ExpectationWatch& watch : watches_) watch.look(facts_, plant_.truth().time, in_task);
+  }
+  void look_after_step(const Sensed& sensed) override {
+    const std::vector<ScenePartner>& partners = plant_.partners();
+    for (std::size_t i = 0; i < partners.size(); ++i) {
+      if (!partners[i].runner.guard().stopped() || had_stopped_[i]) continue;
+      had_stopped_[i] = true;
+      facts_.note_partner_stop(i, sensed.time);
+    }
+  }
+
+ private:
+  const lang::Program& program_;
+  ScenePlant& plant_;
+  Runner& runner_;
+  std::vector<ExpectationWatch>& watches_;
+  const std::atomic<bool>* interrupted_;
+  CellResult& result_;
+  TrueFacts facts_;
+  std::vector<bool> had_stopped_;  ///< by partner
+  Eigen::VectorXd tau_;
+  PathWatch path_;
+  bool has_ticked_ = false;
+};
+
 void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, const lang::Program& program,
               std::vector<ExpectationWatch>& watches, const std::atomic<bool>* interrupted,
               CellResult& result) {
   ScenePlantOptions options;
-  SimulationSteps steps(program.robot.control_period);
-  options.simulation.period = steps.period();
+  options.simulation.period = SimulationSteps(program.robot.control_period).period();
   options.seed = scenario.seed;
   options.faults = cell.faults;
   options.deviation = cell.deviation;
   ScenePlant plant(program, options);
   Runner runner(program);
-  TrueFacts facts(program);
   Sensed sensed(program);
-  const std::vector<ScenePartner>& partners = plant.partners();
-  std::vector<bool> had_stopped(partners.size(), false);
-  Eigen::VectorXd tau;
-  PathWatch path;
-  PlantStatus status = PlantStatus::ok;
-  const auto is_interrupted = [interrupted] { return interrupted != nullptr && interrupted->load(); };
-  while (!runner.finished() && plant.truth().time < scenario.time_limit && !is_interrupted()) {
-    // A sample that does not arrive is the runtime's to deal with: it steps on what it has.
-    status = plant.sense(sensed);
-    if (status == PlantStatus::diverged) break;
-    bool in_task = runner.state() == RunState::running;
-    if (steps.tick_is_due()) {
-      tau = step(runner, program, sensed, plant.truth().time, facts);
-      in_task = runner.state() == RunState::running || ends_by_itself(runner);
-    }
-    const double share = torque_share(program.robot, tau);
-    facts.update(plant.truth(), plant.true_state(), share);
-    path.look(plant.truth());
-    result.torque = std::max({result.torque, share, look_at_partners(plant, facts)});
-    for (ExpectationWatch& watch : watches) watch.look(facts, plant.truth().time, in_task);
-    status = plant.follow(runner.command());
-    if (status != PlantStatus::ok || plant.truth().base.fallen) break;
-    for (std::size_t i = 0; i < partners.size(); ++i) {
-      if (!partners[i].runner.guard().stopped() || had_stopped[i]) continue;
-      had_stopped[i] = true;
-      facts.note_partner_stop(i, sensed.time);
-    }
-  }
-  if (runner.finished() && status == PlantStatus::ok) plant.end_lean();
+  CellWatch watch(program, plant, runner, watches, interrupted, result);
+  const PlantStatus status = run_simulated(plant, runner, sensed, scenario.time_limit, watch);
   result.partners = results_of(plant);
   result.simulated = plant.truth().time;
-  if (is_interrupted()) {
+  if (watch.is_interrupted()) {
     result.outcome = "interrupted";
   } else if (status == PlantStatus::diverged) {
     result.outcome = "diverged";
@@ -165,7 +192,7 @@ void simulate(const lang::Scenario& scenario, const lang::ScenarioCell& cell, co
     result.outcome = to_string(runner.state());
   }
   result.because = runner.because();
-  result.story = story_of(runner, path);
+  result.story = story_of(runner, watch.path());
   const std::optional<Why> why = runner.why();
   if (why && status != PlantStatus::diverged) result.why = why->sentence;
   if (plant.truth().base.fallen) {
