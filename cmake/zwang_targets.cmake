@@ -100,7 +100,8 @@ function(zwang_room name)
   target_link_libraries(zwang_${name} PUBLIC ${ARG_PUBLIC} PRIVATE $<BUILD_INTERFACE:zwang_flags> ${ARG_PRIVATE})
   # Before 1.0 a minor version may break interfaces.
   set_target_properties(zwang_${name} PROPERTIES
-    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)  # ZWANG_EXPORT shows what public headers declare
   zwang_precompiled(zwang_${name} ${zwang_headers_of_${name}})
   zwang_together(zwang_${name})
 endfunction()

@@ -42,7 +42,7 @@ keep_direction lang 'runtime'
 # Within runtime: control and log know nothing of the simulation, or a robot of one's own would need MuJoCo.
 while IFS=: read -r file line header; do
   if [[ $file =~ ^runtime/src/(plant|scenario)/ && $file != runtime/src/plant/plant.cpp ]]; then continue; fi
-  if [[ $header =~ ^(plant|scenario)/ || $header =~ ^zwang/runtime/(mujoco_plant|scene_plant|scenario_run)\.hpp$ ]]; then
+  if [[ $header =~ ^(plant|scenario)/ || $header =~ ^zwang/runtime/(mujoco_plant|scene_plant|scenario_run|simulated_run)\.hpp$ ]]; then
     offend "$file:$line: control and log may not know the simulation (<$header>)"
   fi
 done < <(includes runtime/src)

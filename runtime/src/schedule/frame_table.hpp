@@ -3,15 +3,17 @@
 
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/solver/frame.hpp"
 
 namespace zwang::runtime {
 
 /// The frame that `parent` carries at `pose`.
-solver::AttachedFrame carried(const solver::AttachedFrame& parent, const solver::Pose& pose) noexcept;
+ZWANG_EXPORT solver::AttachedFrame carried(const solver::AttachedFrame& parent,
+                                           const solver::Pose& pose) noexcept;
 
-class FrameTable {
+class ZWANG_EXPORT FrameTable {
  public:
   /// Throws std::invalid_argument when a frame stands before its parent or on a body or signal
   /// that is not there.

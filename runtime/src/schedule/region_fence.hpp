@@ -12,12 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/solver/constraint.hpp"
 
 namespace zwang::runtime {
 
-class RegionFence {
+class ZWANG_EXPORT RegionFence {
  public:
   /// `corners`: what moves, in the frame that `move` names [m]; one point, or a footprint counter-clockwise.
   RegionFence(const lang::Region& region, std::vector<solver::Vector3> corners);

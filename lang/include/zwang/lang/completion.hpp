@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/file_kind.hpp"
 #include "zwang/lang/names.hpp"
 
@@ -21,7 +22,7 @@ struct TextPlace {
   std::size_t word_begin = 0;     ///< [bytes] of the word that the place stands in or behind
   std::size_t value_begin = 0;    ///< [bytes] of the value, behind its opening quote
 };
-TextPlace place_at(std::string_view text, std::size_t offset);
+ZWANG_EXPORT TextPlace place_at(std::string_view text, std::size_t offset);
 
 enum class ProposalKind { key, word, unit, name, function, file };
 
@@ -46,16 +47,16 @@ struct KnownNames {
 };
 
 /// Keys by the schema, words, names and units that fit, in this order. `offset`: bytes from the begin.
-std::vector<Proposal> proposals(FileKind kind, std::string_view text, std::size_t offset,
-                                const KnownNames& known);
+ZWANG_EXPORT std::vector<Proposal> proposals(FileKind kind, std::string_view text, std::size_t offset,
+                                             const KnownNames& known);
 
 /// The schema's description of a key or of its value; may be empty.
-std::string about_key(FileKind kind, const std::vector<std::string>& keys);
+ZWANG_EXPORT std::string about_key(FileKind kind, const std::vector<std::string>& keys);
 
 /// In SI, as `0.08 m/s`, what a quantity is; empty where the text is no quantity with a unit or is in SI
 /// already.
-std::string in_si(std::string_view text);
+ZWANG_EXPORT std::string in_si(std::string_view text);
 /// `a velocity`; empty where the text is no quantity with a unit.
-std::string kind_of_quantity(std::string_view text);
+ZWANG_EXPORT std::string kind_of_quantity(std::string_view text);
 
 }  // namespace zwang::lang

@@ -5,8 +5,10 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/solver/frame.hpp"
 
@@ -36,13 +38,15 @@ struct ConditionFunction {
   std::string_view of;                                    ///< the page's words: "of the frame's origin"
 };
 
-std::span<const ConditionFunction> condition_functions();
-const ConditionFunction* find_function(std::string_view name);
+ZWANG_EXPORT std::span<const ConditionFunction> condition_functions();
+/// `abs(value), speed(frame), .. and valid(signal)`: each with the word for its argument.
+ZWANG_EXPORT std::string list_of_functions();
+ZWANG_EXPORT const ConditionFunction* find_function(std::string_view name);
 /// Of a node of the kinds Op::of_frame and Op::of_task.
-const ConditionFunction& function_of(const ExpressionNode& node);
+ZWANG_EXPORT const ConditionFunction& function_of(const ExpressionNode& node);
 /// Whether the node calls the function of this name.
-bool calls(const ExpressionNode& node, std::string_view name);
+ZWANG_EXPORT bool calls(const ExpressionNode& node, std::string_view name);
 /// Such a call. std::invalid_argument for a function that is none, or takes neither frame nor task.
-ExpressionNode call_of(std::string_view name, int frame_or_task);
+ZWANG_EXPORT ExpressionNode call_of(std::string_view name, int frame_or_task);
 
 }  // namespace zwang::lang

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/scene.hpp"
 #include "zwang/solver/base_analysis.hpp"
@@ -15,19 +16,19 @@ namespace zwang::lang {
 /// The start pose alone for a robot that has wheels and no other joints. Else also, with the base where it
 /// starts: all other joints turned alike by 45, 90 and 135 deg (where the mass of casters and swivels has its
 /// extremes), and three of `general_states`.
-std::vector<solver::State> configurations(const Robot& robot, const std::optional<Scene>& scene);
+ZWANG_EXPORT std::vector<solver::State> configurations(const Robot& robot, const std::optional<Scene>& scene);
 
 /// What `configurations` looks at, in words: for reports that give figures over them.
-std::string describe_configurations(const Robot& robot);
+ZWANG_EXPORT std::string describe_configurations(const Robot& robot);
 
 /// The solver's figures of an axis as a task can use them. Where the ground leaves less than a thousandth of
 /// the axis it is held: on wheels that stand a millimetre behind the origin, the origin does go sideways when
 /// the base spins, with tons of effective mass. What only moves along with a turn, and cannot be pushed
 /// alone, is not reachable.
-solver::AxisAnalysis usable(solver::AxisAnalysis axis);
+ZWANG_EXPORT solver::AxisAnalysis usable(solver::AxisAnalysis axis);
 
 /// Four states in general position: joints anywhere within their limits, the base anywhere within 3 m of the
 /// origin, at any heading.
-std::vector<solver::State> general_states(const solver::Model& model);
+ZWANG_EXPORT std::vector<solver::State> general_states(const solver::Model& model);
 
 }  // namespace zwang::lang

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
@@ -32,7 +33,7 @@ enum class MessageType {
   clock,
 };
 /// As ROS 2 writes it: `geometry_msgs/Twist`.
-const char* to_string(MessageType type) noexcept;
+ZWANG_EXPORT const char* to_string(MessageType type) noexcept;
 
 enum class Reach {
   loopback,  ///< 127.0.0.1 alone: peers need ROS_LOCALHOST_ONLY=1
@@ -136,13 +137,15 @@ struct Connection {
 };
 
 /// Whether ROS 2 takes it as an absolute topic name.
-bool is_topic_name(std::string_view name);
+ZWANG_EXPORT bool is_topic_name(std::string_view name);
 
 /// Reads and checks a connection file by itself.
-std::optional<Connection> load_connection(const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<Connection> load_connection(const std::filesystem::path& path,
+                                                       Diagnostics& diagnostics);
 
 /// Whether the connection gives a program all that it reads, and takes what its drive sends: E301, E922,
 /// E923.
-bool check_connection(const Connection& connection, const Program& program, Diagnostics& diagnostics);
+ZWANG_EXPORT bool check_connection(const Connection& connection, const Program& program,
+                                   Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/source.hpp"
 
 namespace zwang::lang {
@@ -43,7 +44,7 @@ struct Silenced {
   std::string reason;
 };
 
-class Diagnostics {
+class ZWANG_EXPORT Diagnostics {
  public:
   int add_source(Source source);
   const std::vector<Source>& sources() const { return sources_; }
@@ -84,15 +85,17 @@ struct RenderOptions {
 };
 
 /// file:line:column, code, message, the source line with a caret, help.
-void render_human(const Diagnostics& diagnostics, std::ostream& out, const RenderOptions& options = {});
+ZWANG_EXPORT void render_human(const Diagnostics& diagnostics, std::ostream& out,
+                               const RenderOptions& options = {});
 /// `file:line:column: error E201: message`, one line each.
-void render_short(const Diagnostics& diagnostics, std::ostream& out, const RenderOptions& options = {});
+ZWANG_EXPORT void render_short(const Diagnostics& diagnostics, std::ostream& out,
+                               const RenderOptions& options = {});
 /// One JSON array, a diagnostic an object with its range and the edits that would mend it; for editors. Lines
 /// and columns from 1, columns in code points, ends exclusive.
-std::string render_json(const Diagnostics& diagnostics, const RenderOptions& options = {});
+ZWANG_EXPORT std::string render_json(const Diagnostics& diagnostics, const RenderOptions& options = {});
 /// A SARIF 2.1.0 log with one run; what allowances silenced is in it, marked as suppressed. `version` is the
 /// program's.
-std::string render_sarif(const std::vector<const Diagnostics*>& files, const std::string& version,
-                         const RenderOptions& options = {});
+ZWANG_EXPORT std::string render_sarif(const std::vector<const Diagnostics*>& files,
+                                      const std::string& version, const RenderOptions& options = {});
 
 }  // namespace zwang::lang

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "zwang/export.hpp"
+
 namespace zwang::lang {
 
 /// What an example is cut from; what it leaves out is then the smallest thing that works.
@@ -31,15 +33,15 @@ struct Explanation {
 };
 
 /// All explanations, sorted by their number.
-std::span<const Explanation> explanations();
+ZWANG_EXPORT std::span<const Explanation> explanations();
 /// By code, `E201` or `e201`; nullptr when there is no such code.
-const Explanation* find_explanation(std::string_view code);
+ZWANG_EXPORT const Explanation* find_explanation(std::string_view code);
 
 /// For a terminal, without marks of Markdown around the examples.
-std::string explanation_text(const Explanation& explanation);
+ZWANG_EXPORT std::string explanation_text(const Explanation& explanation);
 /// The page docs/errors/CODE.md.
-std::string explanation_page(const Explanation& explanation);
+ZWANG_EXPORT std::string explanation_page(const Explanation& explanation);
 /// The page docs/errors/README.md.
-std::string explanation_index();
+ZWANG_EXPORT std::string explanation_index();
 
 }  // namespace zwang::lang

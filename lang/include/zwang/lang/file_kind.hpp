@@ -5,17 +5,19 @@
 #include <optional>
 #include <string_view>
 
+#include "zwang/export.hpp"
+
 namespace zwang::lang {
 
 enum class FileKind { task, robot, scene, scenario, connection, study };
 
 /// `task`, `robot`, `scene`, `scenario`, `connection` or `study`.
-const char* word_of(FileKind kind);
+ZWANG_EXPORT const char* word_of(FileKind kind);
 
 /// By the text's first key, a misspelt one, too: its reader says what is wrong. nullopt when it is none of
 /// zwang's files.
-std::optional<FileKind> kind_of_text(std::string_view text);
+ZWANG_EXPORT std::optional<FileKind> kind_of_text(std::string_view text);
 /// The same of a file's first lines, or of its open text.
-std::optional<FileKind> kind_of_file(const std::filesystem::path& path);
+ZWANG_EXPORT std::optional<FileKind> kind_of_file(const std::filesystem::path& path);
 
 }  // namespace zwang::lang

@@ -4,12 +4,13 @@
 #include <optional>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/robot.hpp"
 
 namespace zwang::lang {
 
 /// At the start posture, on a level floor, in the axes of the base frame.
-struct Footing {
+struct ZWANG_EXPORT Footing {
   std::vector<solver::Vector3> points;  ///< [m] where wheels, then supports, meet the floor
   std::size_t wheels = 0;               ///< how many of the points are wheels, in the model's order
   solver::Vector3 centre;               ///< [m] of the whole robot's mass
@@ -39,6 +40,6 @@ struct Footing {
 
 /// None of a robot that does not stand on wheels. Two wheels without supports stand on the corners of the
 /// footprint, too.
-std::optional<Footing> footing_of(const Robot& robot);
+ZWANG_EXPORT std::optional<Footing> footing_of(const Robot& robot);
 
 }  // namespace zwang::lang

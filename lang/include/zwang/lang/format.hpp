@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
@@ -13,6 +14,7 @@ namespace zwang::lang {
 /// column, no blank line twice. Lines, order and comments stay; what the text means is compared before and
 /// after. nullopt when the text cannot be read; the diagnostics say why. Names and units are not checked
 /// here. Throws std::logic_error rather than give a text that means something else.
-std::optional<std::string> format_file(const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<std::string> format_file(const std::filesystem::path& path,
+                                                    Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

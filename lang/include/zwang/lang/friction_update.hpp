@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
@@ -18,8 +19,8 @@ struct MeasuredFriction {
 
 /// The text of `robot_file` with these values under `friction`; what else stands there, `presliding` and
 /// `compensate` too, stays. nullopt where the file is no YAML map.
-std::optional<std::string> with_friction(const std::filesystem::path& robot_file,
-                                         const std::vector<MeasuredFriction>& frictions,
-                                         Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<std::string> with_friction(const std::filesystem::path& robot_file,
+                                                      const std::vector<MeasuredFriction>& frictions,
+                                                      Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

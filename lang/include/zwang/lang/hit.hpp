@@ -1,11 +1,13 @@
 /// How hard a hit is: a mass that runs into a linear spring and damper.
 #pragma once
 
+#include "zwang/export.hpp"
+
 namespace zwang::lang {
 
 /// A mass m that arrives at v where a spring K and a damper c stop it, while F pushes on:
 ///     m x'' + c x' + K x = F,   x(0) = 0, x'(0) = v;   the contact presses with C = c x' + K x.
-struct Hit {
+struct ZWANG_EXPORT Hit {
   double mass = 0.0;       ///< m [kg]
   double speed = 0.0;      ///< v [m/s]
   double stiffness = 0.0;  ///< K [N/m] of all points that touch together

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/lang/file_kind.hpp"
 
@@ -27,12 +28,12 @@ enum class NameKind {
 };
 
 /// `task`, `template`, ...: for people.
-const char* word_of(NameKind kind);
+ZWANG_EXPORT const char* word_of(NameKind kind);
 
 /// Whether names of this kind are known within one task or template alone.
-bool has_scope(NameKind kind);
+ZWANG_EXPORT bool has_scope(NameKind kind);
 
-struct NamePlace {
+struct ZWANG_EXPORT NamePlace {
   /// The kinds that the name may have, the likeliest first; one kind if the file gives the name itself.
   std::vector<NameKind> kinds;
   std::string name;
@@ -47,7 +48,8 @@ struct NamePlace {
 /// In the order of the text. A name that is meant and given in the same file has the kind and the scope of
 /// what gives it. Names of scenes, scenarios and connections that their task file gives keep all of their
 /// kinds. Empty where the text is no YAML; the diagnostics say why.
-std::vector<NamePlace> names_of(FileKind kind, const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::vector<NamePlace> names_of(FileKind kind, const std::filesystem::path& path,
+                                             Diagnostics& diagnostics);
 
 /// A path that a file names, at its place.
 struct NamedFile {
@@ -56,9 +58,9 @@ struct NamedFile {
   Span span;
 };
 /// Robots, scenes, tasks and URDFs that a file names.
-std::vector<NamedFile> files_in(const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::vector<NamedFile> files_in(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 /// Whether a text can be a name: a letter or `_`, then letters, digits and `_`.
-bool is_name(const std::string& text);
+ZWANG_EXPORT bool is_name(const std::string& text);
 
 }  // namespace zwang::lang

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
+
 namespace zwang::lang {
 
 struct OpenPlace {
@@ -18,6 +20,6 @@ struct OpenPlaces {
 };
 
 /// In the order of the file. Reads lines, for a file that is still open has no other shape.
-OpenPlaces open_places(const std::string& robot_file);
+ZWANG_EXPORT OpenPlaces open_places(const std::string& robot_file);
 
 }  // namespace zwang::lang

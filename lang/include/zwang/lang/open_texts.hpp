@@ -5,11 +5,13 @@
 #include <map>
 #include <string>
 
+#include "zwang/export.hpp"
+
 namespace zwang::lang {
 
 /// Texts by the files that they belong to. A file is known by its canonical path, so each of its names leads
 /// to the same text.
-class OpenTexts {
+class ZWANG_EXPORT OpenTexts {
  public:
   void put(const std::filesystem::path& file, std::string text);
   void remove(const std::filesystem::path& file);
@@ -23,7 +25,7 @@ class OpenTexts {
 /// While it lives, the functions of this room that read files on this thread ask `texts` first: tasks,
 /// robots, scenes, scenarios, connections and URDFs. A scope rather than a parameter, because a file may lead
 /// to any other. Scopes nest: the innermost one counts. `texts` must outlive it.
-class ReadsOpenTexts {
+class ZWANG_EXPORT ReadsOpenTexts {
  public:
   explicit ReadsOpenTexts(const OpenTexts& texts);
   ReadsOpenTexts(const ReadsOpenTexts&) = delete;
@@ -35,9 +37,9 @@ class ReadsOpenTexts {
 };
 
 /// The text that the innermost scope of this thread holds for the file; nullptr when there is none.
-const std::string* open_text_of(const std::filesystem::path& file);
+ZWANG_EXPORT const std::string* open_text_of(const std::filesystem::path& file);
 
 /// The name by which `OpenTexts` knows a file: links followed, absolute; as given where that fails.
-std::filesystem::path canonical_name(const std::filesystem::path& file);
+ZWANG_EXPORT std::filesystem::path canonical_name(const std::filesystem::path& file);
 
 }  // namespace zwang::lang

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/solver/spatial.hpp"
 
@@ -29,7 +30,7 @@ struct PlaceOnPiece {
 
 /// Lines that fillets join, so that the tangent turns without a jump. It begins and ends with a line, which
 /// may have no length: beyond the ends the path goes straight on.
-struct Path {
+struct ZWANG_EXPORT Path {
   std::string name;
   int frame = 0;
   std::vector<PathPiece> pieces;
@@ -41,13 +42,13 @@ struct Path {
 };
 
 /// `x`, `y`: of the point in the path's frame [m].
-PlaceOnPiece place_on(const PathPiece& piece, double x, double y) noexcept;
+ZWANG_EXPORT PlaceOnPiece place_on(const PathPiece& piece, double x, double y) noexcept;
 
 /// The pieces through points [m] in any axes, with one radius for all fillets. Points that stand on a line
 /// between their neighbours have none. nullopt where the path turns back, or the fillets do not fit.
-std::optional<std::vector<PathPiece>> path_through(const std::vector<std::array<double, 2>>& points,
-                                                   double fillet);
+ZWANG_EXPORT std::optional<std::vector<PathPiece>> path_through(
+    const std::vector<std::array<double, 2>>& points, double fillet);
 /// The largest radius whose fillets fit; 0 where the path turns back, infinite where it never turns. [m]
-double largest_fillet(const std::vector<std::array<double, 2>>& points);
+ZWANG_EXPORT double largest_fillet(const std::vector<std::array<double, 2>>& points);
 
 }  // namespace zwang::lang

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/scene.hpp"
@@ -11,7 +12,7 @@ namespace zwang::lang {
 
 /// E915, at the object, robot or joint of the scene and the robot that `reason` names in back ticks, else
 /// where the robot file begins to name joints. `scene` may be nullptr.
-void tell_plant_refusal(const std::string& reason, const Robot& robot, const Scene* scene,
-                        Diagnostics& diagnostics);
+ZWANG_EXPORT void tell_plant_refusal(const std::string& reason, const Robot& robot, const Scene* scene,
+                                     Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

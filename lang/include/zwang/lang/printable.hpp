@@ -4,16 +4,18 @@
 #include <string>
 #include <string_view>
 
+#include "zwang/export.hpp"
+
 namespace zwang::lang {
 
 /// The text with `\xNN` for each byte of a control character (C0, DEL, C1), of a character that makes a text
 /// look other than it is, and for each byte that is not UTF-8. `kept` are control characters that stay.
-std::string printable(std::string_view text, std::string_view kept = "\n\t");
+ZWANG_EXPORT std::string printable(std::string_view text, std::string_view kept = "\n\t");
 
 /// The same as text or an attribute of XML: in one line, its four marks as entities.
-std::string printable_in_xml(std::string_view text);
+ZWANG_EXPORT std::string printable_in_xml(std::string_view text);
 
 /// The text with one space in the place of every run of spaces, tabs and ends of lines, and none at its ends.
-std::string in_one_line(std::string_view text);
+ZWANG_EXPORT std::string in_one_line(std::string_view text);
 
 }  // namespace zwang::lang

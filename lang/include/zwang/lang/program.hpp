@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/lang/path.hpp"
 #include "zwang/lang/robot.hpp"
@@ -320,7 +321,7 @@ struct Program {
 };
 
 /// How the robot stands before anything moves: its joints in their posture, the base where the scene has it.
-solver::State start_state(const Robot& robot, const std::optional<Scene>& scene);
+ZWANG_EXPORT solver::State start_state(const Robot& robot, const std::optional<Scene>& scene);
 
 /// What the command line may put in the place of the file's own words.
 struct LoadOptions {
@@ -334,7 +335,7 @@ struct LoadOptions {
 };
 
 /// read, parse, check, lower. On any error nullopt, and the diagnostics say why; warnings do not stop it.
-std::optional<Program> load(const std::filesystem::path& path, const LoadOptions& options,
-                            Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<Program> load(const std::filesystem::path& path, const LoadOptions& options,
+                                         Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

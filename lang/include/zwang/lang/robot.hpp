@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/solver/constraint.hpp"
 #include "zwang/solver/model.hpp"
@@ -136,9 +137,9 @@ struct Robot {
 };
 
 /// How the robot stands before it moves: at the world's origin, its joints in their posture.
-solver::State start_state(const Robot& robot);
+ZWANG_EXPORT solver::State start_state(const Robot& robot);
 
 /// Reads and checks a robot file and the URDF it names. The only URDF reader.
-std::optional<Robot> load_robot(const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<Robot> load_robot(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

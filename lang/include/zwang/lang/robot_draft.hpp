@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/robot.hpp"
 
 namespace zwang::lang {
@@ -76,7 +77,8 @@ struct DraftOptions {
 };
 
 /// `named_as` is how the robot file names the URDF, relative to itself. nullopt on a URDF that is refused.
-std::optional<RobotDraft> draft_robot(const std::filesystem::path& urdf, const std::string& named_as,
-                                      Diagnostics& diagnostics, const DraftOptions& options = {});
+ZWANG_EXPORT std::optional<RobotDraft> draft_robot(const std::filesystem::path& urdf,
+                                                   const std::string& named_as, Diagnostics& diagnostics,
+                                                   const DraftOptions& options = {});
 
 }  // namespace zwang::lang

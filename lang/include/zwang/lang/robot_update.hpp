@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/lang/robot_draft.hpp"
 
@@ -24,12 +25,13 @@ struct RobotUpdate {
 };
 
 /// What an existing robot file says about its draft. nullopt where the file is no YAML.
-std::optional<DraftOptions> options_of(const std::filesystem::path& robot_file, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<DraftOptions> options_of(const std::filesystem::path& robot_file,
+                                                    Diagnostics& diagnostics);
 
 /// Every line of `robot_file` stays as it is. Names that it holds nowhere, not even in a comment, are added.
 /// nullopt where the file is no YAML, or the URDF is refused.
-std::optional<RobotUpdate> update_robot_file(const std::filesystem::path& robot_file,
-                                             const std::filesystem::path& urdf, const RobotDraft& draft,
-                                             Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<RobotUpdate> update_robot_file(const std::filesystem::path& robot_file,
+                                                          const std::filesystem::path& urdf,
+                                                          const RobotDraft& draft, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

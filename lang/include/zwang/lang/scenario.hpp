@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/lang/program.hpp"
 
@@ -112,16 +113,18 @@ enum TruthOfRobot {
   truth_robot_stopped,  ///< [s] when its protective stop latched
   truth_robot_count
 };
-std::vector<std::string> truth_names(const Program& program);
+ZWANG_EXPORT std::vector<std::string> truth_names(const Program& program);
 
 /// Reads a scenario file, multiplies its matrix out, and checks the parameters that it names against those
 /// that the task file declares.
-std::optional<Scenario> load_scenario(const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<Scenario> load_scenario(const std::filesystem::path& path,
+                                                   Diagnostics& diagnostics);
 
 /// As `load_scenario`, and asks of every cell, without running it, what `load_run` would: whether the task is
 /// refused on this robot and in this scene where the scenario does not expect it, what the expectations mean
 /// there, and whether the faults have something that can fail. The task file alone is not judged.
-std::optional<Scenario> check_scenario(const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<Scenario> check_scenario(const std::filesystem::path& path,
+                                                    Diagnostics& diagnostics);
 
 /// A cell ready to run.
 struct ScenarioRun {
@@ -130,7 +133,7 @@ struct ScenarioRun {
 };
 
 /// nullopt when the scenario itself is wrong: `of_scenario` says why. Both may be empty lists of diagnostics.
-std::optional<ScenarioRun> load_run(const std::filesystem::path& path, std::size_t cell,
-                                    Diagnostics& of_scenario, Diagnostics& of_task);
+ZWANG_EXPORT std::optional<ScenarioRun> load_run(const std::filesystem::path& path, std::size_t cell,
+                                                 Diagnostics& of_scenario, Diagnostics& of_task);
 
 }  // namespace zwang::lang

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
@@ -229,6 +230,6 @@ struct Scene {
   int seen_robot(int robot) const { return static_cast<int>(objects.size()) + 1 + robot; }
 };
 
-std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<Scene> load_scene(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

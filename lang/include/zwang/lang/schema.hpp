@@ -4,12 +4,13 @@
 
 #include <string>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/file_kind.hpp"
 
 namespace zwang::lang {
 
 /// What a schema can say of a file: keys, shapes, and whether a text looks like a quantity. Names, dimensions
 /// and everything else is for `load` to judge.
-std::string json_schema(FileKind kind);
+ZWANG_EXPORT std::string json_schema(FileKind kind);
 
 }  // namespace zwang::lang

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::lang {
@@ -18,7 +19,7 @@ struct Start {
 };
 
 /// As `load`; whatever is asked about the start is asked there, and there the program's scene has it.
-std::optional<Program> load_from(const Start& start, const std::filesystem::path& path,
-                                 const LoadOptions& options, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<Program> load_from(const Start& start, const std::filesystem::path& path,
+                                              const LoadOptions& options, Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/lang/scenario.hpp"
 
@@ -19,7 +20,7 @@ struct ScenarioFile;
 enum class Spread { uniform, log_uniform, normal, choice };
 
 /// How a drawn value is spread.
-struct Distribution {
+struct ZWANG_EXPORT Distribution {
   Spread spread = Spread::uniform;
   double first = 0.0;          ///< SI: the lowest value; of a normal one the mean
   double second = 0.0;         ///< SI: the highest value; of a normal one the standard deviation
@@ -67,13 +68,13 @@ struct Study {
 
 /// Reads and checks a study: each draw exists, and the expectations have a meaning. In the middle of all
 /// draws and at the ends of each the task is not refused, or the expectations say so.
-std::optional<Study> load_study(const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<Study> load_study(const std::filesystem::path& path, Diagnostics& diagnostics);
 
 /// A number in (0, 1) for the cell and the draw with these numbers. `halton` fills the unit cube evenly. Any
 /// cell can be asked for alone.
-double drawn_share(Sequence sequence, std::uint64_t seed, std::size_t cell, std::size_t draw);
+ZWANG_EXPORT double drawn_share(Sequence sequence, std::uint64_t seed, std::size_t cell, std::size_t draw);
 /// Of everything random in the run of the cell.
-std::uint64_t seed_of_cell(std::uint64_t seed, std::size_t cell);
+ZWANG_EXPORT std::uint64_t seed_of_cell(std::uint64_t seed, std::size_t cell);
 
 /// A cell of a study, ready to run.
 struct StudyCell {
@@ -83,16 +84,16 @@ struct StudyCell {
 
   const ScenarioCell& cell() const { return scenario.cells.front(); }
 };
-StudyCell draw_cell(const Study& study, std::size_t index);
+ZWANG_EXPORT StudyCell draw_cell(const Study& study, std::size_t index);
 /// The same with given shares, one for each draw and one more, the last, for the cell of the matrix.
-StudyCell draw_cell(const Study& study, const std::vector<double>& shares);
+ZWANG_EXPORT StudyCell draw_cell(const Study& study, const std::vector<double>& shares);
 
 /// As that of a scenario. nullopt where a drawn value is none that can be: `of_study` says which.
 /// The cell takes how the simulated robot differs from the task's.
-std::optional<ScenarioRun> load_run(const Study& study, StudyCell& cell, Diagnostics& of_study,
-                                    Diagnostics& of_task);
+ZWANG_EXPORT std::optional<ScenarioRun> load_run(const Study& study, StudyCell& cell, Diagnostics& of_study,
+                                                 Diagnostics& of_task);
 
 /// Clean runs after which a share of at least `probability` is sure: 2995 for 99.9 % at 95 %.
-std::size_t clean_runs_for(double probability, double confidence);
+ZWANG_EXPORT std::size_t clean_runs_for(double probability, double confidence);
 
 }  // namespace zwang::lang

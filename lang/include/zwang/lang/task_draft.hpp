@@ -7,13 +7,14 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/robot_draft.hpp"
 
 namespace zwang::lang {
 
 /// The use cases that can be fitted.
-const std::vector<std::string>& fitted_tasks();
+ZWANG_EXPORT const std::vector<std::string>& fitted_tasks();
 
 enum class Freedoms {
   all,      ///< ahead, sideways and about the vertical; or not known yet
@@ -40,29 +41,29 @@ struct BaseFit {
   std::string base = "base";  ///< what a task calls it
 };
 
-BaseFit base_fit(const RobotDraft& draft);
-BaseFit base_fit(const Robot& robot);
+ZWANG_EXPORT BaseFit base_fit(const RobotDraft& draft);
+ZWANG_EXPORT BaseFit base_fit(const Robot& robot);
 
 /// The yaw [rad] at which the outline rests against a wall across x that it is pushed to from `yaw`, without
 /// friction; no value where it turns by more than 90 deg first.
-std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw);
+ZWANG_EXPORT std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw);
 /// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
 /// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]
 inline constexpr double round_ahead = 2.0 * std::numbers::pi / 180.0;
 
 /// The yaw [rad] from which a wall squares the base up: 20 deg, or the largest of 15, 10 and 5 deg from which
 /// its outline comes to rest square; no value where it does from none.
-std::optional<double> start_askew(const BaseFit& fit);
+ZWANG_EXPORT std::optional<double> start_askew(const BaseFit& fit);
 
 /// Why this base cannot do `task`; empty: it can, as far as is known.
-std::string why_unfit(const std::string& task, const BaseFit& fit);
+ZWANG_EXPORT std::string why_unfit(const std::string& task, const BaseFit& fit);
 
 struct TaskTexts {
   std::string task, scene;
 };
 
 /// `shipped`: the task `task` and the scene of a corridor. The task names its files as given.
-TaskTexts draft_task(const std::string& task, const TaskTexts& shipped, const BaseFit& fit,
-                     const std::string& robot_file, const std::string& scene_file);
+ZWANG_EXPORT TaskTexts draft_task(const std::string& task, const TaskTexts& shipped, const BaseFit& fit,
+                                  const std::string& robot_file, const std::string& scene_file);
 
 }  // namespace zwang::lang

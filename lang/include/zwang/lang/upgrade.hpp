@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
@@ -13,6 +14,7 @@ namespace zwang::lang {
 /// comments. The motion is the same: the version's number changes, and `speed` becomes `plane`, in axes and
 /// in what conditions name. A text of the newest version is laid out alone. nullopt when the text cannot be
 /// read; the diagnostics say why.
-std::optional<std::string> upgrade_task(const std::filesystem::path& path, Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<std::string> upgrade_task(const std::filesystem::path& path,
+                                                     Diagnostics& diagnostics);
 
 }  // namespace zwang::lang

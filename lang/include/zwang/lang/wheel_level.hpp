@@ -3,14 +3,15 @@
 
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/model.hpp"
 
 namespace zwang::lang {
 
 /// X_BaseBody where all joints are at 0.
-solver::Pose pose_in_base(const solver::Model& model, int body);
+ZWANG_EXPORT solver::Pose pose_in_base(const solver::Model& model, int body);
 /// The same with the joints at `q`.
-solver::Pose pose_in_base(const solver::Model& model, int body, const Eigen::VectorXd& q);
+ZWANG_EXPORT solver::Pose pose_in_base(const solver::Model& model, int body, const Eigen::VectorXd& q);
 
 /// How far wheels may end from their average; a simulation levels so much out. [m]
 inline constexpr double most_wheel_lift = 0.002;
@@ -28,6 +29,6 @@ struct WheelLevel {
   }
 };
 /// Of a model that has wheels.
-WheelLevel wheel_level(const solver::Model& model);
+ZWANG_EXPORT WheelLevel wheel_level(const solver::Model& model);
 
 }  // namespace zwang::lang

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/model.hpp"
 
 namespace zwang::runtime {
@@ -51,9 +52,9 @@ enum class EventCode {
   not_at_rest,  ///< the longest time of a stop is over, and nobody has seen the base stand; `value`: its
                 ///< speed, as far as it is known
 };
-const char* to_string(EventCode code) noexcept;
+ZWANG_EXPORT const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".
-const char* describe(EventCode code) noexcept;
+ZWANG_EXPORT const char* describe(EventCode code) noexcept;
 inline constexpr bool latches_the_stop(EventCode code) {
   return code > EventCode::none && code < EventCode::clock_refused;
 }
@@ -69,8 +70,9 @@ struct Event {
 
 /// What an event's `signal` can be: `time`, `base.pose`, `base.twist`, then q, qd, tau_ff and tau of each
 /// joint, the external wrench of each body, what the task file measures, and its rows.
-std::vector<std::string> event_signals(const solver::Model& model, const std::vector<std::string>& measured,
-                                       const std::vector<std::string>& rows);
+ZWANG_EXPORT std::vector<std::string> event_signals(const solver::Model& model,
+                                                    const std::vector<std::string>& measured,
+                                                    const std::vector<std::string>& rows);
 
 /// Indices into `event_signals`.
 namespace event_signal {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/mujoco_plant.hpp"
 #include "zwang/runtime/recorder.hpp"
@@ -13,7 +14,7 @@
 namespace zwang::runtime {
 
 /// A fault that a hand can put on the first robot or on its world: one of some words, or a number.
-struct FaultSwitch {
+struct ZWANG_EXPORT FaultSwitch {
   std::string name;                    ///< `samples`, `torque.front_left_wheel`, `payload`
   std::vector<std::string> words;      ///< `none` first; empty: a number
   std::vector<lang::FaultKind> kinds;  ///< of the words behind `none`, or of the number
@@ -25,7 +26,7 @@ struct FaultSwitch {
   bool has(double value) const;
 };
 /// Each fault that scenes know, of each joint that it can be of.
-std::vector<FaultSwitch> fault_switches(const lang::Robot& robot);
+ZWANG_EXPORT std::vector<FaultSwitch> fault_switches(const lang::Robot& robot);
 
 /// The object that was sent somewhere last.
 struct SentObject {
@@ -42,19 +43,19 @@ struct Hand {
   SentObject sent;
 };
 /// That does nothing.
-Hand idle_hand(const lang::Program& program);
+ZWANG_EXPORT Hand idle_hand(const lang::Program& program);
 
 /// How fast a hand moves an object: no faster than either.
 inline constexpr double hand_speed = 0.25;  // [m/s]
 inline constexpr double hand_turn = 0.8;    // [rad/s]
 
 /// Signals of the program that its scene gives, by their places in Program::signals.
-std::vector<std::size_t> given_signals(const lang::Program& program);
+ZWANG_EXPORT std::vector<std::size_t> given_signals(const lang::Program& program);
 
 /// The log's columns of a hand. The point of its push is in the base's axes, the force in the world's. Behind
 /// them stand the signals that it may block, the faults, and where it has sent an object. The last columns
 /// are the places of objects that nothing else moves.
-class HandColumns {
+class ZWANG_EXPORT HandColumns {
  public:
   /// The program has a scene.
   explicit HandColumns(const lang::Program& program);

@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/robot.hpp"
 
 namespace zwang::runtime {
 
 /// Why nothing could be told, in words for the user.
-class NotIdentified : public std::runtime_error {
+class ZWANG_EXPORT NotIdentified : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
@@ -37,7 +38,7 @@ struct Identification {
 };
 
 /// Takes the records of one run after the other, and estimates by least squares. Equations: in the source.
-class DriveIdentification {
+class ZWANG_EXPORT DriveIdentification {
  public:
   /// Without `mass` [kg] it is estimated, too: one of the runs must carry a known load. Throws NotIdentified
   /// on a robot whose motors do not turn wheels that are fixed to the base, or are not told torques.

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/log_parts.hpp"
 #include "zwang/runtime/recorder.hpp"
@@ -24,7 +25,7 @@ struct LogChannel {
 
 /// Makes messages out of records. All calls come from one thread. Messages are stamped with the time of the
 /// record that they were made of.
-class LogChannels {
+class ZWANG_EXPORT LogChannels {
  public:
   using Put = std::function<void(std::size_t channel, std::string_view json)>;
   virtual ~LogChannels() = default;
@@ -36,15 +37,16 @@ class LogChannels {
 
 /// `/tf` (50 a second) and `/tf_static`: where robot, frames and objects are; `/scene`: their shapes, once;
 /// `/log`: transitions and events. By the scene's truth where the records have it, else by the estimate.
-std::unique_ptr<LogChannels> scene_channels(const lang::Program& program);
+ZWANG_EXPORT std::unique_ptr<LogChannels> scene_channels(const lang::Program& program);
 
 /// As `mcap_sink` without channels; replays and readers of the records see no difference.
-std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context,
-                                   std::unique_ptr<LogChannels> channels);
+ZWANG_EXPORT std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context,
+                                                std::unique_ptr<LogChannels> channels);
 
 /// The log of a run of the program, with `scene_channels`: `file`, or its parts `STEM_0.mcap` and so on
 /// beside it where a rotation is asked for.
-std::unique_ptr<LogSink> program_log(const std::filesystem::path& file, const LogRotation& rotation,
-                                     const LogContext& context, const lang::Program& program);
+ZWANG_EXPORT std::unique_ptr<LogSink> program_log(const std::filesystem::path& file,
+                                                  const LogRotation& rotation, const LogContext& context,
+                                                  const lang::Program& program);
 
 }  // namespace zwang::runtime

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/runtime/log_reader.hpp"
 
 namespace zwang::runtime {
@@ -34,7 +35,8 @@ struct LogDifference {
 /// Records are pairs if their times since the runs began are the same to a quarter of the shorter period. So
 /// logs of unlike rates are compared at the instants that both have. Numbers are compared bit by bit; zeros
 /// of either sign are alike. Clocks count from the begin of their run. Throws as `read_log`.
-LogDifference difference(const std::filesystem::path& first, const std::filesystem::path& second);
+ZWANG_EXPORT LogDifference difference(const std::filesystem::path& first,
+                                      const std::filesystem::path& second);
 
 /// A transition or an event.
 struct Happening {
@@ -44,10 +46,11 @@ struct Happening {
 
 /// The number of the first pair that is not the same thing at the same time, to `tolerance` [s]. If one list
 /// is longer, that is the length of the shorter one. None: the lists are alike.
-std::optional<std::size_t> first_difference(const std::vector<Happening>& first,
-                                            const std::vector<Happening>& second, double tolerance);
+ZWANG_EXPORT std::optional<std::size_t> first_difference(const std::vector<Happening>& first,
+                                                         const std::vector<Happening>& second,
+                                                         double tolerance);
 
 /// [s] as the facts of the log tell it; 1 ms where they do not.
-double period_of(const LogContext& context);
+ZWANG_EXPORT double period_of(const LogContext& context);
 
 }  // namespace zwang::runtime

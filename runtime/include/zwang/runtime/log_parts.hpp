@@ -9,13 +9,14 @@
 #include <string>
 #include <string_view>
 
+#include "zwang/export.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace zwang::runtime {
 
 /// Hands on a record at most every 1/`rate` [s] of the run's time. Records of a switch, of an event, and the
 /// last one are handed on beside them.
-std::unique_ptr<LogSink> thinned_sink(std::unique_ptr<LogSink> sink, double rate);
+ZWANG_EXPORT std::unique_ptr<LogSink> thinned_sink(std::unique_ptr<LogSink> sink, double rate);
 /// The fact that tells of it: a replay needs each record.
 inline constexpr const char* log_rate_fact = "log_rate [Hz]";
 
@@ -26,12 +27,12 @@ struct LogRotation {
   bool is_asked() const { return seconds || bytes; }
 };
 /// `500 MB`, `2 GB`, `90 s`, `10 min`, `1 h`, put into `rotation`: at least 1 MB, or 1 s. False: it is none.
-bool read_rotation(std::string_view text, LogRotation& rotation);
+ZWANG_EXPORT bool read_rotation(std::string_view text, LogRotation& rotation);
 
 /// Writes `STEM_0.mcap`, `STEM_1.mcap` and so on, as rosbag2 splits a bag. Each file opens by itself; from
 /// the second one on, facts `continues` and `part` tell which one it goes on from. `make` makes the sink of a
 /// file, given the facts to add. Files of that name from a run before are removed.
-std::unique_ptr<LogSink> rotating_sink(
+ZWANG_EXPORT std::unique_ptr<LogSink> rotating_sink(
     const std::filesystem::path& folder, const std::string& stem, const LogRotation& rotation,
     std::function<std::unique_ptr<LogSink>(const std::filesystem::path& path,
                                            const std::map<std::string, std::string>& facts)>
@@ -41,6 +42,6 @@ inline constexpr const char* continues_fact = "continues";
 
 /// Removes the log of a run before, `STEM.mcap` or its parts, and its CSV. Returns what hinders it, as
 /// another run that writes it; or nothing.
-std::string remove_log(const std::filesystem::path& folder, const std::string& stem);
+ZWANG_EXPORT std::string remove_log(const std::filesystem::path& folder, const std::string& stem);
 
 }  // namespace zwang::runtime

@@ -11,12 +11,13 @@
 #include <string_view>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace zwang::runtime {
 
 /// What a log says of one of its columns.
-struct LoggedColumn {
+struct ZWANG_EXPORT LoggedColumn {
   std::string name;
   std::string unit;                ///< empty for pure numbers and words
   std::vector<std::string> words;  ///< when not empty, a value is an index into it
@@ -31,7 +32,7 @@ struct LoggedColumn {
 };
 
 /// The number of the column with this name; that of all columns where there is none.
-std::size_t place_of(const std::vector<LoggedColumn>& columns, std::string_view name) noexcept;
+ZWANG_EXPORT std::size_t place_of(const std::vector<LoggedColumn>& columns, std::string_view name) noexcept;
 
 struct LogContents {
   LogContext context;
@@ -48,10 +49,10 @@ struct LogContents {
 
 /// The files of a run's log: `log.mcap` in its folder, or `log_0.mcap`, `log_1.mcap` and so on in their
 /// order. What is no folder is a file of its own. Throws std::runtime_error where the folder holds no log.
-std::vector<std::filesystem::path> log_files(const std::filesystem::path& run);
+ZWANG_EXPORT std::vector<std::filesystem::path> log_files(const std::filesystem::path& run);
 
 /// The records of a log, one by one. A cut or changed file is read as far as it is whole.
-class LogRecords {
+class ZWANG_EXPORT LogRecords {
  public:
   /// `log`: a file, or the folder of a run. Throws std::runtime_error when the file cannot be opened or is no
   /// MCAP file.
@@ -79,8 +80,9 @@ class LogRecords {
 /// `before` ahead of the first one, with the files, the facts and the columns. A cut or changed file is read
 /// as far as it is whole, and `damage` tells the rest. No content of a file makes it throw, or take more
 /// memory than a chunk. Throws as LogRecords.
-LogContents read_log(const std::filesystem::path& log,
-                     const std::function<void(double time, std::span<const double> values)>& record,
-                     const std::function<void(const LogContents& head)>& before = {});
+ZWANG_EXPORT LogContents
+read_log(const std::filesystem::path& log,
+         const std::function<void(double time, std::span<const double> values)>& record,
+         const std::function<void(const LogContents& head)>& before = {});
 
 }  // namespace zwang::runtime

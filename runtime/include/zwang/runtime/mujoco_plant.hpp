@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/scene.hpp"
 #include "zwang/runtime/plant.hpp"
@@ -56,7 +57,7 @@ inline constexpr double largest_lean = 10.0 * std::numbers::pi / 180.0;
 inline constexpr double standing_lean = 2.0 * std::numbers::pi / 180.0;
 inline constexpr double standing_turn = 1.0 * std::numbers::pi / 180.0;
 /// `fell over: roll 1 deg, pitch -14 deg`
-std::string describe_fall(const BaseTruth& base);
+ZWANG_EXPORT std::string describe_fall(const BaseTruth& base);
 
 /// Of another robot, beside what is an object's.
 struct RobotTruth {
@@ -97,7 +98,7 @@ struct BodyPush {
 };
 
 /// Of the library that is loaded, as `2.3.7`.
-const char* mujoco_version() noexcept;
+ZWANG_EXPORT const char* mujoco_version() noexcept;
 
 struct MujocoPlantOptions {
   double period = 1e-3;                           ///< [s] of a simulation step
@@ -115,7 +116,7 @@ struct MujocoPlantOptions {
 /// mass slide on the floor. The scene's other robots are in the same simulation; whoever steps it gives them
 /// torques before `apply`, or they keep their last. Contact forces are those of the last step, so they belong
 /// to the instant at its beginning. MuJoCo's error and warning handlers are replaced for the whole process.
-class MujocoPlant : public Plant {
+class ZWANG_EXPORT MujocoPlant : public Plant {
  public:
   /// Throws std::invalid_argument when the robot or the scene cannot be simulated, with the reason.
   MujocoPlant(const lang::Robot& robot, const lang::Scene& scene, const MujocoPlantOptions& options = {});

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
 #include "zwang/solver/wheel_odometry.hpp"
@@ -16,7 +17,7 @@ struct OdometrySettings {
 };
 
 /// Does not allocate, lock, throw or print after construction.
-class Odometry {
+class ZWANG_EXPORT Odometry {
  public:
   /// Throws std::invalid_argument on settings that are not positive. `start` is X_WB at the first update.
   explicit Odometry(const solver::Model& model, const solver::Pose& start = {},

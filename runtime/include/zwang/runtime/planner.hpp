@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/diagnostic.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/solver/base_analysis.hpp"
@@ -68,7 +69,7 @@ struct Configurations {
 
 /// Looks at a program's tasks at the start pose and over `lang::configurations`. Program and diagnostics must
 /// outlive it.
-class Planner {
+class ZWANG_EXPORT Planner {
  public:
   /// `diagnostics`: those of loading the program, whose physical ones each plan repeats.
   Planner(const lang::Program& program, const lang::Diagnostics& diagnostics);

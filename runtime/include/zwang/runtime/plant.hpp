@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/command.hpp"
 #include "zwang/solver/state.hpp"
@@ -77,11 +78,11 @@ enum class PlantStatus {
   diverged,    ///< the simulation reset itself, warned or left the finite numbers: the run is void
   unreachable  ///< no sample, or the command did not arrive
 };
-const char* to_string(PlantStatus status) noexcept;
+ZWANG_EXPORT const char* to_string(PlantStatus status) noexcept;
 
 /// Implement this for your own robot. A call of `sense` and one of `apply`, or `follow`, are made once per
 /// control period, on one thread, and must not throw.
-class Plant {
+class ZWANG_EXPORT Plant {
  public:
   virtual ~Plant() = default;
   virtual PlantStatus sense(Sensed& sensed) noexcept = 0;

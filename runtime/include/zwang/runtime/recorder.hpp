@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/source.hpp"
 
 namespace zwang::runtime {
@@ -32,7 +33,7 @@ struct LogContext {
 
 /// A form of the log. All calls come from one thread, never from the control loop. Each returns what went
 /// wrong, or nothing; after the first complaint only `close` is called.
-class LogSink {
+class ZWANG_EXPORT LogSink {
  public:
   virtual ~LogSink() = default;
   virtual std::string open(const std::vector<Column>& columns) = 0;  ///< once, by Recorder's constructor
@@ -48,14 +49,14 @@ class LogSink {
 
 /// A line a record, `name [unit]` in the header. The bytes depend on the values alone: numbers have nine
 /// significant digits and a point whatever the locale.
-std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path);
+ZWANG_EXPORT std::unique_ptr<LogSink> csv_sink(const std::filesystem::path& path);
 
 /// MCAP (https://mcap.dev). The channel `/records` has every bit of each record, in blocks and compressed
 /// chunks of at most 50 ms; docs/logs.md has their format. The channel `/tick` has 10 records a second as
 /// JSON, for viewers. The context's sources are its attachments. Cut anywhere, all whole chunks before the
 /// cut can be read. Dropped records are missing among the sequence numbers, and `read_log` tells so. Wants a
 /// first column `time` in seconds.
-std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context);
+ZWANG_EXPORT std::unique_ptr<LogSink> mcap_sink(const std::filesystem::path& path, LogContext context);
 
 struct RecorderStatus {
   std::uint64_t recorded = 0;   ///< records accepted by `record`
@@ -66,7 +67,7 @@ struct RecorderStatus {
   bool complete() const { return dropped == 0 && error.empty() && recorded == written; }
 };
 
-class Recorder {
+class ZWANG_EXPORT Recorder {
  public:
   /// Opens the sinks and starts the writer. A sink that cannot be opened, or throws, is reported by `status`,
   /// not thrown; the others go on. Throws std::invalid_argument without sinks, columns or capacity.

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/log_reader.hpp"
 #include "zwang/runtime/runner.hpp"
@@ -16,11 +17,12 @@ namespace zwang::runtime {
 /// The program of the run: the files, as the log holds them, and the parameters. On an error nullopt, and the
 /// diagnostics say why. Throws std::runtime_error when the log says too little. Writes the files to a
 /// temporary folder, which is gone when it returns.
-std::optional<lang::Program> logged_program(const LogContext& context, lang::Diagnostics& diagnostics);
+ZWANG_EXPORT std::optional<lang::Program> logged_program(const LogContext& context,
+                                                         lang::Diagnostics& diagnostics);
 
 /// How the runner of the log was set, as `Runner::facts` said it. Throws std::runtime_error when the log says
 /// too little.
-RunnerSettings logged_settings(const LogContext& context);
+ZWANG_EXPORT RunnerSettings logged_settings(const LogContext& context);
 
 struct ReplayDifference {
   double time = 0.0;  ///< [s]
@@ -38,8 +40,8 @@ struct ReplayResult {
 /// Every torque that was sent, compared bit by bit. Stops that came from outside are taken from the log's
 /// events, what a host reset from where the stop ended, parameters that it set from their columns. Throws
 /// std::runtime_error when the log cannot be opened, or does not hold what was sensed in each tick.
-ReplayResult replay(const std::filesystem::path& log, const lang::Program& program,
-                    const RunnerSettings& settings);
+ZWANG_EXPORT ReplayResult replay(const std::filesystem::path& log, const lang::Program& program,
+                                 const RunnerSettings& settings);
 
 /// A log and the program of it.
 struct ReplayPart {
@@ -50,6 +52,6 @@ struct ReplayPart {
 /// The same of a run whose log is in several files, or whose program was swapped under way: each log begins
 /// where the last one ends. Throws std::runtime_error, too, when a program does not fit the robot of the one
 /// before.
-ReplayResult replay(const std::vector<ReplayPart>& parts, const RunnerSettings& settings);
+ZWANG_EXPORT ReplayResult replay(const std::vector<ReplayPart>& parts, const RunnerSettings& settings);
 
 }  // namespace zwang::runtime

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/command.hpp"
 #include "zwang/runtime/event.hpp"
@@ -28,11 +29,11 @@ enum class RunState {
   failed,
   stopped,  ///< the protective stop; SafetyGuard::reason says why
 };
-const char* to_string(RunState state) noexcept;
+ZWANG_EXPORT const char* to_string(RunState state) noexcept;
 
 /// A limit of the task, the robot or a motor that was in force, and how near the run came to it.
 /// Forces and accelerations are those commanded; positions and velocities those sensed; torques those sent.
-struct LimitReport {
+struct ZWANG_EXPORT LimitReport {
   std::string
       row;  ///< its column of the log: "press.contact.x.velocity", "press.contact.x.nu", "left_wheel.tau"
   lang::Span span;  ///< where it is written
@@ -72,7 +73,7 @@ struct SwapResult {
   explicit operator bool() const noexcept { return refusal == SwapRefusal::none; }
 };
 /// The sentence with the signal's name. Allocates.
-std::string describe(const SwapResult& result);
+ZWANG_EXPORT std::string describe(const SwapResult& result);
 
 struct RunnerSettings {
   /// [s] between steps, 0.1 to 10 ms; where none is given, the robot file's `control_period`.
@@ -85,7 +86,7 @@ struct RunnerSettings {
 inline constexpr const char* unseen_rest = "no sample has shown the base at rest: it may still move";
 
 /// One thread at a time calls it. A runner that was moved from can be destroyed or assigned to, no more.
-class Runner {
+class ZWANG_EXPORT Runner {
  public:
   /// The program is copied. Throws std::invalid_argument, as Scheduler, Solver and SafetyGuard do.
   explicit Runner(const lang::Program& program, const RunnerSettings& settings = {});

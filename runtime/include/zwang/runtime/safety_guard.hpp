@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/runtime/event.hpp"
 #include "zwang/runtime/plant.hpp"
@@ -19,7 +20,7 @@ enum class SampleStatus {
   bad_clock,   ///< time stood still, went backwards or jumped
   untimely,    ///< the same, but the stop is latched and the values are good: it brakes by them
 };
-const char* to_string(SampleStatus status) noexcept;
+ZWANG_EXPORT const char* to_string(SampleStatus status) noexcept;
 
 enum class GuardStatus {
   passed,   ///< the torques went through as they came
@@ -28,7 +29,7 @@ enum class GuardStatus {
   held,     ///< the sample was refused: the last torques stay
   stopped,  ///< the protective stop is latched: the wheels brake
 };
-const char* to_string(GuardStatus status) noexcept;
+ZWANG_EXPORT const char* to_string(GuardStatus status) noexcept;
 
 struct GuardSettings {
   double period = 1e-3;     ///< [s] control period
@@ -54,7 +55,7 @@ class JointLimits;
 class WheelBrake;
 
 /// Does not allocate, lock, throw or print after construction.
-class SafetyGuard {
+class ZWANG_EXPORT SafetyGuard {
  public:
   /// Throws std::invalid_argument on settings that are not positive.
   explicit SafetyGuard(const lang::Robot& robot, const GuardSettings& settings = {});

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/scenario.hpp"
 #include "zwang/runtime/runner.hpp"
 
@@ -71,8 +72,8 @@ struct CellResult {
 /// `codes` are those of the task's errors and warnings. Touches nothing outside of its arguments:
 /// cells may run side by side on threads. Once `interrupted` is true, which another thread or a signal sets,
 /// it ends within a tick.
-CellResult run_cell(const lang::Scenario& scenario, const lang::ScenarioCell& cell,
-                    const lang::ScenarioRun& run, const std::vector<std::string>& codes = {},
-                    const std::atomic<bool>* interrupted = nullptr);
+ZWANG_EXPORT CellResult run_cell(const lang::Scenario& scenario, const lang::ScenarioCell& cell,
+                                 const lang::ScenarioRun& run, const std::vector<std::string>& codes = {},
+                                 const std::atomic<bool>* interrupted = nullptr);
 
 }  // namespace zwang::runtime

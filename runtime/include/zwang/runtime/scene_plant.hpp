@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
 #include "zwang/runtime/hand.hpp"
@@ -16,7 +17,7 @@
 namespace zwang::runtime {
 
 /// The steps of a simulation between the ticks of a controller.
-class SimulationSteps {
+class ZWANG_EXPORT SimulationSteps {
  public:
   /// Of 1 ms or less each: stiff contacts could not be followed by longer ones.
   explicit SimulationSteps(double control_period) noexcept;
@@ -42,7 +43,7 @@ struct ScenePlantOptions {
 };
 
 /// Another robot of the scene, under a runner of its own.
-struct ScenePartner {
+struct ZWANG_EXPORT ScenePartner {
   ScenePartner(const lang::SceneRobot& robot, const RunnerSettings& settings);
   std::string name;
   std::shared_ptr<const lang::Program> program;
@@ -52,20 +53,21 @@ struct ScenePartner {
 
 /// Of a log's columns behind the runner's own: where the plant has the base, how it leans, speeds up and
 /// pushes.
-std::vector<Column> base_truth_columns();
+ZWANG_EXPORT std::vector<Column> base_truth_columns();
 using BaseTruthValues = std::array<double, 8>;
 /// In the order of the columns. `x`, `y` [m] and `yaw` [rad] are those of the base in the world.
-BaseTruthValues base_truth_values(double x, double y, double yaw, const BaseTruth& base) noexcept;
+ZWANG_EXPORT BaseTruthValues base_truth_values(double x, double y, double yaw,
+                                               const BaseTruth& base) noexcept;
 /// Those, then the force on each object and other robot of the scene, and the places of those that move.
-std::vector<Column> truth_columns(const lang::Scene& scene);
+ZWANG_EXPORT std::vector<Column> truth_columns(const lang::Scene& scene);
 /// In the order of those columns, as many values.
-void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> values);
+ZWANG_EXPORT void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> values);
 
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
 /// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its
 /// own samples and with its own runner, then makes one step of the world. A robot whose control period is
 /// longer than that takes its tick every so many steps; the first one's ticks are the caller's.
-class ScenePlant : public Plant {
+class ZWANG_EXPORT ScenePlant : public Plant {
  public:
   /// Throws std::invalid_argument when the program has no scene, or robot, scene and faults do not go
   /// together.

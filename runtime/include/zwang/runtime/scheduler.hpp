@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/runtime/plant.hpp"
 #include "zwang/runtime/why.hpp"
@@ -23,7 +24,7 @@ enum class Phase {
 };
 
 enum class Outcome { none, done, failed };
-const char* to_string(Outcome outcome) noexcept;
+ZWANG_EXPORT const char* to_string(Outcome outcome) noexcept;
 
 enum class Cause {
   start,        ///< the program's start task
@@ -33,7 +34,7 @@ enum class Cause {
   never_stood,  ///< the brake did not bring the base to rest in time
 };
 
-const char* to_string(Cause cause) noexcept;
+ZWANG_EXPORT const char* to_string(Cause cause) noexcept;
 
 /// What kept the run out of the task that it was on its way to.
 enum class Refusal {
@@ -43,7 +44,7 @@ enum class Refusal {
   set,       ///< a frame is set on the way, and a pose signal that it needs is not known: `failed`
 };
 
-const char* to_string(Refusal refusal) noexcept;
+ZWANG_EXPORT const char* to_string(Refusal refusal) noexcept;
 
 /// A switch of tasks. Tasks are indices into Scheduler::tasks().
 struct Transition {
@@ -97,7 +98,7 @@ struct AxisReading {
 
 /// Runs the tasks of one program. Everything is sized by the constructor; afterwards nothing allocates,
 /// locks, throws or prints, except where a member says so.
-class Scheduler {
+class ZWANG_EXPORT Scheduler {
  public:
   /// The program is copied. Throws std::invalid_argument on a program without tasks or with an index out of
   /// range, with a part of the language that the runtime does not run yet, or a period that is not positive.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/runtime/log_reader.hpp"
 
 namespace zwang::runtime {
@@ -48,10 +49,10 @@ struct Series {
 
 /// The curves have `most_points` together, or little more where there are very many columns. Columns of
 /// words, and inputs, are no curves. Throws as `read_log`.
-Series read_series(const std::filesystem::path& log, std::size_t most_points);
+ZWANG_EXPORT Series read_series(const std::filesystem::path& log, std::size_t most_points);
 
 /// As 32-bit floats of this machine's byte order, the first bytes of all numbers before their second ones and
 /// so on, in the zlib format. Smooth curves get small by it.
-std::string packed(const std::vector<float>& numbers);
+ZWANG_EXPORT std::string packed(const std::vector<float>& numbers);
 
 }  // namespace zwang::runtime

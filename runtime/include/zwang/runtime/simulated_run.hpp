@@ -1,13 +1,14 @@
 /// The one loop in which a task runs on the simulated robot.
 #pragma once
 
+#include "zwang/export.hpp"
 #include "zwang/runtime/runner.hpp"
 #include "zwang/runtime/scene_plant.hpp"
 
 namespace zwang::runtime {
 
 /// What a host adds to the loop: it makes the ticks, and looks on.
-class SimulatedRunHost {
+class ZWANG_EXPORT SimulatedRunHost {
  public:
   virtual ~SimulatedRunHost() = default;
   /// Called before each step of the simulation. False ends the run.
@@ -23,7 +24,7 @@ class SimulatedRunHost {
 /// Steps the plant under the runner until the task is over, the plant fails, the base falls, `time_limit` [s]
 /// is reached, or the host ends it. If the task is over, a base that leans comes down again. Returns the
 /// plant's last status; `sensed` is the last sample that arrived.
-PlantStatus run_simulated(ScenePlant& plant, Runner& runner, Sensed& sensed, double time_limit,
-                          SimulatedRunHost& host);
+ZWANG_EXPORT PlantStatus run_simulated(ScenePlant& plant, Runner& runner, Sensed& sensed, double time_limit,
+                                       SimulatedRunHost& host);
 
 }  // namespace zwang::runtime

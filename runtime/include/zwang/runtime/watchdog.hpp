@@ -4,10 +4,12 @@
 #include <functional>
 #include <memory>
 
+#include "zwang/export.hpp"
+
 namespace zwang::runtime {
 
 /// Give it to your own loop: feed it on every tick, and let `on_expiry` take the torque from the motors.
-class Watchdog {
+class ZWANG_EXPORT Watchdog {
  public:
   /// Waits from now on. `on_expiry` is called once, on the watchdog's own thread, when `feed` was not called
   /// for `limit` [s]; what it throws is swallowed. Throws std::invalid_argument on a limit that is not

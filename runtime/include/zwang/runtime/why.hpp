@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/lang/source.hpp"
 
 namespace zwang::runtime {
@@ -22,7 +23,7 @@ struct WaitedSignal {
   double ahead = 0.0;        ///< [s] of a refused sample's stamp; 0 where the stamp is not the reason
 };
 /// "`partner` was never received", or how long ago its last sample came, or why it was refused.
-std::string in_words(const WaitedSignal& signal);
+ZWANG_EXPORT std::string in_words(const WaitedSignal& signal);
 
 /// A comparison of a condition, or a name in it that is true or false.
 struct WaitedTerm {
@@ -69,7 +70,7 @@ enum class WhyCause {
   never_stood,  ///< the brake did not bring the base to rest
   stopped,      ///< the protective stop
 };
-const char* to_string(WhyCause cause) noexcept;
+ZWANG_EXPORT const char* to_string(WhyCause cause) noexcept;
 
 struct Why {
   WhyCause cause = WhyCause::waiting;

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/constraint.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
@@ -38,13 +39,14 @@ struct BaseAnalysis {
 };
 
 /// Allocates; not for the control loop. Throws std::invalid_argument on a state that does not fit the model.
-BaseAnalysis analyse_base(const Model& model, const State& state);
+ZWANG_EXPORT BaseAnalysis analyse_base(const Model& model, const State& state);
 
 /// The same for whatever a constraint measures between its frames; its statements do not matter. A planar
 /// speed has no direction at rest: analyse the directions that it may take.
-AxisAnalysis analyse_axis(const Model& model, const State& state, const AxisConstraint& constraint);
+ZWANG_EXPORT AxisAnalysis analyse_axis(const Model& model, const State& state,
+                                       const AxisConstraint& constraint);
 /// The same for one axis of any frame on the robot.
-AxisAnalysis analyse_axis(const Model& model, const State& state, const AttachedFrame& move,
-                          const AttachedFrame& in, Axis axis);
+ZWANG_EXPORT AxisAnalysis analyse_axis(const Model& model, const State& state, const AttachedFrame& move,
+                                       const AttachedFrame& in, Axis axis);
 
 }  // namespace zwang::solver

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/frame.hpp"
 
 namespace zwang::solver {
@@ -139,7 +140,7 @@ struct Row {
 
 /// The constraints in force at one instant, and the coordinates and rows that `fill` computes from a state.
 /// Sized once, std::invalid_argument for a size below 1: `fill` does not allocate, lock, throw or print.
-class ConstraintSet {
+class ZWANG_EXPORT ConstraintSet {
  public:
   /// `horizon`: h [s], within which limits act.
   explicit ConstraintSet(int constraint_capacity = 64, int row_capacity = 64, double horizon = limit_horizon);
@@ -174,16 +175,17 @@ class ConstraintSet {
 };
 
 /// The motion of `move` along `axis` of `in` at the state. Does not allocate, lock, throw or print.
-Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis, const Model& model,
-                         const State& state) noexcept;
+ZWANG_EXPORT Coordinate coordinate_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis,
+                                      const Model& model, const State& state) noexcept;
 
 /// The same of what a constraint measures.
-Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept;
-Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept;
+ZWANG_EXPORT Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model,
+                                      const State& state) noexcept;
+ZWANG_EXPORT Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept;
 
 /// Of `move` along `axis` of `in`, nothing but the position. [m] or [rad]
-double position_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis,
-                   BodyMotions& motions) noexcept;
+ZWANG_EXPORT double position_of(const AttachedFrame& move, const AttachedFrame& in, Axis axis,
+                                BodyMotions& motions) noexcept;
 
 /// What the braking curve uses of the acceleration that a range leaves. A base that weighs 30 % more than its
 /// model says slows down by a when it is asked for 1.3 a: 1.3 x 0.72 = 0.94 of the range. The rest is for
@@ -193,10 +195,11 @@ inline constexpr double braking_share = 0.72;
 /// The braking curve of position limits and boundaries: the fastest approach speed at distance d that stops
 /// at 0 without decelerating harder than `braking`: v = d/T for d < d0, else sqrt(2 a (d - d0/2)); odd in d.
 /// a = braking_share braking, T = 4 h, d0 = a T^2. [m, m/s^2 -> m/s]
-double braking_speed(double distance, double braking, double horizon) noexcept;
+ZWANG_EXPORT double braking_speed(double distance, double braking, double horizon) noexcept;
 /// The same of a constraint's position range, inside as outside of it: outside, v = -min(|v|, v_ret).
-double approach_speed(double distance, const AxisConstraint& constraint, double horizon) noexcept;
+ZWANG_EXPORT double approach_speed(double distance, const AxisConstraint& constraint,
+                                   double horizon) noexcept;
 /// The distance at which that speed is the one that the curve allows. [m/s, m/s^2 -> m]
-double braking_distance(double speed, double braking, double horizon) noexcept;
+ZWANG_EXPORT double braking_distance(double speed, double braking, double horizon) noexcept;
 
 }  // namespace zwang::solver

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
 
@@ -38,7 +39,7 @@ struct FrameMotion {
 
 /// The motion of bodies at one state, each worked out when it is first asked for: bodies share their
 /// carriers, and those who ask share bodies. After construction nothing allocates, locks, throws or prints.
-class BodyMotions {
+class ZWANG_EXPORT BodyMotions {
  public:
   /// Remembers `capacity` bodies; more are worked out anew each time.
   explicit BodyMotions(std::size_t capacity);
@@ -66,6 +67,7 @@ class BodyMotions {
 };
 
 /// Of a single frame. Does not allocate, lock, throw or print.
-FrameMotion motion_of(const AttachedFrame& frame, const Model& model, const State& state) noexcept;
+ZWANG_EXPORT FrameMotion motion_of(const AttachedFrame& frame, const Model& model,
+                                   const State& state) noexcept;
 
 }  // namespace zwang::solver

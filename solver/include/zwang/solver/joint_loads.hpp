@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
 
@@ -14,7 +15,7 @@ namespace zwang::solver {
 ///   inertia   u . J u + d           revolute,    m + d     prismatic     d: the rotor's
 /// As `tau_ff` the weights let an arm float, and a force row presses with its own newtons and none of the
 /// arm's weight. Does not allocate, lock, throw or print after construction.
-class JointLoads {
+class ZWANG_EXPORT JointLoads {
  public:
   struct Load {
     int joint = 0;

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/spatial.hpp"
 
 namespace zwang::solver {
@@ -67,7 +68,7 @@ enum class BaseType {
 };
 
 /// A tree of rigid bodies. Build it with `ModelBuilder`; const afterwards.
-class Model {
+class ZWANG_EXPORT Model {
  public:
   BaseType base_type() const { return base_type_; }
   bool has_fixed_base() const { return base_type_ == BaseType::fixed; }
@@ -99,7 +100,7 @@ class Model {
 /// Builds a model link by link, parents first. Throws std::invalid_argument on a model that dynamics cannot
 /// use: unknown parents, doubled names, a zero axis, non-finite numbers, a moving body with mass <= 0 or an
 /// inertia that is not positive definite or breaks the triangle rule.
-class ModelBuilder {
+class ZWANG_EXPORT ModelBuilder {
  public:
   ModelBuilder(BaseType base_type, std::string base_name, const RigidInertia& base_inertia);
 

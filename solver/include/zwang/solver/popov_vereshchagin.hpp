@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/solver.hpp"
 #include "zwang/solver/state.hpp"
@@ -24,7 +25,7 @@ struct AccelerationRow {
   double b = 0.0;           ///< [m/s^2] or [rad/s^2] of spatial acceleration
 };
 
-struct ConstrainedMotion {
+struct ZWANG_EXPORT ConstrainedMotion {
   explicit ConstrainedMotion(const Model& model, int row_capacity = 64);
 
   Eigen::VectorXd qdd;                     ///< [rad/s^2] or [m/s^2]
@@ -39,7 +40,7 @@ struct ConstrainedMotion {
   int rank = 0;                       ///< of L, over all rows, the ground's included
 };
 
-class PopovVereshchagin {
+class ZWANG_EXPORT PopovVereshchagin {
  public:
   struct Settings {
     int row_capacity = 64;

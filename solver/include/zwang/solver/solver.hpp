@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/constraint.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
@@ -21,7 +22,7 @@ enum class Status {
   iteration_limit,    ///< the active set met its cap; outputs finite and inside every bound
   degenerate_model,   ///< an inertia that the sweeps cannot invert; outputs untouched
 };
-const char* to_string(Status status) noexcept;
+ZWANG_EXPORT const char* to_string(Status status) noexcept;
 
 enum class RowStatus {
   held,            ///< the acceleration meets b (or a one-sided row is met)
@@ -31,7 +32,7 @@ enum class RowStatus {
   blocked,         ///< higher rows leave this axis no freedom
   conflict,        ///< rows of the same level, or limits of one above, contradict it
 };
-const char* to_string(RowStatus status) noexcept;
+ZWANG_EXPORT const char* to_string(RowStatus status) noexcept;
 
 struct RowSolution {
   double nu = 0.0;   ///< the row's constraint force on the robot [N] or [N m]; phi f of a force row; of a sum
@@ -49,7 +50,7 @@ struct RowSet {
   double share = 1.0;
 };
 
-struct Solution {
+struct ZWANG_EXPORT Solution {
   explicit Solution(const Model& model, int row_capacity = 64);
 
   Eigen::VectorXd tau;  ///< torque to command [N m] or [N], feed-forward included; 0 where there is no motor
@@ -62,7 +63,7 @@ struct Solution {
 
 /// The motions that the ground leaves, in coordinates y in which the robot is a unit mass: a generalised
 /// force p accelerates it with ydd = p, a motor's torque tau is the force p = T' tau.
-struct FreeMotions {
+struct ZWANG_EXPORT FreeMotions {
   explicit FreeMotions(const Model& model);
 
   int count = 0;          ///< the mobility; of each matrix the first columns
@@ -84,7 +85,7 @@ struct Settings {
 };
 
 /// Solves the bounded problem for one model. Throws std::invalid_argument from its constructor only.
-class Solver {
+class ZWANG_EXPORT Solver {
  public:
   explicit Solver(const Model& model, const Settings& settings = {});
   ~Solver();

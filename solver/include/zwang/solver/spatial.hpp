@@ -12,6 +12,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "zwang/export.hpp"
+
 namespace zwang::solver {
 
 using Vector3 = Eigen::Vector3d;
@@ -60,11 +62,11 @@ inline double yaw_of(const Matrix3& rotation) {
 }
 
 /// Rotation by roll, pitch, yaw about the fixed axes x, y, z, as in URDF: Rz(yaw) Ry(pitch) Rx(roll). [rad]
-Matrix3 rotation_from_rpy(double roll, double pitch, double yaw);
+ZWANG_EXPORT Matrix3 rotation_from_rpy(double roll, double pitch, double yaw);
 
 /// A rotation that takes the unit vector `from` to the unit vector `to`: the smallest one, unless the two are
 /// opposite to within 2.6 deg.
-Matrix3 rotation_between(const Vector3& from, const Vector3& to);
+ZWANG_EXPORT Matrix3 rotation_between(const Vector3& from, const Vector3& to);
 
 /// A twist or a spatial acceleration, in the coordinates of a frame and at its origin.
 template <typename Real>

@@ -4,13 +4,14 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/spatial.hpp"
 
 namespace zwang::solver {
 
 /// Sized once for a model; every vector keeps its size.
-struct State {
+struct ZWANG_EXPORT State {
   explicit State(const Model& model);
 
   Eigen::VectorXd q;   ///< [rad] or [m], one entry a joint

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "zwang/export.hpp"
 #include "zwang/solver/model.hpp"
 #include "zwang/solver/state.hpp"
 
@@ -21,7 +22,7 @@ struct WheelTwist {
 /// contact point P, and s the velocity that the joints alone give that point:
 ///   u . (v + w z x P) = -u . s,   a line of J V = r with V = (vx, vy, l w),
 /// where the length l makes its three columns alike, and V = (J'J)^+ J'r.
-class WheelOdometry {
+class ZWANG_EXPORT WheelOdometry {
  public:
   explicit WheelOdometry(const Model& model);
 
