@@ -3,10 +3,7 @@
 // The guard stops an arm before a joint leaves its travel, so one that starts close to an end is stopped by
 // the least sway. At an end it rests: a closed gripper, a lift that is down.
 //
-// A motor holds its joint against gravity. Over all that hangs on a joint whose axis a goes through p:
-//
-//   t = a . sum (c - p) x m g    where it turns,    F = a . sum m g    where it slides
-//
+// A motor holds its joint against gravity: `solver::JointLoads` says what that takes.
 // With less the arm sinks from the start.
 #include <algorithm>
 #include <cmath>
@@ -14,7 +11,7 @@
 
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/check_joints.hpp"
-#include "zwang/lang/wheel_level.hpp"
+#include "zwang/solver/joint_loads.hpp"
 #include "zwang/solver/wheels.hpp"
 
 namespace zwang::lang {
@@ -29,27 +26,6 @@ constexpr double sway_of_travel = 0.04, proposed_of_travel = 0.08;
 
 bool is_sliding(const solver::Joint& joint) {
   return joint.type == solver::JointType::prismatic;
-}
-
-/// The torque [N m], or the force [N], of gravity about the joint of the body.
-double borne_by(const Robot& robot, int body, const Eigen::VectorXd& q) {
-  const auto& bodies = robot.model.bodies();
-  const solver::Pose pose = pose_in_base(robot.model, body, q);
-  const solver::Joint& joint = bodies[static_cast<std::size_t>(body)].joint;
-  const solver::Vector3 axis = pose.rotation * joint.axis;
-  std::vector<bool> hangs(bodies.size(), false);
-  double borne = 0.0;
-  for (int b = body; b < robot.model.body_count(); ++b) {
-    const solver::Body& part = bodies[static_cast<std::size_t>(b)];
-    hangs[static_cast<std::size_t>(b)] = b == body || hangs[static_cast<std::size_t>(part.parent)];
-    if (!hangs[static_cast<std::size_t>(b)]) continue;
-    const solver::Pose at = pose_in_base(robot.model, b, q);
-    const solver::Vector3 weight = part.inertia.mass * robot.model.gravity();
-    const solver::Vector3 moment =
-        part.inertia.mass * (at.position - pose.position) + at.rotation * part.inertia.first_moment;
-    borne += axis.dot(is_sliding(joint) ? weight : solver::Vector3(moment.cross(robot.model.gravity())));
-  }
-  return std::abs(borne);
 }
 
 /// Where the file says how the joint stands, else where it names the motor.
@@ -83,12 +59,14 @@ void check_travel(const RobotFile& file, const solver::Joint& joint, double q, D
 }  // namespace
 
 void check_arms(const RobotFile& file, const Robot& robot, Diagnostics& diagnostics) {
-  const Eigen::VectorXd q = start_state(robot).q;
-  for (int body = 1; body < robot.model.body_count(); ++body) {
-    const solver::Joint& joint = robot.model.joint(body - 1);
-    if (!joint.actuated || solver::carries_wheel(robot.model, body)) continue;
-    check_travel(file, joint, q(body - 1), diagnostics);
-    const double borne = borne_by(robot, body, q);
+  const solver::State start = start_state(robot);
+  solver::JointLoads loads(robot.model);
+  loads.weigh(start);
+  for (const solver::JointLoads::Load& load : loads.all()) {
+    if (solver::carries_wheel(robot.model, load.joint + 1)) continue;
+    const solver::Joint& joint = robot.model.joint(load.joint);
+    check_travel(file, joint, start.q(load.joint), diagnostics);
+    const double borne = std::abs(load.weight);
     if (borne > joint.max_effort)
       diagnostics.add(wording::arm_too_heavy(start_span(file, joint.name), joint.name, borne,
                                              joint.max_effort, is_sliding(joint)));

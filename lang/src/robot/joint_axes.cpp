@@ -13,12 +13,6 @@ namespace zwang::lang {
 
 namespace {
 
-UrdfJoint* joint_named(Urdf& urdf, const std::string& name) {
-  const auto joint = std::find_if(urdf.joints.begin(), urdf.joints.end(),
-                                  [&](const UrdfJoint& j) { return j.joint.name == name; });
-  return joint == urdf.joints.end() ? nullptr : &*joint;
-}
-
 bool lacks_axis(const UrdfJoint& joint) {
   return !joint.has_axis && joint.joint.type == solver::JointType::continuous;
 }
@@ -51,8 +45,8 @@ std::optional<solver::Vector3> cylinder_axis_of(const PlacedUrdf& placed, const 
 
 void set_axes(Urdf& urdf, const std::vector<JointAxis>& axes) {
   for (const JointAxis& axis : axes) {
-    joint_named(urdf, axis.joint)->joint.axis = axis.axis;
-    joint_named(urdf, axis.joint)->has_axis = true;
+    urdf.find_joint(axis.joint)->joint.axis = axis.axis;
+    urdf.find_joint(axis.joint)->has_axis = true;
   }
 }
 
@@ -83,7 +77,7 @@ std::optional<JointAxisText> parse_axis_of_joint(const Entry& entry, Diagnostics
 void apply_axes(const RobotFile& file, Urdf& urdf, Diagnostics& diagnostics) {
   for (const JointAxisText& text : file.axes) {
     if (!text.joint.exists()) continue;
-    UrdfJoint* joint = joint_named(urdf, text.joint.text);
+    UrdfJoint* joint = urdf.find_joint(text.joint.text);
     if (joint == nullptr) {
       diagnostics.add(wording::unknown_name(text.joint.span, "joint", text.joint.text, urdf.joint_names()));
     } else if (joint->joint.type == solver::JointType::fixed) {

@@ -209,7 +209,7 @@ void correct_inertias(Urdf& urdf, Diagnostics& diagnostics) {
 }
 
 template <typename Items, typename Match>
-auto find_in(const Items& items, const Match& match) -> decltype(items.data()) {
+auto find_in(Items& items, const Match& match) -> decltype(items.data()) {
   const auto it = std::find_if(items.begin(), items.end(), match);
   return it == items.end() ? nullptr : &*it;
 }
@@ -221,6 +221,10 @@ const UrdfLink* Urdf::find_link(const std::string& link) const {
 }
 
 const UrdfJoint* Urdf::find_joint(const std::string& joint) const {
+  return find_in(joints, [&](const UrdfJoint& j) { return j.joint.name == joint; });
+}
+
+UrdfJoint* Urdf::find_joint(const std::string& joint) {
   return find_in(joints, [&](const UrdfJoint& j) { return j.joint.name == joint; });
 }
 

@@ -57,6 +57,7 @@ struct Urdf {
 
   const UrdfLink* find_link(const std::string& link) const;
   const UrdfJoint* find_joint(const std::string& joint) const;
+  UrdfJoint* find_joint(const std::string& joint);
   const UrdfJoint* joint_above(const std::string& link) const;
   std::vector<std::string> link_names() const;
   std::vector<std::string> joint_names() const;

@@ -13,6 +13,7 @@
 #include "robot/wheel_candidates.hpp"
 #include "robot/wheel_names.hpp"
 #include "robot/wheel_roles.hpp"
+#include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
 
@@ -56,31 +57,7 @@ std::string base_below(const Urdf& urdf, std::vector<std::string>& rails) {
   return "base_link";
 }
 
-/// Counter-clockwise (Andrew's monotone chain). Empty where the points span no area.
-std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points) {
-  constexpr double flat = 1e-6;  // [m^2] of a turn that is none
-  const auto by_x_then_y = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
-  };
-  std::sort(points.begin(), points.end(), by_x_then_y);
-  std::vector<Eigen::Vector2d> hull;
-  const auto add_chain = [&](auto begin, auto end) {
-    const std::size_t start = hull.size();
-    for (auto point = begin; point != end; ++point) {
-      while (hull.size() >= start + 2) {
-        const Eigen::Vector2d last = hull.back() - hull[hull.size() - 2];
-        const Eigen::Vector2d next = *point - hull.back();
-        if (last.x() * next.y() - last.y() * next.x() > flat) break;
-        hull.pop_back();
-      }
-      hull.push_back(*point);
-    }
-    if (!hull.empty()) hull.pop_back();  // the other chain's first
-  };
-  add_chain(points.begin(), points.end());
-  add_chain(points.rbegin(), points.rend());
-  return hull.size() >= 3 ? hull : std::vector<Eigen::Vector2d>{};
-}
+constexpr double flat_corner = 1e-6;  // [m^2] of a turn of the outline that is none
 
 /// Larger than any: a file in millimetres has wheels of 50 m.
 constexpr double most_wheel_radius = 3.0, most_reach = 30.0;  // [m]
@@ -300,7 +277,7 @@ class WheelSearch {
       for (const double side : {-1.0, 1.0})
         corners.emplace_back(Eigen::Vector2d(wheel.at[0], wheel.at[1]) + side * ahead);
     }
-    found_.outline = convex_hull(std::move(corners));
+    found_.outline = plane::convex_hull(std::move(corners), flat_corner);
   }
 
   const Urdf& urdf_;

@@ -74,9 +74,10 @@ bool crosses_itself(const std::vector<Point>& corners) {
   return false;
 }
 
-/// Counter-clockwise, without points on straight stretches; empty for less than a triangle.
+/// Counter-clockwise, without points on straight stretches; empty for less than a triangle. A corner is
+/// straight if its triangle has at most half of `flat` [m^2].
 template <typename Point>
-std::vector<Point> convex_hull(std::vector<Point> points) {
+std::vector<Point> convex_hull(std::vector<Point> points, double flat = 1e-12) {
   // Monotone chain.
   const auto is_same = [](const Point& a, const Point& b) { return a[0] == b[0] && a[1] == b[1]; };
   std::sort(points.begin(), points.end(),
@@ -84,8 +85,8 @@ std::vector<Point> convex_hull(std::vector<Point> points) {
   points.erase(std::unique(points.begin(), points.end(), is_same), points.end());
   if (points.size() < 3) return {};
   std::vector<Point> hull;
-  const auto extend = [&hull](const Point& p, std::size_t kept) {
-    while (hull.size() >= kept + 2 && side(hull[hull.size() - 2], hull.back(), p) <= 1e-12) hull.pop_back();
+  const auto extend = [&hull, flat](const Point& p, std::size_t kept) {
+    while (hull.size() >= kept + 2 && side(hull[hull.size() - 2], hull.back(), p) <= flat) hull.pop_back();
     hull.push_back(p);
   };
   for (const Point& p : points) extend(p, 0);
