@@ -5,16 +5,12 @@
 #include <fstream>
 #include <set>
 #include <utility>
+#include <variant>
 
 #include "output.hpp"
 #include "plant_start.hpp"
 #include "verbs.hpp"
-#include "zwang/lang/connection.hpp"
-#include "zwang/lang/notes.hpp"
-#include "zwang/lang/program.hpp"
-#include "zwang/lang/scenario.hpp"
-#include "zwang/lang/scene_for_robot.hpp"
-#include "zwang/lang/study.hpp"
+#include "zwang/lang/check_file.hpp"
 
 namespace zwang::cli {
 
@@ -110,46 +106,50 @@ void refuse_as_urdf(const std::string& path) {
                    "` begins a robot file of it, which task files name");
 }
 
+namespace {
+
+/// One line of what a good file holds. A robot is given to the plant where the reading asks for that.
+class Summary {
+ public:
+  Summary(bool with_plant, lang::Diagnostics& diagnostics)
+      : with_plant_(with_plant), diagnostics_(diagnostics) {}
+
+  std::optional<std::string> operator()(const std::monostate& /*refused*/) const { return std::nullopt; }
+  std::optional<std::string> operator()(const lang::Program& program) const {
+    if (with_plant_) check_plant(program, diagnostics_);
+    return count(program.tasks.size(), "task") + ", robot `" + program.robot.name + "`" +
+           (program.scene ? ", with a scene" : "");
+  }
+  std::optional<std::string> operator()(const lang::Robot& robot) const {
+    if (with_plant_) check_plant(robot, diagnostics_);
+    return "robot `" + robot.name + "`, " + count(robot.model.wheels().size(), "wheel") + ", " +
+           with_unit(robot.model.total_mass(), "kg", 3);
+  }
+  std::optional<std::string> operator()(const lang::Scene& scene) const {
+    return "scene, " + count(scene.objects.size(), "object");
+  }
+  std::optional<std::string> operator()(const lang::Scenario& scenario) const {
+    return "scenario, " + count(scenario.cells.size(), "run");
+  }
+  std::optional<std::string> operator()(const lang::Connection& connection) const {
+    return "connection, " + count(connection.signals.size(), "signal");
+  }
+  std::optional<std::string> operator()(const lang::Study& study) const {
+    return "study, " + count(study.draws.size(), "draw") + ", " + count(study.runs, "run");
+  }
+
+ private:
+  bool with_plant_;
+  lang::Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,
                                    const Reading& reading) {
-  const lang::LoadOptions& options = reading.options;
-  switch (kind) {
-    case FileKind::robot:
-      if (const auto robot = lang::load_robot(path, diagnostics)) {
-        if (reading.with_plant) check_plant(*robot, diagnostics);
-        return "robot `" + robot->name + "`, " + count(robot->model.wheels().size(), "wheel") + ", " +
-               with_unit(robot->model.total_mass(), "kg", 3);
-      }
-      return std::nullopt;
-    case FileKind::scene:
-      if (const auto scene = options.robot ? lang::load_scene_for(*options.robot, path, diagnostics)
-                                           : lang::load_scene(path, diagnostics)) {
-        return "scene, " + count(scene->objects.size(), "object");
-      }
-      return std::nullopt;
-    case FileKind::scenario:
-      if (const auto scenario = lang::check_scenario(path, diagnostics)) {
-        return "scenario, " + count(scenario->cells.size(), "run");
-      }
-      return std::nullopt;
-    case FileKind::connection:
-      if (const auto connection = lang::load_connection(path, diagnostics))
-        return "connection, " + count(connection->signals.size(), "signal");
-      return std::nullopt;
-    case FileKind::study:
-      if (const auto study = lang::load_study(path, diagnostics))
-        return "study, " + count(study->draws.size(), "draw") + ", " + count(study->runs, "run");
-      return std::nullopt;
-    case FileKind::task:
-      break;
-  }
-  if (const auto program =
-          (reading.with_notes ? lang::load_with_notes : lang::load)(path, options, diagnostics)) {
-    if (reading.with_plant) check_plant(*program, diagnostics);
-    return count(program->tasks.size(), "task") + ", robot `" + program->robot.name + "`" +
-           (program->scene ? ", with a scene" : "");
-  }
-  return std::nullopt;
+  const lang::FileContent content =
+      lang::check_file(kind, path, {reading.options, reading.with_notes}, diagnostics);
+  return std::visit(Summary(reading.with_plant, diagnostics), content);
 }
 
 }  // namespace zwang::cli

@@ -1,29 +1,14 @@
 #include "workspace.hpp"
 
 #include <utility>
+#include <variant>
 
 #include "uri.hpp"
-#include "zwang/lang/connection.hpp"
-#include "zwang/lang/notes.hpp"
-#include "zwang/lang/robot.hpp"
-#include "zwang/lang/scenario.hpp"
-#include "zwang/lang/scene.hpp"
-#include "zwang/lang/study.hpp"
+#include "zwang/lang/check_file.hpp"
 
 namespace zwang::lsp {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-void judge_task(const fs::path& path, Judgement& judgement) {
-  auto program = lang::load_with_notes(path, {}, judgement.diagnostics);
-  if (!program) return;
-  judgement.now = std::make_shared<const Loaded>(Loaded{judgement.diagnostics, *std::move(program)});
-  judgement.last = judgement.now;
-}
-
-}  // namespace
 
 std::optional<lang::FileKind> kind_of(const fs::path& path) {
   std::error_code error;
@@ -34,25 +19,11 @@ std::optional<lang::FileKind> kind_of(const fs::path& path) {
 Judgement judge(const fs::path& path, lang::FileKind kind) {
   Judgement judgement;
   judgement.kind = kind;
-  switch (kind) {
-    case lang::FileKind::task:
-      judge_task(path, judgement);
-      break;
-    case lang::FileKind::robot:
-      lang::load_robot(path, judgement.diagnostics);
-      break;
-    case lang::FileKind::scene:
-      lang::load_scene(path, judgement.diagnostics);
-      break;
-    case lang::FileKind::scenario:
-      lang::check_scenario(path, judgement.diagnostics);
-      break;
-    case lang::FileKind::connection:
-      lang::load_connection(path, judgement.diagnostics);
-      break;
-    case lang::FileKind::study:
-      lang::load_study(path, judgement.diagnostics);
-      break;
+  lang::FileContent content =
+      lang::check_file(kind, path, {.load = {}, .with_notes = true}, judgement.diagnostics);
+  if (auto* program = std::get_if<lang::Program>(&content)) {
+    judgement.now = std::make_shared<const Loaded>(Loaded{judgement.diagnostics, std::move(*program)});
+    judgement.last = judgement.now;
   }
   judgement.read.insert(lang::canonical_name(path));
   for (const lang::Source& source : judgement.diagnostics.sources())

@@ -8,14 +8,8 @@
 
 #include "bind.hpp"
 #include "read_program.hpp"
-#include "zwang/lang/connection.hpp"
-#include "zwang/lang/file_kind.hpp"
+#include "zwang/lang/check_file.hpp"
 #include "zwang/lang/open_texts.hpp"
-#include "zwang/lang/program.hpp"
-#include "zwang/lang/robot.hpp"
-#include "zwang/lang/scenario.hpp"
-#include "zwang/lang/scene.hpp"
-#include "zwang/lang/study.hpp"
 #include "zwang/runtime/with_unit.hpp"
 
 namespace zwang::python {
@@ -123,26 +117,7 @@ ReadProgram load(const fs::path& path, const std::optional<std::string>& text, c
 }
 
 void look_at(const fs::path& path, const lang::LoadOptions& options, lang::Diagnostics& diagnostics) {
-  switch (lang::kind_of_file(path).value_or(lang::FileKind::task)) {
-    case lang::FileKind::task:
-      lang::load(path, options, diagnostics);
-      break;
-    case lang::FileKind::robot:
-      lang::load_robot(path, diagnostics);
-      break;
-    case lang::FileKind::scene:
-      lang::load_scene(path, diagnostics);
-      break;
-    case lang::FileKind::scenario:
-      lang::check_scenario(path, diagnostics);
-      break;
-    case lang::FileKind::connection:
-      lang::load_connection(path, diagnostics);
-      break;
-    case lang::FileKind::study:
-      lang::load_study(path, diagnostics);
-      break;
-  }
+  lang::check_file(lang::kind_of_file(path).value_or(lang::FileKind::task), path, {options}, diagnostics);
 }
 
 std::vector<Told> validate(const fs::path& path, const std::optional<std::string>& text,
