@@ -8,6 +8,7 @@
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/units.hpp"
 #include "tree/text.hpp"
+#include "zwang/lang/condition_function.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::lang::wording {
@@ -138,9 +139,8 @@ Diagnostic unknown_function(const Span& span, const std::string& name, const std
         "declare it under `features`, as `reach: {distance: [base_link, goal]}`, and measure `reach`");
   if (name == "elapsed")
     return error("E301", span, "no function named " + in_ticks(name), "write `elapsed`, without parentheses");
-  return with_suggestion(error("E301", span, "no function named " + in_ticks(name),
-                               "there are abs(value), speed(frame), moved(frame) and valid(signal)"),
-                         meant);
+  return with_suggestion(
+      error("E301", span, "no function named " + in_ticks(name), "there are " + list_of_functions()), meant);
 }
 
 Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& near) {

@@ -81,6 +81,16 @@ std::span<const ConditionFunction> condition_functions() {
   return table;
 }
 
+std::string list_of_functions() {
+  constexpr std::array arguments = {"value", "signal", "frame", "task", "path"};  // by FunctionArgument
+  std::string list;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (i > 0) list += i + 1 == table.size() ? " and " : ", ";
+    list += std::string(table[i].name) + "(" + arguments[static_cast<std::size_t>(table[i].argument)] + ")";
+  }
+  return list;
+}
+
 const ConditionFunction* find_function(std::string_view name) {
   const auto found = std::find_if(table.begin(), table.end(),
                                   [&](const ConditionFunction& function) { return function.name == name; });
