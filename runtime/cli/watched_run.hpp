@@ -1,4 +1,4 @@
-/// What `zwang run` does while the simulated robot runs: stops on request, live view, reloads, what it reports.
+/// What `zwang run` does beside the simulated robot: stops on request, live view, reloads, report.
 #pragma once
 
 #include <atomic>
