@@ -45,6 +45,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return text.replace(at, from.size(), to);
 }
 
-inline const std::filesystem::path source_dir = ZWANG_SOURCE_DIR;
+// Not inline: Clang may set an inline variable later than one of a file that is made of it.
+const std::filesystem::path source_dir = ZWANG_SOURCE_DIR;
 
 }  // namespace zwang::lang::test
