@@ -10,6 +10,7 @@
 #include <algorithm>
 
 #include "diagnostic/wordings_standing.hpp"
+#include "robot/gravity.hpp"
 
 namespace zwang::lang {
 
@@ -19,7 +20,6 @@ namespace {
 constexpr double most_friction = 1.5;
 /// Beside its own weight, a load as heavy as the robot presses its wheels to the floor.
 constexpr double most_load = 1.0;
-constexpr double gravity = 9.81;  // [m/s^2]
 
 }  // namespace
 

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "diagnostic/wordings_physics.hpp"
+#include "robot/gravity.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
@@ -29,7 +30,6 @@ constexpr double weight_of_torque = 0.1;  // [m^2] w
 constexpr double weight_of_zero = 1e-4;   // [m^2] e
 constexpr double least_way = 0.1;         // [m] joints that move less than this stay
 constexpr double beyond = 0.01;           // [m] an outline is as exact
-constexpr double earth_gravity = 9.81;    // [m/s^2]
 constexpr double kept_free = 0.05;        // of a joint's travel at each end: the guard stops an arm near it,
 constexpr double start_inside = 0.08;     // and where 0 is no place to start, as far inside
 constexpr int steps_of_travel = 24, most_sweeps = 6;
@@ -205,7 +205,7 @@ class ArmFold {
       const Vector3 lever = moment[i] - mass[i] * poses_[i].position;
       const bool slides = part.joint->joint.type == solver::JointType::prismatic;
       const double held = slides ? mass[i] * axis.z() : axis.dot(lever.cross(Vector3::UnitZ()));
-      const double excess = std::abs(earth_gravity * held) / part.joint->joint.max_effort - 0.5;
+      const double excess = std::abs(gravity * held) / part.joint->joint.max_effort - 0.5;
       sum += std::max(0.0, excess) * std::max(0.0, excess);
     }
     return sum;

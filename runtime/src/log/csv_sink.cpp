@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "log/log_file.hpp"
+#include "log/longest_number.hpp"
 #include "zwang/runtime/log_csv.hpp"
 #include "zwang/runtime/recorder.hpp"
 
@@ -12,7 +13,6 @@ namespace {
 constexpr int significant_digits = 9;
 constexpr int digits_of_a_date = 15;   // a clock that counts from 1970 has 10 before its point
 constexpr double earliest_date = 1e5;  // [s] below it nine digits are 0.1 ms
-constexpr std::size_t longest_number = 32;
 
 void append_number(std::string& line, double value, int precision) {
   char digits[longest_number];

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "log/longest_number.hpp"
+
 namespace zwang::runtime {
 
 namespace {
-
-constexpr std::size_t longest_json_number = 32;
 
 std::string json_string(std::string_view text) {
   return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -79,8 +79,8 @@ const std::string& TickJson::of(std::span<const double> values) {
     } else if (value == 0.0 && std::signbit(value)) {
       line_ += "-0.0";  // readers take -0 for the whole number 0
     } else {
-      char digits[longest_json_number];
-      line_.append(digits, std::to_chars(digits, digits + longest_json_number, value).ptr);
+      char digits[longest_number];
+      line_.append(digits, std::to_chars(digits, digits + longest_number, value).ptr);
     }
   }
   line_ += '}';
