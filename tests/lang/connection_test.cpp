@@ -1,4 +1,4 @@
-// What a connection is told that knows its task: times that its robot cannot keep.
+// A connection that knows its task is told of times that its robot cannot keep.
 #include "zwang/lang/connection.hpp"
 
 #include <gtest/gtest.h>

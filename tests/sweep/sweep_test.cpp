@@ -91,7 +91,7 @@ TEST(Sweep, ABaseBetweenTwoWallsIsNotStopped) {
 }
 
 /// A padded wall in line with a wheel resists as its damper first and as its spring then: together for 40 ms
-/// as evenly as the wheel's command grows. What takes energy only is no motor.
+/// as evenly as the wheel's command grows. A force that only takes energy is no motor's.
 TEST(Sweep, APaddedWallIsNoReversedMotor) {
   EXPECT_FALSE(run(draw(7, 55, Which::healthy)).stopped);
 }

@@ -9,7 +9,7 @@
 
 namespace zwang::runtime {
 
-/// What faults made of a robot's body and of the floor below it, kept to tell a change.
+/// Payload, shift of mass and floor friction in the simulation, as faults have left them.
 class BodyFaults {
  public:
   /// `robot` is its number in the simulation.

@@ -45,7 +45,7 @@ bool is_shut(const Reading& a, const Reading& b) {
   return a.is_of_time != b.is_of_time && (a.is_of_time ? a : b).margin >= 0.0;
 }
 
-/// What the plant measured, or what the run is given.
+/// The reading comes from the plant, or from what the run is given.
 void read_fact(const lang::ExpressionNode& node, const TrueFacts& facts, Reading& out) noexcept {
   out.value = facts.look_up(node);
   out.margin = out.value > 0.5 ? std::numeric_limits<double>::infinity() : not_at_all;  // of a truth value

@@ -1,4 +1,4 @@
-// A pair of RegionFence as the solver gets it: its name, and the constraint that keeps both apart.
+// The solver gets each pair of RegionFence as a constraint that keeps both sides apart, with a name.
 #include "schedule/frame_table.hpp"
 #include "schedule/in_plane.hpp"
 #include "schedule/region_fence.hpp"
