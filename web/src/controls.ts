@@ -1,6 +1,6 @@
 // Play, scrub, speed, follow; the same by keys.
 import type { Clock } from './clock';
-import { h } from './dom';
+import { h, write } from './dom';
 import { seconds } from './units';
 
 export interface Followers { follow: boolean; draw(): void }
@@ -25,7 +25,7 @@ export function controls(clock: Clock, task: (time: number) => string, views: Fo
   });
   clock.onTime((time) => {
     scrub.value = String(time);
-    now.textContent = `${seconds(time)}  ${task(time)}`;
+    write(now, `${seconds(time)}  ${task(time)}`);
     scrub.setAttribute('aria-valuetext', `${seconds(time)}, ${task(time)}`);
   });
   onKeys((far) => {

@@ -37,6 +37,21 @@ function add(element: Element, children: Child[]): void {
   }
 }
 
+/** Writes a text; the same one again would lay out the page anew. */
+export function write(element: Element, text: string): void {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/** The size of an element [px]. To ask for it after a change lays out the whole page at once: it is asked for when it changes. */
+export function sizeOf(element: Element, onChange: () => void): () => [number, number] {
+  let size: [number, number] | null = null;
+  new ResizeObserver(() => {
+    size = null;
+    onChange();
+  }).observe(element);
+  return () => (size ??= [element.clientWidth, element.clientHeight]);
+}
+
 /** A part of the page with its heading. */
 export function part(id: string, title: string, ...children: Child[]): HTMLElement {
   return h('section', { id, 'aria-labelledby': `${id}-title` }, h('h2', { id: `${id}-title` }, title), ...children);

@@ -1,7 +1,7 @@
 // What steers the run: pause, a tick, speed, restart, parameters; and the way back through what came.
 import { onKeys, type Followers } from './controls';
 import type { LiveClock } from './clock';
-import { h } from './dom';
+import { h, write } from './dom';
 import type { LiveParameter, Request, State } from './stream';
 import { seconds } from './units';
 
@@ -30,7 +30,7 @@ export function liveControls(clock: LiveClock, task: (time: number) => string, v
   clock.onTime((time) => {
     scrub.max = String(clock.duration);
     scrub.value = String(time);
-    now.textContent = `${seconds(time)}  ${task(time)}`;
+    write(now, `${seconds(time)}  ${task(time)}`);
     scrub.setAttribute('aria-valuetext', `${seconds(time)}, ${task(time)}`);
     toNow.disabled = clock.isLive;
   });

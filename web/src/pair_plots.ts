@@ -3,8 +3,8 @@ import uPlot from 'uplot';
 import type { Clock } from './clock';
 import { colour, dashes, onScheme } from './colours';
 import { indexAt, type Run } from './data';
-import { h } from './dom';
-import { axes, drawBounds, lineSample, rangeOf, whileActive, withGaps, type Drawn } from './plot_parts';
+import { h, write } from './dom';
+import { axes, drawBounds, lineSample, rangeOf, whileActive, widthOf, withGaps, type Drawn } from './plot_parts';
 import { inUnit, withUnit } from './units';
 
 export const letters = ['A', 'B'];
@@ -87,11 +87,11 @@ export class PairChart {
   private point(time: number): void {
     if (!this.plot) return;
     const x = this.plot.valToPos(time, 'x');
-    this.needle.hidden = !(x >= 0 && x <= this.plot.over.clientWidth);
+    this.needle.hidden = !(x >= 0 && x <= widthOf(this.plot));
     this.needle.style.transform = `translateX(${x}px)`;
     this.legend.querySelectorAll('output').forEach((output, k) => {
       const one = this.curves[k]!;
-      output.textContent = time > one.run.duration ? 'over' : withUnit(one.values[indexAt(one.run.times, time)], this.unit);
+      write(output, time > one.run.duration ? 'over' : withUnit(one.values[indexAt(one.run.times, time)], this.unit));
     });
   }
 }

@@ -14,6 +14,9 @@ export function axes(): uPlot.Axis[] {
   return [{ ...axis, values: (_, ticks) => ticks.map((t) => `${t} s`) }, { ...axis, size: 62 }];
 }
 
+/** Of the curves, without the axes [px]; as uPlot knows it. */
+export const widthOf = (plot: uPlot): number => plot.bbox.width / uPlot.pxRatio;
+
 /** uPlot knows a blank as null alone. */
 export const withGaps = (values: Float32Array): (number | null)[] => Array.from(values, (value) => (Number.isNaN(value) ? null : value));
 

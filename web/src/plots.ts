@@ -5,8 +5,8 @@ import type { Clock } from './clock';
 import { colour, dashes, onScheme } from './colours';
 import type { Run } from './data';
 import { indexAt } from './data';
-import { h } from './dom';
-import { axes, drawBounds, lineSample, rangeOf, whileActive, withGaps, type Drawn } from './plot_parts';
+import { h, write } from './dom';
+import { axes, drawBounds, lineSample, rangeOf, whileActive, widthOf, withGaps, type Drawn } from './plot_parts';
 import { inUnit, withUnit } from './units';
 
 interface Shown extends Drawn { name: string; unit: string }
@@ -154,13 +154,13 @@ export class Chart {
   private point(time: number): void {
     if (!this.plot) return;
     const x = this.plot.valToPos(time, 'x');
-    this.needle.hidden = !(x >= 0 && x <= this.plot.over.clientWidth);
+    this.needle.hidden = !(x >= 0 && x <= widthOf(this.plot));
     this.needle.style.transform = `translateX(${x}px)`;
     const i = indexAt(this.run.times, time);
     this.legend.querySelectorAll('output').forEach((output, k) => {
       const one = this.shown[k]!;
       const [, unit] = inUnit(1, one.unit);
-      output.textContent = withUnit(one.values[i], unit);
+      write(output, withUnit(one.values[i], unit));
     });
   }
 }

@@ -1,7 +1,7 @@
 // The files of the run: a row lights up where it is at its limit, a line shows its curve.
 import type { Clock } from './clock';
 import { indexAt, taskAt, type Run } from './data';
-import { h } from './dom';
+import { h, write } from './dom';
 import { isNear } from './limits';
 
 interface Line { element: HTMLElement; mark: HTMLElement; columns: string[] }
@@ -89,7 +89,7 @@ export class Source {
     for (const line of this.watched) {
       const hit = line.columns.find((name) => this.isAtLimit(name, i, time));
       line.element.classList.toggle('lit', hit !== undefined);
-      line.mark.textContent = hit ? '◂ at its limit' : '';
+      write(line.mark, hit ? '◂ at its limit' : '');
     }
   }
 }

@@ -4,8 +4,9 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { Clock } from './clock';
 import { ofStyle, onScheme } from './colours';
 import type { Pose, Robot, Run, SceneObject, World } from './data';
-import { h } from './dom';
+import { h, sizeOf } from './dom';
 import { baseAt, heightOf } from './motion';
+import { Pace } from './pace';
 import { contactsAt, cornersOf, extentOf, frameInWorld, instantAt, placeOf, type Instant } from './world';
 
 function put(object: three.Object3D, pose: Pose): void {
@@ -15,14 +16,30 @@ function put(object: three.Object3D, pose: Pose): void {
   object.matrixWorldNeedsUpdate = true;
 }
 
+/** Ends when the pixels are there: to render is only to ask for them. */
+function painted(gl: WebGL2RenderingContext): Promise<void> {
+  const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+  gl.flush();
+  return new Promise((resolve) => {
+    const look = (): void => {
+      if (fence && !gl.isContextLost() && gl.getSyncParameter(fence, gl.SYNC_STATUS) !== gl.SIGNALED) return void setTimeout(look, 2);
+      gl.deleteSync(fence);
+      resolve();
+    };
+    look();
+  });
+}
+
 export class SpaceView {
   readonly element: HTMLElement;
   follow = false;
   private readonly canvas = h('canvas', { class: 'view', tabindex: 0, role: 'img', 'aria-label': 'The robot and its scene in space' });
+  private readonly size = sizeOf(this.canvas, () => this.draw());
   private renderer: three.WebGLRenderer | null = null;
   private readonly scene = new three.Scene();
   private readonly camera = new three.PerspectiveCamera(45, 1, 0.01, 500);
   private controls: OrbitControls | null = null;
+  private pace: Pace | null = null;
   private readonly bodies: three.Object3D[] = [];
   private readonly movers: ((now: Instant) => void)[] = [];
   private readonly arrows = new three.Group();
@@ -37,7 +54,7 @@ export class SpaceView {
   /** Apart from the page's opening: without a graphics card it takes seconds. */
   start(): void {
     try {
-      this.renderer = new three.WebGLRenderer({ canvas: this.canvas, antialias: true });
+      this.renderer = new three.WebGLRenderer({ canvas: this.canvas, antialias: false });
     } catch {
       this.element.replaceChildren(h('p', { class: 'note' }, 'This browser has no WebGL: the view from above shows the same.'));
       return;
@@ -46,16 +63,16 @@ export class SpaceView {
     this.look();
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.target.copy(this.target);
-    this.controls.addEventListener('change', () => this.render());
     this.controls.update();
+    this.pace = new Pace(this.canvas, (ratio) => this.drawAt(ratio));
+    this.controls.addEventListener('change', () => this.draw());
     this.clock.onTime(() => this.draw());
     onScheme(() => this.draw());
-    new ResizeObserver(() => this.draw()).observe(this.canvas);
     this.draw();
   }
 
-  private material(colour: string, opacity = 1): three.MeshStandardMaterial {
-    return new three.MeshStandardMaterial({ color: colour, roughness: 0.8, transparent: opacity < 1, opacity });
+  private material(colour: string, opacity = 1): three.MeshLambertMaterial {
+    return new three.MeshLambertMaterial({ color: colour, transparent: opacity < 1, opacity });
   }
 
   private build(): void {
@@ -177,11 +194,15 @@ export class SpaceView {
     this.camera.position.set(this.target.x - 0.55 * size, this.target.y - 0.55 * size, 0.6 * size);
   }
 
+  /** At the next frame that the machine has time for. */
   draw(): void {
+    this.pace?.want();
+  }
+
+  private async drawAt(ratio: number): Promise<void> {
     if (!this.renderer) return;
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [width, height] = this.size();
     if (width === 0) return;
-    const ratio = Math.min(2, devicePixelRatio || 1);
     if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
       this.renderer.setPixelRatio(ratio);
       this.renderer.setSize(width, height, false);
@@ -204,11 +225,9 @@ export class SpaceView {
       this.controls.update();
     }
     this.canvas.dataset.pose = [now.base.x, now.base.y, now.base.yaw].join(' ');
-    this.render();
-  }
-
-  private render(): void {
+    this.canvas.dataset.ratio = String(ratio);
     this.scene.background = new three.Color(ofStyle('--view'));
-    this.renderer?.render(this.scene, this.camera);
+    this.renderer.render(this.scene, this.camera);
+    await painted(this.renderer.getContext() as WebGL2RenderingContext);
   }
 }

@@ -2,7 +2,7 @@
 import type { Clock } from './clock';
 import { ofStyle, onScheme } from './colours';
 import type { Run, SceneObject, World } from './data';
-import { h } from './dom';
+import { h, sizeOf } from './dom';
 import type { Grip } from './grip';
 import { drawLabels, type Box, type Label } from './labels';
 import { isInside, type Hand } from './push';
@@ -43,6 +43,7 @@ export class TopView {
   private grip: Grip | null = null;
   private readonly caption = h('figcaption', {});
   private readonly canvas = h('canvas', { class: 'view', tabindex: 0, role: 'img' });
+  private readonly size = sizeOf(this.canvas, () => this.draw());
   private scale = 100;
   private centre: Point = [0, 0];
   private zoom = 1;
@@ -60,7 +61,6 @@ export class TopView {
     this.fit();
     clock.onTime(() => this.draw());
     onScheme(() => this.draw());
-    new ResizeObserver(() => this.draw()).observe(this.canvas);
     this.canvas.addEventListener('wheel', (event) => {
       event.preventDefault();
       this.setZoom(this.zoom * Math.exp(-event.deltaY / 400));
@@ -113,7 +113,7 @@ export class TopView {
   }
 
   private pixels(): number {
-    return (Math.min(this.canvas.clientWidth, this.canvas.clientHeight) / this.scale) * this.zoom;
+    return (Math.min(...this.size()) / this.scale) * this.zoom;
   }
 
   private shownCentre(): Point {
@@ -129,18 +129,18 @@ export class TopView {
   }
   /** From a point of the world [m] to one of the canvas [px]. */
   mapping(): ToPixels {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [width, height] = this.size();
     const [centre, s] = [this.shownCentre(), this.pixels()];
     return (p) => [width / 2 + (p[0]! - centre[0]!) * s, height / 2 - (p[1]! - centre[1]!) * s];
   }
   private toWorld(event: PointerEvent): Point {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [width, height] = this.size();
     const [centre, s] = [this.shownCentre(), this.pixels()];
     return [centre[0]! + (event.offsetX - width / 2) / s, centre[1]! - (event.offsetY - height / 2) / s];
   }
 
   draw(): void {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [width, height] = this.size();
     const ratio = devicePixelRatio || 1;
     if (width === 0) return;
     if (this.canvas.width !== Math.round(width * ratio)) this.canvas.width = Math.round(width * ratio);
