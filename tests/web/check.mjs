@@ -386,6 +386,8 @@ const steps = {
     const { page, close } = await open(unseen.path);
     assert.match(await page.textContent('#verdict'), /`partner` was never received/);
     assert.ok(await page.locator('#why tr.holds').count() >= 3);
+    // The page opens at the moment that decided.
+    assert.equal(await page.evaluate(() => window.zwang.clock.time), unseen.report.why.time);
     await close();
   },
   'scrub': () => checkScrub(wall),

@@ -39,6 +39,8 @@ export interface Report {
   limits: Limit[];
   why?: { sentence: string; cause: string; time: number; task: string; exits: Exit[] };
 }
+/** What was said of the files before the run began. */
+export interface Warning { code: string; message: string; help: string; file: number; line: number }
 export interface Edge { from: string; to: string; label: string; dashed: boolean }
 export interface RunData {
   log: string; facts: Record<string, string>; damage: string[]; records: number; begin: number; end: number;
@@ -49,6 +51,7 @@ export interface RunData {
   curves: { count: number; times: string; columns: Column[]; points: string; records_a_bucket: number };
   samples: { count: number; times: string; columns: string[]; values: string };
   world: World | null;
+  warnings?: Warning[];
   graph?: { tasks: string[]; start: string; always: boolean; edges: Edge[] };
   bounds?: Bound[];
 }

@@ -7,7 +7,7 @@ import { taskAt, type Run } from './data';
 import { h, part } from './dom';
 import { graph } from './graph';
 import { SpaceView } from './space';
-import { events, facts, margins, why } from './tables';
+import { events, facts, margins, warnings, why } from './tables';
 import { TopView } from './top';
 
 export const symbols: Record<string, string> = { done: '✓', failed: '✗', stopped: '■', diverged: '✗' };
@@ -24,6 +24,13 @@ function verdict(run: Run): HTMLElement {
     damage.length > 0 && h('p', { class: 'note' }, `The log is damaged: ${damage.join('; ')}`));
 }
 
+/** A run that is done is shown from its begin; another one at the moment that decided its end. */
+function firstMoment(run: Run): number {
+  const report = run.data.report;
+  if (!report || report.outcome === 'done') return 0;
+  return report.why ? report.why.time - run.data.begin : run.duration;
+}
+
 export function runPage(run: Run): void {
   const clock = new Clock(run.duration);
   const { source, onLine, onCurve, element: curves } = curvesOf(run, clock);
@@ -31,6 +38,7 @@ export function runPage(run: Run): void {
   const top = world && new TopView([{ run, world }], clock);
   const space = world && new SpaceView(run, world, clock);
   const reason = why(run, onLine);
+  const told = warnings(run, onLine);
   const views = [top, space].filter((view) => view !== null);
   document.getElementById('page')!.append(
     verdict(run),
@@ -38,6 +46,7 @@ export function runPage(run: Run): void {
     h('main', {},
       h('div', { class: 'wide' },
         reason && part('why', 'Why', reason),
+        told && part('warnings', 'Told before the run', told),
         part('views', 'Where', top && space ? h('div', { class: 'views' }, top.element, space.element) : h('p', { class: 'note' }, 'The files of this run do not load any more: no view.')),
         part('band', 'Tasks over time', band(run, clock)),
         curves,
@@ -47,6 +56,6 @@ export function runPage(run: Run): void {
         part('facts', 'Parameters, seed, versions', facts(run))),
       h('aside', { 'aria-label': 'Files' }, part('source', 'Files', source.element))));
   (window as unknown as { zwang: unknown }).zwang = { clock, run, top };
-  clock.show(0);
+  clock.show(firstMoment(run));
   setTimeout(() => space?.start(), 50);
 }

@@ -49,6 +49,14 @@ export function why(run: Run, onLine: OnLine): HTMLElement | null {
   return h('div', {}, h('p', {}, `What `, h('code', {}, reason.task), ` waited for, with the last values:`), table(['exit and its terms', 'is', 'reading', 'leads to', 'line'], rows));
 }
 
+export function warnings(run: Run, onLine: OnLine): HTMLElement | null {
+  const all = run.data.warnings ?? [];
+  if (!all.length) return null;
+  return h('ul', { class: 'warnings' }, ...all.map((one) => h('li', {}, h('strong', {}, `⚠ ${one.code} `), `${one.message} `,
+    run.data.files[one.file] && h('button', { class: 'link', onclick: () => onLine(one.file, one.line) }, `${run.data.files[one.file]!.path.split('/').at(-1)}:${one.line}`),
+    one.help && h('span', { class: 'help' }, `Instead: ${one.help}`))));
+}
+
 export function margins(run: Run, clock: Moments, onLine: OnLine, onCurve: (name: string) => void): HTMLElement {
   void clock;
   const limits = run.data.report?.limits;
