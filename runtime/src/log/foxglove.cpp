@@ -172,43 +172,93 @@ ordered_json path_entity(double time, const lang::Path& path, const std::string&
   return one;
 }
 
-// Each definition holds the fields that the messages of a log have.
-constexpr const char* time_definition =
-    R"({"type":"object","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}})";
+// Each definition holds the fields that the messages of a log have. Foxglove refuses a channel whose
+// definition has an object without `properties`, a field of two types, or an array of no type.
+ordered_json of_type(const char* type) {
+  return {{"type", type}};
+}
+ordered_json object(const ordered_json& properties) {
+  return {{"type", "object"}, {"properties", properties}};
+}
+ordered_json array_of(const ordered_json& items) {
+  return {{"type", "array"}, {"items", items}};
+}
+ordered_json numbers(std::initializer_list<const char*> names) {
+  ordered_json properties = ordered_json::object();
+  for (const char* name : names) properties[name] = of_type("number");
+  return object(properties);
+}
 
-std::string definition(const std::string& title, const std::string& properties) {
-  return R"({"title":")" + title + R"(","type":"object","properties":{)" + properties + "}}";
+ordered_json of_time() {
+  return object({{"sec", of_type("integer")}, {"nsec", of_type("integer")}});
+}
+ordered_json of_point() {
+  return numbers({"x", "y", "z"});
+}
+ordered_json of_colour() {
+  return numbers({"r", "g", "b", "a"});
+}
+ordered_json of_pose() {
+  return object({{"position", of_point()}, {"orientation", numbers({"x", "y", "z", "w"})}});
+}
+
+std::string definition(const std::string& title, const ordered_json& properties) {
+  ordered_json whole = {{"title", title}};
+  whole.update(object(properties));
+  return whole.dump();
 }
 
 std::string of_transforms() {
-  const std::string numbers = R"({"type":"object","additionalProperties":{"type":"number"}})";
-  return definition(
-      "foxglove.FrameTransforms",
-      R"("transforms":{"type":"array","items":{"type":"object","properties":{"timestamp":)" +
-          std::string(time_definition) +
-          R"(,"parent_frame_id":{"type":"string"},"child_frame_id":{"type":"string"},"translation":)" +
-          numbers + R"(,"rotation":)" + numbers + "}}}");
+  return definition("foxglove.FrameTransforms",
+                    {{"transforms", array_of(object({{"timestamp", of_time()},
+                                                     {"parent_frame_id", of_type("string")},
+                                                     {"child_frame_id", of_type("string")},
+                                                     {"translation", of_point()},
+                                                     {"rotation", numbers({"x", "y", "z", "w"})}}))}});
 }
 
 std::string of_scene() {
-  std::string parts;
-  for (const char* part :
-       {"arrows", "cubes", "spheres", "cylinders", "lines", "triangles", "texts", "models"})
-    parts += std::string(",\"") + part + R"(":{"type":"array","items":{"type":"object"}})";
-  return definition(
-      "foxglove.SceneUpdate",
-      R"("deletions":{"type":"array","items":{"type":"object"}},"entities":{"type":"array","items":)"
-      R"({"type":"object","properties":{"timestamp":)" +
-          std::string(time_definition) +
-          R"(,"frame_id":{"type":"string"},"id":{"type":"string"},"lifetime":)" + time_definition +
-          R"(,"frame_locked":{"type":"boolean"})" + parts + "}}}");
+  ordered_json entity_fields = {{"timestamp", of_time()},
+                                {"frame_id", of_type("string")},
+                                {"id", of_type("string")},
+                                {"lifetime", of_time()},
+                                {"frame_locked", of_type("boolean")}};
+  const ordered_json nothing = ordered_json::object();  // no message has one
+  for (const char* part : {"metadata", "arrows", "spheres", "texts", "models"})
+    entity_fields[part] = array_of(object(nothing));
+  const ordered_json points = array_of(of_point()), colours = array_of(of_colour()),
+                     indices = array_of(of_type("integer"));
+  entity_fields["cubes"] =
+      array_of(object({{"pose", of_pose()}, {"size", of_point()}, {"color", of_colour()}}));
+  entity_fields["cylinders"] = array_of(object({{"pose", of_pose()},
+                                                {"size", of_point()},
+                                                {"bottom_scale", of_type("number")},
+                                                {"top_scale", of_type("number")},
+                                                {"color", of_colour()}}));
+  entity_fields["lines"] = array_of(object({{"type", of_type("integer")},
+                                            {"pose", of_pose()},
+                                            {"thickness", of_type("number")},
+                                            {"scale_invariant", of_type("boolean")},
+                                            {"points", points},
+                                            {"color", of_colour()},
+                                            {"colors", colours},
+                                            {"indices", indices}}));
+  entity_fields["triangles"] = array_of(object({{"pose", of_pose()},
+                                                {"points", points},
+                                                {"color", of_colour()},
+                                                {"colors", colours},
+                                                {"indices", indices}}));
+  return definition("foxglove.SceneUpdate", {{"deletions", array_of(object(nothing))},
+                                             {"entities", array_of(object(entity_fields))}});
 }
 
 std::string of_log() {
-  return definition("foxglove.Log",
-                    R"("timestamp":)" + std::string(time_definition) +
-                        R"(,"level":{"type":"integer"},"message":{"type":"string"},"name":)"
-                        R"({"type":"string"},"file":{"type":"string"},"line":{"type":"integer"})");
+  return definition("foxglove.Log", {{"timestamp", of_time()},
+                                     {"level", of_type("integer")},
+                                     {"message", of_type("string")},
+                                     {"name", of_type("string")},
+                                     {"file", of_type("string")},
+                                     {"line", of_type("integer")}});
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::string description(const Column& column, const std::vector<lang::Source>& s
 std::string property(const Column& column, const std::vector<lang::Source>& sources) {
   std::string text = json_string(column.name);
   if (column.words.empty()) {
-    text += R"(:{"type":["number","null"])";
+    text += R"(:{"type":"number")";
   } else {
     text += R"(:{"type":"string","enum":[)";
     for (std::size_t i = 0; i < column.words.size(); ++i) {
@@ -68,14 +68,12 @@ const std::string& TickJson::of(std::span<const double> values) {
   line_.assign(1, '{');
   for (std::size_t i = 0; i < keys_.size() && i < values.size(); ++i) {
     const double value = values[i];
-    if (std::isnan(value)) continue;
+    if (!std::isfinite(value)) continue;  // JSON has no word for it
     if (line_.size() > 1) line_ += ',';
     line_ += keys_[i];
     if (!words_[i].empty()) {
       const auto word = static_cast<std::size_t>(value);
       line_ += value >= 0.0 && word < words_[i].size() ? words_[i][word] : "\"\"";
-    } else if (std::isinf(value)) {
-      line_ += "null";
     } else if (value == 0.0 && std::signbit(value)) {
       line_ += "-0.0";  // readers take -0 for the whole number 0
     } else {

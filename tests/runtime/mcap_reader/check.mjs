@@ -30,6 +30,16 @@ for (const channel of channelOf.values()) {
   assert.equal(schemaOf(channel).encoding, 'jsonschema');
   assert.equal(channel.messageEncoding, channel.topic === '/records' ? 'zwang.block' : 'json');
 }
+
+/** What Foxglove's reader of schemas asks for, else it shows nothing of the channel (parseJsonSchema of Foxglove Studio 1.48). */
+function checkReadable(schema, where) {
+  assert.equal(typeof schema.type, 'string', `${where} has one type`);
+  if (schema.type === 'array') checkReadable(schema.items, `${where}[]`);
+  else if (schema.type === 'object') for (const [name, one] of Object.entries(schema.properties)) checkReadable(one, `${where}.${name}`);
+  else assert.ok(['boolean', 'string', 'number', 'integer'].includes(schema.type), `${where} is ${schema.type}`);
+}
+for (const {name, data} of reader.schemasById.values()) checkReadable(JSON.parse(text(data)), name);
+
 const properties = JSON.parse(text(schemaOf(channelOf.get('/records')).data)).properties;
 const names = Object.keys(properties);
 
@@ -61,13 +71,13 @@ function unpack(data) {
   return Array.from({length: count}, (_, i) => all.map((bits) => double(bits[i])));
 }
 
-/** What JSON makes of a record: blanks left out, words in the place of their numbers. */
+/** What JSON makes of a record: blanks and what is infinite left out, words in the place of their numbers. */
 function shownOf(record) {
   const cells = names.map((name, i) => {
     const words = properties[name].enum;
-    return [name, words ? (words[record[i]] ?? '') : Number.isFinite(record[i]) ? record[i] : null];
+    return [name, words ? (words[record[i]] ?? '') : record[i]];
   });
-  return Object.fromEntries(cells.filter((_, i) => !Number.isNaN(record[i])));
+  return Object.fromEntries(cells.filter((_, i) => Number.isFinite(record[i])));
 }
 
 /** The schema with every field required and no other one allowed. */
