@@ -56,6 +56,20 @@ int index_of(const runtime::LogContext& context, const std::string& file) {
   return -1;
 }
 
+/// What `zwang run` said of these files before the run began. They are read in the order of the log.
+ordered_json warnings_of(const lang::Diagnostics& diagnostics) {
+  ordered_json warnings = ordered_json::array();
+  for (const lang::Diagnostic& d : diagnostics.sorted()) {
+    if (d.severity == lang::Severity::note) continue;
+    warnings.push_back({{"code", d.code},
+                        {"message", d.message},
+                        {"help", d.help},
+                        {"file", d.span.source},
+                        {"line", d.span.begin.line}});
+  }
+  return warnings;
+}
+
 /// A curve that is blank throughout is left out.
 bool is_blank(const runtime::Curve& curve) {
   return std::ranges::all_of(curve.points, [](float value) { return std::isnan(value); });
@@ -152,6 +166,7 @@ ordered_json page_data(const fs::path& log, const Series& series) {
     data["graph"] = graph_json(*program);
     data["bounds"] = bounds_of(*program);
   }
+  data["warnings"] = warnings_of(diagnostics);
   return data;
 }
 

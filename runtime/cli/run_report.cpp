@@ -175,6 +175,8 @@ ordered_json json_truth(const RunReport& report) {
                      {"peak_force", o.peak_force},
                      {"peak_at", o.peak_at},
                      {"peak_in", o.peak_in},
+                     {"came", o.came},
+                     {"pushed_away", o.pushed_away},
                      {"allowed", number_or_null(o.allowed)},
                      {"hit", o.is_hit()},
                      {"yaw_at_touch", number_or_null(o.yaw_at_touch)},
@@ -226,13 +228,30 @@ std::string transition_line(const runtime::Scheduler& scheduler, const Transitio
          task_name(scheduler, t.to) + "  " + scheduler.why_with_note(t);
 }
 
-std::string verdict(const RunReport& report) {
-  std::string text = report.outcome + " after " + seconds(report.elapsed);
+namespace {
+
+constexpr double told_way = 0.01;  // [m] that an object is pushed away: what an eye sees
+
+/// What the base met, and what came of it. Of a run that is done an object that was pushed is where it should
+/// be.
+std::string met(const RunReport& report) {
+  std::string text;
   for (const ObjectReport& o : report.objects) {
-    if (!o.is_hit()) continue;
-    text += ", hit `" + o.name + "` with " + with_unit(o.peak_force, "N");
-    if (o.allowed) text += " where " + with_unit(*o.allowed, "N") + " are allowed";
+    if (o.is_hit()) {
+      text += std::string(o.came ? ", was hit by `" : ", hit `") + o.name + "` with " +
+              with_unit(o.peak_force, "N") + " at " + seconds(o.peak_at);
+      if (o.allowed) text += " where " + with_unit(*o.allowed, "N") + " are allowed";
+    }
+    if (report.outcome != "done" && o.pushed_away > told_way)
+      text += ", pushed `" + o.name + "` away by " + with_unit(o.pushed_away, "m");
   }
+  return text;
+}
+
+}  // namespace
+
+std::string verdict(const RunReport& report) {
+  std::string text = report.outcome + " after " + seconds(report.elapsed) + met(report);
   if (report.why) {
     text += ": " + report.why->sentence;
   } else if (!report.because.empty()) {

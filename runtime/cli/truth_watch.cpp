@@ -43,20 +43,43 @@ bool ObjectReport::is_hit() const {
   return touched && !latched && peak_force > transient_factor * allowed.value_or(0.0);
 }
 
-TruthWatch::TruthWatch(const runtime::Truth& truth, double period)
+TruthWatch::TruthWatch(const runtime::Truth& truth, const lang::Program& program, double period)
     : watched_(truth.objects.size()),
+      period_(period),
       window_(static_cast<std::size_t>(std::max(1.0, std::round(steady_window / period)))) {
-  for (Watched& w : watched_) w.last_forces.reserve(window_);
+  for (std::size_t i = 0; i < watched_.size(); ++i) {
+    watched_[i].last_forces.reserve(window_);
+    watched_[i].place = {truth.objects[i].x, truth.objects[i].y};
+    const bool is_object = program.scene && i < program.scene->objects.size();
+    watched_[i].can_be_pushed =
+        is_object && program.scene->objects[i].mass && !program.scene->objects[i].guide;
+  }
+}
+
+/// The faster of the two came to the other. A base that turns is as fast as its point at the object.
+void TruthWatch::meet(Watched& w, const runtime::ObjectTruth& object, const runtime::Truth& truth) const {
+  const Eigen::Vector2d place(object.x, object.y);
+  const bool touches = object.force > 0.0;
+  if (touches && !w.touches) {
+    const double reach = (place - Eigen::Vector2d(truth.x, truth.y)).norm();
+    const double of_base = truth.velocity.head<2>().norm() + std::abs(truth.velocity.z()) * reach;
+    w.came = (place - w.place).norm() / period_ > of_base;
+  }
+  if (object.touched && w.can_be_pushed && !w.place_at_touch) w.place_at_touch = place;
+  w.touches = touches;
+  w.place = place;
 }
 
 void TruthWatch::look(const runtime::Truth& truth, const runtime::Scheduler& scheduler, bool in_task) {
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     Watched& w = watched_[i];
     if (truth.objects[i].touched && !w.yaw_at_touch) w.yaw_at_touch = truth.yaw;
+    meet(w, truth.objects[i], truth);
     if (truth.objects[i].peak_force > w.peak) {
       w.peak = truth.objects[i].peak_force;
       w.peak_at = truth.time;
       w.peak_in = scheduler.task();
+      w.peak_came = w.came;
       w.allowed = allowed_force(scheduler);
     }
     if (!in_task) continue;
@@ -86,6 +109,8 @@ std::vector<ObjectReport> TruthWatch::objects(const runtime::Truth& truth,
     report.peak_at = w.peak_at;
     if (w.peak_in >= 0) report.peak_in = scheduler.tasks()[static_cast<std::size_t>(w.peak_in)].name;
     report.allowed = w.allowed;
+    report.came = w.peak_came;
+    if (w.place_at_touch) report.pushed_away = (Eigen::Vector2d(o.x, o.y) - *w.place_at_touch).norm();
     report.latched = o.latched;
     report.pull = w.pull;
   }

@@ -18,8 +18,10 @@ struct ObjectReport {
   double steady_force = 0.0;           ///< [N] mean of the last 0.5 s in which a task was active
   double peak_force = 0.0;             ///< [N]
   double peak_at = 0.0;                ///< [s]
+  bool came = false;                   ///< the object was faster than the base when they met for that peak
   std::string peak_in;                 ///< the task that was active then
   std::optional<double> allowed;  ///< [N] the largest that a row was allowed then; none: no row bounds it
+  double pushed_away = 0.0;  ///< [m] from where it stood when the base touched it; of objects with a mass
   std::optional<double> latched;  ///< [s] when the hook caught in its dock
   double pull = 0.0;              ///< [N] of the hook, outwards, when the last task ended
 
@@ -38,7 +40,7 @@ std::vector<AskedForce> asked_forces(const runtime::Scheduler& scheduler);
 /// Watches the plant's truth from tick to tick.
 class TruthWatch {
  public:
-  TruthWatch(const runtime::Truth& truth, double period);
+  TruthWatch(const runtime::Truth& truth, const lang::Program& program, double period);
   /// `in_task`: a task is active, not the brake behind it.
   void look(const runtime::Truth& truth, const runtime::Scheduler& scheduler, bool in_task);
   std::vector<ObjectReport> objects(const runtime::Truth& truth, const runtime::Scheduler& scheduler) const;
@@ -47,12 +49,18 @@ class TruthWatch {
   struct Watched {
     std::vector<double> last_forces;  ///< a ring
     std::optional<double> yaw_at_touch;
+    Eigen::Vector2d place = Eigen::Vector2d::Zero();  ///< [m] at the last look
+    std::optional<Eigen::Vector2d> place_at_touch;    ///< [m] of an object that a push moves
+    bool can_be_pushed = false, touches = false, came = false, peak_came = false;
     double pull = 0.0;
     double peak = 0.0, peak_at = 0.0;
     int peak_in = -1;
     std::optional<double> allowed;
   };
+  void meet(Watched& w, const runtime::ObjectTruth& object, const runtime::Truth& truth) const;
+
   std::vector<Watched> watched_;
+  double period_;  ///< [s]
   std::size_t window_;
   std::size_t looks_ = 0;
 };

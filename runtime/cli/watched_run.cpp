@@ -39,7 +39,7 @@ void Live::end() {
 WatchedRun::WatchedRun(const Parts& parts, bool with_watchdog)
     : parts_(parts),
       true_values_(runtime::truth_columns(*parts.program.scene).size()),
-      watch_(parts.plant.truth(), runtime::SimulationSteps(parts.runner.period()).period()) {
+      watch_(parts.plant.truth(), parts.program, runtime::SimulationSteps(parts.runner.period()).period()) {
   if (parts.view != nullptr) by_hand_.emplace(parts.program);
   truth_.resize(true_values_ + (by_hand_ ? by_hand_->columns().size() : 0));
   // The simulated robot waits while nobody steps it: it is enough to see the stop with the next step. Only on

@@ -279,6 +279,8 @@ TEST_F(Cli, WhatIsHitStandsInTheFirstLineAndBrokenLimitsComeFirst) {
   EXPECT_NE(verdict.find(" where 20.00 N are allowed"), std::string::npos) << verdict;
   const json& wall = j["truth"]["wall"];
   EXPECT_TRUE(wall["hit"]);
+  EXPECT_FALSE(wall["came"]) << "a wall that is fixed comes to nobody";
+  EXPECT_EQ(wall["pushed_away"], 0.0);
   EXPECT_EQ(wall["peak_in"], "press");
   EXPECT_GT(wall["peak_force"].get<double>(), 2.0 * 20.0);
   EXPECT_EQ(wall["allowed"], 20.0);

@@ -381,6 +381,47 @@ tasks:
   EXPECT_NEAR(ended.why->time, 0.1, 1e-9);
 }
 
+// A patrol has no way to `done`: what it did last is no reason, and it is not over.
+TEST(Why, APatrolThatIsEndedFromOutsideWaits) {
+  const Ended ended = run(R"(
+start: there
+tasks:
+  there:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: 0.1 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: elapsed > 0.1 s, goto: back_again}]
+    timeout: never
+  back_again:
+    constraints:
+      go: {move: base_link, in: base_link, x: {velocity: -0.1 m/s}, y: {velocity: 0 m/s}, rz: {velocity: 0 rad/s}}
+    exits: [{when: moved(base_link) > 5 m, goto: there}]
+    timeout: never
+)",
+                          open_floor, 0.3);
+  EXPECT_EQ(ended.state, RunState::running);
+  ASSERT_TRUE(ended.why);
+  EXPECT_EQ(ended.why->cause, WhyCause::waiting);
+  expect_words(ended, {"`back_again` still waits after 0.", "`moved(base_link) > 5 m` is false (0."});
+}
+
+// Wheels on ice seem to have motors that turn the wrong way. What the guard told before its stop stands before it.
+TEST(Why, WhatWasToldBeforeTheStopStandsBeforeIt) {
+  const Ended ended =
+      run(std::string(drive_ahead) + R"(
+    exits:
+      - {when: moved(base_link) > 3 m, goto: done}
+    timeout: never
+)",
+          std::string(open_floor) +
+              "faults: [{at: 0 s, floor_friction: 0.01}, {at: 1 s, wheel: front_left_wheel, torque: flipped}]
+");
+  ASSERT_EQ(ended.state, RunState::stopped);
+  EXPECT_EQ(ended.sentence().find("the guard told at 0."), 0u) << ended.sentence();
+  EXPECT_LT(ended.sentence().find("a wheel slides that should roll"),
+            ended.sentence().find("; then the protective stop latched in `go`: "))
+      << ended.sentence();
+}
+
 TEST(Why, ARunThatIsEndedFromOutsideStillWaits) {
   const Ended ended = run(std::string(drive_ahead) + R"(
     exits:

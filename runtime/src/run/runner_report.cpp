@@ -213,9 +213,11 @@ bool is_told_already(const std::vector<Event>& kinds, const Event& event) {
 std::optional<Why> Runner::why() const {
   if (state() == RunState::done) return std::nullopt;
   const Parts& p = *parts_;
-  const bool is_decided = !p.guard.stopped() && p.turning_point.found();
+  const bool goes_on_for_ever = state() == RunState::running && !p.turning_point.leads_to_done();
+  const bool is_decided = !p.guard.stopped() && p.turning_point.found() && !goes_on_for_ever;
   EndOfRun end{.scheduler = p.scheduler,
                .turning_point = p.turning_point,
+               .is_decided = is_decided,
                .file = p.facts.at("task"),
                .time = p.guard.time(),
                .limit = p.limits.report_of(is_decided ? p.turning_point.limit() : p.limits.tightest()),

@@ -34,10 +34,10 @@ const char* to_string(WhyCause cause) noexcept {
 /// A program that nowhere leads to `done` decides nothing by its start: the last transition stands for it.
 void TurningPoint::look(const Transition& t, const Scheduler& scheduler, const LimitTable& limits) noexcept {
   const bool was_open = t.from >= 0 && scheduler.can_reach_done(t.from);
-  const bool is_first = !found_ || found_->from < 0;
   if (scheduler.can_reach_done(t.to)) {
     found_.reset();
-  } else if (was_open || is_first) {
+    leads_to_done_ = true;
+  } else if (was_open || !leads_to_done_) {
     found_ = t;
     entry_ = last_;
     limit_ = limits.tightest();
@@ -74,7 +74,10 @@ class Sentence {
   std::string text(const Transition* t) const {
     const std::string of = t != nullptr ? of_transition(*t) : of_the_end();
     const std::string note = t != nullptr ? end_.scheduler.note(*t) : "";
-    return (note.empty() ? "" : note + ": ") + of + told() + at_limit();
+    // A stop comes last of what the guard told: wheels that slide seem to have motors that turn the wrong
+    // way.
+    if (why_.cause == WhyCause::stopped && !end_.told.empty()) return told() + "; then " + of + at_limit();
+    return (note.empty() ? "" : note + ": ") + of + (end_.told.empty() ? "" : "; ") + told() + at_limit();
   }
 
  private:
@@ -91,7 +94,7 @@ class Sentence {
 
   std::string told() const {
     std::string text;
-    for (const std::string& one : end_.told) text += "; " + one;
+    for (const std::string& one : end_.told) text += (text.empty() ? "" : "; ") + one;
     return text;
   }
 
@@ -198,7 +201,7 @@ void note_refusals(const std::vector<RefusedSignal>& refused, WaitedExit& exit) 
 Why why_of(const EndOfRun& end) {
   const Scheduler& scheduler = end.scheduler;
   const std::optional<Transition>& found = end.turning_point.found();
-  const bool decided = end.stop.empty() && found && cause_of(*found) != WhyCause::waiting;
+  const bool decided = end.is_decided && cause_of(*found) != WhyCause::waiting;
   Why why;
   why.time = decided ? found->time : end.time;
   if (!end.stop.empty()) why.cause = WhyCause::stopped;

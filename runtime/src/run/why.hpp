@@ -19,6 +19,8 @@ class TurningPoint {
   void look(const Transition& transition, const Scheduler& scheduler, const LimitTable& limits) noexcept;
 
   const std::optional<Transition>& found() const noexcept { return found_; }
+  /// Some task of the way so far led to `done`. A patrol has none: it waits, whatever it came by.
+  bool leads_to_done() const noexcept { return leads_to_done_; }
   /// The one through which the task was entered that was left then.
   const std::optional<Transition>& entry() const noexcept { return entry_; }
   const LimitTable::Tightest& limit() const noexcept { return limit_; }
@@ -26,6 +28,7 @@ class TurningPoint {
  private:
   std::optional<Transition> found_, entry_, last_;
   LimitTable::Tightest limit_;
+  bool leads_to_done_ = false;
 };
 
 /// A signal whose samples came and could not be taken.
@@ -38,6 +41,7 @@ struct RefusedSignal {
 struct EndOfRun {
   const Scheduler& scheduler;
   const TurningPoint& turning_point;
+  bool is_decided = false;           ///< by the turning point; else by the stop, or it goes on
   std::string file;                  ///< of the task, as places name it
   double time = 0.0;                 ///< [s] of the last sample
   std::optional<LimitReport> limit;  ///< that was at its limit when it was decided
