@@ -2,12 +2,20 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "robot/urdf.hpp"
 #include "robot/wheel_search.hpp"
 #include "zwang/lang/robot_draft.hpp"
 
 namespace zwang::lang {
+
+/// [a, b]
+std::string in_brackets(const std::vector<std::string>& names);
+
+/// Of a car's steering as much rotor inertia as it turns: a servo has that behind its gear, and without it a
+/// push on a light wheel turns the steering. Empty where the URDF gives what it turns no inertia.
+std::string steering_rotor(const Urdf& urdf, const std::string& base, const std::string& joint);
 
 /// As precise as a drawing.
 std::string in_millimetres(double metres);
