@@ -9,36 +9,39 @@
 namespace zwang::lang {
 namespace {
 
-std::string inertial(const std::string& mass, const std::string& moment) {
+std::string beside_inertial(const std::string& mass, const std::string& moment) {
   return "<inertial><mass value='" + mass + "'/><inertia ixx='" + moment + "' iyy='" + moment + "' izz='" +
          moment + "' ixy='0' ixz='0' iyz='0'/></inertial>";
 }
 
-const std::string chassis = "<link name='base_link'>" + inertial("20", ".6") +
-                            "<collision><geometry><box size='.6 .4 .1'/></geometry></collision></link>";
+const std::string beside_chassis =
+    "<link name='base_link'>" + beside_inertial("20", ".6") +
+    "<collision><geometry><box size='.6 .4 .1'/></geometry></collision></link>";
 
 /// A link `name` on `parent` at `xyz`, by `name`_joint; `more` stands in the joint.
-std::string part(const std::string& name, const std::string& parent, const std::string& xyz,
-                 const std::string& type, const std::string& body, const std::string& more = "") {
+std::string beside_part(const std::string& name, const std::string& parent, const std::string& xyz,
+                        const std::string& type, const std::string& body, const std::string& more = "") {
   return "<link name='" + name + "'>" + body + "</link><joint name='" + name + "_joint' type='" + type +
          "'><parent link='" + parent + "'/><child link='" + name + "'/><origin xyz='" + xyz + "'/>" + more +
          "</joint>";
 }
 
-std::string wheel(const std::string& name, const std::string& xyz, const std::string& radius = ".08",
-                  const std::string& limit = "", const std::string& parent = "base_link") {
-  return part(name, parent, xyz, "continuous",
-              inertial("1", ".003") + "<collision><origin rpy='1.5707963 0 0'/><geometry><cylinder radius='" +
-                  radius + "' length='.04'/></geometry></collision>",
-              "<axis xyz='0 1 0'/>" + limit);
+std::string beside_wheel(const std::string& name, const std::string& xyz, const std::string& radius = ".08",
+                         const std::string& limit = "", const std::string& parent = "base_link") {
+  return beside_part(name, parent, xyz, "continuous",
+                     beside_inertial("1", ".003") +
+                         "<collision><origin rpy='1.5707963 0 0'/><geometry><cylinder radius='" + radius +
+                         "' length='.04'/></geometry></collision>",
+                     "<axis xyz='0 1 0'/>" + limit);
 }
 
 class DraftOfCasters : public testing::Test {
  protected:
   RobotDraft draft(const std::string& parts) {
     Diagnostics diagnostics;
-    const auto draft = draft_robot(folder_.write("r.urdf", "<robot name='r'>" + chassis + parts + "</robot>"),
-                                   "r.urdf", diagnostics);
+    const auto draft =
+        draft_robot(folder_.write("r.urdf", "<robot name='r'>" + beside_chassis + parts + "</robot>"),
+                    "r.urdf", diagnostics);
     EXPECT_TRUE(draft) << test::rendered(diagnostics);
     return draft.value_or(RobotDraft{});
   }
@@ -51,44 +54,46 @@ class DraftOfCasters : public testing::Test {
   test::Folder folder_;
 };
 
-using Names = std::vector<std::string>;
+using JointNames = std::vector<std::string>;
 
-const std::string pair = wheel("left_wheel", "0 .2 0") + wheel("right_wheel", "0 -.2 0");
-const std::string ball = "<collision><geometry><sphere radius='.03'/></geometry></collision>";
+const std::string beside_pair = beside_wheel("left_wheel", "0 .2 0") + beside_wheel("right_wheel", "0 -.2 0");
+const std::string beside_ball = "<collision><geometry><sphere radius='.03'/></geometry></collision>";
 
 // Of a caster that is drawn of a bracket, a fork and a ball, the ball alone stands on the ground.
 TEST_F(DraftOfCasters, the_bracket_of_a_ball_is_no_support) {
-  const RobotDraft drawn = draft(pair + part("caster_base", "base_link", "-.2 0 -.02", "fixed", "") +
-                                 part("caster_fork", "base_link", "-.21 0 -.03", "fixed", "") +
-                                 part("caster_wheel", "base_link", "-.22 0 -.05", "fixed", ball) +
-                                 part("front_caster", "base_link", ".2 0 -.05", "fixed", ""));
-  EXPECT_EQ(drawn.supports, (Names{"caster_wheel", "front_caster"})) << drawn.text;
+  const RobotDraft drawn =
+      draft(beside_pair + beside_part("caster_base", "base_link", "-.2 0 -.02", "fixed", "") +
+            beside_part("caster_fork", "base_link", "-.21 0 -.03", "fixed", "") +
+            beside_part("caster_wheel", "base_link", "-.22 0 -.05", "fixed", beside_ball) +
+            beside_part("front_caster", "base_link", ".2 0 -.05", "fixed", ""));
+  EXPECT_EQ(drawn.supports, (JointNames{"caster_wheel", "front_caster"})) << drawn.text;
 }
 
 TEST_F(DraftOfCasters, the_bracket_of_a_caster_that_turns_is_no_support) {
-  const RobotDraft drawn = draft(pair + part("caster_base", "base_link", "-.2 0 -.02", "fixed", "") +
-                                 part("caster_fork", "base_link", "-.2 0 -.03", "continuous",
-                                      inertial(".1", ".0001"), "<axis xyz='0 0 1'/>") +
-                                 wheel("caster_wheel", "-.02 0 -.02", ".03", "", "caster_fork"));
-  EXPECT_EQ(drawn.supports, Names{}) << drawn.text;
-  EXPECT_EQ(joints(drawn.casters), Names{"caster_wheel_joint"});
+  const RobotDraft drawn =
+      draft(beside_pair + beside_part("caster_base", "base_link", "-.2 0 -.02", "fixed", "") +
+            beside_part("caster_fork", "base_link", "-.2 0 -.03", "continuous",
+                        beside_inertial(".1", ".0001"), "<axis xyz='0 0 1'/>") +
+            beside_wheel("caster_wheel", "-.02 0 -.02", ".03", "", "caster_fork"));
+  EXPECT_EQ(drawn.supports, JointNames{}) << drawn.text;
+  EXPECT_EQ(joints(drawn.casters), JointNames{"caster_wheel_joint"});
 }
 
 // Stiff wheels of two sizes on one base would drag: the small ones are casters that are drawn without
 // swivels.
 TEST_F(DraftOfCasters, small_wheels_that_do_not_steer_carry_the_base) {
-  const std::string small =
-      wheel("front_left_wheel", ".2 .1 -.04", ".04") + wheel("front_right_wheel", ".2 -.1 -.04", ".04");
-  const RobotDraft drawn = draft(pair + small);
-  EXPECT_EQ(joints(drawn.wheels), (Names{"left_wheel_joint", "right_wheel_joint"})) << drawn.text;
-  EXPECT_EQ(drawn.supports, (Names{"front_left_wheel", "front_right_wheel"}));
+  const std::string small = beside_wheel("front_left_wheel", ".2 .1 -.04", ".04") +
+                            beside_wheel("front_right_wheel", ".2 -.1 -.04", ".04");
+  const RobotDraft drawn = draft(beside_pair + small);
+  EXPECT_EQ(joints(drawn.wheels), (JointNames{"left_wheel_joint", "right_wheel_joint"})) << drawn.text;
+  EXPECT_EQ(drawn.supports, (JointNames{"front_left_wheel", "front_right_wheel"}));
   EXPECT_NE(drawn.text.find("lead: nose"), std::string::npos) << "two plain wheels on one axle";
 }
 
 // Wheels of 65 mm beside some of 60 mm are tyres of one kind.
 TEST_F(DraftOfCasters, wheels_of_nearly_one_size_drive) {
-  EXPECT_EQ(draft(pair + wheel("front_left_wheel", ".2 .2 -.01", ".07") +
-                  wheel("front_right_wheel", ".2 -.2 -.01", ".07"))
+  EXPECT_EQ(draft(beside_pair + beside_wheel("front_left_wheel", ".2 .2 -.01", ".07") +
+                  beside_wheel("front_right_wheel", ".2 -.2 -.01", ".07"))
                 .wheels.size(),
             4U);
 }
@@ -97,10 +102,10 @@ TEST_F(DraftOfCasters, wheels_of_nearly_one_size_drive) {
 TEST_F(DraftOfCasters, wheels_beside_some_without_a_motor_skid) {
   const std::string limit = "<limit effort='8' velocity='9'/>";
   const RobotDraft drawn =
-      draft(wheel("rear_left_wheel", "-.2 .2 0", ".08", limit) +
-            wheel("rear_right_wheel", "-.2 -.2 0", ".08", limit) + wheel("front_left_wheel", ".2 .2 0") +
-            wheel("front_right_wheel", ".2 -.2 0"));
-  EXPECT_EQ(joints(drawn.idle), (Names{"front_left_wheel_joint", "front_right_wheel_joint"}));
+      draft(beside_wheel("rear_left_wheel", "-.2 .2 0", ".08", limit) +
+            beside_wheel("rear_right_wheel", "-.2 -.2 0", ".08", limit) +
+            beside_wheel("front_left_wheel", ".2 .2 0") + beside_wheel("front_right_wheel", ".2 -.2 0"));
+  EXPECT_EQ(joints(drawn.idle), (JointNames{"front_left_wheel_joint", "front_right_wheel_joint"}));
   EXPECT_NE(drawn.text.find("each_wheel: {kind: skid}"), std::string::npos) << drawn.text;
   EXPECT_EQ(drawn.text.find("kind: FILL_IN"), std::string::npos) << drawn.text;
 }
@@ -112,32 +117,34 @@ TEST_F(DraftOfCasters, a_cars_steering_has_as_much_rotor_inertia_as_it_turns) {
     const std::string fork =
         "<inertial><origin xyz='.1 0 0'/><mass value='1'/><inertia ixx='.0001' iyy='.0001' "
         "izz='.0001' ixy='0' ixz='0' iyz='0'/></inertial>";
-    return part(name + "_steering", "base_link", xyz, "revolute", fork,
-                "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='5' velocity='5'/>") +
-           wheel(name + "_wheel", "0 0 0", ".08", "", name + "_steering");
+    return beside_part(name + "_steering", "base_link", xyz, "revolute", fork,
+                       "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='5' velocity='5'/>") +
+           beside_wheel(name + "_wheel", "0 0 0", ".08", "", name + "_steering");
   };
   const RobotDraft drawn =
-      draft(pair + steered("front_left", ".4 .2 0") + steered("front_right", ".4 -.2 0"));
+      draft(beside_pair + steered("front_left", ".4 .2 0") + steered("front_right", ".4 -.2 0"));
   EXPECT_NE(drawn.text.find("front_left_steering_joint: {rotor_inertia: 0.014 kg m^2}"), std::string::npos)
       << drawn.text;
 }
 
 // Wheels with rollers hold no side force, and a base on them turns about its origin.
 TEST_F(DraftOfCasters, a_base_on_one_axle_turns_about_the_axle) {
-  const std::string behind = wheel("left_wheel", "-.2 .2 0") + wheel("right_wheel", "-.2 -.2 0");
+  const std::string behind =
+      beside_wheel("left_wheel", "-.2 .2 0") + beside_wheel("right_wheel", "-.2 -.2 0");
   EXPECT_NEAR(base_fit(draft(behind)).axle, -0.2, 1e-9);
-  EXPECT_EQ(
-      base_fit(draft(behind + wheel("front_left_wheel", ".1 .2 0") + wheel("front_right_wheel", ".1 -.2 0")))
-          .axle,
-      0.0);
+  EXPECT_EQ(base_fit(draft(behind + beside_wheel("front_left_wheel", ".1 .2 0") +
+                           beside_wheel("front_right_wheel", ".1 -.2 0")))
+                .axle,
+            0.0);
 }
 
 // A fork that reaches beyond the outline touches a wall first, whatever joint moves it.
 TEST_F(DraftOfCasters, a_fork_that_reaches_ahead_is_told) {
-  const std::string lift = part("lift", "base_link", ".4 0 0", "prismatic", inertial("1", ".01"),
-                                "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='100' velocity='1'/>");
-  const std::string fork = part("fork", "lift", ".5 0 0", "fixed", inertial("1", ".01"));
-  const BaseFit fit = base_fit(draft(pair + lift + fork));
+  const std::string lift =
+      beside_part("lift", "base_link", ".4 0 0", "prismatic", beside_inertial("1", ".01"),
+                  "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='100' velocity='1'/>");
+  const std::string fork = beside_part("fork", "lift", ".5 0 0", "fixed", beside_inertial("1", ".01"));
+  const BaseFit fit = base_fit(draft(beside_pair + lift + fork));
   EXPECT_NEAR(fit.arm_ahead, 0.9, 1e-9);
   EXPECT_NE(why_unfit("wall_align", fit).find("0.9 m ahead"), std::string::npos)
       << why_unfit("wall_align", fit);
@@ -147,9 +154,9 @@ TEST_F(DraftOfCasters, a_fork_that_reaches_ahead_is_told) {
 TEST_F(DraftOfCasters, a_joint_of_next_to_no_mass_is_held) {
   const auto held = [&](const std::string& limit) {
     const std::string mark =
-        part("front_steer", "base_link", ".2 0 0", "revolute", inertial(".01", "1e-6"),
-             "<axis xyz='0 0 1'/><limit lower='-1' upper='1' velocity='1' " + limit + "/>");
-    return draft(pair + mark).text.find("fixed: [front_steer_joint]") != std::string::npos;
+        beside_part("front_steer", "base_link", ".2 0 0", "revolute", beside_inertial(".01", "1e-6"),
+                    "<axis xyz='0 0 1'/><limit lower='-1' upper='1' velocity='1' " + limit + "/>");
+    return draft(beside_pair + mark).text.find("fixed: [front_steer_joint]") != std::string::npos;
   };
   EXPECT_TRUE(held("effort='0'"));
   EXPECT_FALSE(held("effort='2'"));
