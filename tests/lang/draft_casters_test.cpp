@@ -2,7 +2,10 @@
 // without motors, and marks that weigh next to nothing.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support.hpp"
+#include "zwang/lang/open_places.hpp"
 #include "zwang/lang/robot_draft.hpp"
 #include "zwang/lang/task_draft.hpp"
 
@@ -148,6 +151,36 @@ TEST_F(DraftOfCasters, a_fork_that_reaches_ahead_is_told) {
   EXPECT_NEAR(fit.arm_ahead, 0.9, 1e-9);
   EXPECT_NE(why_unfit("wall_align", fit).find("0.9 m ahead"), std::string::npos)
       << why_unfit("wall_align", fit);
+}
+
+// What a motor that slides is asked for is a force.
+TEST_F(DraftOfCasters, a_lift_is_asked_for_its_force) {
+  const std::string lift =
+      beside_part("lift", "base_link", "0 0 .1", "prismatic", beside_inertial("1", ".01"),
+                  "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='0' velocity='1'/>");
+  const OpenPlaces places = open_places(draft(beside_pair + lift).text);
+  const auto asked = std::find_if(
+      places.to_fill_in.begin(), places.to_fill_in.end(),
+      [](const OpenPlace& place) { return place.entry.find("lift_joint") != std::string::npos; });
+  ASSERT_NE(asked, places.to_fill_in.end());
+  EXPECT_NE(asked->what_to.find("force"), std::string::npos) << asked->what_to;
+}
+
+// Four swivels whose wheels roll along y as they are drawn: turned by 90 deg they roll ahead, as tasks drive.
+TEST_F(DraftOfCasters, steered_wheels_start_as_they_roll_ahead) {
+  std::string modules;
+  for (const auto& [name, xyz] :
+       {std::pair{"fl", ".2 .15 0"}, {"fr", ".2 -.15 0"}, {"rl", "-.2 .15 0"}, {"rr", "-.2 -.15 0"}}) {
+    const std::string n = name;
+    modules += beside_part(n + "_steer", "base_link", xyz, "continuous", beside_inertial("1", ".001"),
+                           "<axis xyz='0 0 1'/><limit effort='5' velocity='5'/>") +
+               test::replaced(beside_wheel(n + "_wheel", "0 0 0", ".08", "<limit effort='5' velocity='5'/>",
+                                           n + "_steer"),
+                              "<axis xyz='0 1 0'/>", "<axis xyz='1 0 0'/>");
+  }
+  const std::string text = draft(modules).text;
+  for (const char* name : {"fl", "fr", "rl", "rr"})
+    EXPECT_NE(text.find(std::string(name) + "_steer_joint: 90 deg"), std::string::npos) << text;
 }
 
 // 10 g on a joint of a robot of 22 kg, without a limit: a mark for a controller. With a limit it is a motor.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "diagnostic/wordings_physics.hpp"
 #include "robot/placed_urdf.hpp"
@@ -65,6 +66,24 @@ std::string steering_rotor(const Urdf& urdf, const std::string& base, const std:
     inertia += axis.dot(link.inertia.expressed_in(from_swivel).rotational * axis);
   }
   return inertia > 0.0 ? "rotor_inertia: " + wording::figure(two_digits_above(inertia), "kg m^2") : "";
+}
+
+std::map<std::string, double> steered_ahead(const Urdf& urdf, const FoundWheels& found) {
+  constexpr double drawn = std::numbers::pi / 180.0;  // [rad] as exact
+  const PlacedUrdf placed(urdf, found.base);
+  std::map<std::string, double> posture;
+  for (const DraftWheel& wheel : found.wheels) {
+    const UrdfJoint* swivel = urdf.find_joint(wheel.swivel);
+    const auto& steering = found.steering;
+    if (swivel == nullptr || std::find(steering.begin(), steering.end(), wheel.swivel) == steering.end())
+      continue;
+    // By which the axle must turn to lie along y, either way.
+    double turn = std::numbers::pi / 2.0 - std::atan2(wheel.axle.y(), wheel.axle.x());
+    turn = std::remainder(turn, std::numbers::pi);
+    const double q = placed.axis_of(*swivel).z() > 0.0 ? turn : -turn;
+    if (std::abs(q) > drawn && q > swivel->joint.lower && q < swivel->joint.upper) posture[wheel.swivel] = q;
+  }
+  return posture;
 }
 
 std::string in_millimetres(double metres) {

@@ -62,6 +62,7 @@ class Drafter {
       if (!contains(held_, name)) arms.push_back(name);
     }
     folded_ = fold_arm(urdf_, found_.base, arms, frames_.outline());
+    if (drive_ == DriveKind::swivels) folded_.posture.merge(steered_ahead(urdf_, found_));
     bodies_ = find_draft_bodies(urdf_, found_, open, held_, frames_.outline());
   }
 
@@ -284,6 +285,8 @@ class Drafter {
       if (contains(held_, name)) continue;
       const bool slides = joint->joint.type == solver::JointType::prismatic;
       line(name, filling.effort == fill_in ? fill_in : slides ? "1 N" : "1 N m");
+      if (slides && text.ends_with(std::string(fill_in) + "}\n"))
+        text.insert(text.size() - 1, "  # it slides: the largest force, as `20 N`");
     }
     return text;
   }

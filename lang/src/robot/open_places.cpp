@@ -64,6 +64,8 @@ OpenPlaces open_places(const std::string& robot_file) {
       for (const Reason& reason : fill_in_reasons) {
         if (open_key(entry) == reason.key) places.to_fill_in.back().what_to = reason.what_to;
       }
+      const std::size_t comment = line.find(" # ", line.find(fill_in));
+      if (comment != std::string::npos) places.to_fill_in.back().what_to = trimmed(line.substr(comment + 3));
       continue;
     }
     if (line.starts_with(" ")) continue;  // not a key of the file

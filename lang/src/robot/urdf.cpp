@@ -321,6 +321,8 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const UrdfCh
     urdf.joints.back().span = element.span;
     urdf.joints.back().has_transmission = driven.contains(joint->first);
     const int index = static_cast<int>(&element - elements->data());
+    const auto& turned = changes.turning;
+    urdf.joints.back().is_turned = std::find(turned.begin(), turned.end(), joint->first) != turned.end();
     const auto axis = axes.find(index);
     urdf.joints.back().has_axis = axis != axes.end();
     if (axis != axes.end()) urdf.joints.back().drawn_axis = axis->second;

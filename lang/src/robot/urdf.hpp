@@ -43,6 +43,7 @@ struct UrdfJoint {
   std::optional<UrdfMimic> mimic;
   bool has_axis = false;  ///< false: the file has no <axis>, which means 1 0 0
   solver::Vector3 drawn_axis = solver::Vector3::UnitX();  ///< of the file, of joints that are fixed, too
+  bool is_turned = false;                                 ///< a robot file lets it turn without end
   bool has_transmission = false;  ///< a <transmission> or <ros2_control> names it, with a motor
   Span span;
 };

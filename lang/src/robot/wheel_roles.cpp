@@ -35,6 +35,7 @@ class Roles {
       // Simulators give limits to casters, too: beside other wheels theirs alone tell nothing.
       const bool counts = are_all_casters || !is_called_caster(wheel);
       (says_motor(wheel.joint) && counts ? some_say_ : some_do_not_) = true;
+      some_are_turned_ = some_are_turned_ || urdf_.find_joint(wheel.joint)->is_turned;
       if (!wheel.swivel.empty() || is_called_caster(wheel)) continue;
       has_stiff_ = true;
       largest_ = std::max(largest_, wheel.radius.value_or(0.0));
@@ -62,8 +63,9 @@ class Roles {
     return joint != nullptr && (joint->has_transmission || std::isfinite(joint->joint.max_effort));
   }
 
-  /// The file says of some wheels that they have motors, and not of others.
-  bool tells_motors() const { return some_say_ && some_do_not_; }
+  /// The file says of some wheels that they have motors, and not of others. What is left of limits at joints
+  /// that it holds tells nothing.
+  bool tells_motors() const { return some_say_ && some_do_not_ && !some_are_turned_; }
 
   static bool is_called_caster(const DraftWheel& wheel) {
     return lang::is_called_caster(wheel.swivel) || lang::is_called_caster(wheel.joint) ||
@@ -140,7 +142,7 @@ class Roles {
   const Urdf& urdf_;
   FoundWheels& found_;
   std::vector<DraftWheel> wheels_;
-  bool some_say_ = false, some_do_not_ = false;
+  bool some_say_ = false, some_do_not_ = false, some_are_turned_ = false;
   bool has_stiff_ = false;  ///< wheels that do not steer and are not called casters
   double largest_ = 0.0;    ///< [m] of their radii
 };
