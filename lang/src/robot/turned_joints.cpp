@@ -88,6 +88,7 @@ std::vector<std::string> wheels_to_turn(const Urdf& urdf, const FoundWheels& fou
     wheels.push_back(wheel);
     above_wheels.insert(above_wheels.end(), above.begin(), above.end());
   }
+  if (wheels.size() < 2) return {};
   keep_lowest(wheels, placed);
   std::vector<std::string> turning;
   for (const UrdfJoint& joint : urdf.joints) {
