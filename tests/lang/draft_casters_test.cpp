@@ -93,7 +93,7 @@ TEST_F(DraftOfCasters, small_wheels_that_do_not_steer_carry_the_base) {
   EXPECT_NE(drawn.text.find("lead: nose"), std::string::npos) << "two plain wheels on one axle";
 }
 
-// Wheels of 65 mm beside some of 60 mm are tyres of one kind.
+// Wheels of 80 mm beside some of 70 mm are worn tyres of one kind.
 TEST_F(DraftOfCasters, wheels_of_nearly_one_size_drive) {
   EXPECT_EQ(draft(beside_pair + beside_wheel("front_left_wheel", ".2 .2 -.01", ".07") +
                   beside_wheel("front_right_wheel", ".2 -.2 -.01", ".07"))

@@ -103,8 +103,8 @@ std::vector<std::string> missing_of_joints(const Urdf& urdf, const FoundWheels& 
     lines.push_back("a `continuous` joint about a level axle where the URDF has `" + wheel.joint +
                     "`, which is " + wheel.how);
   for (const std::string& name : found.in_between) {
-    const bool is_swivel = is_called_caster(name) && carries_a_wheel(urdf, found, name);
-    if (!is_called_steering(name) && !is_swivel) continue;
+    const bool is_named = is_called_steering(name) || is_called_caster(name);
+    if (!is_named || !carries_a_wheel(urdf, found, name)) continue;
     const bool is_stiff = !has_travel(*urdf.find_joint(name));
     lines.push_back("a joint that steers where the URDF has `" + name +
                     "`: " + (is_stiff ? "its limits leave it no travel" : "its axis does not point up") +

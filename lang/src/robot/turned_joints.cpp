@@ -106,9 +106,11 @@ std::vector<JointAxis> sideways_axles(const Urdf& urdf, const std::string& base,
   std::vector<JointAxis> axes;
   for (const std::string& name : held) {
     const UrdfJoint* joint = urdf.find_joint(name);
-    if (joint->has_axis || placed.turns_about_level_axle(*joint) || !placed.carried_by(*joint).empty())
-      continue;
-    axes.push_back({name, placed.pose_of(joint->child).rotation.transpose() * solver::Vector3::UnitY()});
+    if (joint->has_axis || !placed.carried_by(*joint).empty()) continue;
+    constexpr double rounding = 1e-3;
+    solver::Vector3 axle = placed.pose_of(joint->child).rotation.transpose() * solver::Vector3::UnitY();
+    for (double& number : axle) number = std::abs(number) < rounding ? 0.0 : number;
+    axes.push_back({name, axle.normalized()});
   }
   return axes;
 }
