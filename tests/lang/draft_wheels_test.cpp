@@ -362,7 +362,9 @@ TEST_F(DraftOfWheels, asks_once_for_the_torque_of_an_arm) {
                  part_text({"wrist", "elbow", "revolute", ".1 0 0", "1 0 0",
                             "<limit lower='-1' upper='1' effort='7' velocity='1'/>", ""})));
   EXPECT_TRUE(has(draft.text, "each_joint: {effort: FILL_IN}")) << draft.text;
-  EXPECT_TRUE(has(draft.text, "  shoulder_joint: {}\n  elbow_joint: {}\n  hand_joint: {effort: FILL_IN}\n"))
+  EXPECT_TRUE(has(draft.text,
+                  "  shoulder_joint: {}\n  elbow_joint: {}\n  hand_joint: {effort: FILL_IN}  # it slides: "
+                  "the largest force, as `20 N`\n"))
       << draft.text;
   std::string filled =
       test::replaced(draft.text, "each_joint: {effort: FILL_IN}", "each_joint: {effort: 3 N m}");

@@ -1,6 +1,8 @@
 // Wheels that a URDF holds: simulators that push a base about draw them so. The robot file lets them turn.
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include "robot/urdf.hpp"
 #include "support.hpp"
 #include "zwang/lang/robot_draft.hpp"
@@ -80,11 +82,9 @@ TEST_F(TurnedJoints, wheels_that_are_held_are_drafted_as_if_they_turned) {
 
 // Meshes without an <axis>: the axle is the base's y, in a frame that exporters turn by 90 deg.
 TEST_F(TurnedJoints, a_wheel_of_which_nothing_tells_the_axle_rolls_ahead) {
-  std::string urdf = held_wheels("fixed", "", "");
-  const std::string turned = " rpy='1.5707963 0 0'/>";
-  for (std::size_t at = urdf.find(" 0'/>" + held_limit); at != std::string::npos;
-       at = urdf.find(" 0'/>" + held_limit, at + 1))
-    urdf.replace(at + 3, 2, turned);
+  const std::string urdf =
+      std::regex_replace(held_wheels("fixed", "", ""), std::regex("<origin xyz='([^']*)'/>"),
+                         "<origin xyz='$1' rpy='1.5707963 0 0'/>");
   const RobotDraft held = draft(urdf);
   const auto robot = this->robot(test::replaced(held.text, "radius: FILL_IN", "radius: 80 mm"));
   ASSERT_TRUE(robot) << test::rendered(diagnostics_) << held.text;
