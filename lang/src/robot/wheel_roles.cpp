@@ -32,9 +32,11 @@ class Roles {
   Roles(const Urdf& urdf, FoundWheels& found) : urdf_(urdf), found_(found), wheels_(found.wheels) {
     const bool are_all_casters = std::all_of(wheels_.begin(), wheels_.end(), is_called_caster);
     for (const DraftWheel& wheel : wheels_) {
-      // Simulators give limits to casters, too: beside other wheels theirs alone tell nothing.
+      // Simulators give limits to casters, too: beside other wheels theirs tell nothing.
       const bool counts = are_all_casters || !is_called_caster(wheel);
-      (says_motor(wheel.joint) && counts ? some_say_ : some_do_not_) = true;
+      const bool says = says_motor(wheel.joint);
+      some_say_ = some_say_ || (says && counts);
+      some_do_not_ = some_do_not_ || !says;
       some_are_turned_ = some_are_turned_ || urdf_.find_joint(wheel.joint)->is_turned;
       if (!wheel.swivel.empty() || is_called_caster(wheel)) continue;
       has_stiff_ = true;
