@@ -95,7 +95,7 @@ TEST_F(AdaptedUrdf, nothing_is_asked_of_what_is_left_out) {
   Diagnostics refused, good;
   EXPECT_FALSE(read_urdf(path, {}, refused));
   EXPECT_EQ(refused.all().at(0).code, "E855");
-  const auto urdf = read_urdf(path, {}, good, {"camera"});
+  const auto urdf = read_urdf(path, {}, good, {{"camera"}, {}});
   ASSERT_TRUE(urdf) << test::rendered(good);
   EXPECT_EQ(urdf->links.size(), 5U);
   EXPECT_EQ(urdf->left_out.at("eye"), "camera");

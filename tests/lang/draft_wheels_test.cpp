@@ -210,9 +210,11 @@ TEST_F(DraftOfWheels, a_caster_does_not_drive_beside_wheels_that_are_fixed) {
                              wheel_text("caster_wheel", "-.03 0 -.05", round_shape, "swivel");
   const RobotDraft draft =
       drafted(robot_text(fixed("left_wheel", ".1 .25 -.1") + fixed("right_wheel", ".1 -.25 -.1") + caster));
-  EXPECT_TRUE(draft.wheels.empty());
-  EXPECT_TRUE(is_missing(draft, "`left_wheel_joint`, which is `fixed`"));
-  EXPECT_TRUE(is_missing(draft, "`right_wheel_joint`, which is `fixed`"));
+  ASSERT_EQ(draft.wheels.size(), 2U) << draft.text;
+  EXPECT_EQ(draft.wheels[0].joint, "left_wheel_joint");
+  EXPECT_EQ(draft.wheels[1].joint, "right_wheel_joint");
+  EXPECT_TRUE(has(draft.text, "turns: [left_wheel_joint, right_wheel_joint]")) << draft.text;
+  EXPECT_EQ(draft.casters.size(), 1U);
   // All casters, and nothing else is called a wheel: they drive, as those of the PR2 do.
   EXPECT_EQ(drafted(robot_text(caster)).wheels.size(), 1U);
   // Casters that are fixed are told where there is nothing else.
@@ -360,7 +362,9 @@ TEST_F(DraftOfWheels, asks_once_for_the_torque_of_an_arm) {
                  part_text({"wrist", "elbow", "revolute", ".1 0 0", "1 0 0",
                             "<limit lower='-1' upper='1' effort='7' velocity='1'/>", ""})));
   EXPECT_TRUE(has(draft.text, "each_joint: {effort: FILL_IN}")) << draft.text;
-  EXPECT_TRUE(has(draft.text, "  shoulder_joint: {}\n  elbow_joint: {}\n  hand_joint: {effort: FILL_IN}\n"))
+  EXPECT_TRUE(has(draft.text,
+                  "  shoulder_joint: {}\n  elbow_joint: {}\n  hand_joint: {effort: FILL_IN}  # it slides: "
+                  "the largest force, as `20 N`\n"))
       << draft.text;
   std::string filled =
       test::replaced(draft.text, "each_joint: {effort: FILL_IN}", "each_joint: {effort: 3 N m}");

@@ -184,7 +184,7 @@ class Drawing : private UrdfDrawing {
       refuse(RefusedAt::urdf, "E857");
     }
     if (flaw_ == Flaw::millimetres) refuse(RefusedAt::urdf, "E858");
-    if (flaw_ == Flaw::stuck || flaw_ == Flaw::stops) refuse(RefusedAt::wheels, first_wheel_);
+    if (flaw_ == Flaw::stuck || flaw_ == Flaw::stops) robot_.held_wheel = first_wheel_;
   }
 
   /// No flaw: a belt turns the third wheel, which is in line with the first and has no motor.

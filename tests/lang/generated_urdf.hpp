@@ -11,7 +11,7 @@
 namespace zwang::lang::test {
 
 /// Where a robot that is no good is refused.
-enum class RefusedAt { nowhere, urdf, wheels, robot_file };
+enum class RefusedAt { nowhere, urdf, robot_file };
 
 struct GeneratedUrdf {
   std::string about;  ///< the drive and the habits, for messages
@@ -27,7 +27,8 @@ struct GeneratedUrdf {
   bool radius_is_drawn = true;           ///< false: wheels are meshes
   Freedoms freedoms = Freedoms::all;
   RefusedAt refused_at = RefusedAt::nowhere;
-  std::string reason;  ///< of the refusal: a code, or a joint that it names
+  std::string reason;      ///< of the refusal: a code
+  std::string held_wheel;  ///< a joint: the URDF holds its wheels, and the draft lets them turn
 };
 
 GeneratedUrdf generated_urdf(int number);

@@ -148,6 +148,18 @@ TEST(TaskDraft, aligns_no_base_whose_arm_touches_first) {
   EXPECT_EQ(why_unfit("wall_align", base_fit(shipped("mecanum_arm_folded"))), "");
 }
 
+// A flat front 160 mm wide, 150 mm ahead of the origin. About an axle there it comes to rest square from
+// up to atan(80 / 150) = 28 deg; about one 90 mm behind the origin from up to atan(80 / 240) = 18.4 deg.
+TEST(TaskDraft, starts_less_askew_where_the_axle_is_behind_the_origin) {
+  constexpr double degree = std::numbers::pi / 180.0;
+  BaseFit fit = base_fit(shipped("diff_base"));
+  fit.outline = {{0.15, -0.08}, {0.15, 0.08}, {-0.15, 0.08}, {-0.15, -0.08}};
+  fit.axle = 0.0;
+  EXPECT_NEAR(*start_askew(fit), 20.0 * degree, 1e-12);
+  fit.axle = -0.09;
+  EXPECT_NEAR(*start_askew(fit), 15.0 * degree, 1e-12);
+}
+
 // A flat front 124 mm wide, 253 mm ahead: its ends lie on both sides of the origin up to atan(62 / 253)
 // = 13.8 deg.
 TEST(TaskDraft, starts_less_askew_where_the_front_is_narrow) {

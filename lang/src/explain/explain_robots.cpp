@@ -14,7 +14,7 @@ std::span<const Explanation> robots() {
 Or it names a part that its own `ignore` leaves out.)~",
           .fix =
               R"~(Name the joint that turns, or take it out of `fixed` or `ignore`. If the URDF fixes this one, it was
-written for a picture of the robot: make the joint `continuous` there.)~",
+written for a picture of the robot: list the joint under `turns`, or make it `continuous` there.)~",
           .part = ExcerptOf::urdf,
           .example = R"~(<joint name="left" type="fixed">
   <parent link="base_link"/>
@@ -150,7 +150,8 @@ little is enough. A joint that stands at the end itself rests on it.)~",
           .title = "wheels that do not stand on one level",
           .why =
               R"~(All wheels touch one floor. The lowest point of each follows from its joint's place in the URDF and
-its `radius`. zwang levels out 2 mm about the middle. A larger difference is a wrong number.)~",
+its `radius`. zwang levels out 2 mm about the middle, or 2 % of the smallest radius. A larger
+difference is a wrong number.)~",
           .fix = "Mend the radius, or the height of the joint's `<origin>`: origin z - radius is the same "
                  "for all.",
           .part = ExcerptOf::robot,

@@ -79,6 +79,12 @@ void ask_speed_of_press(const PlannedAxis& axis, const AxisFigures& figures, Pro
                                          drive.horizon(), axis.span(solver::Quantity::velocity)));
 }
 
+bool limits_acceleration(const PlannedTask& plan) {
+  return std::any_of(plan.axes.begin(), plan.axes.end(), [](const PlannedAxis& axis) {
+    return axis[solver::Quantity::acceleration].has_value();
+  });
+}
+
 }  // namespace
 
 void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
@@ -89,6 +95,7 @@ void ask_press(const PlannedTask& plan, Probe& probe, Remarks& remarks) {
     const Pressing now = pressing(plan, axis, *axis.target, probe);
     if (now.by_motors) continue;
     ask_speed_of_press(axis, *figures, probe, remarks);
+    if (!limits_acceleration(plan)) continue;  // what is short then goes to a row that no motor can follow
     const AccelerationLimit limit = acceleration_limit(plan, axis, *axis.target < 0.0 ? -1.0 : 1.0, true);
     const Span limited = limit.from != nullptr ? limit.from->span(solver::Quantity::acceleration) : Span{};
     const auto cap = [&](double wanted, const Pressed& pressed) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zwang/lang/wheel_level.hpp"
+
 namespace zwang::lang {
 
 Push push_of(const PlannedTask& plan, Probe& probe) {
@@ -33,9 +35,10 @@ std::vector<Eigen::Vector2d> outline_along(const Push& push, Probe& probe) {
              : probe.direction(*push.axis);
   const bool pulls = push.axis->target.value_or(0.0) < 0.0;
   const double heading = std::atan2(pulls ? -along.y() : along.y(), pulls ? -along.x() : along.x());
+  const Eigen::Vector2d axle(axle_ahead(probe.robot().model, heading), 0.0);
   std::vector<Eigen::Vector2d> outline;
   for (const solver::Vector3& corner : probe.robot().footprint)
-    outline.emplace_back(Eigen::Rotation2Dd(-heading) * corner.head<2>());
+    outline.emplace_back(Eigen::Rotation2Dd(-heading) * corner.head<2>() - axle);
   return outline;
 }
 

@@ -16,7 +16,8 @@ struct Push {
 };
 Push push_of(const PlannedTask& plan, Probe& probe);
 
-/// The footprint's corners, turned so that the push goes along +x. [m]
+/// The footprint's corners about the axle, where wheels hold the base sideways, else about the base's origin.
+/// They are turned so that the push goes along +x. [m]
 std::vector<Eigen::Vector2d> outline_along(const Push& push, Probe& probe);
 
 /// Beside the line of the push through the base's origin, the farthest corner of the footprint. [m]

@@ -43,6 +43,7 @@ void hold_joints(const std::vector<Word>& fixed, Urdf& urdf, Diagnostics& diagno
 /// Every joint and link that the file names elsewhere.
 std::vector<Word> used_parts(const RobotFile& file) {
   std::vector<Word> parts{file.base};
+  parts.insert(parts.end(), file.turning.begin(), file.turning.end());
   for (const WheelText& wheel : file.wheels) parts.push_back(wheel.joint);
   for (const ActuatorText& actuator : file.actuators) parts.push_back(actuator.joint);
   for (const PostureText& posture : file.posture) parts.push_back(posture.joint);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "diagnostic/wordings_physics.hpp"
 #include "robot/placed_urdf.hpp"
@@ -30,7 +31,60 @@ double two_digits_below(double value) {
   return std::floor(value / step + 1e-9) * step;
 }
 
+/// A wheel of the draft hangs on it.
+bool carries_a_wheel(const Urdf& urdf, const FoundWheels& found, const std::string& joint) {
+  for (const auto* wheels : {&found.wheels, &found.idle, &found.casters}) {
+    for (const DraftWheel& wheel : *wheels) {
+      const UrdfJoint* above = urdf.find_joint(wheel.joint);
+      for (std::size_t i = 0; above != nullptr && i < most_links; ++i) {
+        if (above->joint.name == joint) return true;
+        above = urdf.joint_above(above->parent);
+      }
+    }
+  }
+  return false;
+}
+
 }  // namespace
+
+std::string in_brackets(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return "[" + text + "]";
+}
+
+std::string steering_rotor(const Urdf& urdf, const std::string& base, const std::string& joint) {
+  const PlacedUrdf placed(urdf, base);
+  const UrdfJoint* swivel = urdf.find_joint(joint);
+  const solver::Vector3 axis = placed.axis_of(*swivel), at = placed.place_of(*swivel);
+  double inertia = 0.0;
+  for (const UrdfLink& link : urdf.links) {
+    const std::vector<const UrdfJoint*> above = placed.carriers(link.name);
+    if (!(link.inertia.mass > 0.0) || std::find(above.begin(), above.end(), swivel) == above.end()) continue;
+    solver::Pose from_swivel = placed.pose_of(link.name);
+    from_swivel.position -= at;
+    inertia += axis.dot(link.inertia.expressed_in(from_swivel).rotational * axis);
+  }
+  return inertia > 0.0 ? "rotor_inertia: " + wording::figure(two_digits_above(inertia), "kg m^2") : "";
+}
+
+std::map<std::string, double> steered_ahead(const Urdf& urdf, const FoundWheels& found) {
+  constexpr double drawn = std::numbers::pi / 180.0;  // [rad] as exact
+  const PlacedUrdf placed(urdf, found.base);
+  std::map<std::string, double> posture;
+  for (const DraftWheel& wheel : found.wheels) {
+    const UrdfJoint* swivel = urdf.find_joint(wheel.swivel);
+    const auto& steering = found.steering;
+    if (swivel == nullptr || std::find(steering.begin(), steering.end(), wheel.swivel) == steering.end())
+      continue;
+    // By which the axle must turn to lie along y, either way.
+    double turn = std::numbers::pi / 2.0 - std::atan2(wheel.axle.y(), wheel.axle.x());
+    turn = std::remainder(turn, std::numbers::pi);
+    const double q = placed.axis_of(*swivel).z() > 0.0 ? turn : -turn;
+    if (std::abs(q) > drawn && q > swivel->joint.lower && q < swivel->joint.upper) posture[wheel.swivel] = q;
+  }
+  return posture;
+}
 
 std::string in_millimetres(double metres) {
   char text[40];
@@ -49,7 +103,8 @@ std::vector<std::string> missing_of_joints(const Urdf& urdf, const FoundWheels& 
     lines.push_back("a `continuous` joint about a level axle where the URDF has `" + wheel.joint +
                     "`, which is " + wheel.how);
   for (const std::string& name : found.in_between) {
-    if (!is_called_steering(name)) continue;
+    const bool is_named = is_called_steering(name) || is_called_caster(name);
+    if (!is_named || !carries_a_wheel(urdf, found, name)) continue;
     const bool is_stiff = !has_travel(*urdf.find_joint(name));
     lines.push_back("a joint that steers where the URDF has `" + name +
                     "`: " + (is_stiff ? "its limits leave it no travel" : "its axis does not point up") +
@@ -61,7 +116,7 @@ std::vector<std::string> missing_of_joints(const Urdf& urdf, const FoundWheels& 
 std::string stuck_wheels_note(const FoundWheels& found) {
   std::string lines;
   for (const StuckWheel& wheel : found.stuck)
-    lines += "# `" + wheel.joint + stands_nowhere + wheel.how + ". If it rolls, make it `continuous`.\n";
+    lines += "# `" + wheel.joint + stands_nowhere + wheel.how + ". If it rolls, list it under `turns`.\n";
   return lines;
 }
 

@@ -1,13 +1,25 @@
 /// Entries of a drafted robot file that depend on few things.
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "robot/urdf.hpp"
 #include "robot/wheel_search.hpp"
 #include "zwang/lang/robot_draft.hpp"
 
 namespace zwang::lang {
+
+/// [a, b]
+std::string in_brackets(const std::vector<std::string>& names);
+
+/// Of a car's steering as much rotor inertia as it turns: a servo has that behind its gear, and without it a
+/// push on a light wheel turns the steering. Empty where the URDF gives what it turns no inertia.
+std::string steering_rotor(const Urdf& urdf, const std::string& base, const std::string& joint);
+
+/// [rad] Of steered swivels whose wheels do not roll ahead as they are drawn: where they do.
+std::map<std::string, double> steered_ahead(const Urdf& urdf, const FoundWheels& found);
 
 /// As precise as a drawing.
 std::string in_millimetres(double metres);

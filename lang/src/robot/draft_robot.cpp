@@ -14,6 +14,7 @@
 #include "robot/load_robot.hpp"
 #include "robot/possible_bodies.hpp"
 #include "robot/robot_file.hpp"
+#include "robot/turned_joints.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_search.hpp"
 #include "zwang/lang/robot_draft.hpp"
@@ -36,10 +37,10 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 class Drafter {
  public:
-  Drafter(const Urdf& urdf, std::vector<JointAxis> axes, FoundWheels found, std::string named_as,
-          const DraftOptions& options)
+  Drafter(const Urdf& urdf, const DraftOptions& options, FoundWheels found, std::string named_as)
       : urdf_(urdf),
-        axes_(std::move(axes)),
+        axes_(options.axes),
+        turning_(options.turning),
         found_(std::move(found)),
         named_as_(std::move(named_as)),
         drive_(drive_of(holding_wheels(found_))),
@@ -61,6 +62,7 @@ class Drafter {
       if (!contains(held_, name)) arms.push_back(name);
     }
     folded_ = fold_arm(urdf_, found_.base, arms, frames_.outline());
+    if (drive_ == DriveKind::swivels) folded_.posture.merge(steered_ahead(urdf_, found_));
     bodies_ = find_draft_bodies(urdf_, found_, open, held_, frames_.outline());
   }
 
@@ -133,12 +135,14 @@ class Drafter {
     return std::all_of(found_.wheels.begin(), found_.wheels.end(), test);
   }
 
-  /// Wheels with rollers are never coupled: each turns as it must.
-  bool is_kind_open() const { return drive_ == DriveKind::rollers_or_skid && found_.coupled.empty(); }
+  /// Wheels with rollers are never coupled, and each has a motor.
+  bool is_skid() const {
+    return drive_ == DriveKind::rollers_or_skid && !(found_.coupled.empty() && found_.idle.empty());
+  }
+  bool is_kind_open() const { return drive_ == DriveKind::rollers_or_skid && !is_skid(); }
 
   std::string drive_in_words() const {
-    if (!found_.coupled.empty() && drive_ == DriveKind::rollers_or_skid)
-      return "skid steering: coupled wheels in line";
+    if (is_skid()) return "skid steering: wheels in line that are coupled or have no motor";
     return in_words(drive_, holding_wheels(found_));
   }
 
@@ -217,8 +221,8 @@ class Drafter {
       add("radius", filling.radius,
           "radius: from the axle to the ground, as `75.9 mm`; a mesh does not tell.");
     if (share_effort()) add("effort", filling.effort, "effort: the largest torque of a wheel, as `2 N m`.");
-    if (!found_.coupled.empty())
-      add("kind", "skid", "kind: wheels that are coupled have no rollers: they slide sideways to turn.");
+    if (is_skid())
+      add("kind", "skid", "kind: wheels that are coupled or have no motor have no rollers: they slide.");
     if (keys.empty()) return "";
     return "# each_wheel: of every wheel with a motor, where its own entry says nothing.\n" + about +
            "each_wheel: {" + keys + "}\n";
@@ -261,10 +265,11 @@ class Drafter {
   std::string actuated(const Filling& filling) const {
     std::string text = "actuated:\n";
     const std::vector<std::string> shared = alike();
-    const auto line = [&](const std::string& name, const std::string& open) {
+    const auto line = [&](const std::string& name, const std::string& open, std::string more = "") {
       const solver::Joint& joint = urdf_.find_joint(name)->joint;
       const bool is_known = std::isfinite(joint.max_effort) || contains(shared, name);
-      text += "  " + name + ": {" + (is_known ? "" : "effort: " + open) + "}\n";
+      if (!is_known) more = "effort: " + open + (more.empty() ? "" : ", ") + more;
+      text += "  " + name + ": {" + more + "}\n";
     };
     for (const DraftWheel& wheel : found_.wheels) {
       if (share_effort()) {
@@ -273,20 +278,17 @@ class Drafter {
         line(wheel.joint, filling.effort);
       }
     }
-    for (const std::string& name : found_.steering) line(name, filling.effort);
+    for (const std::string& name : found_.steering)
+      line(name, filling.effort, drive_ == DriveKind::car ? steering_rotor(urdf_, found_.base, name) : "");
     for (const std::string& name : found_.others) {
       const UrdfJoint* joint = urdf_.find_joint(name);
       if (contains(held_, name)) continue;
       const bool slides = joint->joint.type == solver::JointType::prismatic;
       line(name, filling.effort == fill_in ? fill_in : slides ? "1 N" : "1 N m");
+      if (slides && text.ends_with(std::string(fill_in) + "}\n"))
+        text.insert(text.size() - 1, "  # it slides: the largest force, as `20 N`");
     }
     return text;
-  }
-
-  static std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return "[" + text + "]\n";
   }
 
   std::string text(const Filling& filling) const {
@@ -295,20 +297,22 @@ class Drafter {
       text +=
           "\n# They do not move here. They carry wheels and do not steer them, as rockers and springs do; "
           "follow "
-          "another joint\n# by a <mimic>; have no travel, no motor, or no inertia behind them; or are stiff "
+          "another joint\n# by a <mimic>; have no travel, no motor, or next to no inertia behind them; or "
+          "are stiff "
           "casters, balls and\n# rollers, or a simulator's rails.\nfixed: " +
-          listed(held_);
-    text += mimic_entry(urdf_, found_) + axes_entry(axes_) + "\n";
+          in_brackets(held_) + "\n";
+    text += turns_entry(turning_) + mimic_entry(urdf_, found_) + axes_entry(axes_) + "\n";
     text += each_wheel(filling) + stuck_wheels_note(found_) + "wheels:\n";
     for (const DraftWheel& wheel : found_.wheels) text += wheel_entry(wheel, true, false, filling);
     if (!found_.idle.empty()) text += "  # They have no motor, and roll along.\n";
-    const bool is_skid = drive_ == DriveKind::rollers_or_skid;
-    for (const DraftWheel& wheel : found_.idle) text += wheel_entry(wheel, false, is_skid, filling);
+    const bool slides = drive_ == DriveKind::rollers_or_skid;
+    for (const DraftWheel& wheel : found_.idle) text += wheel_entry(wheel, false, slides, filling);
     if (!found_.casters.empty())
       text += "  # Casters: they have no motor, and the swivel above each follows.\n";
     for (const DraftWheel& caster : found_.casters) text += wheel_entry(caster, false, false, filling);
     if (!found_.supports.empty())
-      text += "\n# They stand on the ground and hold nothing.\nsupports: " + listed(found_.supports);
+      text +=
+          "\n# They stand on the ground and hold nothing.\nsupports: " + in_brackets(found_.supports) + "\n";
     text += each_joint(filling);
     text +=
         "\n# effort: the largest torque on the joint's side, as `2 N m`; without it the URDF's. Add gear "
@@ -334,7 +338,8 @@ class Drafter {
   }
 
   const Urdf& urdf_;
-  std::vector<JointAxis> axes_;  ///< that the URDF lacks
+  std::vector<JointAxis> axes_;       ///< that the URDF lacks
+  std::vector<std::string> turning_;  ///< joints of `turns`
   FoundWheels found_;
   std::string named_as_;
   DriveKind drive_;
@@ -375,13 +380,15 @@ RobotDraft with_assumptions(Drafter& drafter, const Urdf& urdf) {
 }  // namespace
 
 std::optional<RobotDraft> draft_robot(const std::filesystem::path& path, const std::string& named_as,
-                                      Diagnostics& diagnostics, const DraftOptions& options) {
-  std::optional<Urdf> urdf = read_urdf(path, {}, diagnostics, options.ignored);
+                                      Diagnostics& diagnostics, const DraftOptions& given) {
+  DraftOptions options = given;
+  std::optional<Urdf> urdf = read_urdf(path, {}, diagnostics, {options.ignored, options.turning});
   if (!urdf) return std::nullopt;
-  const std::vector<JointAxis> axes = find_axes_of(*urdf, options.axes);
-  const FoundWheels found = find_wheels(*urdf);
+  options.axes = find_axes_of(*urdf, given.axes);
+  FoundWheels found = find_wheels(*urdf);
+  if (found.wheels.empty()) turn_wheels(path, *urdf, options, found);
   if (!has_wheels_in_metres(found, *urdf, diagnostics)) return std::nullopt;
-  Drafter drafter(*urdf, axes, found, named_as, options);
+  Drafter drafter(*urdf, options, found, named_as);
   RobotDraft draft = with_assumptions(drafter, *urdf);
   const double steady = steady_deceleration(draft);
   if (steady >= 1.0) return draft;

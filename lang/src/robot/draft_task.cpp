@@ -239,8 +239,13 @@ class Fitting {
       replace(text, "timeout: {value: 20 s", timeout(15.0 + (felt_gap + slack()) / 0.01));
   }
 
-  /// What the way may be longer while the outline is not known. [m]
-  double slack() const { return fit_.outline_is_known ? 0.0 : ahead(0.0); }
+  /// What the way may be longer while the outline is not known, or where an arm may not reach as far ahead as
+  /// its joints are from the base's origin. [m]
+  double slack() const {
+    double front = 0.0;
+    for (const Eigen::Vector2d& corner : fit_.outline) front = std::max(front, corner.x());
+    return fit_.outline_is_known ? ahead(0.0) - front : ahead(0.0);
+  }
 
   double lever() const { return std::max(0.02, fit_.front_lever); }
 

@@ -138,6 +138,13 @@ std::optional<double> rests_askew_ahead(const std::vector<Eigen::Vector2d>& outl
   return is_ahead ? rests : std::nullopt;
 }
 
+/// About the axle, where the wheels hold the base sideways.
+std::vector<Eigen::Vector2d> about_axle(const BaseFit& fit) {
+  std::vector<Eigen::Vector2d> outline = fit.outline;
+  for (Eigen::Vector2d& corner : outline) corner.x() -= fit.axle;
+  return outline;
+}
+
 /// Of a base that no start squares up.
 std::string why_never_square(const std::vector<Eigen::Vector2d>& outline) {
   const std::optional<double> askew = rests_askew_ahead(outline);
@@ -168,7 +175,11 @@ BaseFit base_fit(const RobotDraft& draft) {
   if (!draft.base_ahead.empty()) fit.base = draft.base_ahead;
   // What the wheels hold is not known before their rollers are.
   if (draft.assumed.size() == 1) fit.freedoms = freedoms_of(draft.assumed.front().robot);
-  if (!draft.assumed.empty()) add_masses(draft.assumed.front().robot, fit);
+  if (draft.assumed.empty()) return fit;
+  const Robot& assumed = draft.assumed.front().robot;
+  add_masses(assumed, fit);
+  if (fit.freedoms == Freedoms::two) fit.axle = axle_ahead(assumed.model, fit.heading);
+  if (fit.outline_is_known) add_arm(assumed, fit);
   return fit;
 }
 
@@ -183,13 +194,15 @@ BaseFit base_fit(const Robot& robot) {
   if (!fit.outline.empty()) add_arm(robot, fit);
   fit.mass = robot.model.total_mass();
   fit.freedoms = freedoms_of(robot);
+  if (fit.freedoms == Freedoms::two) fit.axle = axle_ahead(robot.model, fit.heading);
   add_masses(robot, fit);
   return fit;
 }
 
-// The wall touches the foremost corner and presses along -x. Its force turns the base about the origin,
-// through which the wheels push, with a moment of the sign of the corner's y in the world. The base turns so
-// until an edge lies on the wall whose ends lie on both sides of the origin: there it rests.
+// The wall touches the foremost corner and presses along -x. Its force turns the base about the outline's
+// origin, through which the wheels push and hold, with a moment of the sign of the corner's y in the world.
+// The base turns so until an edge lies on the wall whose ends lie on both sides of the origin: there it
+// rests.
 std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw) {
   const std::size_t count = outline.size();
   const auto turned = [&](std::size_t i, double by) -> Eigen::Vector2d {
@@ -216,9 +229,10 @@ std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, d
 
 std::optional<double> start_askew(const BaseFit& fit) {
   if (!fit.outline_is_known) return start_yaws.front() * degree_of_yaw;
-  if (rests_askew_ahead(fit.outline)) return std::nullopt;
+  const std::vector<Eigen::Vector2d> outline = about_axle(fit);
+  if (rests_askew_ahead(outline)) return std::nullopt;
   const auto rests_square = [&](double yaw) {
-    const std::optional<double> rests = resting_yaw(fit.outline, yaw);
+    const std::optional<double> rests = resting_yaw(outline, yaw);
     return rests && std::abs(*rests) <= round_ahead;
   };
   for (const double yaw : start_yaws) {
@@ -237,7 +251,7 @@ std::string why_unfit(const std::string& task, const BaseFit& fit) {
   if (fit.freedoms == Freedoms::steered)
     return task == "wall_align" ? "no wall turns a base on steered wheels: they hold its heading (E621)"
                                 : "a base on steered wheels cannot drive along x, y and rz at once (E406)";
-  if (task == "wall_align" && !start_askew(fit)) return why_never_square(fit.outline);
+  if (task == "wall_align" && !start_askew(fit)) return why_never_square(about_axle(fit));
   if (task == "wall_align" && fit.outline_is_known && fit.arm_ahead > 0.0)
     return "its arm reaches " + wording::figure(fit.arm_ahead, "m") +
            " ahead, beyond the outline, and would touch the wall first: fold it by `posture`";

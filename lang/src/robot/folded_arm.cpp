@@ -279,9 +279,9 @@ std::string value_text(const UrdfJoint& joint, double q) {
 std::string posture_entry(const Urdf& urdf, const FoldedArm& folded) {
   if (folded.posture.empty()) return "";
   std::string text =
-      "\n# How the joints stand at the start. Proposed: folded above the base as far as it goes. What would "
-      "touch\n"
-      "# inside of the robot is not looked at.\nposture:\n";
+      "\n# How the joints stand at the start. Proposed: an arm folded above the base as far as it goes, "
+      "steered "
+      "wheels\n# rolling ahead. What would touch inside of the robot is not looked at.\nposture:\n";
   for (const auto& [joint, q] : folded.posture)
     text += "  " + joint + ": " + value_text(*urdf.find_joint(joint), q) + "\n";
   return text;

@@ -126,7 +126,7 @@ std::string axes_entry(const std::vector<JointAxis>& axes) {
   std::string text =
       "\n# The URDF has no <axis> for these joints, and that means 1 0 0. Proposed: of a wheel the axis of "
       "its "
-      "cylinder,\n# of a swivel upwards; x, y, z in the frame of the joint.\naxes:\n";
+      "cylinder, or\n# across the base; of a swivel upwards; x, y, z in the frame of the joint.\naxes:\n";
   for (const JointAxis& axis : axes) {
     char numbers[80];
     std::snprintf(numbers, sizeof numbers, "[%.6g, %.6g, %.6g]", axis.axis.x() + 0.0, axis.axis.y() + 0.0,

@@ -24,6 +24,7 @@
 #include "robot/possible_bodies.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/supports.hpp"
+#include "robot/turned_joints.hpp"
 #include "robot/urdf.hpp"
 #include "robot/wheel_speed.hpp"
 #include "spec/parse_task.hpp"
@@ -270,10 +271,12 @@ std::optional<Robot> load_robot_below(const std::filesystem::path& path, const s
   if (!file || !file->urdf.exists()) return std::nullopt;
   const auto urdf_path = resolve_path(file->urdf.text, *urdf_from, root, file->urdf.span, diagnostics);
   if (!urdf_path) return std::nullopt;
-  std::vector<std::string> ignored;
-  for (const Word& link : file->ignored) ignored.push_back(link.text);
-  std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics, ignored);
+  UrdfChanges changes;
+  for (const Word& link : file->ignored) changes.ignored.push_back(link.text);
+  for (const Word& joint : file->turning) changes.turning.push_back(joint.text);
+  std::optional<Urdf> urdf = read_urdf(*urdf_path, file->urdf.span, diagnostics, changes);
   if (!urdf) return std::nullopt;
+  check_turning(*file, *urdf, diagnostics);
   apply_axes(*file, *urdf, diagnostics);
   place_rollers(*file, *urdf);
   std::optional<Robot> robot = build_robot(*file, *urdf, errors_before, diagnostics);

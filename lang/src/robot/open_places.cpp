@@ -28,6 +28,7 @@ constexpr std::array fill_in_reasons{
 constexpr std::array check_reasons{
     Reason{"base", "the link that floats, its x ahead"},
     Reason{"fixed", "what moves in truth must not stand here"},
+    Reason{"turns", "the URDF holds them; a caster's wheel has no motor"},
     Reason{"mimic", "`coupled` by a belt, or `ignore`: each has a motor"},
     Reason{"axes", "the URDF has none there, which means 1 0 0"},
     Reason{"posture", "how the arm stands at the start: folded, as far as a URDF tells"},
@@ -63,6 +64,8 @@ OpenPlaces open_places(const std::string& robot_file) {
       for (const Reason& reason : fill_in_reasons) {
         if (open_key(entry) == reason.key) places.to_fill_in.back().what_to = reason.what_to;
       }
+      const std::size_t comment = line.find(" # ", line.find(fill_in));
+      if (comment != std::string::npos) places.to_fill_in.back().what_to = trimmed(line.substr(comment + 3));
       continue;
     }
     if (line.starts_with(" ")) continue;  // not a key of the file

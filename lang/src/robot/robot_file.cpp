@@ -359,6 +359,7 @@ std::optional<RobotFile> parse_robot_file(const Document& document, Diagnostics&
   if (const Node* lead = map.optional("lead")) file.lead = parse_word(*lead, "`lead`", diagnostics);
   parse_wheels(map, file, diagnostics);
   file.fixed = parse_words(map, "fixed", diagnostics);
+  file.turning = parse_words(map, "turns", diagnostics);
   for_each_entry(map, "mimic", diagnostics,
                  [&](const Entry& e) { file.mimics.push_back(parse_mimic(e, diagnostics)); });
   file.ignored = parse_words(map, "ignore", diagnostics);

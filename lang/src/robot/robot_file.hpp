@@ -95,7 +95,8 @@ struct RobotFile {
   EachJoint each_joint;
   std::vector<JointAxisText> axes;
   std::vector<InertiaText> inertias;
-  std::vector<Word> fixed;  ///< joints that do not move, whatever the URDF says
+  std::vector<Word> fixed;    ///< joints that do not move, whatever the URDF says
+  std::vector<Word> turning;  ///< joints that turn without end, whatever the URDF says
   std::vector<MimicText> mimics;
   std::vector<Word> ignored;  ///< links that are left out, with all that hangs on them
   std::vector<Word> supports;

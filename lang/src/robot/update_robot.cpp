@@ -121,7 +121,7 @@ class Update {
 
   void add_items() {
     for (const char* key :
-         {"fixed", "mimic", "axes", "wheels", "supports", "actuated", "inertias", "frames"}) {
+         {"fixed", "turns", "mimic", "axes", "wheels", "supports", "actuated", "inertias", "frames"}) {
       const Node* section = old_.find(key);
       const Node* drafted = draft_.find(key);
       if (section == nullptr || drafted == nullptr) continue;
@@ -219,7 +219,7 @@ class Update {
 
   void find_vanished() {
     if (const Node* base = old_.find("base")) gone(*base, "base: ");
-    for (const char* key : {"wheels", "fixed", "ignore", "supports"}) {
+    for (const char* key : {"wheels", "fixed", "turns", "ignore", "supports"}) {
       const Node* section = old_.find(key);
       if (section == nullptr) continue;
       for (const Node& item : section->items) {
@@ -288,6 +288,9 @@ std::optional<DraftOptions> options_of(const std::filesystem::path& robot_file, 
   if (const Entry* ignored = document->root.find("ignore")) {
     for (const Node& link : ignored->value.items) options.ignored.push_back(link.text);
   }
+  if (const Entry* turns = document->root.find("turns")) {
+    for (const Node& joint : turns->value.items) options.turning.push_back(joint.text);
+  }
   if (const Entry* axes = document->root.find("axes")) {
     for (const Entry& entry : axes->value.entries) {
       if (const auto text = parse_axis_of_joint(entry, diagnostics))
@@ -308,7 +311,8 @@ std::optional<RobotUpdate> update_robot_file(const std::filesystem::path& robot_
     return std::nullopt;
   }
   const std::optional<DraftOptions> options = options_of(robot_file, diagnostics);
-  const std::optional<Urdf> urdf = read_urdf(urdf_file, {}, diagnostics, options->ignored);
+  const std::optional<Urdf> urdf =
+      read_urdf(urdf_file, {}, diagnostics, {options->ignored, options->turning});
   const int drafted = diagnostics.add_source({"draft", draft.text});
   const std::optional<Document> fresh = read(drafted, diagnostics);
   if (!urdf || !fresh) return std::nullopt;

@@ -12,6 +12,7 @@
 
 #include "diagnostic/wordings.hpp"
 #include "robot/possible_inertia.hpp"
+#include "robot/turned_joints.hpp"
 #include "robot/urdf_check.hpp"
 #include "robot/urdf_excerpt.hpp"
 #include "robot/xml_numbers.hpp"
@@ -175,13 +176,18 @@ std::map<int, UrdfMimic> find_mimics(const std::vector<XmlElement>& elements) {
   return mimics;
 }
 
-/// By the index of its joint.
-std::set<int> find_axes(const std::vector<XmlElement>& elements) {
-  std::set<int> joints;
+/// By the index of its joint; of 0 0 0 the unit vector is 0.
+std::map<int, solver::Vector3> find_axes(const std::vector<XmlElement>& elements) {
+  std::map<int, solver::Vector3> axes;
   for (const XmlElement& element : elements) {
-    if (element.name == "axis" && element.find("xyz") != nullptr) joints.insert(element.parent);
+    const XmlAttribute* xyz = element.name == "axis" ? element.find("xyz") : nullptr;
+    if (xyz == nullptr) continue;
+    const auto numbers = read_numbers(xyz->value, 3);
+    const solver::Vector3 axis =
+        numbers ? solver::Vector3(numbers->at(0), numbers->at(1), numbers->at(2)) : solver::Vector3::Zero();
+    axes.try_emplace(element.parent, axis.norm() > 0.0 ? axis.normalized() : solver::Vector3::Zero());
   }
-  return joints;
+  return axes;
 }
 
 /// The joints that motors are said to turn.
@@ -255,16 +261,17 @@ bool Urdf::is_negligible(const UrdfLink& link) const {
 }
 
 std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics,
-                              const std::vector<std::string>& ignored) {
+                              const UrdfChanges& changes) {
   const std::optional<int> source = read_file(path, urdf_size_limit, cause, diagnostics);
   if (!source) return std::nullopt;
-  return read_urdf(*source, diagnostics, ignored);
+  return read_urdf(*source, diagnostics, changes);
 }
 
-std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::vector<std::string>& ignored) {
+std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const UrdfChanges& changes) {
   auto elements = scan_xml(source, diagnostics);
   if (!elements) return std::nullopt;
-  LeftOut left_out = leave_out(ignored, *elements);
+  LeftOut left_out = leave_out(changes.ignored, *elements);
+  let_turn(changes.turning, *elements);
   AboveBase above_base = drop_above_base(*elements);
   const std::optional<UrdfFindings> findings = check_urdf(*elements, diagnostics);
   if (!findings) return std::nullopt;
@@ -305,7 +312,7 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
   std::set<std::string> done;
   const std::map<int, UrdfMimic> mimics = find_mimics(*elements);
   const std::set<std::string> driven = find_transmissions(*elements);
-  const std::set<int> with_axis = find_axes(*elements);
+  const std::map<int, solver::Vector3> axes = find_axes(*elements);
   for (const XmlElement& element : *elements) {
     if (element.parent != 0 || element.name != "joint") continue;
     const auto joint = model->joints_.find(element.find("name")->value);
@@ -314,7 +321,11 @@ std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const std::v
     urdf.joints.back().span = element.span;
     urdf.joints.back().has_transmission = driven.contains(joint->first);
     const int index = static_cast<int>(&element - elements->data());
-    urdf.joints.back().has_axis = with_axis.contains(index);
+    const auto& turned = changes.turning;
+    urdf.joints.back().is_turned = std::find(turned.begin(), turned.end(), joint->first) != turned.end();
+    const auto axis = axes.find(index);
+    urdf.joints.back().has_axis = axis != axes.end();
+    if (axis != axes.end()) urdf.joints.back().drawn_axis = axis->second;
     const auto mimic = mimics.find(index);
     if (mimic != mimics.end()) urdf.joints.back().mimic = mimic->second;
   }

@@ -41,7 +41,9 @@ struct UrdfJoint {
   solver::Pose origin;  ///< X_PC at q = 0
   solver::Joint joint;  ///< named; not actuated; max_effort infinite where the file gives none
   std::optional<UrdfMimic> mimic;
-  bool has_axis = false;          ///< false: the file has no <axis>, which means 1 0 0
+  bool has_axis = false;  ///< false: the file has no <axis>, which means 1 0 0
+  solver::Vector3 drawn_axis = solver::Vector3::UnitX();  ///< of the file, of joints that are fixed, too
+  bool is_turned = false;                                 ///< a robot file lets it turn without end
   bool has_transmission = false;  ///< a <transmission> or <ros2_control> names it, with a motor
   Span span;
 };
@@ -66,11 +68,15 @@ struct Urdf {
   bool is_negligible(const UrdfLink& link) const;
 };
 
-/// `ignored`: links that are left out, and not looked at.
+/// What a robot file changes of its URDF before that is looked at.
+struct UrdfChanges {
+  std::vector<std::string> ignored;  ///< links that are left out
+  std::vector<std::string> turning;  ///< joints that turn without end
+};
+
 std::optional<Urdf> read_urdf(const std::filesystem::path& path, const Span& cause, Diagnostics& diagnostics,
-                              const std::vector<std::string>& ignored = {});
+                              const UrdfChanges& changes = {});
 /// Of a source that was read already.
-std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics,
-                              const std::vector<std::string>& ignored = {});
+std::optional<Urdf> read_urdf(int source, Diagnostics& diagnostics, const UrdfChanges& changes = {});
 
 }  // namespace zwang::lang

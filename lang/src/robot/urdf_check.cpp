@@ -75,7 +75,7 @@ class UrdfChecker {
     for (const XmlElement& element : elements_) check_sizes(element);
     for (const std::size_t i : children_[0]) {
       const XmlElement& element = elements_[i];
-      if (element.name.starts_with("xacro:")) complain(wording::unexpanded_macro(element.span, element.name));
+      if (element.name.starts_with("xacro:")) complain_of_macro(element.span, element.name);
       if (element.name == "link") check_link(i);
       if (element.name == "joint") check_joint(i);
     }
@@ -92,6 +92,12 @@ class UrdfChecker {
   void complain(Diagnostic diagnostic) {
     diagnostics_.add(std::move(diagnostic));
     is_good_ = false;
+  }
+
+  /// Of a file that nobody expanded the first place says it all.
+  void complain_of_macro(const Span& span, const std::string& text) {
+    if (!has_macros_) complain(wording::unexpanded_macro(span, text));
+    has_macros_ = true;
   }
 
   std::optional<std::size_t> child(std::size_t parent, std::string_view name) const {
@@ -137,7 +143,7 @@ class UrdfChecker {
       const bool is_macro = attribute->value.find("${") != std::string::npos ||
                             attribute->value.find("$(") != std::string::npos;
       if (is_macro) {
-        complain(wording::unexpanded_macro(attribute->span, attribute->value));
+        complain_of_macro(attribute->span, attribute->value);
       } else {
         complain(wording::bad_urdf_number(attribute->span, std::string(rule.attribute), attribute->value,
                                           rule.count));
@@ -375,7 +381,7 @@ class UrdfChecker {
   std::vector<ImpossibleInertia> impossible_inertias_;
   std::vector<wording::TinyMass> tiny_masses_;
   UrdfFindings findings_;
-  bool is_good_ = true;
+  bool is_good_ = true, has_macros_ = false;
 };
 
 }  // namespace

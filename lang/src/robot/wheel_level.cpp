@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace zwang::lang {
 
@@ -28,12 +29,28 @@ solver::Pose pose_in_base(const solver::Model& model, int body, const Eigen::Vec
   return pose;
 }
 
+double axle_ahead(const solver::Model& model, double heading) {
+  const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
+  double sum = 0.0;
+  int count = 0;
+  for (const solver::Wheel& wheel : model.wheels()) {
+    const bool is_stiff = model.bodies()[static_cast<std::size_t>(wheel.body)].parent == 0;
+    if (!is_stiff || wheel.roller_angle || !wheel.holds_sideways) continue;
+    sum += ahead.dot(pose_in_base(model, wheel.body).position.head<2>());
+    ++count;
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
 WheelLevel wheel_level(const solver::Model& model) {
   WheelLevel level;
+  double smallest = solver::infinity;
   for (const solver::Wheel& wheel : model.wheels()) {
+    smallest = std::min(smallest, wheel.radius);
     level.ends.push_back(pose_in_base(model, wheel.body).position.z() - wheel.radius);
     level.mean += level.ends.back() / static_cast<double>(model.wheels().size());
   }
+  if (!model.wheels().empty()) level.most_lift = std::max(least_wheel_lift, wheel_lift_share * smallest);
   const auto [low, high] = std::minmax_element(level.ends.begin(), level.ends.end());
   level.lowest = static_cast<std::size_t>(low - level.ends.begin());
   level.highest = static_cast<std::size_t>(high - level.ends.begin());

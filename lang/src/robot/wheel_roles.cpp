@@ -4,6 +4,7 @@
 //   on a swivel, with other wheels that do not steer, and the axle behind the swivel's axis      a caster
 //   on a swivel, and called a caster, while others are not                                       a caster
 //   stiff, and called a caster, while others are not                                             a ball
+//   stiff, and a fifth smaller than the largest: on stiff axles such a base would drag           a ball
 //
 // Wheels on one axle, or on one swivel, are judged together. Where none would be left that drives, all do;
 // but casters do not where the URDF holds wheels that are called otherwise.
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/placed_urdf.hpp"
 #include "robot/wheel_names.hpp"
 
 namespace zwang::lang {
@@ -28,9 +30,17 @@ enum class Role { driven, idle, caster, ball };
 class Roles {
  public:
   Roles(const Urdf& urdf, FoundWheels& found) : urdf_(urdf), found_(found), wheels_(found.wheels) {
+    const bool are_all_casters = std::all_of(wheels_.begin(), wheels_.end(), is_called_caster);
     for (const DraftWheel& wheel : wheels_) {
-      (says_motor(wheel.joint) ? some_say_ : some_do_not_) = true;
-      has_stiff_ = has_stiff_ || (wheel.swivel.empty() && !is_called_caster(wheel));
+      // Simulators give limits to casters, too: beside other wheels theirs tell nothing.
+      const bool counts = are_all_casters || !is_called_caster(wheel);
+      const bool says = says_motor(wheel.joint);
+      some_say_ = some_say_ || (says && counts);
+      some_do_not_ = some_do_not_ || !says;
+      some_are_turned_ = some_are_turned_ || urdf_.find_joint(wheel.joint)->is_turned;
+      if (!wheel.swivel.empty() || is_called_caster(wheel)) continue;
+      has_stiff_ = true;
+      largest_ = std::max(largest_, wheel.radius.value_or(0.0));
     }
   }
 
@@ -55,8 +65,9 @@ class Roles {
     return joint != nullptr && (joint->has_transmission || std::isfinite(joint->joint.max_effort));
   }
 
-  /// The file says of some wheels that they have motors, and not of others.
-  bool tells_motors() const { return some_say_ && some_do_not_; }
+  /// The file says of some wheels that they have motors, and not of others. What is left of limits at joints
+  /// that it holds tells nothing.
+  bool tells_motors() const { return some_say_ && some_do_not_ && !some_are_turned_; }
 
   static bool is_called_caster(const DraftWheel& wheel) {
     return lang::is_called_caster(wheel.swivel) || lang::is_called_caster(wheel.joint) ||
@@ -64,9 +75,7 @@ class Roles {
   }
 
   bool are_all_casters_beside_stuck_wheels() const {
-    const bool is_caster = std::all_of(wheels_.begin(), wheels_.end(),
-                                       [](const DraftWheel& wheel) { return is_called_caster(wheel); });
-    return is_caster && !found_.stuck.empty();
+    return std::all_of(wheels_.begin(), wheels_.end(), is_called_caster) && !found_.stuck.empty();
   }
 
   /// On one swivel, or on one axle of what does not steer.
@@ -86,10 +95,14 @@ class Roles {
     });
   }
 
+  bool is_small(const DraftWheel& wheel) const {
+    return wheel.radius && *wheel.radius < (1.0 - PlacedUrdf::slack) * largest_;
+  }
+
   Role role_of(const DraftWheel& wheel) const {
     const bool is_driven = group_says_motor(wheel);
     if (wheel.swivel.empty()) {
-      const bool is_stiff_caster = is_called_caster(wheel) && has_stiff_;
+      const bool is_stiff_caster = has_stiff_ && (is_called_caster(wheel) || is_small(wheel));
       if (tells_motors()) return is_driven ? Role::driven : is_stiff_caster ? Role::ball : Role::idle;
       return is_stiff_caster ? Role::ball : Role::driven;
     }
@@ -131,8 +144,9 @@ class Roles {
   const Urdf& urdf_;
   FoundWheels& found_;
   std::vector<DraftWheel> wheels_;
-  bool some_say_ = false, some_do_not_ = false;
+  bool some_say_ = false, some_do_not_ = false, some_are_turned_ = false;
   bool has_stiff_ = false;  ///< wheels that do not steer and are not called casters
+  double largest_ = 0.0;    ///< [m] of their radii
 };
 
 }  // namespace

@@ -163,11 +163,47 @@ class WheelSearch {
       if (is_named || (is_sphere && std::abs(low - *ground) < slack * *link.radius))
         found_.supports.push_back(link.name);
     }
+    leave_brackets_out();
     for (const BallCaster& ball : candidates_.balls) {
       if (!ground || std::abs(ball.lowest - *ground) > slack * *urdf_.find_link(ball.link)->radius) continue;
       for (const std::string& joint : ball.joints) note(found_.in_between, joint);
       if (ball.is_on_base) found_.supports.push_back(ball.link);
     }
+  }
+
+  /// [m] From above, between a link and what stands on the ground below it.
+  double beside(const std::string& link, const solver::Vector3& foot) const {
+    return (placed_.pose_of(link).position - foot).head<2>().norm();
+  }
+
+  /// A caster may be drawn of several links of its name. Those without a round shape are no supports where a
+  /// round one, or a wheel of a caster, stands nearer than they are high: they hold it.
+  void leave_brackets_out() {
+    const std::optional<double> ground = this->ground();
+    std::vector<solver::Vector3> feet;
+    for (const std::string& name : found_.supports) {
+      if (urdf_.find_link(name)->radius)
+        feet.push_back(placed_.pose_of(name) * urdf_.find_link(name)->round_at);
+    }
+    for (const DraftWheel& caster : found_.casters)
+      feet.emplace_back(caster.at[0], caster.at[1], caster.at[2]);
+    if (!ground) return;
+    std::erase_if(found_.supports, [&](const std::string& name) {
+      const double height = placed_.pose_of(name).position.z() - *ground;
+      return !urdf_.find_link(name)->radius && std::any_of(feet.begin(), feet.end(), [&](const auto& foot) {
+        return beside(name, foot) < height;
+      });
+    });
+  }
+
+  /// [kg] Of the link that a joint moves, and of all beyond it.
+  double mass_beyond(const UrdfJoint& joint) const {
+    double mass = 0.0;
+    for (const UrdfLink& link : urdf_.links) {
+      const std::vector<const UrdfJoint*> above = placed_.carriers(link.name);
+      if (std::find(above.begin(), above.end(), &joint) != above.end()) mass += link.inertia.mass;
+    }
+    return mass;
   }
 
   void find_others() {
@@ -186,10 +222,13 @@ class WheelSearch {
       if (!moves(joint) || known.contains(joint.joint.name)) continue;
       // A gear, a screw, or what turns a lidar.
       const bool says_nothing = some_say && !says_motor(joint) && !joint.mimic;
+      // A mark of a controller, as the mean of two steering angles: nothing that moves depends on it.
+      const bool is_light = !says_motor(joint) && !joint.mimic && urdf_.mass() > 0.0 &&
+                            mass_beyond(joint) < negligible_share * urdf_.mass();
       const bool turns_sensor = is_called_sensor(joint.child) && !std::isfinite(joint.joint.max_effort);
       const bool is_idle =
           joint.joint.type == solver::JointType::continuous && (says_nothing || turns_sensor);
-      (is_idle ? found_.in_between : found_.others).push_back(joint.joint.name);
+      (is_idle || is_light ? found_.in_between : found_.others).push_back(joint.joint.name);
     }
   }
 

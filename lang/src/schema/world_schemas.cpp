@@ -298,6 +298,7 @@ Json robot_file() {
                       tuple("x, y, z", Json{{"type", "number"}}, 3, 3))},
        {"inertias", named("bodies of links, in the place of the URDF's", link_inertia())},
        {"fixed", list("joints of the URDF that do not move here", word("a joint"))},
+       {"turns", list("joints of the URDF that turn without end here", word("a joint"))},
        {"mimic",
         named("joints that follow another one by a <mimic> of the URDF",
               one_of_words("moves by itself, or is kept in step by the floor", {"ignore", "coupled"}))},

@@ -73,6 +73,7 @@ struct DraftOptions {
       false;  ///< the frame `hook` is in the draft, to be filled in where nobody knows the outline
   std::optional<double> back;        ///< x of the outline's back in the base [m], where the owner measured it
   std::vector<std::string> ignored;  ///< links that are left out
+  std::vector<std::string> turning;  ///< joints that turn without end, though the URDF holds them
   std::vector<JointAxis> axes;       ///< that the owner gave
 };
 

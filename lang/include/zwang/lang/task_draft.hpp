@@ -30,6 +30,7 @@ struct BaseFit {
       outline;               ///< [m] corners in the axes of `base`; of the wheels alone where it is not known
   double heading = 0.0;      ///< [rad] of those axes in the base, about its own origin
   double front_lever = 0.0;  ///< [m] from the middle to the nearer end of the edge ahead
+  double axle = 0.0;         ///< [m] ahead of the base's origin; 0: nothing holds the base sideways
   bool outline_is_known = false;
   double arm_reach = 0.0;  ///< [m] from the base's origin to the farthest point of an arm beyond the outline
   double arm_ahead = 0.0;  ///< [m] in the base, the foremost of those points; 0: none is ahead
@@ -45,7 +46,7 @@ ZWANG_EXPORT BaseFit base_fit(const RobotDraft& draft);
 ZWANG_EXPORT BaseFit base_fit(const Robot& robot);
 
 /// The yaw [rad] at which the outline rests against a wall across x that it is pushed to from `yaw`, without
-/// friction; no value where it turns by more than 90 deg first.
+/// friction; no value where it turns by more than 90 deg first. The base turns about the outline's origin.
 ZWANG_EXPORT std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw);
 /// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
 /// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]

@@ -1,0 +1,175 @@
+#include "robot/turned_joints.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <set>
+
+#include "diagnostic/wordings.hpp"
+#include "robot/draft_entries.hpp"
+#include "robot/joint_axes.hpp"
+#include "robot/left_out.hpp"
+#include "robot/placed_urdf.hpp"
+#include "robot/wheel_names.hpp"
+#include "robot/xml_numbers.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+bool is_zero(const XmlAttribute* numbers) {
+  const auto values = numbers != nullptr ? read_numbers(numbers->value, 3) : std::nullopt;
+  return values && std::all_of(values->begin(), values->end(), [](double v) { return v == 0.0; });
+}
+
+bool is_among(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// The joints from the one above a link up to the base.
+std::vector<const UrdfJoint*> joints_above(const Urdf& urdf, const std::string& link,
+                                           const std::string& base) {
+  std::vector<const UrdfJoint*> above;
+  std::string at = link;
+  while (at != base && above.size() < most_links) {
+    const UrdfJoint* joint = urdf.joint_above(at);
+    if (joint == nullptr) break;
+    above.push_back(joint);
+    at = joint->parent;
+  }
+  return above;
+}
+
+bool points_up(const UrdfJoint& joint, const PlacedUrdf& placed) {
+  return std::abs((placed.pose_of(joint.child).rotation * joint.drawn_axis).z()) > PlacedUrdf::upright;
+}
+
+/// It is fixed, and carries this wheel alone: an axis of the URDF points up, or there is none and it is
+/// called a caster or steering.
+bool is_held_swivel(const UrdfJoint& joint, const PlacedUrdf& placed, int wheels_on_it) {
+  if (joint.joint.type != solver::JointType::fixed || wheels_on_it != 1) return false;
+  if (joint.has_axis && !joint.drawn_axis.isZero(0.0)) return points_up(joint, placed);
+  return is_called_caster(joint.joint.name) || is_called_steering(joint.joint.name) ||
+         is_called_caster(joint.child) || is_called_steering(joint.child);
+}
+
+/// More wheels than a base stands on are the rollers of its tracks: those stand on the ground that are as low
+/// as the lowest.
+void keep_lowest(std::vector<const UrdfJoint*>& wheels, const PlacedUrdf& placed) {
+  constexpr std::size_t most_standing = 8;
+  constexpr double level_share = 0.05;  // of the distance between the farthest two
+  if (wheels.size() <= most_standing) return;
+  double lowest = solver::infinity, spread = 0.0;
+  for (const UrdfJoint* wheel : wheels) {
+    lowest = std::min(lowest, placed.place_of(*wheel).z());
+    for (const UrdfJoint* other : wheels)
+      spread = std::max(spread, (placed.place_of(*wheel) - placed.place_of(*other)).norm());
+  }
+  std::erase_if(wheels, [&](const UrdfJoint* wheel) {
+    return placed.place_of(*wheel).z() > lowest + level_share * spread;
+  });
+}
+
+/// The joints that are called wheels, and the swivels that are drawn above them.
+std::vector<std::string> wheels_to_turn(const Urdf& urdf, const FoundWheels& found) {
+  const PlacedUrdf placed(urdf, found.base);
+  std::vector<std::string> stuck;
+  for (const StuckWheel& wheel : found.stuck) {
+    if (urdf.find_joint(wheel.joint)->joint.type != solver::JointType::prismatic)
+      stuck.push_back(wheel.joint);
+  }
+  std::vector<const UrdfJoint*> wheels, above_wheels;
+  for (const std::string& name : stuck) {
+    const UrdfJoint* wheel = urdf.find_joint(name);
+    const std::vector<const UrdfJoint*> above = joints_above(urdf, wheel->parent, found.base);
+    const bool is_part_of_another = std::any_of(
+        above.begin(), above.end(), [&](const UrdfJoint* j) { return is_among(stuck, j->joint.name); });
+    if (is_part_of_another) continue;
+    wheels.push_back(wheel);
+    above_wheels.insert(above_wheels.end(), above.begin(), above.end());
+  }
+  if (wheels.size() < 2) return {};
+  keep_lowest(wheels, placed);
+  std::vector<std::string> turning;
+  for (const UrdfJoint& joint : urdf.joints) {
+    const auto carried = std::count(above_wheels.begin(), above_wheels.end(), &joint);
+    if (is_held_swivel(joint, placed, static_cast<int>(carried))) turning.push_back(joint.joint.name);
+  }
+  for (const UrdfJoint* wheel : wheels) turning.push_back(wheel->joint.name);
+  return turning;
+}
+
+/// Of wheels that have no axis, and whose shape tells none: the base's y, in the frame of the joint.
+std::vector<JointAxis> sideways_axles(const Urdf& urdf, const std::string& base,
+                                      const std::vector<std::string>& held) {
+  const PlacedUrdf placed(urdf, base);
+  std::vector<JointAxis> axes;
+  for (const std::string& name : held) {
+    const UrdfJoint* joint = urdf.find_joint(name);
+    if (joint->has_axis || !placed.carried_by(*joint).empty()) continue;
+    constexpr double rounding = 1e-3;
+    solver::Vector3 axle = placed.pose_of(joint->child).rotation.transpose() * solver::Vector3::UnitY();
+    for (double& number : axle) number = std::abs(number) < rounding ? 0.0 : number;
+    axes.push_back({name, axle.normalized()});
+  }
+  return axes;
+}
+
+}  // namespace
+
+void let_turn(const std::vector<std::string>& joints, std::vector<XmlElement>& elements) {
+  std::set<std::size_t> gone, turned;
+  for (std::size_t i = 1; i < elements.size(); ++i) {
+    XmlElement& element = elements[i];
+    const XmlAttribute* name = element.find("name");
+    if (element.parent == 0 && element.name == "joint" && name != nullptr && is_among(joints, name->value)) {
+      for (XmlAttribute& attribute : element.attributes) {
+        if (attribute.name == "type") attribute.value = "continuous";
+      }
+      turned.insert(i);
+    }
+    if (element.name == "axis" && turned.contains(static_cast<std::size_t>(element.parent)) &&
+        is_zero(element.find("xyz")))
+      gone.insert(i);
+  }
+  erase_elements(gone, elements);
+}
+
+void check_turning(const RobotFile& file, const Urdf& urdf, Diagnostics& diagnostics) {
+  for (const Word& name : file.turning) {
+    if (name.exists() && urdf.find_joint(name.text) == nullptr && !urdf.left_out.contains(name.text))
+      diagnostics.add(wording::unknown_name(name.span, "joint", name.text, urdf.joint_names()));
+  }
+}
+
+void turn_wheels(const std::filesystem::path& path, Urdf& urdf, DraftOptions& options, FoundWheels& found) {
+  const std::vector<std::string> held = wheels_to_turn(urdf, found);
+  if (held.empty()) return;
+  DraftOptions turning = options;
+  turning.turning.insert(turning.turning.end(), held.begin(), held.end());
+  Diagnostics unheard;  // the URDF was read before; what its wheels lack is said when the file is loaded
+  std::optional<Urdf> turned = read_urdf(path, {}, unheard, {turning.ignored, turning.turning});
+  if (!turned) return;
+  turning.axes = find_axes_of(*turned, options.axes);
+  const std::vector<JointAxis> sideways = sideways_axles(*turned, found.base, held);
+  if (!sideways.empty()) {
+    turning.axes.insert(turning.axes.end(), sideways.begin(), sideways.end());
+    find_axes_of(*turned, turning.axes);
+  }
+  FoundWheels now = find_wheels(*turned);
+  if (now.wheels.empty()) return;
+  urdf = std::move(*turned);
+  options = std::move(turning);
+  found = std::move(now);
+}
+
+std::string turns_entry(const std::vector<std::string>& joints) {
+  if (joints.empty()) return "";
+  return "\n# The URDF holds these joints, and no other wheel turns: simulators that push a base about draw "
+         "it "
+         "so.\n# Here they turn without end. A caster's wheel, which has no motor, must not stand in "
+         "`actuated`.\nturns: " +
+         in_brackets(joints) + "\n";
+}
+
+}  // namespace zwang::lang

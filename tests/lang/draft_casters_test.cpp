@@ -1,0 +1,199 @@
+// What stands beside the driven wheels of a URDF: casters of several links, small stiff wheels, wheels
+// without motors, and marks that weigh next to nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support.hpp"
+#include "zwang/lang/open_places.hpp"
+#include "zwang/lang/robot_draft.hpp"
+#include "zwang/lang/task_draft.hpp"
+
+namespace zwang::lang {
+namespace {
+
+std::string beside_inertial(const std::string& mass, const std::string& moment) {
+  return "<inertial><mass value='" + mass + "'/><inertia ixx='" + moment + "' iyy='" + moment + "' izz='" +
+         moment + "' ixy='0' ixz='0' iyz='0'/></inertial>";
+}
+
+const std::string beside_chassis =
+    "<link name='base_link'>" + beside_inertial("20", ".6") +
+    "<collision><geometry><box size='.6 .4 .1'/></geometry></collision></link>";
+
+/// A link `name` on `parent` at `xyz`, by `name`_joint; `more` stands in the joint.
+std::string beside_part(const std::string& name, const std::string& parent, const std::string& xyz,
+                        const std::string& type, const std::string& body, const std::string& more = "") {
+  return "<link name='" + name + "'>" + body + "</link><joint name='" + name + "_joint' type='" + type +
+         "'><parent link='" + parent + "'/><child link='" + name + "'/><origin xyz='" + xyz + "'/>" + more +
+         "</joint>";
+}
+
+std::string beside_wheel(const std::string& name, const std::string& xyz, const std::string& radius = ".08",
+                         const std::string& limit = "", const std::string& parent = "base_link") {
+  return beside_part(name, parent, xyz, "continuous",
+                     beside_inertial("1", ".003") +
+                         "<collision><origin rpy='1.5707963 0 0'/><geometry><cylinder radius='" + radius +
+                         "' length='.04'/></geometry></collision>",
+                     "<axis xyz='0 1 0'/>" + limit);
+}
+
+class DraftOfCasters : public testing::Test {
+ protected:
+  RobotDraft draft(const std::string& parts) {
+    Diagnostics diagnostics;
+    const auto draft =
+        draft_robot(folder_.write("r.urdf", "<robot name='r'>" + beside_chassis + parts + "</robot>"),
+                    "r.urdf", diagnostics);
+    EXPECT_TRUE(draft) << test::rendered(diagnostics);
+    return draft.value_or(RobotDraft{});
+  }
+  static std::vector<std::string> joints(const std::vector<DraftWheel>& wheels) {
+    std::vector<std::string> names;
+    for (const DraftWheel& wheel : wheels) names.push_back(wheel.joint);
+    return names;
+  }
+
+  test::Folder folder_;
+};
+
+using JointNames = std::vector<std::string>;
+
+const std::string beside_pair = beside_wheel("left_wheel", "0 .2 0") + beside_wheel("right_wheel", "0 -.2 0");
+const std::string beside_ball = "<collision><geometry><sphere radius='.03'/></geometry></collision>";
+
+// Of a caster that is drawn of a bracket, a fork and a ball, the ball alone stands on the ground.
+TEST_F(DraftOfCasters, the_bracket_of_a_ball_is_no_support) {
+  const RobotDraft drawn =
+      draft(beside_pair + beside_part("caster_base", "base_link", "-.2 0 -.02", "fixed", "") +
+            beside_part("caster_fork", "base_link", "-.21 0 -.03", "fixed", "") +
+            beside_part("caster_wheel", "base_link", "-.22 0 -.05", "fixed", beside_ball) +
+            beside_part("front_caster", "base_link", ".2 0 -.05", "fixed", ""));
+  EXPECT_EQ(drawn.supports, (JointNames{"caster_wheel", "front_caster"})) << drawn.text;
+}
+
+TEST_F(DraftOfCasters, the_bracket_of_a_caster_that_turns_is_no_support) {
+  const RobotDraft drawn =
+      draft(beside_pair + beside_part("caster_base", "base_link", "-.2 0 -.02", "fixed", "") +
+            beside_part("caster_fork", "base_link", "-.2 0 -.03", "continuous",
+                        beside_inertial(".1", ".0001"), "<axis xyz='0 0 1'/>") +
+            beside_wheel("caster_wheel", "-.02 0 -.02", ".03", "", "caster_fork"));
+  EXPECT_EQ(drawn.supports, JointNames{}) << drawn.text;
+  EXPECT_EQ(joints(drawn.casters), JointNames{"caster_wheel_joint"});
+}
+
+// Stiff wheels of two sizes on one base would drag: the small ones are casters that are drawn without
+// swivels.
+TEST_F(DraftOfCasters, small_wheels_that_do_not_steer_carry_the_base) {
+  const std::string small = beside_wheel("front_left_wheel", ".2 .1 -.04", ".04") +
+                            beside_wheel("front_right_wheel", ".2 -.1 -.04", ".04");
+  const RobotDraft drawn = draft(beside_pair + small);
+  EXPECT_EQ(joints(drawn.wheels), (JointNames{"left_wheel_joint", "right_wheel_joint"})) << drawn.text;
+  EXPECT_EQ(drawn.supports, (JointNames{"front_left_wheel", "front_right_wheel"}));
+  EXPECT_NE(drawn.text.find("lead: nose"), std::string::npos) << "two plain wheels on one axle";
+}
+
+// Wheels of 80 mm beside some of 70 mm are worn tyres of one kind.
+TEST_F(DraftOfCasters, wheels_of_nearly_one_size_drive) {
+  EXPECT_EQ(draft(beside_pair + beside_wheel("front_left_wheel", ".2 .2 -.01", ".07") +
+                  beside_wheel("front_right_wheel", ".2 -.2 -.01", ".07"))
+                .wheels.size(),
+            4U);
+}
+
+// Rollers need a motor at each wheel: where the URDF gives two of four one, they skid, and nobody is asked.
+TEST_F(DraftOfCasters, wheels_beside_some_without_a_motor_skid) {
+  const std::string limit = "<limit effort='8' velocity='9'/>";
+  const RobotDraft drawn =
+      draft(beside_wheel("rear_left_wheel", "-.2 .2 0", ".08", limit) +
+            beside_wheel("rear_right_wheel", "-.2 -.2 0", ".08", limit) +
+            beside_wheel("front_left_wheel", ".2 .2 0") + beside_wheel("front_right_wheel", ".2 -.2 0"));
+  EXPECT_EQ(joints(drawn.idle), (JointNames{"front_left_wheel_joint", "front_right_wheel_joint"}));
+  EXPECT_NE(drawn.text.find("each_wheel: {kind: skid}"), std::string::npos) << drawn.text;
+  EXPECT_EQ(drawn.text.find("kind: FILL_IN"), std::string::npos) << drawn.text;
+}
+
+// A wheel of 0.003 kg m^2 and a fork of 0.0001 kg m^2 and 1 kg, 10 cm beside the pivot's axis:
+// 0.0031 + 1 x 0.1^2 = 0.0131 kg m^2, and two digits above.
+TEST_F(DraftOfCasters, a_cars_steering_has_as_much_rotor_inertia_as_it_turns) {
+  const auto steered = [](const std::string& name, const std::string& xyz) {
+    const std::string fork =
+        "<inertial><origin xyz='.1 0 0'/><mass value='1'/><inertia ixx='.0001' iyy='.0001' "
+        "izz='.0001' ixy='0' ixz='0' iyz='0'/></inertial>";
+    return beside_part(name + "_steering", "base_link", xyz, "revolute", fork,
+                       "<axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='5' velocity='5'/>") +
+           beside_wheel(name + "_wheel", "0 0 0", ".08", "", name + "_steering");
+  };
+  const RobotDraft drawn =
+      draft(beside_pair + steered("front_left", ".4 .2 0") + steered("front_right", ".4 -.2 0"));
+  EXPECT_NE(drawn.text.find("front_left_steering_joint: {rotor_inertia: 0.014 kg m^2}"), std::string::npos)
+      << drawn.text;
+}
+
+// Wheels with rollers hold no side force, and a base on them turns about its origin.
+TEST_F(DraftOfCasters, a_base_on_one_axle_turns_about_the_axle) {
+  const std::string behind =
+      beside_wheel("left_wheel", "-.2 .2 0") + beside_wheel("right_wheel", "-.2 -.2 0");
+  EXPECT_NEAR(base_fit(draft(behind)).axle, -0.2, 1e-9);
+  EXPECT_EQ(base_fit(draft(behind + beside_wheel("front_left_wheel", ".1 .2 0") +
+                           beside_wheel("front_right_wheel", ".1 -.2 0")))
+                .axle,
+            0.0);
+}
+
+// A fork that reaches beyond the outline touches a wall first, whatever joint moves it.
+TEST_F(DraftOfCasters, a_fork_that_reaches_ahead_is_told) {
+  const std::string lift =
+      beside_part("lift", "base_link", ".4 0 0", "prismatic", beside_inertial("1", ".01"),
+                  "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='100' velocity='1'/>");
+  const std::string fork = beside_part("fork", "lift", ".5 0 0", "fixed", beside_inertial("1", ".01"));
+  const BaseFit fit = base_fit(draft(beside_pair + lift + fork));
+  EXPECT_NEAR(fit.arm_ahead, 0.9, 1e-9);
+  EXPECT_NE(why_unfit("wall_align", fit).find("0.9 m ahead"), std::string::npos)
+      << why_unfit("wall_align", fit);
+}
+
+// What a motor that slides is asked for is a force.
+TEST_F(DraftOfCasters, a_lift_is_asked_for_its_force) {
+  const std::string lift =
+      beside_part("lift", "base_link", "0 0 .1", "prismatic", beside_inertial("1", ".01"),
+                  "<axis xyz='0 0 1'/><limit lower='0' upper='1' effort='0' velocity='1'/>");
+  const OpenPlaces places = open_places(draft(beside_pair + lift).text);
+  const auto asked = std::find_if(
+      places.to_fill_in.begin(), places.to_fill_in.end(),
+      [](const OpenPlace& place) { return place.entry.find("lift_joint") != std::string::npos; });
+  ASSERT_NE(asked, places.to_fill_in.end());
+  EXPECT_NE(asked->what_to.find("force"), std::string::npos) << asked->what_to;
+}
+
+// Four swivels whose wheels roll along y as they are drawn: turned by 90 deg they roll ahead, as tasks drive.
+TEST_F(DraftOfCasters, steered_wheels_start_as_they_roll_ahead) {
+  std::string modules;
+  for (const auto& [name, xyz] :
+       {std::pair{"fl", ".2 .15 0"}, {"fr", ".2 -.15 0"}, {"rl", "-.2 .15 0"}, {"rr", "-.2 -.15 0"}}) {
+    const std::string n = name;
+    modules += beside_part(n + "_steer", "base_link", xyz, "continuous", beside_inertial("1", ".001"),
+                           "<axis xyz='0 0 1'/><limit effort='5' velocity='5'/>") +
+               test::replaced(beside_wheel(n + "_wheel", "0 0 0", ".08", "<limit effort='5' velocity='5'/>",
+                                           n + "_steer"),
+                              "<axis xyz='0 1 0'/>", "<axis xyz='1 0 0'/>");
+  }
+  const std::string text = draft(modules).text;
+  for (const char* name : {"fl", "fr", "rl", "rr"})
+    EXPECT_NE(text.find(std::string(name) + "_steer_joint: 90 deg"), std::string::npos) << text;
+}
+
+// 10 g on a joint of a robot of 22 kg, without a limit: a mark for a controller. With a limit it is a motor.
+TEST_F(DraftOfCasters, a_joint_of_next_to_no_mass_is_held) {
+  const auto held = [&](const std::string& limit) {
+    const std::string mark =
+        beside_part("front_steer", "base_link", ".2 0 0", "revolute", beside_inertial(".01", "1e-6"),
+                    "<axis xyz='0 0 1'/><limit lower='-1' upper='1' velocity='1' " + limit + "/>");
+    return draft(beside_pair + mark).text.find("fixed: [front_steer_joint]") != std::string::npos;
+  };
+  EXPECT_TRUE(held("effort='0'"));
+  EXPECT_FALSE(held("effort='2'"));
+}
+
+}  // namespace
+}  // namespace zwang::lang
