@@ -59,6 +59,7 @@ bool has_unknown_interruption(const CheckContext& context) {
 void check_target(CheckContext& context, const Word& target, const TaskText* task) {
   if (!target.exists() || target.text == "done" || target.text == "failed") return;
   if (target.text == "back") {
+    if (context.symbols.find_task("back")) return;  // the name of that task is the mistake (E105)
     const std::vector<std::string> interrupting = interrupting_tasks(context);
     const bool can_go_back = task == nullptr ? !interrupting.empty()
                                              : std::find(interrupting.begin(), interrupting.end(),

@@ -286,8 +286,12 @@ void check_positions(CheckContext& context, const GroupText& group, const std::o
     const bool is_unknown = !position->is_range && position->value.kind == ValueKind::name &&
                             !context.symbols.find_signal(position->value.name);
     if (is_unknown) continue;
-    context.diagnostics.add(wording::position_in_own_axes(position->key_span, axis_path(group, axis),
-                                                          in.declaration.name, move.declaration.name));
+    const bool is_measured = !position->is_range && position->value.kind == ValueKind::name;
+    context.diagnostics.add(is_measured ? wording::measured_position_in_own_axes(
+                                              position->key_span, axis_path(group, axis), position->value.name)
+                                        : wording::position_in_own_axes(position->key_span, axis_path(group, axis),
+                                                                        in.declaration.name,
+                                                                        move.declaration.name));
     return;
   }
 }

@@ -223,8 +223,9 @@ Diagnostic unknown_key(const Span& span, const std::string& key, const std::stri
   return with_suggestion(error("E101", span, "unknown key " + in_ticks(key) + " in " + what, help), meant);
 }
 
-Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key) {
-  return error("E103", span, what + " does not say `" + key + "`", "add `" + key + ": ..`");
+Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key,
+                       const std::string& value) {
+  return error("E103", span, what + " does not say `" + key + "`", "add `" + key + ": " + value + "`");
 }
 
 Diagnostic expected_mapping(const Span& span, const std::string& what, bool is_list) {
@@ -355,6 +356,11 @@ Diagnostic number_out_of_range(const Span& span, const std::string& text) {
 Diagnostic split_condition(const Span& span) {
   return error("E107", span, "a comma cut the condition in two: inside `{..}` it starts a new key",
                "quote the condition or put it on its own line");
+}
+
+Diagnostic split_text(const Span& span, const std::string& key) {
+  return error("E107", span, "a comma cut the text of `" + key + "` in two: inside `{..}` it starts a new key",
+               "quote the text: `" + key + ": \"..\"`");
 }
 
 Diagnostic unreadable_instruction(const Span& span, const std::string& word) {
