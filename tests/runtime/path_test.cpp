@@ -121,6 +121,12 @@ TEST(Follow, CountsTheRoundsOfAClosedPath) {
   EXPECT_NEAR(along(-2.0 * pi), 0.5 - round, 1e-9);
   follower.search(at(0.0));
   EXPECT_NEAR(along(0.0), 0.5, 1e-12) << "a search begins a new count";
+  // From a corner on, x is within half a round of the begin: 0.5 + round (angle/2 pi) at the four middles.
+  for (int side = 0; side < 4; ++side) {
+    follower.search(at(0.5 * pi * side));
+    const double ahead = 0.5 + 0.25 * side * round;
+    EXPECT_NEAR(along(0.5 * pi * side), ahead > 0.5 * round ? ahead - round : ahead, 1e-9);
+  }
 }
 
 TEST(Follow, DoesNotKnowNearTheCentreOfAFillet) {
