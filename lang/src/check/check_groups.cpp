@@ -287,11 +287,11 @@ void check_positions(CheckContext& context, const GroupText& group, const std::o
                             !context.symbols.find_signal(position->value.name);
     if (is_unknown) continue;
     const bool is_measured = !position->is_range && position->value.kind == ValueKind::name;
-    context.diagnostics.add(is_measured ? wording::measured_position_in_own_axes(
-                                              position->key_span, axis_path(group, axis), position->value.name)
-                                        : wording::position_in_own_axes(position->key_span, axis_path(group, axis),
-                                                                        in.declaration.name,
-                                                                        move.declaration.name));
+    context.diagnostics.add(is_measured
+                                ? wording::measured_position_in_own_axes(
+                                      position->key_span, axis_path(group, axis), position->value.name)
+                                : wording::position_in_own_axes(position->key_span, axis_path(group, axis),
+                                                                in.declaration.name, move.declaration.name));
     return;
   }
 }
@@ -307,6 +307,7 @@ void check_feature_group(CheckContext& context, const std::vector<GroupText>& gr
     return;
   }
   context.symbols.features[static_cast<std::size_t>(*feature)].is_used = true;
+  if (context.symbols.features[static_cast<std::size_t>(*feature)].is_bad) return;
   for (const AxisText& axis : group.axes) AxisCheck(context, groups, group, axis).check();
   const FeatureSymbol& symbol = context.symbols.features[static_cast<std::size_t>(*feature)];
   // Of a distance and an angle E412 says so.

@@ -81,8 +81,6 @@ Diagnostic not_a_value(const Span& span, const std::string& text);
 Diagnostic only_a_quantity(const Span& span, const std::string& what, const Dimension& expected);
 Diagnostic number_out_of_range(const Span& span, const std::string& text);
 Diagnostic split_condition(const Span& span);
-/// `key`: of the text, such as `note`.
-Diagnostic split_text(const Span& span, const std::string& key);
 
 // --- Comments that speak to zwang: E118 to W120 (text.cpp) ---
 Diagnostic unreadable_instruction(const Span& span, const std::string& word);
@@ -132,8 +130,6 @@ Diagnostic unknown_axis(const Span& span, const std::string& group, const std::s
                         const std::vector<std::string>& known);
 Diagnostic unused(const Span& span, const std::string& kind, const std::string& name);
 Diagnostic frame_loop(const Span& span, const std::vector<std::string>& names);
-/// A frame whose parent has its own name, which is a signal's, too.
-Diagnostic frame_hides_signal(const Span& span, const std::string& name, const Span& signal);
 Diagnostic name_taken(const Span& span, const std::string& name, const std::string& owner);
 Diagnostic not_settable(const Span& span, const std::string& name);
 
@@ -162,9 +158,6 @@ Diagnostic rigid_feature(const Span& span, const std::string& name);
 Diagnostic driven_twice(const Span& span, const std::string& axis, const std::string& first,
                         const std::string& second, const Span& first_span);
 Diagnostic empty_range(const Span& span, const std::string& low, const std::string& high);
-/// A number signal as the place: mostly a distance that a sensor on the robot measures.
-Diagnostic measured_position_in_own_axes(const Span& span, const std::string& axis,
-                                         const std::string& signal);
 Diagnostic position_in_own_axes(const Span& span, const std::string& axis, const std::string& in,
                                 const std::string& move);
 Diagnostic force_range_without_zero(const Span& span, const std::string& axis);

@@ -172,13 +172,6 @@ Diagnostic unused(const Span& span, const std::string& kind, const std::string& 
   return warning("W302", span, kind + " `" + name + "` is never used");
 }
 
-Diagnostic frame_hides_signal(const Span& span, const std::string& name, const Span& signal) {
-  const std::string quoted = "`" + name + "`";
-  return with_related(error("E304", span, "frame " + quoted + " hides the signal " + quoted + " that it hangs on",
-                            "give the frame another name, for example `" + name + "_frame`"),
-                      signal, "the signal is declared here");
-}
-
 Diagnostic frame_loop(const Span& span, const std::vector<std::string>& names) {
   std::string text = names[0] + " hangs on " + names[1];
   for (std::size_t i = 2; i < names.size(); ++i) text += ", which hangs on " + names[i];
@@ -298,13 +291,6 @@ Diagnostic position_in_own_axes(const Span& span, const std::string& axis, const
                                      : "`" + in + "` rides along with `" + move + "`";
   return error("E405", span, "axis `" + axis + "` cannot have a position: " + why,
                "use velocity, `here`, or a frame of the world");
-}
-
-Diagnostic measured_position_in_own_axes(const Span& span, const std::string& axis,
-                                         const std::string& signal) {
-  return error("E405", span,
-               "axis `" + axis + "` cannot have the position `" + signal + "`: its axes ride along with it",
-               "to keep a distance, take what is measured as a signal of `type: pose`, and drive `in` a frame on it");
 }
 
 Diagnostic force_range_without_zero(const Span& span, const std::string& axis) {

@@ -358,11 +358,6 @@ Diagnostic split_condition(const Span& span) {
                "quote the condition or put it on its own line");
 }
 
-Diagnostic split_text(const Span& span, const std::string& key) {
-  return error("E107", span, "a comma cut the text of `" + key + "` in two: inside `{..}` it starts a new key",
-               "quote the text: `" + key + ": \"..\"`");
-}
-
 Diagnostic unreadable_instruction(const Span& span, const std::string& word) {
   return error("E118", span, "no comment can tell zwang to " + in_ticks(word),
                "write `# zwang: allow CODE the reason`");

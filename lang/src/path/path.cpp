@@ -85,9 +85,9 @@ std::vector<solver::Vector3> Path::points(double most_turn) const {
   std::vector<solver::Vector3> points;
   const auto add = [&](const PathPiece& piece, double s) {
     const double k = piece.curvature, turn = k * s;
-    const solver::Vector3 ahead =
-        k == 0.0 ? solver::Vector3(s, 0.0, 0.0)
-                 : solver::Vector3(std::sin(turn) / k, (1.0 - std::cos(turn)) / k, 0.0);
+    const solver::Vector3 ahead = k == 0.0
+                                      ? solver::Vector3(s, 0.0, 0.0)
+                                      : solver::Vector3(std::sin(turn) / k, (1.0 - std::cos(turn)) / k, 0.0);
     points.push_back(piece.pose * ahead);
   };
   for (const PathPiece& piece : pieces) {

@@ -87,7 +87,7 @@ void parse_path(const Entry& entry, TaskFile& file, Diagnostics& diagnostics) {
     const Point &first = points->front(), &second = (*points)[1];
     frame.at = {first[0], first[1]};
     frame.rpy = {0.0, 0.0, std::atan2(second[1] - first[1], second[0] - first[0])};
-    if (!turns || fillet != nullptr) 
+    if (!turns || fillet != nullptr)
       path.pieces = join_points(*points, path.is_closed, *through, fillet, what, diagnostics);
   }
   map.finish();
