@@ -1,6 +1,7 @@
 #include "check/check.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "check/check_feeling.hpp"
 #include "check/check_sets.hpp"
@@ -119,12 +120,14 @@ void check_named_arguments(CheckContext& context) {
     return symbols.find_task(name) || name == "done" || name == "failed" || name == "back";
   };
   if (context.diagnostics.has_errors()) return;
+  std::set<std::string> told;  // a kind that is wrong in the template is so at each of its uses
   for (const NamedArgument& given : context.file.named_arguments) {
-    if (is_a(given.kind, given.name.text)) continue;
+    if (is_a(given.kind, given.name.text) || told.contains(given.argument)) continue;
     for (const char* kind : {"frame", "feature", "region", "signal", "task"}) {
       if (!is_a(kind, given.name.text)) continue;
       context.diagnostics.add(wording::argument_of_another_kind(given.name.span, given.argument, given.kind,
                                                                 given.name.text, kind));
+      told.insert(given.argument);
       break;
     }
   }
