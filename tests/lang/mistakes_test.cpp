@@ -147,7 +147,7 @@ std::vector<Mistake> mistakes_by_touch() {
        "E303",
        {}},
       {"closed_misspelt", "deliver", "fillet: 0.6 m", "fillet: 0.6 m, closd: true", "E101", {}},
-      {"path_closed_by_hand", "deliver", "fillet: 0.6 m", "fillet: 0.6 m, closed: round", "E105", {}},
+      {"closed_in_words", "deliver", "fillet: 0.6 m", "fillet: 0.6 m, closed: round", "E105", {}},
   };
 }
 

@@ -7,8 +7,12 @@ export async function checkLeaning(open, made) {
   const face = 0.85 + 0.15 * Math.tan((20 * Math.PI) / 180);  // [m] at the bumper's height
   const colours = await page.evaluate((points) => {
     const { top } = window.zwang;
-    const canvas = document.querySelector('figure canvas');
-    return points.map(([x, y]) => [...canvas.getContext('2d').getImageData(...top.mapping()([x, y]).map(Math.round), 1, 1).data].join(' '));
+    const shown = document.querySelector('figure canvas');
+    // A copy is read: the browser warns of a canvas that is read again and again.
+    const copy = Object.assign(document.createElement('canvas'), { width: shown.width, height: shown.height });
+    const context = copy.getContext('2d', { willReadFrequently: true });
+    context.drawImage(shown, 0, 0);
+    return points.map(([x, y]) => [...context.getImageData(...top.mapping()([x, y]).map(Math.round), 1, 1).data].join(' '));
   }, [[face - 0.025, 0.55], [face + 0.025, 0.55], [face + 0.05, 0.57]]);
   assert.notEqual(colours[0], colours[1], 'the foot of the wall is not where the base meets it');
   assert.equal(colours[1], colours[2]);

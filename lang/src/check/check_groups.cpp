@@ -156,8 +156,10 @@ class AxisCheck {
     const bool is_spring = text_.stiffness && text_.damping && position && !position->is_range;
     // A key of the spring may be the one that could not be read.
     const bool is_read = context_.diagnostics.error_count() == errors_before;
-    if (!is_spring && !is_incomplete_ && is_read)
-      context_.diagnostics.add(wording::incomplete_spring(span, path_));
+    if (!is_spring && !is_incomplete_ && is_read) {
+      const std::string missing = !text_.stiffness ? "stiffness" : !text_.damping ? "damping" : "position";
+      context_.diagnostics.add(wording::incomplete_spring(span, path_, missing));
+    }
     if (is_spring && text_.time_constant) {
       context_.diagnostics.add(wording::spring_with_time_constant(text_.time_constant->span, path_));
     }

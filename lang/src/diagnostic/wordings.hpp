@@ -163,7 +163,8 @@ Diagnostic position_in_own_axes(const Span& span, const std::string& axis, const
 Diagnostic force_range_without_zero(const Span& span, const std::string& axis);
 Diagnostic beyond_always(const Span& span, const std::string& axis, const std::string& asked,
                          const std::string& limiting, const std::string& allowed, const Span& limit);
-Diagnostic incomplete_spring(const Span& span, const std::string& axis);
+/// `missing`: the first of the keys that the axis does not have.
+Diagnostic incomplete_spring(const Span& span, const std::string& axis, const std::string& missing);
 Diagnostic spring_with_time_constant(const Span& span, const std::string& axis);
 Diagnostic immovable(const Span& span, const std::string& frame);
 /// `function` asks how a frame moves that nothing moves; `base` is a name to ask about instead.
