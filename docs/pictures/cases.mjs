@@ -19,6 +19,10 @@ const cases = {
   button: [0.66, 1, -2],
   drawer: [0.95, 1, 1],
   carry: [0.7, 0, 4],
+  peg: [0.95, 1, -2],
+  handover: [0.73, 1, -2],
+  bumper: [0.9, 0, 4],
+  approach_car: [0.6, 0, 6],
 };
 
 /** What runs: the task file, or where that has no end a cell of its scenario. */

@@ -1,6 +1,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "graph.hpp"
 #include "json_parts.hpp"
@@ -107,6 +108,10 @@ ordered_json scene_of(const lang::Scene& scene) {
                    : o.shape == lang::ShapeKind::box ? "box"
                                                      : "cylinder";
     if (o.dock) one["dock"] = o.dock->at;
+    if (o.leans()) {
+      const solver::Matrix3 rotation = solver::rotation_from_rpy(o.roll, o.pitch, o.yaw);
+      one["lean"] = json_of(solver::Pose{rotation, {o.at[0], o.at[1], 0.0}});
+    }
     objects.push_back(one);
   }
   for (const lang::SceneRobot& r : scene.robots) {
@@ -127,6 +132,18 @@ ordered_json regions_of(const Program& program) {
                        {"radius", region.radius}});
   }
   return regions;
+}
+
+ordered_json paths_of(const Program& program) {
+  constexpr double chord = std::numbers::pi / 36.0;  // [rad] of an arc
+  ordered_json paths = ordered_json::array();
+  for (const lang::Path& path : program.paths) {
+    ordered_json points = ordered_json::array();
+    for (const solver::Vector3& point : path.points(chord)) points.push_back({point.x(), point.y()});
+    paths.push_back(
+        {{"name", path.name}, {"frame", path.frame}, {"closed", path.is_closed}, {"points", points}});
+  }
+  return paths;
 }
 
 /// A frame that a task sets moves when the run reaches the line, which the log does not hold.
@@ -167,6 +184,7 @@ ordered_json world_of(const Program& program) {
         {{"name", signal.name}, {"in", signal.in}, {"is_pose", signal.type == lang::SignalType::pose}});
   ordered_json world = {{"robot", robot_of(program.robot)},
                         {"regions", regions_of(program)},
+                        {"paths", paths_of(program)},
                         {"frames", frames_of(program)},
                         {"signals", signals}};
   world["scene"] = program.scene ? scene_of(*program.scene) : ordered_json(nullptr);

@@ -101,6 +101,56 @@ std::vector<Mistake> mistakes_in_forces() {
   };
 }
 
+/// In the files of pegs, handovers, switches and steered bases.
+std::vector<Mistake> mistakes_by_touch() {
+  return {
+      {"tip_misspelt", "peg", "estimated.tool.z", "estimated.tol.z", "E301", {}},
+      {"saturated_misspelt", "peg", "peg.y.saturated, for", "peg.y.saturatd, for", "E301", {}},
+      {"pace_of_a_length",
+       "peg",
+       "{force: 6 N, velocity: +-3 cm/s}",
+       "{force: 6 N, velocity: +-3 cm}",
+       "E202",
+       {}},
+      {"task_misspelt", "peg", "goto: insert}", "goto: inserts}", "E301", {}},
+      {"link_misspelt", "peg", "parent: shoulder_link", "parent: sholder_link", "E301", {}},
+      {"note_with_a_comma", "peg", "note: no slot within 40 cm", "note: no slot, within 40 cm", "E107", {}},
+      {"stop_of_a_gripper", "handover", "stop: keep", "stop: hold", "E105", {}},
+      {"number_for_a_gripper", "handover", "{outputs.gripper: false}", "{outputs.gripper: 0}", "E105", {}},
+      {"pull_without_unit", "handover", "estimated.tool.z > 8 N", "estimated.tool.z > 8", "E201", {}},
+      {"spring_without_damping",
+       "handover",
+       "stiffness: 200 N/m, damping: 60 N s/m",
+       "stiffness: 200 N/m",
+       "E104",
+       {}},
+      {"way_in_newtons", "handover", "moved(tool) > 10 cm", "moved(tool) > 10 N", "E202", {}},
+      {"type_of_a_switch", "bumper", "type: bool", "type: boolean", "E301", {}},
+      {"half_an_attempt", "bumper", "attempts: {max: 3,", "attempts: {max: 3.5,", "E105", {}},
+      {"turn_in_metres", "bumper", "turned(base) > 90 deg", "turned(base) > 90 m", "E202", {}},
+      {"steering_misspelt",
+       "approach_car",
+       "look: {bearing: [steer, goal]}",
+       "look: {bearing: [ster, goal]}",
+       "E301",
+       {}},
+      {"bearing_misspelt", "approach_car", "{bearing: [", "{bering: [", "E101", {}},
+      {"bearing_of_three", "approach_car", "{bearing: [steer, ", "{bearing: [steer, base, ", "E104", {}},
+      {"lock_that_drives", "approach_car", "{position: +-$lock}", "{position: $lock}", "E406", {}},
+      {"way_in_seconds", "approach_car", "way < 0.4 m", "way < 0.4 s", "E202", {}},
+      {"frame_for_a_feature", "approach_swerve", "{args: {where: feature}", "{args: {where: frame}", "E303",
+       "      fl: {use: look, with: {where: front_left}}"},
+      {"argument_misspelt",
+       "approach_swerve",
+       "fl: {use: look, with: {where:",
+       "fl: {use: look, with: {wher:",
+       "E303",
+       {}},
+      {"closed_misspelt", "deliver", "fillet: 0.6 m", "fillet: 0.6 m, closd: true", "E101", {}},
+      {"closed_in_words", "deliver", "fillet: 0.6 m", "fillet: 0.6 m, closed: round", "E105", {}},
+  };
+}
+
 std::vector<Mistake> mistakes() {
   return {
       // --- misspelt words ---
@@ -246,13 +296,35 @@ std::string text_of(const std::string& file) {
 
 Diagnostics told_of(const std::string& text) {
   const test::Folder folder;
-  for (const char* file :
-       {"robots/mecanum_base.yaml", "robots/mecanum_base.urdf", "robots/mecanum_arm_base.yaml",
-        "robots/mecanum_arm_base.urdf", "scenes/corridor.yaml", "scenes/dock.yaml", "scenes/obstacle.yaml",
-        "scenes/wall.yaml", "scenes/drawer.yaml", "scenes/cart.yaml", "scenes/cradle.yaml",
-        "scenes/button.yaml", "scenes/box_between.yaml", "partners/carry.yaml", "scenes/square.yaml",
-        "scenes/leading_hand.yaml", "scenes/wall_beside.yaml", "scenes/gate.yaml",
-        "scenes/cart_on_the_way.yaml"}) {
+  for (const char* file : {"robots/mecanum_base.yaml",
+                           "robots/mecanum_base.urdf",
+                           "robots/mecanum_arm_base.yaml",
+                           "robots/mecanum_arm_base.urdf",
+                           "scenes/corridor.yaml",
+                           "scenes/dock.yaml",
+                           "scenes/obstacle.yaml",
+                           "scenes/wall.yaml",
+                           "scenes/drawer.yaml",
+                           "scenes/cart.yaml",
+                           "scenes/cradle.yaml",
+                           "scenes/button.yaml",
+                           "scenes/box_between.yaml",
+                           "partners/carry.yaml",
+                           "scenes/square.yaml",
+                           "scenes/leading_hand.yaml",
+                           "scenes/wall_beside.yaml",
+                           "scenes/gate.yaml",
+                           "scenes/cart_on_the_way.yaml",
+                           "robots/turtlebot3_burger.yaml",
+                           "robots/turtlebot3_burger.urdf",
+                           "robots/car_base.yaml",
+                           "robots/car_base.urdf",
+                           "robots/swerve_base.yaml",
+                           "robots/swerve_base.urdf",
+                           "scenes/peg.yaml",
+                           "scenes/handover.yaml",
+                           "scenes/bumper.yaml",
+                           "scenes/open.yaml"}) {
     folder.write(file, test::slurp(test::source_dir / "specs" / file));
   }
   Diagnostics diagnostics;
@@ -295,6 +367,8 @@ TEST_P(MistakeOf, is_found_in_its_place_and_told_once) {
 }
 
 INSTANTIATE_TEST_SUITE_P(An, MistakeOf, testing::ValuesIn(mistakes()),
+                         [](const auto& mistake) { return mistake.param.name; });
+INSTANTIATE_TEST_SUITE_P(ByTouch, MistakeOf, testing::ValuesIn(mistakes_by_touch()),
                          [](const auto& mistake) { return mistake.param.name; });
 INSTANTIATE_TEST_SUITE_P(InForces, MistakeOf, testing::ValuesIn(mistakes_in_forces()),
                          [](const auto& mistake) { return mistake.param.name; });

@@ -122,5 +122,53 @@ TEST(PathGeometry, APlaceOnAnArcIsItsAngleAndItsRadius) {
   }
 }
 
+// A square of side a with rounded corners: four lines of a - 2 r and one circle. It ends where it begins.
+TEST(PathGeometry, AClosedSquareIsAsLongAsItsLinesAndOneCircle) {
+  constexpr double a = 2.0, r = 0.5;
+  const Points square{{0, 0}, {a, 0}, {a, a}, {0, a}};
+  EXPECT_NEAR(largest_fillet(square, true), a / 2.0, 1e-12);
+  EXPECT_FALSE(path_through(square, 0.51 * a, true));
+  Path path;
+  path.pieces = path_through(square, r, true).value();
+  ASSERT_EQ(path.pieces.size(), 8u);
+  EXPECT_NEAR(path.length(), 4.0 * (a - 2.0 * r) + 2.0 * pi * r, 1e-12);
+  EXPECT_NEAR((path.pieces[0].pose.position - solver::Vector3(r, 0, 0)).norm(), 0.0, 1e-12);
+  const solver::Pose end = end_of(path.pieces.back());
+  EXPECT_NEAR((end.position - path.pieces[0].pose.position).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((end.rotation - path.pieces[0].pose.rotation).norm(), 0.0, 1e-12);
+  // Chords of 1 deg fall short of the circle by 1 - sin(x)/x, x = half a degree.
+  double chords = 0.0;
+  const std::vector<solver::Vector3> points = path.points(pi / 180.0);
+  for (std::size_t i = 1; i < points.size(); ++i) chords += (points[i] - points[i - 1]).norm();
+  const double half = pi / 360.0;
+  EXPECT_NEAR(chords, 4.0 * (a - 2.0 * r) + 2.0 * pi * r * std::sin(half) / half, 1e-9);
+}
+
+// The sum of the turns of any simple polygon is a whole turn, so that the last tangent is the first one.
+TEST(PathGeometry, AnyClosedPathEndsWhereItBegins) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> radius(1.0, 3.0);
+  for (int draw = 0; draw < 100; ++draw) {
+    Points points;
+    for (int i = 0; i < 7; ++i) {
+      const double angle = 2.0 * pi * i / 7.0, r = radius(random);
+      points.push_back({r * std::cos(angle), r * std::sin(angle)});
+    }
+    const double most = largest_fillet(points, true);
+    const auto pieces = path_through(points, 0.9 * most, true);
+    ASSERT_TRUE(pieces);
+    for (std::size_t i = 0; i < pieces->size(); ++i) {
+      const solver::Pose end = end_of((*pieces)[i]), &next = (*pieces)[(i + 1) % pieces->size()].pose;
+      EXPECT_NEAR((end.position - next.position).norm(), 0.0, 1e-9) << draw << ", piece " << i;
+      EXPECT_NEAR((end.rotation - next.rotation).norm(), 0.0, 1e-9) << draw << ", piece " << i;
+    }
+  }
+}
+
+TEST(PathGeometry, AClosedPathOfTwoPointsTurnsBack) {
+  EXPECT_EQ(largest_fillet({{0, 0}, {1, 0}}, true), 0.0);
+  EXPECT_FALSE(path_through({{0, 0}, {1, 0}}, 0.1, true));
+}
+
 }  // namespace
 }  // namespace zwang::lang

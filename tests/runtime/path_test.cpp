@@ -96,6 +96,39 @@ TEST(Follow, StaysOnItsBranchWhereThePathCrossesItself) {
   EXPECT_EQ(follower.piece().start, 0.0) << "a search takes the nearest of all";
 }
 
+// Three rounds of a square, the way on and the way back: the arc length counts each of them.
+TEST(Follow, CountsTheRoundsOfAClosedPath) {
+  const Points square{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
+  lang::Path path;
+  path.frame = way;
+  path.is_closed = true;
+  path.pieces = lang::path_through(square, 0.5, true).value();
+  const double round = 4.0 * (2.0 - 2.0 * 0.5) + 2.0 * pi * 0.5;
+  PathFollower follower(path, 0, base_link);
+  const auto at = [&](double angle) {
+    const Vector3 p(1.0 + 0.9 * std::sin(angle), 1.0 - 0.9 * std::cos(angle), 0.0);
+    return p;  // from the middle of the first line, to the left around the square's middle
+  };
+  const auto along = [&](double angle) {
+    const lang::PlaceOnPiece place = lang::place_on(follower.piece(), at(angle).x(), at(angle).y());
+    return follower.arc_length() + place.along;
+  };
+  follower.search(at(0.0));
+  EXPECT_NEAR(along(0.0), 0.5, 1e-12);
+  for (int i = 0; i <= 3000; ++i) follower.follow(at(2.0 * pi * i / 1000.0));
+  EXPECT_NEAR(along(6.0 * pi), 0.5 + 3.0 * round, 1e-9);
+  for (int i = 3000; i >= -1000; --i) follower.follow(at(2.0 * pi * i / 1000.0));
+  EXPECT_NEAR(along(-2.0 * pi), 0.5 - round, 1e-9);
+  follower.search(at(0.0));
+  EXPECT_NEAR(along(0.0), 0.5, 1e-12) << "a search begins a new count";
+  // From a corner on, x is within half a round of the begin: 0.5 + round (angle/2 pi) at the four middles.
+  for (int side = 0; side < 4; ++side) {
+    follower.search(at(0.5 * pi * side));
+    const double ahead = 0.5 + 0.25 * side * round;
+    EXPECT_NEAR(along(0.5 * pi * side), ahead > 0.5 * round ? ahead - round : ahead, 1e-9);
+  }
+}
+
 TEST(Follow, DoesNotKnowNearTheCentreOfAFillet) {
   const lang::Path path = path_of(corner, radius);
   PathFollower follower(path, 0, base_link);

@@ -5,6 +5,7 @@ import { execFileSync, spawnSync } from 'node:child_process';
 import { cpSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tooFaint } from './contrast.mjs';
+import { checkLeaning, checkPath } from './scene.mjs';
 
 const [zwang, specs, folder, chromium, only = ''] = process.argv.slice(2);
 const require = createRequire(new URL('../../web/package.json', import.meta.url));
@@ -402,6 +403,8 @@ const steps = {
   'study': checkStudy,
   'look of a study': () => checkLook({ name: 'study', path: `${folder}/study/push.html` }, [[360, 'light'], [800, 'dark'], [1600, 'light']]),
   'look of a matrix': () => checkLook(matrix, [[360, 'light'], [800, 'dark'], [1600, 'light']]),
+  'leaning objects': () => checkLeaning(open, makePage('leaning', `${specs}/wall_align.yaml`, '--scene', `${specs}/scenes/wall_leans.yaml`)),
+  'paths': () => checkPath(open, makePage('path', `${specs}/deliver.yaml`)),
   'hostile text': checkHostile,
 };
 try {

@@ -12,13 +12,16 @@ export interface Robot {
 }
 export interface SceneObject {
   name: string; shape: 'wall' | 'box' | 'cylinder'; size: number[]; at: number[]; yaw: number; moves: boolean; dock?: number[];
+  lean?: Pose;  // of one that leans: its axes in the world, with the origin on the floor
 }
 export interface Scene { objects: SceneObject[]; robots: { name: string; at: number[]; yaw: number; robot?: Robot }[] }
 export interface Frame {
   name: string; parent: 'world' | 'body' | 'frame' | 'signal'; index: number; pose: Pose; declared: boolean; set: boolean;
 }
 export interface Region { name: string; parent: number; polygon: number[][]; centre: number[]; radius: number }
-export interface World { robot: Robot; scene: Scene | null; regions: Region[]; frames: Frame[] }
+/** Points of a path in its frame; of a closed one the last point is the first. */
+export interface Path { name: string; frame: number; closed: boolean; points: number[][] }
+export interface World { robot: Robot; scene: Scene | null; regions: Region[]; paths?: Path[]; frames: Frame[] }
 export interface Bound {
   column: string; task: string | null; low: number | null; high: number | null; file: number; line: number;
 }

@@ -162,6 +162,12 @@ export class SpaceView {
     const geometry = object.shape === 'cylinder' ? new three.CylinderGeometry(a, a, c, 36).rotateX(Math.PI / 2)
       : object.shape === 'wall' ? new three.BoxGeometry(b, a, c).translate(b / 2, 0, 0) : new three.BoxGeometry(a, b, c);
     const mesh = new three.Mesh(geometry, this.material('#9aa5b5', object.shape === 'wall' ? 0.75 : 0.95));
+    if (object.lean) {
+      mesh.geometry.translate(0, 0, c / 2);
+      put(mesh, object.lean);
+      this.scene.add(mesh);
+      return;
+    }
     mesh.position.z = c / 2;
     this.scene.add(mesh);
     this.movers.push((now) => this.place(mesh, placeOf(this.run, object, now.time)));

@@ -5,14 +5,13 @@ import type { Run, SceneObject, World } from './data';
 import { h, sizeOf } from './dom';
 import type { Grip } from './grip';
 import { drawLabels, type Box, type Label } from './labels';
+import { drawPaths, drawRegions, polygon, type Point, type ToPixels } from './lines';
 import { isInside, type Hand } from './push';
 import { withUnit } from './units';
-import { contactsAt, cornersOf, extentOf, frameInWorld, instantAt, outlineOf, placeOf, pushAt, worldPoint, type Instant } from './world';
+import { contactsAt, extentOf, frameInWorld, instantAt, outlinesOf, placeOf, pushAt, worldPoint, type Instant } from './world';
 import type { Place } from './motion';
 
-type Point = number[];
 const words = '12px system-ui, sans-serif';
-type ToPixels = (p: Point) => [number, number];
 
 /** A run in the view; `letter` tells it from another one. */
 export interface Viewed { run: Run; world: World; letter?: string }
@@ -185,26 +184,23 @@ export class TopView {
     this.labels.push({ text: `grid ${step} m`, at: [2, height - 5], style: ofStyle('--quiet') });
   }
 
-  private polygon(c: CanvasRenderingContext2D, to: ToPixels, points: Point[]): void {
-    c.beginPath();
-    points.forEach((p, i) => (i ? c.lineTo(...to(p)) : c.moveTo(...to(p))));
-    c.closePath();
-  }
-
   /** `isSecond`: outlines alone, dashed, of what is not where the first run has it. */
   private drawScene(c: CanvasRenderingContext2D, to: ToPixels, { run, world }: Viewed, now: Instant, s: number, isSecond: boolean): void {
-    if (!isSecond) this.drawRegions(c, to, world, now);
+    if (!isSecond) {
+      this.labels.push(...drawRegions(c, to, world, now), ...drawPaths(c, to, world, now));
+    }
     c.setLineDash(isSecond ? looks[1]!.dashes : []);
     for (const object of world.scene?.objects ?? []) {
       const place = placeOf(run, object, now.time);
       if (isSecond && this.hasAlready(object.name, place)) continue;
-      this.outline(c, to, object, place, s);
+      this.outline(c, to, object, place, s, world.robot.height);
       this.finishObject(c, to, place, object.name, isSecond);
+      if (object.lean && !isSecond) this.drawSeen(c, to, object, place);
     }
     for (const robot of world.scene?.robots ?? []) {
       const place = placeOf(run, { ...robot, shape: 'box', size: [], moves: true }, now.time);
       if (!robot.robot || (isSecond && this.hasAlready(robot.name, place))) continue;
-      this.polygon(c, to, robot.robot.footprint.map((p) => worldPoint(place, p)));
+      polygon(c, to, robot.robot.footprint.map((p) => worldPoint(place, p)));
       this.finishObject(c, to, place, robot.name, isSecond);
     }
     c.setLineDash([]);
@@ -215,36 +211,31 @@ export class TopView {
     });
   }
 
-  private outline(c: CanvasRenderingContext2D, to: ToPixels, object: SceneObject, place: Place, s: number): void {
-    if (object.shape !== 'cylinder') return this.polygon(c, to, outlineOf(object).map((p) => worldPoint(place, p)));
+  /** Of one that leans: where it is at the height at which the base meets it. */
+  private outline(c: CanvasRenderingContext2D, to: ToPixels, object: SceneObject, place: Place, s: number, height: number): void {
+    if (object.shape !== 'cylinder') return polygon(c, to, outlinesOf(object, place, height).met);
     c.beginPath();
     c.arc(...to([place.x, place.y]), object.size[0]! * s, 0, 2 * Math.PI);
+  }
+
+  /** What is seen of a leaning object from above, beyond what a base meets. */
+  private drawSeen(c: CanvasRenderingContext2D, to: ToPixels, object: SceneObject, place: Place): void {
+    polygon(c, to, outlinesOf(object, place, 0).seen);
+    c.setLineDash([2, 4]);
+    c.stroke();
+    c.setLineDash([]);
   }
 
   /** Where an object goes when the pointer lets go. */
   private drawGhost(c: CanvasRenderingContext2D, to: ToPixels): void {
     const ghost = this.grip?.ghost;
     if (!ghost) return;
-    this.outline(c, to, ghost.object, ghost.place, this.pixels());
+    this.outline(c, to, ghost.object, ghost.place, this.pixels(), 0);
     c.setLineDash([3, 4]);
     c.strokeStyle = ofStyle('--link');
     c.lineWidth = 2;
     c.stroke();
     c.setLineDash([]);
-  }
-
-  private drawRegions(c: CanvasRenderingContext2D, to: ToPixels, world: World, now: Instant): void {
-    for (const region of world.regions) {
-      const corners = cornersOf(world, region, now);
-      if (!corners) continue;
-      this.polygon(c, to, corners);
-      c.strokeStyle = ofStyle('--region');
-      c.setLineDash([10, 5]);
-      c.lineWidth = 2;
-      c.stroke();
-      c.setLineDash([]);
-      this.labels.push({ text: region.name, at: to(corners[0]!), style: ofStyle('--region') });
-    }
   }
 
   private hasAlready(name: string, place: Place): boolean {
@@ -300,13 +291,13 @@ export class TopView {
     const look = looks[i]!;
     // Of two runs the dashes tell the second.
     if (now.believed && this.viewed.length === 1) {
-      this.polygon(c, to, robot.footprint.map((p) => worldPoint(now.believed!, p)));
+      polygon(c, to, robot.footprint.map((p) => worldPoint(now.believed!, p)));
       c.setLineDash([4, 4]);
       c.strokeStyle = ofStyle('--quiet');
       c.stroke();
       c.setLineDash([]);
     }
-    this.polygon(c, to, robot.footprint.map((p) => worldPoint(now.base, p)));
+    polygon(c, to, robot.footprint.map((p) => worldPoint(now.base, p)));
     c.fillStyle = ofStyle(look.fill);
     c.strokeStyle = ofStyle(look.style);
     c.lineWidth = 2;
@@ -323,7 +314,7 @@ export class TopView {
       const [ux, uy] = [-axle[1]! / length, axle[0]! / length];
       const half = wheel.radius * 0.3;
       const corner = (a: number, b: number): Point => [pose.p[0]! + a * ux - b * uy, pose.p[1]! + a * uy + b * ux];
-      this.polygon(c, to, [corner(wheel.radius, half), corner(-wheel.radius, half), corner(-wheel.radius, -half), corner(wheel.radius, -half)]);
+      polygon(c, to, [corner(wheel.radius, half), corner(-wheel.radius, half), corner(-wheel.radius, -half), corner(wheel.radius, -half)]);
       c.fillStyle = ofStyle('--ink');
       c.fill();
     }

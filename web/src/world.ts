@@ -1,5 +1,5 @@
 // Frames, objects and contacts of the scene at a time.
-import type { Frame, Pose, Region, Robot, Run, SceneObject, World } from './data';
+import type { Frame, Path, Pose, Region, Robot, Run, SceneObject, World } from './data';
 import { indexAt } from './data';
 import { baseAt, bodiesIn, heightOf, jointsAt, placeAt, planar, times, at, type Place } from './motion';
 
@@ -50,6 +50,56 @@ export function outlineOf(object: SceneObject): number[][] {
   if (object.shape === 'wall')
     return [[0, -length / 2], [width, -length / 2], [width, length / 2], [0, length / 2]];
   return [[-length / 2, -width / 2], [length / 2, -width / 2], [length / 2, width / 2], [-length / 2, width / 2]];
+}
+
+/** The eight corners of a box or a wall that leans, in the world. */
+function cornersOfLeaning(object: SceneObject, lean: Pose): number[][] {
+  return outlineOf(object).flatMap(([x, y]) => [0, object.size[2]!].map((z) => at(lean, [x!, y!, z])));
+}
+
+/** Counter-clockwise, by Andrew's monotone chain. */
+function hullOf(points: number[][]): number[][] {
+  const sorted = [...points].sort((a, b) => a[0]! - b[0]! || a[1]! - b[1]!);
+  const half = (ordered: number[][]): number[][] => {
+    const chain: number[][] = [];
+    for (const p of ordered) {
+      for (;;) {
+        const [a, b] = chain.slice(-2) as [number[], number[]];
+        if (chain.length < 2 || (b[0]! - a[0]!) * (p[1]! - a[1]!) > (b[1]! - a[1]!) * (p[0]! - a[0]!)) break;
+        chain.pop();
+      }
+      chain.push(p);
+    }
+    return chain.slice(0, -1);
+  };
+  return [...half(sorted), ...half(sorted.reverse())];
+}
+
+/** What the plane z = height cuts out of a box or a wall that leans; empty above and below it. */
+function sectionOf(object: SceneObject, lean: Pose, height: number): number[][] {
+  const c = cornersOfLeaning(object, lean);  // 2 i at the foot of the corner i of the outline, 2 i + 1 at its head
+  const edges = [0, 1, 2, 3].flatMap((i) => [[2 * i, 2 * i + 1], [2 * i, (2 * i + 2) % 8], [2 * i + 1, (2 * i + 3) % 8]]);
+  const cut = edges.flatMap(([from, to]) => {
+    const [a, b] = [c[from!]!, c[to!]!];
+    const share = (height - a[2]!) / (b[2]! - a[2]!);
+    return share >= 0 && share <= 1 ? [[a[0]! + share * (b[0]! - a[0]!), a[1]! + share * (b[1]! - a[1]!)]] : [];
+  });
+  return cut.length > 2 ? hullOf(cut) : [];
+}
+
+/** Of a box or a wall, in the world: what a base meets at `height`, and what is seen from above. */
+export function outlinesOf(object: SceneObject, place: Place, height: number): { met: number[][]; seen: number[][] } {
+  if (!object.lean) {
+    const outline = outlineOf(object).map((p) => worldPoint(place, p));
+    return { met: outline, seen: outline };
+  }
+  return { met: sectionOf(object, object.lean, height), seen: hullOf(cornersOfLeaning(object, object.lean)) };
+}
+
+/** The points of a path in the world. */
+export function pathInWorld(world: World, path: Path, now: Instant): number[][] | null {
+  const frame = frameInWorld(world, path.frame, now);
+  return frame && path.points.map(([x, y]) => at(frame, [x!, y!, 0]));
 }
 
 export function worldPoint(place: Place, point: number[]): [number, number] {
@@ -141,9 +191,9 @@ export function contactsAt(run: Run, world: World, now: Instant): Contact[] {
     if (!(force > 0)) continue;
     const place = placeOf(run, object, now.time);
     const outline = object.shape === 'cylinder'
-      ? Array.from({ length: 24 }, (_, i) => [object.size[0]! * Math.cos((i * Math.PI) / 12), object.size[0]! * Math.sin((i * Math.PI) / 12)])
-      : outlineOf(object);
-    contacts.push({ ...nearest(robot, outline.map((corner) => worldPoint(place, corner))), force, name: object.name });
+      ? Array.from({ length: 24 }, (_, i) => worldPoint(place, [object.size[0]! * Math.cos((i * Math.PI) / 12), object.size[0]! * Math.sin((i * Math.PI) / 12)]))
+      : outlinesOf(object, place, world.robot.height).met;
+    if (outline.length > 2) contacts.push({ ...nearest(robot, outline), force, name: object.name });
   }
   return contacts;
 }

@@ -1,6 +1,7 @@
 #include "check/check.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "check/check_feeling.hpp"
 #include "check/check_sets.hpp"
@@ -59,6 +60,7 @@ bool has_unknown_interruption(const CheckContext& context) {
 void check_target(CheckContext& context, const Word& target, const TaskText* task) {
   if (!target.exists() || target.text == "done" || target.text == "failed") return;
   if (target.text == "back") {
+    if (context.symbols.find_task("back")) return;  // the name of that task is the mistake (E105)
     const std::vector<std::string> interrupting = interrupting_tasks(context);
     const bool can_go_back = task == nullptr ? !interrupting.empty()
                                              : std::find(interrupting.begin(), interrupting.end(),
@@ -104,6 +106,31 @@ std::vector<Condition> check_task(CheckContext& context, const TaskText& task) {
   }
   if (task.attempts) check_target(context, task.attempts->target, &task);
   return conditions;
+}
+
+/// E303: a name that a template takes for something else. Names that nobody knows are told where they are
+/// used.
+void check_named_arguments(CheckContext& context) {
+  const Symbols& symbols = context.symbols;
+  const auto is_a = [&](const std::string& kind, const std::string& name) {
+    if (kind == "frame") return symbols.find_frame(name).has_value();
+    if (kind == "feature") return symbols.find_feature(name).has_value();
+    if (kind == "region") return symbols.find_region(name).has_value();
+    if (kind == "signal") return symbols.find_signal(name) || symbols.find_output(name);
+    return symbols.find_task(name) || name == "done" || name == "failed" || name == "back";
+  };
+  if (context.diagnostics.has_errors()) return;
+  std::set<std::string> told;  // a kind that is wrong in the template is so at each of its uses
+  for (const NamedArgument& given : context.file.named_arguments) {
+    if (is_a(given.kind, given.name.text) || told.contains(given.argument)) continue;
+    for (const char* kind : {"frame", "feature", "region", "signal", "task"}) {
+      if (!is_a(kind, given.name.text)) continue;
+      context.diagnostics.add(wording::argument_of_another_kind(given.name.span, given.argument, given.kind,
+                                                                given.name.text, kind));
+      told.insert(given.argument);
+      break;
+    }
+  }
 }
 
 /// A word that drives and is no signal: perhaps `here`, or a parameter without its `$`.
@@ -285,6 +312,7 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
     if (task.require && !task.require->is_bad) require = check_condition(context, *task.require, task.groups);
     checked.requirements.push_back(std::move(require));
   }
+  check_named_arguments(context);
   check_flow(context, checked.conditions, checked.always_conditions);
   check_unguarded_sets(context, {checked.conditions, checked.always_conditions, checked.requirements});
   check_feeling(context);

@@ -156,8 +156,10 @@ class AxisCheck {
     const bool is_spring = text_.stiffness && text_.damping && position && !position->is_range;
     // A key of the spring may be the one that could not be read.
     const bool is_read = context_.diagnostics.error_count() == errors_before;
-    if (!is_spring && !is_incomplete_ && is_read)
-      context_.diagnostics.add(wording::incomplete_spring(span, path_));
+    if (!is_spring && !is_incomplete_ && is_read) {
+      const std::string missing = !text_.stiffness ? "stiffness" : !text_.damping ? "damping" : "position";
+      context_.diagnostics.add(wording::incomplete_spring(span, path_, missing));
+    }
     if (is_spring && text_.time_constant) {
       context_.diagnostics.add(wording::spring_with_time_constant(text_.time_constant->span, path_));
     }
@@ -286,8 +288,12 @@ void check_positions(CheckContext& context, const GroupText& group, const std::o
     const bool is_unknown = !position->is_range && position->value.kind == ValueKind::name &&
                             !context.symbols.find_signal(position->value.name);
     if (is_unknown) continue;
-    context.diagnostics.add(wording::position_in_own_axes(position->key_span, axis_path(group, axis),
-                                                          in.declaration.name, move.declaration.name));
+    const bool is_measured = !position->is_range && position->value.kind == ValueKind::name;
+    context.diagnostics.add(is_measured
+                                ? wording::measured_position_in_own_axes(
+                                      position->key_span, axis_path(group, axis), position->value.name)
+                                : wording::position_in_own_axes(position->key_span, axis_path(group, axis),
+                                                                in.declaration.name, move.declaration.name));
     return;
   }
 }
@@ -303,6 +309,7 @@ void check_feature_group(CheckContext& context, const std::vector<GroupText>& gr
     return;
   }
   context.symbols.features[static_cast<std::size_t>(*feature)].is_used = true;
+  if (context.symbols.features[static_cast<std::size_t>(*feature)].is_bad) return;
   for (const AxisText& axis : group.axes) AxisCheck(context, groups, group, axis).check();
   const FeatureSymbol& symbol = context.symbols.features[static_cast<std::size_t>(*feature)];
   // Of a distance and an angle E412 says so.

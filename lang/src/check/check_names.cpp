@@ -215,6 +215,20 @@ class FrameOrder {
     return true;
   }
 
+  void report_loop(const std::vector<const FrameText*>& loop) {
+    const std::optional<int> signal = context_.symbols.find_signal(loop[0]->name.text);
+    if (signal && loop[0]->parent.text == loop[0]->name.text) {
+      SignalSymbol& hidden = context_.symbols.signals[static_cast<std::size_t>(*signal)];
+      hidden.is_used = true;
+      context_.diagnostics.add(
+          wording::frame_hides_signal(loop[0]->span, loop[0]->name.text, hidden.signal.span));
+      return;
+    }
+    std::vector<std::string> names;
+    for (const FrameText* part : loop) names.push_back(part->name.text);
+    context_.diagnostics.add(wording::frame_loop(loop[0]->span, names));
+  }
+
   void report_loops() {
     for (const FrameText* frame : waiting_) {
       // Each loop once, from its first frame; what only hangs on a loop is not complained of.
@@ -230,9 +244,7 @@ class FrameOrder {
             return std::pair(begin.line, begin.column) >= std::pair(first.line, first.column);
           });
       if (is_first) {
-        std::vector<std::string> names;
-        for (const FrameText* part : loop) names.push_back(part->name.text);
-        context_.diagnostics.add(wording::frame_loop(frame->span, names));
+        report_loop(loop);
       }
       FrameSymbol bad;
       bad.is_declared = bad.is_bad = bad.is_used = true;

@@ -50,7 +50,8 @@ Diagnostic another_kind_of_file(const Span& span, const std::string& what, const
 Diagnostic unknown_key(const Span& span, const std::string& key, const std::string& what,
                        const std::string& meant, const std::vector<std::string>& known,
                        const std::vector<std::string>& missing);
-Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key);
+Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key,
+                       const std::string& value = "..");
 Diagnostic expected_mapping(const Span& span, const std::string& what, bool is_list);
 /// `unit` is what an author would write behind each of the numbers.
 Diagnostic expected_vector(const Span& span, const std::string& what, std::size_t count,
@@ -162,7 +163,8 @@ Diagnostic position_in_own_axes(const Span& span, const std::string& axis, const
 Diagnostic force_range_without_zero(const Span& span, const std::string& axis);
 Diagnostic beyond_always(const Span& span, const std::string& axis, const std::string& asked,
                          const std::string& limiting, const std::string& allowed, const Span& limit);
-Diagnostic incomplete_spring(const Span& span, const std::string& axis);
+/// `missing`: the first of the keys that the axis does not have.
+Diagnostic incomplete_spring(const Span& span, const std::string& axis, const std::string& missing);
 Diagnostic spring_with_time_constant(const Span& span, const std::string& axis);
 Diagnostic immovable(const Span& span, const std::string& frame);
 /// `function` asks how a frame moves that nothing moves; `base` is a name to ask about instead.

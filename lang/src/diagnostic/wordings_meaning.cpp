@@ -264,8 +264,9 @@ Diagnostic beyond_always(const Span& span, const std::string& axis, const std::s
       limit, "the limit stands here");
 }
 
-Diagnostic incomplete_spring(const Span& span, const std::string& axis) {
-  return error("E104", span, "a spring on `" + axis + "` needs `position`, `stiffness` and `damping`");
+Diagnostic incomplete_spring(const Span& span, const std::string& axis, const std::string& missing) {
+  return error("E104", span, "a spring on `" + axis + "` needs `position`, `stiffness` and `damping`",
+               "add `" + missing + ": ..`, or give a `time_constant` in the place of the spring");
 }
 
 Diagnostic spring_with_time_constant(const Span& span, const std::string& axis) {

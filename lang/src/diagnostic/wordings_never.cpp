@@ -322,8 +322,9 @@ Diagnostic steering_stands(const Span& span, const std::string& axis, const std:
   return warning("W643", span,
                  "nothing moves along `" + axis +
                      "`: the wheels hold it as they are steered, and nothing turns `" + steering + "`",
-                 "turn it in an earlier task, `steer: {move: " + link + ", in: " + base +
-                     ", rz: {position: 20 deg}}`, and drive ahead along `x`");
+                 "drive ahead along `x`, and point it at the place, `features: {look: {bearing: [" + link +
+                     ", PLACE]}}` driven to 0 deg; or turn it in an earlier task, `steer: {move: " + link +
+                     ", in: " + base + ", rz: {position: 20 deg}}`");
 }
 
 Diagnostic hops_along(const Span& span, const std::string& push, const std::string& way, const Span& driven) {

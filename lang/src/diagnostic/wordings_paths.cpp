@@ -34,6 +34,11 @@ Diagnostic point_twice(const Span& span, const std::string& what) {
                "leave one of them out");
 }
 
+Diagnostic closed_by_hand(const Span& span, const std::string& what) {
+  return error("E419", span, what + " is closed: it leads from its last point to the first one by itself",
+               "leave this point out");
+}
+
 Diagnostic path_turns_back(const Span& span, const std::string& what) {
   return error("E419", span, what + " turns back the way that it came: no fillet fits there",
                "write two paths, one for each way");

@@ -9,6 +9,8 @@ namespace zwang::lang::wording {
 
 Diagnostic path_of_one_point(const Span& span, const std::string& what);
 Diagnostic point_twice(const Span& span, const std::string& what);
+/// The last point of a closed path stands at the first one.
+Diagnostic closed_by_hand(const Span& span, const std::string& what);
 Diagnostic path_turns_back(const Span& span, const std::string& what);
 /// [m] `most`: the largest radius that fits.
 Diagnostic fillet_too_large(const Span& span, const std::string& what, double radius, double most);

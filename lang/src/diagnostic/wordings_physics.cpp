@@ -40,6 +40,12 @@ std::string ahead(const std::string& frame) {
                              ", or `lead`, if the robot file names one";
 }
 
+/// `lead` is the base where the robot file does not say otherwise.
+std::string named_lead(const std::string& frame) {
+  return "say in the robot file which frame ahead of the axle `lead` is: `lead: nose`, and under `frames` " +
+         frame;
+}
+
 Diagnostic capped(Diagnostic diagnostic, const Cap& cap, const Span& limit) {
   const AxisUnits u = axis_units(cap.turns);
   diagnostic.help = "ask for `" + at_most(cap.most, u.force) + "` or less, or allow an acceleration of `" +
@@ -88,7 +94,8 @@ Diagnostic tied_axes(const Span& span, const std::string& axis, const std::strin
                    "` as well: its wheels leave it only one way to go at a time",
                frame_ahead.empty()
                    ? "leave one of the " + std::to_string(freedoms) + " out, or give it another `level`"
-                   : ahead(frame_ahead));
+               : move == "lead" ? named_lead(frame_ahead)
+                                : ahead(frame_ahead));
 }
 
 Diagnostic too_many_rows(const Span& span, int rows, int level, int freedoms, bool is_base,

@@ -340,4 +340,34 @@ Diagnostic parameter_in_braces(const Span& span, const std::string& written) {
       error("E105", span, "a parameter stands without braces", "write " + in_ticks(plain)), plain);
 }
 
+Diagnostic argument_of_another_kind(const Span& span, const std::string& argument, const std::string& kind,
+                                    const std::string& name, const std::string& found) {
+  return error(
+      "E303", span,
+      "argument `" + argument + "` is declared as a " + kind + ", but `" + name + "` is a " + found,
+      "give the name of a " + kind + ", or write `" + argument + ": " + found + "` in the template's `args`");
+}
+
+Diagnostic frame_hides_signal(const Span& span, const std::string& name, const Span& signal) {
+  const std::string quoted = "`" + name + "`";
+  return with_related(
+      error("E304", span, "frame " + quoted + " hides the signal " + quoted + " that it hangs on",
+            "give the frame another name, for example `" + name + "_frame`"),
+      signal, "the signal is declared here");
+}
+
+Diagnostic measured_position_in_own_axes(const Span& span, const std::string& axis,
+                                         const std::string& signal) {
+  return error(
+      "E405", span,
+      "axis `" + axis + "` cannot have the position `" + signal + "`: its axes ride along with it",
+      "to keep a distance, take what is measured as a signal of `type: pose`, and drive `in` a frame on it");
+}
+
+Diagnostic split_text(const Span& span, const std::string& key) {
+  return error("E107", span,
+               "a comma cut the text of `" + key + "` in two: inside `{..}` it starts a new key",
+               "quote the text: `" + key + ": \"..\"`");
+}
+
 }  // namespace zwang::lang::wording

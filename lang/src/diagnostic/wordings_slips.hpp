@@ -104,5 +104,15 @@ Diagnostic group_in_a_task(const Span& span, const std::string& key);
 Diagnostic no_colon_or_space(const Span& span, const std::string& written, const std::string& key);
 /// `written` is `${push}`.
 Diagnostic parameter_in_braces(const Span& span, const std::string& written);
+/// `found`: what `name` is instead.
+Diagnostic argument_of_another_kind(const Span& span, const std::string& argument, const std::string& kind,
+                                    const std::string& name, const std::string& found);
+/// A frame whose parent has its own name, which is a signal's, too.
+Diagnostic frame_hides_signal(const Span& span, const std::string& name, const Span& signal);
+/// A number signal as the place: mostly a distance that a sensor on the robot measures.
+Diagnostic measured_position_in_own_axes(const Span& span, const std::string& axis,
+                                         const std::string& signal);
+/// `key`: of the text, such as `note`.
+Diagnostic split_text(const Span& span, const std::string& key);
 
 }  // namespace zwang::lang::wording

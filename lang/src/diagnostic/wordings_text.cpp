@@ -223,8 +223,9 @@ Diagnostic unknown_key(const Span& span, const std::string& key, const std::stri
   return with_suggestion(error("E101", span, "unknown key " + in_ticks(key) + " in " + what, help), meant);
 }
 
-Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key) {
-  return error("E103", span, what + " does not say `" + key + "`", "add `" + key + ": ..`");
+Diagnostic missing_key(const Span& span, const std::string& what, const std::string& key,
+                       const std::string& value) {
+  return error("E103", span, what + " does not say `" + key + "`", "add `" + key + ": " + value + "`");
 }
 
 Diagnostic expected_mapping(const Span& span, const std::string& what, bool is_list) {

@@ -61,12 +61,15 @@ tasks:
       timeout: {after: 3 s, goto: done}
 tasks:
   go: {use: drive, with: {pace: 0.1 m/s}})~"},
-      Explanation{.code = "E304",
-                  .title = "frames that hang on each other",
-                  .why = "The place of a frame is known once its parent's is. In a loop none ever is.",
-                  .fix = "Give one of them a parent outside of the loop: `world`, or a frame of the robot.",
-                  .part = ExcerptOf::task_file,
-                  .example = R"~(frames:
+      Explanation{
+          .code = "E304",
+          .title = "frames that hang on each other",
+          .why = R"~(The place of a frame is known once its parent's is. In a loop none ever is. A frame that
+has the name of a signal hides it: as its own parent it hangs on itself.)~",
+          .fix = R"~(Give one of them a parent outside of the loop: `world`, or a frame of the robot. Give a
+frame on a signal a name of its own.)~",
+          .part = ExcerptOf::task_file,
+          .example = R"~(frames:
   shelf: {parent: rack}
   rack: {parent: shelf}
 tasks:
@@ -74,7 +77,7 @@ tasks:
     constraints:
       reach: {move: base, in: shelf, x: {position: 0 m}}
     timeout: {after: 10 s, goto: failed})~",
-                  .instead = R"~(frames:
+          .instead = R"~(frames:
   shelf: {parent: rack}
   rack: {parent: world}
 tasks:

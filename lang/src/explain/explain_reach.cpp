@@ -329,9 +329,10 @@ feels in its place.)~",
               R"~(A steering that no row turns is held where it stands at the start. As it stands, the wheels hold
 this axis, and no driver of the base's own axes steers: nothing moves.)~",
           .fix =
-              R"~(Turn the steering in an earlier task,
-`steer: {move: STEERED_LINK, in: base, rz: {position: 20 deg}}`, and drive ahead along `x`; or
-start with it turned (`posture` in the robot file).)~"},
+              R"~(Drive ahead along `x`, and point the steering at the place:
+`features: {look: {bearing: [STEERED_LINK, PLACE]}}`, and a group `{feature: look, position: 0 deg}`. The way follows
+(`specs/approach_car.yaml`). Or turn the steering in an earlier task,
+`steer: {move: STEERED_LINK, in: base, rz: {position: 20 deg}}`, or start with it turned (`posture` in the robot file).)~"},
       Explanation{
           .code = "W645",
           .title = "a push across the way of driven casters",

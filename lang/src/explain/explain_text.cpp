@@ -87,11 +87,11 @@ the same with names that the checks know.)~",
           .instead = "x: {velocity: 0 m/s}"},
       Explanation{
           .code = "E107",
-          .title = "a comma cut a condition in two",
+          .title = "a comma cut a condition or a text in two",
           .why =
-              R"~(Inside `{..}` a comma ends a value. The rest of the condition is then read as a new key, and the
-condition would silently lose its second half.)~",
-          .fix = "Quote the condition, or write the exit with one key a line.",
+              R"~(Inside `{..}` a comma ends a value. The rest is then read as a new key, and the condition or the
+text would silently lose its second half.)~",
+          .fix = "Quote it, or write one key a line.",
           .part = ExcerptOf::task,
           .example = "exits:\n  - {when: elapsed > 2 s, elapsed < 3 s, goto: done}",
           .instead = "exits:\n  - when: elapsed > 2 s and elapsed < 3 s\n    goto: done"},

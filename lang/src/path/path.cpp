@@ -25,11 +25,19 @@ double heading_of_line(const Point& from, const Point& to) {
   return std::atan2(to[1] - from[1], to[0] - from[0]);
 }
 
+/// The last point of a closed path has the first one behind it.
+std::size_t lines_of(const std::vector<Point>& points, bool is_closed) {
+  return points.empty() ? 0 : points.size() - (is_closed ? 0 : 1);
+}
+
 /// [rad] to the left at each point; 0 at the ends.
-std::vector<double> turns_of(const std::vector<Point>& points) {
-  std::vector<double> turns(points.size(), 0.0);
-  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    const double turn = heading_of_line(points[i], points[i + 1]) - heading_of_line(points[i - 1], points[i]);
+std::vector<double> turns_of(const std::vector<Point>& points, bool is_closed) {
+  const std::size_t count = points.size();
+  std::vector<double> turns(count, 0.0);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!is_closed && (i == 0 || i + 1 == count)) continue;
+    const Point &before = points[(i + count - 1) % count], &after = points[(i + 1) % count];
+    const double turn = heading_of_line(points[i], after) - heading_of_line(before, points[i]);
     turns[i] = std::remainder(turn, 2.0 * std::numbers::pi);
     if (std::abs(turns[i]) < straight) turns[i] = 0.0;
   }
@@ -46,6 +54,8 @@ std::vector<double> cuts_of(const std::vector<double>& turns) {
 /// Adds pieces one behind the other.
 class PieceChain {
  public:
+  /// `ahead` of the first point, along the first line. [m]
+  explicit PieceChain(double ahead) { at_.position.x() = ahead; }
   void add(double length, double curvature) {
     pieces_.push_back({start_, length, curvature, at_});
     const double turn = curvature * length;
@@ -71,6 +81,24 @@ double Path::least_radius() const {
   return sharpest > 0.0 ? 1.0 / sharpest : solver::infinity;
 }
 
+std::vector<solver::Vector3> Path::points(double most_turn) const {
+  std::vector<solver::Vector3> points;
+  const auto add = [&](const PathPiece& piece, double s) {
+    const double k = piece.curvature, turn = k * s;
+    const solver::Vector3 ahead = k == 0.0
+                                      ? solver::Vector3(s, 0.0, 0.0)
+                                      : solver::Vector3(std::sin(turn) / k, (1.0 - std::cos(turn)) / k, 0.0);
+    points.push_back(piece.pose * ahead);
+  };
+  for (const PathPiece& piece : pieces) {
+    const double turn = std::abs(piece.curvature) * piece.length;
+    const int count = std::max(1, static_cast<int>(std::ceil(turn / most_turn)));
+    for (int i = 0; i < count; ++i) add(piece, piece.length * i / count);
+  }
+  if (!pieces.empty()) add(pieces.back(), pieces.back().length);
+  return points;
+}
+
 PlaceOnPiece place_on(const PathPiece& piece, double x, double y) noexcept {
   const solver::Vector3 p =
       piece.pose.rotation.transpose() * (solver::Vector3(x, y, 0.0) - piece.pose.position);
@@ -81,35 +109,40 @@ PlaceOnPiece place_on(const PathPiece& piece, double x, double y) noexcept {
   return {std::atan2(ahead, inwards) / k, (1.0 - share) / k, share};
 }
 
-double largest_fillet(const std::vector<Point>& points) {
-  const std::vector<double> turns = turns_of(points);
+double largest_fillet(const std::vector<Point>& points, bool is_closed) {
+  const std::vector<double> turns = turns_of(points, is_closed);
   const std::vector<double> cuts = cuts_of(turns);
   double most = solver::infinity;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const double cut = cuts[i] + cuts[i + 1];
+  for (std::size_t i = 0; i < lines_of(points, is_closed); ++i) {
+    const std::size_t next = (i + 1) % points.size();
+    const double cut = cuts[i] + cuts[next];
     if (std::numbers::pi - std::abs(turns[i]) < least_opening) return 0.0;
-    if (cut > 0.0) most = std::min(most, length_of_line(points[i], points[i + 1]) / cut);
+    if (cut > 0.0) most = std::min(most, length_of_line(points[i], points[next]) / cut);
   }
   return most;
 }
 
-std::optional<std::vector<PathPiece>> path_through(const std::vector<Point>& points, double fillet) {
-  const double most = largest_fillet(points);
+std::optional<std::vector<PathPiece>> path_through(const std::vector<Point>& points, double fillet,
+                                                   bool is_closed) {
+  const double most = largest_fillet(points, is_closed);
   if (points.size() < 2 || most == 0.0 || fillet > most * fits) return std::nullopt;
-  const std::vector<double> turns = turns_of(points);
+  const std::vector<double> turns = turns_of(points, is_closed);
   const std::vector<double> cuts = cuts_of(turns);
-  PieceChain chain;
+  const std::size_t count = lines_of(points, is_closed);
+  // A fillet at the first point takes the begin of the first line.
+  PieceChain chain(std::isfinite(most) ? fillet * cuts[0] : 0.0);
   double line = 0.0;  // of it what is not added yet: lines that go on in one are one
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const double cut = std::isfinite(most) ? fillet * (cuts[i] + cuts[i + 1]) : 0.0;
-    line += std::max(0.0, length_of_line(points[i], points[i + 1]) - cut);
-    const double turn = turns[i + 1];
-    const bool is_last = i + 2 == points.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % points.size();
+    const double cut = std::isfinite(most) ? fillet * (cuts[i] + cuts[next]) : 0.0;
+    line += std::max(0.0, length_of_line(points[i], points[next]) - cut);
+    const double turn = turns[next];
+    const bool is_last = i + 1 == count;
     if (turn == 0.0 && !is_last) continue;
-    const bool is_first = cuts[i] == 0.0 && turns[i] == 0.0;
-    if (is_first || is_last || line > least_line_length) chain.add(line, 0.0);
+    const bool ends_here = !is_closed && (is_last || (cuts[i] == 0.0 && turns[i] == 0.0));
+    if (ends_here || line > least_line_length) chain.add(line, 0.0);
     line = 0.0;
-    if (!is_last) chain.add(fillet * std::abs(turn), std::copysign(1.0 / fillet, turn));
+    if (turn != 0.0) chain.add(fillet * std::abs(turn), std::copysign(1.0 / fillet, turn));
   }
   return std::move(chain).pieces();
 }

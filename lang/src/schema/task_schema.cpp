@@ -192,6 +192,9 @@ Json paths() {
   return named("lines that fillets join, which `in` of a group may name",
                object("", {{"through", points, true},
                            {"fillet", reference("quantity", "the radius of all corners")},
+                           {"closed",
+                            Json{{"type", "boolean"},
+                                 {"description", "whether it goes on from the last point to the first one"}}},
                            {"parent", word("a frame; default `world`")}}));
 }
 

@@ -19,23 +19,28 @@ MapReader::MapReader(const Node& node, std::string what, Diagnostics& diagnostic
 }
 
 const Node* MapReader::optional(std::string_view key) {
-  known_.emplace_back(key);
+  // A key that is read twice stands once in the list of the known ones.
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
   if (!is_mapping()) return nullptr;
   const Entry* entry = node_.find(key);
   return entry == nullptr || entry->key.is_bad ? nullptr : &entry->value;
 }
 
-const Node* MapReader::required(std::string_view key) {
-  const Node* value = optional(key);
-  if (value == nullptr) missing_.emplace_back(key);
-  return value;
+const Node* MapReader::required(std::string_view key, const std::string& value) {
+  const Node* node = optional(key);
+  if (node == nullptr) {
+    missing_.emplace_back(key);
+    proposals_.emplace(key, value);
+  }
+  return node;
 }
 
 bool MapReader::report_split_condition() {
   if (!is_mapping() || !node_.is_flow) return false;
   for (const Entry& entry : node_.entries) {
     const bool is_known = std::find(known_.begin(), known_.end(), entry.key.text) != known_.end();
-    const bool is_fragment = entry.value.kind == NodeKind::null && !entry.key.is_bad && !is_known;
+    const bool is_fragment = entry.value.kind == NodeKind::null && !entry.key.is_bad && !is_known &&
+                             text_cut_before(entry).empty();
     if (is_fragment && !split_reported_ && missing_.empty() && !report_decimal_comma_before(entry))
       diagnostics_.add(wording::split_condition(entry.key.span));
     // The condition is whole, and lacks its key.
@@ -80,7 +85,8 @@ bool MapReader::has_unread_keys() const {
 void MapReader::finish() {
   if (!is_mapping()) return;
   if (!others_allowed_) report_unknown_keys();
-  for (const std::string& key : missing_) diagnostics_.add(wording::missing_key(node_.span, what_, key));
+  for (const std::string& key : missing_)
+    diagnostics_.add(wording::missing_key(node_.span, what_, key, proposals_[key]));
 }
 
 void MapReader::report_unknown_keys() {
@@ -100,6 +106,10 @@ void MapReader::report_unknown_keys() {
   std::vector<const Entry*> others;
   for (const Entry& entry : node_.entries) {
     if (!is_unknown(entry) || (split_reported_ && entry.value.kind == NodeKind::null)) continue;
+    if (const std::string text = text_cut_before(entry); !text.empty()) {
+      if (is_new(text)) diagnostics_.add(wording::split_text(entry.key.span, text));
+      continue;
+    }
     const std::string& key = entry.key.text;
     const std::string begin = key.substr(0, key.find_first_of(": "));
     if (begin != key && std::find(known_.begin(), known_.end(), begin) != known_.end()) {
@@ -131,6 +141,15 @@ void MapReader::report_unknown_keys() {
     // Perhaps it was one of these.
     missing_.clear();
   }
+}
+
+/// `{note: one thing, or another}`, where the entry is `or another`: the key of the text; else empty.
+std::string MapReader::text_cut_before(const Entry& entry) const {
+  const Entry* text = &entry;
+  while (node_.is_flow && text != &node_.entries.front() && text->value.kind == NodeKind::null) --text;
+  const std::string& key = text->key.text;
+  const bool is_text = key == "note" || key == "about" || key == "help";
+  return is_text && text != &entry ? key : "";
 }
 
 std::string MapReader::remedy_of(const Entry& entry) const {

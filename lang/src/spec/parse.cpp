@@ -88,6 +88,13 @@ std::map<std::string, std::optional<Dimension>> dimensions_of(const std::vector<
   return dimensions;
 }
 
+/// The help of a missing `start` names it.
+std::string first_task(const Document& document) {
+  const Entry* tasks = document.root.find("tasks");
+  const bool is_known = tasks != nullptr && tasks->value.is_mapping() && !tasks->value.entries.empty();
+  return is_known ? tasks->value.entries.front().key.text : "..";
+}
+
 }  // namespace
 
 const char* word_of(solver::Quantity quantity) {
@@ -202,7 +209,8 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
   if (const Node* node = map.optional("templates")) templates.declare(*node);
   if (map.has_misspelt({"templates", "params"})) templates.forgive_unknown();
   if (const Node* node = map.optional("always")) parse_always(*node, templates, file, diagnostics);
-  if (const Node* start = map.required("start")) file.start = parse_word(*start, "`start`", diagnostics);
+  if (const Node* start = map.required("start", first_task(document)))
+    file.start = parse_word(*start, "`start`", diagnostics);
   if (const Node* tasks = map.required("tasks")) parse_tasks(*tasks, templates, file, diagnostics);
   for (const char* section : {"params", "frames", "regions", "paths", "signals", "outputs", "features",
                               "templates", "always", "tasks"}) {
@@ -210,6 +218,7 @@ std::optional<TaskFile> parse(const Document& document, Diagnostics& diagnostics
     file.is_incomplete = file.is_incomplete || (entry == nullptr && map.has_misspelt({section})) ||
                          (entry != nullptr && !entry->value.is_mapping());
   }
+  file.named_arguments = templates.named_arguments();
   map.finish();
   if (!diagnostics.has_errors()) templates.report_unused();
   return file;

@@ -212,6 +212,8 @@ FeatureText parse_feature(const Entry& entry, Diagnostics& diagnostics) {
   if (map.is_mapping() && count != 1 && (count > 1 || !map.has_unread_keys())) {
     diagnostics.add(wording::one_feature_kind(entry.key.span, what));
     feature.is_bad = true;
+  } else if (count == 0) {
+    feature.is_bad = true;  // which kind it is to be is not known
   } else if (direction != nullptr) {
     feature.kind = FeatureKind::direction;
     MapReader direction_map(*direction, what + "'s direction", diagnostics);

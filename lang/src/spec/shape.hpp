@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,7 +22,8 @@ class MapReader {
 
   bool is_mapping() const { return node_.is_mapping() && !node_.is_bad; }
   const Node* optional(std::string_view key);
-  const Node* required(std::string_view key);
+  /// `value` is what the help of the missing key proposes.
+  const Node* required(std::string_view key, const std::string& value = "..");
   const Node& node() const { return node_; }
   const std::string& what() const { return what_; }
   /// Marks every key as known: their names are the author's.
@@ -38,6 +40,7 @@ class MapReader {
   bool is_unknown(const Entry& entry) const;
   bool report_decimal_comma_before(const Entry& entry);
   void report_unknown_keys();
+  std::string text_cut_before(const Entry& entry) const;
   /// How an unknown key's matter is said here; empty: it may be a misspelt key.
   std::string remedy_of(const Entry& entry) const;
   bool is_axis_in_one_word(const Entry& entry) const;
@@ -50,6 +53,7 @@ class MapReader {
   Diagnostics& diagnostics_;
   std::vector<std::string> known_;
   std::vector<std::string> missing_;
+  std::map<std::string, std::string> proposals_;  ///< of missing keys: their values in the help
   bool others_allowed_ = false;
   bool split_reported_ = false;
 };

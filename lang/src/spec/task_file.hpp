@@ -152,6 +152,13 @@ struct TaskText {
   bool is_bad = false;  ///< what the task says could not be read at all
 };
 
+/// A name that a use of a template gives for an argument.
+struct NamedArgument {
+  Word name;
+  std::string argument;
+  std::string kind;  ///< frame, task, feature, signal or region
+};
+
 struct TaskFile {
   Word robot;
   Word scene;
@@ -167,6 +174,7 @@ struct TaskFile {
   std::vector<ExitText> always_exits;
   Word start;
   std::vector<TaskText> tasks;
+  std::vector<NamedArgument> named_arguments;
   bool is_incomplete = false;  ///< a section has a misspelt name: what it would declare is not known
 };
 

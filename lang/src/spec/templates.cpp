@@ -305,6 +305,7 @@ bool Templates::check_argument(const std::string& name, const std::string& kind,
   }
   if (!expected->dimension) {
     if (value.is_scalar() && !value.text.empty() && value.text[0] != '$' && number_length(value.text) == 0) {
+      named_arguments_.push_back({{trimmed(value.text), value.span}, name, kind});
       return true;
     }
     diagnostics_.add(wording::wrong_argument(value.span, name, "the name of a " + kind));

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "spec/task_file.hpp"
 #include "spec/value.hpp"
 #include "tree/node.hpp"
 #include "zwang/lang/diagnostic.hpp"
@@ -31,6 +32,8 @@ class Templates {
   void expand_groups(Node& owner);
   /// W302 for templates that no task uses, and for arguments that their body does not.
   void report_unused() const;
+  /// Of all uses so far. Whether a name is what its argument asks for is known once all names are.
+  const std::vector<NamedArgument>& named_arguments() const { return named_arguments_; }
 
  private:
   struct Template {
@@ -53,6 +56,7 @@ class Templates {
   bool check_parameter(const std::string& name, const ValueText& value, const Dimension& expected);
 
   std::map<std::string, Template> templates_;
+  std::vector<NamedArgument> named_arguments_;
   std::map<std::string, std::optional<Dimension>> parameters_;
   Diagnostics& diagnostics_;
   bool forgives_unknown_ = false;

@@ -153,20 +153,9 @@ ordered_json region_entity(double time, const lang::Region& region, const std::s
 
 /// An arc as chords of 5 deg at most.
 ordered_json path_entity(double time, const lang::Path& path, const std::string& frame) {
-  constexpr double thickness = 0.02, chord = std::numbers::pi / 36.0;
-  std::vector<Vector3> points;
-  const auto add = [&](const lang::PathPiece& piece, double s) {
-    const double k = piece.curvature, turn = k * s;
-    const Vector3 ahead =
-        k == 0.0 ? Vector3(s, 0.0, 0.01) : Vector3(std::sin(turn) / k, (1.0 - std::cos(turn)) / k, 0.01);
-    points.push_back(piece.pose * ahead);
-  };
-  for (const lang::PathPiece& piece : path.pieces) {
-    const double turn = std::abs(piece.curvature) * piece.length;
-    const int count = std::max(1, static_cast<int>(std::ceil(turn / chord)));
-    for (int i = 0; i < count; ++i) add(piece, piece.length * i / count);
-  }
-  if (!path.pieces.empty()) add(path.pieces.back(), path.pieces.back().length);
+  constexpr double thickness = 0.02, chord = std::numbers::pi / 36.0, above_floor = 0.01;
+  std::vector<Vector3> points = path.points(chord);
+  for (Vector3& point : points) point.z() = above_floor;
   ordered_json one = entity(time, frame, "path " + path.name);
   one["lines"].push_back(line(line_strip, points, thickness, of_region));
   return one;

@@ -26,7 +26,20 @@ void PathFollower::search(const solver::Vector3& point) noexcept {
     least = distance;
     piece_ = i;
   }
+  rounds_ = 0;
   follow(point);
+  // A frame near the begin of a closed path is there, and not a whole round ahead.
+  const double along = arc_length() + lang::place_on(piece(), point.x(), point.y()).along;
+  if (path_->is_closed && along > 0.5 * path_->length()) --rounds_;
+}
+
+bool PathFollower::go_on(int way) noexcept {
+  const std::size_t last = path_->pieces.size() - 1;
+  const bool is_at_end = piece_ == (way > 0 ? last : 0);
+  if (is_at_end && !path_->is_closed) return false;
+  if (is_at_end) rounds_ += way;
+  piece_ = is_at_end ? (way > 0 ? 0 : last) : (way > 0 ? piece_ + 1 : piece_ - 1);
+  return true;
 }
 
 void PathFollower::follow(const solver::Vector3& point) noexcept {
@@ -35,15 +48,9 @@ void PathFollower::follow(const solver::Vector3& point) noexcept {
     const lang::PlaceOnPiece place = lang::place_on(piece(), point.x(), point.y());
     is_known_ = place.share > least_share;
     if (!is_known_) return;
-    if (place.along > piece().length && piece_ + 1 < path_->pieces.size() && way >= 0) {
-      ++piece_;
-      way = 1;
-    } else if (place.along < 0.0 && piece_ > 0 && way <= 0) {
-      --piece_;
-      way = -1;
-    } else {
-      return;
-    }
+    const int beyond = place.along > piece().length ? 1 : place.along < 0.0 ? -1 : 0;
+    if (beyond == 0 || beyond == -way || !go_on(beyond)) return;
+    way = beyond;
   }
 }
 

@@ -30,6 +30,8 @@ class PathFollower {
 
   bool is_known() const noexcept { return is_known_; }
   const lang::PathPiece& piece() const noexcept { return path_->pieces[piece_]; }
+  /// Arc length where the piece begins: of a closed path all rounds since the search count. [m]
+  double arc_length() const noexcept { return piece().start + rounds_ * path_->length(); }
 
   /// Of the path's frame: where the piece begins.
   solver::AttachedFrame start_of_piece;
@@ -37,10 +39,14 @@ class PathFollower {
   int settings = 0;           ///< of the path's frame, as it was then
 
  private:
+  /// To the next piece, or with -1 to the one before; false at an end of the path.
+  bool go_on(int way) noexcept;
+
   const lang::Path* path_;
   int index_;
   int move_;
   std::size_t piece_ = 0;
+  int rounds_ = 0;  ///< of a closed path, since the search; below 0: backwards
   bool is_known_ = true;
 };
 

@@ -60,7 +60,7 @@ void Scheduler::Parts::measure_along(const lang::Group& group, solver::AxisConst
   c.measure = solver::Measure::path;
   c.in = follower->start_of_piece;
   c.curvature = follower->piece().curvature;
-  c.arc_length = follower->piece().start;
+  c.arc_length = follower->arc_length();
 }
 
 }  // namespace zwang::runtime

@@ -34,21 +34,25 @@ struct ZWANG_EXPORT Path {
   std::string name;
   int frame = 0;
   std::vector<PathPiece> pieces;
+  bool is_closed = false;  ///< the last piece leads into the first one: arc lengths go on, round after round
   Span span;
 
   double length() const { return pieces.empty() ? 0.0 : pieces.back().start + pieces.back().length; }
   /// [m] of its tightest fillet; infinite where there is none.
   double least_radius() const;
+  /// From its begin to its end, in the path's frame; arcs as chords of `most_turn` at most. [m]
+  std::vector<solver::Vector3> points(double most_turn) const;
 };
 
 /// `x`, `y`: of the point in the path's frame [m].
 ZWANG_EXPORT PlaceOnPiece place_on(const PathPiece& piece, double x, double y) noexcept;
 
 /// The pieces through points [m] in any axes, with one radius for all fillets. Points that stand on a line
-/// between their neighbours have none. nullopt where the path turns back, or the fillets do not fit.
+/// between their neighbours have none. nullopt where the path turns back, or the fillets do not fit. A closed
+/// one goes on from the last point to the first, and begins behind the fillet there.
 ZWANG_EXPORT std::optional<std::vector<PathPiece>> path_through(
-    const std::vector<std::array<double, 2>>& points, double fillet);
+    const std::vector<std::array<double, 2>>& points, double fillet, bool is_closed = false);
 /// The largest radius whose fillets fit; 0 where the path turns back, infinite where it never turns. [m]
-ZWANG_EXPORT double largest_fillet(const std::vector<std::array<double, 2>>& points);
+ZWANG_EXPORT double largest_fillet(const std::vector<std::array<double, 2>>& points, bool is_closed = false);
 
 }  // namespace zwang::lang
