@@ -1,5 +1,6 @@
 #include "diagnostic/wordings_statics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnostic/make.hpp"
@@ -97,7 +98,9 @@ Diagnostic first_hit(const Span& span, const std::string& axis, const Impact& hi
     text += ", at up to " + figure(hit.at_end, "N") + " where it gives way no farther";
   for (std::size_t i = 0; i < hit.uncounted.size(); ++i)
     text += (i == 0 ? ", not counting " : " and ") + hit.uncounted[i];
-  if (hit.in_steps > 0.0) text += "; in its steps the simulation feels at most " + figure(hit.in_steps, "N");
+  if (hit.in_steps > 0.0) text += "; the simulation feels less, as its steps do not resolve the hit";
+  if (hit.in_steps > 0.0 && hit.in_steps < std::max(hit.peak, hit.at_end))
+    text += ": at most " + figure(hit.in_steps, "N");
   return make("N603", Severity::note, span,
               text + "; " +
                   (allowed > 0.0 ? "below " + figure(allowed, "N") + " from " + figure(gentle_speed, "m/s")

@@ -61,6 +61,13 @@ double gentle_speed(const Struck& struck, double allowed) {
   return slow;
 }
 
+/// To two digits, up, with 2 %: the base passes its speed by so much. [N]
+double rounded_up(double bound) {
+  constexpr double past = 1.02;
+  const double digit = std::pow(10.0, std::floor(std::log10(bound)) - 1.0);
+  return digit * std::ceil(past * bound / digit);
+}
+
 /// What steps of h feel of it at most; 0: they follow it. [N]
 double felt_in_steps(const DrivenHit& hit, double peak, double h) {
   constexpr double followed = 0.3;  // HitEnergy.*: 4 % of the peak are missing
@@ -78,7 +85,8 @@ wording::Impact impact_of(const Struck& struck, const Arrival& arrival, const Sc
   impact.points = struck.points;
   impact.is_bound = arrival.is_bound || struck.hit.speed > arrival.speed;
   impact.is_most = impact.is_bound || struck.is_bound;
-  if (struck.at_end) impact.at_end = struck.at_end->peak();
+  if (impact.is_most) impact.peak = rounded_up(impact.peak);
+  if (struck.at_end) impact.at_end = rounded_up(struck.at_end->peak());
   const DrivenHit& harder = struck.at_end ? *struck.at_end : struck.hit;
   impact.in_steps = felt_in_steps(harder, std::max(impact.peak, impact.at_end), h);
   if (!struck.uncounted.empty()) impact.uncounted.push_back(struck.uncounted);

@@ -201,7 +201,10 @@ std::optional<Struck> struck_in(const Scene& scene, const Comer& comer) {
     const Outline outline = outline_in_world(object, comer.robot.bumper_height);
     if (!is_moved && (arrival.is_straight || is_passed(outline))) continue;
     all.push_back(struck_somewhere(scene, object, comer));
-    if (is_scripted) all.back().hit.speed += speed_of_script(object, arrival);
+    if (!is_scripted) continue;
+    all.back().hit.speed += speed_of_script(object, arrival);
+    if (scene.objects.size() + scene.robots.size() > 1)
+      all.back().uncounted = "what `" + object.name + "` squeezes the base against";
   }
   for (const SceneRobot& robot : scene.robots) {
     const Outline outline = outline_in_world(robot);
