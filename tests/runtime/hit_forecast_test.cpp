@@ -50,7 +50,7 @@ constexpr const char* still =
 
 /// The mecanum base, 0.4 m from its middle to its front, 57 kg along x, drives by `x` from the origin.
 /// `longest` [s]; it ends 0.3 s after it touches.
-Told driven(const std::string& x, const std::string& scene, double longest = 20.0) {
+Told driven(const std::string& x, const std::string& scene, double longest = 60.0) {
   const zwang::test::TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
   for (const char* name : {"mecanum_base.yaml", "mecanum_base.urdf"})
@@ -116,7 +116,10 @@ class Draw {
 void expect_near(const Told& told) {
   ASSERT_TRUE(told.near) << told.text;
   std::printf("%.0f N of %s\n", told.peak(), told.text.c_str());
-  EXPECT_NEAR(*told.near, told.peak(), 0.25 * told.peak()) << told.text;
+  EXPECT_GT(told.peak(), 0.0) << told.text;
+  EXPECT_LE(told.peak(), 1.25 * *told.near) << told.text;
+  const bool is_felt = told.text.find("the simulation feels less") == std::string::npos;
+  if (is_felt) EXPECT_GE(told.peak(), 0.75 * *told.near) << told.text;
 }
 
 // Without a force range every hit is told. 1 m is way enough for each of these speeds.
