@@ -1,4 +1,4 @@
-/// What of a scene lies on the base's way.
+/// Objects and robots of a scene on the base's way.
 #pragma once
 
 #include <vector>

@@ -53,7 +53,8 @@ double limit_along(const PlannedTask& plan, const Vector3& forward, const Planne
   return most;
 }
 
-/// What the driver asks for at the speed v, `left` before its target. Infinite: as much as it can. [m/s^2]
+/// The acceleration that the driver asks for at the speed v, `left` before its target. Infinite: as much as
+/// it can. [m/s^2]
 double asked_acceleration(const PlannedAxis& axis, double mass, double v, double left) {
   const double T = axis.time_constant;
   if (axis.driver == Quantity::velocity) return (std::abs(*axis.target) - v) / T;

@@ -23,7 +23,7 @@ struct Arrival {
 Arrival arrival_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
                    const std::optional<Scene>& scene, bool is_first, Probe& probe);
 
-/// What the axis's driver presses with against something that stops it, no more than `bound`, if above 0.
+/// The force of the axis's driver against something that stops it, no more than `bound`, if above 0.
 Push push_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
              const Arrival& arrival, double bound, const Drive& drive);
 

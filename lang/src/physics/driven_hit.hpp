@@ -5,7 +5,7 @@
 
 namespace zwang::lang {
 
-/// What the driver presses with after it touched, u more slowly and x farther than then:
+/// The driver's force F after it touched, u more slowly and x farther than then:
 ///     F = f + g u - k x,   |F| <= most.
 struct Push {
   double most = 0.0;        ///< [N]
@@ -20,7 +20,7 @@ struct Push {
 };
 
 /// A robot of the mass m arrives at v where a spring K and a damper c join it to an object of the mass M. Dry
-/// friction and a preload hold the object with H, so it moves while more than that presses on it:
+/// friction and a preload hold the object with H. It moves while more than H presses on it:
 ///     m x'' = F - C,   M y'' = C - H,   C = K (x - y) + c (x' - y').
 struct DrivenHit {
   double mass = 0.0;          ///< m [kg]

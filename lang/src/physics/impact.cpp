@@ -68,7 +68,7 @@ double rounded_up(double bound) {
   return digit * std::ceil(past * bound / digit);
 }
 
-/// What steps of h feel of it at most; 0: they follow it. [N]
+/// The force that steps of h feel of the hit at most; 0: they follow it. [N]
 double felt_in_steps(const DrivenHit& hit, double peak, double h) {
   constexpr double followed = 0.3;  // HitEnergy.*: 4 % of the peak are missing
   if (h * std::sqrt(hit.stiffness / hit.reduced_mass()) <= followed) return 0.0;

@@ -1,4 +1,4 @@
-// What may be struck, the hardest of it:
+// The hit is the hardest of these:
 //
 //   what stands ahead, where the way is known       as it gives way (gives_way.hpp); at the end of that way a
 //                                                   wall, at most as fast as before

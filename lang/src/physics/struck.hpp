@@ -1,4 +1,4 @@
-/// What of a scene a hit may meet, and how it gives way.
+/// Objects and robots of a scene that a hit may meet, and how they give way.
 #pragma once
 
 #include <string>
