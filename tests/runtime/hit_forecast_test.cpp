@@ -1,5 +1,5 @@
-// N603 of objects on joints, at their stops, on the floor, under a script, of other robots and of springs:
-// the plant's peak is what the note says of it.
+// N603 is the plant's peak or its bound: on joints, at stops, on the floor, under a script, of other robots
+// and of springs.
 #include <gtest/gtest.h>
 
 #include <cmath>
