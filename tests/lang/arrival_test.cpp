@@ -67,6 +67,21 @@ TEST_F(Arrival, without_a_range_has_the_speed_that_the_way_gives) {
   }
 }
 
+/// A velocity driver presses the harder the more the wall slows it: m x'' = m (v - x') / T - K x. From its
+/// equilibrium s = m v / (T K), X = x - s is a damped swing with 2 z w = 1 / T.
+TEST_F(Arrival, of_a_velocity_has_the_push_that_the_lost_speed_gives) {
+  const double v = 0.15, T = 0.05;
+  const double w = std::sqrt(two_corners / mini_mass), zw = 0.5 / T, d = std::sqrt(w * w - zw * zw);
+  const double s = mini_mass * v / (T * two_corners);
+  const double A = -s, B = (v - zw * s) / d;
+  const double t = std::atan2(B * d - zw * A, A * d + zw * B) / d;  // X' = 0
+  const double peak = two_corners * (s + std::exp(-zw * t) * (A * std::cos(d * t) + B * std::sin(d * t)));
+  const std::string text = forecast("velocity: 0.15 m/s, time_constant: 50 ms", "base_link");
+  const std::size_t at = text.find("peaks near ");
+  ASSERT_NE(at, std::string::npos) << text;
+  EXPECT_NEAR(std::stod(text.substr(at + 11)), peak, 0.01 * peak) << text;
+}
+
 TEST_F(Arrival, of_what_stops_before_the_wall_is_none) {
   EXPECT_EQ(forecast("position: 0.1 m, acceleration: +-0.2 m/s^2", "world"), "");
   EXPECT_EQ(forecast("position: 0 m", "world"), "");

@@ -1,5 +1,6 @@
 #include "diagnostic/wordings_statics.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "diagnostic/make.hpp"
@@ -89,11 +90,19 @@ Diagnostic beyond_the_floor(const Span& span, const std::string& axis, double as
 Diagnostic first_hit(const Span& span, const std::string& axis, const Impact& hit, double allowed,
                      double gentle_speed) {
   const std::string points = hit.points == 1 ? " (1 point)" : " (" + std::to_string(hit.points) + " points)";
+  std::string text = "`" + axis + "`: " + figure(hit.mass, "kg") + (hit.is_bound ? " at up to " : " at ") +
+                     figure(hit.speed, "m/s") + " against " + figure(hit.stiffness / 1000.0, "kN/m") +
+                     (hit.object.empty() ? "" : " of `" + hit.object + "`" + points) +
+                     (hit.is_most ? " peaks at up to " : " peaks near ") + figure(hit.peak, "N");
+  if (hit.at_end > hit.peak)
+    text += ", at up to " + figure(hit.at_end, "N") + " where it gives way no farther";
+  for (std::size_t i = 0; i < hit.uncounted.size(); ++i)
+    text += (i == 0 ? ", not counting " : " and ") + hit.uncounted[i];
+  if (hit.in_steps > 0.0) text += "; the simulation feels less, as its steps do not resolve the hit";
+  if (hit.in_steps > 0.0 && hit.in_steps < std::max(hit.peak, hit.at_end))
+    text += ": at most " + figure(hit.in_steps, "N");
   return make("N603", Severity::note, span,
-              "`" + axis + "`: " + figure(hit.mass, "kg") + (hit.is_bound ? " at up to " : " at ") +
-                  figure(hit.speed, "m/s") + " against " + figure(hit.stiffness / 1000.0, "kN/m") +
-                  (hit.object.empty() ? "" : " of `" + hit.object + "`" + points) +
-                  (hit.is_bound ? " peaks at most near " : " peaks near ") + figure(hit.peak, "N") + "; " +
+              text + "; " +
                   (allowed > 0.0 ? "below " + figure(allowed, "N") + " from " + figure(gentle_speed, "m/s")
                                  : "no force range bounds what it presses with afterwards"),
               "");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "zwang/lang/diagnostic.hpp"
 
@@ -34,7 +35,11 @@ struct Impact {
   double peak = 0.0;       ///< [N]
   std::string object;      ///< that is struck; empty: the robot's own bumper
   int points = 1;          ///< that strike together
-  bool is_bound = false;   ///< speed and peak are the most that they may be
+  bool is_bound = false;   ///< the speed is the most that it may be
+  bool is_most = false;    ///< so is the peak
+  double at_end = 0.0;     ///< [N] at most, where the object gives way no farther; 0: it never is there
+  double in_steps = 0.0;   ///< [N] what the simulation feels at most; 0: the same
+  std::vector<std::string> uncounted;  ///< what may make it harder
 };
 /// `allowed` [N] 0: nothing bounds the force.
 Diagnostic first_hit(const Span& span, const std::string& axis, const Impact& hit, double allowed,

@@ -68,10 +68,21 @@ timeout: {after: 10 s, goto: failed})~"},
               R"~(A force range bounds the force that the robot presses with. It cannot bound the momentum with which
 the robot arrives: a mass m at the speed v runs into the springs and dampers of what it hits. All
 corners that strike together count. Without a push the peak is v sqrt(K m) times 1 undamped, 0.81 at
-a damping ratio of 0.27, 1 at 0.5, and 2 at 1. The note names the object of the scene that is hit
-hardest, or else the robot file's bumper. With a force range F the note appears above 2.5 F, and
-gives the speed below which it is gone. Without a velocity range the way to the object gives the
-speed, v = sqrt(2 a s). Where the way is unknown the robot file's limit does, and the note says "up to".)~",
+a damping ratio of 0.27, 1 at 0.5, and 2 at 1. The driver pushes on: a constant force F makes it
+F + sqrt(F^2 + K m v^2).
+
+In the first task the note names the object straight ahead, and the way to it gives the speed:
+v = sqrt(2 a s). Elsewhere the hardest object of the scene gives a bound: "up to".
+
+* An object on a joint is light on its free way. Its friction and its preload hold it. At the stop
+  it is a wall.
+* Another robot counts with its mass and its skin. The note leaves the speed of its task out, and
+  says "not counting".
+* A script counts with its largest speed. The note leaves hands and payloads out, and names them.
+* The simulation cannot follow very stiff objects: it feels less than their stiffness says.
+
+Without a scene the robot file's bumper is hit. With a force range F the note appears above 2.5 F,
+and gives the speed below which it is gone.)~",
           .fix = "Arrive more slowly, or put a softer bumper on and say so in the robot file.",
           .part = ExcerptOf::group,
           .example = "x: {velocity: 0.15 m/s, force: +-40 N, time_constant: 50 ms}",

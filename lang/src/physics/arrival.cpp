@@ -1,26 +1,24 @@
-// How fast the base arrives:
+// How fast the base arrives, over the way s to the object, from rest, with the acceleration a:
 //
-//   velocity v             |v|
-//   a velocity range       its end: of the axis, of `speed`, beside a force driver the end that it pushes to
-//   else                   over the way s to the object, from rest, with the acceleration a
+//     v^2 = 2 a s,   a = min(demand, the acceleration limits, F / m),   v <= the velocity ranges
 //
-//     v^2 = 2 a s,   a = min(demand, the acceleration limits, F / m),   v <= the robot's own limits
+// F is what the motors make along the axis, or the force range. The demand is F / m of a force driver, c of
+// an acceleration, and with d from the start to the target
 //
-// F is what the motors make along the axis. The demand is F / m of a force driver, c of an acceleration, and
-// of a position the critically damped  (d - x) / T^2 - 2 v / T,  d from the start to the target.
+//     velocity v0     (v0 - v) / T
+//     position        (d - x) / T^2 - 2 v / T
+//     spring          (k (d - x) - D v) / m
 //
-// The way is known in the task that begins where the scene says. Elsewhere the limits are a bound.
+// After it touches, m times the demand is what presses on.
+//
+// The way is known in the task that begins where the scene says, if nothing but the axis moves the base.
+// Elsewhere a velocity's target and the velocity ranges tell the speed, and the robot's limits a bound.
 #include "physics/arrival.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <utility>
 
 #include "physics/statics.hpp"
-#include "scene/outline.hpp"
-#include "zwang/lang/object_outline.hpp"
-#include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
 
@@ -55,106 +53,110 @@ double limit_along(const PlannedTask& plan, const Vector3& forward, const Planne
   return most;
 }
 
-/// From the foremost points of `outline` to the object, straight on along `forward`; infinite: it passes by.
-/// All in the world. [m]
-double way_between(const std::vector<Vector3>& outline, const std::vector<Vector3>& object,
-                   const Vector3& forward) {
-  double least = solver::infinity;
-  const auto from = [&](const Vector3& p, const std::vector<Vector3>& polygon, double sign) {
-    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-      const Vector3 edge = polygon[i] - polygon[j], to = polygon[j] - p;
-      // p + t sign forward = polygon[j] + u edge
-      const double cross = sign * (forward.x() * edge.y() - forward.y() * edge.x());
-      if (std::abs(cross) < 1e-12) continue;
-      const double t = (to.x() * edge.y() - to.y() * edge.x()) / cross;
-      const double u = sign * (to.x() * forward.y() - to.y() * forward.x()) / cross;
-      if (t >= -1e-6 && u >= 0.0 && u <= 1.0) least = std::min(least, std::max(0.0, t));
-    }
-  };
-  for (const Vector3& p : outline) from(p, object, 1.0);
-  for (const Vector3& p : object) from(p, outline, -1.0);
-  return least;
-}
-
-Outline outline_in_world(const SceneObject& object, double height) {
-  constexpr int sides = 32;
-  const Pose2 pose{object.at, object.yaw};
-  if (object.shape != ShapeKind::cylinder) return placed(outline_of(object, height), pose);
-  Outline outline;
-  for (int i = 0; i < sides; ++i) {
-    const double angle = 2.0 * std::numbers::pi * i / sides;
-    outline.push_back(object.size[0] * Vector3(std::cos(angle), std::sin(angle), 0.0));
-  }
-  return placed(std::move(outline), pose);
-}
-
-struct Ahead {
-  const SceneObject* object = nullptr;
-  double way = solver::infinity;  ///< [m]
-};
-
-/// The first object that the base meets, straight on from its start.
-Ahead first_ahead(const Scene& scene, const Robot& robot, const Vector3& forward) {
-  const solver::Pose pose = start_state(robot, scene).base_pose;
-  std::vector<Vector3> outline;
-  for (const Vector3& corner : robot.footprint) outline.push_back(pose * corner);
-  Ahead ahead;
-  for (const SceneObject& object : scene.objects) {
-    if (!reaches(object, robot.bumper_height) || !object.motion.empty()) continue;
-    const double way = way_between(outline, outline_in_world(object, robot.bumper_height), forward);
-    if (way < ahead.way) ahead = {&object, way};
-  }
-  return ahead;
+/// The acceleration that the driver asks for at the speed v, `left` before its target. Infinite: as much as
+/// it can. [m/s^2]
+double asked_acceleration(const PlannedAxis& axis, double mass, double v, double left) {
+  const double T = axis.time_constant;
+  if (axis.driver == Quantity::velocity) return (std::abs(*axis.target) - v) / T;
+  if (axis.driver != Quantity::position) return solver::infinity;
+  if (!axis.is_spring) return left / (T * T) - 2.0 * v / T;
+  return (axis.stiffness.value_or(0.0) * left - axis.damping.value_or(0.0) * v) / mass;
 }
 
 /// From rest to the way s; 0: it never comes there. [m/s]
-double speed_after(double way, const PlannedAxis& axis, double acceleration, double to_target, double most) {
-  if (axis.driver != Quantity::position) return std::min(most, std::sqrt(2.0 * acceleration * way));
-  constexpr double step = 1e-3, longest = 120.0;  // [s]
-  const double T = axis.time_constant;
+double speed_after(double way, const PlannedAxis& axis, double mass, double acceleration, double to_target,
+                   double most) {
+  if (axis.driver != Quantity::position && axis.driver != Quantity::velocity)
+    return std::min(most, std::sqrt(2.0 * acceleration * way));
+  constexpr double step = 1e-3, longest = 300.0;  // [s]
   double x = 0.0, v = 0.0;
   for (double t = 0.0; t < longest; t += step) {
-    const double demand = (to_target - x) / (T * T) - 2.0 * v / T;
-    v = std::min(most, v + step * std::clamp(demand, -acceleration, acceleration));
+    v = std::min(most, v + step * std::clamp(asked_acceleration(axis, mass, v, to_target - x), -acceleration,
+                                             acceleration));
     x += step * v;
     if (x >= way) return v;
   }
   return 0.0;
 }
 
-}  // namespace
-
-double pressed_without_range(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures) {
+/// The most that the driver presses with in any state: m a, a of its target or of the acceleration limit, and
+/// no more than the motors make and the force range leaves. [N]
+double most_pressed(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures) {
   const double sign = axis.target && *axis.target < 0.0 ? -1.0 : 1.0;
   double a = std::min(acceleration_limit(plan, axis, sign, true).most, figures.force / figures.mass);
-  if (axis.driver == solver::Quantity::acceleration && axis.target) a = std::min(a, std::abs(*axis.target));
-  if (axis.driver == solver::Quantity::force && axis.target)
-    a = std::min(a, std::abs(*axis.target) / figures.mass);
-  if (const auto& range = axis[solver::Quantity::force])
+  if (axis.driver == Quantity::acceleration && axis.target) a = std::min(a, std::abs(*axis.target));
+  if (axis.driver == Quantity::force && axis.target) a = std::min(a, std::abs(*axis.target) / figures.mass);
+  if (const auto& range = axis[Quantity::force])
     a = std::min(a, std::max(range->high, -range->low) / figures.mass);
   return figures.mass * a;
 }
 
+/// Whether a driver of the base may move it from where it starts.
+bool may_move(const PlannedAxis& other, const Probe& probe) {
+  constexpr double there = 1e-3;  // [m] or [rad]
+  if (!other.driver || other.move.body != 0 || other.is_yield || other.stands_still()) return false;
+  if (other.is_feature() || !other.is_placed || other.is_set || other.is_on_path || !other.target)
+    return true;
+  if (other.driver != Quantity::position) return *other.target != 0.0;
+  return std::abs(*other.target - probe.position_at_start(other)) > there;
+}
+
+/// The way ahead of a task that begins where the scene says.
+void look_ahead(const PlannedTask& plan, const PlannedAxis& axis, const std::optional<Scene>& scene,
+                double sign, Probe& probe, Arrival& arrival) {
+  bool drifts = axis.in.body > 0;
+  for (const PlannedAxis& other : plan.axes) {
+    if (&other == &axis || !may_move(other, probe)) continue;
+    (other.turns() ? arrival.turns : drifts) = true;
+  }
+  arrival.forward = sign * probe.direction(axis);
+  arrival.is_straight = !drifts && !arrival.turns;
+  if (arrival.is_straight) arrival.ahead = first_ahead(*scene, probe.robot(), *arrival.forward);
+}
+
+}  // namespace
+
 Arrival arrival_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
                    const std::optional<Scene>& scene, bool is_first, Probe& probe) {
   const double said = said_speed(plan, axis);
-  if (std::isfinite(said)) return {said, false, nullptr};
-  if (!axis.target || axis.driver == solver::Quantity::velocity) return {};
+  Arrival arrival;
+  arrival.is_bound = !std::isfinite(said);
+  if (!axis.target) {  // of a signal, or `here`
+    arrival.speed = std::isfinite(said) && axis.driver != solver::Quantity::velocity ? said : 0.0;
+    return arrival;
+  }
   if (axis.driver != solver::Quantity::position && *axis.target == 0.0) return {};
-  const Robot& robot = probe.robot();
   const bool starts_here = is_first && axis.is_placed && !axis.is_set && !axis.is_on_path;
   double to_target = *axis.target;
   if (axis.driver == solver::Quantity::position && starts_here) to_target -= probe.position_at_start(axis);
-  const double sign = to_target < 0.0 ? -1.0 : 1.0;
+  if (axis.driver == solver::Quantity::position && starts_here && std::abs(to_target) < 1e-3)
+    return {};  // it is there
   const double most = limit_along(plan, direction_in_base(axis, probe, scene), axis, probe);
-  const double bound = std::isfinite(most) ? most : 0.0;
-  if (!starts_here) return {bound, true, nullptr};
-  if (axis.driver == solver::Quantity::position && std::abs(to_target) < 1e-3) return {};  // it is there
-  if (!scene || robot.footprint.empty()) return {bound, true, nullptr};
-  const Ahead ahead = first_ahead(*scene, robot, sign * probe.direction(axis));
-  if (ahead.object == nullptr) return {bound, true, nullptr};
-  const double a = pressed_without_range(plan, axis, figures) / figures.mass;
-  return {speed_after(ahead.way, axis, a, std::abs(to_target), most), false, ahead.object};
+  arrival.speed = std::isfinite(said) ? said : std::isfinite(most) ? most : 0.0;
+  if (!starts_here || !scene || probe.robot().footprint.empty()) return arrival;
+  look_ahead(plan, axis, scene, to_target < 0.0 ? -1.0 : 1.0, probe, arrival);
+  if (!arrival.ahead.is_any()) return arrival;
+  const double way = arrival.ahead.meeting.way;
+  if (axis.driver == solver::Quantity::position) arrival.left = std::abs(to_target) - way;
+  arrival.is_bound = false;
+  arrival.speed = speed_after(way, axis, figures.mass, most_pressed(plan, axis, figures) / figures.mass,
+                              std::abs(to_target), std::min(said, most));
+  return arrival;
+}
+
+Push push_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
+             const Arrival& arrival, double bound, const Drive& drive) {
+  double most = std::min(figures.force, drive.mass_factor * most_pressed(plan, axis, figures));
+  if (bound > 0.0) most = std::min(most, bound);
+  if (axis.driver == solver::Quantity::velocity && !axis.build_up)
+    most = std::min(most, drive.mass_factor * figures.mass * std::abs(*axis.target) / axis.time_constant);
+  const double m = figures.mass, T = axis.time_constant;
+  const bool is_known = axis.driver == solver::Quantity::velocity || arrival.left;
+  if (!is_known || axis.build_up || drive.feels_contact()) return Push::constant(most);
+  const double asked = m * asked_acceleration(axis, m, arrival.speed, arrival.left.value_or(0.0));
+  if (axis.driver == solver::Quantity::velocity) return {most, asked, m / T, 0.0};
+  if (!axis.is_spring) return {most, asked, 2.0 * m / T, m / (T * T)};
+  return {most, asked, axis.damping.value_or(0.0), axis.stiffness.value_or(0.0)};
 }
 
 }  // namespace zwang::lang

@@ -1,29 +1,30 @@
 // N603: the first hit. A bound holds what the robot presses with; the base's momentum it cannot hold. The
-// peak is that of hit.hpp, with
+// peak is that of driven_hit.hpp, with
 //
-//   m   the effective mass along the axis, less where the object gives way: 1/m = 1/m_axis + 1/m_object
-//   v   the speed with which the axis arrives (arrival.hpp)
+//   m   the effective mass along the axis
+//   v   the speed with which the axis arrives (arrival.hpp), and with which a script comes to meet it
 //   K   n times the object's stiffness, c likewise: all n points of a flat side strike together
-//   F   what the driver presses with once it stands: m v / tau of a velocity, within its force range
+//   M   what the object weighs there, and what holds it (gives_way.hpp)
+//   F   what the driver presses with, within its force range, the acceleration limits and the motors
 //
 // A robot that feels through the lags of a velocity loop presses on until its virtual robot gives way. It
 // strikes as with a stiffer spring, the drive's integral k = m k_i in series with the object's:
 //
 //   K + min(m / T_c^2, alpha K k / (K + k)),   k_i = 1/(T_c T_i)
 //
-// of the object of the scene that makes it largest. Without one the robot file's bumper is the spring,
-// undamped. Where a force range bounds F the peak is told above 2.5 times that bound, with the speed at which
-// it comes down to it; without a range it is told as it is. Where v is a bound the peak is one, too: of all
-// such the hardest is told, in tasks in which no forecast is.
+// of the object of the scene that makes it largest (struck.hpp). Without a scene the robot file's bumper is
+// the spring, undamped. Where a force range bounds F the peak is told above 2.5 times that bound, with the
+// speed at which it comes down to it; without a range it is told as it is. Where v is a bound the peak is
+// one, too: of all such the hardest is told, in tasks in which no forecast is.
+//
+// A step of h follows springs up to h w = 0.3, w = sqrt(K/m). Of a stiffer one the simulation feels less, at
+// most 2 m v / h: the depth h v at which a step may find the contact counts as much as the speed.
 #include <algorithm>
 #include <cmath>
 
 #include "diagnostic/wordings_statics.hpp"
-#include "physics/arrival.hpp"
 #include "physics/statics.hpp"
-#include "zwang/lang/hit.hpp"
-#include "zwang/lang/object_outline.hpp"
-#include "zwang/lang/plane.hpp"
+#include "physics/struck.hpp"
 
 namespace zwang::lang {
 
@@ -40,17 +41,6 @@ double bound_of(const PlannedAxis& axis) {
   return range ? std::max(range->high, -range->low) : 0.0;
 }
 
-/// What the driver presses with against something that stops it, `led` times as heavy as the robot. Other
-/// drivers than velocities press with `unbounded` times that at most. [N]
-double pressing(const PlannedAxis& axis, const AxisFigures& figures, double led, double speed, double bound,
-                double unbounded) {
-  double most = bound > 0.0 ? std::min(bound, figures.force) : figures.force;
-  if (axis.driver != solver::Quantity::velocity) most = std::min(most, led * unbounded);
-  if (axis.driver == solver::Quantity::velocity)
-    most = std::min(most, led * figures.mass * speed / axis.time_constant);
-  return most;
-}
-
 /// How many corners of the footprint lie foremost, together.
 int foremost_corners(const std::vector<Vector3>& footprint, const Vector3& direction) {
   constexpr double together = 1e-3;  // [m]
@@ -61,67 +51,55 @@ int foremost_corners(const std::vector<Vector3>& footprint, const Vector3& direc
   }));
 }
 
-struct Struck {
-  Hit hit;
-  double stiffness = 0.0;  ///< [N/m] of the object alone
-  std::string name;        ///< of the object; empty: the robot's own bumper
-  int points = 1;
-};
-
-/// What a drive that feels late adds. [N/m]
-double stiffness_of_drive(const Drive& drive, const Hit& hit) {
-  if (!drive.feels_contact()) return 0.0;
-  const double T = drive.time_constant;
-  double series = hit.stiffness;
-  if (drive.integral_time) {
-    const double k = hit.mass / (T * *drive.integral_time);
-    series *= k / (hit.stiffness + k);
-  }
-  return std::min(hit.mass / (T * T), drive.mass_factor * series);
-}
-
-Struck struck_bumper(const Robot& robot, const AxisFigures& figures, double speed, double push) {
-  const Hit hit{figures.mass, speed, robot.bumper_stiffness, 0.0, push};
-  Struck struck{hit, robot.bumper_stiffness, "", 1};
-  struck.hit.stiffness += stiffness_of_drive(robot.drive, hit);
-  return struck;
-}
-
-Struck struck_object(const SceneObject& object, const Robot& robot, const Hit& of_robot, int corners) {
-  Struck struck{of_robot, 0.0, object.name, 1};
-  const double other = object.inverse_mass();
-  struck.hit.mass = 1.0 / (1.0 / of_robot.mass + other);
-  // A flat side meets corners, or the corners of what is narrower; a round thing one point.
-  if (object.shape != ShapeKind::cylinder) struck.points = corners;
-  const double reduced = 1.0 / (1.0 / robot.model.total_mass() + other);
-  struck.hit.stiffness = struck.points * object.stiffness;
-  struck.stiffness = struck.hit.stiffness;
-  struck.hit.stiffness += stiffness_of_drive(robot.drive, struck.hit);
-  struck.hit.damping = struck.points * 2.0 * object.damping * std::sqrt(object.stiffness * reduced);
-  return struck;
-}
-
-/// The object that is hit hardest, or the `only` one; none when there is none.
-std::optional<Struck> hardest(const Scene& scene, const Robot& robot, const Hit& of_robot, int corners,
-                              const SceneObject* only) {
-  std::optional<Struck> worst;
-  for (const SceneObject& object : scene.objects) {
-    if (only != nullptr && only != &object) continue;
-    if (!reaches(object, robot.bumper_height)) continue;  // it passes
-    const Struck struck = struck_object(object, robot, of_robot, corners);
-    if (!worst || struck.hit.peak_force() > worst->hit.peak_force()) worst = struck;
-  }
-  return worst;
-}
-
 /// The speed at which the peak comes down to `allowed`; what presses is as before.
-double gentle_speed(Hit hit, double allowed) {
-  double slow = 0.0, fast = hit.speed;
-  for (int i = 0; i < 50; ++i) {
-    hit.speed = 0.5 * (slow + fast);
-    (hit.peak_force() > allowed ? fast : slow) = hit.speed;
+double gentle_speed(const Struck& struck, double allowed) {
+  double slow = 0.0, fast = struck.hit.speed;
+  for (int i = 0; i < 20; ++i) {
+    const double speed = 0.5 * (slow + fast);
+    (struck.most_at(speed) > allowed ? fast : slow) = speed;
   }
   return slow;
+}
+
+/// To two digits, up, with 2 %: the base passes its speed by so much. [N]
+double rounded_up(double bound) {
+  constexpr double past = 1.02;
+  const double digit = std::pow(10.0, std::floor(std::log10(bound)) - 1.0);
+  return digit * std::ceil(past * bound / digit);
+}
+
+/// The force that steps of h feel of the hit at most; 0: they follow it. [N]
+double felt_in_steps(const DrivenHit& hit, double peak, double h) {
+  constexpr double followed = 0.3;  // HitEnergy.*: 4 % of the peak are missing
+  if (h * std::sqrt(hit.stiffness / hit.reduced_mass()) <= followed) return 0.0;
+  return std::min(peak, 2.0 * hit.reduced_mass() * hit.speed / h + hit.push.most);
+}
+
+wording::Impact impact_of(const Struck& struck, const Arrival& arrival, const Scene* scene, double h) {
+  wording::Impact impact;
+  impact.mass = struck.hit.reduced_mass();
+  impact.speed = struck.hit.speed;
+  impact.stiffness = struck.stiffness;
+  impact.peak = struck.hit.peak();
+  impact.object = struck.name;
+  impact.points = struck.points;
+  impact.is_bound = arrival.is_bound || struck.hit.speed > arrival.speed;
+  impact.is_most = impact.is_bound || struck.is_bound;
+  if (impact.is_most) impact.peak = rounded_up(impact.peak);
+  if (struck.at_end) impact.at_end = rounded_up(struck.at_end->peak());
+  const DrivenHit& harder = struck.at_end ? *struck.at_end : struck.hit;
+  impact.in_steps = felt_in_steps(harder, std::max(impact.peak, impact.at_end), h);
+  if (!struck.uncounted.empty()) impact.uncounted.push_back(struck.uncounted);
+  if (scene == nullptr) return impact;
+  const auto is_on_base = [](const ScenePush& push) { return push.object.empty() && push.robot.empty(); };
+  if (std::any_of(scene->pushes.begin(), scene->pushes.end(), is_on_base))
+    impact.uncounted.emplace_back("the hand on the base");
+  const auto is_load = [](const Fault& fault) {
+    return fault.kind == FaultKind::payload && fault.robot.empty() && fault.value > 0.0;
+  };
+  if (std::any_of(scene->faults.begin(), scene->faults.end(), is_load))
+    impact.uncounted.emplace_back("the scene's payload");
+  return impact;
 }
 
 /// Of one axis; nullopt where nothing is struck, or gently.
@@ -130,6 +108,8 @@ struct Forecast {
   std::string path;
   wording::Impact impact;
   double allowed = 0.0, gentle_speed = 0.0;
+  double most = 0.0;            ///< [N]
+  bool has_slow_bound = false;  ///< nobody knows the speed
 };
 
 std::optional<Forecast> forecast(const PlannedTask& plan, const PlannedAxis& axis,
@@ -140,24 +120,25 @@ std::optional<Forecast> forecast(const PlannedTask& plan, const PlannedAxis& axi
   const Arrival arrival = arrival_of(plan, axis, *figures, scene, is_first, probe);
   const double bound = bound_of(axis);
   if (!(arrival.speed > 0.0)) return std::nullopt;
-  const double push = pressing(axis, *figures, robot.drive.mass_factor, arrival.speed, bound,
-                               pressed_without_range(plan, axis, *figures));
   const double sign = axis.target && *axis.target < 0.0 ? -1.0 : 1.0;
-  const int corners =
-      std::max(1, foremost_corners(robot.footprint, sign * direction_in_base(axis, probe, scene)));
-  const Hit of_robot{figures->mass, arrival.speed, 0.0, 0.0, push};
+  const Vector3 along = sign * direction_in_base(axis, probe, scene);
+  const Comer comer{robot, figures->mass, push_of(plan, axis, *figures, arrival, bound, robot.drive), arrival,
+                    std::max(1, foremost_corners(robot.footprint, along))};
+  const bool is_seen =
+      scene && !robot.footprint.empty() && !(scene->objects.empty() && scene->robots.empty());
   std::optional<Struck> struck;
-  if (scene && !robot.footprint.empty()) struck = hardest(*scene, robot, of_robot, corners, arrival.object);
-  if (!struck && bound > 0.0) struck = struck_bumper(robot, *figures, arrival.speed, push);
+  if (is_seen) struck = struck_in(*scene, comer);
+  if (!is_seen && bound > 0.0) struck = struck_bumper(comer);
   if (!struck) return std::nullopt;
-  const double peak = struck->hit.peak_force(), allowed = gentle * bound;
-  if (bound > 0.0 && peak <= allowed) return std::nullopt;
+  const double most = struck->most(), allowed = gentle * bound;
+  if (bound > 0.0 && most <= allowed) return std::nullopt;
   return Forecast{bound > 0.0 ? axis.span(solver::Quantity::force) : axis.driver_span(),
                   axis.path,
-                  {struck->hit.mass, arrival.speed, struck->stiffness, peak, struck->name, struck->points,
-                   arrival.is_bound},
+                  impact_of(*struck, arrival, scene ? &*scene : nullptr, robot.control_period),
                   allowed,
-                  bound > 0.0 ? gentle_speed(struck->hit, allowed) : 0.0};
+                  bound > 0.0 ? gentle_speed(*struck, allowed) : 0.0,
+                  most,
+                  arrival.is_bound};
 }
 
 }  // namespace
@@ -170,13 +151,13 @@ void ask_hit(const PlannedTask& plan, const std::optional<Scene>& scene, bool is
   std::optional<Forecast> bound;
   bool is_told = false;
   for (const PlannedAxis& axis : plan.axes) {
-    if (!axis.driver || axis.turns() || axis.move.body != 0 || axis.is_spring) continue;
+    if (!axis.driver || axis.turns() || axis.move.body != 0) continue;
     std::optional<Forecast> one = forecast(plan, axis, scene, is_first, probe);
     if (!one) continue;
-    if (!one->impact.is_bound) {
+    if (!one->has_slow_bound) {
       tell(*one);
       is_told = true;
-    } else if (!bound || one->impact.peak > bound->impact.peak) {
+    } else if (!bound || one->most > bound->most) {
       bound = std::move(one);
     }
   }

@@ -1,0 +1,83 @@
+// The object moves along the push by b for each unit of its travel q. There it weighs J / b^2, J the inertia
+// of q. The preload P and the friction R hold it with (P + R) / b, and its way along the push is b times the
+// range.
+//
+//   slide u            b = u . forward              J: the mass
+//   hinge at p         b = (middle - p) x forward   J: about the hinge
+//   on the floor       1/M, with r^2/I where it is struck r beside its middle by one corner
+#include "physics/gives_way.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "zwang/lang/program.hpp"
+
+namespace zwang::lang {
+
+namespace {
+
+using solver::Vector3;
+
+constexpr double floor_gravity = 9.81;  // [m/s^2]
+
+double cross_of(const Vector3& a, const Vector3& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+Vector3 turned_with(const SceneObject& object, const Vector3& v) {
+  const double c = std::cos(object.yaw), s = std::sin(object.yaw);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y(), 0.0};
+}
+
+/// About its own middle. [kg m^2]
+double inertia_of_object(const SceneObject& object) {
+  const double a = object.size[0], b = object.size[1];
+  const double square = object.shape == ShapeKind::cylinder ? a * a / 2.0 : (a * a + b * b) / 12.0;
+  return *object.mass * square;
+}
+
+/// `lever`: b. Below `least_lever` it is a wall. `inertia`: J.
+GivesWay on_joint(const Guide& guide, double lever, double inertia, double least_lever) {
+  if (std::abs(lever) < least_lever) return {};
+  const double range = lever > 0.0 ? guide.upper : -guide.lower;
+  const double arm = std::abs(lever);
+  constexpr double at_stop = 1e-6;  // [m] or [rad]
+  if (range < at_stop) return {};
+  return {arm * arm / inertia, (guide.preload + guide.friction) / arm, guide.stiffness / (arm * arm),
+          range * arm};
+}
+
+}  // namespace
+
+double held_by_floor(const Scene& scene, const SceneObject& object) {
+  if (!object.mass || object.guide || object.caster_trail > 0.0) return 0.0;
+  const double own = std::min(object.friction.value_or(scene.floor_friction), scene.floor_friction);
+  return object.slides.value_or(own) * *object.mass * floor_gravity;
+}
+
+GivesWay gives_way(const Scene& scene, const SceneObject& object, const Meeting& meeting,
+                   const Vector3& forward, double height) {
+  if (!object.mass || object.is_locked()) return {};
+  const Vector3 at(object.at[0], object.at[1], 0.0);
+  if (!object.guide) {
+    double inverse = 1.0 / *object.mass;
+    const double aside = cross_of(meeting.middle - at, forward);
+    // Two corners hold its heading; one turns it, unless it is round.
+    if (meeting.points == 1 && object.shape != ShapeKind::cylinder)
+      inverse += aside * aside / inertia_of_object(object);
+    return {inverse, held_by_floor(scene, object), 0.0, way_behind(scene, object, height, forward)};
+  }
+  const Guide& guide = *object.guide;
+  if (!guide.turns) {
+    constexpr double least_share = 0.2;  // beyond 78 deg it jams by friction
+    const Vector3 along = turned_with(object, Vector3(guide.along[0], guide.along[1], 0.0));
+    const double share = along.dot(forward);
+    return on_joint(guide, share, *object.mass, least_share);
+  }
+  constexpr double least_arm = 0.02;  // [m] beside the axis it is a wall
+  const Vector3 offset = turned_with(object, Vector3(guide.at[0], guide.at[1], 0.0));
+  const double arm = cross_of(meeting.middle - at - offset, forward);
+  return on_joint(guide, arm, inertia_of_object(object) + *object.mass * offset.squaredNorm(), least_arm);
+}
+
+}  // namespace zwang::lang
