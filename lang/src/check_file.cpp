@@ -16,6 +16,17 @@ FileContent content_of(std::optional<Content> content) {
   return *std::move(content);
 }
 
+/// A connection by itself, then with all that the task reads and its robot takes.
+std::optional<Connection> connection_for(const std::optional<std::filesystem::path>& task,
+                                         const std::filesystem::path& path, const LoadOptions& options,
+                                         Diagnostics& diagnostics) {
+  std::optional<Connection> connection = load_connection(path, diagnostics);
+  if (!task) return connection;
+  const std::optional<Program> program = load(*task, options, diagnostics);
+  const bool is_good = connection && program && check_connection(*connection, *program, diagnostics);
+  return is_good ? connection : std::nullopt;
+}
+
 }  // namespace
 
 FileContent check_file(FileKind kind, const std::filesystem::path& path, const CheckOptions& options,
@@ -29,7 +40,7 @@ FileContent check_file(FileKind kind, const std::filesystem::path& path, const C
     case FileKind::scenario:
       return content_of(check_scenario(path, diagnostics));
     case FileKind::connection:
-      return content_of(load_connection(path, diagnostics));
+      return content_of(connection_for(options.task, path, options.load, diagnostics));
     case FileKind::study:
       return content_of(load_study(path, diagnostics));
     case FileKind::task:

@@ -148,7 +148,7 @@ class Summary {
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,
                                    const Reading& reading) {
   const lang::FileContent content =
-      lang::check_file(kind, path, {reading.options, reading.with_notes}, diagnostics);
+      lang::check_file(kind, path, {reading.options, reading.with_notes, reading.task}, diagnostics);
   return std::visit(Summary(reading.with_plant, diagnostics), content);
 }
 

@@ -28,9 +28,10 @@ void refuse_urdf(const std::string& path);
 [[noreturn]] void refuse_as_urdf(const std::string& path);
 
 struct Reading {
-  lang::LoadOptions options = {};  ///< of a task file
-  bool with_notes = false;         ///< notes are looked for, too
-  bool with_plant = false;         ///< the simulated plant of a task or robot file is asked, E915
+  lang::LoadOptions options = {};     ///< of a task file
+  bool with_notes = false;            ///< notes are looked for, too
+  bool with_plant = false;            ///< the simulated plant of a task or robot file is asked, E915
+  std::optional<std::string> task{};  ///< that a connection file is checked against
 };
 /// What was read, in a few words; nothing when it is bad.
 std::optional<std::string> read_as(FileKind kind, const std::string& path, lang::Diagnostics& diagnostics,

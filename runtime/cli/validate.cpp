@@ -71,13 +71,21 @@ FileKind kind_of(const std::string& path) {
   return kind_of_file(path).value_or(FileKind::task);
 }
 
-/// `-p`, `--robot` and `--scene` speak of task files; `--robot` of scene files, too.
-void require_task_for(const TaskOverrides& overrides, const std::vector<std::string>& paths) {
+bool has_kind(const std::vector<std::string>& paths, FileKind kind) {
+  return std::any_of(paths.begin(), paths.end(),
+                     [&](const std::string& path) { return kind_of(path) == kind; });
+}
+
+/// `--task` speaks of connection files. `-p`, `--robot` and `--scene` speak of task files; `--robot` of scene
+/// files, too.
+void require_files_for(const ValidateArguments& arguments, const std::vector<std::string>& paths) {
+  if (arguments.task) require_file(*arguments.task);
+  if (arguments.task && !has_kind(paths, FileKind::connection))
+    throw Impossible("--task is for connection files, and there is none among these");
+  const TaskOverrides& overrides = arguments.overrides;
   const bool is_robot_alone = overrides.robot && !overrides.scene && overrides.parameters.empty();
-  const bool is_for_some = std::any_of(paths.begin(), paths.end(), [&](const std::string& path) {
-    const FileKind kind = kind_of(path);
-    return kind == FileKind::task || (kind == FileKind::scene && is_robot_alone);
-  });
+  const bool is_for_some = arguments.task || has_kind(paths, FileKind::task) ||
+                           (is_robot_alone && has_kind(paths, FileKind::scene));
   if (overrides.any() && !is_for_some)
     throw Impossible("-p, --robot and --scene are for task files, and there is none among these");
 }
@@ -124,7 +132,7 @@ int validate(const ValidateArguments& arguments) {
   lang::OpenTexts unsaved;
   const std::vector<std::string> paths = files_of(arguments, unsaved);
   const lang::ReadsOpenTexts reading(unsaved);
-  require_task_for(arguments.overrides, paths);
+  require_files_for(arguments, paths);
   const lang::LoadOptions options = arguments.overrides.load_options();
   std::list<Checked> checked;
   bool is_good = true;
@@ -132,7 +140,8 @@ int validate(const ValidateArguments& arguments) {
     Checked& file = checked.emplace_back();
     file.path = path;
     file.kind = kind_of(path);
-    file.summary = read_as(file.kind, path, file.diagnostics, {options, arguments.notes, true});
+    file.summary =
+        read_as(file.kind, path, file.diagnostics, {options, arguments.notes, true, arguments.task});
     const bool is_denied = arguments.deny_warnings && file.diagnostics.count(lang::Severity::warning) > 0;
     file.is_good = file.summary && !file.diagnostics.has_errors() && !is_denied;
     is_good = is_good && file.is_good;

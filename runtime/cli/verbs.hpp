@@ -43,8 +43,9 @@ struct TaskOverrides {
 struct ValidateArguments {
   std::vector<std::string> files;  ///< or folders; `-`: the standard input
   std::string stdin_path =
-      "stdin.yaml";         ///< where the text of `-` stands for: paths in it are seen from there
-  TaskOverrides overrides;  ///< for the task files among them
+      "stdin.yaml";                 ///< where the text of `-` stands for: paths in it are seen from there
+  TaskOverrides overrides;          ///< for the task files among them
+  std::optional<std::string> task;  ///< that the connection files among them are checked against
   ReportFormat format = ReportFormat::human;
   bool deny_warnings = false;
   bool notes = false;

@@ -12,7 +12,8 @@ namespace zwang::connect {
 namespace {
 
 constexpr auto tell_every = std::chrono::milliseconds(100);
-constexpr int at_least_every = 10;  // of these
+constexpr int at_least_every = 10;         // of these
+constexpr std::uint64_t many_skipped = 5;  // control cycles from one report to the next, a second at most
 
 const char* word_of(Phase phase) {
   switch (phase) {
@@ -51,6 +52,9 @@ Control::Control(const lang::Connection& connection, const lang::Program& progra
         });
   }
   if (connection.begin == lang::Begin::goals) serve_goals();
+  if (connection.publication)
+    base_teller_ =
+        std::make_unique<BaseTeller>(*connection.publication, program.robot.base_frame, participant);
   thread_ = std::thread([this] { tell_changes(); });
 }
 
@@ -138,7 +142,8 @@ std::string Control::state() const {
 }
 
 /// For `diagnostic_aggregator` and `rqt_robot_monitor`. Silence of the robot is `stale` while a task runs.
-DiagnosticArray Control::health() const {
+/// `skipped`: control cycles since the last report.
+DiagnosticArray Control::health(std::uint64_t skipped) const {
   const std::lock_guard lock(mutex_);
   const Phase phase = phase_;
   const bool has_failed = phase == Phase::latched || outcome_ == "stopped" || outcome_ == "failed";
@@ -152,6 +157,9 @@ DiagnosticArray Control::health() const {
   } else if (phase != Phase::ended && !is_alive_()) {
     status.level = phase == Phase::waiting ? DiagnosticStatus::warn : DiagnosticStatus::stale;
     status.message += "; no samples come from the robot";
+  } else if (skipped >= many_skipped) {
+    status.level = DiagnosticStatus::warn;
+    status.message += "; this computer is late: " + std::to_string(skipped) + " control cycles were skipped";
   }
   status.values = {{"task", task_name()}, {"elapsed [s]", std::to_string(elapsed_.load())}};
   return {header_at(now()), {status}};
@@ -169,6 +177,7 @@ void Control::tell_changes() {
   Bytes bytes;
   Phase last_phase = Phase::ended;
   int last_task = -2, since = at_least_every;
+  std::uint64_t told_skipped = 0;
   for (bool is_last = false; !is_last; std::this_thread::sleep_for(tell_every)) {
     is_last = is_over_;
     const Phase phase = phase_;
@@ -185,7 +194,9 @@ void Control::tell_changes() {
     last_phase = phase, last_task = task, since = 0;
     encode(String{state()}, bytes);
     writer_->write(bytes);
-    encode(health(), bytes);
+    const std::uint64_t skipped = skipped_;
+    encode(health(skipped > told_skipped ? skipped - told_skipped : 0), bytes);
+    told_skipped = skipped;
     health_writer_->write(bytes);
   }
 }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "action.hpp"
+#include "base_teller.hpp"
 #include "dds.hpp"
 #include "message.hpp"
 #include "parameters.hpp"
@@ -49,6 +50,12 @@ class Control {
     elapsed_.store(elapsed, std::memory_order_relaxed);
     progress_.store(progress, std::memory_order_relaxed);
   }
+  /// The same of where the base is, for `publish` of the connection file. `stamp` [s]
+  void note_base(double stamp, const solver::State& state) noexcept {
+    if (base_teller_) base_teller_->note(stamp, state);
+  }
+  /// Control cycles that were skipped since the run began.
+  void note_skipped(std::uint64_t cycles) noexcept { skipped_.store(cycles, std::memory_order_relaxed); }
   /// The last word: `done`, `failed` or `stopped`, and why.
   void end(const std::string& outcome, const std::string& reason);
 
@@ -67,7 +74,7 @@ class Control {
   void tell_changes();
   std::string task_name() const;
   std::string state() const;
-  DiagnosticArray health() const;
+  DiagnosticArray health(std::uint64_t skipped) const;
 
   const lang::Connection& connection_;
   Participant& participant_;
@@ -75,9 +82,11 @@ class Control {
   std::unique_ptr<Writer> writer_, health_writer_, status_writer_, feedback_writer_;
   std::unique_ptr<RunTaskServer> goals_;
   ParameterServer parameters_;
+  std::unique_ptr<BaseTeller> base_teller_;
   std::atomic<bool> wants_start_{false}, wants_stop_{false}, is_over_{false};
   std::atomic<Phase> phase_{Phase::waiting};
   std::atomic<int> task_{-1};
+  std::atomic<std::uint64_t> skipped_{0};
   std::atomic<double> elapsed_{0.0}, progress_{-1.0};  ///< [s], share
   mutable std::mutex mutex_;                           ///< of those below
   const lang::Program* program_;

@@ -287,13 +287,28 @@ class Service : public dds::DataReaderListener {
   std::thread thread_;
 };
 
-dds::DomainParticipantQos participant_qos(lang::Reach reach, const std::string& name) {
+std::vector<std::string> addresses_of(const std::vector<std::string>& interfaces) {
+  std::vector<std::string> addresses;
+  for (const std::string& name : interfaces) {
+    const std::vector<Address> own = own_addresses(name);
+    if (own.empty())
+      throw std::runtime_error("`reach`: no interface " + name + " with an IPv4 address is here");
+    for (const Address& a : own)
+      addresses.push_back(std::to_string(a[0]) + "." + std::to_string(a[1]) + "." + std::to_string(a[2]) +
+                          "." + std::to_string(a[3]));
+  }
+  return addresses;
+}
+
+dds::DomainParticipantQos participant_qos(const lang::Connection& connection, const std::string& name) {
+  const lang::Reach reach = connection.reach;
   dds::DomainParticipantQos qos = dds::PARTICIPANT_QOS_DEFAULT;
   qos.name(name);
   // Shared memory would leave out peers by Cyclone, and every peer of another user.
   qos.transport().use_builtin_transports = false;
   auto udp = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   if (reach == lang::Reach::loopback) udp->interfaceWhiteList = {"127.0.0.1"};
+  if (!connection.interfaces.empty()) udp->interfaceWhiteList = addresses_of(connection.interfaces);
   // Nobody outside hears that this process is there.
   if (reach != lang::Reach::network) udp->TTL = 0;
   qos.transport().user_transports.push_back(udp);
@@ -322,14 +337,14 @@ struct Participant::Parts {
   }
 };
 
-Participant::Participant(int domain, lang::Reach reach, const std::string& name)
-    : parts_(std::make_unique<Parts>(reach)) {
+Participant::Participant(const lang::Connection& connection, const std::string& name)
+    : parts_(std::make_unique<Parts>(connection.reach)) {
   auto* factory = dds::DomainParticipantFactory::get_instance();
-  const dds::DomainParticipantQos qos = participant_qos(reach, name);
-  parts_->participant = factory->create_participant(static_cast<std::uint32_t>(domain), qos,
+  const dds::DomainParticipantQos qos = participant_qos(connection, name);
+  parts_->participant = factory->create_participant(static_cast<std::uint32_t>(connection.domain), qos,
                                                     &parts_->neighbours, dds::StatusMask::none());
   if (parts_->participant == nullptr)
-    throw std::runtime_error("DDS does not start in domain " + std::to_string(domain));
+    throw std::runtime_error("DDS does not start in domain " + std::to_string(connection.domain));
   parts_->publisher = parts_->participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
   parts_->subscriber = parts_->participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
 }

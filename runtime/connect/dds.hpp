@@ -35,7 +35,7 @@ enum class Late { gets_nothing, gets_last };
 class Participant {
  public:
   /// Throws std::runtime_error where DDS does not start.
-  Participant(int domain, lang::Reach reach, const std::string& name);
+  Participant(const lang::Connection& connection, const std::string& name);
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;

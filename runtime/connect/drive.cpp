@@ -33,6 +33,15 @@ std::optional<std::string> what_is_missing(const lang::Connection& connection, c
   return std::nullopt;
 }
 
+/// A signal's publisher may be found later than that of the joints, and the first task may require it. One
+/// that is silent for so long is unknown: a switch may speak only when it is pressed.
+void wait_for_signals(Inbox& inbox, runtime::Sensed& sensed) {
+  constexpr double longest = 1.0;  // [s]
+  for (const double until = now() + longest; !inbox.has_signals() && now() < until && !cli::is_interrupted();
+       pause())
+    inbox.fill(sensed);
+}
+
 /// Until samples come and somebody listens. Says what is missing where it gives up.
 bool wait_for_robot(const lang::Connection& connection, const lang::Drive& drive, Inbox& inbox,
                     const Outbox& outbox, double most, runtime::Sensed& sensed) {
@@ -43,7 +52,10 @@ bool wait_for_robot(const lang::Connection& connection, const lang::Drive& drive
     inbox.fill(sensed);
     missing = what_is_missing(connection, inbox, outbox, feels_by_effort);
   }
-  if (!missing) return true;
+  if (!missing) {
+    wait_for_signals(inbox, sensed);
+    return true;
+  }
   std::fprintf(stderr, "zwang drive: %s in domain %d within %g s; nothing was sent\n", missing->c_str(),
                connection.domain, most);
   return false;
@@ -73,7 +85,7 @@ int drive(const Arguments& arguments) {
   cli::catch_interruption();
   become_punctual(connection.priority);
   Inbox inbox(connection, loaded->program);
-  Participant participant(connection.domain, connection.reach, "zwang");
+  Participant participant(connection, "zwang");
   inbox.subscribe(participant);
   if (arguments.observe) return observe(connection, loaded->program, inbox, *arguments.observe);
 

@@ -166,6 +166,8 @@ class Loop {
       runner_.set_parameter(program_.parameters[change->parameter].name, change->value);
     runner_.step(sensed_);
     control_.note(runner_.scheduler().task(), now() - begin_, progress());
+    control_.note_base(sensed_.time, runner_.estimated_state());
+    control_.note_skipped(report_.skipped);
     has_stepped_ = true;
     const runtime::SafetyGuard& guard = runner_.guard();
     if (!report_.silence && guard.stopped() && guard.reason() == EventCode::lost_ticks)

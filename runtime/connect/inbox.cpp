@@ -355,6 +355,10 @@ bool Inbox::has_base() const noexcept {
 bool Inbox::has_wrench() const noexcept {
   return parts_->has_wrench || !parts_->connection.wrench;
 }
+bool Inbox::has_signals() const noexcept {
+  return std::all_of(parts_->signals.begin(), parts_->signals.end(),
+                     [](const auto& box) { return box->is_told || !box->index; });
+}
 double Inbox::last_arrival() const noexcept {
   return parts_->counts.front()->last_arrival;
 }

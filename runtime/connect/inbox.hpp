@@ -69,9 +69,10 @@ class Inbox {
   const BaseSample* base() const noexcept;
   /// From now on the wheels tell how the base moves.
   void distrust_base() noexcept;
-  bool has_joints() const noexcept;  ///< every motor's joint has been told of; as of the last `fill`
-  bool has_base() const noexcept;    ///< or needs none
-  bool has_wrench() const noexcept;  ///< the same of what presses on the robot
+  bool has_joints() const noexcept;   ///< every motor's joint has been told of; as of the last `fill`
+  bool has_base() const noexcept;     ///< or needs none
+  bool has_wrench() const noexcept;   ///< the same of what presses on the robot
+  bool has_signals() const noexcept;  ///< each one that the program reads has come
   /// [s] when the newest sample of the joints has come, also of one that is not yet taken.
   double last_arrival() const noexcept;
   const std::vector<std::unique_ptr<TopicCounts>>& counts() const noexcept;

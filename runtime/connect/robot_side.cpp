@@ -1,27 +1,12 @@
 #include "robot_side.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "inbox.hpp"
 #include "outbox.hpp"
+#include "signal_sample.hpp"
 
 namespace zwang::connect {
-
-namespace {
-
-PoseFields fields_of(const solver::Pose& pose) {
-  const Eigen::Quaterniond q(pose.rotation);
-  const solver::Vector3& p = pose.position;
-  return {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
-}
-
-template <typename Motion>
-SixFields six_of(const Motion& m) {
-  return {m.linear.x(), m.linear.y(), m.linear.z(), m.angular.x(), m.angular.y(), m.angular.z()};
-}
-
-}  // namespace
 
 RobotSide::RobotSide(const lang::Connection& connection, const lang::Program& program, double stamps_ahead)
     : connection_(connection),
@@ -111,7 +96,7 @@ void RobotSide::publish(const runtime::Sensed& sensed, double stamp, double shif
     odometry_.header = header_at(stamp, "odom");
     if (!holds_odometry_) {
       odometry_.pose = fields_of(state.base_pose);
-      odometry_.twist = six_of(state.base_twist);
+      odometry_.twist = fields_of(state.base_twist);
     }
     encode(odometry_, bytes_);
     base_->write(bytes_);
@@ -124,8 +109,9 @@ void RobotSide::publish(const runtime::Sensed& sensed, double stamp, double shif
     publish_signal(*signal.source, sample, shift, *signal.writer);
   }
   if (wrench_ && sensed.contact_wrench) {
-    encode(WrenchStamped{header_at(stamp, program_.robot.drive.feels.frame), six_of(*sensed.contact_wrench)},
-           bytes_);
+    encode(
+        WrenchStamped{header_at(stamp, program_.robot.drive.feels.frame), fields_of(*sensed.contact_wrench)},
+        bytes_);
     wrench_->write(bytes_);
   }
   // Last: they are what the other side ticks by.
@@ -163,7 +149,7 @@ void RobotSide::publish_signal(const lang::SignalSource& source, const runtime::
       encode(PoseStamped{header, fields_of(sample.pose)}, bytes_);
       break;
     case lang::MessageType::wrench_stamped:
-      encode(WrenchStamped{header, six_of(sample.wrench)}, bytes_);
+      encode(WrenchStamped{header, fields_of(sample.wrench)}, bytes_);
       break;
     default: {
       const auto middle = static_cast<float>(0.5 * ((*source.nearest)[0] + (*source.nearest)[1]));

@@ -17,12 +17,13 @@ bool OnePublisher::admits(const Sender& sender, double arrival) {
   return true;
 }
 
-std::vector<Address> own_addresses() {
+std::vector<Address> own_addresses(const std::string& interface) {
   std::vector<Address> addresses;
   ifaddrs* first = nullptr;
   if (getifaddrs(&first) != 0) return addresses;
   for (const ifaddrs* one = first; one != nullptr; one = one->ifa_next) {
     if (one->ifa_addr == nullptr || one->ifa_addr->sa_family != AF_INET) continue;
+    if (!interface.empty() && interface != one->ifa_name) continue;
     sockaddr_in address{};
     std::memcpy(&address, one->ifa_addr, sizeof address);
     Address bytes{};

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace zwang::connect {
@@ -28,8 +29,8 @@ class OnePublisher {
 /// An address of IPv4, its first byte first.
 using Address = std::array<std::uint8_t, 4>;
 
-/// Of the interfaces of this machine, as they are now.
-std::vector<Address> own_addresses();
+/// Of the interfaces of this machine, as they are now; of the one with this name alone, where one is given.
+std::vector<Address> own_addresses(const std::string& interface = {});
 
 /// Whether a process that names these addresses as its own runs on this machine: all of them are `own`, or
 /// begin with 127. All, because two machines may have an address of the same virtual network each.

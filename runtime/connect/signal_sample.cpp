@@ -1,5 +1,6 @@
 #include "signal_sample.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "transforms.hpp"
@@ -19,6 +20,20 @@ SignalSample valid_sample(lang::SignalType type, double stamp) {
 }
 
 }  // namespace
+
+PoseFields fields_of(const solver::Pose& pose) {
+  const Eigen::Quaterniond q(pose.rotation);
+  const solver::Vector3& p = pose.position;
+  return {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()};
+}
+
+SixFields fields_of(const solver::MotionVector& m) {
+  return {m.linear.x(), m.linear.y(), m.linear.z(), m.angular.x(), m.angular.y(), m.angular.z()};
+}
+
+SixFields fields_of(const solver::ForceVector& w) {
+  return {w.linear.x(), w.linear.y(), w.linear.z(), w.angular.x(), w.angular.y(), w.angular.z()};
+}
 
 solver::ForceVector wrench_of(const SixFields& w) {
   solver::ForceVector wrench;

@@ -8,6 +8,10 @@
 
 namespace zwang::connect {
 
+PoseFields fields_of(const solver::Pose& pose);
+SixFields fields_of(const solver::MotionVector& motion);
+SixFields fields_of(const solver::ForceVector& wrench);
+
 /// Force, then moment: in the axes that the sender means [N, N m].
 solver::ForceVector wrench_of(const SixFields& fields);
 

@@ -164,7 +164,7 @@ int simulate(const Arguments& arguments) {
   become_punctual(loaded->connection.priority);
   World world(loaded->program, arguments.seed);
   RobotSide side(loaded->connection, loaded->program, arguments.stamps_ahead);
-  Participant participant(loaded->connection.domain, loaded->connection.reach, "zwang_simulated_robot");
+  Participant participant(loaded->connection, "zwang_simulated_robot");
   side.join(participant);
   Happenings happenings;
   const lang::Drive& drive = loaded->program.robot.drive;

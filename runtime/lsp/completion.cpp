@@ -42,12 +42,10 @@ std::vector<lang::NamePlace> names_of_tasks_in(const std::filesystem::path& file
 /// As the asked file would name them. Those below its folder come first.
 std::vector<lang::KnownFile> files_to_name(const Asked& asked) {
   std::vector<lang::KnownFile> files;
-  const auto add = [&](const std::filesystem::path& path, std::optional<lang::FileKind> kind) {
+  for (const auto& [path, kind] : asked.workspace.files_around(asked.file)) {
     if (path != asked.file)
       files.push_back({path.lexically_relative(asked.file.parent_path()).generic_string(), kind});
-  };
-  for (const std::filesystem::path& path : files_around(asked.file)) add(path, kind_of(path));
-  for (const std::filesystem::path& path : urdfs_around(asked.file)) add(path, std::nullopt);
+  }
   std::stable_partition(files.begin(), files.end(),
                         [](const lang::KnownFile& file) { return !file.name.starts_with(".."); });
   return files;

@@ -5,6 +5,7 @@
 #include "features.hpp"
 #include "shared_name.hpp"
 #include "zwang/lang/completion.hpp"
+#include "zwang/lang/condition_function.hpp"
 #include "zwang/lang/explanation.hpp"
 #include "zwang/runtime/planner.hpp"
 #include "zwang/runtime/with_unit.hpp"
@@ -166,7 +167,26 @@ std::string about_name(const Asked& asked, const lang::Position& place) {
     const std::string text = about_parameter(asked, name->name);
     if (!text.empty()) return text;
   }
+  if (name->name == "estimated" && name->may_be(lang::NameKind::group))
+    return "`estimated.force.x`, `estimated.FRAME.x`: what presses on the robot, by its torques and motion "
+           "alone\n";
   return std::string(lang::word_of(name->kinds.front())) + " `" + name->name + "`\n";
+}
+
+bool is_in_a_word(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+/// A function of conditions, in front of its parenthesis.
+std::string about_function(const Asked& asked) {
+  const std::string& text = asked.document.text;
+  std::size_t begin = Lines(text).offset(asked.position), end = begin;
+  while (begin > 0 && is_in_a_word(text[begin - 1])) --begin;
+  while (end < text.size() && is_in_a_word(text[end])) ++end;
+  const lang::ConditionFunction* function =
+      end < text.size() && text[end] == '(' ? lang::find_function(text.substr(begin, end - begin)) : nullptr;
+  if (function == nullptr) return {};
+  return "`" + std::string(function->name) + "(..)`: " + std::string(function->of) + "\n";
 }
 
 bool is_in_a_quantity(char c) {
@@ -203,8 +223,7 @@ std::string about_place(const Asked& asked) {
   const std::string& text = asked.document.text;
   std::size_t at = Lines(text).offset(asked.position);
   // To the end of the word: a key is known by its colon.
-  while (at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '_'))
-    ++at;
+  while (at < text.size() && is_in_a_word(text[at])) ++at;
   lang::TextPlace place = lang::place_at(text, at);
   if (place.is_key) place.keys.push_back(text.substr(place.word_begin, at - place.word_begin));
   return lang::about_key(asked.kind, place.keys);
@@ -215,8 +234,9 @@ std::string about_place(const Asked& asked) {
 Json hover(const Asked& asked) {
   const lang::Position place = Lines(asked.document.text).from_editor(asked.position);
   std::string text;
-  for (const std::string& part : {about_row(asked, place), about_name(asked, place), about_quantity(asked),
-                                  about_place(asked), about_diagnostics(asked, place)}) {
+  for (const std::string& part :
+       {about_row(asked, place), about_name(asked, place), about_function(asked), about_quantity(asked),
+        about_place(asked), about_diagnostics(asked, place)}) {
     if (!part.empty()) text += (text.empty() ? "" : "\n") + part;
   }
   if (text.empty()) return nullptr;

@@ -63,7 +63,7 @@ Json definition(const Asked& asked) {
 Json references(const Asked& asked) {
   Json all = Json::array();
   const lang::Position place = Lines(asked.document.text).from_editor(asked.position);
-  const auto shared = shared_name(asked.file, asked.kind, place);
+  const auto shared = shared_name(asked.workspace, asked.file, asked.kind, place);
   if (!shared) return all;
   for (const FileOfName& file : shared->files) {
     for (const lang::Span& span : file.spans)
@@ -89,7 +89,7 @@ Json prepare_rename(const Asked& asked) {
   const Lines lines(asked.document.text);
   const lang::Position place = lines.from_editor(asked.position);
   const auto name = name_at(asked.file, asked.kind, place);
-  if (!name || !shared_name(asked.file, asked.kind, place)) return nullptr;
+  if (!name || !shared_name(asked.workspace, asked.file, asked.kind, place)) return nullptr;
   return {{"range", range_of(lines, name->span)}, {"placeholder", name->name}};
 }
 

@@ -62,6 +62,14 @@ bool touches(const Lines& lines, const lang::Span& span, const EditorPosition& b
   return key(lines.to_editor(span.begin)) <= key(end) && key(begin) <= key(lines.to_editor(span.end));
 }
 
+/// The diagnostic with the edit that it has, else with each of its choices.
+std::vector<lang::Diagnostic> with_each_edit(const lang::Diagnostic& d) {
+  if (d.choices.empty() || d.replacement) return {d};
+  std::vector<lang::Diagnostic> all(d.choices.size(), d);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].replacement = d.choices[i];
+  return all;
+}
+
 std::string title_of(const lang::Diagnostic& d) {
   constexpr std::size_t widest = 60;
   const bool is_short = d.replacement && !d.replacement->empty() && d.replacement->size() <= widest &&
@@ -135,16 +143,18 @@ Json quick_fixes(const Workspace& workspace, const fs::path& file, const EditorP
     for (const lang::Diagnostic& d : judgement.diagnostics.sorted()) {
       if (!d.span.exists() || file_of(reader, judgement.diagnostics, d) != file) continue;
       if (!touches(Lines(judgement.diagnostics.source(d.span.source).text), d.span, begin, end)) continue;
-      Json edits = edits_of(workspace, judgement.diagnostics, d);
-      if (edits.empty() || !mends(workspace, reader, judgement, d, file)) continue;
-      Json action = {
-          {"title", title_of(d)},
-          {"kind", "quickfix"},
-          {"isPreferred", true},
-          {"diagnostics", Json::array({json_of(workspace, judgement.diagnostics, d, explanations)})},
-          {"edit", {{"changes", std::move(edits)}}}};
-      if (std::find(actions.begin(), actions.end(), action) == actions.end())
-        actions.push_back(std::move(action));
+      for (const lang::Diagnostic& edited : with_each_edit(d)) {
+        Json edits = edits_of(workspace, judgement.diagnostics, edited);
+        if (edits.empty() || !mends(workspace, reader, judgement, edited, file)) continue;
+        Json action = {
+            {"title", title_of(edited)},
+            {"kind", "quickfix"},
+            {"isPreferred", d.choices.empty() || d.replacement},
+            {"diagnostics", Json::array({json_of(workspace, judgement.diagnostics, d, explanations)})},
+            {"edit", {{"changes", std::move(edits)}}}};
+        if (std::find(actions.begin(), actions.end(), action) == actions.end())
+          actions.push_back(std::move(action));
+      }
     }
   }
   return actions;

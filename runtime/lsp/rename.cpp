@@ -34,18 +34,18 @@ Counts counts_of(const fs::path& path, lang::FileKind kind) {
 }
 
 /// The files whose meaning the edits may change: those that are edited, and tasks that read one of them.
-std::map<fs::path, lang::FileKind> concerned(const SharedName& shared) {
+std::map<fs::path, lang::FileKind> concerned(const Workspace& workspace, const SharedName& shared) {
   std::map<fs::path, lang::FileKind> files;
   std::set<fs::path> edited;
   for (const FileOfName& file : shared.files) {
     files.emplace(file.path, file.kind);
     edited.insert(file.path);
   }
-  for (const fs::path& path : files_around(shared.files.front().path)) {
+  for (const auto& [path, kind] : workspace.files_around(shared.files.front().path)) {
+    if (!kind) continue;
     lang::Diagnostics unheard;
-    const auto kind = kind_of(path);
     for (const lang::NamedFile& named : lang::files_in(path, unheard)) {
-      if (kind && edited.contains(lang::canonical_name(named.path))) files.emplace(path, *kind);
+      if (edited.contains(lang::canonical_name(named.path))) files.emplace(path, *kind);
     }
   }
   return files;
@@ -53,7 +53,7 @@ std::map<fs::path, lang::FileKind> concerned(const SharedName& shared) {
 
 /// The text itself is tried: whatever the language would refuse is refused here, in its own words.
 void require_no_harm(const Asked& asked, const SharedName& shared, const std::string& new_name) {
-  const std::map<fs::path, lang::FileKind> files = concerned(shared);
+  const std::map<fs::path, lang::FileKind> files = concerned(asked.workspace, shared);
   std::map<fs::path, Counts> before;
   for (const auto& [path, kind] : files) before[path] = counts_of(path, kind);
   lang::OpenTexts texts = asked.workspace.texts();
@@ -80,7 +80,7 @@ Json rename(const Asked& asked, const std::string& new_name) {
   if (!lang::is_name(new_name))
     throw Refused("`" + new_name + "` is no name: write a letter or `_`, then letters, digits and `_`");
   const lang::Position place = Lines(asked.document.text).from_editor(asked.position);
-  const auto shared = shared_name(asked.file, asked.kind, place);
+  const auto shared = shared_name(asked.workspace, asked.file, asked.kind, place);
   if (!shared) throw Refused("no name stands here that one of zwang's files gives");
   require_no_harm(asked, *shared, new_name);
   Json changes = Json::object();

@@ -12,18 +12,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of a folder tree that is no project of zwang's.
-constexpr int most_files = 2000;
-
-/// The nearest folder above with a `.zwang-root`, else the file's own.
-fs::path root_above(const fs::path& file) {
-  std::error_code error;
-  for (fs::path folder = file.parent_path(); folder != folder.root_path(); folder = folder.parent_path()) {
-    if (fs::exists(folder / ".zwang-root", error)) return folder;
-  }
-  return file.parent_path();
-}
-
 std::set<fs::path> named_in(const fs::path& file) {
   lang::Diagnostics unheard;
   std::set<fs::path> files;
@@ -41,24 +29,24 @@ bool is_meant_elsewhere(const lang::NamePlace& place, const lang::NamePlace& giv
 
 class Search {
  public:
-  Search(fs::path home, lang::NamePlace given) : home_(std::move(home)), given_(std::move(given)) {}
+  Search(const Workspace& workspace, fs::path home, lang::NamePlace given)
+      : workspace_(workspace), home_(std::move(home)), given_(std::move(given)) {}
 
   SharedName find() {
     SharedName shared{given_.name, given_.kinds.front(), {}};
     add(home_, lang::FileKind::task, true, shared);
     if (has_scope(shared.kind)) return shared;
     std::set<fs::path> scenes = named_in(home_);
-    const std::vector<fs::path> around = files_around(home_);
-    for (const fs::path& file : around) {
+    const std::vector<ProjectFile> around = workspace_.files_around(home_);
+    for (const auto& [file, kind] : around) {
+      if (kind != lang::FileKind::scenario && kind != lang::FileKind::study) continue;
       const std::set<fs::path> named = named_in(file);
-      const auto kind = kind_of(file);
-      const bool runs_tasks = kind == lang::FileKind::scenario || kind == lang::FileKind::study;
-      if (!runs_tasks || !leads_home(named)) continue;
+      if (!leads_home(named)) continue;
       add(file, *kind, true, shared);
       scenes.insert(named.begin(), named.end());
     }
-    for (const fs::path& file : around) {
-      if (kind_of(file) != lang::FileKind::scene) continue;
+    for (const auto& [file, kind] : around) {
+      if (kind != lang::FileKind::scene) continue;
       const bool names_home = named_in(file).contains(home_);
       if (names_home || scenes.contains(file)) add(file, lang::FileKind::scene, names_home, shared);
     }
@@ -91,6 +79,7 @@ class Search {
            place.scope == given_.scope;
   }
 
+  const Workspace& workspace_;
   fs::path home_;
   lang::NamePlace given_;
 };
@@ -122,44 +111,7 @@ std::vector<fs::path> homes_of(const fs::path& file) {
   return homes;
 }
 
-namespace {
-
-/// Below the root folder, in the order of their names. At most `most_files` are looked at.
-template <typename IsWanted>
-std::vector<fs::path> paths_around(const fs::path& file, IsWanted&& is_wanted) {
-  std::vector<fs::path> paths;
-  std::error_code error;
-  int seen = 0;
-  for (auto entry = fs::recursive_directory_iterator(root_above(file),
-                                                     fs::directory_options::skip_permission_denied, error);
-       !error && entry != fs::recursive_directory_iterator() && seen < most_files; entry.increment(error)) {
-    const fs::path& path = entry->path();
-    // Hidden folders, and those of builds and packages, hold no files of an author's.
-    if (path.filename().string().starts_with(".") || path.filename() == "node_modules")
-      entry.disable_recursion_pending();
-    const std::string extension = path.extension().string();
-    const bool is_known = extension == ".yaml" || extension == ".yml" || extension == ".urdf";
-    seen += is_known ? 1 : 0;
-    if (is_known && is_wanted(path, extension)) paths.push_back(lang::canonical_name(path));
-  }
-  std::sort(paths.begin(), paths.end());
-  return paths;
-}
-
-}  // namespace
-
-std::vector<fs::path> files_around(const fs::path& file) {
-  return paths_around(file, [](const fs::path& path, const std::string& extension) {
-    return extension != ".urdf" && kind_of(path);
-  });
-}
-
-std::vector<fs::path> urdfs_around(const fs::path& file) {
-  return paths_around(file,
-                      [](const fs::path&, const std::string& extension) { return extension == ".urdf"; });
-}
-
-std::optional<SharedName> shared_name(const fs::path& file, lang::FileKind kind,
+std::optional<SharedName> shared_name(const Workspace& workspace, const fs::path& file, lang::FileKind kind,
                                       const lang::Position& place) {
   const std::optional<lang::NamePlace> name = name_at(file, kind, place);
   if (!name) return std::nullopt;
@@ -168,7 +120,7 @@ std::optional<SharedName> shared_name(const fs::path& file, lang::FileKind kind,
     if (!kind_of_home) continue;
     lang::Diagnostics unheard;
     for (const lang::NamePlace& given : lang::names_of(*kind_of_home, home, unheard)) {
-      if (is_given_for(given, *name)) return Search(home, given).find();
+      if (is_given_for(given, *name)) return Search(workspace, home, given).find();
     }
   }
   return std::nullopt;

@@ -10,6 +10,8 @@
 
 namespace zwang::lsp {
 
+class Workspace;
+
 bool holds(const lang::Span& span, const lang::Position& place);
 
 /// The name at a place of a file.
@@ -34,11 +36,7 @@ struct SharedName {
 };
 /// All places of the name that stands at a place. nullopt: no name stands there, or no file of zwang's gives
 /// it: the URDF gives its links. Looks at the files below the root folder of the name's home.
-std::optional<SharedName> shared_name(const std::filesystem::path& file, lang::FileKind kind,
-                                      const lang::Position& place);
-
-/// zwang's files below the root folder of a file, which read it or may do so.
-std::vector<std::filesystem::path> files_around(const std::filesystem::path& file);
-std::vector<std::filesystem::path> urdfs_around(const std::filesystem::path& file);
+std::optional<SharedName> shared_name(const Workspace& workspace, const std::filesystem::path& file,
+                                      lang::FileKind kind, const lang::Position& place);
 
 }  // namespace zwang::lsp

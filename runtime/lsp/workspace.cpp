@@ -98,6 +98,13 @@ const Judgement* Workspace::judgement(const fs::path& path) const {
   return found == judgements_.end() ? nullptr : &found->second;
 }
 
+std::vector<ProjectFile> Workspace::files_around(const fs::path& file) const {
+  return files_.around(file, [this](const fs::path& path) {
+    const Document* open = document(path);
+    return open == nullptr ? nullptr : &open->text;
+  });
+}
+
 std::string Workspace::uri(const fs::path& path) const {
   const Document* open = document(path);
   return open == nullptr ? uri_of(path) : open->uri;

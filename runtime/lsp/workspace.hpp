@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "project_files.hpp"
 #include "zwang/lang/file_kind.hpp"
 #include "zwang/lang/names.hpp"
 #include "zwang/lang/open_texts.hpp"
@@ -62,6 +63,8 @@ class Workspace {
   const Document* document(const std::filesystem::path& path) const;
   const Judgement* judgement(const std::filesystem::path& path) const;
   const lang::OpenTexts& texts() const { return texts_; }
+  /// zwang's files and URDFs below the root folder of a file.
+  std::vector<ProjectFile> files_around(const std::filesystem::path& file) const;
   /// As an editor knows the file: by the address that it gave.
   std::string uri(const std::filesystem::path& path) const;
 
@@ -72,6 +75,7 @@ class Workspace {
   std::map<std::filesystem::path, Judgement> judgements_;
   std::set<std::filesystem::path> stale_;
   lang::OpenTexts texts_;
+  mutable ProjectFiles files_;  ///< what was read of them before
 };
 
 }  // namespace zwang::lsp

@@ -116,17 +116,19 @@ ReadProgram load(const fs::path& path, const std::optional<std::string>& text, c
   return read;
 }
 
-void look_at(const fs::path& path, const lang::LoadOptions& options, lang::Diagnostics& diagnostics) {
-  lang::check_file(lang::kind_of_file(path).value_or(lang::FileKind::task), path, {options}, diagnostics);
+void look_at(const fs::path& path, const lang::CheckOptions& options, lang::Diagnostics& diagnostics) {
+  lang::check_file(lang::kind_of_file(path).value_or(lang::FileKind::task), path, options, diagnostics);
 }
 
 std::vector<Told> validate(const fs::path& path, const std::optional<std::string>& text,
                            const Texts& open_files, const std::optional<fs::path>& robot,
-                           const std::optional<fs::path>& scene, const Parameters& params, bool notes) {
+                           const std::optional<fs::path>& scene, const Parameters& params, bool notes,
+                           const std::optional<fs::path>& task) {
   const lang::OpenTexts texts = open_texts(path, text, open_files);
   const lang::ReadsOpenTexts reading(texts);
   lang::Diagnostics diagnostics;
-  look_at(path, options_of(path, robot, scene, params), diagnostics);
+  const lang::LoadOptions options = options_of(task.value_or(path), robot, scene, params);
+  look_at(path, {.load = options, .with_notes = notes, .task = task}, diagnostics);
   return told(diagnostics, notes);
 }
 
@@ -217,10 +219,13 @@ void bind_language(py::module_& module) {
       py::call_guard<py::gil_scoped_release>(),
       "Reads a task file with its robot and scene. `text` is read in the file's place, `open_files` in the "
       "place of those that it names. `params`: {'push': '30 N'}, or numbers in SI. Raises Error.");
-  module.def("validate", &validate, arg("path"), py::kw_only(), arg("text") = py::none(),
-             arg("open_files") = Texts{}, arg("robot") = py::none(), arg("scene") = py::none(),
-             arg("params") = Parameters{}, arg("notes") = false, py::call_guard<py::gil_scoped_release>(),
-             "What `zwang validate` says of a file of any kind, in the order of the text.");
+  module.def(
+      "validate", &validate, arg("path"), py::kw_only(), arg("text") = py::none(),
+      arg("open_files") = Texts{}, arg("robot") = py::none(), arg("scene") = py::none(),
+      arg("params") = Parameters{}, arg("notes") = false, arg("task") = py::none(),
+      py::call_guard<py::gil_scoped_release>(),
+      "What `zwang validate` says of a file of any kind, in the order of the text. A connection file is "
+      "checked against `task`.");
 }
 
 }  // namespace zwang::python

@@ -1,7 +1,11 @@
 #include "log_table.hpp"
 
+#include <algorithm>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
+#include "zwang/lang/nearest.hpp"
 #include "zwang/runtime/log_reader.hpp"
 
 namespace zwang::python {
@@ -41,9 +45,42 @@ LogTable::LogTable(std::vector<runtime::Column> columns) : columns_(std::move(co
   for (std::size_t i = 0; i < columns_.size(); ++i) places_.emplace(columns_[i].name, i);
 }
 
+namespace {
+
+std::set<std::string> words_of(const std::string& name) {
+  std::set<std::string> words;
+  std::istringstream text(name);
+  for (std::string word; std::getline(text, word, '.');) words.insert(word);
+  return words;
+}
+
+/// What may be meant: a name that is misspelt, else the names that share the most words.
+std::string like(const std::string& name, const std::vector<runtime::Column>& columns) {
+  constexpr std::size_t most_told = 5;
+  const std::set<std::string> wanted = words_of(name);
+  std::vector<std::string> names, shared;
+  std::size_t most = 1;
+  for (const runtime::Column& column : columns) {
+    names.push_back(column.name);
+    const std::set<std::string> words = words_of(column.name);
+    const auto common = static_cast<std::size_t>(std::count_if(
+        words.begin(), words.end(), [&](const std::string& word) { return wanted.contains(word); }));
+    if (common > most) shared.clear();
+    most = std::max(most, common);
+    if (common == most && shared.size() < most_told) shared.push_back(column.name);
+  }
+  if (const std::string near = lang::nearest(name, names); !near.empty()) shared = {near};
+  std::string text;
+  for (const std::string& one : shared) text += (text.empty() ? "; there is `" : "`, `") + one;
+  return text.empty() ? "; `columns` lists them" : text + "`";
+}
+
+}  // namespace
+
 std::size_t LogTable::column(const std::string& name) const {
   const auto found = places_.find(name);
-  if (found == places_.end()) throw std::out_of_range("the log has no column `" + name + "`");
+  if (found == places_.end())
+    throw std::out_of_range("the log has no column `" + name + "`" + like(name, columns_));
   return found->second;
 }
 

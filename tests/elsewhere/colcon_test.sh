@@ -6,7 +6,9 @@ set -euo pipefail
 source=$1
 skip() { echo "skipped: $1"; exit 77; }
 [[ ${ZWANG_LONG-} ]] || skip 'only with ZWANG_LONG'
-command -v colcon >/dev/null || skip 'apt install colcon'
+extensions=(python3-colcon-{package-information,package-selection,recursive-crawl,cmake,ros,bash,output})
+colcon list --help >/dev/null 2>&1 && colcon build --help 2>/dev/null | grep -q -e --cmake-args ||
+  skip "apt install colcon ${extensions[*]}"
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 mkdir -p "$place/src"

@@ -109,6 +109,9 @@ TEST_F(Features, CompletionKnowsKeysNamesAndUnits) {
   const auto condition = proposed(task, "when: loaded", "when: l");
   for (const char* name : {"loaded", "stand", "elapsed", "moved"})
     EXPECT_TRUE(condition.contains(name)) << name;
+  EXPECT_TRUE(proposed(task, "when: stop_key", "when: estimated.").contains("force"));
+  EXPECT_EQ(proposed(task, "when: stop_key", "when: estimated.force."),
+            (std::set<std::string>{"x", "y", "z", "rx", "ry", "rz"}));
   EXPECT_EQ(proposed(task, "x:  {velocity: 0 m/s, force: +-$soft}", "x:  {velocity: 0 "),
             (std::set<std::string>{"m/s", "cm/s", "mm/s"}));
   EXPECT_TRUE(proposed(task, "rz: {velocity: 0 rad/s", "rz: {velocity: 0 r").contains("deg/s"));
@@ -150,6 +153,12 @@ TEST_F(Features, HoverTellsWhatAQuantityIs) {
   EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "push:", 1), "how hard to press"));
 }
 
+TEST_F(Features, HoverTellsWhatAFunctionMeasures) {
+  const fs::path task = open("wall_align.yaml");
+  EXPECT_TRUE(contains(editor_.at("textDocument/hover", task, "moved(base)", 2),
+                       "`moved(..)`: of the origin's path since the task was entered"));
+}
+
 TEST_F(Features, AnUnknownNameInACallHasAnEdit) {
   const fs::path task = open("wall_align.yaml");
   const std::string text = replaced(slurp(task), "moved(base)", "moved( bse )");
@@ -163,6 +172,39 @@ TEST_F(Features, AnUnknownNameInACallHasAnEdit) {
   ASSERT_EQ(actions.size(), 1U) << actions.dump(1);
   const std::string fixed = Editor::edited(text, actions[0]["edit"]["changes"][uri_of(task)]);
   EXPECT_EQ(fixed, replaced(text, "bse", "base"));
+}
+
+/// No function is near: each one that may stand there is offered, and none is preferred.
+TEST_F(Features, AnUnknownFunctionHasAChoiceOfEdits) {
+  const fs::path task = open("wall_align.yaml");
+  const std::string text = replaced(slurp(task), "moved(base)", "zzzz(base)");
+  editor_.change(task, text);
+  const json place = Editor::position(text, text.find("zzzz"));
+  const json actions = editor_.fixes(task, {{"start", place}, {"end", place}});
+  std::set<std::string> fixed;
+  for (const json& action : actions) {
+    EXPECT_FALSE(action["isPreferred"]);
+    fixed.insert(Editor::edited(text, action["edit"]["changes"][uri_of(task)]));
+  }
+  EXPECT_TRUE(fixed.contains(replaced(text, "zzzz", "moved"))) << actions.dump(1);
+  EXPECT_FALSE(fixed.contains(replaced(text, "zzzz", "valid"))) << "it takes a signal, and `base` is none";
+}
+
+/// A file that comes, changes its kind or goes is known at once.
+TEST_F(Features, CompletionOfFilesFollowsTheFolder) {
+  const fs::path task = open("wall_align.yaml");
+  const auto scenes = [&] { return proposed(task, "scene: scenes/wall.yaml", "scene: "); };
+  EXPECT_FALSE(scenes().contains("scenes/new.yaml"));
+  const fs::path added = task.parent_path() / "scenes/new.yaml";
+  std::ofstream(added) << "zwang_scene: 1\n";
+  EXPECT_TRUE(scenes().contains("scenes/new.yaml"));
+  std::ofstream(added) << "zwang_robot: 1\nurdf: a.urdf\n";
+  EXPECT_FALSE(scenes().contains("scenes/new.yaml"));
+  editor_.open(added, "zwang_scene: 1\n");
+  EXPECT_TRUE(scenes().contains("scenes/new.yaml"));
+  editor_.close(added);
+  fs::remove(added);
+  EXPECT_FALSE(scenes().contains("scenes/new.yaml"));
 }
 
 TEST_F(Features, ACompletionIsNoMistake) {

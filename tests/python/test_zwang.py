@@ -55,6 +55,8 @@ def test_columns_are_read_only_views_that_outlive_the_run():
     log = zwang.run(zwang.load(WALL_ALIGN), most=0.1, log=True).log
     with pytest.raises(KeyError, match="no column `no_such`"):
         log["no_such"]
+    with pytest.raises(KeyError, match="there is `estimated.force.x`"):
+        log["force.x"]
 
 
 def test_a_mistake_is_an_error_with_its_diagnostics(tmp_path):
@@ -211,6 +213,14 @@ def test_files_of_each_kind_are_validated():
     for path in ("wall_align.yaml", "robots/mecanum_base.yaml", "scenes/wall.yaml", "scenarios/wall_align.yaml",
                  "connections/twist.yaml", "studies/docking.yaml"):
         assert [d for d in zwang.validate(SPECS / path) if d.severity == "error"] == [], path
+
+
+def test_a_connection_is_checked_against_a_task():
+    connection = SPECS / "connections" / "twist.yaml"
+    told = zwang.validate(connection, task="wall_align")  # a robot on torques
+    assert [d.code for d in told if d.severity == "error"] == ["E923"]
+    fits = zwang.validate(connection, task="wall_align", robot=SPECS / "robots/blind/mecanum_twist.yaml")
+    assert "E923" not in [d.code for d in fits]
 
 
 def test_shipped_tasks_are_found_by_name(tmp_path, monkeypatch):

@@ -2,8 +2,11 @@
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_connection.hpp"
+#include "robot/wheel_speed.hpp"
+#include "zwang/lang/configurations.hpp"
 #include "zwang/lang/connection.hpp"
 #include "zwang/lang/program.hpp"
+#include "zwang/solver/base_analysis.hpp"
 
 namespace zwang::lang {
 
@@ -86,6 +89,25 @@ void check_order(const CommandSink& command, const Program& program, Diagnostics
   }
 }
 
+/// A torque F that is held accelerates a base of mass m by F/m: after v m/F its wheels turn as fast as they
+/// can, v. A receiver that waits so long stops a base that has run away.
+void check_held_torque(const CommandSink& command, const Robot& robot, Diagnostics& diagnostics) {
+  if (!command.timeout || *command.timeout > given_up_after) return;  // told already
+  if (robot.model.has_fixed_base()) return;
+  const solver::BaseAnalysis base = solver::analyse_base(robot.model, start_state(robot));
+  double within = solver::infinity, speed = 0.0;
+  for (const solver::Axis axis : {solver::Axis::x, solver::Axis::y}) {
+    const solver::AxisAnalysis can = usable(base.axes[axis == solver::Axis::x ? 0 : 1]);
+    const double most = wheel_speed_along(robot, axis).most;
+    const double time = most * can.effective_mass / can.largest_force;
+    if (!can.reachable || !(time < within)) continue;
+    within = time;
+    speed = most;
+  }
+  if (*command.timeout > within)
+    diagnostics.add(wording::torque_held_too_long(command.timeout_span, *command.timeout, speed, within));
+}
+
 void check_command(const CommandSink& command, const Program& program, Diagnostics& diagnostics) {
   const Drive& drive = program.robot.drive;
   const char* const sent = command.kind == CommandKind::twist    ? "twists"
@@ -112,6 +134,7 @@ void check_command(const CommandSink& command, const Program& program, Diagnosti
   const double cycle = command.rate ? 1.0 / *command.rate : program.robot.control_period;
   if (command.timeout && *command.timeout <= cycle)
     diagnostics.add(wording::too_short_timeout(command.span, cycle));
+  if (command.kind == CommandKind::effort) check_held_torque(command, program.robot, diagnostics);
   if (command.kind != CommandKind::twist) check_order(command, program, diagnostics);
 }
 

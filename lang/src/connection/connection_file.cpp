@@ -63,15 +63,29 @@ Topic parse_topic_alone(const Node& node, const std::string& what, Diagnostics& 
   return topic;
 }
 
+/// `loopback`, `machine`, `network` or `[eth0]`.
+void parse_reach(const Node& node, Connection& connection, Diagnostics& diagnostics) {
+  if (node.is_sequence()) {
+    connection.reach = Reach::network;
+    for (const Node& item : node.items) {
+      const Word name = parse_word(item, "an interface of `reach`", diagnostics);
+      if (name.exists()) connection.interfaces.push_back(name.text);
+    }
+    if (node.items.empty()) diagnostics.add(wording::reach_of_nothing(node.span));
+    return;
+  }
+  const std::string word = parse_choice(node, "`reach`", {"loopback", "machine", "network"}, diagnostics);
+  if (word == "machine") connection.reach = Reach::machine;
+  if (word == "network") connection.reach = Reach::network;
+}
+
 void parse_ros2(const Node& node, Connection& connection, Diagnostics& diagnostics) {
   MapReader map(node, "`ros2`", diagnostics);
   if (const Node* domain = map.optional("domain"))
     connection.domain =
         parse_integer(*domain, "`domain`", 0, highest_domain, diagnostics).value_or(connection.domain);
   if (const Node* reach = map.optional("reach")) {
-    const std::string word = parse_choice(*reach, "`reach`", {"loopback", "machine", "network"}, diagnostics);
-    if (word == "machine") connection.reach = Reach::machine;
-    if (word == "network") connection.reach = Reach::network;
+    parse_reach(*reach, connection, diagnostics);
   }
   if (const Node* name = map.optional("name")) {
     const Word word = parse_word(*name, "`name`", diagnostics);
@@ -111,6 +125,19 @@ JointsSource parse_joints(const Node& node, Diagnostics& diagnostics) {
   return joints;
 }
 
+FramePair parse_frames(const Node& node, const std::string& example, Diagnostics& diagnostics) {
+  FramePair frames{"", "", node.span};
+  MapReader map(node, "`tf`", diagnostics, example);
+  if (const Node* parent = map.required("parent"))
+    frames.parent = parse_word(*parent, "`parent`", diagnostics).text;
+  if (const Node* child = map.required("child"))
+    frames.child = parse_word(*child, "`child`", diagnostics).text;
+  map.finish();
+  if (!frames.parent.empty() && frames.parent == frames.child)
+    diagnostics.add(wording::frame_in_itself(frames.span, frames.child));
+  return frames;
+}
+
 /// `{topic: /amcl_pose}` or `{tf: {parent: map, child: base_link}}`.
 void parse_fix(const Node& node, Connection& connection, Diagnostics& diagnostics) {
   MapReader map(node, "`fix`", diagnostics, "{topic: " + (node.is_scalar() ? node.text : "/amcl_pose") + "}");
@@ -119,16 +146,7 @@ void parse_fix(const Node& node, Connection& connection, Diagnostics& diagnostic
     connection.fix = parse_topic(map, diagnostics);
   } else {
     if (map.optional("topic") != nullptr) diagnostics.add(wording::two_fixes(node.span));
-    FramePair frames{"", "", tf->span};
-    MapReader tf_map(*tf, "`tf`", diagnostics, "{parent: map, child: base_link}");
-    if (const Node* parent = tf_map.required("parent"))
-      frames.parent = parse_word(*parent, "`parent`", diagnostics).text;
-    if (const Node* child = tf_map.required("child"))
-      frames.child = parse_word(*child, "`child`", diagnostics).text;
-    tf_map.finish();
-    if (!frames.parent.empty() && frames.parent == frames.child)
-      diagnostics.add(wording::frame_in_itself(frames.span, frames.child));
-    connection.fix_frames = frames;
+    connection.fix_frames = parse_frames(*tf, "{parent: map, child: base_link}", diagnostics);
   }
   map.finish();
 }
@@ -200,9 +218,30 @@ void parse_clock(const Node& node, Connection& connection, Diagnostics& diagnost
   map.finish();
 }
 
+/// `{odometry: {topic: /zwang/odom}, tf: {parent: odom, child: base_link}, rate: 50 Hz}`.
+void parse_publication(const Node& node, Connection& connection, Diagnostics& diagnostics) {
+  MapReader map(node, "`publish`", diagnostics, "{odometry: {topic: /zwang/odom}}");
+  BasePublication& publication = connection.publication.emplace();
+  if (const Node* odometry = map.optional("odometry"))
+    publication.odometry = parse_topic_alone(*odometry, "`odometry`", diagnostics);
+  if (const Node* tf = map.optional("tf"))
+    publication.frames = parse_frames(*tf, "{parent: odom, child: base_link}", diagnostics);
+  if (const Node* rate = map.optional("rate"))
+    publication.rate =
+        parse_positive(*rate, dimension::frequency, "`rate`", false, diagnostics).value_or(publication.rate);
+  map.finish();
+  const auto& fix = connection.fix_frames;
+  if (publication.frames && fix && fix->child == publication.frames->child)
+    diagnostics.add(wording::told_and_heard(publication.frames->span, fix->child, fix->span));
+}
+
 void parse_timeout(MapReader& map, CommandSink& command, Diagnostics& diagnostics) {
-  if (const Node* timeout = map.optional("timeout"))
-    command.timeout = parse_positive(*timeout, dimension::time, "`timeout`", false, diagnostics);
+  const Node* timeout = map.optional("timeout");
+  if (timeout == nullptr) return;
+  command.timeout_span = timeout->span;
+  command.timeout = parse_positive(*timeout, dimension::time, "`timeout`", false, diagnostics);
+  if (command.timeout.value_or(0.0) > given_up_after)
+    diagnostics.add(wording::stopped_too_late(timeout->span, *command.timeout));
 }
 
 void parse_twist_sink(const Node& node, CommandSink& command, Diagnostics& diagnostics) {
@@ -310,6 +349,7 @@ std::optional<Connection> parse_connection(const Document& document, const std::
     }
   }
   if (const Node* clock = map.optional("clock")) parse_clock(*clock, connection, diagnostics);
+  if (const Node* publish = map.optional("publish")) parse_publication(*publish, connection, diagnostics);
   if (const Node* command = map.required("command"))
     connection.command = parse_command(*command, diagnostics);
   parse_begin(map, folder, connection, diagnostics);  // last: `state` is no misspelt `start`

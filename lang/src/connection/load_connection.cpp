@@ -21,6 +21,8 @@ std::vector<NamedTopic> topics_of(const Connection& c) {
                               {c.command.topic, c.command.type, true}};
   if (c.base) all.push_back({*c.base, MessageType::odometry, false});
   if (c.fix) all.push_back({*c.fix, MessageType::pose_with_covariance_stamped, false});
+  if (c.publication && c.publication->odometry)
+    all.push_back({*c.publication->odometry, MessageType::odometry, true});
   if (c.wrench) all.push_back({*c.wrench, MessageType::wrench_stamped, false});
   if (c.clock) all.push_back({*c.clock, MessageType::clock, false});
   for (const SignalSource& signal : c.signals) all.push_back({signal.topic, signal.type, false});

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "zwang/lang/diagnostic.hpp"
 
@@ -32,6 +33,12 @@ inline Diagnostic warning(const std::string& code, const Span& span, std::string
 /// Offers `text` as what may stand in the span's place.
 inline Diagnostic with_replacement(Diagnostic diagnostic, const std::string& text) {
   diagnostic.replacement = text;
+  return diagnostic;
+}
+
+/// A person chooses among these: none is nearer than the others.
+inline Diagnostic with_choices(Diagnostic diagnostic, const std::vector<std::string>& choices) {
+  diagnostic.choices = choices;
   return diagnostic;
 }
 

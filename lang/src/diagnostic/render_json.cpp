@@ -1,6 +1,7 @@
 // Diagnostics for programs: JSON for editors, SARIF for code scanning.
 #include <nlohmann/json.hpp>
 #include <set>
+#include <vector>
 
 #include "diagnostic/severity.hpp"
 #include "zwang/lang/diagnostic.hpp"
@@ -50,6 +51,7 @@ ordered_json json_of(const Diagnostics& diagnostics, const Diagnostic& d) {
           {"message", d.message},
           {"help", d.help},
           {"replacement", d.replacement ? ordered_json(*d.replacement) : ordered_json(nullptr)},
+          {"choices", d.choices},
           {"edits", edits},
           {"related", related}};
 }
@@ -93,6 +95,21 @@ ordered_json sarif_location(const Diagnostics& diagnostics, const Span& span) {
            {{"artifactLocation", sarif_artifact(diagnostics, span)}, {"region", sarif_region(span)}}}};
 }
 
+/// One fix for each text that may replace the span: a reader takes one of them.
+ordered_json sarif_fixes(const Diagnostics& diagnostics, const Diagnostic& d) {
+  ordered_json fixes = ordered_json::array();
+  for (const std::string& text : d.replacement ? std::vector{*d.replacement} : d.choices) {
+    ordered_json replacements = ordered_json::array({sarif_replacement(d.span, text)});
+    for (const RelatedSpan& r : d.related) {
+      if (r.replacement) replacements.push_back(sarif_replacement(r.span, *r.replacement));
+    }
+    const ordered_json change = {{"artifactLocation", sarif_artifact(diagnostics, d.span)},
+                                 {"replacements", std::move(replacements)}};
+    fixes.push_back({{"artifactChanges", ordered_json::array({change})}});
+  }
+  return fixes;
+}
+
 ordered_json sarif_result(const Diagnostics& diagnostics, const Diagnostic& d) {
   const std::string text = d.message + (d.help.empty() ? "" : "\n" + d.help);
   ordered_json result = {{"ruleId", d.code}, {"level", word_of(d.severity)}, {"message", {{"text", text}}}};
@@ -106,15 +123,8 @@ ordered_json sarif_result(const Diagnostics& diagnostics, const Diagnostic& d) {
     related.push_back(std::move(location));
   }
   if (!related.empty()) result["relatedLocations"] = std::move(related);
-  if (d.replacement) {
-    ordered_json replacements = ordered_json::array({sarif_replacement(d.span, *d.replacement)});
-    for (const RelatedSpan& r : d.related) {
-      if (r.replacement) replacements.push_back(sarif_replacement(r.span, *r.replacement));
-    }
-    const ordered_json change = {{"artifactLocation", sarif_artifact(diagnostics, d.span)},
-                                 {"replacements", std::move(replacements)}};
-    result["fixes"] = ordered_json::array({{{"artifactChanges", ordered_json::array({change})}}});
-  }
+  ordered_json fixes = sarif_fixes(diagnostics, d);
+  if (!fixes.empty()) result["fixes"] = std::move(fixes);
   return result;
 }
 

@@ -124,7 +124,8 @@ Diagnostic misplaced_here(const Span& span, const std::string& what);
 /// `known`: the names that would do; the nearest is offered, else they are listed.
 Diagnostic unknown_name(const Span& span, const std::string& kind, const std::string& name,
                         const std::vector<std::string>& known);
-Diagnostic unknown_function(const Span& span, const std::string& name, const std::string& meant);
+Diagnostic unknown_function(const Span& span, const std::string& name, const std::string& meant,
+                            const std::vector<std::string>& known);
 Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& meant);
 Diagnostic unknown_axis(const Span& span, const std::string& group, const std::string& axis, bool is_axis,
                         const std::vector<std::string>& known);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "diagnostic/make.hpp"
+#include "diagnostic/wordings_physics.hpp"
 #include "spec/units.hpp"
 #include "zwang/lang/connection.hpp"
 
@@ -90,6 +91,18 @@ Diagnostic frame_in_itself(const Span& span, const std::string& frame) {
       "write the world's frame as `parent`, and the base's as `child`: `{parent: map, child: base_link}`");
 }
 
+Diagnostic told_and_heard(const Span& span, const std::string& frame, const Span& fix) {
+  return with_related(
+      error("E925", span, "zwang would place frame `" + frame + "` itself, and hear of it where the base is",
+            "delete `tf` of `publish`, or take the fix from a topic"),
+      fix, "heard here");
+}
+
+Diagnostic reach_of_nothing(const Span& span) {
+  return error("E104", span, "`reach` names no interface: nobody could be reached",
+               "write the interfaces of the robot's network, as `[eth0]`, or `loopback`");
+}
+
 Diagnostic too_short_timeout(const Span& span, double cycle) {
   return error("E923", span,
                "the receiver stops the motors between two commands: one comes each " +
@@ -139,6 +152,23 @@ Diagnostic nothing_stops_it(const Span& span, const std::string& topic) {
       "W920", span,
       "nothing stops this robot when zwang dies: no `timeout` of what listens to `" + topic + "` is stated",
       "find out after which silence the receiver stops the motors, and write `timeout: 500 ms`");
+}
+
+Diagnostic stopped_too_late(const Span& span, double timeout) {
+  return warning(
+      "W929", span,
+      "when zwang dies, the base drives on with its last command for " + format_number(timeout) + " s",
+      "set the receiver to stop the motors after 500 ms of silence or less, and write that; " +
+          format_number(given_up_after) + " s is the most");
+}
+
+Diagnostic torque_held_too_long(const Span& span, double timeout, double speed, double within) {
+  return warning("W929", span,
+                 "when zwang dies, the motors hold their last torques for " + format_number(1e3 * timeout) +
+                     " ms: within " + figure(1e3 * within, "ms") + " they bring the base to " +
+                     figure(speed, "m/s") + ", as fast as its wheels turn",
+                 "set the receiver to a shorter silence, and write that: the base gains " +
+                     figure(0.1 * speed / within, "m/s") + " within 100 ms");
 }
 
 }  // namespace zwang::lang::wording

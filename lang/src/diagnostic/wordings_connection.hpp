@@ -26,6 +26,10 @@ Diagnostic one_command(const Span& span);
 Diagnostic wrong_command(const Span& span, const std::string& what, const std::string& help);
 Diagnostic two_fixes(const Span& span);
 Diagnostic frame_in_itself(const Span& span, const std::string& frame);
+/// A frame that `publish` places and `fix` looks for.
+Diagnostic told_and_heard(const Span& span, const std::string& frame, const Span& fix);
+/// `reach: []`.
+Diagnostic reach_of_nothing(const Span& span);
 /// `cycle` [s] between two commands.
 Diagnostic too_short_timeout(const Span& span, double cycle);
 /// `stale_after` [s] beyond `given_up_after`.
@@ -38,5 +42,9 @@ Diagnostic rate_too_high(const Span& span, double rate, double period);
 Diagnostic rate_too_low(const Span& span, double rate, double stale_after);
 Diagnostic tasks_without_goals(const Span& span);
 Diagnostic nothing_stops_it(const Span& span, const std::string& topic);
+/// A receiver's `timeout` [s] beyond `given_up_after`.
+Diagnostic stopped_too_late(const Span& span, double timeout);
+/// Held for `timeout` [s], the motors' torques bring the base to `speed` [m/s] within `within` [s].
+Diagnostic torque_held_too_long(const Span& span, double timeout, double speed, double within);
 
 }  // namespace zwang::lang::wording

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -15,18 +16,23 @@ namespace zwang::lang::wording {
 
 namespace {
 
-/// The last ones where there are many: what an author declares stands behind what the robot brings.
+// Of many names the first are shown, `world` and the base of frames, and the last: the file's own.
+constexpr std::size_t most_shown = 16, first_shown = 2;
+
+std::vector<std::string> shown_of(std::vector<std::string> names) {
+  std::erase(names, "");
+  if (names.size() <= most_shown) return names;
+  const auto begin = names.begin() + first_shown;
+  names.erase(begin, begin + static_cast<std::ptrdiff_t>(names.size() - most_shown));
+  return names;
+}
+
 std::string known_here(const std::vector<std::string>& names) {
-  // Of more the first, `world` and the base of frames, and the last: the file's own.
-  constexpr std::size_t most = 16, first = 2;
+  const std::vector<std::string> shown = shown_of(names);
+  const bool is_cut = std::count(names.begin(), names.end(), "") + std::ssize(shown) < std::ssize(names);
   std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names.size() > most && i == first) {
-      i = names.size() - (most - first);
-      text += ", ..";
-    }
-    if (!names[i].empty()) text += (text.empty() ? "known here: " : ", ") + names[i];
-  }
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    text += (i == 0 ? "known here: " : is_cut && i == first_shown ? ", .., " : ", ") + shown[i];
   return text;
 }
 
@@ -128,19 +134,21 @@ Diagnostic unknown_name(const Span& span, const std::string& kind, const std::st
   // The span may hold more than the name, as `speed(name)` or quotes do: a replacement would not fit it.
   const bool is_the_name = span.begin.line == span.end.line &&
                            span.end.column - span.begin.column == static_cast<int>(name.size());
-  if (!meant.empty() && is_the_name) diagnostic.replacement = meant;
-  return diagnostic;
+  if (!is_the_name) return diagnostic;
+  return meant.empty() ? with_choices(diagnostic, shown_of(known)) : with_replacement(diagnostic, meant);
 }
 
-Diagnostic unknown_function(const Span& span, const std::string& name, const std::string& meant) {
+Diagnostic unknown_function(const Span& span, const std::string& name, const std::string& meant,
+                            const std::vector<std::string>& known) {
   if (name == "distance" || name == "dist" || name == "angle")
     return error(
         "E301", span, "no function named " + in_ticks(name),
         "declare it under `features`, as `reach: {distance: [base_link, goal]}`, and measure `reach`");
   if (name == "elapsed")
     return error("E301", span, "no function named " + in_ticks(name), "write `elapsed`, without parentheses");
-  return with_suggestion(
-      error("E301", span, "no function named " + in_ticks(name), "there are " + list_of_functions()), meant);
+  const Diagnostic unknown =
+      error("E301", span, "no function named " + in_ticks(name), "there are " + list_of_functions());
+  return meant.empty() ? with_choices(unknown, known) : with_suggestion(unknown, meant);
 }
 
 Diagnostic unknown_quantity(const Span& span, const std::string& name, const std::string& near) {

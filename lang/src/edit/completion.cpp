@@ -183,6 +183,17 @@ class Proposer {
     }
   }
 
+  void add_axes() {
+    for (const char* axis : {"x", "y", "z", "rx", "ry", "rz"}) add(axis, ProposalKind::word, "axis");
+  }
+
+  /// Behind the points of `estimated.force.x` and `estimated.FRAME.x`.
+  void add_estimated(std::ptrdiff_t points) {
+    if (points > 1) return add_axes();
+    add("force", ProposalKind::word, "on the base, at its origin");
+    add_frames();
+  }
+
   /// `contact.x.velocity`: what can follow each point.
   void add_condition() {
     const std::string_view text = before();
@@ -190,9 +201,8 @@ class Proposer {
       const std::size_t begin = text.find_last_of(" (<>+-*/", text.size() - 1);
       const std::string_view path = text.substr(begin == std::string_view::npos ? 0 : begin + 1);
       const auto points = std::count(path.begin(), path.end(), '.');
-      if (points == 1) {
-        for (const char* axis : {"x", "y", "z", "rx", "ry", "rz"}) add(axis, ProposalKind::word, "axis");
-      }
+      if (path.starts_with("estimated.")) return add_estimated(points);
+      if (points == 1) add_axes();
       for (const char* what : {"position", "velocity", "force", "residual", "saturated"})
         add(what, ProposalKind::word, "");
       return;
@@ -201,6 +211,7 @@ class Proposer {
     for (const NameKind kind : {NameKind::group, NameKind::signal, NameKind::output, NameKind::feature})
       add_names(kind);
     add("elapsed", ProposalKind::word, "time since the task was entered");
+    add("estimated", ProposalKind::word, "what the world presses with, by torques and motion alone");
     for (const ConditionFunction& function : condition_functions())
       add(std::string(function.name), ProposalKind::function, std::string(function.of));
     for (const char* word : {"and", "or", "not"}) add(word, ProposalKind::word, "");

@@ -64,6 +64,17 @@ A stop is a command, too: with a low `rate` it leaves later than `stale_after` p
 once a control period at most.)~",
           .fix = "Write three to five periods of the topic as `stale_after`, and the receiver's own rate as "
                  "`rate`."},
+      Explanation{
+          .code = "W929",
+          .title = "a receiver that stops the motors too late",
+          .why =
+              R"~(A command is held until the next one comes, or until the receiver's `timeout`. When zwang dies, a
+base on velocities drives on for that time. A base on torques gains speed: a torque F accelerates
+the mass m by F/m, until its wheels turn as fast as they can. 2 s is the longest that zwang itself
+waits for a silent robot.)~",
+          .fix =
+              R"~(Set the receiver to a shorter silence, three to five periods of the commands, and state that
+`timeout`. The file says what the receiver does: another number in it alone stops nothing.)~"},
   };
   return entries;
 }

@@ -71,6 +71,21 @@ Json clock() {
                  object("a simulation's", {{"ros", word("a topic of rosgraph_msgs/Clock"), true}})});
 }
 
+Json reach() {
+  Json schema = any_of({one_of_words("", {"loopback", "machine", "network"}),
+                        filled(list("interfaces of the robot's network, as eth0", word("")))});
+  schema["description"] = "default loopback";
+  return schema;
+}
+
+Json publication() {
+  const Json frames = object("a transform on /tf",
+                             {{"parent", word("as odom"), true}, {"child", word("as base_link"), true}});
+  return object("what others are told of the base", {{"odometry", topic("nav_msgs/Odometry")},
+                                                     {"tf", frames},
+                                                     {"rate", reference("quantity", "default 50 Hz")}});
+}
+
 Json command() {
   const Json twist = object(
       "", {{"topic", word(""), true},
@@ -94,7 +109,7 @@ Json connection_file() {
       "The ROS 2 topics over which a robot is sensed and commanded",
       {version("zwang_connection"),
        {"ros2", object("", {{"domain", whole_number(0, 232, "ROS_DOMAIN_ID; default 0")},
-                            {"reach", one_of_words("default loopback", {"loopback", "machine", "network"})},
+                            {"reach", reach()},
                             {"name", word("before the names of the own services; default `/zwang`")}})},
        {"start", one_of_words("default at_once; wait: for the service `start`; goals: of the action `run`",
                               {"at_once", "wait", "goals"})},
@@ -108,6 +123,7 @@ Json connection_file() {
                     {"wrench", wrench_source()}}),
         true},
        {"clock", clock()},
+       {"publish", publication()},
        {"signals", named("the sources of the task's signals", signal())},
        {"outputs", named("where the task's outputs go", output())},
        {"command", command(), true}});

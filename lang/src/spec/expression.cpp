@@ -326,7 +326,8 @@ class ConditionParser {
   int parse_call(const std::string& function, std::size_t begin, int depth) {
     const ConditionFunction* known = find_function(function);
     if (known == nullptr) {
-      stop(wording::unknown_function(span(begin, at_), function, nearest(function, function_names())));
+      const std::vector<std::string> names = function_names();
+      stop(wording::unknown_function(span(begin, at_), function, nearest(function, names), names));
     }
     const std::size_t opened = at_++;
     ExpressionText node;

@@ -17,7 +17,7 @@ void add_validate(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<ValidateArguments>();
   const auto deny = std::make_shared<std::string>();
   CLI::App* verb = app.add_subcommand(
-      "validate", "Check task, robot, scene, scenario and study files without running them");
+      "validate", "Check task, robot, scene, scenario, connection and study files without running them");
   verb->add_option(
           "files", arguments->files,
           "files, whose first key tells what they are, or folders of such files; `-`: the standard input")
@@ -29,10 +29,12 @@ void add_validate(CLI::App& app, Chosen& chosen) {
   verb->add_option("--deny", *deny, "warnings: refuse files with warnings, too")
       ->check(CLI::IsMember({"warnings"}));
   verb->add_flag("--notes", arguments->notes, "show notes as well");
+  verb->add_option("--task", arguments->task, "check connection files against this task and its robot");
   add_overrides(*verb, arguments->overrides);
   verb->callback([=, &chosen] {
     arguments->deny_warnings = !deny->empty();
     for (std::string& file : arguments->files) file = file_or_shipped(file);
+    if (arguments->task) arguments->task = file_or_shipped(*arguments->task);
     chosen = [=] { return validate(*arguments); };
   });
 }
@@ -49,7 +51,7 @@ void add_explain(CLI::App& app, Chosen& chosen) {
 void add_fmt(CLI::App& app, Chosen& chosen) {
   const auto arguments = std::make_shared<FmtArguments>();
   CLI::App* verb = app.add_subcommand("fmt", "Lay files out anew; comments, order and meaning stay");
-  verb->add_option("files", arguments->files, "task, robot and scene files")->required();
+  verb->add_option("files", arguments->files, "files of any kind of zwang's")->required();
   verb->add_flag("--check", arguments->check, "change nothing; tell which files would change");
   verb->add_flag("--upgrade", arguments->upgrade, "write task files in the newest version of the language");
   verb->callback([=, &chosen] { chosen = [=] { return fmt(*arguments); }; });

@@ -36,8 +36,8 @@ def load(path, **options):
     return _zwang.load(_shipped(path), **options)
 
 
-def validate(path, **options):
-    return _zwang.validate(_shipped(path), **options)
+def validate(path, *, task=None, **options):
+    return _zwang.validate(_shipped(path), task=None if task is None else _shipped(task), **options)
 
 
 load.__doc__, validate.__doc__ = _zwang.load.__doc__, _zwang.validate.__doc__

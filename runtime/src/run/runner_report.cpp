@@ -155,6 +155,10 @@ solver::Vector3 Runner::estimated_force() const noexcept {
   return parts_->force_on_base();
 }
 
+const solver::State& Runner::estimated_state() const noexcept {
+  return parts_->estimated.state;
+}
+
 bool Runner::set_parameter(std::string_view name, double value) noexcept {
   for (std::size_t i = 0; i < parts_->parameter_names.size(); ++i) {
     if (parts_->parameter_names[i] == name)

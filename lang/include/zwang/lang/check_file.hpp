@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <variant>
 
 #include "zwang/export.hpp"
@@ -19,6 +20,8 @@ using FileContent = std::variant<std::monostate, Program, Robot, Scene, Scenario
 struct CheckOptions {
   LoadOptions load;         ///< of a task file; a scene is checked against `robot` where that is given
   bool with_notes = false;  ///< of a task file: `load_with_notes` in the place of `load`
+  /// A connection file is checked against this task, loaded with `load`.
+  std::optional<std::filesystem::path> task{};
 };
 
 ZWANG_EXPORT FileContent check_file(FileKind kind, const std::filesystem::path& path,

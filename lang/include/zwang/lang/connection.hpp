@@ -38,7 +38,7 @@ ZWANG_EXPORT const char* to_string(MessageType type) noexcept;
 enum class Reach {
   loopback,  ///< 127.0.0.1 alone: peers need ROS_LOCALHOST_ONLY=1
   machine,   ///< every interface; only processes of this machine are obeyed, and hear of this one
-  network,   ///< every interface of this machine
+  network,   ///< every interface of this machine, or those that the file names
 };
 
 struct Topic {
@@ -87,6 +87,13 @@ struct OutputSink {
   Span span;
 };
 
+/// What others are told of the base.
+struct BasePublication {
+  std::optional<Topic> odometry;    ///< nav_msgs/Odometry
+  std::optional<FramePair> frames;  ///< of a transform on /tf
+  double rate = 50.0;               ///< [1/s]
+};
+
 enum class CommandKind { twist, effort, velocity };
 
 struct CommandSink {
@@ -95,7 +102,8 @@ struct CommandSink {
   Topic topic;
   std::optional<double> rate;  ///< [1/s] of a twist; none: once a control period
   Span rate_span;
-  std::optional<double> timeout;   ///< [s] after which the receiver stops by itself; none: it does not
+  std::optional<double> timeout;  ///< [s] after which the receiver stops by itself; none: it does not
+  Span timeout_span;
   std::vector<std::string> order;  ///< joints of a Float64MultiArray
   std::vector<Span> order_spans;
   Span span;
@@ -121,6 +129,7 @@ struct Connection {
   Begin begin = Begin::at_once;
   std::vector<NamedTask> tasks;  ///< with `Begin::goals`
   Reach reach = Reach::loopback;
+  std::vector<std::string> interfaces;  ///< of `Reach::network`, as `eth0`; empty: all
   /// rosgraph_msgs/Clock, by which all stamps and ticks go; none: the computer's clock.
   std::optional<Topic> clock;
   JointsSource joints;
@@ -132,6 +141,7 @@ struct Connection {
   std::optional<Topic> wrench;
   std::vector<SignalSource> signals;
   std::vector<OutputSink> outputs;
+  std::optional<BasePublication> publication;
   CommandSink command;
   int priority = 0;  ///< of SCHED_FIFO; 0: the usual scheduler
 };

@@ -28,6 +28,7 @@ struct Diagnostic {
   std::vector<RelatedSpan> related;
   std::string help;                        ///< what to write instead; empty when there is nothing to say
   std::optional<std::string> replacement;  ///< the literal text that may replace `span`
+  std::vector<std::string> choices;        ///< without a `replacement`: each of them may replace `span`
 };
 
 /// A comment `# zwang: allow CODE the reason`: silences warnings and notes of that code on one line.

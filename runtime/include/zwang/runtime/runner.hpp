@@ -149,6 +149,9 @@ class ZWANG_EXPORT Runner {
   /// An estimate, from joints and torques alone, of what the world presses on the base with: x, y [N] and rz
   /// [N m] at its origin, in its axes. Low-passed with 20 ms.
   solver::Vector3 estimated_force() const noexcept;
+  /// Where the base and its joints are after the last step, as the task sees them: in the world, the twist in
+  /// the base's axes. A drive with a virtual robot: that one's.
+  const solver::State& estimated_state() const noexcept;
   /// Every limit that was in force, in the order of the files. Allocates.
   std::vector<LimitReport> limits() const;
   /// The row that fell farthest short in the last step because of others, if any. Allocates.

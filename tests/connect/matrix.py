@@ -1,0 +1,103 @@
+"""Each shipped task that a wire can carry, over `zwang drive` and `zwang simulate` on the robot of its own file.
+
+    matrix.py PROGRAM ROOT FOLDER_OF_CLIENTS [TASK ..]
+
+The verdict is that of one process, and each peak force above 20 N is within 10 % of it.
+"""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+import two_processes
+import yaml
+
+MESSAGES = {"bool": "std_msgs/Bool", "number": "std_msgs/Float64", "pose": "geometry_msgs/PoseStamped",
+            "wrench": "geometry_msgs/WrenchStamped"}
+LEAST_PEAK = 20.0  # [N] of the peaks that are compared
+
+# Tasks that go on until somebody ends them.
+WITHOUT_END = {"patrol", "guide"}
+
+
+def topics_of(task):
+    text = ""
+    for section in ("signals", "outputs"):
+        declared = yaml.safe_load(task.read_text(encoding="utf-8")).get(section) or {}
+        lines = [f"  {name}: {{topic: /{section}/{name}, type: {MESSAGES[of['type']]}}}\n" for name, of in declared.items()]
+        text += f"{section}:\n{''.join(lines)}" if lines else ""
+    return text
+
+
+def told_of(program, task, folder, what):
+    """What E923 says of a command without motors: what the drive takes, and each motor. Nothing is sent."""
+    connection = folder / "motors.yaml"
+    connection.write_text("zwang_connection: 1\nstate: {joints: {topic: /joint_states}}\n" + topics_of(task) +
+                          f"command: {{joints: {{topic: /c, what: {what}, order: [], timeout: 200 ms}}}}\n", encoding="utf-8")
+    return subprocess.run([program, "drive", task, "--over", connection, "--observe", "0.1"], capture_output=True, text=True,
+                          check=False).stderr
+
+
+def command_of(program, task, folder):
+    what = "effort"
+    said = told_of(program, task, folder, what)
+    if "takes twists" in said:
+        return two_processes.TWIST
+    if "takes wheel velocities" in said:
+        what = "velocity"
+        said = told_of(program, task, folder, what)
+    motors = re.findall(r"leaves out the motor of joint `([^`]+)`", said)
+    return f"command:\n  joints: {{topic: /commands, what: {what}, order: [{', '.join(motors)}], timeout: 300 ms}}\n"
+
+
+def ends_as_alone(program, root, folder, name, number):
+    task = root / f"specs/{name}.yaml"
+    alone = subprocess.run([program, "run", task, "--quiet", "--format", "json", "--log", folder / "log"], capture_output=True,
+                           text=True, check=False)
+    report = json.loads(alone.stdout)
+    pair = two_processes.Pair(program, folder, task, command_of(program, task, folder), [], number,
+                              more=two_processes.CLOCK + topics_of(task))
+    _, drive, simulate = pair.end(within=600)
+    two_processes.expect(report["outcome"] + " after" in drive, f"alone it is {report['outcome']}", drive, simulate)
+    peaks = []
+    for thing, truth in report["truth"].items():
+        alone_peak = truth.get("peak_force") or 0.0
+        if thing == "base" or alone_peak < LEAST_PEAK:
+            continue
+        peak = two_processes.number(re.escape(thing) + r": force [0-9.-]+ N, peak ([0-9.]+) N", simulate)
+        two_processes.expect(abs(peak - alone_peak) < 0.1 * alone_peak, f"{thing}: peak {peak} N, alone {alone_peak} N", drive,
+                             simulate)
+        peaks.append(f"{thing} {peak:.0f} N, alone {alone_peak:.0f} N")
+    return f"{report['outcome']}; " + ", ".join(peaks)
+
+
+def main(program, root, clients, *names):
+    two_processes.CLIENTS = pathlib.Path(clients)
+    root = pathlib.Path(root)
+    all_names = sorted(p.stem for p in (root / "specs").glob("*.yaml") if p.stem not in WITHOUT_END)
+    is_good = True
+    for number, name in enumerate(names or all_names):
+        begin = time.monotonic()
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                print(f"ok      {name}: {ends_as_alone(program, root, pathlib.Path(folder), name, 50 + number)}", end="")
+            except (AssertionError, subprocess.TimeoutExpired) as error:
+                is_good = False
+                print(f"FAILED  {name}: {error}", end="")
+            print(f" ({time.monotonic() - begin:.0f} s)", flush=True)
+        for process in two_processes.RUNNING:
+            if process.poll() is None:
+                process.kill()
+    return 0 if is_good else 1
+
+
+if __name__ == "__main__":
+    if "ZWANG_LONG" not in os.environ:
+        print("skipped: ./dev test --long runs it")
+        sys.exit(77)
+    sys.exit(main(*sys.argv[1:]))
