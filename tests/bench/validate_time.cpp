@@ -1,18 +1,23 @@
 // How long `zwang validate` takes as a whole process, beside one that links the same libraries and reads the
 // same file with yaml-cpp. Both take turns in one run, and of each the fastest counts: what else the machine
-// does only adds. The bounds are 2 for a task file of some 60 lines and 10 for one of 256 KiB.
+// does only adds. The bounds are 2 for a task file of some 60 lines and 10 for one of 256 KiB. Instructions,
+// by callgrind, tell how the work grows with the number of tasks.
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "count_instructions.hpp"
 
 namespace {
 
@@ -59,12 +64,11 @@ std::string slurp(const fs::path& path) {
   return text.str();
 }
 
-/// The task file with as many more tasks like its own as 256 KiB and 20 000 nodes hold, and comments up to
-/// the size.
-std::string large(const std::string& head) {
+/// The task file with `count` more tasks like its own, one after the other.
+std::string with_more_tasks(const std::string& head, int count) {
   std::string text = head;
-  for (int i = 0; i < 240; ++i) {
-    const std::string next = i == 239 ? "done" : "more" + std::to_string(i + 1);
+  for (int i = 0; i < count; ++i) {
+    const std::string next = i + 1 == count ? "done" : "more" + std::to_string(i + 1);
     text += "  more" + std::to_string(i) +
             ":\n    constraints:\n      go: {move: base_link, in: base_link, x: {velocity: 0.1 m/s, "
             "acceleration: +-0.3 "
@@ -73,9 +77,32 @@ std::string large(const std::string& head) {
             "and moved(base_link) > 2 cm, for: 0.2 s, goto: failed}\n    timeout: {after: 20 s, goto: " +
             next + "}\n";
   }
+  return text;
+}
+
+/// As many tasks as 256 KiB and 20 000 nodes hold, and comments up to the size.
+std::string large(const std::string& head) {
+  std::string text = with_more_tasks(head, 240);
   constexpr std::size_t size = 256 * 1024;
   while (text.size() + 200 < size) text += "# " + std::string(97, '-') + "\n";
   return text;
+}
+
+/// Instructions over tasks, from 100 to 250, on a double logarithmic scale. True without valgrind, too.
+bool grows_evenly(const std::string& head, const fs::path& folder) {
+  constexpr double few = 100.0, many = 250.0, most = 1.05;
+  std::optional<double> counts[2];
+  for (int i = 0; i < 2; ++i) {
+    const fs::path file = folder / "tasks.yaml";
+    std::ofstream(file) << with_more_tasks(head, static_cast<int>(i == 0 ? few : many) - 2);
+    counts[i] = zwang::bench::count_instructions("'" ZWANG_PROGRAM "' validate '" + file.string() + "'");
+    if (!counts[i]) return true;
+  }
+  const double exponent = std::log(*counts[1] / *counts[0]) / std::log(many / few);
+  std::printf("%g tasks %.0f M instructions, %g tasks %.0f M: exponent %.2f of %g%s\n", few,
+              1e-6 * *counts[0], many, 1e-6 * *counts[1], exponent, most,
+              exponent <= most ? "" : ": GROWS TOO FAST");
+  return exponent <= most;
 }
 
 }  // namespace
@@ -92,6 +119,7 @@ int main() {
   std::ofstream(folder / "large.yaml") << large(head);
   const bool is_small_good = compare("70 lines", folder / "obstacle.yaml", 60, 2.0);
   const bool is_large_good = compare("256 KiB, 242 tasks", folder / "large.yaml", 20, 10.0);
+  const bool is_growth_good = grows_evenly(head, folder);
   fs::remove_all(folder);
-  return is_small_good && is_large_good ? 0 : 1;
+  return is_small_good && is_large_good && is_growth_good ? 0 : 1;
 }

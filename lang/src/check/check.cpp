@@ -16,18 +16,22 @@
 namespace zwang::lang {
 
 bool is_frame_set(const TaskFile& file, const std::string& frame) {
-  const auto names_it = [&](const std::vector<SetText>& sets) {
-    return std::any_of(sets.begin(), sets.end(), [&](const SetText& set) {
-      return set.kind == SetKind::frame && set.name.text == frame;
-    });
+  const auto is_set_by = [&](const std::vector<SetText>& sets) {
+    for (const SetText& set : sets) {
+      if (set.kind == SetKind::frame && set.name.text == frame) return true;
+    }
+    return false;
   };
-  const auto any_exit = [&](const std::vector<ExitText>& exits) {
-    return std::any_of(exits.begin(), exits.end(), [&](const ExitText& exit) { return names_it(exit.set); });
-  };
-  return any_exit(file.always_exits) ||
-         std::any_of(file.tasks.begin(), file.tasks.end(), [&](const TaskText& task) {
-           return names_it(task.set_on_entry) || any_exit(task.exits);
-         });
+  for (const ExitText& exit : file.always_exits) {
+    if (is_set_by(exit.set)) return true;
+  }
+  for (const TaskText& task : file.tasks) {
+    if (is_set_by(task.set_on_entry)) return true;
+    for (const ExitText& exit : task.exits) {
+      if (is_set_by(exit.set)) return true;
+    }
+  }
+  return false;
 }
 
 namespace {

@@ -10,9 +10,8 @@
 namespace zwang::lang {
 
 TextIndex::TextIndex(std::string_view text) : text_(text), starts_{0} {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\n') starts_.push_back(i + 1);
-  }
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n', end + 1))
+    starts_.push_back(end + 1);
 }
 
 Position TextIndex::position(std::size_t offset) const {

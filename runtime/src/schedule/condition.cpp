@@ -1,5 +1,6 @@
 #include "schedule/condition.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace zwang::runtime {
@@ -68,6 +69,16 @@ double apply(Op op, double a, double b) {
   }
 }
 
+bool is_same_name(const lang::ExpressionNode& a, const lang::ExpressionNode& b) {
+  return a.op == b.op && a.number == b.number && a.index == b.index && a.axis == b.axis &&
+         a.function == b.function && a.in_always == b.in_always && a.what == b.what;
+}
+
+Verdict verdict_from(double truth) {
+  if (std::isnan(truth)) return Verdict::unknown;
+  return truth != 0.0 ? Verdict::yes : Verdict::no;
+}
+
 /// The comparison goes on to hold until its left side has passed `q`.
 double not_yet_passed(Op op, double a, double q) {
   const bool known = !std::isnan(a) && !std::isnan(q);
@@ -96,9 +107,78 @@ Judgement evaluate(const lang::Condition& condition, int owner, const Facts& fac
       values[i] = release && is_root ? not_yet_passed(node.op, a, *release) : apply(node.op, a, b);
     }
   }
-  const double root = values[count - 1];
-  if (!std::isnan(root)) judgement.verdict = root != 0.0 ? Verdict::yes : Verdict::no;
-  if (std::isnan(root)) judgement.verdict = Verdict::unknown;
+  judgement.verdict = verdict_from(values[count - 1]);
+  return judgement;
+}
+
+int SharedNames::add(const lang::ExpressionNode& name) {
+  std::size_t i = 0;
+  while (i < names_.size() && !is_same_name(names_[i].node, name)) ++i;
+  if (i == names_.size()) names_.push_back({name, {}, false});
+  return static_cast<int>(i);
+}
+
+void SharedNames::forget() noexcept {
+  for (Name& name : names_) name.is_known = false;
+}
+
+const Fact& SharedNames::look_up(int name, int owner, const Facts& facts) noexcept {
+  Name& n = names_[static_cast<std::size_t>(name)];
+  if (!n.is_known) n.fact = facts.look_up(n.node, owner);
+  n.is_known = true;
+  return n.fact;
+}
+
+Decision::Decision(const lang::Condition& condition, SharedNames& names) {
+  for (const lang::ExpressionNode& node : condition.nodes) {
+    Step& step = steps_.emplace_back(Step{node.op, number(node.number), node.left, node.right});
+    if (is_name(node.op)) step.name = names.add(node);
+  }
+  if (!steps_.empty()) mark(static_cast<int>(steps_.size()) - 1, Verdict::no, Verdict::yes);
+}
+
+/// What a value of the node decides. Of an `and` a false operand decides as much as the `and` does when it is
+/// false, of an `or` a true one; behind a `not` the two change places.
+void Decision::mark(int node, std::optional<Verdict> if_false, std::optional<Verdict> if_true) {
+  Step& step = steps_[static_cast<std::size_t>(node)];
+  step.if_false = if_false;
+  step.if_true = if_true;
+  if (step.op == Op::logical_not) mark(step.left, if_true, if_false);
+  if (step.op != Op::logical_and && step.op != Op::logical_or) return;
+  const bool is_and = step.op == Op::logical_and;
+  for (const int operand : {step.left, step.right})
+    mark(operand, is_and ? if_false : std::nullopt, is_and ? std::nullopt : if_true);
+}
+
+Judgement Decision::decide(int owner, const Facts& facts, SharedNames& names, std::span<double> values,
+                           std::optional<double> release, bool& is_whole) const noexcept {
+  Judgement judgement;
+  is_whole = true;
+  const std::size_t count = steps_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Step& step = steps_[i];
+    double& value = values[i];
+    if (step.name >= 0) {
+      const Fact& fact = names.look_up(step.name, owner, facts);
+      value = number(fact.value);
+      judgement.stale = judgement.stale || fact.stale;
+    } else if (step.op == Op::constant) {
+      value = step.number;
+    } else {
+      const double a = step.left >= 0 ? values[static_cast<std::size_t>(step.left)] : unknown;
+      const double b = step.right >= 0 ? values[static_cast<std::size_t>(step.right)] : unknown;
+      const bool is_root = i + 1 == count;
+      value = release && is_root ? not_yet_passed(step.op, a, *release) : apply(step.op, a, b);
+    }
+    const std::optional<Verdict> decided = value == 0.0   ? step.if_false
+                                           : value == 1.0 ? step.if_true
+                                                          : std::nullopt;
+    if (!decided) continue;
+    is_whole = i + 1 == count;
+    judgement.verdict = *decided;
+    return judgement;
+  }
+  if (count > 0) judgement.verdict = verdict_from(values[count - 1]);
   return judgement;
 }
 

@@ -5,6 +5,11 @@
 
 namespace zwang::runtime {
 
+GuardedExits::GuardedExits(const std::vector<lang::Exit>& given, int owner_task)
+    : exits(given), owner(owner_task) {
+  for (const lang::Exit& exit : exits) decisions.emplace_back(exit.when, names);
+}
+
 Guards::Guards(std::size_t most_exits, std::size_t most_nodes, double period, Unknown unknown)
     : states_(most_exits),
       values_(most_exits * most_nodes),
@@ -16,15 +21,17 @@ void Guards::restart() noexcept {
   std::fill(states_.begin(), states_.end(), GuardState{});
 }
 
-void Guards::advance(const std::vector<lang::Exit>& exits, int owner, const Facts& facts,
+void Guards::advance(GuardedExits& guarded, const Facts& facts,
                      const std::vector<double>& parameters) noexcept {
-  for (std::size_t i = 0; i < exits.size(); ++i) {
-    const lang::Exit& exit = exits[i];
+  guarded.names.forget();
+  for (std::size_t i = 0; i < guarded.exits.size(); ++i) {
+    const lang::Exit& exit = guarded.exits[i];
     GuardState& state = states_[i];
     std::optional<double> release;
     if (state.held && exit.release) release = exit.release->evaluate(parameters);
-    const Judgement now =
-        evaluate(exit.when, owner, facts, std::span(values_).subspan(i * most_nodes_, most_nodes_), release);
+    const Judgement now = guarded.decisions[i].decide(
+        guarded.owner, facts, guarded.names, std::span(values_).subspan(i * most_nodes_, most_nodes_),
+        release, state.is_whole);
     state.at_once = unknown_ == Unknown::fires_when_stale && now.verdict == Verdict::unknown && now.stale;
     const bool holds = now.verdict == Verdict::yes || state.at_once;
     // What is not known has not passed the release either.

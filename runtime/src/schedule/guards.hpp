@@ -17,15 +17,24 @@ enum class Unknown {
   fires_when_stale  ///< at once, without waiting for `for`
 };
 
+/// The exits of a task, or of `always`, as guards evaluate them.
+struct GuardedExits {
+  GuardedExits(const std::vector<lang::Exit>& given, int owner_task);
+
+  const std::vector<lang::Exit>& exits;
+  int owner;  ///< as for Facts
+  SharedNames names;
+  std::vector<Decision> decisions;  ///< of each exit
+};
+
 class Guards {
  public:
   Guards(std::size_t most_exits, std::size_t most_nodes, double period, Unknown unknown);
 
   /// Forgets how long each condition has been true, and that it was.
   void restart() noexcept;
-  /// Evaluates every condition, once a tick. `owner` as for Facts.
-  void advance(const std::vector<lang::Exit>& exits, int owner, const Facts& facts,
-               const std::vector<double>& parameters) noexcept;
+  /// Evaluates every condition, once a tick, as far as it takes to decide it.
+  void advance(GuardedExits& guarded, const Facts& facts, const std::vector<double>& parameters) noexcept;
   /// Whether the exit has been true for as long as its `for` says.
   bool is_due(const std::vector<lang::Exit>& exits, std::size_t exit,
               const std::vector<double>& parameters) const noexcept;
@@ -34,6 +43,8 @@ class Guards {
 
   /// The longest of these since `restart`. [s]
   double longest(std::size_t exit) const noexcept { return states_[exit].longest_ticks * period_; }
+  /// Whether `values` has all nodes of the exit's condition: false where some of them decided it.
+  bool is_whole(std::size_t exit) const noexcept { return states_[exit].is_whole; }
   /// What the nodes of the exit's condition were when it was evaluated last.
   std::span<const double> values(std::size_t exit) const noexcept {
     return std::span(values_).subspan(exit * most_nodes_, most_nodes_);
@@ -45,6 +56,7 @@ class Guards {
     int longest_ticks = 0;
     bool held = false;     ///< with `release`: was true, and has not passed it yet
     bool at_once = false;  ///< a stale signal counts as true
+    bool is_whole = true;
   };
   std::vector<GuardState> states_;
   std::vector<double> values_;  ///< by exit, then node

@@ -264,6 +264,7 @@ struct Scheduler::Parts final : Facts {
   /// x, y [N], rz [N m]; NaN: unknown.
   solver::Vector3 estimated_force = solver::Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
   std::optional<Transition> transition;
+  std::vector<GuardedExits> guarded;  ///< of each task
   Guards guards;
   Guards always_guards;
   std::vector<ActiveAxis> axes;  ///< those of `always` first

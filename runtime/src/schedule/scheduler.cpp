@@ -101,6 +101,7 @@ Scheduler::Parts::Parts(const lang::Program& given, double control_period)
   for (const lang::Task& t : tasks.tasks) {
     if (t.require) follow(*t.require);
     for (const lang::Exit& exit : t.exits) follow(exit.when);
+    guarded.emplace_back(t.exits, static_cast<int>(guarded.size()));
     fence_of.emplace_back();
     plane_of.emplace_back();
     first_axis_of.emplace_back();

@@ -15,8 +15,8 @@ void mark(std::uint64_t& bits, std::size_t exit) {
 /// Those of `always` on every tick; those of a task never on the tick of its entry, which is the one that
 /// this is not called in for them.
 void Scheduler::Parts::advance_guards() noexcept {
-  always_guards.advance(tasks[tasks.always()].exits, tasks.always(), *this, parameters);
-  if (task >= 0) guards.advance(active().exits, task, *this, parameters);
+  always_guards.advance(guarded[static_cast<std::size_t>(tasks.always())], *this, parameters);
+  if (task >= 0) guards.advance(guarded[static_cast<std::size_t>(task)], *this, parameters);
 }
 
 bool Scheduler::Parts::is_own_target(const lang::Target& target) const noexcept {

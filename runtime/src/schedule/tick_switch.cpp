@@ -150,13 +150,19 @@ void Scheduler::Parts::resume() noexcept {
   interruption = {};
 }
 
-/// What its exits are now.
+/// What its exits are now. Who asks why a task went on wants to see all of a condition, not only what decided
+/// it.
 void Scheduler::Parts::remember(TaskSnapshot& snapshot, int of_task) const noexcept {
   const Guards& of = of_task == tasks.always() ? always_guards : guards;
+  const std::vector<lang::Exit>& exits = tasks[of_task].exits;
   snapshot.elapsed = elapsed();
   for (std::size_t i = 0; i < snapshot.exits.size(); ++i) {
     TaskSnapshot::Exit& exit = snapshot.exits[i];
-    std::ranges::copy(of.values(i), exit.values.begin());
+    if (of.is_whole(i)) {
+      std::ranges::copy(of.values(i), exit.values.begin());
+    } else {
+      evaluate(exits[i].when, of_task, *this, exit.values);
+    }
     exit.true_for = of.dwell(i);
     exit.longest = of.longest(i);
   }

@@ -53,13 +53,21 @@ void BoundedProblem::mark_idle_limits() noexcept {
     Entry& e = entry(i);
     if (!e.is_limit || e.softness != 0.0 || e.out) continue;
     const double side = e.kind == RowKind::upper ? 1.0 : -1.0;
+    // The list of an axis holds no idle ones: it stays as short as there are levels, sides and equal limits.
     int& last = last_on_axis_[axis_of(i)];
-    for (int k = last; k >= 0 && !e.is_idle; k = entry(k).limit_before) {
-      Entry& other = entry(k);
-      if (other.is_idle || other.kind != e.kind || other.level != e.level) continue;
-      e.is_idle = is_beyond(d_(i), d_(k), side);
-      other.is_idle = is_beyond(d_(k), d_(i), side);
+    for (int* k = &last; *k >= 0 && !e.is_idle;) {
+      Entry& other = entry(*k);
+      if (other.kind == e.kind && other.level == e.level) {
+        e.is_idle = is_beyond(d_(i), d_(*k), side);
+        other.is_idle = is_beyond(d_(*k), d_(i), side);
+      }
+      if (other.is_idle) {
+        *k = other.limit_before;
+      } else {
+        k = &other.limit_before;
+      }
     }
+    if (e.is_idle) continue;
     e.limit_before = last;
     last = i;
   }

@@ -108,11 +108,11 @@ Range acceleration_range(const AxisConstraint& constraint, Quantity quantity, co
 /// Later ones win where ranges contradict.
 constexpr std::array ranges_in_rising_rank{Quantity::position, Quantity::velocity, Quantity::acceleration};
 
-Coordinate carried_coordinate(const AxisConstraint& constraint, const MotionVector& V) {
+/// `a`: its carried force.
+Coordinate carried_coordinate(const AxisConstraint& constraint, const ForceVector& a, const MotionVector& V) {
   // s = w v is linear in each of w and v, so that a . V counts it twice.
   const double counted = constraint.measure == Measure::turn ? 0.5 : 1.0;
-  return {.velocity = counted * dot(carried_force(constraint, V), V),
-          .acceleration_bias = carried_bias(constraint, V)};
+  return {.velocity = counted * dot(a, V), .acceleration_bias = carried_bias(constraint, a, V)};
 }
 
 /// Of a speed and of a turn: below half of the highest value no row is in force.
@@ -169,14 +169,18 @@ double braking_distance(double speed, double braking, double h) noexcept {
 Coordinate coordinate_of(const AxisConstraint& constraint, const Model& model, const State& state) noexcept {
   if (is_carried(constraint)) {
     const FrameMotion body = motion_of({constraint.move.body, {}, {}}, model, state);
-    return carried_coordinate(constraint, body.own_twist());
+    const MotionVector V = body.own_twist();
+    return carried_coordinate(constraint, carried_force(constraint, V), V);
   }
   return measure(constraint, motion_of(constraint.move, model, state), motion_of(constraint.in, model, state))
       .now;
 }
 
 Coordinate coordinate_of(const AxisConstraint& constraint, BodyMotions& motions) noexcept {
-  if (is_carried(constraint)) return carried_coordinate(constraint, motions.twist_of(constraint.move.body));
+  if (is_carried(constraint)) {
+    const MotionVector V = motions.twist_of(constraint.move.body);
+    return carried_coordinate(constraint, carried_force(constraint, V), V);
+  }
   FrameMotion move, in;
   return measure(constraint, motions.of(constraint.move, move), motions.of(constraint.in, in)).now;
 }
@@ -259,7 +263,7 @@ bool ConstraintSet::fill_one(int index, BodyMotions& motions) noexcept {
     along.body = constraint.move.body;
     const MotionVector V = motions.twist_of(along.body);
     along.a = carried_force(constraint, V);
-    now = carried_coordinate(constraint, V);
+    now = carried_coordinate(constraint, along.a, V);
   } else {
     FrameMotion move, in;
     const FrameMotion& f = motions.of(constraint.move, move);

@@ -230,9 +230,9 @@ ForceVector carried_force(const AxisConstraint& c, const MotionVector& V) noexce
   return carried_axis(c.move, c.in, c.axis);
 }
 
-double carried_bias(const AxisConstraint& c, const MotionVector& V) noexcept {
+double carried_bias(const AxisConstraint& c, const ForceVector& a, const MotionVector& V) noexcept {
   if (c.measure != Measure::side) return 0.0;
-  return carried_direction(c).linear.dot(V.angular.cross(V.linear + V.angular.cross(c.move.pose.position)));
+  return a.linear.dot(V.angular.cross(V.linear + V.angular.cross(c.move.pose.position)));
 }
 
 double measure_position(Axis axis, const Pose& f, const Pose& t) noexcept {

@@ -42,8 +42,8 @@ inline bool is_carried(const AxisConstraint& constraint) noexcept {
 ForceVector carried_force(const AxisConstraint& constraint, const MotionVector& V) noexcept;
 
 /// gamma of a `side` along the axis e that the body carries, with the velocity v_p of the point: e . (w x
-/// v_p).
-double carried_bias(const AxisConstraint& constraint, const MotionVector& V) noexcept;
+/// v_p). `a`: the carried force.
+double carried_bias(const AxisConstraint& constraint, const ForceVector& a, const MotionVector& V) noexcept;
 
 /// Where the moved body does not carry them. `f` and `t` are the motions of the frames `move` and `in`.
 Measurement measure(const AxisConstraint& constraint, const FrameMotion& f, const FrameMotion& t) noexcept;
