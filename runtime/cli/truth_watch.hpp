@@ -16,10 +16,11 @@ struct ObjectReport {
   std::optional<double> touched;       ///< [s]
   std::optional<double> yaw_at_touch;  ///< [rad]
   double steady_force = 0.0;           ///< [N] mean of the last 0.5 s in which a task was active
+  std::string steady_in;               ///< that task
   double peak_force = 0.0;             ///< [N]
   double peak_at = 0.0;                ///< [s]
   std::string peak_in;                 ///< the task that was active then
-  std::optional<double> allowed;  ///< [N] the largest that a row was allowed then; none: no row bounds it
+  std::optional<double> allowed;  ///< [N] what the rows allowed then, the way that it pressed; none: no bound
   std::optional<double> latched;  ///< [s] when the hook caught in its dock
   double pull = 0.0;              ///< [N] of the hook, outwards, when the last task ended
 
@@ -55,6 +56,7 @@ class TruthWatch {
   std::vector<Watched> watched_;
   std::size_t window_;
   std::size_t looks_ = 0;
+  int last_task_ = -1;
 };
 
 }  // namespace zwang::cli
