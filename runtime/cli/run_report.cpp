@@ -90,14 +90,15 @@ std::string truth_table(const RunReport& report) {
   for (const ObjectReport& o : report.objects) {
     if (o.latched) {
       table.add({o.name, "hooked on at " + seconds(*o.latched) + ", pulled with " +
-                             with_unit(o.pull, "N", 5) + " by the hook at the end"});
+                             with_unit(o.pull, "N", 5) + " by the hook as `" + o.steady_in + "` ended"});
     }
     if (!o.touched) {
       table.add({o.latched ? "" : o.name, "not touched"});
       continue;
     }
     table.add({o.latched ? "" : o.name, "touched at " + seconds(*o.touched) + ", pressed with " +
-                                            with_unit(o.steady_force, "N", 5) + " at the end"});
+                                            with_unit(o.steady_force, "N", 5) + " as `" + o.steady_in +
+                                            "` ended"});
     table.add({"", "peak " + with_unit(o.peak_force, "N") + " at " + seconds(o.peak_at) + " in `" +
                        o.peak_in + "`" +
                        (o.allowed ? ", where " + with_unit(*o.allowed, "N") + " are allowed" : "") +

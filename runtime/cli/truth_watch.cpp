@@ -14,26 +14,62 @@ constexpr double steady_window = 0.5;  // [s]
 /// ISO/TS 15066, table A.2. Beyond this factor of what the file allows a peak is a hit.
 constexpr double transient_factor = 2.0;
 
-/// The largest force that a row of the active task or of `always` may have along a line. [N]
-std::optional<double> allowed_force(const runtime::Scheduler& scheduler) {
-  std::optional<double> most;
-  const auto take = [&](const lang::Value& value) {
-    const double force = std::abs(value.evaluate(scheduler.parameters()));
-    if (std::isfinite(force)) most = std::max(most.value_or(0.0), force);
-  };
-  if (scheduler.task() < 0) return most;
-  for (const int task : {scheduler.task(), scheduler.always_task()}) {
-    for (const lang::Group& group : scheduler.tasks()[static_cast<std::size_t>(task)].groups) {
-      for (const lang::AxisStatements& axis : group.axes) {
-        if (axis.axis >= solver::Axis::rx) continue;
-        if (axis.driver == solver::Quantity::force) take(axis.target);
-        if (!axis.force) continue;
-        take(axis.force->low);
-        take(axis.force->high);
-      }
+/// A row along a lets |a . F| be at most f, so a push N along n has N <= f / |a . n|. A row that is farther
+/// than 60 deg from n says nothing: it would allow more than twice its own force.
+constexpr double least_share = 0.5;
+
+/// The most that one row of the base lets it press with along the row. [N]
+double bound_of(const solver::Row& row) {
+  if (row.kind == solver::RowKind::force) return std::abs(row.force);
+  return std::max(std::abs(row.lo), std::abs(row.hi));
+}
+
+/// The force that the rows allow along one line.
+struct Line {
+  Eigen::Vector3d along;
+  double by_drivers = 0.0;  ///< [N] of all drivers together; none: `has_driver` is false
+  double by_sums = solver::infinity;
+  bool has_driver = false;
+
+  double most() const { return has_driver ? std::min(by_drivers, by_sums) : by_sums; }
+};
+
+std::vector<Line> lines_of(const std::vector<solver::Row>& rows) {
+  std::vector<Line> lines;
+  for (const solver::Row& row : rows) {
+    const bool is_range = row.kind == solver::RowKind::upper || row.kind == solver::RowKind::lower;
+    const Eigen::Vector3d along = row.a.linear;
+    if (row.body != 0 || is_range || along.norm() < least_share) continue;
+    const Eigen::Vector3d a = along.normalized();
+    constexpr double parallel = 1.0 - 1e-6;  // 0.08 deg
+    const auto same = [&](const Line& line) { return std::abs(line.along.dot(a)) > parallel; };
+    auto line = std::ranges::find_if(lines, same);
+    if (line == lines.end()) line = lines.insert(line, {a});
+    if (row.kind == solver::RowKind::sum) {
+      line->by_sums = std::min(line->by_sums, bound_of(row));
+    } else {
+      line->by_drivers += bound_of(row);
+      line->has_driver = true;
     }
   }
-  return most;
+  return lines;
+}
+
+/// The most that the rows in force let the robot press on an object with as it did at the peak. A row of the
+/// link that touches counts whatever its direction: nobody knows how that link stands. [N]
+std::optional<double> allowed_force(const solver::ConstraintSet& set, const runtime::ObjectTruth& object,
+                                    double yaw) {
+  const Eigen::Vector3d n = Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()) * object.peak_push.normalized();
+  double most = solver::infinity;
+  for (const Line& line : lines_of(set.rows())) {
+    const double share = std::abs(line.along.dot(n));
+    if (share > least_share) most = std::min(most, line.most() / share);
+  }
+  for (const solver::Row& row : set.rows()) {
+    const bool presses = row.kind == solver::RowKind::driver || row.kind == solver::RowKind::force;
+    if (presses && row.body != 0 && row.body == object.peak_body) most = std::min(most, bound_of(row));
+  }
+  return std::isfinite(most) ? std::optional(most) : std::nullopt;
 }
 
 }  // namespace
@@ -80,7 +116,7 @@ void TruthWatch::look(const runtime::Truth& truth, const runtime::Scheduler& sch
       w.peak_at = truth.time;
       w.peak_in = scheduler.task();
       w.peak_came = w.came;
-      w.allowed = allowed_force(scheduler);
+      w.allowed = allowed_force(scheduler.constraints(), truth.objects[i], truth.yaw);
     }
     if (!in_task) continue;
     w.pull = truth.objects[i].pull;
@@ -90,7 +126,9 @@ void TruthWatch::look(const runtime::Truth& truth, const runtime::Scheduler& sch
       w.last_forces[looks_ % window_] = truth.objects[i].force;
     }
   }
-  if (in_task) ++looks_;
+  if (!in_task) return;
+  ++looks_;
+  last_task_ = scheduler.task();
 }
 
 std::vector<ObjectReport> TruthWatch::objects(const runtime::Truth& truth,
@@ -111,6 +149,7 @@ std::vector<ObjectReport> TruthWatch::objects(const runtime::Truth& truth,
     report.allowed = w.allowed;
     report.came = w.peak_came;
     if (w.place_at_touch) report.pushed_away = (Eigen::Vector2d(o.x, o.y) - *w.place_at_touch).norm();
+    if (last_task_ >= 0) report.steady_in = scheduler.tasks()[static_cast<std::size_t>(last_task_)].name;
     report.latched = o.latched;
     report.pull = w.pull;
   }

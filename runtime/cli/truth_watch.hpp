@@ -16,12 +16,13 @@ struct ObjectReport {
   std::optional<double> touched;       ///< [s]
   std::optional<double> yaw_at_touch;  ///< [rad]
   double steady_force = 0.0;           ///< [N] mean of the last 0.5 s in which a task was active
+  std::string steady_in;               ///< that task
   double peak_force = 0.0;             ///< [N]
   double peak_at = 0.0;                ///< [s]
   bool came = false;                   ///< the object was faster than the base when they met for that peak
   std::string peak_in;                 ///< the task that was active then
-  std::optional<double> allowed;  ///< [N] the largest that a row was allowed then; none: no row bounds it
   double pushed_away = 0.0;  ///< [m] from where it stood when the base touched it; of objects with a mass
+  std::optional<double> allowed;  ///< [N] what the rows allowed then, the way that it pressed; none: no bound
   std::optional<double> latched;  ///< [s] when the hook caught in its dock
   double pull = 0.0;              ///< [N] of the hook, outwards, when the last task ended
 
@@ -63,6 +64,7 @@ class TruthWatch {
   double period_;  ///< [s]
   std::size_t window_;
   std::size_t looks_ = 0;
+  int last_task_ = -1;
 };
 
 }  // namespace zwang::cli

@@ -26,7 +26,11 @@ double largest_swing(double force) {
 
 ContactReader::ContactReader(std::vector<GeomOwner> owners, std::vector<ContactSpring> springs,
                              const std::vector<SimulatedRobot>& robots, std::size_t objects)
-    : owners_(std::move(owners)), springs_(std::move(springs)), robots_(robots.size()), objects_(objects) {
+    : owners_(std::move(owners)),
+      springs_(std::move(springs)),
+      robots_(robots.size()),
+      met_(objects + robots.size()),
+      objects_(objects) {
   for (std::size_t r = 0; r < robots.size(); ++r)
     robots_[r].on_body.resize(static_cast<std::size_t>(robots[r].robot.model.body_count()));
 }
@@ -58,6 +62,7 @@ const ContactSpring* ContactReader::spring_of(const mjModel& model, int geom1, i
 
 void ContactReader::read(const mjModel& model, const mjData& data, double before, Truth& truth) noexcept {
   for (ObjectTruth& object : truth.objects) object.force = 0.0;
+  std::ranges::fill(met_, Met{});
   std::fill(truth.corner_forces.begin(), truth.corner_forces.end(), 0.0);
   for (RobotContacts& robot : robots_) {
     robot.push.setZero();
@@ -93,8 +98,22 @@ void ContactReader::read(const mjModel& model, const mjData& data, double before
     ObjectTruth& object = truth.objects[static_cast<std::size_t>(k)];
     object.force += force;
     if (!object.touched) object.touched = before;
+    const bool is_first_one = one.touches && one.robot == 0;
+    Met& met = met_[static_cast<std::size_t>(k)];
+    met.push += (is_first_one ? -force : force) * vector_of(contact.frame);
+    met.body = (is_first_one ? one : other).part;
   }
-  for (ObjectTruth& object : truth.objects) object.peak_force = std::max(object.peak_force, object.force);
+  keep_peaks(truth);
+}
+
+void ContactReader::keep_peaks(Truth& truth) const noexcept {
+  for (std::size_t k = 0; k < truth.objects.size(); ++k) {
+    ObjectTruth& object = truth.objects[k];
+    if (!(object.force > object.peak_force)) continue;
+    object.peak_force = object.force;
+    object.peak_push = met_[k].push;
+    object.peak_body = met_[k].body;
+  }
 }
 
 void ContactReader::note_catch(std::size_t robot, double time) noexcept {

@@ -39,12 +39,20 @@ class ContactReader {
   const RobotContacts& of_robot(std::size_t robot) const noexcept { return robots_[robot]; }
 
  private:
+  /// How an object presses on the first robot, in one step.
+  struct Met {
+    Eigen::Vector3d push = Eigen::Vector3d::Zero();  ///< [N] all normal forces, in world axes
+    int body = 0;                                    ///< of the robot's model, the last one
+  };
+
+  void keep_peaks(Truth& truth) const noexcept;
   int touched_object(int geom1, int geom2) const noexcept;
   const ContactSpring* spring_of(const mjModel_& model, int geom1, int geom2) const noexcept;
 
   std::vector<GeomOwner> owners_;
   std::vector<ContactSpring> springs_;
   std::vector<RobotContacts> robots_;
+  std::vector<Met> met_;  ///< by object, then by other robot
   std::size_t objects_ = 0;
 };
 

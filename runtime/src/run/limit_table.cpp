@@ -109,21 +109,25 @@ void LimitTable::take(int index, const Nearest& now, double range, double least_
   }
 }
 
-void LimitTable::compare_constraint(const Indices& of, const solver::AxisConstraint& c,
-                                    const solver::Coordinate& now, const solver::Row& row,
-                                    const solver::Solution& solution) noexcept {
+void LimitTable::compare_motion(const Indices& of, const solver::AxisConstraint& c,
+                                const solver::Coordinate& now) noexcept {
+  if (c.measure == solver::Measure::turn) return;
+  if (c.position) compare(of[0], now.position, c.position->low, c.position->high);
+  if (c.velocity) compare(of[1], now.velocity, c.velocity->low, c.velocity->high);
+}
+
+void LimitTable::compare_acceleration(const Indices& of, const solver::AxisConstraint& c,
+                                      const solver::Coordinate& now, const solver::Row& row,
+                                      const solver::Solution& solution) noexcept {
   if (c.measure == solver::Measure::turn) {
     if (c.velocity) compare(of[2], now.velocity, c.velocity->low, c.velocity->high);
     return;
   }
-  if (c.position) compare(of[0], now.position, c.position->low, c.position->high);
-  if (c.velocity) compare(of[1], now.velocity, c.velocity->low, c.velocity->high);
-  if (c.acceleration) {
-    // The norm in a plane is no more than the most along its sides, by the apothem of their polygon.
-    const double share = c.measure == solver::Measure::side ? PlaneNorm::apothem : 1.0;
-    compare(of[2], acceleration_of(row, solution, now.acceleration_bias) / share, c.acceleration->low / share,
-            c.acceleration->high / share);
-  }
+  if (!c.acceleration) return;
+  // The norm in a plane is no more than the most along its sides, by the apothem of their polygon.
+  const double share = c.measure == solver::Measure::side ? PlaneNorm::apothem : 1.0;
+  compare(of[2], acceleration_of(row, solution, now.acceleration_bias) / share, c.acceleration->low / share,
+          c.acceleration->high / share);
 }
 
 void LimitTable::compare_force(const Indices& of, const solver::AxisConstraint& c, const solver::Row& row,
@@ -169,11 +173,13 @@ void LimitTable::compare_rows(const StatementTable& statements, const solver::Co
     const auto i = static_cast<std::size_t>(constraint);
     if (i >= in_force.size()) continue;
     const solver::AxisConstraint& c = set.constraints()[i];
-    // While a switch blends, a range that is not new holds in every set; the rest is on its way.
+    // While a switch blends, an acceleration range that is not new holds in every set; another is on its way.
+    // Place and speed count from the first tick on: a blend does not hide what they were.
     const bool is_new = std::max(c.position_horizon, c.velocity_horizon) > solver::limit_horizon;
-    if (blends && (c.driver || is_new)) continue;
+    const bool has_effect = !blends || !(c.driver || is_new);
     const Indices& of = of_statement_[static_cast<std::size_t>(statements.id(in_force[i].origin))];
-    compare_constraint(of, c, set.coordinates()[i], rows[first], solution);
+    compare_motion(of, c, set.coordinates()[i]);
+    if (has_effect) compare_acceleration(of, c, set.coordinates()[i], rows[first], solution);
     for (std::size_t k = first; k < r && of[3] >= 0 && !blends; ++k) {
       compare_force(of, c, rows[k], solution.rows[k].nu);
     }

@@ -42,9 +42,11 @@ class LimitTable {
   /// The limits of a statement by quantity, -1 where it has none.
   using Indices = std::array<int, 4>;
 
-  void compare_constraint(const Indices& of, const solver::AxisConstraint& constraint,
-                          const solver::Coordinate& now, const solver::Row& row,
-                          const solver::Solution& solution) noexcept;
+  void compare_motion(const Indices& of, const solver::AxisConstraint& constraint,
+                      const solver::Coordinate& now) noexcept;
+  void compare_acceleration(const Indices& of, const solver::AxisConstraint& constraint,
+                            const solver::Coordinate& now, const solver::Row& row,
+                            const solver::Solution& solution) noexcept;
   void compare_force(const Indices& of, const solver::AxisConstraint& constraint, const solver::Row& row,
                      double nu) noexcept;
   void compare_rows(const StatementTable& statements, const solver::ConstraintSet& set,

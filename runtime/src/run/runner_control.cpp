@@ -24,7 +24,7 @@ bool Runner::Parts::control() noexcept {
   if (!was_finished && scheduler.phase() == Phase::finished) {
     // A base that lets go of a wall moves a little. Where no encoder counts that, the wall may be gone.
     is_end_doubted = !scheduler.has_stood() || blind_budget.leans();
-    if (is_end_doubted) tell_doubt();
+    if (is_end_doubted) tell_doubt(sample.time);
   }
   if (scheduler.transition()) {
     const Transition& t = *scheduler.transition();
@@ -144,9 +144,10 @@ void Runner::Parts::brake_protectively(bool good_sample) noexcept {
   }
   if (drive && drive->moves(command)) return;  // it is told less from tick to tick
   if (rest.stood_for() >= rest_dwell) is_past_stop = true;
-  if (is_past_stop || static_cast<double>(stopped_ticks) * period <= longest_stop) return;
+  const double stopped_for = static_cast<double>(stopped_ticks) * period;
+  if (is_past_stop || stopped_for <= longest_stop) return;
   is_past_stop = is_rest_doubted = true;
-  tell_doubt();
+  tell_doubt(guard.stop_event().time + stopped_for);  // no sample's: none may have been good since
 }
 
 }  // namespace zwang::runtime

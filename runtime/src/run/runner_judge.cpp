@@ -119,9 +119,8 @@ void Runner::Parts::tell_excursion() noexcept {
 }
 
 /// The longest time of a stop is over.
-void Runner::Parts::tell_doubt() noexcept {
-  tell({EventCode::not_at_rest, estimated.time, event_signal::base_twist,
-        estimated.state.base_twist.linear.norm()});
+void Runner::Parts::tell_doubt(double time) noexcept {
+  tell({EventCode::not_at_rest, time, event_signal::base_twist, estimated.state.base_twist.linear.norm()});
 }
 
 }  // namespace zwang::runtime

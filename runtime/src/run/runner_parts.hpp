@@ -63,7 +63,7 @@ struct Runner::Parts {
   void tell(const Event& event) noexcept;
   void tell_refusal(SampleStatus status) noexcept;
   void tell_excursion() noexcept;
-  void tell_doubt() noexcept;
+  void tell_doubt(double time) noexcept;
 
   // Of runner_control.cpp.
   /// Everything between a sample and its torques. False when there are none to send.

@@ -27,6 +27,9 @@ struct ObjectTruth {
   double pull = 0.0;    ///< [N] with which that hook pulls the dock outwards, now; negative: inwards
   double travel = 0.0;  ///< [rad] about its hinge or [m] along its slide, from where it was written
   double hand = 0.0;    ///< [N] how hard all hands press on it, now; of a robot on the whole of it
+  /// [N] those normal forces on the first robot at the peak, in world axes; and the body of its model.
+  Eigen::Vector3d peak_push = Eigen::Vector3d::Zero();
+  int peak_body = 0;
 };
 
 /// Of a robot's base, beside its place and its planar motion.
