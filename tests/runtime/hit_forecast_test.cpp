@@ -119,7 +119,9 @@ void expect_near(const Told& told) {
   EXPECT_GT(told.peak(), 0.0) << told.text;
   EXPECT_LE(told.peak(), 1.25 * *told.near) << told.text;
   const bool is_felt = told.text.find("the simulation feels less") == std::string::npos;
-  if (is_felt) EXPECT_GE(told.peak(), 0.75 * *told.near) << told.text;
+  if (is_felt) {
+    EXPECT_GE(told.peak(), 0.75 * *told.near) << told.text;
+  }
 }
 
 // Without a force range every hit is told. 1 m is way enough for each of these speeds.
