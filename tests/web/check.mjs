@@ -146,7 +146,7 @@ async function checkUse(made) {
   await line.click();
   const name = title.replace('Show ', '');
   assert.equal(await page.locator(`output[data-curve="${name}"]`).count(), 1, name);
-  await page.locator('#margins td button.link').last().click();
+  await page.locator('#margins td:last-child button.link').last().click();
   assert.equal(await page.locator('.row.shown').count(), 1);
   // The keyboard alone reaches play, time, speed.
   await page.locator('.play').focus();
