@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "diagnostic/make.hpp"
-#include "spec/units.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/connection.hpp"
 
 namespace zwang::lang::wording {

@@ -6,8 +6,9 @@
 //
 //     v^2 = 2 a s,   a = min(demand, the acceleration limits, F / m),   v <= the robot's own limits
 //
-// F is what the motors make along the axis. The demand is F / m of a force driver, c of an acceleration, and
-// of a position the critically damped  (d - x) / T^2 - 2 v / T,  d from the start to the target.
+// F is the force of the motors along the axis. The demand is F / m of a force driver, and c of an
+// acceleration. Of a position it is the critically damped  (d - x) / T^2 - 2 v / T,  d from the start to the
+// target.
 //
 // The way is known in the task that begins where the scene says. Elsewhere the limits are a bound.
 #include "physics/arrival.hpp"

@@ -17,8 +17,8 @@ struct Arrival {
 Arrival arrival_of(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures,
                    const std::optional<Scene>& scene, bool is_first, Probe& probe);
 
-/// The most that the axis's driver presses with against something that stops it: m a, a of its target or of
-/// the acceleration limit, and no more than the motors make. [N]
+/// The largest force of the axis's driver against something that stops it: m a, and no more than the motors
+/// make. a is that of its target, or the acceleration limit. [N]
 double pressed_without_range(const PlannedTask& plan, const PlannedAxis& axis, const AxisFigures& figures);
 
 }  // namespace zwang::lang

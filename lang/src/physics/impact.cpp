@@ -12,9 +12,9 @@
 //   K + min(m / T_c^2, alpha K k / (K + k)),   k_i = 1/(T_c T_i)
 //
 // of the object of the scene that makes it largest. Without one the robot file's bumper is the spring,
-// undamped. Where a force range bounds F the peak is told above 2.5 times that bound, with the speed at which
-// it comes down to it; without a range it is told as it is. Where v is a bound the peak is one, too: of all
-// such the hardest is told, in tasks in which no forecast is.
+// undamped. Where a force range bounds F, a peak above 2.5 times that bound is told, with the speed at which
+// it comes down to the bound. Without a range the peak is told as it is. Where v is a bound the peak is one,
+// too. The hardest of such peaks is told in tasks in which no forecast is.
 #include <algorithm>
 #include <cmath>
 

@@ -44,15 +44,15 @@ struct BaseFit {
 ZWANG_EXPORT BaseFit base_fit(const RobotDraft& draft);
 ZWANG_EXPORT BaseFit base_fit(const Robot& robot);
 
-/// The yaw [rad] at which the outline rests against a wall across x that it is pushed to from `yaw`, without
-/// friction; no value where it turns by more than 90 deg first.
+/// The yaw [rad] at which the outline rests against a wall across x. It is pushed there from `yaw`, without
+/// friction. No value: it turns by more than 90 deg first.
 ZWANG_EXPORT std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw);
 /// A base that rests as much askew is round ahead: no wall squares it up. The shipped task promises 0.1 deg,
 /// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]
 inline constexpr double round_ahead = 2.0 * std::numbers::pi / 180.0;
 
-/// The yaw [rad] from which a wall squares the base up: 20 deg, or the largest of 15, 10 and 5 deg from which
-/// its outline comes to rest square; no value where it does from none.
+/// The yaw [rad] from which a wall squares the base up: the largest of 20, 15, 10 and 5 deg from which its
+/// outline comes to rest square. No value: it does from none.
 ZWANG_EXPORT std::optional<double> start_askew(const BaseFit& fit);
 
 /// Why this base cannot do `task`; empty: it can, as far as is known.
