@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "../temporary_folder.hpp"
-#include "blank.hpp"
+#include "log/blank.hpp"
 
 namespace zwang::runtime {
 namespace {
@@ -34,10 +34,10 @@ const std::vector<Column> task_columns = {
 TEST(Recorder, WritesNamesUnitsNumbersWordsAndBlanks) {
   EmptyFolder folder;
   Recorder recorder(folder.path / "log.csv", task_columns);
-  EXPECT_TRUE(recorder.record(std::vector{0.001, 0.0, blank}));
+  EXPECT_TRUE(recorder.record(std::vector{0.001, 0.0, log_column::blank}));
   EXPECT_TRUE(recorder.record(std::vector{1.0 / 3.0, 1.0, -20.0}));
-  EXPECT_TRUE(
-      recorder.record(std::vector{-0.0, 7.0, 1.23456789012e-7}));  // a word that is not there is blank
+  EXPECT_TRUE(recorder.record(
+      std::vector{-0.0, 7.0, 1.23456789012e-7}));  // a word that is not there is blank
   recorder.close();
   EXPECT_EQ(text_of(folder.path / "log.csv"),
             "time [s],task,go.x.nu [N]\n0.001,press,\n0.333333333,hold,-20\n0,,1.23456789e-07\n");
@@ -51,7 +51,7 @@ TEST(Recorder, KeepsEveryRecordWhenTheProducerWaits) {
   const int count = 500;
   for (int i = 0; i < count; ++i) {
     recorder.wait_for_room();
-    EXPECT_TRUE(recorder.record(std::vector{static_cast<double>(i), 0.0, blank}));
+    EXPECT_TRUE(recorder.record(std::vector{static_cast<double>(i), 0.0, log_column::blank}));
   }
   recorder.close();
   EXPECT_TRUE(recorder.status().complete());
