@@ -36,8 +36,8 @@ TEST(Recorder, WritesNamesUnitsNumbersWordsAndBlanks) {
   Recorder recorder(folder.path / "log.csv", task_columns);
   EXPECT_TRUE(recorder.record(std::vector{0.001, 0.0, log_column::blank}));
   EXPECT_TRUE(recorder.record(std::vector{1.0 / 3.0, 1.0, -20.0}));
-  EXPECT_TRUE(recorder.record(
-      std::vector{-0.0, 7.0, 1.23456789012e-7}));  // a word that is not there is blank
+  EXPECT_TRUE(
+      recorder.record(std::vector{-0.0, 7.0, 1.23456789012e-7}));  // a word that is not there is blank
   recorder.close();
   EXPECT_EQ(text_of(folder.path / "log.csv"),
             "time [s],task,go.x.nu [N]\n0.001,press,\n0.333333333,hold,-20\n0,,1.23456789e-07\n");
