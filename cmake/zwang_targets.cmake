@@ -1,6 +1,7 @@
 # What every target of zwang shares: warnings as errors, and sanitizers where a preset asks for them. Clang's
 # -Wdouble-promotion would refuse the oracle's long double, too.
 option(ZWANG_UNITY "Compile the files of a folder together" OFF)
+set(ZWANG_TOGETHER 20 CACHE STRING "With ZWANG_UNITY: as many files at most; fewer make a change quicker to build, and all of it slower")
 add_library(zwang_flags INTERFACE)
 target_compile_options(zwang_flags INTERFACE
   -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:${ZWANG_UNITY}>>:-Wshadow> -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Wold-style-cast
@@ -38,7 +39,7 @@ function(zwang_quick_under_sanitizers target)
   endif()
 endfunction()
 
-# zwang_together(<target>): ZWANG_UNITY compiles the files of a folder together, twenty at most, which takes a quarter of the time:
+# zwang_together(<target>): ZWANG_UNITY compiles the files of a folder together, ZWANG_TOGETHER at most. Twenty take a quarter of the time:
 # their headers are read, and what these instantiate is compiled, once. The files' anonymous namespaces meet then, so that
 # -Wshadow would compare the names of one file with those of another, and GCC takes a class of a file for one of a header
 # (-Wsubobject-linkage); a build without it does.
@@ -52,7 +53,7 @@ function(zwang_together target)
     string(MAKE_C_IDENTIFIER "${folder}" folder)
     list(APPEND of_${folder} ${source})
     list(LENGTH of_${folder} count)
-    math(EXPR group "${count} / 20")
+    math(EXPR group "${count} / ${ZWANG_TOGETHER}")
     set_property(SOURCE ${source} PROPERTY UNITY_GROUP "${folder}_${group}")
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

@@ -1,4 +1,4 @@
-#include "check/check.hpp"
+#include "check_task_file.hpp"
 #include "diagnostic/wordings.hpp"
 #include "load_within.hpp"
 #include "lower/lower.hpp"

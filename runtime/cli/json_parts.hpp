@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "zwang/lang/program.hpp"
@@ -31,6 +32,11 @@ nlohmann::ordered_json page_data(const std::filesystem::path& log, const runtime
 /// What two runs do not have alike.
 nlohmann::ordered_json comparison_of(const std::filesystem::path& first_log, const runtime::Series& first,
                                      const std::filesystem::path& second_log, const runtime::Series& second);
+
+/// JSON knows no infinity and no NaN.
+inline nlohmann::ordered_json finite_or_null(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
 
 /// Five digits: more than a page shows. 0 of what is not finite.
 inline double short_number(double value) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "json_parts.hpp"
 #include "output.hpp"
 
 namespace zwang::cli {
@@ -142,10 +143,6 @@ std::string dormant_text(const TaskPlan& plan, const lang::Diagnostics& diagnost
   return text;
 }
 
-ordered_json finite(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
 ordered_json as_json(const Spread& spread) {
   return spread.exists() ? ordered_json({spread.least, spread.most}) : ordered_json(nullptr);
 }
@@ -167,8 +164,8 @@ ordered_json as_json(const TaskPlan& plan, const lang::Diagnostics& diagnostics)
                     {"reference_body", p.row.reference_body},
                     {"b", asks_for_acceleration(p.row.kind) ? ordered_json(p.row.b) : ordered_json(nullptr)},
                     {"force", is_force ? ordered_json(p.row.force) : ordered_json(nullptr)},
-                    {"lo", finite(p.row.lo)},
-                    {"hi", finite(p.row.hi)},
+                    {"lo", finite_or_null(p.row.lo)},
+                    {"hi", finite_or_null(p.row.hi)},
                     {"weight", p.weight ? ordered_json(*p.weight) : ordered_json(nullptr)},
                     {"fraction", p.fraction ? ordered_json(*p.fraction) : ordered_json(nullptr)},
                     {"from", place(diagnostics, p.span)}});
@@ -178,10 +175,10 @@ ordered_json as_json(const TaskPlan& plan, const lang::Diagnostics& diagnostics)
   for (const PlannedAxis& axis : plan.axes) {
     axes.push_back({{"axis", axis.name},
                     {"reachable", axis.analysis.reachable},
-                    {"effective_mass", finite(axis.analysis.effective_mass)},
+                    {"effective_mass", finite_or_null(axis.analysis.effective_mass)},
                     {"effective_mass_range", as_json(axis.mass)},
                     {"sometimes_held", axis.is_sometimes_held},
-                    {"largest_force", finite(axis.analysis.largest_force)},
+                    {"largest_force", finite_or_null(axis.analysis.largest_force)},
                     {"largest_force_range", as_json(axis.force)}});
   }
   ordered_json dormant = ordered_json::array();

@@ -19,10 +19,6 @@ struct Bounded {
   lang::Span span;
 };
 
-ordered_json finite_or_null(double value) {
-  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
-}
-
 ordered_json json_of(const Bounded& b) {
   return {
       {"column", b.column},           {"task", b.task.empty() ? ordered_json(nullptr) : ordered_json(b.task)},

@@ -122,10 +122,6 @@ std::string truth_table(const RunReport& report) {
   return text + table.text();
 }
 
-ordered_json number_or_null(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
-}
-
 ordered_json json_transitions(const runtime::Runner& runner, const lang::Diagnostics& diagnostics) {
   const runtime::Scheduler& scheduler = runner.scheduler();
   ordered_json all = ordered_json::array();
@@ -163,7 +159,7 @@ ordered_json json_events(const runtime::Runner& runner) {
     all.push_back({{"time", e.time},
                    {"code", to_string(e.code)},
                    {"signal", runner.event_signal(e)},
-                   {"value", number_or_null(e.value)}});
+                   {"value", finite_or_null(e.value)}});
   }
   return all;
 }
@@ -171,17 +167,17 @@ ordered_json json_events(const runtime::Runner& runner) {
 ordered_json json_truth(const RunReport& report) {
   ordered_json truth = ordered_json::object();
   for (const ObjectReport& o : report.objects) {
-    truth[o.name] = {{"touched", number_or_null(o.touched)},
+    truth[o.name] = {{"touched", finite_or_null(o.touched)},
                      {"steady_force", o.steady_force},
                      {"peak_force", o.peak_force},
                      {"peak_at", o.peak_at},
                      {"peak_in", o.peak_in},
                      {"came", o.came},
                      {"pushed_away", o.pushed_away},
-                     {"allowed", number_or_null(o.allowed)},
+                     {"allowed", finite_or_null(o.allowed)},
                      {"hit", o.is_hit()},
-                     {"yaw_at_touch", number_or_null(o.yaw_at_touch)},
-                     {"latched", number_or_null(o.latched)},
+                     {"yaw_at_touch", finite_or_null(o.yaw_at_touch)},
+                     {"latched", finite_or_null(o.latched)},
                      {"pull", o.pull}};
   }
   truth["base"] = {{"x", report.x},
@@ -189,8 +185,8 @@ ordered_json json_truth(const RunReport& report) {
                    {"yaw", report.yaw},
                    {"roll", report.base.roll},
                    {"pitch", report.base.pitch},
-                   {"fallen", number_or_null(report.base.fallen)},
-                   {"slipped", number_or_null(report.base.slipped)},
+                   {"fallen", finite_or_null(report.base.fallen)},
+                   {"slipped", finite_or_null(report.base.slipped)},
                    {"most_slip", report.base.most_slip}};
   return truth;
 }

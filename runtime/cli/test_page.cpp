@@ -57,10 +57,6 @@ double millimetres(double metres) {
   return std::round(metres * 1e3) / 1e3;
 }
 
-ordered_json finite_or_null(const std::optional<double>& value) {
-  return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json(nullptr);
-}
-
 ordered_json expectations_of(const ScenarioReport& report, const CellResult& cell) {
   std::vector<ExpectationResult> all = cell.expectations;
   std::ranges::stable_sort(all, [](const ExpectationResult& a, const ExpectationResult& b) {

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "pairs.hpp"
+#include "linear/pairs.hpp"
 #include "zwang/solver/state.hpp"
 
 namespace zwang::solver {

@@ -8,7 +8,7 @@
 #include "base/whitened_rows.hpp"
 #include "constraint/add_rows.hpp"
 #include "input_check.hpp"
-#include "pairs.hpp"
+#include "linear/pairs.hpp"
 #include "sweep/sweeps.hpp"
 
 namespace zwang::solver {

@@ -1,7 +1,7 @@
 /// Rows that act along the same axis, and rows that are none.
 #pragma once
 
-#include "pairs.hpp"
+#include "linear/pairs.hpp"
 #include "zwang/solver/constraint.hpp"
 
 namespace zwang::solver {

@@ -13,7 +13,7 @@ import sys
 import tempfile
 import time
 
-import two_processes
+from pair import CLOCK, TWIST, Pair, resident
 
 RATE = 100.0  # [Hz]
 LEAST_CHUNK = 32.0  # [bytes] of glibc's malloc on 64 bits
@@ -44,7 +44,7 @@ def slope(times, sizes):
 
 
 def main(program, root, clients, seconds=3600.0):
-    two_processes.CLIENTS = pathlib.Path(clients)
+    Pair.clients = pathlib.Path(clients)
     root = pathlib.Path(root)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -57,10 +57,10 @@ def main(program, root, clients, seconds=3600.0):
         task = folder / "to_and_fro.yaml"
         task.write_text(TASK, encoding="utf-8")
         (folder / "open.yaml").write_text((root / "specs/scenes/open.yaml").read_text(encoding="utf-8"), encoding="utf-8")
-        command = two_processes.TWIST.replace("rate: 50 Hz", f"rate: {RATE:g} Hz")
+        command = TWIST.replace("rate: 50 Hz", f"rate: {RATE:g} Hz")
         # By the clock of the simulation, so that a busy machine is slow and not late.
-        pair = two_processes.Pair(program, folder, task, command, ["--scene", folder / "open.yaml"], 40,
-                                  more=two_processes.CLOCK, stale_after="500 ms")
+        pair = Pair(program, folder, task, command, ["--scene", folder / "open.yaml"], 40,
+                                  more=CLOCK, stale_after="500 ms")
         pair.wait_for("the task begins")
         begin = time.monotonic()
         times, sizes = [], {"drive": [], "simulate": []}
@@ -68,7 +68,7 @@ def main(program, root, clients, seconds=3600.0):
             if elapsed > 0.1 * float(seconds):
                 times.append(elapsed)
                 for side, of_side in sizes.items():
-                    of_side.append(two_processes.resident(getattr(pair, side).pid))
+                    of_side.append(resident(getattr(pair, side).pid))
             time.sleep(1.0)
         elapsed = time.monotonic() - begin
         pair.drive.send_signal(signal.SIGTERM)

@@ -14,7 +14,7 @@ import sys
 import tempfile
 import time
 
-import two_processes
+import pair as both
 import yaml
 
 MESSAGES = {"bool": "std_msgs/Bool", "number": "std_msgs/Float64", "pose": "geometry_msgs/PoseStamped",
@@ -47,7 +47,7 @@ def command_of(program, task, folder):
     what = "effort"
     said = told_of(program, task, folder, what)
     if "takes twists" in said:
-        return two_processes.TWIST
+        return both.TWIST
     if "takes wheel velocities" in said:
         what = "velocity"
         said = told_of(program, task, folder, what)
@@ -60,24 +60,24 @@ def ends_as_alone(program, root, folder, name, number):
     alone = subprocess.run([program, "run", task, "--quiet", "--format", "json", "--log", folder / "log"], capture_output=True,
                            text=True, check=False)
     report = json.loads(alone.stdout)
-    pair = two_processes.Pair(program, folder, task, command_of(program, task, folder), [], number,
-                              more=two_processes.CLOCK + topics_of(task))
+    pair = both.Pair(program, folder, task, command_of(program, task, folder), [], number,
+                              more=both.CLOCK + topics_of(task))
     _, drive, simulate = pair.end(within=600)
-    two_processes.expect(report["outcome"] + " after" in drive, f"alone it is {report['outcome']}", drive, simulate)
+    both.expect(report["outcome"] + " after" in drive, f"alone it is {report['outcome']}", drive, simulate)
     peaks = []
     for thing, truth in report["truth"].items():
         alone_peak = truth.get("peak_force") or 0.0
         if thing == "base" or alone_peak < LEAST_PEAK:
             continue
-        peak = two_processes.number(re.escape(thing) + r": force [0-9.-]+ N, peak ([0-9.]+) N", simulate)
-        two_processes.expect(abs(peak - alone_peak) < 0.1 * alone_peak, f"{thing}: peak {peak} N, alone {alone_peak} N", drive,
+        peak = both.number(re.escape(thing) + r": force [0-9.-]+ N, peak ([0-9.]+) N", simulate)
+        both.expect(abs(peak - alone_peak) < 0.1 * alone_peak, f"{thing}: peak {peak} N, alone {alone_peak} N", drive,
                              simulate)
         peaks.append(f"{thing} {peak:.0f} N, alone {alone_peak:.0f} N")
     return f"{report['outcome']}; " + ", ".join(peaks)
 
 
 def main(program, root, clients, *names):
-    two_processes.CLIENTS = pathlib.Path(clients)
+    both.Pair.clients = pathlib.Path(clients)
     root = pathlib.Path(root)
     all_names = sorted(p.stem for p in (root / "specs").glob("*.yaml") if p.stem not in WITHOUT_END)
     is_good = True
@@ -90,7 +90,7 @@ def main(program, root, clients, *names):
                 is_good = False
                 print(f"FAILED  {name}: {error}", end="")
             print(f" ({time.monotonic() - begin:.0f} s)", flush=True)
-        for process in two_processes.RUNNING:
+        for process in both.RUNNING:
             if process.poll() is None:
                 process.kill()
     return 0 if is_good else 1

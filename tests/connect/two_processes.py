@@ -18,140 +18,8 @@ import sys
 import tempfile
 import time
 
-STALE_AFTER = 0.1  # [s] in the connection files below
-TIMEOUT = 0.3  # [s] after which the simulated receiver stops the motors
-SLACK = 0.1  # [s] for a machine that does other things, too
-
-EFFORT = """command:
-  joints:
-    topic: /effort_controller/commands
-    what: effort
-    order: [front_left_wheel, front_right_wheel, rear_left_wheel, rear_right_wheel]
-    timeout: 300 ms
-"""
-TWIST = """command:
-  twist: {topic: /cmd_vel, type: geometry_msgs/TwistStamped, rate: 50 Hz, timeout: 300 ms}
-"""
-
-
-VELOCITY = EFFORT.replace("what: effort", "what: velocity")
-
-# What each use case measures beside joints, on the robot that feels by its motors' efforts.
-SIGNALS = {
-    "wall_align": "",
-    "obstacle": "",
-    "docking": """signals:
-  partner: {topic: /partner, type: geometry_msgs/PoseStamped}
-  latch: {topic: /latch, type: std_msgs/Bool}
-""",
-    "hospital": """signals:
-  loaded: {topic: /loaded, type: std_msgs/Bool}
-  nearest: {topic: /nearest, type: std_msgs/Float64}
-  stop_key: {topic: /stop_key, type: std_msgs/Bool}
-""",
-}
-
-
-CLOCK = "clock: {ros: /clock}\n"  # the world waits for commands: a busy machine is slow and not late
-
-
-class Unreachable(Exception):
-    """Two processes do not hear each other here."""
-
-
-RUNNING = []  # every process that a case has begun
-
-
-def start(words, **options):
-    process = subprocess.Popen(words, **options)
-    RUNNING.append(process)
-    return process
-
-
-class Pair:
-    """Both processes of a task, each with its own file of output."""
-
-    def __init__(self, program, folder, task, command, options, number, ros2="reach: loopback", more="", base="",
-                 simulated=(), motors_apart=0, stale_after="100 ms"):
-        self.domain = domain = 100 + (os.getpid() + number) % 100  # another one than that of a test beside this one
-        self.files = {side: folder / f"{side}_{number}" for side in ("simulate", "drive")}
-        for side in ("simulate", "drive"):
-            connection = folder / f"connection_{number}{'_of_motors' if motors_apart and side == 'simulate' else ''}.yaml"
-            # `motors_apart`: the simulation is in a domain of its own, that many further.
-            in_domain = domain + (motors_apart if side == "simulate" else 0)
-            connection.write_text(
-                f"zwang_connection: 1\nros2: {{domain: {in_domain}, {ros2}}}\n{more}loop: {{priority: 40}}\n"
-                f"state:\n  joints: {{topic: /joint_states, stale_after: {stale_after}}}\n{base}" + command)
-            arguments = [task, "--over", connection] + options
-            with open(self.files[side], "w", encoding="utf-8") as out:
-                # `--stuck-odometry` is for tests: the program behind `zwang simulate` takes it, `zwang` does not.
-                first = [program, side] if side == "drive" else [program + "-simulate"]
-                words = arguments + (list(simulated) if side == "simulate" else [])
-                setattr(self, side, start(first + words, stdout=out, stderr=out))
-
-    def end(self, within=40):
-        """The exit code of `drive`, and what both have said."""
-        code = self.drive.wait(within)
-        self.simulate.wait(20)
-        return code, self.text("drive"), self.text("simulate")
-
-    def text(self, side):
-        return self.files[side].read_text(encoding="utf-8")
-
-    def wait_until_it_drives(self, seconds):
-        """And so long after."""
-        self.wait_for("the task begins")
-        time.sleep(seconds)
-
-    def wait_for(self, words):
-        end = time.monotonic() + 20.0
-        while words not in self.text("drive") and time.monotonic() < end:
-            time.sleep(0.01)
-
-    def call(self, service, calls=1):
-        return self.client("trigger_client", service, str(calls))
-
-    def goal(self, task, *parameters, cancel_after=0.0):
-        """All that a client of the action hears of a goal."""
-        return self.client("action_client", str(cancel_after), task, *parameters)
-
-    def client(self, name, *words):
-        return subprocess.run([CLIENTS / name, str(self.domain), *words], capture_output=True, text=True, timeout=120,
-                              check=False).stdout
-
-
-def number(pattern, text):
-    found = re.search(pattern, text)
-    if not found:
-        raise AssertionError(f"no `{pattern}` in:\n{text}")
-    return float(found[1])
-
-
-def expect(condition, what, *texts):
-    if not condition:
-        raise AssertionError(what + "\n" + "\n".join(texts))
-
-
-def slow_robot(root, folder):
-    """The mecanum base with ticks of 2 ms: a busy machine keeps to them."""
-    robot = folder / "robot.yaml"
-    text = (root / "specs/robots/mecanum_base.yaml").read_text(encoding="utf-8")
-    robot.write_text(text.replace("\nurdf: ", "\ncontrol_period: 2 ms\nurdf: ", 1), encoding="utf-8")
-    for urdf in (root / "specs/robots").glob("mecanum_base.urdf"):
-        (folder / urdf.name).write_text(urdf.read_text(encoding="utf-8"), encoding="utf-8")
-    return robot
-
-
-def workplace(root, folder):
-    """Task, scene and robot below one folder, as zwang wants them."""
-    robot = slow_robot(root, folder)
-    scene = folder / "near_wall.yaml"
-    scene.write_text((root / "tests/connect/near_wall.yaml").read_text(encoding="utf-8"), encoding="utf-8")
-    task = folder / "wall_align.yaml"
-    text = (root / "specs/wall_align.yaml").read_text(encoding="utf-8")
-    text = text.replace("robots/mecanum_base.yaml", robot.name).replace("scenes/wall.yaml", scene.name)
-    task.write_text(text, encoding="utf-8")
-    return task
+from pair import CLOCK, EFFORT, SIGNALS, SLACK, STALE_AFTER, TIMEOUT, TWIST, VELOCITY, Pair
+from pair import RUNNING, Unreachable, expect, number, resident, start, workplace
 
 
 def wall_aligns_as_inside_one_process(program, root, folder):
@@ -182,13 +50,13 @@ def ends_as_inside_one_process(name, number_of_pair, by_cyclone=False):
         more = CLOCK + SIGNALS[name]
         robot = None
         if by_cyclone:
-            if not (CLIENTS / "cyclone_robot").exists():
+            if not (Pair.clients / "cyclone_robot").exists():
                 print("skipped: Cyclone DDS is not installed (cyclonedds-dev, cyclonedds-tools)", flush=True)
                 return
             pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, "reach: machine", more, motors_apart=32)
             # As punctual as both programs: `loop: {priority: 40}`. Without the right to it, a busy machine is too late.
             punctual = ["chrt", "-f", "40"] if os.geteuid() == 0 and shutil.which("chrt") else []
-            robot = start(punctual + [CLIENTS / "cyclone_robot", str(pair.domain), str(pair.domain + 32)],
+            robot = start(punctual + [Pair.clients / "cyclone_robot", str(pair.domain), str(pair.domain + 32)],
                           stdout=subprocess.PIPE, text=True)
         else:
             pair = Pair(program, folder, task, VELOCITY, options, number_of_pair, more=more)
@@ -399,7 +267,7 @@ def ten_thousand_calls_are_answered(program, root, folder):
 
 
 def cyclone_is_answered(program, root, folder):
-    if not (CLIENTS / "cyclone_client").exists():
+    if not (Pair.clients / "cyclone_client").exists():
         print("skipped: Cyclone DDS is not installed (cyclonedds-dev, cyclonedds-tools)", flush=True)
         return
     options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
@@ -429,11 +297,6 @@ def observing_tells_clocks_that_differ(program, root, folder):
         expect(("more than stale_after" in said.stdout) == (wanted == 1), "the clocks", said.stdout)
 
 
-def resident(pid):
-    """[bytes] that a process holds in memory."""
-    return int(pathlib.Path(f"/proc/{pid}/statm").read_text(encoding="utf-8").split()[1]) * os.sysconf("SC_PAGE_SIZE")
-
-
 def a_robot_that_comes_back_is_not_driven_on(program, root, folder):
     options = ["--robot", root / "specs/robots/blind/mecanum_twist.yaml"]
     pair = Pair(program, folder, root / "specs/laws/speed_limit.yaml", TWIST, options, 11)
@@ -453,12 +316,8 @@ def a_robot_that_comes_back_is_not_driven_on(program, root, folder):
     expect(abs(number(r"base at (-?[0-9.]+) m", simulate)) < 0.01, "it drives on", drive, simulate)
 
 
-CLIENTS = pathlib.Path()
-
-
 def main(program, root, clients):
-    global CLIENTS
-    CLIENTS = pathlib.Path(clients)
+    Pair.clients = pathlib.Path(clients)
     root = pathlib.Path(root)
 
     def is_good(case):
@@ -476,7 +335,8 @@ def main(program, root, clients):
     cases = (wall_aligns_as_inside_one_process, a_twist_drives_as_far, silence_of_the_robot_stops,
              a_killed_drive_leaves_a_robot_at_rest, a_request_ends_it_with_zeros, services_start_and_stop_it,
              this_machine_alone_is_enough, a_stuck_odometry_stops, goals_run_tasks, ten_thousand_calls_are_answered,
-             a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered, observing_tells_clocks_that_differ, transforms_tell_where_it_is, the_base_is_told_to_others,
+             a_robot_that_comes_back_is_not_driven_on, a_parameter_is_set_while_it_drives, cyclone_is_answered,
+             observing_tells_clocks_that_differ, transforms_tell_where_it_is, the_base_is_told_to_others,
              *(ends_as_inside_one_process(name, 15 + i) for i, name in enumerate(SIGNALS)),
              *(ends_as_inside_one_process(name, 20 + i, by_cyclone=True) for i, name in enumerate(SIGNALS)))
     try:

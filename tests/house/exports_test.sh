@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # What shared libraries of the rooms would show, linked from the archives of this build: names of public headers alone. Each
-# room finds there what it needs of the rooms before it.
+# room, and each program, finds there what it needs of the rooms before it.
 #
-#   exports_test.sh ROOT COMPILER SOLVER LANG RUNTIME SIMULATION     (the last four are archives)
+#   exports_test.sh ROOT COMPILER SOLVER LANG RUNTIME SIMULATION [-- PROGRAM OBJECT...]...     (the four are archives)
 set -euo pipefail
 root=$1 compiler=$2
+shift 2
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 
@@ -15,7 +16,9 @@ libraries=$(pkg-config --libs yaml-cpp urdfdom libzstd zlib)
 
 offences=0
 before=()
-for archive in "${@:3}"; do
+while (($#)) && [[ $1 != -- ]]; do
+  archive=$1
+  shift
   library=$place/$(basename "$archive" .a).so
   mujoco=()
   if [[ $archive == *simulation* ]]; then mujoco=(-lmujoco); fi
@@ -35,5 +38,18 @@ for archive in "${@:3}"; do
     printf '%s shows `%s`, which no public header names\n' "$(basename "$library")" "$name"
     offences=$((offences + 1))
   done < <(comm -23 <(printf '%s\n' "$names") <(printf '%s\n' "$public"))
+done
+# What a program needs of other libraries is not asked here: the linker only warns of it.
+while (($#)); do
+  program=$2
+  shift 2
+  objects=()
+  while (($#)) && [[ $1 != -- ]]; do objects+=("$1"); shift; done
+  missing=$("$compiler" -o "$place/program" "${objects[@]}" "${before[@]}" -Wl,--warn-unresolved-symbols 2>&1 |
+    grep -oE "(undefined reference to|undefined|hidden) .*zwang::(solver|lang|runtime)::.*" | sort -u || true)
+  if [[ $missing ]]; then
+    printf 'shared libraries do not show what %s needs:\n%s\n' "$program" "$missing"
+    offences=$((offences + 1))
+  fi
 done
 ((offences == 0))

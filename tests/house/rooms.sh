@@ -47,6 +47,26 @@ while IFS=: read -r file line header; do
   fi
 done < <(includes runtime/src)
 
+# Folders of a room stand on each other in one order: whoever reads one of them need not read all. FOLDER is what their includes
+# are relative to; the files beside the folders, '.', stand on all of them and are known to none.
+keep_order() {
+  local folder=$1 file line header from to
+  local -A edges=()
+  while IFS=: read -r file line header; do
+    from=${file#"$folder/"}
+    if [[ $from == */* ]]; then from=${from%%/*}; else from=.; fi
+    to=${header%%/*}
+    if [[ $header != */* && ! -f ${file%/*}/$header && -f $folder/$header ]]; then to=.; fi
+    if [[ $to == "$from" || ($to != . && ! -d $folder/$to) ]]; then continue; fi
+    edges["$from $to"]="$file:$line"
+  done < <(includes "$folder")
+  # tsort names the folders of a circle.
+  while IFS= read -r from; do
+    offend "$folder: its folders stand on each other in a circle, of which $from is one"
+  done < <(printf '%s\n' "${!edges[@]}" | tsort 2>&1 >/dev/null | sed -nE 's/^tsort: ([^:-]+)$/\1/p')
+}
+for folder in solver/src lang/src runtime/src runtime; do keep_order "$folder"; done
+
 # A room's insides (src/) are its own: others see include/zwang/ROOM only.
 for room in solver lang runtime; do
   while IFS=: read -r file line header; do

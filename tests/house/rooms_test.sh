@@ -53,6 +53,11 @@ offence solver/src/a.cpp '<kdl/chain.hpp>'
 offence runtime/src/a.cpp '<gtest/gtest.h>'
 offence lang/include/zwang/lang/a.hpp '<yaml-cpp/yaml.h>'
 offence runtime/include/zwang/runtime/a.hpp '<nlohmann/json.hpp>'
+clean lang/src/check/check.cpp '"physics/physics.hpp"'
+clean lang/src/physics/physics.hpp '<vector>'
+clean lang/src/load.cpp '"check/check.hpp"'
+expect 0 'folders in one order'
+offence lang/src/physics/push.cpp '"check/context.hpp"'
 printf 'write(testing::TempDir());\n' >"$tree/tests/peers/a_test.cpp"
 expect 1 'a test writes where every other does'
 rm "$tree/tests/peers/a_test.cpp"

@@ -14,6 +14,15 @@ for page in README.md CHANGELOG.md LICENSE {solver,lang,runtime,specs,tests}/REA
   if [[ ! -s $page ]]; then complain "$page is missing or empty"; fi
 done
 
+# The page of a room, and that of the tests, says what each folder is for.
+for room in solver lang runtime tests; do
+  for folder in "$room"/*/ "$room"/src/*/; do
+    name=$(basename "$folder")
+    if [[ ! -d $folder || $name == include || $name == src ]]; then continue; fi
+    if ! grep -qF "$name/" "$room/README.md"; then complain "$room/README.md does not say what $folder is for"; fi
+  done
+done
+
 # `robot:`, `scene:`, `urdf:`, `task:`, `based_on:` lead to files, seen from the file that says so; a matrix has lists of them.
 referring=0
 while IFS= read -r file; do

@@ -5,7 +5,7 @@
 
 #include "support.hpp"
 #include "tree/read.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 #include "zwang/lang/completion.hpp"
 #include "zwang/lang/names.hpp"
 #include "zwang/lang/open_texts.hpp"

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "../page_blocks.hpp"
-#include "spec/units.hpp"
 #include "support.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/condition_function.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/robot.hpp"

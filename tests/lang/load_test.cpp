@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "diagnostic/nearest.hpp"
 #include "support.hpp"
+#include "words/nearest.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::lang {

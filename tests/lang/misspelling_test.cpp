@@ -2,12 +2,15 @@
 // is said once.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "../is_long.hpp"
 #include "support.hpp"
 #include "zwang/lang/program.hpp"
 #include "zwang/lang/scenario.hpp"
+#include "zwang/lang/schema.hpp"
 
 namespace zwang::lang {
 namespace {
@@ -83,6 +86,50 @@ TEST_P(Misspelling, without_a_unit_is_told_once) {
   const std::regex unit(
       "[0-9] (m/s\\^2|rad/s\\^2|m/s|rad/s|N m|kN/m|mm|cm|deg|kg|Hz|ms|m|N|s|%)(?=[,\\]}\n])");
   EXPECT_EQ(try_each(unit, [](const std::string& number) { return number.substr(0, 1); }), 1.0);
+}
+
+void gather_properties_of(const nlohmann::json& schema, std::set<std::string>& keys) {
+  if (schema.is_object() && schema.contains("properties")) {
+    for (const auto& [key, value] : schema["properties"].items()) keys.insert(key);
+  }
+  for (const auto& part : schema) {
+    if (part.is_structured()) gather_properties_of(part, keys);
+  }
+}
+
+/// An unknown key is answered with those that the reader looks for. Completion knows them by the schema.
+TEST_P(Misspelling, of_a_key_names_only_keys_of_the_schema) {
+  const std::string file = GetParam();
+  const FileKind kind = file.starts_with("robots/")      ? FileKind::robot
+                        : file.starts_with("scenes/")    ? FileKind::scene
+                        : file.starts_with("scenarios/") ? FileKind::scenario
+                                                         : FileKind::task;
+  std::set<std::string> in_schema;
+  gather_properties_of(nlohmann::json::parse(json_schema(kind)), in_schema);
+  const std::string text = test::slurp(test::source_dir / "specs" / file);
+  const std::string begin = "known here: ";
+  std::set<std::string> named;
+  const auto gather_named = [&](std::size_t at, const std::string& odd) {
+    const Diagnostics diagnostics = said_about(text.substr(0, at) + odd + text.substr(at));
+    for (const Diagnostic& diagnostic : diagnostics.all()) {
+      if (!diagnostic.message.starts_with("unknown key") || !diagnostic.help.starts_with(begin)) continue;
+      std::istringstream keys(diagnostic.help.substr(begin.size(), diagnostic.help.find(';') - begin.size()));
+      for (std::string key; std::getline(keys >> std::ws, key, ',');) named.insert(key);
+    }
+  };
+  // A mapping has several lines, and most mappings of a file are alike.
+  const int step = zwang::test::is_long() ? 1 : 3;
+  int found = 0;
+  for (std::size_t at = text.find('{'); at != text.npos; at = text.find('{', at + 1)) {
+    if (found++ % step == 0) gather_named(at + 1, "no_such_key: 1, ");
+  }
+  const std::regex line("\n( *)[a-z_]+:");
+  for (std::sregex_iterator at(text.begin(), text.end(), line), end; at != end; ++at) {
+    if (found++ % step == 0)
+      gather_named(static_cast<std::size_t>(at->position()), "\n" + at->str(1) + "no_such_key: 1");
+  }
+  EXPECT_FALSE(named.empty());
+  for (const std::string& key : named) EXPECT_TRUE(in_schema.contains(key)) << key;
 }
 
 INSTANTIATE_TEST_SUITE_P(In, Misspelling,

@@ -5,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "spec/units.hpp"
 #include "support.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/robot.hpp"
 
 namespace zwang::lang {

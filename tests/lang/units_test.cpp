@@ -1,4 +1,4 @@
-#include "spec/units.hpp"
+#include "words/units.hpp"
 
 #include <gtest/gtest.h>
 

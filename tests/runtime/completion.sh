@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# completion.sh PROGRAM: the completions do in their shells what a user expects, and the manual page names every verb.
+# completion.sh PROGRAM: the completions do in their shells what a user expects, and the manual page and README name every verb.
 # zsh, fish and groff judge where they are installed.
 set -euo pipefail
 program=$1
+readme=$(dirname -- "${BASH_SOURCE[0]}")/../../README.md
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 for form in bash zsh fish man; do "$program" completion "$form" >"$folder/$form"; done
@@ -30,6 +31,7 @@ expect 'zwang run TAB: left to files' "$(offered zwang run '')" ''
 
 for verb in $verbs; do
   grep -q "^\.SS $verb" "$folder/man" || { echo "the manual page lacks $verb" >&2; exit 1; }
+  grep -E '^\| `' "$readme" | grep -qE "(zwang |\`)$verb[ \`]" || { echo "the table of README.md lacks $verb" >&2; exit 1; }
 done
 if command -v zsh >/dev/null; then zsh -n "$folder/zsh"; fi
 if command -v fish >/dev/null; then fish --no-execute "$folder/fish"; fi

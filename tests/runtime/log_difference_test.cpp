@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "../temporary_folder.hpp"
-#include "blank.hpp"
+#include "log/blank.hpp"
 #include "zwang/runtime/recorder.hpp"
 
 namespace zwang::runtime {
@@ -21,7 +21,7 @@ struct Values {
   double speed = 0.0;    ///< computed
   double encoder = 0.0;  ///< sensed
   double task = 0.0;     ///< a word
-  double extra = blank;
+  double extra = log_column::blank;
 };
 
 struct Made {
@@ -118,7 +118,9 @@ TEST_F(Logs, ClocksCountFromTheBeginOfTheirRun) {
 
 TEST_F(Logs, ABlankDiffersFromANumberAndColumnsOfOneLogAreTold) {
   Made other;
-  other.at = [](double t) { return Values{std::sin(t), std::cos(t), 0.0, t > 0.1995 ? 0.0 : blank}; };
+  other.at = [](double t) {
+    return Values{std::sin(t), std::cos(t), 0.0, t > 0.1995 ? 0.0 : log_column::blank};
+  };
   const LogDifference found = difference(log("a", {}), log("b", other));
   ASSERT_EQ(found.columns.size(), 1u);
   EXPECT_EQ(found.columns[0].name, "extra");

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "../temporary_folder.hpp"
-#include "blank.hpp"
+#include "log/blank.hpp"
 #include "zwang/runtime/log_reader.hpp"
 
 namespace zwang::runtime {
@@ -32,7 +32,8 @@ double noise_at(int i) {
 }
 
 void write_ticks(LogSink& sink, int begin, int end) {
-  for (int i = begin; i < end; ++i) ASSERT_EQ(sink.write(std::vector{1e-3 * i, 0.0, blank, noise_at(i)}), "");
+  for (int i = begin; i < end; ++i)
+    ASSERT_EQ(sink.write(std::vector{1e-3 * i, 0.0, log_column::blank, noise_at(i)}), "");
 }
 
 TEST(LogParts, HoldEveryRecordOnce) {
@@ -103,7 +104,7 @@ TEST(LogParts, TellOfAFolderThatIsGone) {
   ASSERT_EQ(sink->open(columns_with_events), "");
   write_ticks(*sink, 0, 1000);
   fs::remove_all(inside);
-  const std::string error = sink->write(std::vector{1.0, 0.0, blank, 0.0});
+  const std::string error = sink->write(std::vector{1.0, 0.0, log_column::blank, 0.0});
   EXPECT_NE(error.find("log_0.mcap was removed while it was written"), std::string::npos) << error;
   sink->close();
 }
@@ -126,7 +127,8 @@ TEST(LogRate, KeepsSwitchesEventsAndTheEnd) {
   const auto sink = thinned_sink(mcap_sink(folder.path() / "log.mcap", {}), 10.0);
   ASSERT_EQ(sink->open(columns_with_events), "");
   for (int i = 0; i < 1000; ++i)
-    ASSERT_EQ(sink->write(std::vector{1e-3 * i, i < 333 ? 0.0 : 1.0, i == 777 ? 1.0 : blank, 0.0}), "");
+    ASSERT_EQ(
+        sink->write(std::vector{1e-3 * i, i < 333 ? 0.0 : 1.0, i == 777 ? 1.0 : log_column::blank, 0.0}), "");
   ASSERT_EQ(sink->close(), "");
   std::vector<int> kept;
   const LogContents log = read_log(folder.path() / "log.mcap", [&](double time, std::span<const double>) {

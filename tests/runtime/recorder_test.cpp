@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "../temporary_folder.hpp"
-#include "blank.hpp"
+#include "log/blank.hpp"
 
 namespace zwang::runtime {
 namespace {
@@ -34,7 +34,7 @@ const std::vector<Column> task_columns = {
 TEST(Recorder, WritesNamesUnitsNumbersWordsAndBlanks) {
   EmptyFolder folder;
   Recorder recorder(folder.path / "log.csv", task_columns);
-  EXPECT_TRUE(recorder.record(std::vector{0.001, 0.0, blank}));
+  EXPECT_TRUE(recorder.record(std::vector{0.001, 0.0, log_column::blank}));
   EXPECT_TRUE(recorder.record(std::vector{1.0 / 3.0, 1.0, -20.0}));
   EXPECT_TRUE(
       recorder.record(std::vector{-0.0, 7.0, 1.23456789012e-7}));  // a word that is not there is blank
@@ -51,7 +51,7 @@ TEST(Recorder, KeepsEveryRecordWhenTheProducerWaits) {
   const int count = 500;
   for (int i = 0; i < count; ++i) {
     recorder.wait_for_room();
-    EXPECT_TRUE(recorder.record(std::vector{static_cast<double>(i), 0.0, blank}));
+    EXPECT_TRUE(recorder.record(std::vector{static_cast<double>(i), 0.0, log_column::blank}));
   }
   recorder.close();
   EXPECT_TRUE(recorder.status().complete());

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "../temporary_folder.hpp"
-#include "blank.hpp"
+#include "log/blank.hpp"
 #include "log/extremes.hpp"
 #include "zwang/runtime/recorder.hpp"
 
@@ -67,10 +67,10 @@ struct Log {
     for (int i = 0; i < records; ++i) {
       values[0] = 1e-3 * i;
       values[1] = i < records / 4 ? 0 : 1;
-      values[2] = values[3] = values[4] = blank;
+      values[2] = values[3] = values[4] = log_column::blank;
       if (i == 700) std::ranges::copy(std::array{1.0, 0.0, 0.25}, values.begin() + 2);
       values[5] = i == 1234 ? 9.0 : i == 1235 ? -8.0 : std::sin(1e-3 * i);
-      if (i % 10 == 3) values[5] = blank;
+      if (i % 10 == 3) values[5] = log_column::blank;
       recorder.wait_for_room();
       recorder.record(values);
     }

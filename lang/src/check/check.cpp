@@ -7,11 +7,10 @@
 #include "check/check_sets.hpp"
 #include "check/context.hpp"
 #include "check/parameter_values.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
-#include "physics/physics.hpp"
+#include "words/nearest.hpp"
 
 namespace zwang::lang {
 
@@ -289,13 +288,8 @@ std::optional<int> check_frame(CheckContext& context, const Word& name) {
   return index;
 }
 
-std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
-                                 const LoadOptions& options, bool with_notes, double& budget,
-                                 Diagnostics& diagnostics) {
-  CheckedFile checked;
-  checked.symbols.has_robot = robot.has_value();
-  for (const TaskText& task : file.tasks) checked.symbols.tasks.push_back(task.name.text);
-  CheckContext context{file, robot, options, checked.symbols, diagnostics, with_notes, &checked.yields};
+void check_statements(CheckContext& context, const std::optional<Scene>& scene, CheckedFile& checked) {
+  const TaskFile& file = context.file;
   check_parameters(context);
   declare_signals(context);
   check_frames(context);
@@ -308,7 +302,8 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
     checked.always_conditions.push_back(check_exit(context, exit, nullptr));
   }
   if (file.start.exists() && !file.tasks.empty() && !checked.symbols.find_task(file.start.text)) {
-    diagnostics.add(wording::unknown_name(file.start.span, "task", file.start.text, checked.symbols.tasks));
+    context.diagnostics.add(
+        wording::unknown_name(file.start.span, "task", file.start.text, checked.symbols.tasks));
   }
   for (const TaskText& task : file.tasks) {
     checked.conditions.push_back(check_task(context, task));
@@ -320,16 +315,6 @@ std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std:
   check_flow(context, checked.conditions, checked.always_conditions);
   check_unguarded_sets(context, {checked.conditions, checked.always_conditions, checked.requirements});
   check_feeling(context);
-  check_physics(context, scene, {checked.conditions, checked.always_conditions}, budget);
-  if (scene && !diagnostics.has_errors()) {
-    check_scene_names(context, *scene);
-    check_unfed_signals(context, *scene);
-  }
-  if (diagnostics.has_errors() || !robot) return std::nullopt;
-  checked.robot = std::move(*robot);
-  checked.scene = std::move(scene);
-  checked.file = std::move(file);
-  return checked;
 }
 
 }  // namespace zwang::lang

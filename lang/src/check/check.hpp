@@ -1,4 +1,5 @@
-/// Meaning: names, dimensions, clashes, physics. What passes here can be lowered without another question.
+/// Meaning: names, dimensions, clashes. What passes here and the physics can be lowered without another
+/// question.
 #pragma once
 
 #include <map>
@@ -24,12 +25,11 @@ struct CheckedFile {
   std::map<const AxisText*, Condition> yields;         ///< what axes of `file` give way to
 };
 
-/// `robot` none: it could not be read, and was complained of; what does not need it is checked all the same.
-/// `with_notes`: notes (N codes) are looked for, too. `budget`: what may still be asked of robots' models, in
-/// the units of `Probe`; files that are loaded together share it.
-std::optional<CheckedFile> check(TaskFile file, std::optional<Robot> robot, std::optional<Scene> scene,
-                                 const LoadOptions& options, bool with_notes, double& budget,
-                                 Diagnostics& diagnostics);
+struct CheckContext;
+
+/// Everything but what is asked of the robot's model. The conditions go to `checked`, whose symbols are the
+/// context's.
+void check_statements(CheckContext& context, const std::optional<Scene>& scene, CheckedFile& checked);
 
 /// Takes about a second.
 inline constexpr double whole_budget = 2e9;

@@ -3,10 +3,10 @@
 
 #include "check/condition_names.hpp"
 #include "check/context.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "words/nearest.hpp"
 #include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {

@@ -16,9 +16,6 @@ namespace {
 
 using solver::Axis;
 
-constexpr std::array quantities{solver::Quantity::position, solver::Quantity::velocity,
-                                solver::Quantity::acceleration, solver::Quantity::force};
-
 std::string axis_path(const GroupText& group, const AxisText& axis) {
   return group.kind == GroupKind::feature ? group.name.text : group.name.text + "." + axis.name.text;
 }
@@ -62,7 +59,7 @@ class AxisCheck {
         is_incomplete_(group.is_incomplete) {}
 
   void check() {
-    for (const solver::Quantity quantity : quantities) check_statement(quantity);
+    for (const solver::Quantity quantity : quantities_of_axis) check_statement(quantity);
     check_single_driver();
     check_place_on_feature();
     check_force_range();
@@ -217,7 +214,7 @@ class AxisCheck {
     const StatementText* first = nullptr;
     std::string first_word;
     if (text_.yield) {
-      for (const solver::Quantity quantity : quantities) {
+      for (const solver::Quantity quantity : quantities_of_axis) {
         const std::optional<StatementText>& other = text_[quantity];
         if (!other || other->is_range || other->value.kind == ValueKind::bad) continue;
         context_.diagnostics.add(
@@ -225,7 +222,7 @@ class AxisCheck {
         return;
       }
     }
-    for (const solver::Quantity quantity : quantities) {
+    for (const solver::Quantity quantity : quantities_of_axis) {
       const std::optional<StatementText>& statement = text_[quantity];
       if (!statement || statement->is_range || statement->value.kind == ValueKind::bad) continue;
       if (first == nullptr) {

@@ -1,8 +1,8 @@
 // Outputs: their values at the start and at a stop.
 #include "check/context.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_outputs.hpp"
+#include "words/nearest.hpp"
 
 namespace zwang::lang {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "check/context.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "words/nearest.hpp"
 
 namespace zwang::lang {
 

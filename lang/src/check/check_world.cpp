@@ -1,8 +1,8 @@
 #include "check/context.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_forces.hpp"
 #include "diagnostic/wordings_slips.hpp"
+#include "words/nearest.hpp"
 
 namespace zwang::lang {
 

@@ -4,12 +4,12 @@
 #include <array>
 
 #include "check/wrench_words.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_forces.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
-#include "tree/text.hpp"
+#include "words/nearest.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

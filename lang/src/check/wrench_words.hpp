@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spec/dimension.hpp"
+#include "words/dimension.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::lang {

@@ -4,8 +4,8 @@
 #include <ostream>
 
 #include "diagnostic/severity.hpp"
-#include "tree/code_point.hpp"
-#include "tree/text.hpp"
+#include "words/code_point.hpp"
+#include "words/text.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {

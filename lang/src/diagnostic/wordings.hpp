@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "spec/dimension.hpp"
+#include "words/dimension.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {
@@ -14,7 +14,7 @@ struct Parameter;
 
 namespace zwang::lang::wording {
 
-// --- Text and shape: E100 to E117 (text.cpp) ---
+// --- Text and shape: E100 to E117 (wordings_text.cpp) ---
 Diagnostic unreadable_file(const Span& span, const std::string& path, const std::string& reason);
 Diagnostic not_a_path(const Span& span, const std::string& written);
 Diagnostic path_outside_root(const Span& span, const std::string& written);
@@ -82,7 +82,7 @@ Diagnostic only_a_quantity(const Span& span, const std::string& what, const Dime
 Diagnostic number_out_of_range(const Span& span, const std::string& text);
 Diagnostic split_condition(const Span& span);
 
-// --- Comments that speak to zwang: E118 to W120 (text.cpp) ---
+// --- Comments that speak to zwang: E118 to W120 (wordings_text.cpp) ---
 Diagnostic unreadable_instruction(const Span& span, const std::string& word);
 Diagnostic allowance_without_code(const Span& span);
 Diagnostic allowance_without_reason(const Span& span, const std::string& code);
@@ -90,7 +90,7 @@ Diagnostic unknown_code(const Span& span, const std::string& code, const std::st
 Diagnostic allowed_error(const Span& span, const std::string& code);
 Diagnostic idle_allowance(const Span& span, const std::string& code, int line);
 
-// --- Conditions: E105 (text.cpp) ---
+// --- Conditions: E105 (wordings_conditions.cpp) ---
 Diagnostic condition_ends(const Span& span);
 Diagnostic condition_too_deep(const Span& span, int limit);
 Diagnostic missing_parenthesis(const Span& opened);
@@ -102,7 +102,7 @@ Diagnostic chained_comparison(const Span& span);
 Diagnostic unexpected_in_condition(const Span& span, const std::string& text);
 Diagnostic missing_argument(const Span& span, const std::string& function);
 
-// --- Quantities: E201 to E205 (meaning.cpp) ---
+// --- Quantities: E201 to E205 (wordings_meaning.cpp) ---
 Diagnostic needs_unit(const Span& span, const std::string& what, const std::string& number,
                       const Dimension& expected);
 Diagnostic wrong_dimension(const Span& span, const std::string& what, const Dimension& expected,
@@ -120,7 +120,7 @@ Diagnostic not_a_condition(const Span& span, const Dimension& found);
 Diagnostic expected_number(const Span& span);
 Diagnostic misplaced_here(const Span& span, const std::string& what);
 
-// --- Names: E301 to E305 (meaning.cpp) ---
+// --- Names: E301 to E305 (wordings_meaning.cpp) ---
 /// `known`: the names that would do; the nearest is offered, else they are listed.
 Diagnostic unknown_name(const Span& span, const std::string& kind, const std::string& name,
                         const std::vector<std::string>& known);
@@ -147,7 +147,7 @@ Diagnostic incomparable_signal(const Span& span, const std::string& name, bool i
 Diagnostic boundary_in_a_condition(const Span& span, const std::string& group, const std::string& move);
 Diagnostic unit_without_number(const Span& span, const std::string& name);
 
-// --- Regions and features: E104, E410 to E412 (meaning.cpp) ---
+// --- Regions and features: E104, E410 to E412 (wordings_meaning.cpp) ---
 Diagnostic one_region_shape(const Span& span, const std::string& what);
 Diagnostic flat_region(const Span& span, const std::string& what);
 Diagnostic one_feature_kind(const Span& span, const std::string& what);
@@ -155,7 +155,7 @@ Diagnostic not_an_axis_of_a_frame(const Span& span, const std::string& text);
 Diagnostic feature_without_direction(const Span& span, const std::string& what);
 Diagnostic rigid_feature(const Span& span, const std::string& name);
 
-// --- Constraints: E401 to E409 (meaning.cpp) ---
+// --- Constraints: E401 to E409 (wordings_meaning.cpp) ---
 Diagnostic driven_twice(const Span& span, const std::string& axis, const std::string& first,
                         const std::string& second, const Span& first_span);
 Diagnostic empty_range(const Span& span, const std::string& low, const std::string& high);
@@ -176,7 +176,7 @@ Diagnostic beyond_a_distance(const Span& span, const std::string& axis);
 Diagnostic beyond_an_angle(const Span& span, const std::string& axis);
 Diagnostic group_without_axes(const Span& span, const std::string& group);
 
-// --- Order: W501 to E508 (meaning.cpp) ---
+// --- Order: W501 to E508 (wordings_meaning.cpp) ---
 Diagnostic measured_without_for(const Span& span);
 Diagnostic unreachable_task(const Span& span, const std::string& task);
 Diagnostic endless_task(const Span& span, const std::string& task);
@@ -189,7 +189,7 @@ Diagnostic release_on_wrong_side(const Span& span, bool is_below);
 Diagnostic hidden_exit(const Span& span, const Span& first);
 Diagnostic back_without_interruption(const Span& span, bool under_always);
 
-// --- Robot files and URDFs: E801 to E860; scenes: E901 (robot.cpp) ---
+// --- Robot files and URDFs: E801 to E860; scenes: E901 (wordings_robot.cpp) ---
 Diagnostic not_positive(const Span& span, const std::string& what, bool zero_allowed);
 Diagnostic fixed_joint(const Span& span, const std::string& joint, const Span& declared);
 /// Of a joint or a link that the robot file uses, and that hangs on a `link` of its `ignore`.

@@ -4,7 +4,7 @@
 
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings_physics.hpp"
-#include "spec/units.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/connection.hpp"
 
 namespace zwang::lang::wording {

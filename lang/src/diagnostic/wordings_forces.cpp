@@ -5,21 +5,11 @@
 
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings_physics.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang::wording {
 
 namespace {
-
-/// Three digits, not below the value.
-std::string at_least_in(double value, const std::string& unit) {
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-  return figure(std::ceil(value / step - 1e-9) * step, unit);
-}
-
-std::string angle_in_degrees(double radians) {
-  return figure(radians * 180.0 / std::numbers::pi, "deg");
-}
 
 std::string in_time(double seconds) {
   return seconds < 1.0 ? figure(seconds * 1e3, "ms") : figure(seconds, "s");
@@ -64,7 +54,7 @@ Diagnostic builds_up_too_fast(const Span& span, const std::string& axis, double 
 }
 
 Diagnostic rings_when_held(const Span& span, const std::string& axis, const Ringing& ringing, bool is_error) {
-  const std::string enough = at_least_in(ringing.enough, "kg");
+  const std::string enough = at_least(ringing.enough, "kg");
   const std::string message = "`" + axis + "` rings when held by more than " +
                               figure(ringing.stiffest * 1e-3, "kN/m") + ": the robot weighs " +
                               figure(ringing.mass, "kg") + " along it, and the force is known " +

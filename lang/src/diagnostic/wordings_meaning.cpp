@@ -3,12 +3,12 @@
 #include <cstdlib>
 
 #include "diagnostic/make.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_slips.hpp"
-#include "spec/units.hpp"
-#include "tree/text.hpp"
+#include "words/nearest.hpp"
+#include "words/text.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/condition_function.hpp"
 #include "zwang/lang/program.hpp"
 

@@ -5,7 +5,7 @@
 
 #include "diagnostic/axis_units.hpp"
 #include "diagnostic/make.hpp"
-#include "spec/units.hpp"
+#include "words/units.hpp"
 
 namespace zwang::lang::wording {
 

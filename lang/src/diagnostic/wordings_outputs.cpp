@@ -1,7 +1,7 @@
 #include "diagnostic/wordings_outputs.hpp"
 
 #include "diagnostic/make.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang::wording {
 

@@ -4,25 +4,9 @@
 
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings_physics.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang::wording {
-
-namespace {
-
-/// Three digits, not above the value.
-std::string at_most_in(double value, const std::string& unit) {
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-  return figure(std::floor(value / step + 1e-9) * step, unit);
-}
-
-/// Three digits, not below the value.
-std::string no_less_in(double value, const std::string& unit) {
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-  return figure(std::ceil(value / step - 1e-9) * step, unit);
-}
-
-}  // namespace
 
 Diagnostic path_of_one_point(const Span& span, const std::string& what) {
   return error("E419", span, what + " has no way to go: it needs two points or more",
@@ -45,7 +29,7 @@ Diagnostic path_turns_back(const Span& span, const std::string& what) {
 }
 
 Diagnostic fillet_too_large(const Span& span, const std::string& what, double radius, double most) {
-  const std::string fits = at_most_in(most, "m");
+  const std::string fits = at_most(most, "m");
   return with_replacement(
       error("E419", span,
             "the fillet of " + figure(radius, "m") + " does not fit " + what + ": its lines are too short",
@@ -72,14 +56,13 @@ Diagnostic rigid_path(const Span& span, const std::string& move, const std::stri
 Diagnostic fillet_beyond_norm(const Span& span, const Fillet& f, const Span& norm, const Span& declared) {
   const double needed = f.speed * f.speed / f.radius;
   return with_related(
-      with_related(
-          warning("W615", span,
-                  figure(f.speed, "m/s") + " around a fillet of " + figure(f.radius, "m") + " needs " +
-                      figure(needed, "m/s^2") + ", `" + f.norm + "` allows " + figure(f.most, "m/s^2") +
-                      ": the base leaves the path",
-                  "drive with `" + at_most_in(std::sqrt(f.most * f.radius), "m/s") + "`, or give `" + f.path +
-                      "` a fillet of `" + no_less_in(f.speed * f.speed / f.most, "m") + "`"),
-          norm, "the norm of the acceleration is limited here"),
+      with_related(warning("W615", span,
+                           figure(f.speed, "m/s") + " around a fillet of " + figure(f.radius, "m") +
+                               " needs " + figure(needed, "m/s^2") + ", `" + f.norm + "` allows " +
+                               figure(f.most, "m/s^2") + ": the base leaves the path",
+                           "drive with `" + at_most(std::sqrt(f.most * f.radius), "m/s") + "`, or give `" +
+                               f.path + "` a fillet of `" + at_least(f.speed * f.speed / f.most, "m") + "`"),
+                   norm, "the norm of the acceleration is limited here"),
       declared, "the path is declared here");
 }
 

@@ -19,13 +19,6 @@ double rounded(double value, bool up) {
   return step * (up ? std::ceil(steps - 1e-9) : std::floor(steps + 1e-9));
 }
 
-std::string at_most(double value, const std::string& unit) {
-  return figure(rounded(value, false), unit);
-}
-std::string at_least(double value, const std::string& unit) {
-  return figure(rounded(value, true), unit);
-}
-
 std::string product(double mass, double acceleration, const AxisUnits& u) {
   return figure(mass, u.mass) + " x " + figure(acceleration, u.acceleration);
 }
@@ -61,6 +54,18 @@ std::string figure(double value, const std::string& unit) {
   const double size = std::abs(value);
   std::snprintf(text, sizeof text, size >= 100.0 && size < 1e7 ? "%.0f" : "%.3g", value);
   return unit.empty() ? std::string(text) : std::string(text) + " " + unit;
+}
+
+std::string at_most(double value, const std::string& unit) {
+  return figure(rounded(value, false), unit);
+}
+
+std::string at_least(double value, const std::string& unit) {
+  return figure(rounded(value, true), unit);
+}
+
+std::string angle_in_degrees(double radians) {
+  return figure(radians * 180.0 / std::numbers::pi, "deg");
 }
 
 Diagnostic held_axis(const Span& span, const std::string& axis) {

@@ -9,6 +9,10 @@ namespace zwang::lang::wording {
 
 /// `18.0 N`, `0.08 m/s`: three significant digits.
 std::string figure(double value, const std::string& unit);
+/// Not above the value, and not below it: a number that is offered in the place of another must do.
+std::string at_most(double value, const std::string& unit);
+std::string at_least(double value, const std::string& unit);
+std::string angle_in_degrees(double radians);
 
 Diagnostic held_axis(const Span& span, const std::string& axis);
 /// `frame_ahead`: a frame that could be driven along this axis, as it is written; empty when there is none.

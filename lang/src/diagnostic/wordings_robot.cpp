@@ -3,8 +3,8 @@
 #include "diagnostic/make.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_physics.hpp"
-#include "spec/units.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/robot.hpp"
 
 namespace zwang::lang::wording {

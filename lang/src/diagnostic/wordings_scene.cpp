@@ -1,11 +1,11 @@
 #include <algorithm>
 
 #include "diagnostic/make.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_scenario.hpp"
-#include "spec/units.hpp"
-#include "tree/text.hpp"
+#include "words/nearest.hpp"
+#include "words/text.hpp"
+#include "words/units.hpp"
 
 namespace zwang::lang::wording {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "spec/dimension.hpp"
+#include "words/dimension.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang::wording {

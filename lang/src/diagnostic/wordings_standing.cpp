@@ -4,10 +4,10 @@
 #include <numbers>
 
 #include "diagnostic/make.hpp"
+#include "diagnostic/wheel_places.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_physics.hpp"
-#include "robot/exact_wheels.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang::wording {
 
@@ -17,15 +17,12 @@ std::string in_length(double metres) {
   return std::abs(metres) < 0.1 ? figure(metres * 1e3, "mm") : figure(metres, "m");
 }
 
-std::string in_degrees(double radians) {
-  return figure(radians * 180.0 / std::numbers::pi, "deg");
-}
-
 /// Each part that is told by itself, or the larger one.
 std::string off_by(const Deviation& deviation) {
   std::string text;
   if (deviation.distance >= told_wheel_offset) text = in_length(deviation.distance);
-  if (deviation.angle >= told_axis_angle) text += (text.empty() ? "" : " and ") + in_degrees(deviation.angle);
+  if (deviation.angle >= told_axis_angle)
+    text += (text.empty() ? "" : " and ") + angle_in_degrees(deviation.angle);
   return text;
 }
 
@@ -104,7 +101,7 @@ Diagnostic start_outside(const Span& span, const std::string& joint, bool slides
 }
 
 Diagnostic starts_near_an_end(const Span& span, const NearEnd& start) {
-  const auto text = [&](double q) { return start.slides ? in_length(q) : in_degrees(q); };
+  const auto text = [&](double q) { return start.slides ? in_length(q) : angle_in_degrees(q); };
   return warning("W809", span,
                  "joint " + in_ticks(start.joint) + " starts " + text(start.left) +
                      " from an end of its travel, " + text(start.end) +
@@ -189,7 +186,7 @@ Diagnostic nearly_exact_wheels(const Span& span, const std::vector<Deviation>& d
               "joint " + in_ticks(worst.joint) + " is drawn " + off_by(worst) +
                   " off its exact place: zwang takes the wheel as if it stood there",
               "correct its <origin> in the URDF, or name a `base` that stands on the axle; zwang corrects " +
-                  in_length(most_wheel_offset) + " and " + in_degrees(most_axis_angle) + " at most");
+                  in_length(most_wheel_offset) + " and " + angle_in_degrees(most_axis_angle) + " at most");
   for (const Deviation& deviation : deviations) {
     result.related.push_back(
         {deviation.span, in_ticks(deviation.joint) + " is drawn here, " + off_by(deviation) + " off"});

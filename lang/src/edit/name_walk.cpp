@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 
+#include "words/text.hpp"
 #include "zwang/lang/condition_function.hpp"
 
 namespace zwang::lang {
 
 namespace {
-
-bool is_word_start(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
 
 bool is_digit(char c) {
   return c >= '0' && c <= '9';

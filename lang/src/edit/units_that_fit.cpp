@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "spec/task_file.hpp"
-#include "spec/units.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/completion.hpp"
 
 namespace zwang::lang {
@@ -72,21 +72,23 @@ std::optional<Dimension> dimension_below(const std::vector<std::string>& keys) {
   return std::nullopt;
 }
 
-constexpr std::array usual_units{"m",   "cm",    "mm",     "m/s",     "cm/s",     "mm/s", "m/s^2", "rad",
-                                 "deg", "rad/s", "deg/s",  "rad/s^2", "deg/s^2",  "N",    "kN",    "N m",
-                                 "kg",  "g",     "kg m^2", "s",       "ms",       "min",  "h",     "Hz",
-                                 "N/m", "kN/m",  "N s/m",  "N m/rad", "N m s/rad"};
+/// Beside the units with a name of their own.
+constexpr std::array usual_products{"m/s",   "cm/s",    "mm/s",    "m/s^2",   "rad/s",
+                                    "deg/s", "rad/s^2", "deg/s^2", "N m",     "kg m^2",
+                                    "N/m",   "kN/m",    "N s/m",   "N m/rad", "N m s/rad"};
 
 }  // namespace
 
 std::vector<std::string> units_that_fit(const std::vector<std::string>& keys) {
   const std::optional<Dimension> wanted = dimension_below(keys);
-  std::vector<std::string> units;
-  for (const char* unit : usual_units) {
+  std::vector<std::string> units = unit_names();
+  units.insert(units.end(), usual_products.begin(), usual_products.end());
+  if (!wanted) return units;
+  std::erase_if(units, [&wanted](const std::string& unit) {
     std::string unknown;
-    const auto parsed = parse_unit(unit, unknown);
-    if (!wanted || (parsed && parsed->dimension == *wanted)) units.emplace_back(unit);
-  }
+    const std::optional<Unit> parsed = parse_unit(unit, unknown);
+    return !parsed || parsed->dimension != *wanted;
+  });
   return units;
 }
 

@@ -10,7 +10,7 @@
 #include "spec/shape.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

@@ -1,28 +1,81 @@
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
-#include "explain/catalogue.hpp"
-#include "tree/text.hpp"
+#include "explain/pages.hpp"
+#include "words/text.hpp"
+#include "zwang/lang/explanation.hpp"
 
 namespace zwang::lang {
 
 namespace {
 
-/// E and W of one number stand together: the number tells what a code is about.
-std::string_view number_of(const Explanation& explanation) {
-  return explanation.code.substr(1);
+/// What the heading of an example says of where it is cut from.
+struct Whereabouts {
+  ExcerptOf part;
+  std::string_view words;
+};
+constexpr std::array all_whereabouts{
+    Whereabouts{ExcerptOf::whole, ""},
+    Whereabouts{ExcerptOf::task_file, " (from a task file)"},
+    Whereabouts{ExcerptOf::task, " (from a task)"},
+    Whereabouts{ExcerptOf::group, " (from a constraint group)"},
+    Whereabouts{ExcerptOf::robot, " (from a robot file)"},
+    Whereabouts{ExcerptOf::urdf, " (from a URDF)"},
+    Whereabouts{ExcerptOf::scene, " (from a scene file)"},
+};
+
+std::string_view whereabouts(ExcerptOf part) {
+  for (const Whereabouts& known : all_whereabouts) {
+    if (known.part == part) return known.words;
+  }
+  return "";
 }
 
-std::vector<Explanation> gathered() {
-  std::vector<Explanation> all;
-  for (const std::span<const Explanation> part :
-       {catalogue::text(), catalogue::quantities(), catalogue::names(), catalogue::constraints(),
-        catalogue::order(), catalogue::physics(), catalogue::reach(), catalogue::robots(), catalogue::urdfs(),
-        catalogue::scenes(), catalogue::connections(), catalogue::studies()}) {
-    all.insert(all.end(), part.begin(), part.end());
+ExcerptOf part_of(std::string_view words) {
+  for (const Whereabouts& known : all_whereabouts) {
+    if (known.words == words) return known.part;
   }
-  const auto key = [](const Explanation& e) { return std::pair(number_of(e), e.code); };
+  return ExcerptOf::nothing;
+}
+
+/// What stands before `mark`, which is left out of `text` with it; all of it where there is no such mark.
+std::string_view take_before(std::string_view& text, std::string_view mark) {
+  const std::size_t end = text.find(mark);
+  const std::string_view before = text.substr(0, end);
+  text.remove_prefix(end == text.npos ? text.size() : end + mark.size());
+  return before;
+}
+
+/// The parts of a page, as `explanation_page` puts them together.
+Explanation read_page(std::string_view page) {
+  Explanation e;
+  take_before(page, "# ");
+  e.code = take_before(page, ": ");
+  e.title = take_before(page, "\n");
+  take_before(page, "*\n\n");  // the severity
+  if (page.find("\n## For example") == page.npos) {
+    e.why = take_before(page, "\n\n## What to do\n\n");
+    e.fix = page.substr(0, page.find_last_not_of('\n') + 1);
+    return e;
+  }
+  e.why = take_before(page, "\n\n## For example");
+  e.part = part_of(take_before(page, "\n"));
+  take_before(page, "```");
+  take_before(page, "\n");  // the language of the block
+  e.example = take_before(page, "\n```\n\n## What to do\n\n");
+  e.fix = take_before(page, "\n\n```");
+  take_before(page, "\n");
+  e.instead = take_before(page, "\n```\n");
+  return e;
+}
+
+/// E and W of one number stand together: the number tells what a code is about.
+std::vector<Explanation> sorted_by_number() {
+  std::vector<Explanation> all;
+  for (const std::string_view page : catalogue::pages()) all.push_back(read_page(page));
+  const auto key = [](const Explanation& e) { return std::pair(e.code.substr(1), e.code); };
   std::sort(all.begin(), all.end(),
             [&key](const Explanation& a, const Explanation& b) { return key(a) < key(b); });
   return all;
@@ -48,31 +101,10 @@ std::string fenced(const Explanation& explanation, std::string_view text) {
   return std::string("```") + language + "\n" + std::string(text) + "\n```\n";
 }
 
-const char* whereabouts(ExcerptOf part) {
-  switch (part) {
-    case ExcerptOf::nothing:
-    case ExcerptOf::whole:
-      return "";
-    case ExcerptOf::task_file:
-      return " (from a task file)";
-    case ExcerptOf::task:
-      return " (from a task)";
-    case ExcerptOf::group:
-      return " (from a constraint group)";
-    case ExcerptOf::robot:
-      return " (from a robot file)";
-    case ExcerptOf::urdf:
-      return " (from a URDF)";
-    case ExcerptOf::scene:
-      break;
-  }
-  return " (from a scene file)";
-}
-
 }  // namespace
 
 std::span<const Explanation> explanations() {
-  static const std::vector<Explanation> all = gathered();
+  static const std::vector<Explanation> all = sorted_by_number();
   return all;
 }
 
@@ -88,7 +120,7 @@ std::string explanation_text(const Explanation& e) {
   std::string text = std::string(severity_of(e.code)) + " " + std::string(e.code) + ": " +
                      std::string(e.title) + "\n\n" + std::string(e.why) + "\n";
   if (!e.example.empty()) {
-    text += std::string("\nFor example") + whereabouts(e.part) + ":\n\n" + indented(e.example);
+    text += "\nFor example" + std::string(whereabouts(e.part)) + ":\n\n" + indented(e.example);
   }
   text += "\n" + std::string(e.fix) + "\n";
   if (!e.instead.empty()) text += "\nInstead:\n\n" + indented(e.instead);
@@ -99,7 +131,7 @@ std::string explanation_page(const Explanation& e) {
   std::string page = "# " + std::string(e.code) + ": " + std::string(e.title) + "\n\n" + "*" +
                      severity_of(e.code) + "*\n\n" + std::string(e.why) + "\n";
   if (!e.example.empty()) {
-    page += std::string("\n## For example") + whereabouts(e.part) + "\n\n" + fenced(e, e.example);
+    page += "\n## For example" + std::string(whereabouts(e.part)) + "\n\n" + fenced(e, e.example);
   }
   page += "\n## What to do\n\n" + std::string(e.fix) + "\n";
   if (!e.instead.empty()) page += "\n" + fenced(e, e.instead);

@@ -6,7 +6,7 @@
 #include "diagnostic/wordings.hpp"
 #include "format/tokens.hpp"
 #include "tree/file.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

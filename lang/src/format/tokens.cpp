@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

@@ -3,8 +3,8 @@
 //
 //   tau = J' f        J: of the arm's frame, |f| <= its own range, whatever the rows of the base may spend
 //
-// Between the arm and the base a row presses nothing against the ground, and what the arm touches there the
-// base's own rows have to bear.
+// Between the arm and the base a row presses nothing against the ground. The base's own rows have to bear
+// whatever the arm touches there.
 #include <algorithm>
 #include <set>
 

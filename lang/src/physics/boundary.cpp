@@ -1,8 +1,8 @@
 // W607: a range of positions, or a region, that asks for more braking force than the motors have, or for one
 // that none of them has.
 //
-// A boundary counts on the deceleration a_brk: the axis's acceleration range, else the robot file's (else its
-// `stop`), and no more than the axis's force range over the effective mass. It uses
+// A boundary counts on the deceleration a_brk: the axis's acceleration range, else the robot file's, else its
+// `stop`. The axis's force range over the effective mass bounds it. It uses
 //
 //   braking_share a_brk m        m: the effective mass
 #include <algorithm>

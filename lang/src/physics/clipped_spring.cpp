@@ -2,8 +2,8 @@
 //
 //   k s = m a_max      s: where it is clipped
 //
-// A force range says as much itself. Told where s is less than a spring is meant to be drawn: the way to a
-// place to go to, else what a base is pushed aside by somebody in its way, 0.2 m or 20 deg.
+// A force range says as much itself. It is told where s is less than a spring is meant to be drawn. That is
+// the way to a place to go to. Else it is the way that somebody pushes a base aside: 0.2 m or 20 deg.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
 // Of a region only its convex hull counts, so that a position that is left out is left out for certain. A
-// footprint inside holds a circle of the radius r about each of its points, r to its nearest edge: the point
-// stays r away from the region's edges.
+// footprint inside holds a circle about each of its points, with the radius r to its nearest edge. So the
+// point stays r away from the region's edges.
 #include "physics/confined.hpp"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ double away_at_start(const Confinement& confinement, const Vector3& at) {
   return most;
 }
 
-/// Of the line through `at` along `along`, between the outermost edges that it meets; infinite where it meets
+/// Of the line through `at` along `along`, between the outermost edges that it meets. Infinite where it meets
 /// none, or where the base's origin may leave the region. [m]
 double chord(const Confinement& confinement, const Robot& robot, const Vector3& at, const Vector3& along) {
   if (most_outside(confinement, robot, Vector3::Zero()) > 1e-9) return solver::infinity;

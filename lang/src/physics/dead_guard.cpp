@@ -9,8 +9,8 @@
 //   position               b = v / h with a velocity range [-v, v], as far away the range decides
 //
 // W602: an exit asks for `saturated`, and b does not reach the range, or without one what the motors make.
-// Where another range stops the base at less than b, the driver misses its b in the open already and runs
-// into its bound: that guard is not dead.
+// Where another range stops the base at less than b, the driver misses its b in the open already. It runs
+// into its bound, so that guard is not dead.
 //
 // W619: less than half of the range is pressed. Up to twice what is made, a range is taken for a rounded
 // bound.

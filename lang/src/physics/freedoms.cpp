@@ -1,5 +1,5 @@
-// E406, W407, E404: more equality rows at one level than there are freedoms, rows that say the same thing
-// twice, and axes that can be driven one by one and not together.
+// E406: more equality rows at one level than there are freedoms. W407: rows that say the same thing twice.
+// E404: axes that can be driven one by one and not together.
 //
 //   n     rows that demand motion at the level
 //   m     freedoms that the ground leaves the base (or the whole robot, once a row moves another body)
@@ -8,7 +8,7 @@
 //
 //   n > m  E406          r_k < n  W407          r < r_k = n  E404: the wheels tie them together
 //
-// On a base of two freedoms the last one is asked of x and y of a point first: three rows there are too many,
+// On a base of two freedoms the last one is asked of x and y of a point first. Three rows there are too many,
 // but fewer of them would not help.
 #include <algorithm>
 #include <map>

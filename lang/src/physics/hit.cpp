@@ -1,5 +1,8 @@
-// The peak of a hit in closed form. C - F = g obeys the equation of the free spring, g'' + 2 z w g' + w^2 g =
-// 0 with w = sqrt(K/m) and z = c / (2 m w), and begins with
+// The peak of a hit in closed form. g = C - F obeys the equation of the free spring,
+//
+//   g'' + 2 z w g' + w^2 g = 0,   w = sqrt(K/m),   z = c / (2 m w)
+//
+// and begins with
 //
 //   g(0)  = c v - F
 //   g'(0) = m w^2 v (1 - 4 z^2) + 2 z w F

@@ -1,8 +1,8 @@
 // W615: a fillet of radius r at v needs v^2/r towards its centre. Where `plane` allows less, the base leaves
 // the path, or slows down.
 //
-// N622: on a base of two freedoms x and y of a point ahead of the axle take both. The heading against a
-// straight path is left over: with the point l ahead, dr/dx = -sin(r)/l, so that it decays with exp(-x/l).
+// N622: on a base of two freedoms x and y of a point ahead of the axle take both. The heading r against a
+// straight path is left over. With the point l ahead, dr/dx = -sin(r)/l, so r decays with exp(-x/l).
 #include <cmath>
 
 #include "diagnostic/wordings_paths.hpp"

@@ -9,9 +9,6 @@ namespace {
 
 using solver::Quantity;
 
-constexpr std::array quantities_of_axis{Quantity::position, Quantity::velocity, Quantity::acceleration,
-                                        Quantity::force};
-
 std::optional<int> good_frame(const Symbols& symbols, const Word& name) {
   const std::optional<int> index = symbols.find_frame(name.text);
   if (!index || symbols.frames[static_cast<std::size_t>(*index)].is_bad) return std::nullopt;

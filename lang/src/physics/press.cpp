@@ -9,7 +9,7 @@
 // count with their direction. What the base cannot along axes of the world as it stands at the start it may
 // once it has turned.
 //
-// A drive that is sent torque limits keeps the range of velocities, too, within its horizon t: it presses
+// A drive that is sent torque limits keeps the range of velocities, too, within its horizon t. So it presses
 // with m v_max / t at most.
 #include <algorithm>
 #include <cmath>

@@ -148,7 +148,7 @@ double Probe::kept_height(const PlannedAxis& axis) const {
   return std::abs(height(axis.move) - height(axis.in));
 }
 
-/// A row along the axis depends on the point that moves (unless it turns) and on where the axes point; a
+/// A row along the axis depends on where the axes point and, unless it turns, on the point that moves. A
 /// distance and a bearing depend on both points.
 Probe::Key Probe::key_of(const PlannedAxis& axis) {
   Key key{};
@@ -193,8 +193,8 @@ bool Probe::look(const solver::AxisConstraint& constraint, const solver::State& 
   return true;
 }
 
-/// Along the direction e in the plane the inverse of the effective mass is the quadratic form e' W e, with
-/// W = A Mc A' of the point's x and y. Three looks give W, and its eigenvectors point along
+/// Along the direction e in the plane the inverse of the effective mass is e' W e, with W = A Mc A' of the
+/// point's x and y. Three looks give W, and its eigenvectors point along
 ///
 ///   1/2 atan2(2 W_xy, W_xx - W_yy)        and square to that
 bool Probe::look_around(const PlannedAxis& axis, const solver::State& state, std::vector<Look>& all) {

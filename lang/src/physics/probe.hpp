@@ -38,12 +38,12 @@ struct Pressed {
 /// Everything is computed at rest, in `configurations()`. What can be reached at all is also tried at other
 /// headings.
 ///
-/// Nobody knows from where the robot comes to something beside it, so a distance to that is looked at in the
-/// base's x, y and both diagonals, in the two directions in which its mass is least and most, and where two
-/// acceleration ranges bind at once. So the masses between `least_mass` and `most_mass` are those of all
-/// directions; forces are those of the directions named.
+/// Nobody knows from where the robot comes to something beside it. So a distance to that is looked at in the
+/// base's x, y and both diagonals, and in the two directions in which its mass is least and most. It is also
+/// looked at where two acceleration ranges bind at once. The masses between `least_mass` and `most_mass` are
+/// those of all directions, the forces those of the directions named.
 ///
-/// A file may be hostile, and validating it must end: every look costs, and past the budget nothing is
+/// A file may be hostile, and validating it must end. So every look costs, and past the budget nothing is
 /// answered any more.
 class Probe {
  public:
@@ -69,11 +69,11 @@ class Probe {
                 const solver::AttachedFrame& b, const solver::Vector3& along_b) const;
   /// The coordinate of an axis whose place is known. [m] or [rad]
   double position_at_start(const PlannedAxis& axis) const;
-  /// What a force driver presses with against something that blocks its axis, after the acceleration ranges
-  /// among `limits` took their part: an entry for each configuration and direction in which it can be told.
+  /// The force of a force driver against something that blocks its axis, after the acceleration ranges among
+  /// `limits` took their part. An entry for each configuration and direction in which it can be told.
   std::vector<Pressed> pressed(const PlannedAxis& axis, double force, const std::vector<PlannedAxis>& limits);
-  /// The same at the start pose in the base's x, y and both diagonals, and where its mass is least and most:
-  /// however it may head to the axis.
+  /// The same force at the start pose, however the base may head to the axis: in its x, y and both diagonals,
+  /// and where its mass is least and most.
   std::vector<Pressed> pressed_whatever_way(const PlannedAxis& axis, double force,
                                             const std::vector<PlannedAxis>& limits);
 

@@ -119,9 +119,9 @@ struct SpeedLimit {
 SpeedLimit most_speed(const PlannedTask& plan, const solver::AttachedFrame& point, Probe& probe);
 SpeedLimit most_turning(const PlannedTask& plan, Probe& probe);
 
-/// Acceleration that the plan allows along the axis in the direction of `sign`: of ranges on that very axis,
-/// and on the base's own axes of the same kind. Infinite where there is none. `own`: the axis's own range
-/// too.
+/// Acceleration that the plan allows along the axis in the direction of `sign`. It counts ranges on that very
+/// axis, and on the base's own axes of the same kind. Infinite where there is none. `own`: the axis's own
+/// range, too.
 struct AccelerationLimit {
   double most = solver::infinity;  ///< [m/s^2] or [rad/s^2]
   const PlannedAxis* from = nullptr;

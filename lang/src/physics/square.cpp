@@ -6,8 +6,8 @@
 //
 // The right side is what a wall turns with: the push F at a corner of the footprint, b beside the line of the
 // push. The left side holds against it: wheels that slide sideways, each with its share m_i of the mass, x_i
-// ahead of the middle x of them all. E621: an exit asks for the rest of the heading, and a base that is stuck
-// rests as well as one that stands square. W621: the heading is free, and no exit asks for it.
+// ahead of the middle x of them all. E621: an exit asks for the rest of the heading. A base that is stuck
+// rests, too. W621: the heading is free, and no exit asks for it.
 //
 // A heading that a row keeps still within a force range is turned, too, once the wall is stronger than both.
 #include <algorithm>

@@ -11,9 +11,9 @@
 //
 // Beside the distance a condition may ask for more, as long as a base on its way meets it. That is a speed
 // above a limit, a time that has passed, a way moved. A distance feature counts like a signal where its other
-// end hangs on a pose signal, and where no position is driven: what is driven to arrives.
+// end hangs on a pose signal and no position is driven: a base arrives where it is driven to.
 //
-// Of two guards on one signal the wider one fires first: what it leads to is as fast as that task says.
+// Of two guards on one signal the wider one fires first. The task that it leads to says how fast the base is.
 #include <algorithm>
 #include <cmath>
 

@@ -1,20 +1,23 @@
 // W604: a time constant that is too short, a spring that is too stiff.
 //
-// A critically damped approach that comes in at the velocity range's v (or that of the planar speed) brakes
+// A critically damped approach comes in at the v of the velocity range, or of the planar speed. It brakes
 // hardest one time constant after the range let go, with
 //
 //   a = v / (e tau)        e = 2.718...
 //
-// which the acceleration range, or the force range over the effective mass, must allow: else the base
+// The acceleration range, or the force range over the effective mass, must allow that. Else the base
 // overshoots.
 //
-// And whatever drives, the ticks of the robot file's `control_period` dt must follow it. One tick passes
-// between sensing and torque, so a velocity error decays as z^2 - z + dt/tau = 0: without oscillation from
-// tau = 4 dt on. A position driver damps with 2/tau instead of 1/tau: from tau = 8 dt on.
+// Whatever drives, the ticks of the robot file's `control_period` dt must follow it. One tick passes
+// between sensing and torque, so a velocity error decays as z^2 - z + dt/tau = 0, without oscillation from
+// tau = 4 dt on. A position driver damps with 2/tau instead of 1/tau, so its bound is tau = 8 dt.
 //
-// A spring of stiffness k and damping d on the mass m damps with d/m: without oscillation up to d = m / (4
-// dt). With the same tick between sensing and torque it follows z^3 - 2 z^2 + (1 + a + b) z - a = 0 with a =
-// d dt/m and b = k dt^2/m; by Jury's criterion that decays as long as b < a (1 - a):
+// A spring of stiffness k and damping d on the mass m damps with d/m, without oscillation up to d = m / (4
+// dt). With the same tick between sensing and torque it follows
+//
+//   z^3 - 2 z^2 + (1 + a + b) z - a = 0,   a = d dt/m,   b = k dt^2/m
+//
+// By Jury's criterion that decays as long as b < a (1 - a):
 //
 //   k dt < d (1 - d dt/m)
 #include <algorithm>

@@ -1,6 +1,6 @@
 // W611: a speed of the base that its wheels' motors cannot turn to, by the <limit velocity> of the URDF.
-// Along the base's own axes it is asked as it is. Along those of the world, and of the planar `speed`, the
-// direction in the base is any one: said is what is too fast in all of them.
+// Along the base's own axes it is asked as it is. Along the world's axes, and of the planar `speed`, the
+// direction in the base is any one. A speed is told if it is too fast in all of them.
 #include <algorithm>
 #include <cmath>
 

@@ -5,8 +5,8 @@
 //
 // Asked of drivers of the base, and of the protective stop, which brakes with m a.
 //
-// On three points the loads N are known by statics. On more they depend on how the wheels give way: the
-// largest sum that statics allow is taken, so that what is told is true however the weight is shared.
+// On three points the loads N are known by statics. On more they depend on how the wheels give way. The
+// largest sum that statics allow is taken, so that a warning is true however the weight is shared.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-// N616: a position driver towards a pose signal that is taken to stand between two samples: in axes on it, or
-// of a distance or a bearing to it. A target that goes on at v is trailed by 2 T v: the driver is critically
-// damped, and its two damping terms count against frames that stand.
+// N616: a position driver towards a pose signal that is taken to stand between two samples. It drives in axes
+// on the signal, or a distance or a bearing to it. A target that goes on at v is trailed by 2 T v. The driver
+// is critically damped, and its two damping terms count against frames that stand.
 #include <cmath>
 
 #include "diagnostic/wordings_forces.hpp"

@@ -4,8 +4,8 @@
 //
 // Behind a drive that feels, what presses on the base moves a virtual robot. It is alpha times as heavy, and
 // its velocities fade with gamma while something presses. A wall that the base comes to askew turns it with
-// F b: the push F at the corner that touches first, b beside the line of the push. An exit at w_0 >= w is
-// true of a base that the wall still turns. I is the most of all settings of the swivels.
+// F b. F is the push at the corner that touches first, b its distance from the line of the push. An exit at
+// w_0 >= w is true of a base that the wall still turns. I is the most of all settings of the swivels.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

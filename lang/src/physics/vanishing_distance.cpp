@@ -3,7 +3,7 @@
 //   s^2 = d^2 + h^2      d in the plane, h between the heights of two points that keep them
 //   ds  = d/s v          v along d; across it v^2/d is needed to stay at s
 //
-// So at d = 0 the distance has no direction, and below s = h it does not exist: drawn to there the base
+// So at d = 0 the distance has no direction, and below s = h it does not exist. A base that is drawn to there
 // circles about the point, or swings across it, and does not come to rest.
 #include <cmath>
 

@@ -15,22 +15,14 @@
 /// Solver, odometry, guard and plant read one model, so that all of them see the same exact wheels.
 #pragma once
 
-#include <numbers>
 #include <vector>
 
+#include "diagnostic/wheel_places.hpp"
 #include "robot/robot_file.hpp"
 #include "robot/urdf.hpp"
 #include "zwang/solver/model.hpp"
 
 namespace zwang::lang {
-
-/// How far from an exact place a wheel may be drawn. 5 mm are a tenth of the smallest wheelbase that
-/// drives, 2 deg the looseness of a hand-built axle; what is farther off is meant.
-inline constexpr double most_wheel_offset = 5e-3;                          // [m]
-inline constexpr double most_axis_angle = 2.0 * std::numbers::pi / 180.0;  // [rad]
-/// From here on it is told: a tenth of what changes a robot's motion by less than encoders see.
-inline constexpr double told_wheel_offset = 0.1e-3;                         // [m]
-inline constexpr double told_axis_angle = 0.05 * std::numbers::pi / 180.0;  // [rad]
 
 /// Where a wheel, or what steers it, stands exactly.
 struct ExactPlace {

@@ -2,10 +2,10 @@
 
 #include "diagnostic/wordings_physics.hpp"
 #include "robot/text_edits.hpp"
-#include "spec/units.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
+#include "words/units.hpp"
 
 namespace zwang::lang {
 

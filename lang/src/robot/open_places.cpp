@@ -4,7 +4,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "tree/text.hpp"
+#include "words/text.hpp"
 #include "zwang/lang/robot_draft.hpp"
 
 namespace zwang::lang {

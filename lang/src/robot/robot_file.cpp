@@ -16,7 +16,7 @@
 #include "robot/pads_entry.hpp"
 #include "spec/parse_task.hpp"
 #include "spec/shape.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 #include "zwang/lang/robot_draft.hpp"
 
 namespace zwang::lang {

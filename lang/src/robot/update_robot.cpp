@@ -10,10 +10,10 @@
 #include "robot/joint_axes.hpp"
 #include "robot/text_edits.hpp"
 #include "robot/urdf.hpp"
-#include "spec/units.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/robot_update.hpp"
 
 namespace zwang::lang {

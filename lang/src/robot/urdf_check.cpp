@@ -11,8 +11,8 @@
 #include "diagnostic/wordings_standing.hpp"
 #include "robot/urdf.hpp"
 #include "robot/xml_numbers.hpp"
-#include "spec/units.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
+#include "words/units.hpp"
 
 namespace zwang::lang {
 

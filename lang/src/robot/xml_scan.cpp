@@ -2,7 +2,7 @@
 
 #include "diagnostic/wordings.hpp"
 #include "tree/prescan.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 
@@ -10,10 +10,6 @@ namespace {
 
 /// Thrown when the text cannot be scanned on; its diagnostic is already written.
 struct Abandoned {};
-
-bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
 
 bool is_name_part(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||

@@ -1,7 +1,7 @@
 #include "check/context.hpp"
 #include "diagnostic/wordings.hpp"
 #include "scenario/scenario_file.hpp"
-#include "spec/units.hpp"
+#include "words/units.hpp"
 
 namespace zwang::lang {
 

@@ -5,7 +5,6 @@
 
 #include "check/check.hpp"
 #include "check/context.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_scenario.hpp"
 #include "load_within.hpp"
@@ -13,6 +12,7 @@
 #include "scene/check_scene.hpp"
 #include "scene/check_start.hpp"
 #include "tree/file.hpp"
+#include "words/nearest.hpp"
 
 namespace zwang::lang {
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "diagnostic/wordings_study.hpp"
 #include "scene/faults.hpp"
 #include "spec/shape.hpp"
+#include "words/nearest.hpp"
 #include "zwang/lang/explanation.hpp"
 
 namespace zwang::lang {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "scene/check_start.hpp"
+#include "words/nearest.hpp"
 #include "zwang/lang/fault_word.hpp"
 #include "zwang/lang/program.hpp"
 

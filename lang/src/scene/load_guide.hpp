@@ -11,9 +11,15 @@ namespace zwang::lang {
 /// `hinge`, `slide`, `slides` and `casters` of an object whose `mass`, `fixed` and `motion` were read.
 void parse_guide(MapReader& map, SceneObject& object, Diagnostics& diagnostics);
 
-/// What an object's travel measures: an angle, a length, or nothing without a hinge or a slide. One that is
-/// misspelt was complained of.
-enum class TravelOf { nothing, hinge, slide };
+/// A number of an object or a signal that is not below 0; 0 where the key is not there.
+double not_negative(MapReader& map, const char* key, const Dimension& expected, Diagnostics& diagnostics);
+
+/// Whether one of the keys stands there that leave an object one way to move.
+bool has_guide(const Node& object);
+
+/// What an object's travel measures: an angle, a length, or nothing without a guide. A key that is misspelt
+/// was complained of.
+enum class TravelOf { nothing, turning, sliding };
 TravelOf travel_of(const Node& object);
 
 }  // namespace zwang::lang

@@ -1,7 +1,6 @@
 #include "scene/load_scene.hpp"
 
 #include "check/check.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_guides.hpp"
 #include "diagnostic/wordings_habits.hpp"
@@ -17,6 +16,7 @@
 #include "spec/shape.hpp"
 #include "tree/file.hpp"
 #include "tree/read.hpp"
+#include "words/nearest.hpp"
 
 namespace zwang::lang {
 
@@ -172,7 +172,7 @@ SceneObject parse_object(const Entry& entry, Diagnostics& diagnostics) {
   }
   const std::optional<bool> is_fixed =
       fixed != nullptr ? parse_boolean(*fixed, what + "'s `fixed`", diagnostics) : std::nullopt;
-  const bool is_guided = entry.value.find("hinge") != nullptr || entry.value.find("slide") != nullptr;
+  const bool is_guided = has_guide(entry.value);
   if (is_fixed == true && mass != nullptr && !is_guided)
     diagnostics.add(wording::fixed_with_mass(fixed->span, what, mass->span));
   const bool has_motion = entry.value.find("motion") != nullptr;

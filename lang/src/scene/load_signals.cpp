@@ -9,12 +9,6 @@ namespace zwang::lang {
 
 namespace {
 
-double not_negative(MapReader& map, const char* key, const Dimension& expected, Diagnostics& diagnostics) {
-  const Node* node = map.optional(key);
-  if (node == nullptr) return 0.0;
-  return parse_positive(*node, expected, map.what() + "'s `" + key + "`", true, diagnostics).value_or(0.0);
-}
-
 /// What one step of a script says.
 struct StepValue {
   ScriptStep step;
@@ -94,7 +88,7 @@ constexpr double longest_state_delay = 15e-3;  // [s] twenty ticks without a sam
 /// What the travel measures.
 void describe_travel(const Word& object, TravelOf travel, SceneSignal& signal, Diagnostics& diagnostics) {
   if (travel == TravelOf::nothing) diagnostics.add(wording::nothing_travels(object.span, object.text));
-  const Dimension measured = travel == TravelOf::hinge ? dimension::angle : dimension::length;
+  const Dimension measured = travel == TravelOf::turning ? dimension::angle : dimension::length;
   signal.powers = {measured.length, measured.mass, measured.time, measured.angle};
 }
 

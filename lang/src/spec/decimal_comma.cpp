@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "diagnostic/wordings_slips.hpp"
-#include "spec/units.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
+#include "words/units.hpp"
 
 namespace zwang::lang {
 

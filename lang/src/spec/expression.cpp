@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/value.hpp"
 #include "tree/read.hpp"
-#include "tree/text.hpp"
+#include "words/nearest.hpp"
+#include "words/text.hpp"
 #include "zwang/lang/condition_function.hpp"
 #include "zwang/lang/printable.hpp"
 
@@ -20,10 +20,6 @@ constexpr int deepest_expression = 32;
 
 /// Thrown when the condition cannot be read on; its diagnostic is already written.
 struct Unreadable {};
-
-bool is_word_start(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
 
 bool is_word_part(char c) {
   return is_word_start(c) || (c >= '0' && c <= '9');

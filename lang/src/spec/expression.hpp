@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "spec/units.hpp"
 #include "tree/node.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {

@@ -1,8 +1,8 @@
 #include "spec/in_one_line.hpp"
 
 #include "diagnostic/wordings_slips.hpp"
-#include "spec/units.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
+#include "words/units.hpp"
 
 namespace zwang::lang {
 

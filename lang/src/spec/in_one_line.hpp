@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "spec/dimension.hpp"
 #include "tree/node.hpp"
+#include "words/dimension.hpp"
 
 namespace zwang::lang {
 

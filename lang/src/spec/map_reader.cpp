@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <set>
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/ways_out.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
@@ -9,7 +8,8 @@
 #include "spec/in_one_line.hpp"
 #include "spec/shape.hpp"
 #include "spec/task_file.hpp"
-#include "tree/text.hpp"
+#include "words/nearest.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

@@ -7,7 +7,7 @@
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/in_one_line.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

@@ -2,13 +2,13 @@
 #include <array>
 #include <cmath>
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_outputs.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/in_one_line.hpp"
 #include "spec/parse_task.hpp"
-#include "tree/text.hpp"
+#include "words/nearest.hpp"
+#include "words/text.hpp"
 #include "zwang/lang/plane.hpp"
 
 namespace zwang::lang {
@@ -48,6 +48,15 @@ void parse_twist(const Node& node, const std::string& what, SignalText& signal, 
   signal.twist_window = *window;
 }
 
+/// `unit` of a signal or an output.
+std::optional<Unit> parse_unit_of(const Node& node, Diagnostics& diagnostics) {
+  std::string unknown;
+  const std::optional<Unit> unit = parse_unit(node.text, unknown);
+  if (!unit && !node.is_bad)
+    diagnostics.add(wording::unknown_unit(node.span, node.text, unknown, nearest_unit(unknown)));
+  return unit;
+}
+
 SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
   SignalText signal;
   signal.name = parse_name(entry.key, "a signal's name", diagnostics);
@@ -63,12 +72,8 @@ SignalText parse_signal(const Entry& entry, Diagnostics& diagnostics) {
     }
   }
   if (const Node* unit = map.optional("unit")) {
-    std::string unknown;
-    signal.unit = parse_unit(unit->text, unknown);
-    if (!signal.unit && !unit->is_bad) {
-      diagnostics.add(wording::unknown_unit(unit->span, unit->text, unknown, nearest_unit(unknown)));
-      signal.is_bad = true;
-    }
+    signal.unit = parse_unit_of(*unit, diagnostics);
+    signal.is_bad = !signal.unit && !unit->is_bad;
   }
   if (map.has_misspelt({"unit"})) signal.is_bad = true;  // what it measures is not known
   if (const Node* in = map.optional("in")) signal.in = parse_word(*in, what + "'s `in`", diagnostics);
@@ -107,11 +112,8 @@ OutputText parse_output(const Entry& entry, Diagnostics& diagnostics) {
       diagnostics.add(wording::unknown_name(type->span, "type of output", word, {"bool", "number"}));
   }
   if (const Node* unit = map.optional("unit")) {
-    std::string unknown;
-    output.unit = parse_unit(unit->text, unknown);
+    output.unit = parse_unit_of(*unit, diagnostics);
     output.is_bad = output.is_bad || !output.unit;
-    if (!output.unit && !unit->is_bad)
-      diagnostics.add(wording::unknown_unit(unit->span, unit->text, unknown, nearest_unit(unknown)));
   }
   if (const Node* start = map.optional("start"))
     output.start = parse_output_value(*start, what + "'s `start`", diagnostics);

@@ -73,6 +73,10 @@ struct FeatureText {
   bool is_bad = false;
 };
 
+/// What an axis may state, each once.
+inline constexpr std::array quantities_of_axis{solver::Quantity::position, solver::Quantity::velocity,
+                                               solver::Quantity::acceleration, solver::Quantity::force};
+
 struct AxisText {
   Word name;  ///< x, y, z, rx, ry, rz, speed, plane; of a feature the group's name
   bool is_free = false;

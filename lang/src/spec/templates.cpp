@@ -4,14 +4,14 @@
 #include <array>
 #include <set>
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_habits.hpp"
 #include "diagnostic/wordings_never.hpp"
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/shape.hpp"
 #include "tree/read.hpp"
-#include "tree/text.hpp"
+#include "words/nearest.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

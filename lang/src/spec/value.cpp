@@ -5,7 +5,7 @@
 #include "diagnostic/wordings_slips.hpp"
 #include "spec/decimal_comma.hpp"
 #include "spec/measured_value.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

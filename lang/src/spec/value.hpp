@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "spec/units.hpp"
 #include "tree/node.hpp"
+#include "words/units.hpp"
 #include "zwang/lang/diagnostic.hpp"
 
 namespace zwang::lang {

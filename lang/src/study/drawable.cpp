@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "spec/units.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
+#include "words/units.hpp"
 
 namespace zwang::lang {
 

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "check/check.hpp"
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_physics.hpp"
 #include "diagnostic/wordings_scenario.hpp"
@@ -13,6 +12,7 @@
 #include "study/drawable.hpp"
 #include "study/study_file.hpp"
 #include "tree/file.hpp"
+#include "words/nearest.hpp"
 
 namespace zwang::lang {
 

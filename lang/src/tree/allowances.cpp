@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "diagnostic/nearest.hpp"
 #include "diagnostic/wordings.hpp"
-#include "tree/text.hpp"
+#include "words/nearest.hpp"
+#include "words/text.hpp"
 #include "zwang/lang/explanation.hpp"
 
 namespace zwang::lang {

@@ -4,8 +4,8 @@
 
 #include "diagnostic/wordings.hpp"
 #include "diagnostic/wordings_slips.hpp"
-#include "tree/code_point.hpp"
-#include "tree/text.hpp"
+#include "words/code_point.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

@@ -12,7 +12,7 @@
 #include "diagnostic/wordings_slips.hpp"
 #include "tree/allowances.hpp"
 #include "tree/scalar_span.hpp"
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
+#include "words/text.hpp"
+
 namespace zwang::lang {
 
 namespace {
-
-bool is_space(char c) {
-  return c == ' ' || c == '\t' || c == '\n' || c == '\r';
-}
 
 std::size_t end_of_quoted(std::string_view text, std::size_t begin) {
   const char quote = text[begin];

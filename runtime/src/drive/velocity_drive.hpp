@@ -54,10 +54,10 @@ class VelocityDrive {
   void drive(const solver::Solver& solver, const Scheduler& scheduler, const solver::Solution& solution,
              const solver::State& state, double time, const Eigen::VectorXd& compensation,
              Command& command) noexcept;
-  /// What is sent in the protective stop: velocities go to 0 with `stop.deceleration`. `qd`: of a good
-  /// sample, then torques may only take energy; none: the drive brakes by its own encoders for as long as it
-  /// needs. The wheel at joint `suspect`, or none (-1), is let go of, and each that gets faster while it is
-  /// braked: its motor does the contrary of what it is told, and the others take the energy.
+  /// What is sent in the protective stop: velocities go to 0 with `stop.deceleration`. With `qd`, of a good
+  /// sample, torques may only take energy. Without it the drive brakes by its own encoders for as long as it
+  /// needs. The wheel at joint `suspect` (-1: none) is let go of, and so is each wheel that gets faster while
+  /// it is braked. Its motor does the contrary of what it is told, and the others take the energy.
   void brake(const Eigen::VectorXd* qd, int suspect, Command& command) noexcept;
   /// The run is over, and perhaps nothing more is sent: a drive that pushes as hard as it can is told 0.
   void rest(Command& command) const noexcept;

@@ -22,11 +22,11 @@ namespace zwang::runtime {
 /// the lead T_c V' of a first-order loop, and none of it once the integral has made up for it. Without an
 /// integral L stays 0.
 ///
-/// The drive takes c once a cycle and holds it. So V and V' are means over the last cycle: where V' jumps
-/// between two takes, the wheel would else make up for what it missed, and accelerate by up to 1.4 V'.
+/// The drive takes c once a cycle and holds it. So V and V' are means over the last cycle. Else, where V'
+/// jumps between two takes, the wheel would make up for what it missed, and accelerate by up to 1.4 V'.
 ///
-/// A robot that feels is told V itself, without the mean, as that is half a cycle younger: a contact swings
-/// with what comes late. Pressed, its wheels stand, the integral makes up for nothing, and L fades.
+/// A robot that feels is told V itself, which is half a cycle younger than the mean: a contact swings with
+/// what comes late. Pressed, its wheels stand, the integral makes up for nothing, and L fades.
 class LoopInput {
  public:
   /// `period` [s] of the updates, `count` velocities.
@@ -48,7 +48,7 @@ class LoopInput {
   Eigen::VectorXd value_;
 };
 
-/// It moves as the solver says, at once. The measured velocity lags behind by the drive's loop: rows that see
+/// It moves as the solver says, at once. The measured velocity lags behind by the drive's loop. Rows that see
 /// it would ask for more, and the loop's integral would add to that. The real base follows the virtual one by
 /// the lag
 ///     delay/2 + 1/(2 rate) + 1/(2 rate):

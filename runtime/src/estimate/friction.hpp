@@ -10,16 +10,16 @@ namespace zwang::runtime {
 
 /// Dry and viscous friction of each joint:
 ///   f = coulomb ((1 - w) qd / sqrt(qd^2 + taper^2) + w z / delta) + viscous qd,
-/// of which the fraction c that the robot file says to `compensate` is added to the torque. It comes on top
-/// of what the rows ask for, outside of their bounds.
+/// The fraction c of it that the robot file says to `compensate` is added to the torque. It comes on top of
+/// what the rows ask for, outside of their bounds.
 ///
-/// While a joint moves both terms are its direction. Where it stands the first is 0: nothing is made up for,
-/// and no motor bears what nobody asked for. But that takes up to sum coulomb / R from a push without a
+/// While a joint moves, both terms follow its direction. Where it stands the first is 0: nothing is made up
+/// for, and no motor bears what nobody asked for. But that takes up to sum coulomb / R from a push without a
 /// sensor, or adds as much once the base has rolled back. So as far as a joint presses,
 /// w = min(1, |press| / coulomb), the second term counts, the stretch of a bristle that yields (Dahl):
 ///   z <- clamp(z + dq, -delta, delta),   delta = presliding, w = 0 where that is not known.
-/// It remembers the last direction through a bounce, too: when the base has rolled back friction helps the
-/// push, and what is added is negative. At rest the world is pressed with F + sum e / R,
+/// It remembers the last direction through a bounce, too: once the base has rolled back, friction helps the
+/// push, and the part that is added is negative. At rest the world is pressed with F + sum e / R,
 ///   e = c coulomb z/delta - (true coulomb) (true z) / (true delta),
 /// of a push that has come forward c coulomb - (true coulomb), of all that is right at most (1 - c) coulomb.
 ///

@@ -87,8 +87,8 @@ const Odometry::Past* Odometry::at(double stamp) const noexcept {
   return remembered ? nearest : nullptr;
 }
 
-/// The measurement says by which motion E of the world's frame the reckoning was off at the stamp; the part
-/// of E that the time since the last measurement is worth, 1 - exp(-dt/T), is made good now:
+/// The measurement says by which motion E of the world's frame the reckoning was off at the stamp. A part of
+/// E is made good now: 1 - exp(-dt/T), with the time dt since the last measurement.
 ///   X_WB := E^part X_WB,   E = X_measured X_then^-1
 bool Odometry::correct(double stamp, const Pose& measured) noexcept {
   if (!std::isfinite(stamp) || !is_sound(measured)) return false;

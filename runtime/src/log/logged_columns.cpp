@@ -7,13 +7,13 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "log/blank.hpp"
+
 namespace zwang::runtime {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr double not_logged = std::numeric_limits<double>::quiet_NaN();
 
 std::string json_text(const std::string& text) {
   return ordered_json(text).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -96,13 +96,13 @@ double JsonRecord::value_of(std::size_t column, std::string_view text, bool is_w
   if (is_word) {
     const std::vector<std::string>& words = words_[column];
     const auto found = std::ranges::find(words, text);
-    return found == words.end() ? not_logged : static_cast<double>(found - words.begin());
+    return found == words.end() ? log_column::blank : static_cast<double>(found - words.begin());
   }
   return text == "null" ? std::numeric_limits<double>::infinity() : number_of(text);
 }
 
 void JsonRecord::read(std::string_view record, std::vector<double>& values) const {
-  values.assign(keys_.size(), not_logged);
+  values.assign(keys_.size(), log_column::blank);
   const char* at = record.data() + std::min<std::size_t>(1, record.size());
   const char* const end = record.data() + record.size();
   for (std::size_t i = 0; i < keys_.size() && at < end; ++i) {

@@ -15,18 +15,11 @@ namespace {
 
 using foxglove::Level;
 using nlohmann::ordered_json;
-using solver::Matrix3;
 using solver::Pose;
 using solver::Vector3;
 
 constexpr double transforms_every = 0.02;  // [s]
 constexpr const char* world = "world";
-
-Matrix3 turned(double roll, double pitch, double yaw) {
-  return (Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3::UnitY()) *
-          Eigen::AngleAxisd(roll, Vector3::UnitX()))
-      .toRotationMatrix();
-}
 
 std::string text_of(const ordered_json& json) {
   return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -125,7 +118,8 @@ class SceneChannels : public LogChannels {
     const std::vector<solver::Body>& bodies = program_.robot.model.bodies();
     Pose base;
     base.position = {value(values, base_[0]), value(values, base_[1]), height_};
-    base.rotation = turned(value(values, lean_[0]), value(values, lean_[1]), value(values, base_[2]));
+    base.rotation =
+        solver::rotation_from_rpy(value(values, lean_[0]), value(values, lean_[1]), value(values, base_[2]));
     transforms_.add(world, bodies[0].name, base);
     for (std::size_t b = 1; b < bodies.size(); ++b) {
       const solver::Body& body = bodies[b];
@@ -149,7 +143,7 @@ class SceneChannels : public LogChannels {
   static Pose planar(double x, double y, double yaw) {
     Pose pose;
     pose.position = {x, y, 0.0};
-    pose.rotation = turned(0.0, 0.0, yaw);
+    pose.rotation = solver::rotation_from_rpy(0.0, 0.0, yaw);
     return pose;
   }
 

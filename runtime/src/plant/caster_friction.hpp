@@ -19,7 +19,7 @@ class CasterFriction {
   CasterFriction(double mass, double load, double trail, double ahead, double aside);
 
   /// Force and moment (fx, fy [N], mz [N m]) about the centre at its planar velocity, both in the object's
-  /// own axes; moves the casters by one step of `period` [s].
+  /// own axes. Moves the casters by one step of `period` [s].
   Eigen::Vector3d step(const Eigen::Vector3d& velocity, double period) noexcept;
 
  private:

@@ -1,7 +1,7 @@
 /// Dry friction where robots touch objects and each other, as floor_friction.hpp has it under objects, and
-/// for its reason: a contact of MuJoCo's that slides at v is in balance only where it is mu v B/K less deep
-/// than it is at rest, and chatters where that is more than its depth. So these contacts press along their
-/// normal only, and in the contact's plane an elastic bristle yields: with stretch s, ds/dt = v,
+/// for its reason. A contact of MuJoCo's that slides at v is in balance where it is mu v B/K less deep than
+/// at rest. It chatters where that is more than its depth. So these contacts press along their normal only,
+/// and in the contact's plane an elastic bristle yields. With stretch s, ds/dt = v,
 ///     f = -(k s + c v), |f| <= mu N, and |k s| <= mu N by cutting s.
 /// k = m w^2 with w = 100 1/s and m what MuJoCo estimates to move at the contact.
 #pragma once

@@ -1,9 +1,9 @@
 /// Dry friction between the floor and an object that slides on it.
 ///
-/// MuJoCo's own sliding contact is no use here: while an object slides at v its normal direction is in
-/// balance only at a height of about mu v B/K above the floor, where the contact is gone, so the object hops.
-/// Instead the object moves in the plane, and its friction is an elastic bristle that yields (Prandtl's
-/// model, which sticks without creep): with stretch s, ds/dt = v,
+/// MuJoCo's own sliding contact makes an object hop. While the object slides at v, its normal direction is in
+/// balance only about mu v B/K above the floor, where the contact is gone. Instead the object moves in the
+/// plane, and its friction is an elastic bristle that yields. This is Prandtl's model, which sticks without
+/// creep. With stretch s, ds/dt = v,
 ///     f = -(k s + c v), |f| <= mu m g, and |k s| <= mu m g by cutting s.
 /// k = m w^2 with w = 200 1/s: 0.15 mm of give at mu = 0.6. About the vertical the same with the torque
 /// mu m g r, r the mean distance of the face on the floor from its centre.
@@ -23,7 +23,7 @@ class FloorFriction {
   FloorFriction(double mass, double yaw_inertia, double load, double reach);
 
   /// Force and moment (fx, fy [N], mz [N m]) at the planar velocity (vx, vy [m/s], wz [rad/s]), in axes that
-  /// do not turn; moves the bristles by one step of `period` [s].
+  /// do not turn. Moves the bristles by one step of `period` [s].
   Eigen::Vector3d step(const Eigen::Vector3d& velocity, double period) noexcept;
 
  private:

@@ -119,17 +119,15 @@ class MjcfWriter {
     text_ += "</body>\n";
   }
 
-  /// The joint of an object on a hinge or a slide, and its inertia. What else the guide does is in
+  /// The joint of an object with a guide, and its inertia. What else the guide does is in
   /// object_guide.hpp.
   void write_guide(const lang::Guide& guide, const SceneObject& object, const ObjectGeometry& g,
                    const std::string& name) {
     if (!object.mass || !(*object.mass > 0.0)) refuse("the mass of `" + object.name + "` is not positive");
-    const Vector3 axis = Vector3(guide.at[0], guide.at[1], 0.0) - g.shift;
-    const std::string moves =
-        guide.turns
-            ? attribute("type", "hinge") + attribute("axis", list_of(0.0, 0.0, 1.0)) +
-                  attribute("pos", list_of(axis))
-            : attribute("type", "slide") + attribute("axis", list_of(guide.along[0], guide.along[1], 0.0));
+    const Vector3 at = Vector3(guide.at[0], guide.at[1], guide.at[2]) - g.shift;
+    const std::string moves = attribute("type", guide.turns ? "hinge" : "slide") +
+                              attribute("axis", list_of(guide.axis[0], guide.axis[1], guide.axis[2])) +
+                              (guide.turns ? attribute("pos", list_of(at)) : "");
     text_ += "<joint" + attribute("name", name + "_guide") + moves + attribute("limited", "true") +
              attribute("range", list_of(guide.lower, guide.upper)) +
              attribute("damping", text_of(guide.damping)) +

@@ -20,10 +20,6 @@ bool is_finite(const mjtNum* numbers, int count) {
   return std::all_of(numbers, numbers + count, [](mjtNum x) { return std::isfinite(x); });
 }
 
-double yaw_of(const Matrix3& rotation) {
-  return std::atan2(rotation(1, 0), rotation(0, 0));
-}
-
 }  // namespace
 
 void MujocoPlant::Simulation::latch_hooks() noexcept {
@@ -82,7 +78,7 @@ void MujocoPlant::Simulation::read_objects() noexcept {
     const Vector3 at = robots[r].base_position(*model, *data);
     seen.x = at.x();
     seen.y = at.y();
-    seen.yaw = yaw_of(robots[r].base_rotation(*model, *data));
+    seen.yaw = solver::yaw_of(robots[r].base_rotation(*model, *data));
     truth.robots[r - 1].velocity = robots[r].planar_twist(*model, *data);
   }
 }
@@ -168,7 +164,7 @@ void MujocoPlant::Simulation::read_base() noexcept {
   const Vector3 at = first().base_position(*model, *data);
   truth.x = at.x();
   truth.y = at.y();
-  truth.yaw = yaw_of(first().base_rotation(*model, *data));
+  truth.yaw = solver::yaw_of(first().base_rotation(*model, *data));
   for (std::size_t r = 0; r < robots.size(); ++r)
     BaseWatch::read_lean(robots[r], *model, *data, base_truth(r));
 }

@@ -1,5 +1,5 @@
-// How the simulation comes to stand where the scene says: MuJoCo's model is written and read, the parts are
-// found in it, the robots settle on the floor.
+// How the simulation comes to stand where the scene says. MuJoCo's model is written and read, its parts are
+// found, and the robots settle on the floor.
 #include <mujoco/mujoco.h>
 
 #include <cstdio>

@@ -39,7 +39,7 @@ lang::Robot with_friction(lang::Robot robot, double factor) {
 }
 
 /// Wheels whose radius is `factor` times what the model says. With the same power, they turn 1/factor times
-/// as far along the floor, and push 1/factor times as hard: the simulation has the model's wheels, and their
+/// as far along the floor, and push 1/factor times as hard. The simulation has the model's wheels, and their
 /// angles and torques are told so. Their own inertia is told as factor^-2 of the model's.
 class WheelSize {
  public:

@@ -42,8 +42,8 @@ mjfCollision collide_sphere_box = nullptr;  ///< MuJoCo's own
 constexpr double edge_tilt = 0.25 * std::numbers::pi;  ///< [rad]
 
 /// Whether a sphere can press out of a face with the normal `out`. A corner presses between the normals of
-/// its own sides, so that two that meet square, edge on edge, do not slip off each other's sides: those lie a
-/// right angle beyond. Up to half of that it is the far end of a side that sank in askew.
+/// its own sides. So two corners that meet square, edge on edge, do not slip off each other's sides, which
+/// lie a right angle beyond. Up to half of that it is the far end of a side that sank in askew.
 bool faces(const mjModel* m, const mjData* d, int sphere, const Vector3& out) {
   const double half_angle = m->nuser_geom > 0 ? m->geom_user[m->nuser_geom * sphere] : 0.0;
   if (!(half_angle > 0.0)) return true;

@@ -1,5 +1,5 @@
-/// MuJoCo as a process-wide library: its handlers, its collision functions, calls that cannot end the
-/// process; compiling a text, and what has to be asked of the model that comes of it.
+/// MuJoCo as a process-wide library: its handlers, its collision functions, and calls that cannot end the
+/// process. A text is compiled here, and its model is asked whether it is the one that was meant.
 #pragma once
 
 #include <Eigen/Core>

@@ -12,8 +12,8 @@
 
 namespace zwang::runtime {
 
-/// What comes over a line that takes a value every `cycle` and hands it out `delay` later. [s] Does not
-/// allocate after construction where a copy of `Value` does not.
+/// A line that takes a value every `cycle` and hands it out `delay` later. [s] Does not allocate after
+/// construction where a copy of `Value` does not.
 template <typename Value>
 class SampledLine {
  public:

@@ -1,14 +1,12 @@
-/// The columns that every log begins with, in their order, and what a column holds that says nothing.
+/// The columns that every log begins with, in their order.
 #pragma once
 
-#include <limits>
 #include <tuple>
 
+#include "log/blank.hpp"
 #include "run/shortfall.hpp"
 
 namespace zwang::runtime::log_column {
-
-inline constexpr double blank = std::numeric_limits<double>::quiet_NaN();
 
 enum First {
   time,

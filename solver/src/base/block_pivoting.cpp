@@ -12,7 +12,7 @@
 #include <limits>
 
 #include "base/quadratic_program.hpp"
-#include "pairs.hpp"
+#include "linear/pairs.hpp"
 
 namespace zwang::solver {
 

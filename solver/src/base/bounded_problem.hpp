@@ -22,9 +22,9 @@
 #include <span>
 #include <vector>
 
-#include "base/cholesky.hpp"
 #include "base/quadratic_program.hpp"
-#include "pairs.hpp"
+#include "linear/cholesky.hpp"
+#include "linear/pairs.hpp"
 #include "zwang/solver/constraint.hpp"
 #include "zwang/solver/solver.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/cholesky.hpp"
+#include "linear/cholesky.hpp"
 
 namespace zwang::solver {
 

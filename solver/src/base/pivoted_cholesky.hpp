@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "pairs.hpp"
+#include "linear/pairs.hpp"
 #include "sweep/columns.hpp"
 
 namespace zwang::solver {

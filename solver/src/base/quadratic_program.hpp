@@ -23,8 +23,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "base/cholesky.hpp"
-#include "pairs.hpp"
+#include "linear/cholesky.hpp"
+#include "linear/pairs.hpp"
 
 namespace zwang::solver {
 

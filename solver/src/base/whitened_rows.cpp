@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pairs.hpp"
+#include "linear/pairs.hpp"
 
 namespace zwang::solver {
 

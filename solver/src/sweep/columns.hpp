@@ -19,7 +19,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "pairs.hpp"
+#include "linear/pairs.hpp"
 #include "zwang/solver/model.hpp"
 
 namespace zwang::solver {

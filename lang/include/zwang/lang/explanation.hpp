@@ -1,4 +1,4 @@
-/// What every diagnostic means: the one source of `zwang explain` and of docs/errors.
+/// What every diagnostic means: `zwang explain`. Its one source is docs/errors/CODE.md.
 #pragma once
 
 #include <span>
@@ -39,7 +39,7 @@ ZWANG_EXPORT const Explanation* find_explanation(std::string_view code);
 
 /// For a terminal, without marks of Markdown around the examples.
 ZWANG_EXPORT std::string explanation_text(const Explanation& explanation);
-/// The page docs/errors/CODE.md.
+/// The page docs/errors/CODE.md, put together from its parts.
 ZWANG_EXPORT std::string explanation_page(const Explanation& explanation);
 /// The page docs/errors/README.md.
 ZWANG_EXPORT std::string explanation_index();

@@ -26,8 +26,8 @@ struct ZWANG_EXPORT Footing {
   double tipping_acceleration(const solver::Vector3& direction) const;
   /// The largest deceleration [m/s^2] along x, either way, and along y of a base that `goes_sideways`.
   double tipping_deceleration(bool goes_sideways) const;
-  /// The largest force [N] with which it may push along `direction` at a height [m] above the floor:
-  /// F z > m g d tips it over an edge behind.
+  /// The largest force [N] with which it may push along `direction` at a height [m] above the floor. It tips
+  /// over an edge behind where F z > m g d.
   double tipping_push(const solver::Vector3& direction, double height_of_push) const;
   /// The largest sum of shares_i N_i [N] that statics allow, N_i >= 0 the load of point i. Three points have
   /// one load each; of more, the loads depend on how the wheels give way.

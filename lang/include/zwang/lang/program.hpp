@@ -180,7 +180,7 @@ struct Condition {
 /// Where a position range or a region gives no `return`. [m/s] or [rad/s]
 inline constexpr double default_return_speed = 0.1;
 
-/// A driver that gives way to a force like a mass with a damper: dds = (F~ - D ds)/M, where F~ is what F has
+/// A driver that gives way to a force like a mass with a damper: dds = (F~ - D ds)/M. F~ is the part of F
 /// beyond the dead band.
 struct Yield {
   Condition force;  ///< F, an expression [N] or [N m]
@@ -329,7 +329,7 @@ struct LoadOptions {
   std::optional<std::filesystem::path> scene;
   std::map<std::string, std::string> parameters;  ///< name -> quantity as text, `20 N`
   std::vector<GivenParameter> given;              ///< the same, where a scene says so
-  /// Robots, scenes and URDFs are read from below this folder only; none: the nearest parent of the task file
+  /// Robots, scenes and URDFs are read from below this folder only. None: the nearest parent of the task file
   /// with a `.zwang-root` file, else the task file's own folder.
   std::optional<std::filesystem::path> root;
 };

@@ -43,8 +43,8 @@ inline constexpr double default_control_period = 1e-3;
 inline constexpr double longest_control_period = 10e-3;
 inline constexpr double shortest_control_period = 0.1e-3;
 
-/// What the guard allows motors to move that no encoder confirms, at a wheel's rim: so far [m], or so many
-/// steps of the encoder if that is more.
+/// How far the guard lets motors move a wheel's rim without an encoder that confirms it: so far [m], or so
+/// many steps of the encoder if that is more.
 inline constexpr double least_blind_way = 0.5e-3;
 inline constexpr double blind_steps = 4.0;
 /// Of an encoder: 63 steps a turn. [rad]

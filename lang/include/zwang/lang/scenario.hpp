@@ -66,12 +66,15 @@ struct Expectation {
   Span span;
 };
 
-/// What the plant measures, as expectations call it, and when the run told what. First come
-/// `truth_base_count` of the base, then `truth_object_count` of each object, then `truth_robot_count` of each
-/// robot of the scene, in the order of these enumerations; then the travel of each object with a guide,
-/// `angle` of a hinge and `travel` of a slide, and the six parts of each wrench that the scene measures on
-/// the first robot, as they are; then, of each output of the task file, what it is set to, of each region how
-/// far inside of it the footprint is [m], and of each task when it was entered first [s].
+/// The values of expectations: what the plant measures, and when the run told what. They come in this order:
+/// - `truth_base_count` of the base, `truth_object_count` of each object, `truth_robot_count` of each robot
+/// of
+///   the scene, each in the order of its enumeration
+/// - the travel of each object with a guide: an angle, or a length
+/// - the six true parts of each wrench that the scene measures on the first robot
+/// - each output of the task file
+/// - of each region, how far inside of it the footprint is [m]
+/// - of each task, when it was entered first [s]
 enum TruthOfBase {
   truth_x,
   truth_y,
@@ -120,9 +123,9 @@ ZWANG_EXPORT std::vector<std::string> truth_names(const Program& program);
 ZWANG_EXPORT std::optional<Scenario> load_scenario(const std::filesystem::path& path,
                                                    Diagnostics& diagnostics);
 
-/// As `load_scenario`, and asks of every cell, without running it, what `load_run` would: whether the task is
-/// refused on this robot and in this scene where the scenario does not expect it, what the expectations mean
-/// there, and whether the faults have something that can fail. The task file alone is not judged.
+/// As `load_scenario`, and asks of every cell what `load_run` would, without running it. Is the task refused
+/// on this robot and in this scene, where the scenario does not expect it? What do the expectations mean
+/// there? Do the faults have something that can fail? The task file alone is not judged.
 ZWANG_EXPORT std::optional<Scenario> check_scenario(const std::filesystem::path& path,
                                                     Diagnostics& diagnostics);
 

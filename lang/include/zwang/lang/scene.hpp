@@ -37,18 +37,18 @@ struct Dock {
 
 enum class ShapeKind { box, cylinder, wall };
 
-/// A hinge with an upright axis, or a slide: it carries an object and leaves it one way to move. The travel q
-/// is 0 where the object was written. Positive: to the left about a hinge, along `along` of a slide.
+/// It carries an object and leaves it one way to move: a turn about an axis, or a slide along it. The travel
+/// q is 0 where the object was written. Positive: to the left about the axis, or along it.
 struct Guide {
-  bool turns = true;                      ///< a hinge
-  std::array<double, 2> at{};             ///< [m] the hinge's axis, in the object's axes from its `at`
-  std::array<double, 2> along{1.0, 0.0};  ///< the slide's direction in the object's axes
-  double lower = 0.0, upper = 0.0;        ///< [rad] or [m]; 0 lies in between
-  double preload = 0.0;                   ///< [N m] or [N] towards 0, where 0 is an end of the range
-  double stiffness = 0.0;                 ///< [N m/rad] or [N/m] of a spring that is relaxed at 0
-  double damping = 0.0;                   ///< [N m s/rad] or [N s/m]
-  double friction = 0.0;                  ///< [N m] or [N], dry
-  bool locked = false;                    ///< nothing moves it
+  bool turns = true;                          ///< about the axis; else it slides along it
+  std::array<double, 3> at{};                 ///< [m] a point of the axis, in the object's axes from its `at`
+  std::array<double, 3> axis{0.0, 0.0, 1.0};  ///< its direction in the object's axes
+  double lower = 0.0, upper = 0.0;            ///< [rad] or [m]; 0 lies in between
+  double preload = 0.0;                       ///< [N m] or [N] towards 0, where 0 is an end of the range
+  double stiffness = 0.0;                     ///< [N m/rad] or [N/m] of a spring that is relaxed at 0
+  double damping = 0.0;                       ///< [N m s/rad] or [N s/m]
+  double friction = 0.0;                      ///< [N m] or [N], dry
+  bool locked = false;                        ///< nothing moves it
 };
 
 struct SceneObject {

@@ -52,8 +52,8 @@ ZWANG_EXPORT std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d
 /// and an outline drawn around the shapes of a URDF is a few millimetres off. [rad]
 inline constexpr double round_ahead = 2.0 * std::numbers::pi / 180.0;
 
-/// The yaw [rad] from which a wall squares the base up: 20 deg, or the largest of 15, 10 and 5 deg from which
-/// its outline comes to rest square; no value where it does from none.
+/// The yaw [rad] from which a wall squares the base up: the largest of 20, 15, 10 and 5 deg from which its
+/// outline comes to rest square. No value: it does from none.
 ZWANG_EXPORT std::optional<double> start_askew(const BaseFit& fit);
 
 /// Why this base cannot do `task`; empty: it can, as far as is known.

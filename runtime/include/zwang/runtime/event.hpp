@@ -52,6 +52,7 @@ enum class EventCode {
   not_at_rest,  ///< the longest time of a stop is over, and nobody has seen the base stand; `value`: its
                 ///< speed, as far as it is known
 };
+inline constexpr EventCode last_event_code = EventCode::not_at_rest;
 ZWANG_EXPORT const char* to_string(EventCode code) noexcept;
 /// The same for people: "a motor turns the wrong way".
 ZWANG_EXPORT const char* describe(EventCode code) noexcept;
@@ -68,8 +69,9 @@ struct Event {
   double value = 0.0;  ///< what the signal read, or what is wrong with it; SI
 };
 
-/// What an event's `signal` can be: `time`, `base.pose`, `base.twist`, then q, qd, tau_ff and tau of each
-/// joint, the external wrench of each body, what the task file measures, and its rows.
+/// The names that an event's `signal` can have. First come `time`, `base.pose` and `base.twist`, then q, qd,
+/// tau_ff and tau of each joint and the external wrench of each body. The signals of the task file and its
+/// rows are last.
 ZWANG_EXPORT std::vector<std::string> event_signals(const solver::Model& model,
                                                     const std::vector<std::string>& measured,
                                                     const std::vector<std::string>& rows);

@@ -42,7 +42,7 @@ struct BaseTruth {
   /// Of the same, at the base's origin and in its axes, now: x, y [N], rz [N m].
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();
   /// [m/s] with which its worst wheel slides over the floor, beyond a tenth of its rim's speed, low-passed
-  /// with 50 ms; and when it was above `told_slip` first. [s]
+  /// with 50 ms. `slipped`: when it was above `told_slip` first. [s]
   double slip = 0.0;
   std::optional<double> slipped;
   double most_slip = 0.0;  ///< [m/s] up to now
@@ -53,8 +53,8 @@ struct BaseTruth {
 
 /// As the guard's slip event has it. [m/s]
 inline constexpr double told_slip = 0.02;
-/// A wheel of a base half a metre long is 9 cm off the floor then, and a sixth of the weight pulls along it:
-/// no base that its wheels carry comes near. [rad]
+/// A wheel of a base half a metre long is 9 cm off the floor then, and a sixth of the weight pulls along it.
+/// No base that its wheels carry comes near. [rad]
 inline constexpr double largest_lean = 10.0 * std::numbers::pi / 180.0;
 /// A base that stands on its wheels leans by less, and leans on by less. [rad], [rad/s]
 inline constexpr double standing_lean = 2.0 * std::numbers::pi / 180.0;
@@ -79,9 +79,9 @@ struct Truth {
   std::vector<double> corner_forces;  ///< [N] normal force on each corner of the footprint, now
   std::vector<ObjectTruth> objects;   ///< the scene's objects, then its robots
   std::vector<RobotTruth> robots;     ///< the scene's
-  /// By robot, the first one's first, and by its signals in the scene: what presses on the link of a wrench's
-  /// frame and on all that it carries, in the axes of the frame and about its origin. The floor and the
-  /// weight are left out. Zero of other signals.
+  /// By robot, the first one's first, and by its signals in the scene. Of a wrench: what presses on the link
+  /// of its frame and on all that it carries, in the axes of the frame and about its origin. The floor and
+  /// the weight are left out. Zero of other signals.
   std::vector<std::vector<solver::ForceVector>> wrenches;
 };
 
@@ -112,11 +112,11 @@ struct MujocoPlantOptions {
   bool real_rollers = false;
 };
 
-/// Wheels that hold one direction are spheres that act exactly as the model's wheels do; other wheels are
-/// spheres on hinges; those that skid slide sideways against dry friction. Dry and viscous friction of the
-/// joints is the robot file's. The robot meets objects with the corners and sides of its footprint's convex
-/// hull, at the bumper's height; each contact point is a spring of the object's stiffness. Objects with a
-/// mass slide on the floor. The scene's other robots are in the same simulation; whoever steps it gives them
+/// Wheels that hold one direction are spheres that act exactly as the model's wheels do. Other wheels are
+/// spheres on hinges, and wheels that skid slide sideways against dry friction. Dry and viscous friction of
+/// the joints is the robot file's. The robot meets objects with the corners and sides of its footprint's
+/// convex hull, at the bumper's height. Each contact point is a spring of the object's stiffness. Objects
+/// with a mass slide on the floor. The scene's other robots are in the same simulation. The host gives them
 /// torques before `apply`, or they keep their last. Contact forces are those of the last step, so they belong
 /// to the instant at its beginning. MuJoCo's error and warning handlers are replaced for the whole process.
 class ZWANG_EXPORT MujocoPlant : public Plant {
@@ -153,9 +153,9 @@ class ZWANG_EXPORT MujocoPlant : public Plant {
   void set_push(const Push& push) noexcept;
   /// Beside that one; as many as there ever were do not allocate.
   void set_more_pushes(std::span<const BodyPush> pushes) noexcept;
-  /// From now on an object of the scene, by its number, follows these points in time, whatever stands in its
-  /// way, in the place of its own; at least one. After the last one an object with a mass is let go. One that
-  /// is fixed meets the robot as if it stood: the dampers of its contacts do not see how fast it moves.
+  /// From now on an object of the scene, by its number, follows these points in time instead of its own,
+  /// whatever stands in its way. At least one point. After the last one an object with a mass is let go. A
+  /// fixed object meets the robot as if it stood: the dampers of its contacts do not see how fast it moves.
   void move_object(std::size_t object, std::vector<lang::Waypoint> motion);
   /// Whether the dock of an object or robot, by its number in `Truth::objects`, catches and holds; at first
   /// each does. One that lets go has not latched.

@@ -15,12 +15,12 @@ namespace zwang::runtime {
 
 /// What a signal of the task file was last measured to be. Only the value of the signal's own type counts.
 ///
-/// It is up to the plant whether a sample stays here until the next one comes or is there for one tick only:
-/// a sample with the stamp of the last one is the last one. The runtime keeps the latest valid sample and
-/// calls the signal invalid when that is older than the task file's `stale_after`; a signal that was never
-/// received ages from the start of the run. Samples are ignored, as if they had not come, that are not
-/// `valid`, are of another type than the signal, hold a number that is not finite or a rotation that is none,
-/// are older than one that came before, or are stamped later than the snapshot.
+/// The plant may leave a sample here until the next one comes, or for one tick only: a sample with the stamp
+/// of the last one is the last one. The runtime keeps the latest valid sample. The signal is invalid once
+/// that is older than the task file's `stale_after`. A signal that was never received ages from the start of
+/// the run. A sample is ignored if it is not `valid`, is of another type than the signal, or holds a
+/// non-finite number or an invalid rotation. It is ignored, too, if it is older than its predecessor, or
+/// stamped after the snapshot.
 struct SignalSample {
   std::optional<lang::SignalType>
       type;            ///< which value counts; not the signal's own: ignored; none: not told
@@ -55,15 +55,15 @@ struct Sensed {
   /// same stamp again is the same sample, which the runner carries on to `time`. A torque drive's state is of
   /// now.
   std::optional<double> measured_at;
-  /// Of a robot that `feels` by a wrench: what presses on the base, in the axes of the sensor's frame and
-  /// about its origin [N m, N], when the state was measured.
+  /// Of a robot that `feels` by a wrench: what pressed on the base when the state was measured, in the axes
+  /// of the sensor's frame and about its origin. [N m, N]
   std::optional<solver::ForceVector> contact_wrench;
   /// Of a robot that `feels` by effort: the motors' torques [N m], one entry a joint, then. Empty: not
   /// measured.
   Eigen::VectorXd effort;
-  /// Whether the state's base pose and twist are measured: say so on every snapshot, or the runtime reckons
-  /// them from the wheels, and the pose in the first snapshot is where it starts. On wheels its roll and
-  /// pitch do not count: the floor is level.
+  /// Whether the state's base pose and twist are measured; if so, say it on every snapshot. Else the runtime
+  /// reckons them from the wheels, and the pose in the first snapshot is where it starts. On wheels its roll
+  /// and pitch do not count: the floor is level.
   bool base_measured = false;
   /// For the reckoning, where somebody measures it now and then. The same stamp again is the same
   /// measurement.

@@ -64,8 +64,8 @@ ZWANG_EXPORT std::vector<Column> truth_columns(const lang::Scene& scene);
 ZWANG_EXPORT void put_truth(const Truth& truth, const lang::Scene& scene, std::span<double> values);
 
 /// A MujocoPlant whose samples carry the scene's signals and noise, and on which its faults are injected. The
-/// scene's other robots are stepped with it: `apply` first takes their ticks at the same instant, each on its
-/// own samples and with its own runner, then makes one step of the world. A robot whose control period is
+/// scene's other robots are stepped with it, each on its own samples and with its own runner. `apply` first
+/// takes their ticks at the same instant, then makes one step of the world. A robot whose control period is
 /// longer than that takes its tick every so many steps; the first one's ticks are the caller's.
 class ZWANG_EXPORT ScenePlant : public Plant {
  public:

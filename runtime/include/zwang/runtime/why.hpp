@@ -11,7 +11,7 @@
 namespace zwang::runtime {
 
 enum class Verdict { no, yes, unknown };
-const char* to_string(Verdict verdict) noexcept;  ///< "false", "true", "unknown"
+ZWANG_EXPORT const char* to_string(Verdict verdict) noexcept;  ///< "false", "true", "unknown"
 
 /// A signal that a term hangs on.
 struct WaitedSignal {

@@ -1,6 +1,6 @@
-#include "tree/code_point.hpp"
+#include "words/code_point.hpp"
 
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

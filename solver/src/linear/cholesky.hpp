@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "pairs.hpp"
+#include "linear/pairs.hpp"
 
 namespace zwang::solver {
 

@@ -1,4 +1,4 @@
-#include "spec/units.hpp"
+#include "words/units.hpp"
 
 #include <array>
 #include <charconv>
@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "diagnostic/nearest.hpp"
-#include "tree/text.hpp"
+#include "words/nearest.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

@@ -1,8 +1,8 @@
-#include "diagnostic/nearest.hpp"
+#include "words/nearest.hpp"
 
 #include <algorithm>
 
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 namespace zwang::lang {
 

@@ -1,10 +1,10 @@
-#include "tree/text.hpp"
+#include "words/text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <optional>
 
-#include "tree/code_point.hpp"
+#include "words/code_point.hpp"
 #include "zwang/lang/printable.hpp"
 
 namespace zwang::lang {
@@ -144,9 +144,8 @@ std::string in_ticks(std::string_view text) {
 std::string in_one_line(std::string_view text) {
   std::string line;
   for (const char c : text) {
-    const bool is_space = c == ' ' || c == '\n' || c == '\r' || c == '\t';
-    if (!is_space) line += c;
-    if (is_space && !line.empty() && line.back() != ' ') line += ' ';
+    if (!is_space(c)) line += c;
+    if (is_space(c) && !line.empty() && line.back() != ' ') line += ' ';
   }
   if (!line.empty() && line.back() == ' ') line.pop_back();
   return line;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spec/dimension.hpp"
+#include "words/dimension.hpp"
 
 namespace zwang::lang {
 
