@@ -70,7 +70,7 @@ GivesWay gives_way(const Scene& scene, const SceneObject& object, const Meeting&
   const Guide& guide = *object.guide;
   if (!guide.turns) {
     constexpr double least_share = 0.2;  // beyond 78 deg it jams by friction
-    const Vector3 along = turned_with(object, Vector3(guide.along[0], guide.along[1], 0.0));
+    const Vector3 along = turned_with(object, Vector3(guide.axis[0], guide.axis[1], guide.axis[2]));
     const double share = along.dot(forward);
     return on_joint(guide, share, *object.mass, least_share);
   }
