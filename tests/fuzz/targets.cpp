@@ -7,6 +7,7 @@
 
 #include "check/check.hpp"
 #include "check/context.hpp"
+#include "check_task_file.hpp"
 #include "format/tokens.hpp"
 #include "lower/lower.hpp"
 #include "robot/load_robot.hpp"
