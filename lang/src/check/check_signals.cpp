@@ -106,6 +106,16 @@ void check_age(CheckContext& context, const SceneSignal& signal, int index) {
       wording::signal_too_old(signal.span, signal.name, signal.delay, signal.period, age, stale_after->span));
 }
 
+/// A latch that `holds` a hook, in the dock of an object that a pull moves.
+void check_hold(CheckContext& context, const Scene& scene, const SceneSignal& signal, int index) {
+  const Word& hook = context.file.signals[static_cast<std::size_t>(index)].holds;
+  const bool is_of_an_object = signal.object >= 0 && signal.object < static_cast<int>(scene.objects.size());
+  if (!hook.exists() || signal.kind != SceneSignalKind::latch || !is_of_an_object) return;
+  const SceneObject& object = scene.objects[static_cast<std::size_t>(signal.object)];
+  if (object.inverse_mass() > 0.0)
+    context.diagnostics.add(wording::partner_rolls(hook.span, hook.text, object.name, object.span));
+}
+
 /// Where the file first uses a signal that the scene does not give.
 class UnfedSignal {
  public:
@@ -216,6 +226,7 @@ void check_scene_signals(CheckContext& context, const Scene& scene) {
     if (declared.is_bad) continue;
     if (gives(signal, declared)) {
       check_age(context, signal, *index);
+      check_hold(context, scene, signal, *index);
     } else {
       context.diagnostics.add(wording::signal_of_another_type(
           signal.source_span, signal.name, measured_by(signal), declared_as(declared),

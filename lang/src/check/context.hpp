@@ -48,7 +48,7 @@ void check_parameters(CheckContext& context);
 /// error, and silently where the declaration itself is bad.
 std::optional<double> check_parameter_value(const ParameterSymbol& symbol, const Word& text,
                                             Diagnostics& diagnostics);
-/// Whether the signals of the scene are what the task file takes them for: E701, W702.
+/// Whether the signals of the scene are what the task file takes them for: E701, W702, W703.
 void check_scene_signals(CheckContext& context, const Scene& scene);
 /// W302: signals of the scene that only nearly have the name of one of the task file's. Asked last: there may
 /// be a better reason.

@@ -244,6 +244,16 @@ Diagnostic signal_too_old(const Span& span, const std::string& name, double dela
       stale_after, "`stale_after` is given here");
 }
 
+Diagnostic partner_rolls(const Span& span, const std::string& hook, const std::string& partner,
+                         const Span& object) {
+  return with_related(
+      warning("W703", span,
+              in_ticks(hook) + " hangs on " + in_ticks(partner) +
+                  ", which a pull moves: it holds the base in no place, and hides encoders that fail",
+              "leave `holds` out"),
+      object, in_ticks(partner) + " has a mass, and nothing fixes it");
+}
+
 Diagnostic unheard_signal(const Span& span, const std::string& name, const std::string& meant) {
   return with_suggestion(
       warning("W302", span, "the scene gives a signal `" + name + "`, and the task file has none"), meant);

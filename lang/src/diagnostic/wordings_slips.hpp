@@ -74,6 +74,9 @@ Diagnostic signal_of_another_type(const Span& span, const std::string& name, con
 /// It is older than `stale_after` before the next sample comes. [s]
 Diagnostic signal_too_old(const Span& span, const std::string& name, double delay, double period, double age,
                           const Span& stale_after);
+/// `partner` [an object] holds the hook in its dock, and can be pushed.
+Diagnostic partner_rolls(const Span& span, const std::string& hook, const std::string& partner,
+                         const Span& object);
 /// Of the scene, and the task file has none of this name.
 Diagnostic unheard_signal(const Span& span, const std::string& name, const std::string& meant);
 /// A condition reads a signal for which the scene in use gives nothing.
