@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/gravity.hpp"
 #include "zwang/lang/program.hpp"
 
 namespace zwang::lang {
@@ -18,22 +19,8 @@ namespace {
 
 using solver::Vector3;
 
-constexpr double floor_gravity = 9.81;  // [m/s^2]
-
-double cross_of(const Vector3& a, const Vector3& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 Vector3 turned_with(const SceneObject& object, const Vector3& v) {
-  const double c = std::cos(object.yaw), s = std::sin(object.yaw);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y(), 0.0};
-}
-
-/// About its own middle. [kg m^2]
-double inertia_of_object(const SceneObject& object) {
-  const double a = object.size[0], b = object.size[1];
-  const double square = object.shape == ShapeKind::cylinder ? a * a / 2.0 : (a * a + b * b) / 12.0;
-  return *object.mass * square;
+  return solver::rotation_from_rpy(0.0, 0.0, object.yaw) * v;
 }
 
 /// `lever`: b. Below `least_lever` it is a wall. `inertia`: J.
@@ -51,8 +38,7 @@ GivesWay on_joint(const Guide& guide, double lever, double inertia, double least
 
 double held_by_floor(const Scene& scene, const SceneObject& object) {
   if (!object.mass || object.guide || object.caster_trail > 0.0) return 0.0;
-  const double own = std::min(object.friction.value_or(scene.floor_friction), scene.floor_friction);
-  return object.slides.value_or(own) * *object.mass * floor_gravity;
+  return object.slides_on(scene.floor_friction) * *object.mass * gravity;
 }
 
 GivesWay gives_way(const Scene& scene, const SceneObject& object, const Meeting& meeting,
@@ -61,10 +47,10 @@ GivesWay gives_way(const Scene& scene, const SceneObject& object, const Meeting&
   const Vector3 at(object.at[0], object.at[1], 0.0);
   if (!object.guide) {
     double inverse = 1.0 / *object.mass;
-    const double aside = cross_of(meeting.middle - at, forward);
+    const double aside = (meeting.middle - at).cross(forward).z();
     // Two corners hold its heading; one turns it, unless it is round.
     if (meeting.points == 1 && object.shape != ShapeKind::cylinder)
-      inverse += aside * aside / inertia_of_object(object);
+      inverse += aside * aside / object.yaw_inertia();
     return {inverse, held_by_floor(scene, object), 0.0, way_behind(scene, object, height, forward)};
   }
   const Guide& guide = *object.guide;
@@ -76,8 +62,8 @@ GivesWay gives_way(const Scene& scene, const SceneObject& object, const Meeting&
   }
   constexpr double least_arm = 0.02;  // [m] beside the axis it is a wall
   const Vector3 offset = turned_with(object, Vector3(guide.at[0], guide.at[1], 0.0));
-  const double arm = cross_of(meeting.middle - at - offset, forward);
-  return on_joint(guide, arm, inertia_of_object(object) + *object.mass * offset.squaredNorm(), least_arm);
+  const double arm = (meeting.middle - at - offset).cross(forward).z();
+  return on_joint(guide, arm, object.yaw_inertia() + *object.mass * offset.squaredNorm(), least_arm);
 }
 
 }  // namespace zwang::lang

@@ -5,7 +5,6 @@
 
 #include "bristle.hpp"
 #include "cut.hpp"
-#include "pair_friction.hpp"
 
 namespace zwang::runtime {
 
@@ -25,15 +24,6 @@ Eigen::Vector3d FloorFriction::step(const Eigen::Vector3d& velocity, double peri
   return force;
 }
 
-namespace {
-
-/// mu
-double coefficient_of(const lang::SceneObject& object, double floor) {
-  return object.slides.value_or(pair_friction(object.friction, floor));
-}
-
-}  // namespace
-
 CasterFriction casters_of(const lang::SceneObject& object, double floor, double gravity) {
   const double mass = object.mass.value_or(0.0);
   // On a round object they stand where the corners of the square inside of it are.
@@ -41,19 +31,17 @@ CasterFriction casters_of(const lang::SceneObject& object, double floor, double 
   const double half = std::numbers::sqrt2 / 2.0;
   const double ahead = is_round ? half * object.size[0] : 0.5 * object.size[0];
   const double aside = is_round ? half * object.size[0] : 0.5 * object.size[1];
-  return {mass, coefficient_of(object, floor) * mass * gravity, object.caster_trail, ahead, aside};
+  return {mass, object.slides_on(floor) * mass * gravity, object.caster_trail, ahead, aside};
 }
 
 FloorFriction floor_friction_of(const lang::SceneObject& object, double floor, double gravity) {
-  const double coefficient = coefficient_of(object, floor);
   const double mass = object.mass.value_or(0.0);
   const double a = object.size[0];
   const double b = object.size[1];
   const bool round = object.shape == lang::ShapeKind::cylinder;
-  const double yaw_inertia = round ? 0.5 * mass * a * a : mass / 12.0 * (a * a + b * b);
   const double area = round ? std::numbers::pi * a * a : a * b;
   const double reach = 2.0 / 3.0 * std::sqrt(area / std::numbers::pi);  // of a disk as large
-  return {mass, yaw_inertia, coefficient * mass * gravity, reach};
+  return {mass, object.yaw_inertia(), object.slides_on(floor) * mass * gravity, reach};
 }
 
 }  // namespace zwang::runtime

@@ -1,6 +1,7 @@
 /// A scene: what stands around a simulated robot.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <limits>
@@ -78,6 +79,13 @@ struct SceneObject {
   bool leans() const { return roll != 0.0 || pitch != 0.0; }
   /// [1/kg] 0: nothing pushes it.
   double inverse_mass() const { return mass && !is_locked() ? 1.0 / *mass : 0.0; }
+  /// About the vertical through its middle; 0 without a mass. [kg m^2]
+  double yaw_inertia() const {
+    const double m = mass.value_or(0.0), a = size[0], b = size[1];
+    return shape == ShapeKind::cylinder ? 0.5 * m * a * a : m / 12.0 * (a * a + b * b);
+  }
+  /// Coulomb coefficient on a floor that has `floor`: the more slippery surface of the two gives way first.
+  double slides_on(double floor) const { return slides.value_or(std::min(friction.value_or(floor), floor)); }
 };
 
 struct ScriptStep {
