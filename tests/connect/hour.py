@@ -6,14 +6,13 @@ One allocation that is lost in each tick is 32 bytes, the least that glibc's mal
 A line through the memory of each process, without its first tenth, has to grow by less than that.
 """
 
-import os
 import pathlib
 import signal
 import sys
 import tempfile
 import time
 
-from pair import CLOCK, TWIST, Pair, resident
+from pair import CLOCK, TWIST, Pair, resident, skip_unless_long
 
 RATE = 100.0  # [Hz]
 LEAST_CHUNK = 32.0  # [bytes] of glibc's malloc on 64 bits
@@ -88,7 +87,5 @@ def main(program, root, clients, seconds=3600.0):
 
 
 if __name__ == "__main__":
-    if "ZWANG_LONG" not in os.environ:
-        print("skipped: ./dev test --long runs it")
-        sys.exit(77)
+    skip_unless_long()
     sys.exit(main(*sys.argv[1:]))

@@ -6,7 +6,6 @@ The verdict is that of one process, and each peak force above 20 N is within 10 
 """
 
 import json
-import os
 import pathlib
 import re
 import subprocess
@@ -90,14 +89,10 @@ def main(program, root, clients, *names):
                 is_good = False
                 print(f"FAILED  {name}: {error}", end="")
             print(f" ({time.monotonic() - begin:.0f} s)", flush=True)
-        for process in both.RUNNING:
-            if process.poll() is None:
-                process.kill()
+        both.kill_what_runs()
     return 0 if is_good else 1
 
 
 if __name__ == "__main__":
-    if "ZWANG_LONG" not in os.environ:
-        print("skipped: ./dev test --long runs it")
-        sys.exit(77)
+    both.skip_unless_long()
     sys.exit(main(*sys.argv[1:]))

@@ -4,6 +4,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import time
 
 STALE_AFTER = 0.1  # [s] in the connection files below
@@ -51,6 +52,13 @@ def start(words, **options):
     process = subprocess.Popen(words, **options)
     RUNNING.append(process)
     return process
+
+
+def kill_what_runs():
+    """Of a case that failed."""
+    for process in RUNNING:
+        if process.poll() is None:
+            process.kill()
 
 
 class Pair:
@@ -144,3 +152,9 @@ def workplace(root, folder):
 def resident(pid):
     """[bytes] that a process holds in memory."""
     return int(pathlib.Path(f"/proc/{pid}/statm").read_text(encoding="utf-8").split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def skip_unless_long():
+    if "ZWANG_LONG" not in os.environ:
+        print("skipped: ./dev test --long runs it")
+        sys.exit(77)

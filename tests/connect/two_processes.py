@@ -19,7 +19,7 @@ import tempfile
 import time
 
 from pair import CLOCK, EFFORT, SIGNALS, SLACK, STALE_AFTER, TIMEOUT, TWIST, VELOCITY, Pair
-from pair import RUNNING, Unreachable, expect, number, resident, start, workplace
+from pair import Unreachable, expect, kill_what_runs, number, resident, skip_unless_long, start, workplace
 
 
 def wall_aligns_as_inside_one_process(program, root, folder):
@@ -343,9 +343,7 @@ def main(program, root, clients):
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             return 0 if all(list(pool.map(is_good, cases))) else 1
     finally:
-        for process in RUNNING:  # of a case that failed
-            if process.poll() is None:
-                process.kill()
+        kill_what_runs()
 
 
 def docking_alone(program, root, _clients):
@@ -362,7 +360,5 @@ def docking_alone(program, root, _clients):
 if __name__ == "__main__":
     if sys.argv[4:] == ["docking"]:
         sys.exit(docking_alone(*sys.argv[1:4]))
-    if "ZWANG_LONG" not in os.environ:
-        print("skipped: ./dev test --long runs it")
-        sys.exit(77)
+    skip_unless_long()
     sys.exit(main(*sys.argv[1:]))

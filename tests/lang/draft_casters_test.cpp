@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "support.hpp"
+#include "drafted.hpp"
 #include "zwang/lang/open_places.hpp"
 #include "zwang/lang/robot_draft.hpp"
 #include "zwang/lang/task_draft.hpp"
@@ -41,12 +41,7 @@ std::string beside_wheel(const std::string& name, const std::string& xyz, const 
 class DraftOfCasters : public testing::Test {
  protected:
   RobotDraft draft(const std::string& parts) {
-    Diagnostics diagnostics;
-    const auto draft =
-        draft_robot(folder_.write("r.urdf", "<robot name='r'>" + beside_chassis + parts + "</robot>"),
-                    "r.urdf", diagnostics);
-    EXPECT_TRUE(draft) << test::rendered(diagnostics);
-    return draft.value_or(RobotDraft{});
+    return test::drafted(folder_, "<robot name='r'>" + beside_chassis + parts + "</robot>");
   }
   static std::vector<std::string> joints(const std::vector<DraftWheel>& wheels) {
     std::vector<std::string> names;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support.hpp"
+#include "drafted.hpp"
 #include "zwang/lang/robot.hpp"
 #include "zwang/lang/robot_draft.hpp"
 #include "zwang/lang/robot_update.hpp"
@@ -57,12 +57,7 @@ std::string transmission_of(const std::string& joint) {
 
 class DraftOfWheels : public testing::Test {
  protected:
-  RobotDraft drafted(const std::string& urdf) {
-    Diagnostics diagnostics;
-    const auto draft = draft_robot(folder_.write("robot.urdf", urdf), "robot.urdf", diagnostics);
-    EXPECT_TRUE(draft) << test::rendered(diagnostics);
-    return draft.value_or(RobotDraft{});
-  }
+  RobotDraft drafted(const std::string& urdf) { return test::drafted(folder_, urdf, "robot.urdf"); }
   std::string said_of(const std::string& text) {
     Diagnostics diagnostics;
     load_robot(folder_.write("robot.yaml", text), diagnostics);

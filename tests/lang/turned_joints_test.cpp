@@ -3,8 +3,8 @@
 
 #include <regex>
 
+#include "drafted.hpp"
 #include "robot/urdf.hpp"
-#include "support.hpp"
 #include "zwang/lang/robot_draft.hpp"
 #include "zwang/lang/robot_update.hpp"
 #include "zwang/lang/task_draft.hpp"
@@ -43,12 +43,7 @@ std::string held_wheels(const std::string& type, const std::string& axis,
 
 class TurnedJoints : public testing::Test {
  protected:
-  RobotDraft draft(const std::string& urdf) {
-    Diagnostics diagnostics;
-    const auto draft = draft_robot(folder_.write("r.urdf", urdf), "r.urdf", diagnostics);
-    EXPECT_TRUE(draft) << test::rendered(diagnostics);
-    return draft.value_or(RobotDraft{});
-  }
+  RobotDraft draft(const std::string& urdf) { return test::drafted(folder_, urdf); }
   std::optional<Robot> robot(const std::string& text) {
     diagnostics_ = Diagnostics();
     return load_robot(folder_.write("r.yaml", text), diagnostics_);
