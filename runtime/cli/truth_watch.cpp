@@ -27,11 +27,10 @@ double bound_of(const solver::Row& row) {
 /// The force that the rows allow along one line.
 struct Line {
   Eigen::Vector3d along;
-  double by_drivers = 0.0;  ///< [N] of all drivers together; none: `has_driver` is false
+  std::optional<double> by_drivers;  ///< [N] of all drivers together
   double by_sums = solver::infinity;
-  bool has_driver = false;
 
-  double most() const { return has_driver ? std::min(by_drivers, by_sums) : by_sums; }
+  double most() const { return std::min(by_drivers.value_or(solver::infinity), by_sums); }
 };
 
 std::vector<Line> lines_of(const std::vector<solver::Row>& rows) {
@@ -48,8 +47,7 @@ std::vector<Line> lines_of(const std::vector<solver::Row>& rows) {
     if (row.kind == solver::RowKind::sum) {
       line->by_sums = std::min(line->by_sums, bound_of(row));
     } else {
-      line->by_drivers += bound_of(row);
-      line->has_driver = true;
+      line->by_drivers = line->by_drivers.value_or(0.0) + bound_of(row);
     }
   }
   return lines;
