@@ -1,13 +1,11 @@
 // The hit is the hardest of these:
 //
-//   what stands ahead, where the way is known       as it gives way (gives_way.hpp); at the end of that way a
-//                                                   wall, at most as fast as before
-//   any object, where it is not                     a bound; one on a joint is a wall
-//   an object under a script                        a bound: a wall that comes with the script's largest
-//   speed another robot                                   its mass along the way; a wall where nobody knows
-//   that way
+//   ahead, where the way is known    as it gives way (gives_way.hpp); at the end of that way a wall
+//   any object, where it is not      a bound; one on a joint is a wall
+//   an object under a script         a bound: a wall that comes with the script's largest speed
+//   another robot                    its mass along the way; a wall where nobody knows that way
 //
-// Without a script nobody knows how fast a hand or its own task moves something: the note says so.
+// Nobody knows how fast a hand or its own task moves something without a script: the note says so.
 #include "physics/struck.hpp"
 
 #include <algorithm>
@@ -24,7 +22,7 @@ namespace {
 
 using solver::Vector3;
 
-/// What a drive that feels late adds. [N/m]
+/// A drive that feels late adds so much. [N/m]
 double stiffness_of_drive(const Drive& drive, double mass, double stiffness) {
   if (!drive.feels_contact()) return 0.0;
   const double T = drive.time_constant;

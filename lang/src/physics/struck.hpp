@@ -19,7 +19,7 @@ struct Struck {
 
   /// The harder one of both hits. [N]
   double most() const { return std::max(hit.peak(), at_end ? at_end->peak() : 0.0); }
-  /// The same without push and object at another speed. [N]
+  /// The same at another speed. [N]
   double most_at(double speed) const;
 };
 

@@ -5,8 +5,8 @@
 //   when it speeds up away from it with    a > g d / h,
 //   when it pushes away from it with       F > m g d / z    at the height z of its bumper.
 //
-// It is asked of the largest demand of each driver of the base, within its acceleration and force ranges:
-// m v / tau of a velocity, the motors' force of a position. It is asked of the protective stop's
+// It is asked of the largest demand of each driver of the base: m v / tau of a velocity, the motors' force
+// of a position. The acceleration and force ranges bound the demand. It is asked of the protective stop's
 // deceleration, too.
 #include <algorithm>
 #include <cmath>

@@ -14,7 +14,7 @@ namespace zwang::lang {
 /// [a, b]
 std::string in_brackets(const std::vector<std::string>& names);
 
-/// Of a car's steering as much rotor inertia as it turns: a servo has that behind its gear, and without it a
+/// A car's steering gets as much rotor inertia as it turns: a servo has that behind its gear. Without it a
 /// push on a light wheel turns the steering. Empty where the URDF gives what it turns no inertia.
 std::string steering_rotor(const Urdf& urdf, const std::string& base, const std::string& joint);
 

@@ -239,8 +239,8 @@ class Fitting {
       replace(text, "timeout: {value: 20 s", timeout(15.0 + (felt_gap + slack()) / 0.01));
   }
 
-  /// What the way may be longer while the outline is not known, or where an arm may not reach as far ahead as
-  /// its joints are from the base's origin. [m]
+  /// The way may be so much longer while the outline is not known. So it may where an arm does not reach as
+  /// far ahead as its joints are from the base's origin. [m]
   double slack() const {
     double front = 0.0;
     for (const Eigen::Vector2d& corner : fit_.outline) front = std::max(front, corner.x());

@@ -199,8 +199,8 @@ BaseFit base_fit(const Robot& robot) {
   return fit;
 }
 
-// The wall touches the foremost corner and presses along -x. Its force turns the base about the outline's
-// origin, through which the wheels push and hold, with a moment of the sign of the corner's y in the world.
+// The wall touches the foremost corner and presses along -x. The wheels push and hold through the outline's
+// origin. The wall's moment about it has the sign of the corner's y in the world.
 // The base turns so until an edge lies on the wall whose ends lie on both sides of the origin: there it
 // rests.
 std::optional<double> resting_yaw(const std::vector<Eigen::Vector2d>& outline, double yaw) {

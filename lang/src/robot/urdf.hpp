@@ -68,7 +68,7 @@ struct Urdf {
   bool is_negligible(const UrdfLink& link) const;
 };
 
-/// What a robot file changes of its URDF before that is looked at.
+/// A robot file changes its URDF so, before that is looked at.
 struct UrdfChanges {
   std::vector<std::string> ignored;  ///< links that are left out
   std::vector<std::string> turning;  ///< joints that turn without end

@@ -65,8 +65,8 @@ class Roles {
     return joint != nullptr && (joint->has_transmission || std::isfinite(joint->joint.max_effort));
   }
 
-  /// The file says of some wheels that they have motors, and not of others. What is left of limits at joints
-  /// that it holds tells nothing.
+  /// The file says of some wheels that they have motors, and not of others. Limits that are left at
+  /// joints that it holds tell nothing.
   bool tells_motors() const { return some_say_ && some_do_not_ && !some_are_turned_; }
 
   static bool is_called_caster(const DraftWheel& wheel) {

@@ -176,8 +176,8 @@ class WheelSearch {
     return (placed_.pose_of(link).position - foot).head<2>().norm();
   }
 
-  /// A caster may be drawn of several links of its name. Those without a round shape are no supports where a
-  /// round one, or a wheel of a caster, stands nearer than they are high: they hold it.
+  /// A caster may be drawn of several links of its name. A link without a round shape is no support where a
+  /// round one, or a wheel of a caster, stands nearer than the link is high: the link holds it.
   void leave_brackets_out() {
     const std::optional<double> ground = this->ground();
     std::vector<solver::Vector3> feet;

@@ -11,7 +11,7 @@ namespace zwang::lang {
 
 namespace {
 
-/// What the numbers of a guide measure.
+/// The numbers of a guide measure these.
 struct GuideDimensions {
   Dimension travel, force, stiffness, damping;
 };

@@ -17,8 +17,8 @@ double not_negative(MapReader& map, const char* key, const Dimension& expected, 
 /// Whether one of the keys stands there that leave an object one way to move.
 bool has_guide(const Node& object);
 
-/// What an object's travel measures: an angle, a length, or nothing without a guide. A key that is misspelt
-/// was complained of.
+/// An object's travel is an angle, a length, or nothing without a guide. A key that is misspelt was
+/// complained of.
 enum class TravelOf { nothing, turning, sliding };
 TravelOf travel_of(const Node& object);
 

@@ -18,8 +18,8 @@ bool stand_together(const Point& a, const Point& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1]) < least_distance;
 }
 
-/// The number of the first point that stands where the one before it stands, of a closed path also of a last
-/// one that stands at the first; 0: none does.
+/// The number of the first point that stands where the one before it stands; 0: none does. Of a closed path
+/// the last point may not stand at the first one, either.
 std::size_t repeated_point(const std::vector<Point>& points, bool is_closed) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (stand_together(points[i], points[i - 1])) return i;
